@@ -86,7 +86,7 @@ pub(super) fn report(run: &Certification<'_>, consequences: Option<&Consequences
 
 /// The interval of the input gain, where there is one.
 pub(super) fn input_gain(spec: &Specification) -> Option<Value> {
-    let InputGain { nominal, low, high } = spec.input_gain.as_ref()?;
+    let InputGain { nominal, low, high, .. } = spec.input_gain.as_ref()?;
     Some(json!({ "nominal": nominal.text, "low": low.text, "high": high.text }))
 }
 

@@ -12,7 +12,7 @@ use sigmastar_lang::spec::{
     SampledInequalities, SampledInequality, Specification, Splitting,
 };
 use sigmastar_prove::certificate::{joint_existence_json, joint_stability_json};
-use sigmastar_prove::certify::claimed_ball;
+use sigmastar_prove::certify::{claimed_ball, nominal_ball};
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
 
 /// The section; nothing where the data are those of a specification.
@@ -203,6 +203,13 @@ fn facts(plant: &OfPlant, set: Option<&ClaimedSet>) -> Vec<(&'static str, String
     if let Some(ball) = set.and_then(|set| claimed_ball(plant, &set.x0)) {
         facts.push(("the initial set contains", format!("|x - x_0| <= {}", exact(&ball, Direction::Down))));
     }
+    if let Some(ball) = set.and_then(|set| nominal_ball(plant, &set.x0)) {
+        let said = format!(
+            "|x - xb(t)| <= {} about the xb of the nominal member, for every member",
+            exact(&ball, Direction::Down)
+        );
+        facts.push(("and of all of them", said));
+    }
     facts
 }
 
@@ -238,7 +245,7 @@ pub(super) fn plant_json(spec: &Specification, set: Option<&ClaimedSet>) -> Valu
             })
         })
         .collect();
-    json!({
+    let mut report = json!({
         "coordinates": rows(&plant.coordinates),
         "orbit": {
             "harmonics": harmonics, "defect": write_exact(&plant.largest(|cell| &cell.orbit.defect)),
@@ -265,5 +272,11 @@ pub(super) fn plant_json(spec: &Specification, set: Option<&ClaimedSet>) -> Valu
             })
         }).or_else(|| spec.bounds.proved_values().joint_existence().map(joint_existence_json)),
         "joint_inequality": spec.bounds.proved_values().joint_stability().map(joint_stability_json),
-    })
+    });
+    // A single plant has one orbit, about which `ball` is.
+    if plant.parameters.intervals().next().is_some() {
+        let ball = set.and_then(|set| nominal_ball(plant, &set.x0));
+        report["nominal_ball"] = ball.as_ref().map(write_exact).into();
+    }
+    report
 }

@@ -18,7 +18,16 @@ pub(super) fn set(spec: &Specification, set: &ClaimedSet) -> String {
 
 /// "0.8 to 1.25": the interval of the input gain, where the document has one.
 pub(super) fn input_gain(spec: &Specification) -> Option<String> {
-    spec.input_gain.as_ref().map(|InputGain { low, high, .. }| format!("{} to {}", clean(&low.text), clean(&high.text)))
+    spec.input_gain.as_ref().map(|gain| {
+        let InputGain { low, high, .. } = gain;
+        let ends = format!("{} to {}", clean(&low.text), clean(&high.text));
+        match (gain.of_parameters(), low.as_rational(), high.as_rational()) {
+            (true, Some(low), Some(high)) => {
+                format!("{ends} (within {} to {})", exact(low, Direction::Down), exact(high, Direction::Up))
+            }
+            _ => ends,
+        }
+    })
 }
 
 /// " and every constant input gain from 0.8 to 1.25 and every plant with ...": all that a claim is about beside every number of

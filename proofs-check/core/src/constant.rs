@@ -39,6 +39,11 @@ impl Constant {
         bad(&field.pointer, "this constant has no value that can be enclosed")
     }
 
+    /// A rational number that stands for what is written: a bound of it.
+    pub fn standing_for(text: String, value: Rational) -> Constant {
+        Constant { text, exact: Exact::rational(&value), expr: Expr::number(value) }
+    }
+
     /// What is written, as an expression without variables.
     pub fn expr(&self) -> &Expr {
         &self.expr

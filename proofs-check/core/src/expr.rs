@@ -348,6 +348,11 @@ impl Expr {
         }
     }
 
+    /// A number.
+    pub fn number(value: Rational) -> Expr {
+        Expr { ops: vec![Op::Number(value)] }
+    }
+
     /// `2 pi t/T`, t the first variable, with T in an expression without variables.
     pub fn phase(period: &Expr) -> Expr {
         let two_pi = [Op::Number(Rational::from(2)), Op::Pi, Op::Mul];

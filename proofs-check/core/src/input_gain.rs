@@ -5,12 +5,14 @@
 //!
 //! Guarantee: `0 < low <= nominal <= high`, so `0 < b_lo <= 1 <= b_hi`.
 
-use crate::constant::{Constant, positive_with};
+use crate::constant::{Constant, expression_with, positive_with};
 use crate::expr::Named;
 use crate::interval::Interval;
 use crate::json::{Field, Fields};
-use crate::range::{Range, both};
-use crate::verdict::Outcome;
+use crate::plant::parameters::Parameter;
+use crate::range::{Range, Span, both};
+use crate::spread::ends;
+use crate::verdict::{Outcome, bad};
 
 /// The name of the rule.
 pub const RULE: &str = "input gain";
@@ -19,6 +21,40 @@ pub const RULE: &str = "input gain";
 pub fn read(file: &mut Fields<'_>, constants: &[Named]) -> Outcome<Option<Range>> {
     let positive = |fields: &mut Fields<'_>, name: &str| positive_with(&fields.required(name)?, name, constants);
     file.optional("input_gain").map(|field| Range::read(&field, RULE, positive)).transpose()
+}
+
+/// The same of a plant, where names of parameters of which intervals are given may stand too. In `nominal` these have their nominal
+/// values; of an expression `low` is a number below, and `high` one above, what it is for all values of them.
+pub fn read_of_family(file: &mut Fields<'_>, constants: &[Named], intervals: &[Parameter]) -> Outcome<Option<Range>> {
+    let names: Vec<&str> = intervals.iter().map(|parameter| parameter.name.as_str()).collect();
+    let family: Vec<Span> = intervals.iter().map(|parameter| parameter.span.clone()).collect();
+    let nominal = intervals.iter().map(|Parameter { name, range, .. }| Named {
+        name: name.clone(),
+        text: range.nominal.text.clone(),
+        value: range.nominal.expr().clone(),
+    });
+    let at_nominal: Vec<Named> = constants.iter().cloned().chain(nominal).collect();
+    let positive = |fields: &mut Fields<'_>, name: &str| {
+        let field = fields.required(name)?;
+        let text = field.numeral()?;
+        if name == "nominal" {
+            return positive_with(&field, name, &at_nominal);
+        }
+        if !names.iter().any(|name| occurs(name, text)) {
+            return positive_with(&field, name, constants);
+        }
+        let (expr, text) = expression_with(&field, &names, constants)?;
+        let Some([low, high]) = ends(&expr, &family).filter(|[low, _]| *low > 0) else {
+            return bad(&field.pointer, "this need not be positive for all values of its parameters");
+        };
+        Ok(Constant::standing_for(text, if name == "low" { low } else { high }))
+    };
+    file.optional("input_gain").map(|field| Range::read(&field, RULE, positive)).transpose()
+}
+
+/// Whether a name occurs in the text of an expression.
+fn occurs(name: &str, text: &str) -> bool {
+    text.split(|c: char| !(c.is_ascii_alphanumeric() || c == '_' || c == '.')).any(|word| word == name)
 }
 
 /// b_lo and b_hi.

@@ -25,5 +25,6 @@ pub mod range;
 pub mod rules;
 pub mod sha256;
 pub mod spec;
+pub mod spread;
 pub mod verdict;
 pub mod weights;

@@ -54,7 +54,8 @@ impl Range {
         let mut fields = field.fields()?;
         for (name, end) in [("nominal", &self.nominal)].into_iter().chain(self.ends()) {
             let stated = fields.required(name)?;
-            let same = is_same(&Constant::read(&stated)?, end);
+            // Of an expression of parameters the text says what it is.
+            let same = stated.numeral()? == end.text || is_same(&Constant::read(&stated)?, end);
             demand(Some(same), rule, &stated.pointer, format!("it is that of the file, {}", end.text))?;
         }
         fields.finish()

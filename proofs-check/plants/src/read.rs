@@ -109,7 +109,7 @@ pub fn read(field: &Field<'_>, witness: &mut Fields<'_>) -> Outcome<(Specificati
         fields.finish().map(|()| ends)
     });
     let domain = domain.transpose()?;
-    let input_gain = input_gain::read(&mut file, &constants)?;
+    let input_gain = input_gain::read_of_family(&mut file, &constants, &intervals)?;
     let model = spec::InternalModel::read(&file.required("internal_model")?, &period, &constants)?;
     file.finish()?;
 

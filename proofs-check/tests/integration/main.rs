@@ -18,6 +18,7 @@ mod families;
 mod forged;
 mod formulas;
 mod fuzz;
+mod gain_of_parameters;
 mod hostile;
 mod input_gain;
 mod input_gain_formulas;

@@ -4,11 +4,12 @@
 mod actuator;
 mod at_samples;
 mod loops;
+mod of_parameters;
 
 use crate::support::{ROOT, cases, json, options, program, specification_text, utf8};
 use serde_json::{Value, json as object};
 use sigmastar_lang::plant::Plant;
-use sigmastar_lang::spec::{Document, ErrorKind, Errors, Notation, SpecErrors, Specification, read_input_gain};
+use sigmastar_lang::spec::{Document, ErrorKind, Errors, Notation, Parameters, SpecErrors, Specification, read_input_gain};
 use sigmastar_prove::certificate::{certificate_json, read_witness};
 use sigmastar_prove::certify::{Certification, certify};
 use std::path::Path;
@@ -75,7 +76,7 @@ fn three_positive_constants_in_order() {
     let plant = Plant::from_json("plant", &plant.to_string()).unwrap();
     let document = Document::parse_as("toml", toml, Notation::Toml).unwrap();
     let value = document.at("/input_gain").unwrap();
-    let read = read_input_gain(&value, sigmastar_lang::expr::Definitions::none(), &mut Errors::new());
+    let read = read_input_gain(&value, &Parameters::default(), &mut Errors::new());
     assert!(read.is_ok_and(|read| read.is(plant.input_gain.as_ref().unwrap())));
 }
 

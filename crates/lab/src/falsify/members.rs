@@ -86,7 +86,7 @@ impl TriedClaim {
 
     /// The member of a trial. Trials 1, 2, ... are about the corners, the gain of the actuator changing first; the others are drawn inside.
     pub(super) fn member(&self, number: u64, random: &mut Random) -> Member {
-        let gain = self.spec.input_gain.as_ref().map(|gain| [gain.low.to_f64(), gain.high.to_f64()]);
+        let gain = self.spec.input_gain.as_ref();
         let parameters = self.own.as_ref().map(|own| &own.plant.parameters);
         let intervals: Vec<_> = parameters.into_iter().flat_map(|all| all.intervals()).collect();
         let chosen = |at: usize| self.chosen.get(at).and_then(Option::as_ref);
@@ -101,10 +101,10 @@ impl TriedClaim {
             bits >>= 1;
             bit
         };
-        let input_gain = gain.map(|[low, high]| match is_corner {
-            true if next_bit() => high,
-            true => low,
-            false => low + (high - low) * random.uniform(),
+        // Between the ends, which may depend on the values of the parameters.
+        let share = gain.map(|_| match is_corner {
+            true => f64::from(u8::from(next_bit())),
+            false => random.uniform(),
         });
         let values = intervals.iter().enumerate().map(|(at, interval)| match chosen(at) {
             Some(value) => value.clone(),
@@ -116,7 +116,12 @@ impl TriedClaim {
                 drawn.unwrap_or_else(|| interval.nominal.clone()).clamp(&interval.low, &interval.high)
             }
         });
-        Member { values: values.collect(), input_gain }
+        let values: Vec<Rational> = values.collect();
+        let input_gain = gain.zip(share).map(|(gain, share)| {
+            let [low, high] = gain.ends_at(&values).map(|end| end.to_f64());
+            if share == 1.0 { high } else { low + (high - low) * share }
+        });
+        Member { values, input_gain }
     }
 
     /// The period of a trial of drawn plants, of a claim for an interval of them: the ends with both of the input gain first, then inside.

@@ -94,6 +94,12 @@ impl Definitions {
         Ok(())
     }
 
+    /// Whether a name of those of intervals occurs in the text of an expression.
+    #[must_use]
+    pub fn vary(&self, text: &str) -> bool {
+        self.intervals.iter().any(|name| occurs(name, text))
+    }
+
     /// The place of a name among those of intervals.
     pub(super) fn interval(&self, name: &str) -> Option<usize> {
         self.intervals.iter().position(|known| known == name)
@@ -132,9 +138,14 @@ impl Definitions {
     /// That of the text as it is written, in its place.
     pub fn spelled_out(&self, text: &str) -> Result<String, ExprError> {
         parse(text, &Constants { definitions: self })?;
+        Ok(self.written_out(text))
+    }
+
+    /// The text of an expression with the constants in the places of their names.
+    pub(super) fn written_out(&self, text: &str) -> String {
         let value = |name: &str| self.list.iter().find(|(known, _)| known == name).map(|(_, value)| value.text());
         if let Some(value) = value(text.trim()) {
-            return Ok(value.to_owned());
+            return value.to_owned();
         }
         let (mut out, mut from) = (String::new(), 0);
         for token in tokens(text).into_iter().filter(|token| token.kind == TokenKind::Name) {
@@ -145,7 +156,7 @@ impl Definitions {
             from = token.span.end;
         }
         out.push_str(text.get(from..).unwrap_or_default());
-        Ok(out)
+        out
     }
 }
 

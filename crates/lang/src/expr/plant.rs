@@ -173,6 +173,31 @@ impl Scope for PlantNames {
     }
 }
 
+/// The scope of an expression in parameters alone.
+struct OfParameters<'a> {
+    names: &'a Definitions,
+}
+
+impl Scope for OfParameters<'_> {
+    type Variable = PlantVariable;
+
+    fn variable(&self, name: &str) -> Option<Result<PlantVariable, Option<String>>> {
+        self.names.interval(name).map(|index| Ok(PlantVariable::Parameter(index)))
+    }
+
+    fn definition(&self, name: &str) -> Option<&[Node]> {
+        self.names.nodes(name)
+    }
+
+    fn operand(&self) -> &'static str {
+        "a number, a parameter, pi, a function or an opening parenthesis"
+    }
+
+    fn names(&self) -> impl Iterator<Item = &str> {
+        self.names.names()
+    }
+}
+
 /// A right side of a plant: an expression in t, the states and e, with its text.
 ///
 /// It is a type of its own: no proof about bounding functions can be asked of it, and no bounding function can contain
@@ -191,6 +216,15 @@ impl PlantExpr {
     pub fn parse(text: &str, names: &PlantNames) -> Result<PlantExpr, ExprError> {
         let nodes = parse(text, names)?;
         Ok(PlantExpr { text: text.into(), nodes: nodes.into() })
+    }
+
+    /// Reads an expression in the parameters with intervals alone, with those that are constants written out in its text.
+    ///
+    /// # Errors
+    /// Those of [`Expr::parse`](super::Expr::parse).
+    pub fn of_parameters(text: &str, names: &Definitions) -> Result<PlantExpr, ExprError> {
+        let nodes = parse(text, &OfParameters { names })?;
+        Ok(PlantExpr { text: names.written_out(text).into(), nodes: nodes.into() })
     }
 
     /// The expression with numbers in the places of the parameters with intervals; those without a number stay.

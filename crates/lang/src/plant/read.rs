@@ -69,7 +69,8 @@ fn read(value: &Value<'_>, errors: &mut Errors) -> Result<Plant, Reported> {
     let internal_model = object
         .required("internal_model", errors)
         .and_then(|value| read_internal_model(&value, period.as_ref().ok(), constants, errors));
-    let input_gain = object.optional("input_gain").map(|value| read_input_gain(&value, constants, errors)).transpose();
+    let input_gain =
+        object.optional("input_gain").map(|value| read_input_gain(&value, &parameters, errors)).transpose();
     object.finish(errors);
     // Without the names of the states the right sides have no meaning to check.
     let names = names?.with_parameters(constants.clone());

@@ -3,11 +3,14 @@
 use super::constant::{positive_constant_in, whole};
 use super::document::Value;
 use super::error::{ErrorKind, Errors, Reported};
+use super::parameters::Parameters;
 use super::parts::Constant;
 use super::quantity::Quantity;
-use crate::expr::Definitions;
+use super::range::{range, standing_for};
+use crate::expr::{Definitions, PlantExpr};
 use rug::Rational;
 use sigmastar_exact::enclosure::{Enclosure, MAX_PRECISION, Truth};
+use sigmastar_exact::number::write_exact;
 
 /// `input_gain`: the gain of the actuator signal, 0 < low <= nominal <= high. The true gain is one constant in `[low, high]`; the
 /// regulator puts out u/nominal, so that what reaches the plant is b u with b = gain/nominal.
@@ -15,10 +18,12 @@ use sigmastar_exact::enclosure::{Enclosure, MAX_PRECISION, Truth};
 pub struct InputGain {
     /// What the regulator divides by.
     pub nominal: Constant,
-    /// The smallest gain.
+    /// The smallest gain, or a number below every value of `low` where that is an expression of parameters: its text is that.
     pub low: Constant,
-    /// The largest gain.
+    /// The largest gain, or a number above every value of `high`.
     pub high: Constant,
+    /// `low` and `high` where they are expressions of parameters of which intervals are known.
+    formulas: [Option<PlantExpr>; 2],
 }
 
 impl InputGain {
@@ -65,21 +70,90 @@ impl InputGain {
         same(&self.nominal, &other.nominal) && same(&self.low, &other.low) && same(&self.high, &other.high)
     }
 
+    /// Whether an end is an expression of parameters, so that its number is outside of what that is.
+    #[must_use]
+    pub fn of_parameters(&self) -> bool {
+        self.formulas.iter().any(Option::is_some)
+    }
+
+    /// The three as a document of the plant has them, with constants written out: numbers, or expressions of parameters.
+    #[must_use]
+    pub fn written(&self) -> [(&'static str, String); 3] {
+        let number = |value: &Constant| value.as_rational().map_or_else(|| value.text.clone(), write_exact);
+        let [low, high] = &self.formulas;
+        let end =
+            |formula: &Option<PlantExpr>, number: String| formula.as_ref().map_or(number, |it| it.text().to_owned());
+        let (low, high) = (end(low, number(&self.low)), end(high, number(&self.high)));
+        [("nominal", number(&self.nominal)), ("low", low), ("high", high)]
+    }
+
     /// The same nominal gain, known exactly.
     #[must_use]
     pub fn closed(&self) -> InputGain {
-        InputGain { low: self.nominal.clone(), high: self.nominal.clone(), nominal: self.nominal.clone() }
+        let [nominal, low, high] = [(); 3].map(|()| self.nominal.clone());
+        InputGain { nominal, low, high, formulas: [None, None] }
+    }
+
+    /// `low` and `high` with these values of the parameters with intervals: numbers around what an expression is there. The nominal gain stays,
+    /// which need not be between them.
+    #[must_use]
+    pub fn ends_at(&self, values: &[Rational]) -> [Constant; 2] {
+        let [low, high] = &self.formulas;
+        [(low, 0, &self.low), (high, 1, &self.high)].map(|(formula, end, of_family)| {
+            let at = formula.as_ref().and_then(|formula| range(&formula.at(values), &Parameters::default()));
+            at.map_or_else(|| of_family.clone(), |ends| Constant::rational(&ends[end]))
+        })
     }
 }
 
-/// Reads `input_gain`: three positive constants, proved to be in order; the names of a plant's constants may stand in them.
+/// Reads `input_gain`: three positive constants, proved to be in order; the names of a plant's parameters may stand in them. In `nominal`
+/// they have their nominal values, and `low` and `high` are a number below and one above all that an expression is on the box of the intervals.
 ///
 /// # Errors
-/// Reports fields that are missing or unknown, numbers that are not positive, and an order that fails or is not decided.
-pub fn read_input_gain(value: &Value<'_>, names: &Definitions, errors: &mut Errors) -> Result<InputGain, Reported> {
+/// Reports fields that are missing or unknown, numbers that are not positive, expressions that may have no value somewhere, and an order
+/// that fails or is not decided.
+pub fn read_input_gain(value: &Value<'_>, parameters: &Parameters, errors: &mut Errors) -> Result<InputGain, Reported> {
     let help = "the true gain lies in [low, high], and the regulator divides by `nominal`";
-    let [nominal, low, high] = read_ordered(value, names, help, errors)?;
-    Ok(InputGain { nominal, low, high })
+    let mut formulas = [None, None];
+    let [nominal, low, high] = ordered_by(value, help, errors, |name, value, errors| {
+        let text = value.text().filter(|text| parameters.definitions().vary(text));
+        match (text, name) {
+            (Some(text), "low") => end_of(value, text, (parameters, 0), &mut formulas, errors),
+            (Some(text), "high") => end_of(value, text, (parameters, 1), &mut formulas, errors),
+            (Some(_), _) => positive_constant_in(value, &parameters.nominal_definitions(), errors),
+            (None, _) => positive_constant_in(value, parameters.definitions(), errors),
+        }
+    })?;
+    Ok(InputGain { nominal, low, high, formulas })
+}
+
+/// The number of an end that is an expression of parameters: below (`end` 0) or above (1) what it is on the box.
+fn end_of(
+    value: &Value<'_>,
+    text: &str,
+    (parameters, end): (&Parameters, usize),
+    formulas: &mut [Option<PlantExpr>; 2],
+    errors: &mut Errors,
+) -> Result<Constant, Reported> {
+    let read = PlantExpr::of_parameters(text, parameters.definitions());
+    let formula = read.map_err(|error| errors.report(value.expression_error(&error)))?;
+    let Some(ends) = range(&formula, parameters) else {
+        let message = "this expression has no value that can be enclosed for some values of its parameters";
+        let help =
+            "a division by 0, or the root or logarithm of a negative number, comes too close: narrow the intervals";
+        return Err(errors.report(whole(value, ErrorKind::Expression, message).help(help)));
+    };
+    if ends[0] <= 0 {
+        let message = format!(
+            "{} must be positive, but for some values of its parameters it may be down to {}",
+            value.name(),
+            ends[0].to_f64()
+        );
+        return Err(errors.report(whole(value, ErrorKind::Range, message)));
+    }
+    let number = standing_for(&formula, &ends[end]);
+    formulas[end] = Some(formula);
+    Ok(number)
 }
 
 /// Reads `nominal`, `low` and `high`, positive constants in which the names may stand, proved to be in order.
@@ -92,11 +166,21 @@ pub(super) fn read_ordered(
     help: &str,
     errors: &mut Errors,
 ) -> Result<[Constant; 3], Reported> {
+    ordered_by(value, help, errors, |_, value, errors| positive_constant_in(value, names, errors))
+}
+
+/// The same, each read by its name.
+fn ordered_by(
+    value: &Value<'_>,
+    help: &str,
+    errors: &mut Errors,
+    mut read: impl FnMut(&'static str, &Value<'_>, &mut Errors) -> Result<Constant, Reported>,
+) -> Result<[Constant; 3], Reported> {
     let mut object = value.object(errors)?;
-    let nominal = object.required("nominal", errors).and_then(|value| positive_constant_in(&value, names, errors));
+    let nominal = object.required("nominal", errors).and_then(|value| read("nominal", &value, errors));
     let mut end = |name: &'static str, in_order: fn(&Constant, &Constant) -> Truth, relation: &str| {
         object.required(name, errors).and_then(|value| {
-            let end = positive_constant_in(&value, names, errors)?;
+            let end = read(name, &value, errors)?;
             match &nominal {
                 Ok(nominal) => ordered(&value, (name, relation, help), end, nominal, in_order, errors),
                 Err(_) => Ok(end),

@@ -31,6 +31,7 @@ mod period;
 mod power_tail;
 mod proved_values;
 mod quantity;
+mod range;
 mod read;
 mod render;
 mod sampled_inequality;

@@ -156,6 +156,17 @@ impl Parameters {
         &self.definitions
     }
 
+    /// The same where those with intervals have their nominal values.
+    #[must_use]
+    pub fn nominal_definitions(&self) -> Definitions {
+        let mut all = Definitions::default();
+        for Parameter { name, value, .. } in &self.list {
+            // The names were admitted when they were read.
+            let _ = all.define(name, value.expr.clone());
+        }
+        all
+    }
+
     /// The names that occur nowhere.
     #[must_use]
     pub fn unused(&self) -> &[String] {

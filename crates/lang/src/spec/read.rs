@@ -9,6 +9,7 @@ use super::initial_set;
 use super::input_gain::read_input_gain;
 use super::model::{InternalModel, LyapunovSource, Specification};
 use super::object::Object;
+use super::parameters::Parameters;
 use super::parts::{Constant, Domain, KnownForcing, Lyapunov, RelativeDegree};
 use super::period::{Period, needs_exact_period, read_period};
 use super::quantity::Quantity;
@@ -97,7 +98,7 @@ fn read(value: &Value<'_>, errors: &mut Errors) -> Result<Specification, Reporte
         .and_then(|value| read_internal_model(&value, period.as_ref().ok(), Definitions::none(), errors));
     let initial_set = object.required("initial_set", errors).and_then(|value| initial_set::read(&value, errors));
     let input_gain =
-        object.optional("input_gain").map(|value| read_input_gain(&value, Definitions::none(), errors)).transpose();
+        object.optional("input_gain").map(|value| read_input_gain(&value, &Parameters::default(), errors)).transpose();
     let relative_degree =
         object.optional("relative_degree").map(|value| read_relative_degree(&value, errors)).transpose();
     object.finish(errors);

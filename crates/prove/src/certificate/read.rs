@@ -5,10 +5,9 @@ use super::triple::{EXISTENCE, STABILITY};
 use super::write::{FORMAT, VERSION};
 use crate::certify::GivenWitness;
 use rug::Rational;
-use sigmastar_lang::expr::Definitions;
 use sigmastar_lang::spec::model::PeriodicMatrix;
 use sigmastar_lang::spec::{
-    Document, ErrorKind, Errors, Object, Reported, SpecErrors, Value, read_input_gain, read_parameters,
+    Document, ErrorKind, Errors, Object, Parameters, Reported, SpecErrors, Value, read_input_gain, read_parameters,
 };
 use sigmastar_plants::lyapunov::{ProvedTriple, ProvedTriples};
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
@@ -154,8 +153,7 @@ pub(super) fn own_input_gain(
             let parameters = subject.and_then(|subject| subject.member("parameters"));
             let parameters = parameters.map(|value| read_parameters(&value, &[], errors)).transpose();
             parameters.and_then(|parameters| {
-                let names = parameters.unwrap_or_default();
-                same_input_gain(stated, embedded, (value, names.definitions()), errors)
+                same_input_gain(stated, embedded, (value, &parameters.unwrap_or_default()), errors)
             })
         }
     }
@@ -166,16 +164,16 @@ pub(super) fn embedded<'v>(root: &Value<'v>) -> Option<Value<'v>> {
     ["plant", "specification"].into_iter().find_map(|name| root.member(name))
 }
 
-/// That they are the same three numbers; in the document the names of constants may stand.
+/// That they are the same three numbers or expressions of parameters; in the document the names of constants may stand.
 fn same_input_gain(
     stated: Option<Value<'_>>,
     embedded: Option<Value<'_>>,
-    (claim, names): (&Value<'_>, &Definitions),
+    (claim, parameters): (&Value<'_>, &Parameters),
     errors: &mut Errors,
 ) -> Result<(), Reported> {
     let place = stated.clone().unwrap_or_else(|| claim.clone());
-    let [stated, embedded] = [(stated, Definitions::none()), (embedded, names)]
-        .map(|(value, names)| value.map(|value| read_input_gain(&value, names, errors)).transpose());
+    let [stated, embedded] =
+        [stated, embedded].map(|value| value.map(|value| read_input_gain(&value, parameters, errors)).transpose());
     let same = match (stated?, embedded?) {
         (Some(stated), Some(embedded)) => stated.is(&embedded),
         _ => false,

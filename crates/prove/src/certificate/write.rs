@@ -148,9 +148,8 @@ pub fn certificate_json(run: &Certification<'_>) -> Option<Value> {
 
 /// The interval of the input gain, for all of which the claim is; none where there is none.
 pub(super) fn input_gain_json(spec: &Specification) -> Option<(&'static str, Value)> {
-    let InputGain { nominal, low, high } = spec.input_gain.as_ref()?;
-    let ends = [("nominal", nominal), ("low", low), ("high", high)];
-    Some(("input_gain", object(ends.map(|(name, value)| (name, text(constant(value)))))))
+    let written = spec.input_gain.as_ref()?.written();
+    Some(("input_gain", object(written.map(|(name, value)| (name, text(value))))))
 }
 
 /// The intervals of the parameters, for all of which the claim is; none of a single plant.
@@ -247,7 +246,7 @@ pub fn statement(run: &Certification<'_>, sigma: &Rational, set: &ClaimedSet) ->
 
 /// " and every input gain in [9, 11] (...)"; nothing where there is none.
 pub(super) fn every_input_gain(spec: &Specification) -> String {
-    spec.input_gain.as_ref().map_or_else(String::new, |InputGain { nominal, low, high }| {
+    spec.input_gain.as_ref().map_or_else(String::new, |InputGain { nominal, low, high, .. }| {
         format!(
             " and every input gain in [{}, {}] (one constant; the regulator divides by the nominal {})",
             low.text, high.text, nominal.text

@@ -14,6 +14,7 @@ mod jacobian;
 mod matrix_checks;
 mod misfit;
 mod no_plant;
+mod nominal_ball;
 mod options;
 mod produce;
 mod proof;
@@ -32,6 +33,7 @@ pub use jacobian::{MAX_SEARCHES, Resolution, resolve, resolve_with, with_triple}
 pub use matrix_checks::{ContractionCheck, MatrixChecks, SylvesterCheck};
 pub use misfit::Misfit;
 pub use no_plant::{ExceededBy, NoPlant, has_states, no_plant};
+pub use nominal_ball::nominal_ball;
 pub use options::{Ladder, Options, TransferChoice};
 pub use produce::{certify, certify_at, certify_near, recheck};
 pub use proof::{Decidable, Decided, GivenWitness, Outcome, Proof, RepairedProof, SampledProof, SharpProof, Witness};

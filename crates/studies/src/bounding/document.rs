@@ -6,7 +6,7 @@ use serde_json::{Map, Value};
 use sigmastar_exact::number::{Direction, round_rational, write_exact};
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::model::{Constant, InitialSet, KnownForcing, SIZES};
-use sigmastar_lang::spec::{OfPlant, Specification};
+use sigmastar_lang::spec::{InputGain, OfPlant, Specification};
 use sigmastar_plants::bounds::Majorant;
 use sigmastar_prove::certificate::members;
 use sigmastar_prove::reduction::{PlantRefusal, bounds_around};
@@ -114,8 +114,15 @@ fn write(
     let forcing = spec.q_0.as_ref().map(|known| ("q_0", forcing(known)));
     let rest =
         [("domain", ends), ("internal_model", internal_model(plant)), ("initial_set", initial_set(&spec.initial_set))];
-    let input_gain = plant.document.get("input_gain").map(|gain| ("input_gain", gain.clone()));
+    let input_gain = spec.input_gain.as_ref().map(|gain| ("input_gain", input_gain(gain)));
     object(all.into_iter().chain(forcing).chain(rest).chain(input_gain))
+}
+
+/// The numbers of that of a plant.
+fn input_gain(gain: &InputGain) -> Value {
+    let InputGain { nominal, low, high, .. } = gain;
+    let number = |value: &Constant| value.as_rational().map_or_else(|| Value::String(value.text.clone()), exact);
+    object([("nominal", number(nominal)), ("low", number(low)), ("high", number(high))])
 }
 
 /// That of the plant, without names of its parameters.

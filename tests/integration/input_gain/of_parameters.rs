@@ -1,0 +1,104 @@
+//! A gain of the actuator that depends on parameters of which intervals are known: the motor of the guide.
+
+use super::super::support::{json, program};
+use serde_json::{Value, json as object};
+use std::path::Path;
+
+/// Inertia 30 %, friction 50 %, drive 10 %.
+fn motor(gain: &Value) -> Value {
+    object!({
+        "format": "sigmastar/plant", "version": 1, "name": "motor",
+        "parameters": {
+            "J": { "nominal": "1", "low": "0.7", "high": "1.3" },
+            "b": { "nominal": "60", "low": "30", "high": "90" },
+            "g": "1.1"
+        },
+        "period": "1/50", "states": ["i"],
+        "f": ["-200*i + 150*e + 40*sin(100*pi*t)"],
+        "q": "(100*i - b*e - 40*tanh(e) + 2000 + 1500*cos(100*pi*t) + 400*sin(200*pi*t))/J",
+        "input_gain": gain,
+        "internal_model": { "mu": "100", "base_frequency": "100*pi", "matched": true,
+            "weights": { "family": "power", "n0": "2", "epsilon": "1/2" } }
+    })
+}
+
+fn certified(folder: &Path, gain: &Value) -> (Value, Value) {
+    let [input, output] = ["motor.json", "certificate.json"].map(|name| folder.join(name));
+    std::fs::write(&input, motor(gain).to_string()).unwrap();
+    let mut certify = program();
+    certify.args(["certify", "-q", "--force", "--no-compare", "--format", "json", "-o"]).arg(&output).arg(&input);
+    let report = json(&certify.assert().code(0).get_output().stdout);
+    (report, json(&std::fs::read(&output).unwrap()))
+}
+
+fn checked(folder: &Path, certificate: &Value) -> Value {
+    let file = folder.join("checked.json");
+    std::fs::write(&file, certificate.to_string()).unwrap();
+    json(&program().args(["check", "--format", "json"]).arg(&file).output().unwrap().stdout)
+}
+
+#[test]
+fn one_gain_serves_every_motor_and_every_drive() {
+    let folder = tempfile::tempdir().unwrap();
+    let (report, certificate) = certified(folder.path(), &object!({ "nominal": "1/J", "low": "0.9/J", "high": "g/J" }));
+    let claim = &certificate["claim"];
+    let sigma: f64 = claim["sigma_star"].as_str().unwrap().parse().unwrap();
+    assert!((93.3..93.6).contains(&sigma), "{sigma}");
+    assert_eq!(claim["input_gain"], object!({ "nominal": "1", "low": "0.9/J", "high": "1.1/J" }));
+    let statement = claim["statement"].as_str().unwrap();
+    assert!(statement.contains("every input gain in [0.9/J, 1.1/J]"), "{statement}");
+    let answer = checked(folder.path(), &certificate);
+    assert_eq!((&answer["verdict"], &answer["figures"]["verdict"]), (&object!("valid"), &object!("agree")));
+    // The ball about the nominal orbit is within the ball about the member's own.
+    let radius = |name: &str| report["plant"][name].as_str().unwrap().parse::<f64>().unwrap();
+    assert!(radius("nominal_ball") > 0.0 && radius("nominal_ball") <= radius("ball"));
+
+    // As numbers: the same interval to the last digits that are shown, so the same gain.
+    let numbers = object!({ "nominal": "1", "low": "0.69230769230", "high": "1.57142857143" });
+    let (report, of_numbers) = certified(folder.path(), &numbers);
+    let same: f64 = of_numbers["claim"]["sigma_star"].as_str().unwrap().parse().unwrap();
+    assert!((same / sigma - 1.0).abs() < 1e-4, "{sigma} {same}");
+    assert!(report["plant"]["nominal_ball"].is_string());
+
+    let mut forged = certificate.clone();
+    for (end, text) in [("low", "0.95/J"), ("high", "1.05/J"), ("nominal", "2")] {
+        forged["claim"]["input_gain"] = certificate["claim"]["input_gain"].clone();
+        forged["claim"]["input_gain"][end] = text.into();
+        assert_ne!(checked(folder.path(), &forged)["verdict"], "valid", "{end} {text}");
+    }
+}
+
+/// `i' = -k i + 40 sin(100 pi t)` has the amplitude `40/|k + 100 pi i|`, which moves by 0.0029 as a complex number when k moves by 10 from 200: by so
+/// much the ball is smaller about the orbit of the nominal member.
+#[test]
+fn the_ball_about_the_nominal_orbit() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("family.json");
+    let mut family = motor(&object!({ "nominal": "1", "low": "1", "high": "1" }));
+    family["parameters"] = object!({ "J": "1", "b": "60", "k": { "nominal": "200", "low": "190", "high": "210" } });
+    family["f"][0] = "-k*i + 150*e + 40*sin(100*pi*t)".into();
+    family["initial_set"] = object!({ "kind": "at-rest", "X0": "1", "E0": "20" });
+    std::fs::write(&file, family.to_string()).unwrap();
+    let mut certify = program();
+    certify.args(["certify", "-q", "--no-compare", "--format", "json"]).arg(&file);
+    let report = json(&certify.assert().code(0).get_output().stdout);
+    let radius = |name: &str| report["plant"][name].as_str().unwrap().parse::<f64>().unwrap();
+    let less = radius("ball") - radius("nominal_ball");
+    assert!((0.0028..0.0045).contains(&less), "{less}");
+}
+
+/// A member has its own gain, which `simulate` takes where none is given.
+#[test]
+fn a_member_has_its_own_gain() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("motor.json");
+    std::fs::write(&file, motor(&object!({ "nominal": "1/J", "low": "1/J", "high": "1/J" })).to_string()).unwrap();
+    let run = |arguments: &[&str]| {
+        let mut simulate = program();
+        simulate.args(["simulate", "-q", "--sigma", "100", "--n-o", "1", "--format", "json"]).arg(&file);
+        json(&simulate.args(arguments).assert().code(0).get_output().stdout)["steady_state"]["sup_e"].clone()
+    };
+    let own = run(&["--parameter", "J=0.8"]);
+    assert_eq!(own, run(&["--parameter", "J=0.8", "--input-gain", "1.25"]));
+    assert_ne!(own, run(&["--parameter", "J=0.8", "--input-gain", "1"]));
+}
