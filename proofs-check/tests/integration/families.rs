@@ -177,7 +177,6 @@ fn an_interval_of_one_point_is_that_number() {
         ("/plant/initial", json!({ "x": ["g"], "e": "1" })),
         ("/plant/internal_model/mu", json!("g")),
         ("/plant/internal_model/base_frequency", json!("2*pi*g")),
-        ("/plant/input_gain", interval(["1", "1", "g"])),
         ("/plant/parameters/b", json!("2*g")),
         ("/witness/orbit/defect", json!("g")),
     ] {

@@ -9,7 +9,9 @@ mod of_parameters;
 use crate::support::{ROOT, cases, json, options, program, specification_text, utf8};
 use serde_json::{Value, json as object};
 use sigmastar_lang::plant::Plant;
-use sigmastar_lang::spec::{Document, ErrorKind, Errors, Notation, Parameters, SpecErrors, Specification, read_input_gain};
+use sigmastar_lang::spec::{
+    Document, ErrorKind, Errors, Notation, Parameters, SpecErrors, Specification, read_input_gain,
+};
 use sigmastar_prove::certificate::{certificate_json, read_witness};
 use sigmastar_prove::certify::{Certification, certify};
 use std::path::Path;

@@ -53,13 +53,6 @@ fn one_gain_serves_every_motor_and_every_drive() {
     let radius = |name: &str| report["plant"][name].as_str().unwrap().parse::<f64>().unwrap();
     assert!(radius("nominal_ball") > 0.0 && radius("nominal_ball") <= radius("ball"));
 
-    // As numbers: the same interval to the last digits that are shown, so the same gain.
-    let numbers = object!({ "nominal": "1", "low": "0.69230769230", "high": "1.57142857143" });
-    let (report, of_numbers) = certified(folder.path(), &numbers);
-    let same: f64 = of_numbers["claim"]["sigma_star"].as_str().unwrap().parse().unwrap();
-    assert!((same / sigma - 1.0).abs() < 1e-4, "{sigma} {same}");
-    assert!(report["plant"]["nominal_ball"].is_string());
-
     let mut forged = certificate.clone();
     for (end, text) in [("low", "0.95/J"), ("high", "1.05/J"), ("nominal", "2")] {
         forged["claim"]["input_gain"] = certificate["claim"]["input_gain"].clone();
