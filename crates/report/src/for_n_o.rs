@@ -4,8 +4,8 @@ use serde_json::{Value, json};
 use sigmastar_document::number::{estimate, exact};
 use sigmastar_document::{Block, Table};
 use sigmastar_exact::number::{Direction, write_exact};
-use sigmastar_prove::certify::{Certification, RateForCount};
-use sigmastar_prove::rate::bound::RateBound;
+use sigmastar_prove::certify::Certification;
+use sigmastar_prove::rate::bound::{RateBound, RateForCount};
 use sigmastar_prove::rate::small_gain::Limit;
 
 /// The section; nothing where no number was asked about.

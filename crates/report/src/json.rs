@@ -1,7 +1,7 @@
 //! The report on a certification as JSON.
 
-use super::for_n_o::rates_json;
 use super::failures::{FORMAT, VERSION, errors_json};
+use super::for_n_o::rates_json;
 use super::matrix_checks::checks_json;
 use super::obstacles::advice;
 use super::of_plant::plant_json;

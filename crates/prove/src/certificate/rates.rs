@@ -10,9 +10,10 @@ const FOR_N_O: &str = "for_n_o";
 
 /// The part of the claim: n_o, rate and factor; none where no rate is proved.
 pub(super) fn claimed_rates(run: &Certification<'_>) -> Option<(&'static str, Value)> {
-    part(run, |RateBound { n_o, witness, factor, .. }| {
-        json!({ "n_o": n_o, "rate": write_exact(&witness.rate), "factor": write_exact(factor) })
-    })
+    part(
+        run,
+        |RateBound { n_o, witness, factor, .. }| json!({ "n_o": n_o, "rate": write_exact(&witness.rate), "factor": write_exact(factor) }),
+    )
 }
 
 /// The part of the witness: w and l where x counts, Pi by the rows of its lower triangle, and its bounds.

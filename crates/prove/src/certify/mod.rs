@@ -36,7 +36,7 @@ pub use no_plant::{ExceededBy, NoPlant, has_states, no_plant};
 pub use options::{Ladder, Options, TransferChoice};
 pub use produce::{certify, certify_at, certify_near, recheck};
 pub use proof::{Decidable, Decided, GivenWitness, Outcome, Proof, RepairedProof, SampledProof, SharpProof, Witness};
-pub use rates::{NoRatesOfClaim, RateForCount, rate_counts};
+pub use rates::{NoRatesOfClaim, rate_counts};
 pub use refusal::{Refusal, WITHOUT_INPUT_GAIN, not_available_with_input_gain};
 pub use sampled::{SampledCertification, certify_sampled, recheck_sampled, sampled_model};
 pub use smaller::SmallerChoice;

@@ -2,21 +2,12 @@
 
 use super::certification::Certification;
 use super::proof::Proof;
-use crate::rate::bound::{MAX_COUNTS, MAX_OSCILLATORS, Place, RateBound, bound};
+use crate::rate::bound::{MAX_COUNTS, MAX_OSCILLATORS, Place, RateBound, RateForCount, bound};
 use rayon::prelude::*;
 use sigmastar_exact::number::write_exact;
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::initial_set::claimed_distances;
 use sigmastar_theory::derivation::matrix_inequality;
-
-/// What was found for one n_o that was asked about.
-#[derive(Clone, Debug)]
-pub struct RateForCount {
-    /// n_o.
-    pub n_o: u32,
-    /// The bound; `None` where none was proved, which says nothing either way.
-    pub bound: Option<RateBound>,
-}
 
 /// Why a claim can have no rates for given numbers of oscillators.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -44,7 +35,9 @@ impl NoRatesOfClaim {
         };
         match self {
             NoRatesOfClaim::AtSamples => {
-                format!("{option}: not available for the regulator at samples: rates for given n_o are of continuous time")
+                format!(
+                    "{option}: not available for the regulator at samples: rates for given n_o are of continuous time"
+                )
             }
             NoRatesOfClaim::ByMatrix => by("(M)"),
             NoRatesOfClaim::ByJointMetrics => by("(Jm)"),
@@ -52,7 +45,9 @@ impl NoRatesOfClaim {
                 format!("{option}: {count} numbers of oscillators; at most {MAX_COUNTS} go into one certificate")
             }
             NoRatesOfClaim::Beyond(n_o) => {
-                format!("{option}: n_o = {n_o} is beyond {MAX_OSCILLATORS}, the largest of which a certificate has a rate")
+                format!(
+                    "{option}: n_o = {n_o} is beyond {MAX_OSCILLATORS}, the largest of which a certificate has a rate"
+                )
             }
         }
     }
@@ -66,7 +61,9 @@ impl NoRatesOfClaim {
                 "leave it out; a bounding specification of the plant (`sigmastar bound`) has a claim by norms"
             }
             NoRatesOfClaim::TooMany(_) => "ask for fewer, or write several certificates",
-            NoRatesOfClaim::Beyond(_) => "ask for smaller numbers; `sigmastar rate` goes further, without a certificate",
+            NoRatesOfClaim::Beyond(_) => {
+                "ask for smaller numbers; `sigmastar rate` goes further, without a certificate"
+            }
         }
     }
 }
@@ -111,11 +108,8 @@ impl Certification<'_> {
                 }
                 let periodic = [&evaluation.periodic.x_per, &evaluation.periodic.e_per, &evaluation.z];
                 let distances = claimed_distances(&data, &witness.set, periodic);
-                let place = Place {
-                    sigma: &witness.sigma,
-                    error_box: &evaluation.error_box,
-                    distances: distances.each_ref(),
-                };
+                let place =
+                    Place { sigma: &witness.sigma, error_box: &evaluation.error_box, distances: distances.each_ref() };
                 let of = |n_o: &u32| RateForCount { n_o: *n_o, bound: bound(&data, &place, *n_o) };
                 counts.par_iter().map(of).collect()
             }

@@ -61,6 +61,15 @@ pub struct RateBound {
     pub limit: Limit,
 }
 
+/// What was found for one n_o that was asked about.
+#[derive(Clone, Debug)]
+pub struct RateForCount {
+    /// n_o.
+    pub n_o: u32,
+    /// The bound; `None` where none was proved, which says nothing either way.
+    pub bound: Option<RateBound>,
+}
+
 /// The best bound that is found; `None` where nothing is proved.
 ///
 /// Guarantee: for every solution that stays in the error box of `place` from a start within its distances, at its gain, with n_o
@@ -96,7 +105,8 @@ pub fn bound(data: &Data<'_>, place: &Place<'_>, n_o: u32) -> Option<RateBound> 
             }
             let [of_x, of_e, of_zeta] = place.distances;
             let w = if bounds.has_x { number(&witness.w) } else { data.zero() };
-            let start = w * &data.p_up * of_x.sqr() + number(&upper[0]) * of_e.sqr() + number(&upper[1]) * of_zeta.sqr();
+            let start =
+                w * &data.p_up * of_x.sqr() + number(&upper[0]) * of_e.sqr() + number(&upper[1]) * of_zeta.sqr();
             let factor = (start / number(&e_low)).sqrt().upper_rational()?;
             let factor = round_rational(&factor, 6, Direction::Up);
             let (has_x, limit) = (bounds.has_x, condition.limit());
@@ -118,7 +128,9 @@ fn diagonal_bounds(Proposal { pi, .. }: &Proposal, [_, of_e, of_zeta]: [&Enclosu
     let largest = values.iter().copied().fold(0.0, f64::max);
     let [of_e, of_zeta] = [of_e, of_zeta].map(|distance| distance.upper_f64().portable_powi(2));
     // The Schur complement, for z_up above the largest eigenvalue.
-    let of = |z_up: f64| pi[(0, 0)] + squares.iter().zip(&values).map(|(square, value)| square / (z_up - value)).sum::<f64>();
+    let of = |z_up: f64| {
+        pi[(0, 0)] + squares.iter().zip(&values).map(|(square, value)| square / (z_up - value)).sum::<f64>()
+    };
     let cost = |z_up: f64| of(z_up) * of_e + z_up * of_zeta;
     let candidates = (0..60).map(|k| largest * (1.0 + ROOM * 1.3f64.portable_powi(k)));
     let z_up = candidates.min_by(|a, b| cost(*a).total_cmp(&cost(*b)))?;

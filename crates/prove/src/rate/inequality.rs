@@ -174,8 +174,10 @@ impl<'a> Form<'a> {
         let precision = oscillators.mu.precision();
         let number = |value: &Rational| Enclosure::from_rational(value, precision);
         let n = oscillators.order() + 1;
-        let pi: Vec<Enclosure> =
-            (0..n).flat_map(|i| (0..n).map(move |j| (i.max(j), i.min(j)))).map(|(i, j)| number(&witness.pi[i][j])).collect();
+        let pi: Vec<Enclosure> = (0..n)
+            .flat_map(|i| (0..n).map(move |j| (i.max(j), i.min(j))))
+            .map(|(i, j)| number(&witness.pi[i][j]))
+            .collect();
         let input = |i: usize| match i.checked_sub(1) {
             None => Enclosure::one(precision),
             Some(state) => oscillators.b[state].negate(),

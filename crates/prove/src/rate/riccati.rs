@@ -133,9 +133,8 @@ impl Equation<'_> {
         let n = input.len();
         let image: Vec<f64> = (0..n).map(|i| (0..n).map(|j| pi[(i, j)] * input[j]).sum()).collect();
         let product = pi * *a;
-        let residual = Mat::from_fn(n, n, |i, j| {
-            product[(i, j)] + product[(j, i)] + output[(i, j)] + beta * image[i] * image[j]
-        });
+        let residual =
+            Mat::from_fn(n, n, |i, j| product[(i, j)] + product[(j, i)] + output[(i, j)] + beta * image[i] * image[j]);
         let closed = Mat::from_fn(n, n, |i, j| a[(i, j)] + beta * input[i] * image[j]);
         if !(0..n).all(|j| (0..n).all(|i| closed[(i, j)].is_finite() && residual[(i, j)].is_finite())) {
             return None;

@@ -71,7 +71,8 @@ impl FloatDynamics {
         let oscillators = dynamics.oscillators;
         let (mu, sigma) = (oscillators.mu.midpoint_f64(), dynamics.sigma.to_f64());
         let b: Vec<f64> = oscillators.b.iter().map(Enclosure::midpoint_f64).collect();
-        let [low, high] = dynamics.input_gain.as_ref().map_or([1.0; 2], |ends| ends.each_ref().map(Enclosure::midpoint_f64));
+        let [low, high] =
+            dynamics.input_gain.as_ref().map_or([1.0; 2], |ends| ends.each_ref().map(Enclosure::midpoint_f64));
         let (gain, half_gain) = (f64::midpoint(low, high), (high - low) / 2.0);
         let [least, most] = dynamics.bounds.slopes.each_ref().map(rug::Rational::to_f64);
         let slope = f64::midpoint(least, most) + (1.0 - gain) * sigma;
@@ -219,7 +220,10 @@ impl SmallGain {
         if self.dynamics.moved.is_empty() {
             return [of(1.0), 1.0];
         }
-        SHARES.iter().map(|share| [of(*share), *share]).fold([0.0, 1.0], |best, one| if one[0] > best[0] { one } else { best })
+        SHARES
+            .iter()
+            .map(|share| [of(*share), *share])
+            .fold([0.0, 1.0], |best, one| if one[0] > best[0] { one } else { best })
     }
 
     /// The two sides of the condition at a rate.

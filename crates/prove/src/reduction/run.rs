@@ -5,8 +5,8 @@ use super::reduce::reduce;
 use super::subject::Sought;
 use super::{FreeNumbers, Subject, Witness};
 use crate::certify::{
-    Alternatives, Certification, NoRatesOfClaim, Options, Refusal, SampledCertification, Verdict, certify_at, certify_near,
-    certify_sampled, recheck, recheck_sampled,
+    Alternatives, Certification, NoRatesOfClaim, Options, Refusal, SampledCertification, Verdict, certify_at,
+    certify_near, certify_sampled, recheck, recheck_sampled,
 };
 use crate::search::SampledProposal;
 use rug::Rational;

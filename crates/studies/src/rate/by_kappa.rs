@@ -14,8 +14,8 @@ use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_matrix::is_positive_definite;
 use sigmastar_prove::certify::SharpProof;
-use sigmastar_prove::rate::oscillators::ProvedLyapunov;
 use sigmastar_prove::lmi::{DecayData, propose_multipliers, verify_decay};
+use sigmastar_prove::rate::oscillators::ProvedLyapunov;
 use sigmastar_theory::data::Data;
 
 /// Shares of the diagonal that are tried for r_x and r_e, as 1 - 2^-k and then 2^-k.

@@ -210,9 +210,8 @@ impl<'a> Loop<'a> {
     /// The lower triangle of the form of (R) in (y, u, xi), or in y where x has no part in it.
     fn form(&self, rate: &Interval, of_x: Option<[&Interval; 2]>, corner: &[Interval; 2]) -> Vec<Vec<Interval>> {
         let order = self.b.len();
-        let entry = |i: usize, j: usize| {
-            -(self.moved(i, j, corner) + self.moved(j, i, corner) + self.at(i, j) * rate * 2)
-        };
+        let entry =
+            |i: usize, j: usize| -(self.moved(i, j, corner) + self.moved(j, i, corner) + self.at(i, j) * rate * 2);
         let mut rows: Vec<Vec<Interval>> = (0..order).map(|i| (0..=i).map(|j| entry(i, j)).collect()).collect();
         if let Some([w, l]) = of_x {
             let ErrorBox { k_x, k_f, rate: a_2, .. } = self.error_box;
@@ -245,7 +244,11 @@ impl<'a> Loop<'a> {
                 of_sign("w", w, pointer)?;
                 of_sign("l", l, pointer)?;
             }
-            None => demand(Some(self.error_box.k_x.is_zero()), RULE, pointer, "k_x = 0, where there is no `w`")?,
+            None => {
+                let k_x = &self.error_box.k_x;
+                let truth = if k_x.is_zero() { Some(true) } else { k_x.is_positive().then_some(false) };
+                demand(truth, RULE, pointer, "k_x = 0, where there is no `w`")?;
+            }
         }
         let [e_low, e_up, z_up, rate, factor] =
             [&witness.e_low, &witness.e_up, &witness.z_up, &claimed.rate, &claimed.factor].map(|value| d.number(value));

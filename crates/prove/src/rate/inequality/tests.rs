@@ -292,7 +292,8 @@ fn no_admissible_linear_plant_is_slower() {
                 let [x, e, f, g] = [signs % 3, signs / 3 % 3, signs / 9 % 3, signs / 27];
                 let sign = |k: i32| f64::from(k - 1);
                 let (k_x, k_f) = (sign(x) * f64::from(k_x), sign(f) * f64::from(k_f));
-                let slope = [f64::from(slopes[0]), f64::from(slopes[0] + slopes[1]) / 2.0, f64::from(slopes[1])][e as usize];
+                let slope =
+                    [f64::from(slopes[0]), f64::from(slopes[0] + slopes[1]) / 2.0, f64::from(slopes[1])][e as usize];
                 let (gain, sigma) = (gain[g as usize], f64::from(sigma));
                 // xi' = -(1/4) xi + (5/4) phi, phi = k_f et; et' = u + gain (-sigma et + s), zs' = Phi zs - b (sigma et + et').
                 let loop_matrix = Mat::from_fn(n + 1, n + 1, |i, j| {
@@ -329,7 +330,8 @@ fn few_digits_are_enough() {
         let oscillators = OscillatorMatrix::new(&data, n_o);
         let dynamics = of(&oscillators, &bounds, sigma());
         let (proposal, _) = proposal(&dynamics, 0.95);
-        let digits = (3..16).find(|digits| dynamics.proves(&proposal.in_digits(*digits).expect("finite"))).expect("some");
+        let digits =
+            (3..16).find(|digits| dynamics.proves(&proposal.in_digits(*digits).expect("finite"))).expect("some");
         assert!(digits <= 9, "{n_o} {digits}");
         let short = proposal.in_digits(6).expect("finite");
         assert!(short.pi.iter().flatten().all(|entry| entry.numer().significant_bits() <= 20 || *entry.denom() == 1));
