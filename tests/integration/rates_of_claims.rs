@@ -17,6 +17,8 @@ const COUNTS: [u32; 4] = [0, 1, 4, 10];
 fn slowest(data: &Data<'_>, error_box: &ErrorBox<sigmastar_exact::enclosure::Enclosure>, sigma: f64, n_o: u32) -> f64 {
     let of = |value: &sigmastar_exact::enclosure::Enclosure| value.midpoint_f64();
     let (a, k_f, k_x) = (of(&error_box.rate), of(&error_box.k_f), of(&error_box.k_x) * of(&data.p_low).sqrt());
+    // Where q does not have x, e does not have its rate either.
+    let a = if k_x == 0.0 { 1e9 } else { a };
     let (below, above) = (-of(&error_box.sector.below), of(&error_box.sector.above));
     let (mu, w) = (of(&data.mu), of(&data.base_frequency));
     let weight = |l: usize| data.spec.internal_model.weights.weight(l as u64, 128).midpoint_f64();

@@ -205,6 +205,11 @@ fn a_semidefinite_program_finds_the_same_largest_rate() {
             cost[variables] = -1.0;
             let solved = propose(&cost, &constraints).expect("solved");
             let margin = solved.x[variables];
+            eprintln!(
+                "{n_o} {share} {largest} {margin} {} {:?}",
+                dynamics.proves(&witness(rate, &solved.x, 1.0)),
+                solved.x
+            );
             assert_eq!(margin > 1e-7, expected, "{n_o} {share} {margin}");
             assert_eq!(dynamics.proves(&witness(rate, &solved.x, 1.0)), expected, "{n_o} {share}");
         }
