@@ -86,7 +86,6 @@ fn rates_are_near_those_of_the_loops() {
     }
     shares.sort_by(|a, b| a.0.total_cmp(&b.0));
     let median = shares[shares.len() / 2].0;
-    eprintln!("{shares:?}");
     assert!(median >= 0.3, "{median} {shares:?}");
 }
 

@@ -39,7 +39,7 @@ impl Proposal {
     /// The witness with each double as the number that it is; `None` if one is not finite.
     #[must_use]
     pub fn exact(&self) -> Option<RateWitness> {
-        self.rounded(|value| Rational::from_f64(value))
+        self.rounded(Rational::from_f64)
     }
 
     /// The witness with w and each entry of Pi to so many digits, 0 where it is beyond those of its diagonal; `None` if one is not finite.
