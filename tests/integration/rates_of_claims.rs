@@ -60,7 +60,7 @@ fn slowest(data: &Data<'_>, error_box: &ErrorBox<sigmastar_exact::enclosure::Enc
 fn rates_are_near_those_of_the_loops() {
     let mut shares: Vec<(f64, String)> = Vec::new();
     for Shipped { name, spec, run, .. } in certified() {
-        let gain = Rational::from(run.sigma_star().expect("certified") * Rational::from((3, 2)));
+        let gain = run.sigma_star().expect("certified") * Rational::from((3, 2));
         let options = Options { compare: false, ..Options::default() };
         let mut run = certify_at(spec, options, None, &gain).expect("not refuted");
         assert_eq!(run.sigma_star(), Some(&gain), "{name}");
