@@ -7,6 +7,7 @@ use proofs_core::json::{Field, Json};
 use proofs_core::rules::bounding;
 use proofs_core::rules::claim::{Claim, reads};
 use proofs_core::rules::derivation::Derivation;
+use proofs_core::rules::rates::{self, Witness};
 use proofs_core::sha256;
 use proofs_core::spec::{Specification, header};
 use proofs_core::verdict::{Finding, Outcome, Verdict, bad};
@@ -75,6 +76,10 @@ pub fn check(json: &Json, other: Option<&Json>, figures_limit: u64, lines: &mut 
         control: claim.control.clone(),
         no_plant: if continuous { file.optional("no_plant") } else { None },
     };
+    let rates = witness.optional("for_n_o").map(|field| Witness::read_all(&field)).transpose()?.unwrap_or_default();
+    if rates.len() != claim.rates.len() {
+        return bad("/witness/for_n_o", "expected one for each rate of the claim");
+    }
     witness.finish()?;
     file.finish()?;
 
@@ -82,7 +87,7 @@ pub fn check(json: &Json, other: Option<&Json>, figures_limit: u64, lines: &mut 
     let last = LAST_PRECISION.max(written_at);
     let arguments = loop {
         let mut attempt = lines.clone();
-        let result = prove(&Data::new(&spec, precision), &claim, &derivation, &mut attempt);
+        let result = prove(&Data::new(&spec, precision), &claim, (&derivation, &rates), &mut attempt);
         // More bits do not help where the cutting of a box came to its end.
         let undecided = |finding: &Finding| finding.verdict == Verdict::Undecided && finding.rule != bounding::RULE;
         let open = result.as_ref().is_err_and(|finding| undecided(finding));
@@ -113,7 +118,12 @@ pub fn check(json: &Json, other: Option<&Json>, figures_limit: u64, lines: &mut 
 }
 
 /// The claim at one precision; the largest X and E at which bounding functions are used.
-fn prove(d: &Data<'_>, claim: &Claim<'_>, derivation: &Derivation, lines: &mut Vec<String>) -> Outcome<[Float; 2]> {
+fn prove(
+    d: &Data<'_>,
+    claim: &Claim<'_>,
+    (derivation, rates): (&Derivation, &[Witness]),
+    lines: &mut Vec<String>,
+) -> Outcome<[Float; 2]> {
     lines.push(format!("working precision: {} bits", d.precision));
     if let Some([x, e]) = &d.spec.domain {
         let (x, e) = (x.enclose(d.precision), e.enclose(d.precision));
@@ -122,6 +132,12 @@ fn prove(d: &Data<'_>, claim: &Claim<'_>, derivation: &Derivation, lines: &mut V
     let proved = derivation.prove(d, lines)?;
     let free = derivation.free();
     claim.check(d, &proved, [&free.x_p, &free.e_p])?;
+    if !rates.is_empty() {
+        if !derivation.rests_on_norms() {
+            return bad("/claim/for_n_o", "rates are proved with a claim by norms, not with a matrix inequality");
+        }
+        rates::prove(d, (free, &proved.sizes, &claim.sigma), (&claim.rates, rates), lines)?;
+    }
     lines.push(
         "claim: verdict, n_o, mu, set, periodic solution, control and statement follow from what is proved".to_owned(),
     );

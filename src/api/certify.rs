@@ -6,6 +6,7 @@ use super::error::Error;
 use super::options::{Asked, CertifyOptions};
 use super::report::Report;
 use super::subject::Subject;
+use sigmastar_prove::certify::NoRatesOfClaim;
 use sigmastar_prove::reduction::{Prepared, Run, Subject as Read, at_samples};
 use sigmastar_report::run_sentence;
 
@@ -34,7 +35,7 @@ pub fn certify(subject: impl Into<Subject>, options: &CertifyOptions) -> Result<
 }
 
 fn run(subject: &Subject, options: &CertifyOptions) -> Result<Certificate, Error> {
-    let Asked { options, gain, step } = options.checked()?;
+    let Asked { options, gain, step, counts } = options.checked()?;
     let asked = match &step {
         None => subject.clone(),
         Some(step) => {
@@ -46,8 +47,12 @@ fn run(subject: &Subject, options: &CertifyOptions) -> Result<Certificate, Error
     if let Some(misfit) = options.misfit(sampled) {
         return Err(Error::misfit(misfit));
     }
+    if sampled && !counts.is_empty() {
+        return Err(Error::no_rates(NoRatesOfClaim::AtSamples));
+    }
     let prepared = Prepared::new(asked.read.clone(), gain).map_err(|all| Error::documents(&all))?;
-    let run = prepared.certify(options).map_err(|all| Error::documents(&all))?;
+    let mut run = prepared.certify(options).map_err(|all| Error::documents(&all))?;
+    run.prove_rates(&counts).map_err(Error::no_rates)?;
     Certificate::new(&run, &asked).ok_or_else(|| not_certified(&run))
 }
 

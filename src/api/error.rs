@@ -3,7 +3,7 @@
 use super::condition::Condition;
 use super::report::Report;
 use sigmastar_lang::spec::{self, SpecError, SpecErrors};
-use sigmastar_prove::certify::{Misfit, Verdict, verdict_of_errors};
+use sigmastar_prove::certify::{Misfit, NoRatesOfClaim, Verdict, verdict_of_errors};
 use std::fmt;
 
 /// What kind of error an [`Error`] is.
@@ -147,6 +147,11 @@ impl Error {
     pub(super) fn misfit(misfit: Misfit) -> Error {
         let name = |option: &str| format!("`{option}`");
         Error::new(ErrorKind::Options, misfit.message(name), &misfit.help(name))
+    }
+
+    /// A claim that has no rates for given numbers of oscillators.
+    pub(super) fn no_rates(reason: NoRatesOfClaim) -> Error {
+        Error::new(ErrorKind::Options, reason.message("`n_o`"), reason.help())
     }
 
     /// No claim: because of bounding functions that are not proved, or as the sentence says.

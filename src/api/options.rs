@@ -5,7 +5,7 @@ use super::{positive, rational};
 use rug::Rational;
 use sigmastar_exact::enclosure::{DEFAULT_PRECISION, MAX_PRECISION};
 use sigmastar_lang::spec::Constant;
-use sigmastar_prove::certify::{Ladder, Options, TransferChoice};
+use sigmastar_prove::certify::{Ladder, Options, TransferChoice, rate_counts};
 
 /// What a run of [`certify`](sigmastar_prove::certify) does. The defaults are those of the command `sigmastar certify`.
 ///
@@ -21,6 +21,7 @@ pub struct CertifyOptions {
     compare: bool,
     sigma: Option<String>,
     sampling_period: Option<String>,
+    n_o: Vec<u32>,
 }
 
 /// Options that are in range.
@@ -28,6 +29,7 @@ pub(super) struct Asked {
     pub(super) options: Options,
     pub(super) gain: Option<Rational>,
     pub(super) step: Option<Constant>,
+    pub(super) counts: Vec<u32>,
 }
 
 impl Default for CertifyOptions {
@@ -38,6 +40,7 @@ impl Default for CertifyOptions {
             compare: true,
             sigma: None,
             sampling_period: None,
+            n_o: Vec::new(),
         }
     }
 }
@@ -99,6 +102,19 @@ impl CertifyOptions {
         self
     }
 
+    /// Prove for each of these numbers of oscillators (at most 8, up to 50), at the gain of the claim alone, a rate and a factor with
+    /// `|e - e_per| <= factor exp(-rate (t - t_0))`, and put them into the certificate. In continuous time, of a claim by norms.
+    ///
+    /// ```
+    /// use sigmastar::CertifyOptions;
+    /// let options = CertifyOptions::new().n_o([0, 4, 10]);
+    /// ```
+    #[must_use]
+    pub fn n_o(mut self, counts: impl Into<Vec<u32>>) -> CertifyOptions {
+        self.n_o = counts.into();
+        self
+    }
+
     /// The options of the layers below.
     ///
     /// # Errors
@@ -117,6 +133,7 @@ impl CertifyOptions {
         };
         let gain = self.sigma.as_ref().map(|text| rational("sigma", text)).transpose()?;
         let step = self.sampling_period.as_ref().map(|text| positive("sampling_period", text)).transpose()?;
-        Ok(Asked { options, gain, step })
+        let counts = rate_counts(&self.n_o).map_err(Error::no_rates)?;
+        Ok(Asked { options, gain, step, counts })
     }
 }

@@ -1,6 +1,7 @@
 //! `sigmastar certify`.
 
 use super::args::CertifyArgs;
+use super::counts::finite_counts;
 use super::failure::Failure;
 use super::files::{Input, OutputFile};
 use super::format::Format;
@@ -9,6 +10,8 @@ use super::progress::{Audience, Working};
 use super::subject::{Subject, proving, with_sampling_period};
 use super::{input, output};
 use sigmastar_prove::certificate::{certificate_of, is_sampled, read_for};
+use sigmastar_prove::certify::{NoRatesOfClaim, rate_counts};
+use sigmastar_prove::rate::bound::MAX_OSCILLATORS;
 use sigmastar_prove::reduction::{Prepared, Run};
 use sigmastar_report::RunReport;
 use sigmastar_theory::derivation::targets::{Target, TargetKind};
@@ -44,6 +47,7 @@ fn attempt(args: &CertifyArgs) -> Result<u8, Failure> {
         );
         return Err(Failure::call(message, format!("leave {flag} or the sampling period out")));
     }
+    let counts = counts(args, sampled)?;
     let working = proving(&subject, args.quiet);
     let prepared = match &witness {
         None => Prepared::new(subject, gain),
@@ -62,7 +66,8 @@ fn attempt(args: &CertifyArgs) -> Result<u8, Failure> {
     drop(working);
     let audience = if args.quiet { Audience::Nobody } else { Audience::Terminal };
     let working = Working::new("searching the free numbers, deciding the conditions", audience);
-    let run = prepared.certify(args.options()).map_err(Failure::Documents)?;
+    let mut run = prepared.certify(args.options()).map_err(Failure::Documents)?;
+    run.prove_rates(&counts).map_err(no_rates)?;
     drop(working);
     let report = RunReport::new(&run, &targets, witness.is_some());
     tell(args, &run, &Shortened::new(&report, args.format, args.full), output.as_ref())
@@ -73,6 +78,19 @@ fn flag(kind: TargetKind) -> &'static str {
         TargetKind::Sup => "--target-sup",
         TargetKind::Rms => "--target-rms",
     }
+}
+
+/// The numbers of oscillators whose rates are asked for.
+fn counts(args: &CertifyArgs, sampled: bool) -> Result<Vec<u32>, Failure> {
+    let Some(text) = &args.n_o else { return Ok(Vec::new()) };
+    if sampled {
+        return Err(no_rates(NoRatesOfClaim::AtSamples));
+    }
+    rate_counts(&finite_counts(text, MAX_OSCILLATORS)?).map_err(no_rates)
+}
+
+fn no_rates(reason: NoRatesOfClaim) -> Failure {
+    Failure::call(reason.message("--n-o"), reason.help())
 }
 
 fn targets(args: &CertifyArgs) -> Result<Vec<Target>, Failure> {

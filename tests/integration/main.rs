@@ -51,6 +51,7 @@ mod plants_linear;
 mod plants_random;
 mod positive_part;
 mod rate;
+mod rates_of_claims;
 mod rejected;
 mod report_words;
 mod sampled;

@@ -7,5 +7,6 @@
 pub mod certificate;
 pub mod certify;
 pub mod lmi;
+pub mod rate;
 pub mod reduction;
 pub mod search;

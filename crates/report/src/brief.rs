@@ -10,6 +10,7 @@ use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, write_exact};
 use sigmastar_lang::spec::Specification;
 use sigmastar_prove::certify::{Certification, SampledCertification, claimed_ball};
+use sigmastar_prove::rate::bound::RateForCount;
 use sigmastar_theory::derivation::control::Control;
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
 use sigmastar_theory::derivation::targets::Consequences;
@@ -50,11 +51,25 @@ pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences
     facts.extend(interval_costs(&run.interval_costs, "sigma*").map(|said| ("intervals", said)));
     // Where targets were given, their answers are above.
     facts.extend(consequences.filter(|all| all.targets.is_empty()).and_then(error).map(|said| ("steady error", said)));
+    facts.extend(for_n_o(run).map(|said| ("convergence", said)));
     // It grows with the gain, of which the claim says "or any larger".
     let control = run.control().map(|bounds| (bounds, " (both at this gain)"));
     facts.push(("to", to(run.spec, &periodic, error_box.each_ref().map(upper), control)));
     facts.push(("assumed", assumed(run.spec, run.largest_arguments(), None)));
     vec![Block::facts(facts), Block::says(norms(run.spec, "sigma"))]
+}
+
+/// How fast the error decays for the numbers of oscillators that were asked about; nothing without any.
+fn for_n_o(run: &Certification<'_>) -> Option<String> {
+    let one = |RateForCount { n_o, bound }: &RateForCount| match bound {
+        None => format!("n_o = {n_o}: not proved"),
+        Some(bound) => {
+            let factor = exact(&bound.factor, Direction::Up);
+            format!("n_o = {n_o}: {factor} exp(-{} (t - t_0))", exact(&bound.witness.rate, Direction::Down))
+        }
+    };
+    let all: Vec<String> = run.for_n_o.iter().map(one).collect();
+    (!all.is_empty()).then(|| format!("|e - e_per| at this gain alone, {}", all.join("; ")))
 }
 
 /// Of a claim about the regulator at samples; nothing without one.

@@ -1,7 +1,7 @@
 //! The report on a certification: what a person, or a script, reads about a run.
 
 use super::{
-    brief, conditions, consequences, constants, exact_regulation, json, matrix_checks, of_plant, printed,
+    brief, conditions, consequences, constants, exact_regulation, for_n_o, json, matrix_checks, of_plant, printed,
     relative_degree, sensitivity, sets, verdict,
 };
 use sigmastar_document::{Block, Readable, clean};
@@ -50,6 +50,7 @@ impl Readable for Report<'_> {
         blocks.extend(self.consequences.iter().flat_map(consequences::answers));
         blocks.extend(brief::of_run(run, self.consequences.as_ref(), self.rechecked));
         blocks.push(Block::Detail);
+        blocks.extend(for_n_o::section(run));
         blocks.extend(verdict::detail(run));
         blocks.extend(sets::section(run));
         blocks.extend(of_plant::section(run.spec, run.claimed_set()));

@@ -1,6 +1,7 @@
 //! The report on a certification as JSON.
 
 use super::failures::{FORMAT, VERSION, errors_json};
+use super::for_n_o::rates_json;
 use super::matrix_checks::checks_json;
 use super::obstacles::advice;
 use super::of_plant::plant_json;
@@ -70,6 +71,9 @@ pub(super) fn report(run: &Certification<'_>, consequences: Option<&Consequences
         ("relative_degree", gains_json(run)),
     ] {
         report[name] = value;
+    }
+    if let Some(rates) = rates_json(run) {
+        report["for_n_o"] = rates;
     }
     if let Some(gain) = input_gain(run.spec) {
         report["input_gain"] = gain;

@@ -15,6 +15,7 @@ mod consequences;
 mod constants;
 mod exact_regulation;
 mod failures;
+mod for_n_o;
 mod json;
 mod lyapunov;
 mod matrix_checks;

@@ -4,6 +4,7 @@ use super::shape::{Field, Shape, Sign, any_list, list, may, must};
 use super::{plant, specification};
 use sigmastar_lang::spec::Bound;
 use sigmastar_prove::certificate::{FORMAT, NumberFields, RefinedSquares, VERSION};
+use sigmastar_prove::rate::bound::{MAX_COUNTS, MAX_OSCILLATORS};
 use sigmastar_theory::derivation::exact_regulation::ExactWitness;
 use sigmastar_theory::derivation::paths::Path;
 use sigmastar_theory::derivation::repaired::RepairedWitness;
@@ -143,6 +144,13 @@ fn claim(sampled: bool, of_plant: bool) -> Vec<Field> {
         may("control", "Control", "Bounds of |u| at the gain of the claim.", Shape::Object(control.into())),
         must("statement", "Statement", "The claim in words.", Shape::Text),
     ]);
+    if !sampled {
+        let text = "For each of these n_o, at the gain of the claim alone: |e - e_per| <= factor exp(-rate (t - t_0)).";
+        let mut rate = vec![count()];
+        rate.push(must("rate", "Rate", "In 1/time.", rational()));
+        rate.push(must("factor", "Factor", "For every start in the set, in the unit of e.", rational()));
+        fields.push(may("for_n_o", "For given n_o", text, list(Shape::Object(rate), MAX_COUNTS)));
+    }
     if of_plant {
         let ends = ["nominal", "low", "high"];
         let interval = ends.map(|name| must(name, name, "A value of the parameter.", rational()));
@@ -150,6 +158,21 @@ fn claim(sampled: bool, of_plant: bool) -> Vec<Field> {
         fields.push(may("parameters", "Parameters", text, Shape::Map(Box::new(Shape::Object(interval.into())))));
     }
     fields
+}
+
+/// n_o of a rate.
+fn count() -> Field {
+    must("n_o", "n_o", "The number of oscillators.", Shape::Whole(0, u64::from(MAX_OSCILLATORS)))
+}
+
+/// What proves the rate of one n_o (section 13.6).
+fn rate_witness() -> Shape {
+    let mut fields = vec![count()];
+    let text = "The lower triangle of a matrix for (e, N^(1/2) zeta), by rows.";
+    fields.push(must("Pi", "Pi", text, any_list(any_list(rational()))));
+    fields.extend(numbers(&["e_low", "e_up", "z_up"], "What Pi is between."));
+    fields.extend(["w", "l"].map(|name| may(name, name, "A weight, where x has a part in e.", rational())));
+    Shape::Object(fields)
 }
 
 fn sizes() -> [Field; 3] {
@@ -208,6 +231,10 @@ fn witness(kind: Kind, main: bool) -> Vec<Field> {
         let refined = numbers(RefinedSquares::NAMES, "A root mean square of the periodic solution.");
         fields.push(may("refined", "Refined", "Smaller mean squares.", Shape::Object(refined)));
         let multipliers = numbers(&["l_x", "l_e", "l_f"], "A multiplier.");
+        if main {
+            let text = "What proves the rates of the claim for given n_o.";
+            fields.push(may("for_n_o", "For given n_o", text, list(named("rate_witness", rate_witness()), MAX_COUNTS)));
+        }
         fields.push(may("lmi", "Multipliers", "C5 as a matrix inequality; a figure.", Shape::Object(multipliers)));
     }
     if main {

@@ -42,6 +42,7 @@ mod plant_mutations;
 mod plant_paper;
 mod plant_rules;
 mod plant_support;
+mod rates;
 mod sampled_certificates;
 mod sampled_claims;
 mod sampled_formulas;

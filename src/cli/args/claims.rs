@@ -54,6 +54,11 @@ pub struct CertifyArgs {
     #[arg(long, value_name = "V", allow_hyphen_values = true)]
     pub target_rms: Option<String>,
 
+    /// Prove for each of these numbers of oscillators (at most 8, up to 50), at the gain of the claim alone, a rate and a factor with
+    /// |e - e_per| <= factor exp(-rate (t - t_0)), and put them into the certificate; e.g. `0,4,10`
+    #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
+    pub n_o: Option<String>,
+
     /// Highest working precision in bits, 128 to 4096
     #[arg(long, value_name = "BITS", default_value_t = MAX_PRECISION,
           value_parser = clap::value_parser!(u32).range(i64::from(DEFAULT_PRECISION)..=4096))]

@@ -2,6 +2,7 @@
 
 mod fields;
 mod of_plant;
+mod rates;
 mod read;
 mod read_joint;
 mod read_plant;

@@ -121,7 +121,9 @@ fn claim_part(
         let error = regulator.error(ErrorKind::UnknownField, message);
         return Err(errors.report(error.help("`certify --witness`, `controller` and `check` take it")));
     }
-    for unused in ["verdict", "n_o", "mu", "period", "parameters", "periodic_solution", "control", "statement"] {
+    for unused in
+        ["verdict", "n_o", "mu", "period", "parameters", "periodic_solution", "control", "for_n_o", "statement"]
+    {
         let _ = claim.optional(unused);
     }
     let derivation = claim.required("derivation", errors).and_then(|value| match value.string(errors)? {
@@ -241,6 +243,8 @@ fn read_sharp(
     let witness = SharpWitness::read(fields, errors, |fields, errors| {
         let transfer = read_transfer(fields, errors);
         let _ = fields.optional("lmi");
+        // They are worked out again for the numbers that are asked about.
+        let _ = fields.optional("for_n_o");
         exact = fields
             .optional("exact_regulation")
             .map(|value| {

@@ -2,6 +2,7 @@
 
 use super::fields::{NumberFields, paths_json, set_fields};
 use super::of_plant::plant_parts;
+use super::rates::{claimed_rates, rate_witnesses};
 use super::triple::{lyapunov_parts, rows};
 use crate::certify::{Certification, Decided, ExceededBy, NoPlant, Outcome, Proof, Witness, claimed_ball};
 use rug::{Integer, Rational};
@@ -92,10 +93,10 @@ pub fn certificate_json(run: &Certification<'_>) -> Option<Value> {
             object([("x", upper_end(&x)), ("e", upper_end(&e)), ("zeta", upper_end(&zeta)), ("z", upper_end(&z))]),
         ),
         ("control", control_json(run.control()?)),
-        ("statement", text(statement(run, sigma, set))),
     ];
-    let claim =
-        object(heading.into_iter().chain(input_gain_json(spec)).chain(period).chain(parameters_json(spec)).chain(rest));
+    let said = ("statement", text(statement(run, sigma, set) + &run.rates_in_words()));
+    let names = input_gain_json(spec).into_iter().chain(period).chain(parameters_json(spec)).chain(rest);
+    let claim = object(heading.into_iter().chain(names).chain(claimed_rates(run)).chain([said]));
     let regulation = run.exact.as_ref().map(|exact| {
         let numbers = exact.witness.json().into_iter().chain([paths_json(exact.witness.paths)]);
         ("exact_regulation", object(numbers))
@@ -121,6 +122,7 @@ pub fn certificate_json(run: &Certification<'_>) -> Option<Value> {
         let parts = lyapunov_parts(spec).into_iter().chain(plant_parts(spec));
         fields.extend(parts.map(|(name, value)| (name.to_owned(), value)));
         fields.extend(multipliers_json(run).map(|value| ("lmi".to_owned(), value)));
+        fields.extend(rate_witnesses(run).map(|(name, value)| (name.to_owned(), value)));
     }
     let [embedded, digest] = match spec.plant() {
         Some(_) => ["plant", "plant_sha256"],

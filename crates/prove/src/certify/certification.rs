@@ -6,6 +6,7 @@ use super::no_plant::NoPlant;
 use super::options::Options;
 use super::proof::{Decided, Outcome, Proof, RepairedProof, SharpProof};
 use super::verdict::Verdict;
+use crate::rate::bound::RateForCount;
 use crate::search::{Binding, Datum, OptionalDatum};
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
@@ -102,6 +103,8 @@ pub struct Certification<'s> {
     pub unproved_bounds: Vec<BoundingProblem>,
     /// Every constant in the three derivations.
     pub constants: Vec<Row>,
+    /// For each number of oscillators that was asked about its rate at the gain of the claim.
+    pub for_n_o: Vec<RateForCount>,
     /// The working precision of the table.
     pub precision: u32,
 }

@@ -212,6 +212,7 @@ fn assemble<'s>(
         without_optional,
         unproved_bounds: unproved,
         constants: constants.rows,
+        for_n_o: Vec::new(),
         given_gain: None,
     })
 }

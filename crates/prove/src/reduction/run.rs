@@ -5,8 +5,8 @@ use super::reduce::reduce;
 use super::subject::Sought;
 use super::{FreeNumbers, Subject, Witness};
 use crate::certify::{
-    Alternatives, Certification, Options, Refusal, SampledCertification, Verdict, certify_at, certify_near,
-    certify_sampled, recheck, recheck_sampled,
+    Alternatives, Certification, NoRatesOfClaim, Options, Refusal, SampledCertification, Verdict, certify_at,
+    certify_near, certify_sampled, recheck, recheck_sampled,
 };
 use crate::search::SampledProposal;
 use rug::Rational;
@@ -139,6 +139,18 @@ impl Prepared {
 }
 
 impl Run<'_> {
+    /// Proves rates for these numbers of oscillators at the gain of the claim ([`Certification::prove_rates`]).
+    ///
+    /// # Errors
+    /// Those of [`Certification::prove_rates`], and numbers for the regulator at samples.
+    pub fn prove_rates(&mut self, counts: &[u32]) -> Result<(), NoRatesOfClaim> {
+        match self {
+            Run::Continuous(run) => run.prove_rates(counts),
+            Run::Sampled(_) if counts.is_empty() => Ok(()),
+            Run::Sampled(_) => Err(NoRatesOfClaim::AtSamples),
+        }
+    }
+
     /// The verdict.
     #[must_use]
     pub fn verdict(&self) -> Verdict {

@@ -8,14 +8,14 @@
 //! least like exp(-rate t). The paper's W is U + c (N + kappa P), and its limit for kappa -> oo with eps = c kappa is this one; its
 //! constant nu/(2[...]) has to be nu/(4[...]), because the sum of the two terms of u counts as in `u^2 <= 2 k_x^2 xi^2 + 2 k_e^2 et^2`.
 //!
-//! It uses C5 with the weights of the certificate, which at sigma* leave next to nothing: see [`super::inequality`].
+//! It uses C5 with the weights of the certificate, which at sigma* leave next to nothing: see `sigmastar_prove::rate::inequality`.
 
-use super::oscillators::ProvedLyapunov;
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_matrix::is_positive_definite;
 use sigmastar_prove::certify::SharpProof;
 use sigmastar_prove::lmi::{DecayData, propose_multipliers, verify_decay};
+use sigmastar_prove::rate::oscillators::ProvedLyapunov;
 use sigmastar_theory::data::Data;
 
 /// Shares of the diagonal that are tried for r_x and r_e, as 1 - 2^-k and then 2^-k.

@@ -1,26 +1,20 @@
 //! Rates of convergence for a given number of oscillators: they tend to 0 as n_o grows, while sigma* does not move.
 //!
-//! - [`oscillators`]: P_zeta and the decay rate of `Phi - mu M M'N` (Lemma 1 of the paper, P:lemma:hurwitzPhiM);
-//! - [`inequality`]: the matrix inequality that proves a rate of the closed loop, for any quadratic Lyapunov function;
-//! - [`small_gain`]: the largest rate that the inequality can prove, in floating point;
-//! - [`riccati`]: the Lyapunov function for it, by a Riccati equation;
-//! - [`by_kappa`]: a rate by the paper's constants c and kappa, for comparison.
+//! Those of the oscillators alone and of the closed loop are proved in `sigmastar_prove::rate`; [`by_kappa`] is a rate by the paper's
+//! constants c and kappa, for comparison.
 
 pub mod by_kappa;
-pub mod inequality;
-pub mod oscillators;
-pub mod riccati;
-pub mod small_gain;
 
 use by_kappa::RateByKappa;
-use inequality::{ErrorDynamics, LoopBounds};
-use oscillators::{OscillatorMatrix, ProvedLyapunov};
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, round_rational};
 use sigmastar_prove::certify::{Certification, NoPlant, SharpProof, Verdict};
+use sigmastar_prove::rate::inequality::{ErrorDynamics, LoopBounds};
+use sigmastar_prove::rate::oscillators::{OscillatorMatrix, ProvedLyapunov};
+use sigmastar_prove::rate::riccati;
+use sigmastar_prove::rate::small_gain::SmallGain;
 use sigmastar_theory::data::Data;
-use small_gain::SmallGain;
 
 /// The largest number of oscillators for which rates are worked out: matrices of order up to 407.
 pub const MAX_OSCILLATORS: u32 = 200;
@@ -122,9 +116,9 @@ fn at(
         spectral.and_then(|spectral| SHARES.iter().find_map(|share| prove(share * spectral)).map(|proved| proved.rate));
     let lemma: Option<ProvedLyapunov> = prove(0.0);
     let by_kappa = lemma.as_ref().zip(by_kappa).map(|(lemma, by_kappa)| by_kappa.rate(lemma));
-    let own = bounds.zip(eigen.as_ref()).and_then(|(bounds, eigen)| {
-        let dynamics = ErrorDynamics { oscillators: &system, sigma: sigma.clone(), bounds };
-        let condition = SmallGain::new(&dynamics, eigen.values());
+    let own = bounds.and_then(|bounds| {
+        let dynamics = ErrorDynamics { oscillators: &system, sigma: sigma.clone(), bounds, input_gain: None };
+        let condition = SmallGain::new(&dynamics)?;
         riccati::propose_and_prove(&dynamics, &condition).map(|witness| (witness.rate, Method::Riccati))
     });
     let weaker = by_kappa.as_ref().and_then(Enclosure::lower_rational).filter(|rate| *rate > 0);

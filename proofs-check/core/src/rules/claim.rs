@@ -2,6 +2,7 @@
 
 use super::common::Evaluated;
 use super::control::NAMES;
+use super::rates::Rate;
 use super::sampled::claim::{N_O, Regulator};
 use super::set::ClaimedSet;
 use crate::constant::Constant;
@@ -34,6 +35,8 @@ pub struct Claim<'a> {
     pub periodic: Field<'a>,
     /// Bounds of the control, where they are claimed.
     pub control: Option<Field<'a>>,
+    /// The rates for given numbers of oscillators that it claims besides.
+    pub rates: Vec<Rate<'a>>,
     /// The claim in words.
     pub statement: Field<'a>,
     /// The radius of the ball that the set of a plant contains, with its place and as it is written.
@@ -104,7 +107,12 @@ impl<'a> Claim<'a> {
         let ball = if has_ball { Some(set.required("ball")?) } else { None };
         let ball = ball.map(|field| field.rational().map(|value| (value, field))).transpose()?;
         set.finish()?;
+        let rates = fields.optional("for_n_o").map(|field| match sampled {
+            None => Rate::read_all(&field),
+            Some(_) => bad(&field.pointer, "rates for given n_o are those of the regulator in continuous time"),
+        });
         let claim = Claim {
+            rates: rates.transpose()?.unwrap_or_default(),
             sigma,
             sampled,
             set: numbers,
@@ -170,13 +178,15 @@ impl<'a> Claim<'a> {
             }
             fields.finish()?;
         }
-        match &spec.plant {
-            None => reads(RULE, &self.statement, &self.in_words(spec)),
+        let statement = match &spec.plant {
+            None => self.in_words(spec),
             Some(plant) => {
                 self.check_ball(plant)?;
-                reads(RULE, &self.statement, &self.of_plant(spec, plant, family)?)
+                self.of_plant(spec, plant, family)?
             }
-        }
+        };
+        let besides: String = self.rates.iter().map(|rate| rate.in_words(self.sigma_text)).collect();
+        reads(RULE, &self.statement, &(statement + &besides))
     }
 
     /// The set contains the ball (docs/mathematics.md, section 11.5), and the ball is no smaller than the one that is asked for.

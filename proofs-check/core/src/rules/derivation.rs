@@ -73,6 +73,11 @@ impl Derivation {
         }
     }
 
+    /// Whether the error decays by C5, in continuous time.
+    pub fn rests_on_norms(&self) -> bool {
+        matches!(&self.witness, Witness::Sharp(w) if matches!(w.stability, sharp::Stability::Norms))
+    }
+
     /// The numbers that both regulators have. X_p and E_p bound the periodic solution exactly.
     pub fn free(&self) -> &Free {
         match &self.witness {

@@ -12,6 +12,7 @@ pub mod joint;
 pub mod mean_squares;
 pub mod metric;
 pub mod paths;
+pub mod rates;
 pub mod regulation;
 pub mod sampled;
 pub mod set;

@@ -1,0 +1,150 @@
+//! Rates for given numbers of oscillators, as a part of a claim in continuous time (derivation, 13.6).
+
+use super::certification::Certification;
+use super::proof::Proof;
+use crate::rate::bound::{MAX_COUNTS, MAX_OSCILLATORS, Place, RateBound, RateForCount, bound};
+use rayon::prelude::*;
+use sigmastar_exact::number::write_exact;
+use sigmastar_theory::data::Data;
+use sigmastar_theory::derivation::initial_set::claimed_distances;
+use sigmastar_theory::derivation::matrix_inequality;
+
+/// Why a claim can have no rates for given numbers of oscillators.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NoRatesOfClaim {
+    /// It is about the regulator at samples.
+    AtSamples,
+    /// Its stability is proved by (M): it has no norms of the error system.
+    ByMatrix,
+    /// By (Jm).
+    ByJointMetrics,
+    /// So many numbers were asked for.
+    TooMany(usize),
+    /// This number is beyond the largest one.
+    Beyond(u32),
+}
+
+impl NoRatesOfClaim {
+    /// What is wrong; `option` is the list of numbers as the user writes it.
+    #[must_use]
+    pub fn message(self, option: &str) -> String {
+        let by = |form: &str| {
+            format!(
+                "{option}: not available for a claim by {form}: rates are proved from norms of the error system, which it does not have"
+            )
+        };
+        match self {
+            NoRatesOfClaim::AtSamples => {
+                format!(
+                    "{option}: not available for the regulator at samples: rates for given n_o are of continuous time"
+                )
+            }
+            NoRatesOfClaim::ByMatrix => by("(M)"),
+            NoRatesOfClaim::ByJointMetrics => by("(Jm)"),
+            NoRatesOfClaim::TooMany(count) => {
+                format!("{option}: {count} numbers of oscillators; at most {MAX_COUNTS} go into one certificate")
+            }
+            NoRatesOfClaim::Beyond(n_o) => {
+                format!(
+                    "{option}: n_o = {n_o} is beyond {MAX_OSCILLATORS}, the largest of which a certificate has a rate"
+                )
+            }
+        }
+    }
+
+    /// What to try.
+    #[must_use]
+    pub fn help(self) -> &'static str {
+        match self {
+            NoRatesOfClaim::AtSamples => "leave it or the sampling period out",
+            NoRatesOfClaim::ByMatrix | NoRatesOfClaim::ByJointMetrics => {
+                "leave it out; a bounding specification of the plant (`sigmastar bound`) has a claim by norms"
+            }
+            NoRatesOfClaim::TooMany(_) => "ask for fewer, or write several certificates",
+            NoRatesOfClaim::Beyond(_) => {
+                "ask for smaller numbers; `sigmastar rate` goes further, without a certificate"
+            }
+        }
+    }
+}
+
+/// The numbers in order, each once.
+///
+/// # Errors
+/// More than [`MAX_COUNTS`] different ones, and one beyond [`MAX_OSCILLATORS`].
+pub fn rate_counts(asked: &[u32]) -> Result<Vec<u32>, NoRatesOfClaim> {
+    let mut counts = asked.to_vec();
+    counts.sort_unstable();
+    counts.dedup();
+    match (counts.len(), counts.last()) {
+        (_, Some(last)) if *last > MAX_OSCILLATORS => Err(NoRatesOfClaim::Beyond(*last)),
+        (count, _) if count > MAX_COUNTS => Err(NoRatesOfClaim::TooMany(count)),
+        _ => Ok(counts),
+    }
+}
+
+impl Certification<'_> {
+    /// Proves rates for these numbers of oscillators at the gain of the claim, and makes them a part of it; without a claim there are none.
+    ///
+    /// Guarantee: for each bound that is proved, with so many oscillators, at the claimed gain and no other, every solution from the
+    /// claimed set has `|e(t) - e_per(t)| <= factor exp(-rate (t - t_0))`.
+    ///
+    /// # Errors
+    /// Those of [`rate_counts`], and a claim that does not rest on norms.
+    pub fn prove_rates(&mut self, asked: &[u32]) -> Result<(), NoRatesOfClaim> {
+        let counts = rate_counts(asked)?;
+        if counts.is_empty() {
+            self.for_n_o = Vec::new();
+            return Ok(());
+        }
+        let found = match (self.claim(), self.sharp.proved()) {
+            (Some(_), Some(Proof { witness, evaluation, precision })) => {
+                let data = Data::new(self.spec, *precision);
+                if self.spec.bounds.proved_values().joint_stability().is_some() {
+                    return Err(NoRatesOfClaim::ByJointMetrics);
+                }
+                if matrix_inequality::proved_for(&data, &witness.w_x, &witness.h).is_some() {
+                    return Err(NoRatesOfClaim::ByMatrix);
+                }
+                let periodic = [&evaluation.periodic.x_per, &evaluation.periodic.e_per, &evaluation.z];
+                let distances = claimed_distances(&data, &witness.set, periodic);
+                let place =
+                    Place { sigma: &witness.sigma, error_box: &evaluation.error_box, distances: distances.each_ref() };
+                let of = |n_o: &u32| RateForCount { n_o: *n_o, bound: bound(&data, &place, *n_o) };
+                counts.par_iter().map(of).collect()
+            }
+            _ => Vec::new(),
+        };
+        self.for_n_o = found;
+        Ok(())
+    }
+
+    /// The sentences of the claim about them, each with a space before it.
+    #[must_use]
+    pub fn rates_in_words(&self) -> String {
+        let Some(sigma) = self.sigma_star().map(write_exact) else { return String::new() };
+        let sentence = |RateBound { n_o, witness, factor, .. }: &RateBound| {
+            format!(
+                " With n_o = {n_o} and sigma = {sigma} exactly also |e(t) - e_per(t)| <= {} exp(-{} (t - t_0)) for these solutions, e_per \
+                 that of the periodic solution and t_0 the initial time.",
+                write_exact(factor),
+                write_exact(&witness.rate),
+            )
+        };
+        self.for_n_o.iter().filter_map(|found| found.bound.as_ref()).map(sentence).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_few_small_and_different() {
+        assert_eq!(rate_counts(&[4, 0, 50, 4]), Ok(vec![0, 4, 50]));
+        assert_eq!(rate_counts(&[]), Ok(Vec::new()));
+        assert_eq!(rate_counts(&[1, 51]), Err(NoRatesOfClaim::Beyond(51)));
+        assert_eq!(rate_counts(&[0, 1, 2, 3, 4, 5, 6, 7, 8]), Err(NoRatesOfClaim::TooMany(9)));
+        assert!(rate_counts(&[7; 20]).is_ok());
+    }
+}

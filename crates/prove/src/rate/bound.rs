@@ -1,0 +1,142 @@
+//! From a rate to a bound of the error: `|e(t) - e_per(t)| <= C exp(-rate (t - t_0))` for every start in a set, at one n_o and one
+//! gain (derivation, section 13.6).
+//!
+//! With the W of [`super::inequality`], `Pi >= diag(e_low, 0)` and `Pi <= diag(e_up, z_up I)`,
+//! `et(t)^2 <= W(t)/e_low <= exp(-2 rate (t - t_0)) W(t_0)/e_low` and `W(t_0) <= w P_up dX^2 + e_up dE^2 + z_up dZ^2` where
+//! |xt| <= dX, |et| <= dE and |zt|_N <= dZ at t_0: so C^2 is that sum over e_low.
+
+use super::inequality::{ErrorDynamics, LoopBounds, RateWitness, is_definite};
+use super::oscillators::OscillatorMatrix;
+use super::riccati::{Proposal, propose};
+use super::small_gain::{Limit, SmallGain};
+use faer::linalg::solvers::DenseSolveCore;
+use faer::{Mat, Side};
+use rug::Rational;
+use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_exact::number::{Direction, Portable, round_f64, round_rational};
+use sigmastar_theory::data::Data;
+use sigmastar_theory::derivation::stability::ErrorBox;
+
+/// The largest number of oscillators of which a certificate has a rate.
+pub const MAX_OSCILLATORS: u32 = 50;
+
+/// The most numbers of oscillators of one certificate.
+pub const MAX_COUNTS: usize = 8;
+
+/// Shares of the largest rate that are claimed, in this order; nearer to it C would be large and the numbers long.
+const SHARES: [f64; 4] = [0.95, 0.8, 0.5, 0.2];
+
+/// Digits of Pi that are tried.
+const DIGITS: [u32; 4] = [6, 9, 12, 16];
+
+/// By what share the diagonal bounds of Pi may differ from the best ones.
+const ROOM: f64 = 1e-3;
+
+/// Where the error lives: what a claim by norms says of its error box, and from how far its solutions start.
+pub struct Place<'a> {
+    /// The gain of the claim, in 1/time.
+    pub sigma: &'a Rational,
+    /// The error box, which no solution from the set leaves at this gain.
+    pub error_box: &'a ErrorBox<Enclosure>,
+    /// dX, dE, dZ.
+    pub distances: [&'a Enclosure; 3],
+}
+
+/// A proved bound `|e - e_per| <= factor exp(-rate (t - t_0))` for one n_o.
+#[derive(Clone, Debug)]
+pub struct RateBound {
+    /// n_o.
+    pub n_o: u32,
+    /// The rate, in 1/time, and what proves it.
+    pub witness: RateWitness,
+    /// Whether x counts in W.
+    pub has_x: bool,
+    /// e_low: `Pi >= diag(e_low, 0)`.
+    pub e_low: Rational,
+    /// e_up and z_up: `Pi <= diag(e_up, z_up I)`.
+    pub upper: [Rational; 2],
+    /// C, in the unit of e.
+    pub factor: Rational,
+    /// What limits the rate.
+    pub limit: Limit,
+}
+
+/// What was found for one n_o that was asked about.
+#[derive(Clone, Debug)]
+pub struct RateForCount {
+    /// n_o.
+    pub n_o: u32,
+    /// The bound; `None` where none was proved, which says nothing either way.
+    pub bound: Option<RateBound>,
+}
+
+/// The best bound that is found; `None` where nothing is proved.
+///
+/// Guarantee: for every solution that stays in the error box of `place` from a start within its distances, at its gain, with n_o
+/// oscillators and every input gain of the data, `|e(t) - e_per(t)| <= factor exp(-rate (t - t_0))`, whoever the plant is of which the
+/// bounds of the error box hold.
+#[must_use]
+pub fn bound(data: &Data<'_>, place: &Place<'_>, n_o: u32) -> Option<RateBound> {
+    let bounds = LoopBounds::of_error(data, place.error_box)?;
+    let oscillators = OscillatorMatrix::new(data, n_o);
+    let input_gain = data.input_gain.as_ref().map(|gain| [gain.low.clone(), gain.high.clone()]);
+    let dynamics = ErrorDynamics { oscillators: &oscillators, sigma: place.sigma.clone(), bounds: &bounds, input_gain };
+    let condition = SmallGain::new(&dynamics)?;
+    let largest = condition.largest_rate()?;
+    SHARES.iter().find_map(|share| {
+        let proposal = propose(&condition, largest, *share)?;
+        DIGITS.iter().find_map(|digits| {
+            let witness = proposal.in_digits(*digits)?;
+            if !dynamics.proves(&witness) {
+                return None;
+            }
+            let [e_low, upper @ ..] = diagonal_bounds(&proposal, place.distances)?;
+            let precision = data.precision;
+            let number = |value: &Rational| Enclosure::from_rational(value, precision);
+            let pi = |i: usize, j: usize| number(&witness.pi[i][j]);
+            let n = witness.pi.len();
+            let above = |i: usize, j: usize| if (i, j) == (0, 0) { pi(0, 0) - number(&e_low) } else { pi(i, j) };
+            let below = |i: usize, j: usize| match i == j {
+                true => number(&upper[usize::from(i > 0)]) - pi(i, i),
+                false => pi(i, j).negate(),
+            };
+            if !(is_definite(n, above) && is_definite(n, below)) {
+                return None;
+            }
+            let [of_x, of_e, of_zeta] = place.distances;
+            let w = if bounds.has_x { number(&witness.w) } else { data.zero() };
+            let start =
+                w * &data.p_up * of_x.sqr() + number(&upper[0]) * of_e.sqr() + number(&upper[1]) * of_zeta.sqr();
+            let factor = (start / number(&e_low)).sqrt().upper_rational()?;
+            let factor = round_rational(&factor, 6, Direction::Up);
+            let (has_x, limit) = (bounds.has_x, condition.limit());
+            Some(RateBound { n_o, witness, has_x, e_low, upper, factor, limit })
+        })
+    })
+}
+
+/// e_low, e_up, z_up in floating point, rounded to the safe side: of all `diag(e_up, z_up I) >= Pi` one for which
+/// `e_up dE^2 + z_up dZ^2` is about least.
+fn diagonal_bounds(Proposal { pi, .. }: &Proposal, [_, of_e, of_zeta]: [&Enclosure; 3]) -> Option<[Rational; 3]> {
+    let n = pi.nrows();
+    let rest = Mat::from_fn(n - 1, n - 1, |i, j| pi[(i + 1, j + 1)]);
+    let eigen = rest.self_adjoint_eigen(Side::Lower).ok()?;
+    let values: Vec<f64> = eigen.S().column_vector().iter().copied().collect();
+    let vectors = eigen.U();
+    let along = |k: usize| (0..n - 1).map(|i| vectors[(i, k)] * pi[(i + 1, 0)]).sum::<f64>();
+    let squares: Vec<f64> = (0..n - 1).map(|k| along(k).portable_powi(2)).collect();
+    let largest = values.iter().copied().fold(0.0, f64::max);
+    let [of_e, of_zeta] = [of_e, of_zeta].map(|distance| distance.upper_f64().portable_powi(2));
+    // The Schur complement, for z_up above the largest eigenvalue.
+    let of = |z_up: f64| {
+        pi[(0, 0)] + squares.iter().zip(&values).map(|(square, value)| square / (z_up - value)).sum::<f64>()
+    };
+    let cost = |z_up: f64| of(z_up) * of_e + z_up * of_zeta;
+    let candidates = (0..60).map(|k| largest * (1.0 + ROOM * 1.3f64.portable_powi(k)));
+    let z_up = candidates.min_by(|a, b| cost(*a).total_cmp(&cost(*b)))?;
+    let inverse = pi.partial_piv_lu().inverse();
+    let low = round_f64((1.0 - ROOM) / inverse[(0, 0)], 6, Direction::Down)?;
+    let up = [(1.0 + ROOM) * of(z_up), z_up].map(|value| round_f64(value, 6, Direction::Up));
+    let [e_up, z_up] = up;
+    Some([low, e_up?, z_up?]).filter(|all| all[0] > 0)
+}

@@ -1,0 +1,240 @@
+//! A decay rate of the closed loop for a given n_o, from any quadratic Lyapunov function that serves in the error box: (R) of
+//! derivation, section 13.6.
+//!
+//! C4 and C5 keep the solution in the error box of the certificate (derivation, section 5). There the following holds whatever
+//! Lyapunov function proved it, so that a rate may come from another one, made for one n_o and one gain. With
+//! `zs = N^(1/2) zt`, `b = N^(1/2) M`, `y = (et, zs)`, xi^2 = xt'P_x xt, and delta in [-k_l, m] from dq/de,
+//!
+//!   `y' = (A + delta B e') y + B u_x`,  `A = [[-sigma, mu b'], [0, Phi - mu b b']]`,  `B = (1, -b)`,  `e = (1, 0)`,
+//!   `(xi^2)' <= -2 a_2 xi^2 + 2 sqrt(P_up) k_f xi |et|`,  |u_x| <= k_x xi.
+//!
+//! For `W = w xi^2 + y'Pi y` with w > 0, Pi positive definite and l > 0, let M(mu, delta) be the symmetric matrix of
+//!
+//!   `2 w (a_2 - rate) xi^2 - 2 w sqrt(P_up) k_f xi et - 2 y'Pi (A + delta B e' + rate) y - 2 y'Pi B u_x + l (u_x^2 - k_x^2 xi^2)`
+//!
+//! in v = (xi, y, u_x). If it is positive definite at delta = -k_l and at delta = m, then `W' <= -2 rate W`.
+//! Proof: M is affine in delta, so it is positive definite for every delta between; where et < 0 take (xi, -y, -u_x) for v; then
+//! `-(W' + 2 rate W) >= v'M v + l (k_x^2 xi^2 - u_x^2) >= 0`. QED
+//!
+//! - *Input gain b* (13.1): the loop is that of gain 1 with b mu for mu and delta + (1-b) sigma for delta. M is affine in
+//!   (b, delta), so the four corners serve every b of the interval, with one W.
+//! - *Bounds in the harder direction.* The relations above stay true with a smaller a_2 and with larger sqrt(P_up) (as w > 0), k_x,
+//!   k_l, m and k_f. So M is written with rational bounds of these numbers and what it proves holds for the true ones; no
+//!   monotonicity of M is needed. mu, w and the roots in b are enclosed: M and Pi are proved positive definite for every value in
+//!   the enclosures.
+//! - *The gain.* A has this sigma in it, and Pi a product of et and zs, so the rate is claimed for this gain only. The error box
+//!   is that of sigma*, and serves every larger gain.
+//! - *Without k_x* u_x is 0, and has no row. Of et and zs alone xi can then be left out too: their equations do not have it.
+//! - *Without x.* If b_f is 0 on the error box, f = 0 there, so `F = 0` and `P_x' <= -2 alpha P_x`, which no P_x >= P_low I on the
+//!   whole line satisfies unless n = 0. Then xi and u_x are left out, and with them the bound a_2 of the rate.
+
+use super::oscillators::OscillatorMatrix;
+use rug::Rational;
+use sigmastar_exact::enclosure::{Enclosure, Truth};
+use sigmastar_matrix::ScaledMatrix;
+use sigmastar_theory::data::{Bound, Data, Problem};
+use sigmastar_theory::derivation::stability::ErrorBox;
+
+/// What bounds the nonlinear terms in the error box, each in the harder direction.
+#[derive(Clone, Debug)]
+pub struct LoopBounds {
+    /// Whether xi counts; if not, xi and u_x are left out.
+    pub has_x: bool,
+    /// A lower bound of a_2 (alpha - gam, or better), in 1/time.
+    pub x_decay: Rational,
+    /// An upper bound of sqrt(P_up).
+    pub root_p_up: Rational,
+    /// An upper bound of k_x.
+    pub k_x: Rational,
+    /// An upper bound of k_f.
+    pub k_f: Rational,
+    /// Bounds of dq/de: -k_l and m.
+    pub slopes: [Rational; 2],
+}
+
+impl LoopBounds {
+    /// The bounds on an error box, of the whole state (x, e, zeta); `None` if one of them is not bounded.
+    #[must_use]
+    pub fn new(data: &Data<'_>, error_box: &ErrorBox<Enclosure>) -> Option<LoopBounds> {
+        let has_x = data.bound(Bound::F, &error_box.x_b, &error_box.e_b).upper_rational()? != 0;
+        LoopBounds::with(data, error_box, has_x)
+    }
+
+    /// Those of (e, zeta) alone, which x reaches through k_x only; `None` if one of them is not bounded.
+    #[must_use]
+    pub fn of_error(data: &Data<'_>, error_box: &ErrorBox<Enclosure>) -> Option<LoopBounds> {
+        let has_x = error_box.k_x.upper_rational()? != 0;
+        LoopBounds::with(data, error_box, has_x)
+    }
+
+    fn with(data: &Data<'_>, error_box: &ErrorBox<Enclosure>, has_x: bool) -> Option<LoopBounds> {
+        let of_x = |k: &Enclosure| if has_x { k.upper_rational() } else { Some(Rational::new()) };
+        let sector = &error_box.sector;
+        Some(LoopBounds {
+            has_x,
+            x_decay: if has_x { error_box.rate.lower_rational()? } else { Rational::new() },
+            root_p_up: data.p_up.sqrt().upper_rational()?,
+            k_x: of_x(&error_box.k_x)?,
+            k_f: of_x(&error_box.k_f)?,
+            slopes: [-sector.below.upper_rational()?, sector.above.upper_rational()?],
+        })
+    }
+}
+
+/// The error system of one n_o at one gain.
+pub struct ErrorDynamics<'a> {
+    /// The internal model.
+    pub oscillators: &'a OscillatorMatrix,
+    /// The gain, in 1/time.
+    pub sigma: Rational,
+    /// The bounds of the rest.
+    pub bounds: &'a LoopBounds,
+    /// The ends of an input gain b that is known to an interval; none where it is 1.
+    pub input_gain: Option<[Enclosure; 2]>,
+}
+
+/// The numbers of a proof.
+#[derive(Clone, Debug)]
+pub struct RateWitness {
+    /// The rate, in 1/time.
+    pub rate: Rational,
+    /// w; of no account where xi is left out.
+    pub w: Rational,
+    /// The lower triangle of Pi on (et, zs), row by row; of order 2 n_o + 2.
+    pub pi: Vec<Vec<Rational>>,
+    /// l; of no account where u_x is left out.
+    pub l: Rational,
+}
+
+/// The signals of the quadratic form.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Signal {
+    Xi,
+    /// An entry of y = (et, zs).
+    Y(usize),
+    Ux,
+}
+
+impl ErrorDynamics<'_> {
+    /// The corners (b, delta): what stands before mu, and what is added at u to e.
+    fn corners(&self) -> Vec<[Enclosure; 2]> {
+        let precision = self.oscillators.mu.precision();
+        let (one, number) = (Enclosure::one(precision), |value: &Rational| Enclosure::from_rational(value, precision));
+        let ends = self.input_gain.as_ref().map_or_else(|| vec![one.clone()], |ends| ends.to_vec());
+        let at = |b: &Enclosure, slope: &Rational| {
+            let moved = (&one - b) * number(&self.sigma);
+            [b.clone(), if self.input_gain.is_some() { moved + number(slope) } else { number(slope) }]
+        };
+        ends.iter().flat_map(|b| self.bounds.slopes.each_ref().map(|slope| at(b, slope))).collect()
+    }
+
+    /// Whether the numbers prove their rate, as the module says.
+    ///
+    /// Guarantee: if true, then for every solution that stays in the error box W falls at least like exp(-2 rate t), with W
+    /// positive definite. If false, nothing is known.
+    #[must_use]
+    pub fn proves(&self, witness: &RateWitness) -> bool {
+        let n = self.oscillators.order() + 1;
+        let triangle = witness.pi.len() == n && witness.pi.iter().enumerate().all(|(i, row)| row.len() == i + 1);
+        if !triangle || (self.bounds.has_x && witness.w <= 0) {
+            return false;
+        }
+        let form = Form::new(self, witness);
+        is_definite(n, |i, j| form.at(i, j))
+            && self.corners().iter().all(|corner| {
+                let row = form.corner(corner);
+                is_definite(form.signals.len(), |i, j| form.entry(&row, form.signals[i], form.signals[j]))
+            })
+    }
+}
+
+/// Whether a symmetric matrix is proved positive definite.
+pub(super) fn is_definite(order: usize, entry: impl Fn(usize, usize) -> Enclosure + Sync) -> bool {
+    ScaledMatrix::from_enclosures(order, entry).is_some_and(|matrix| matrix.is_positive_definite() == Truth::True)
+}
+
+/// The matrix M, entry by entry.
+struct Form<'a> {
+    dynamics: &'a ErrorDynamics<'a>,
+    signals: Vec<Signal>,
+    /// Pi, row by row.
+    pi: Vec<Enclosure>,
+    /// Pi B.
+    image: Vec<Enclosure>,
+    /// For each entry of y the one entry of that column of blkdiag(-sigma, Phi): its row and value.
+    columns: Vec<Option<(usize, Enclosure)>>,
+    twice_rate: Enclosure,
+    w: Enclosure,
+    l: Enclosure,
+}
+
+impl<'a> Form<'a> {
+    fn new(dynamics: &'a ErrorDynamics<'a>, witness: &RateWitness) -> Form<'a> {
+        let oscillators = dynamics.oscillators;
+        let precision = oscillators.mu.precision();
+        let number = |value: &Rational| Enclosure::from_rational(value, precision);
+        let n = oscillators.order() + 1;
+        let pi: Vec<Enclosure> = (0..n)
+            .flat_map(|i| (0..n).map(move |j| (i.max(j), i.min(j))))
+            .map(|(i, j)| number(&witness.pi[i][j]))
+            .collect();
+        let input = |i: usize| match i.checked_sub(1) {
+            None => Enclosure::one(precision),
+            Some(state) => oscillators.b[state].negate(),
+        };
+        // B is zero at every second state.
+        let inputs: Vec<(usize, Enclosure)> = (0..n).filter(|j| *j < 2 || j % 2 == 0).map(|j| (j, input(j))).collect();
+        let image = (0..n)
+            .map(|i| inputs.iter().fold(Enclosure::zero(precision), |sum, (j, b)| sum + &pi[i * n + j] * b))
+            .collect();
+        let mut columns = vec![Some((0, number(&dynamics.sigma).negate()))];
+        columns.extend((0..n - 1).map(|column| oscillators.phi(column).map(|(row, entry)| (row + 1, entry))));
+        let mut signals = Vec::with_capacity(n + 2);
+        signals.extend(dynamics.bounds.has_x.then_some(Signal::Xi));
+        signals.extend((0..n).map(Signal::Y));
+        signals.extend((dynamics.bounds.k_x != 0).then_some(Signal::Ux));
+        let (twice_rate, w, l) = (number(&witness.rate) * 2, number(&witness.w), number(&witness.l));
+        Form { signals, pi, image, columns, twice_rate, w, l, dynamics }
+    }
+
+    fn at(&self, i: usize, j: usize) -> Enclosure {
+        self.pi[i * self.image.len() + j].clone()
+    }
+
+    /// The row `(delta, b mu b')` of a corner: what comes back to the input B.
+    fn corner(&self, [gain, slope]: &[Enclosure; 2]) -> Vec<Enclosure> {
+        let mu = gain * &self.dynamics.oscillators.mu;
+        std::iter::once(slope.clone()).chain(self.dynamics.oscillators.b.iter().map(|b| &mu * b)).collect()
+    }
+
+    /// The entry of two signals, in either order, at a corner.
+    fn entry(&self, row: &[Enclosure], first: Signal, second: Signal) -> Enclosure {
+        use Signal::{Ux, Xi, Y};
+        let LoopBounds { x_decay, root_p_up, k_x, k_f, .. } = self.dynamics.bounds;
+        let number = |value: &Rational| Enclosure::from_rational(value, self.twice_rate.precision());
+        match (first, second) {
+            (Xi, Xi) => &self.w * (number(x_decay) * 2 - &self.twice_rate) - &self.l * number(k_x).sqr(),
+            (Xi, Y(0)) | (Y(0), Xi) => (&self.w * number(root_p_up) * number(k_f)).negate(),
+            (Y(i), Y(j)) => self.linear(row, i, j),
+            (Y(i), Ux) | (Ux, Y(i)) => self.image[i].negate(),
+            (Ux, Ux) => self.l.clone(),
+            _ => Enclosure::zero(self.twice_rate.precision()),
+        }
+    }
+
+    /// `-(Pi A + A'Pi + 2 rate Pi)_ij`, from `A = blkdiag(-sigma, Phi) + B row`.
+    fn linear(&self, row: &[Enclosure], i: usize, j: usize) -> Enclosure {
+        let n = self.image.len();
+        let half = |i: usize, j: usize| {
+            let feedback = &self.image[i] * &row[j];
+            match &self.columns[j] {
+                Some((row, entry)) => feedback + &self.pi[i * n + row] * entry,
+                None => feedback,
+            }
+        };
+        (half(i, j) + half(j, i) + &self.twice_rate * &self.pi[i * n + j]).negate()
+    }
+}
+
+#[cfg(test)]
+mod tests;

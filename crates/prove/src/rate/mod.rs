@@ -1,0 +1,13 @@
+//! Rates of convergence for a given number of oscillators: they tend to 0 as n_o grows, while sigma* does not move.
+//!
+//! - [`oscillators`]: P_zeta and the decay rate of `Phi - mu M M'N` (Lemma 1 of the paper, P:lemma:hurwitzPhiM);
+//! - [`inequality`]: the matrix inequality that proves a rate of the closed loop, for any quadratic Lyapunov function;
+//! - [`small_gain`]: the largest rate that the inequality can prove, in floating point;
+//! - [`riccati`]: the Lyapunov function for it, by a Riccati equation;
+//! - [`bound`]: from a rate to `|e - e_per| <= C exp(-rate (t - t_0))` on a set of starts, as a certificate has it.
+
+pub mod bound;
+pub mod inequality;
+pub mod oscillators;
+pub mod riccati;
+pub mod small_gain;

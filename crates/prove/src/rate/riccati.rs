@@ -1,0 +1,154 @@
+//! Pi of the closed loop's Lyapunov function, proposed by a Riccati equation in floating point.
+
+use super::inequality::{ErrorDynamics, RateWitness};
+use super::small_gain::{FloatDynamics, SmallGain};
+use faer::linalg::solvers::DenseSolveCore;
+use faer::{Mat, c64};
+use rug::Rational;
+use sigmastar_exact::number::{Direction, Portable, round_f64};
+
+/// Shares of the largest rate that are claimed, in this order.
+const SHARES: [f64; 5] = [0.9999, 0.999, 0.99, 0.9, 0.5];
+
+/// The largest share of the rate that can be proved with Pi from the Riccati equation
+/// `Pi (A_c + rate' I) + (.)' + c e e' + c_v v v' + beta Pi B B'Pi = 0` at a rate' halfway between the claimed and the largest one: the
+/// difference leaves the term 2 (rate' - rate) Pi in the matrix, which makes it definite.
+///
+/// Guarantee: the rate of the witness is proved; `None` if none is.
+#[must_use]
+pub fn propose_and_prove(dynamics: &ErrorDynamics<'_>, condition: &SmallGain) -> Option<RateWitness> {
+    let largest = condition.largest_rate()?;
+    SHARES.iter().find_map(|share| {
+        let witness = propose(condition, largest, *share)?.exact()?;
+        dynamics.proves(&witness).then_some(witness)
+    })
+}
+
+/// The numbers of a proof in doubles, with l = 1.
+#[derive(Clone, Debug)]
+pub struct Proposal {
+    /// The rate, rounded down.
+    pub rate: Rational,
+    /// w.
+    pub w: f64,
+    /// Pi.
+    pub pi: Mat<f64>,
+}
+
+impl Proposal {
+    /// The witness with each double as the number that it is; `None` if one is not finite.
+    #[must_use]
+    pub fn exact(&self) -> Option<RateWitness> {
+        self.rounded(Rational::from_f64)
+    }
+
+    /// The witness with w and each entry of Pi to so many digits, 0 where it is beyond those of its diagonal; `None` if one is not finite.
+    #[must_use]
+    pub fn in_digits(&self, digits: u32) -> Option<RateWitness> {
+        let least = 0.1f64.portable_powi(digits as i32 + 1);
+        let mut witness = self.rounded(|value| round_f64(value, digits, Direction::Nearest))?;
+        for (i, row) in witness.pi.iter_mut().enumerate() {
+            for (j, entry) in row.iter_mut().enumerate() {
+                if self.pi[(i, j)].abs() < least * (self.pi[(i, i)] * self.pi[(j, j)]).sqrt() {
+                    *entry = Rational::new();
+                }
+            }
+        }
+        Some(witness)
+    }
+
+    fn rounded(&self, round: impl Fn(f64) -> Option<Rational>) -> Option<RateWitness> {
+        let entries = |i: usize| (0..=i).map(|j| round(self.pi[(i, j)])).collect::<Option<Vec<Rational>>>();
+        let pi = (0..self.pi.nrows()).map(entries).collect::<Option<Vec<_>>>()?;
+        Some(RateWitness { rate: self.rate.clone(), w: round(self.w)?, pi, l: Rational::from(1) })
+    }
+}
+
+/// A proposal for a share of the largest rate.
+#[must_use]
+pub fn propose(condition: &SmallGain, largest: f64, share: f64) -> Option<Proposal> {
+    let shifted = largest * (1.0 + share) / 2.0;
+    let multipliers = condition.multipliers(shifted)?;
+    let FloatDynamics { matrix, input, moved, .. } = &condition.dynamics;
+    let n = input.len();
+    let a = Mat::from_fn(n, n, |i, j| matrix[(i, j)] + if i == j { shifted } else { 0.0 });
+    let output = Mat::from_fn(n, n, |i, j| {
+        let of_e = if i == 0 && j == 0 { multipliers.output } else { 0.0 };
+        of_e + if moved.is_empty() { 0.0 } else { multipliers.moved * moved[i] * moved[j] }
+    });
+    let equation = Equation { a: &a, input, output: &output, beta: multipliers.input };
+    let pi = equation.stabilising(multipliers.output)?;
+    // The subspace is less accurate where eigenvalues of the Hamiltonian matrix are close to the imaginary axis.
+    let pi = equation.refined(&pi).unwrap_or(pi);
+    let rate = round_f64(largest * share, 6, Direction::Down)?;
+    Some(Proposal { rate, w: multipliers.w, pi })
+}
+
+/// `Pi A + A'Pi + C + beta Pi B B'Pi = 0`.
+struct Equation<'a> {
+    a: &'a Mat<f64>,
+    input: &'a [f64],
+    output: &'a Mat<f64>,
+    beta: f64,
+}
+
+impl Equation<'_> {
+    /// The least symmetric solution, from the stable subspace of the Hamiltonian matrix `[[A, beta B B'], [-C, -A']]`: with [X; Y] a
+    /// basis of it, Pi = Y X^-1. `size` is that of C.
+    fn stabilising(&self, size: f64) -> Option<Mat<f64>> {
+        let Equation { a, input, output, beta } = self;
+        let n = input.len();
+        // Pi in the unit root(size/beta), in which both terms have the same size.
+        let unit = (size / beta).sqrt();
+        if !(unit.is_finite() && unit > 0.0) {
+            return None;
+        }
+        let hamiltonian = Mat::from_fn(2 * n, 2 * n, |i, j| match (i < n, j < n) {
+            (true, true) => a[(i, j)],
+            (true, false) => beta * unit * input[i] * input[j - n],
+            (false, true) => -output[(i - n, j)] / unit,
+            (false, false) => -a[(j - n, i - n)],
+        });
+        if !(0..2 * n).all(|j| (0..2 * n).all(|i| hamiltonian[(i, j)].is_finite())) {
+            return None;
+        }
+        let eigen = hamiltonian.eigen().ok()?;
+        let values: Vec<c64> = eigen.S().column_vector().iter().copied().collect();
+        let stable: Vec<usize> = (0..2 * n).filter(|i| values[*i].re < 0.0).collect();
+        // Eigenvalues on the imaginary axis: there is no such subspace.
+        if stable.len() != n {
+            return None;
+        }
+        let vectors = eigen.U();
+        let x = Mat::from_fn(n, n, |i, j| vectors[(i, stable[j])]);
+        let y = Mat::from_fn(n, n, |i, j| vectors[(n + i, stable[j])]);
+        let quotient = y * x.partial_piv_lu().inverse();
+        let pi = Mat::from_fn(n, n, |i, j| unit * f64::midpoint(quotient[(i, j)].re, quotient[(j, i)].re));
+        (0..n).all(|j| (0..n).all(|i| pi[(i, j)].is_finite())).then_some(pi)
+    }
+
+    /// One step of Newton's method: `Pi + D` with `D K + K'D = -R`, `K = A + beta B B'Pi` and R the left side of the equation at Pi.
+    fn refined(&self, pi: &Mat<f64>) -> Option<Mat<f64>> {
+        let Equation { a, input, output, beta } = self;
+        let n = input.len();
+        let image: Vec<f64> = (0..n).map(|i| (0..n).map(|j| pi[(i, j)] * input[j]).sum()).collect();
+        let product = pi * *a;
+        let residual =
+            Mat::from_fn(n, n, |i, j| product[(i, j)] + product[(j, i)] + output[(i, j)] + beta * image[i] * image[j]);
+        let closed = Mat::from_fn(n, n, |i, j| a[(i, j)] + beta * input[i] * image[j]);
+        if !(0..n).all(|j| (0..n).all(|i| closed[(i, j)].is_finite() && residual[(i, j)].is_finite())) {
+            return None;
+        }
+        // In the basis V of eigenvectors of K: (V*D V)_ij = -(V*R V)_ij/(conj(l_i) + l_j).
+        let eigen = closed.eigen().ok()?;
+        let values: Vec<c64> = eigen.S().column_vector().iter().copied().collect();
+        let vectors = eigen.U().to_owned();
+        let residual = Mat::from_fn(n, n, |i, j| c64::new(residual[(i, j)], 0.0));
+        let inside = vectors.adjoint() * &residual * &vectors;
+        let divided = Mat::from_fn(n, n, |i, j| -inside[(i, j)] / (values[i].conj() + values[j]));
+        let inverse = vectors.partial_piv_lu().inverse();
+        let step = inverse.adjoint() * &divided * &inverse;
+        let better = Mat::from_fn(n, n, |i, j| pi[(i, j)] + f64::midpoint(step[(i, j)].re, step[(j, i)].re));
+        (0..n).all(|j| (0..n).all(|i| better[(i, j)].is_finite())).then_some(better)
+    }
+}

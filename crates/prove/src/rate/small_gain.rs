@@ -1,0 +1,313 @@
+//! The largest rate that the inequality of [`super::inequality`] can prove, in floating point: a scalar condition.
+//!
+//! With the slope of q in the middle of its sector, `delta = delta_c + delta'`, `|delta'| <= k_d = (m + k_l)/2`, and with an input
+//! gain in the middle of its interval, `b = b_c + b'`, `|b'| <= b_d`, what is left of them is added at B: `delta' et` and `b' v y` with
+//! `v = (-sigma, mu b')`. Both ends of delta are fulfilled by one Pi if and only if this is with a multiplier l_e (with a gain: where
+//! it is, with l_e and l_b), and then for given multipliers the matrix falls apart. It asks for
+//! `2 w (a_2 - rate) > l k_x^2 + w^2 P_up k_f^2/c_x` and the bounded real inequality
+//! `Pi (A_c + rate I) + (.)' + (l_e k_d^2 + c_x) e e' + l_b b_d^2 v v' + (1/l + 1/l_e + 1/l_b) Pi B B'Pi < 0`, which some Pi > 0
+//! satisfies if and only if A_c + rate I is Hurwitz and `(l_e k_d^2 + c_x) |H|^2 + l_b b_d^2 |V|^2` times the sum of the 1/l is below 1
+//! on the line Re s = -rate, H and V being the transfer functions from u to et and to v y:
+//! `1/H = (s + sigma)(1 + b_c mu G(s)) - delta_c - (1 - b_c) sigma`, `G(s) = M'N (s I - Phi)^-1 M`, `V = -(sigma + (s + sigma) mu G) H`.
+//! The best w leaves `c_x > kappa^2 k_f^2 l`, kappa = k_x sqrt(P_up)/(a_2 - rate), and the best l_e/l is kappa k_f/k_d, so that without a
+//! gain there are multipliers if and only if
+//!
+//!   `gamma(rate) (k_d + kappa k_f) < 1`:  a small-gain condition with exponential weights, gamma the largest |H|;
+//!
+//! with one, if and only if `((k_d + kappa k_f)^2 |H|^2 + p b_d^2 |V|^2)(1 + 1/p) < 1` for some p > 0. Nothing here is a claim: it says
+//! where to look for Pi.
+
+use super::inequality::ErrorDynamics;
+use faer::{Mat, c64};
+use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_exact::number::Portable;
+
+/// Steps of the bisection in the rate.
+const BISECTIONS: u32 = 45;
+
+/// Frequencies about each eigenvalue, in units of its distance from the line.
+const OFFSETS: [f64; 15] = [0.0, 0.1, 0.25, 0.5, 0.8, 1.2, 2.0, 4.0, 10.0, -0.1, -0.25, -0.5, -1.0, -2.0, -5.0];
+
+/// p of an input gain.
+const SHARES: [f64; 11] = [0.01, 0.03, 0.1, 0.2, 0.4, 0.7, 1.0, 2.0, 5.0, 15.0, 50.0];
+
+/// The scalar condition of one n_o at one gain.
+pub struct SmallGain {
+    pub(super) dynamics: FloatDynamics,
+    /// Those eigenvalues of A_c with Im >= 0.
+    eigenvalues: Vec<c64>,
+    has_x: bool,
+    x_decay: f64,
+    root_p_up: f64,
+    k_x: f64,
+    k_f: f64,
+}
+
+/// The loop in doubles, with dq/de and the input gain in the middle.
+pub(super) struct FloatDynamics {
+    /// A_c.
+    pub(super) matrix: Mat<f64>,
+    /// B.
+    pub(super) input: Vec<f64>,
+    /// v; empty without an input gain.
+    pub(super) moved: Vec<f64>,
+    /// k_d.
+    half_slope: f64,
+    /// b_d, or 0.
+    half_gain: f64,
+    sigma: f64,
+    mu: f64,
+    gain: f64,
+    /// What comes from e to the input.
+    slope: f64,
+    frequency: f64,
+    /// n_0, n_1, ..., n_(n_o).
+    weights: Vec<f64>,
+}
+
+impl FloatDynamics {
+    /// `None` where a number is not finite.
+    fn new(dynamics: &ErrorDynamics<'_>) -> Option<FloatDynamics> {
+        let oscillators = dynamics.oscillators;
+        let (mu, sigma) = (oscillators.mu.midpoint_f64(), dynamics.sigma.to_f64());
+        let b: Vec<f64> = oscillators.b.iter().map(Enclosure::midpoint_f64).collect();
+        let [low, high] =
+            dynamics.input_gain.as_ref().map_or([1.0; 2], |ends| ends.each_ref().map(Enclosure::midpoint_f64));
+        let (gain, half_gain) = (f64::midpoint(low, high), (high - low) / 2.0);
+        let [least, most] = dynamics.bounds.slopes.each_ref().map(rug::Rational::to_f64);
+        let slope = f64::midpoint(least, most) + (1.0 - gain) * sigma;
+        let n = b.len() + 1;
+        let input: Vec<f64> = std::iter::once(1.0).chain(b.iter().map(|b| -b)).collect();
+        let row: Vec<f64> = std::iter::once(slope).chain(b.iter().map(|b| gain * mu * b)).collect();
+        let mut matrix = Mat::from_fn(n, n, |i, j| input[i] * row[j]);
+        matrix[(0, 0)] -= sigma;
+        for column in 0..n - 1 {
+            if let Some((row, entry)) = oscillators.phi(column) {
+                matrix[(row + 1, column + 1)] += entry.midpoint_f64();
+            }
+        }
+        // |b|^2 on the first state of each oscillator; the second has 0.
+        let first = b.iter().enumerate().filter(|(i, _)| *i == 0 || i % 2 == 1);
+        let weights = first.map(|(_, b)| b.portable_powi(2)).collect();
+        let moved = std::iter::once(-sigma).chain(b.iter().map(|b| mu * b));
+        let moved = if half_gain > 0.0 { moved.collect() } else { Vec::new() };
+        let (half_slope, frequency) = ((most - least) / 2.0, oscillators.base_frequency_f64());
+        // A NaN would not stop an iteration for eigenvalues.
+        let finite = half_slope.is_finite() && (0..n).all(|j| (0..n).all(|i| matrix[(i, j)].is_finite()));
+        let found =
+            FloatDynamics { matrix, input, moved, half_slope, half_gain, sigma, mu, gain, slope, frequency, weights };
+        finite.then_some(found)
+    }
+
+    /// 1/H and V/H at `s = -rate + i omega`.
+    fn responses(&self, rate: f64, omega: f64) -> [c64; 2] {
+        let s = c64::new(-rate, omega);
+        let mut sum = c64::new(0.0, 0.0);
+        for (l, weight) in self.weights.iter().enumerate() {
+            let pole = c64::new(0.0, l as f64 * self.frequency);
+            // n_0/s, and for l > 0 the partial fractions of n_l s/(s^2 + l^2 w^2).
+            let pair = c64::new(0.5 * weight, 0.0) / (s - pole) + c64::new(0.5 * weight, 0.0) / (s + pole);
+            sum += pair;
+        }
+        let real = |value: f64| c64::new(value, 0.0);
+        let (direct, model) = (s + real(self.sigma), sum * real(self.mu));
+        [direct * (real(1.0) + model * real(self.gain)) - real(self.slope), real(self.sigma) + direct * model]
+    }
+}
+
+/// What keeps a rate from being larger, in floating point: an explanation, and no claim.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Limit {
+    /// The rate a_2 at which x decays in the error box.
+    Plant(f64),
+    /// The slowest eigenvalue of the loop with dq/de in the middle of its bounds, and without x.
+    Oscillators(f64),
+}
+
+/// What the condition at one rate leaves to choose from.
+#[derive(Clone, Copy, Debug)]
+pub struct Budget {
+    /// The largest k_d + kappa k_f that the rest of the loop allows, or infinity.
+    pub available: f64,
+    /// k_d.
+    pub from_e: f64,
+    /// kappa k_f.
+    pub from_x: f64,
+    /// p of an input gain.
+    share: f64,
+}
+
+impl Budget {
+    /// Whether the condition holds.
+    #[must_use]
+    pub fn suffices(&self) -> bool {
+        self.from_e + self.from_x < self.available
+    }
+}
+
+impl SmallGain {
+    /// The condition in doubles; `None` where a number is not finite.
+    #[must_use]
+    pub fn new(dynamics: &ErrorDynamics<'_>) -> Option<SmallGain> {
+        let bounds = dynamics.bounds;
+        let dynamics = FloatDynamics::new(dynamics)?;
+        let values = dynamics.matrix.eigenvalues().ok()?;
+        Some(SmallGain {
+            eigenvalues: values.into_iter().filter(|value| value.im >= 0.0).collect(),
+            dynamics,
+            has_x: bounds.has_x,
+            x_decay: bounds.x_decay.to_f64(),
+            root_p_up: bounds.root_p_up.to_f64(),
+            k_x: bounds.k_x.to_f64(),
+            k_f: bounds.k_f.to_f64(),
+        })
+    }
+
+    /// Rates from here on are out of reach: an eigenvalue of A_c or the zero dynamics itself is slower.
+    #[must_use]
+    pub fn ceiling(&self) -> f64 {
+        let x = if self.has_x { self.x_decay } else { f64::INFINITY };
+        self.eigenvalues.iter().map(|value| -value.re).fold(x, f64::min)
+    }
+
+    /// What the ceiling is set by.
+    #[must_use]
+    pub fn limit(&self) -> Limit {
+        let loop_rate = self.eigenvalues.iter().map(|value| -value.re).fold(f64::INFINITY, f64::min);
+        if self.has_x && self.x_decay <= loop_rate { Limit::Plant(self.x_decay) } else { Limit::Oscillators(loop_rate) }
+    }
+
+    /// The frequencies at which the line at a rate is looked at, `0 < rate < ceiling`.
+    fn frequencies(&self, rate: f64) -> Vec<f64> {
+        // G has poles on the imaginary axis only.
+        let mut omegas: Vec<f64> = self
+            .eigenvalues
+            .iter()
+            .flat_map(|value| OFFSETS.iter().map(move |offset| value.im + offset * (-value.re - rate)))
+            .filter(|omega| *omega >= 0.0)
+            .chain((0..60).map(|k| self.dynamics.sigma * 1e-3 * 1.25f64.portable_powi(k)))
+            .chain([0.0])
+            .collect();
+        omegas.sort_by(f64::total_cmp);
+        omegas
+    }
+
+    /// The largest k_d + kappa k_f that a rate leaves, with the best p.
+    fn available(&self, rate: f64) -> [f64; 2] {
+        let omegas = self.frequencies(rate);
+        // (1/(1 + 1/p) - p b_d^2 |V|^2)/|H|^2 is the square of what is left at a frequency.
+        let left = |share: f64, omega: f64| {
+            let [inverse, moved] = self.dynamics.responses(rate, omega);
+            match self.dynamics.moved.is_empty() {
+                true => inverse.norm(),
+                false => {
+                    let taken = share * (self.dynamics.half_gain * moved.norm()).portable_powi(2);
+                    let square = inverse.norm().portable_powi(2) * share / (1.0 + share) - taken;
+                    square.max(0.0).sqrt()
+                }
+            }
+        };
+        let of = |share: f64| {
+            let values: Vec<f64> = omegas.iter().map(|omega| left(share, *omega)).collect();
+            let least = values.iter().copied().fold(f64::INFINITY, f64::min);
+            let refined = (0..omegas.len()).filter(|i| {
+                let neighbours = [i.saturating_sub(1), (i + 1).min(values.len() - 1)];
+                values[*i] <= 1.05 * least && neighbours.iter().all(|j| values[*i] <= values[*j])
+            });
+            let around = refined.map(|i| (omegas[i.saturating_sub(1)], omegas[(i + 1).min(omegas.len() - 1)]));
+            around.map(|(low, up)| golden(|omega| left(share, omega), low, up)).fold(least, f64::min)
+        };
+        if self.dynamics.moved.is_empty() {
+            return [of(1.0), 1.0];
+        }
+        SHARES
+            .iter()
+            .map(|share| [of(*share), *share])
+            .fold([0.0, 1.0], |best, one| if one[0] > best[0] { one } else { best })
+    }
+
+    /// The two sides of the condition at a rate.
+    #[must_use]
+    pub fn budget(&self, rate: f64) -> Budget {
+        let from_x = if self.has_x { self.k_x * self.k_f * self.root_p_up / (self.x_decay - rate) } else { 0.0 };
+        let [available, share] = self.available(rate);
+        Budget { available, from_e: self.dynamics.half_slope, from_x, share }
+    }
+
+    /// The largest rate of the condition; `None` where not even a tiny one fulfils it.
+    #[must_use]
+    pub fn largest_rate(&self) -> Option<f64> {
+        let ceiling = self.ceiling();
+        let holds = |rate: f64| self.budget(rate).suffices();
+        // NaN and negative ceilings end here too.
+        if !(ceiling > 0.0 && ceiling.is_finite() && holds(1e-9 * ceiling)) {
+            return None;
+        }
+        let (mut low, mut up) = (1e-9 * ceiling, ceiling);
+        for _ in 0..BISECTIONS {
+            let middle = f64::midpoint(low, up);
+            if holds(middle) { low = middle } else { up = middle }
+        }
+        Some(low)
+    }
+
+    /// w and l at a rate, with c, c_v and beta of `Pi A + A'Pi + c e e' + c_v v v' + beta Pi B B'Pi = 0`; what the condition leaves over
+    /// is shared out, so that every inequality of the module is strict.
+    #[must_use]
+    pub fn multipliers(&self, rate: f64) -> Option<Multipliers> {
+        let budget = self.budget(rate);
+        if !budget.suffices() {
+            return None;
+        }
+        // Without coupling the budget may be as large as it likes.
+        let slack = (budget.available - budget.from_e - budget.from_x) / 3.0;
+        let (from_e, from_x) = (budget.from_e + slack, budget.from_x + slack);
+        let distance = self.x_decay - rate;
+        // c_x over the square of k_f is (kappa')^2 with l = 1.
+        let w = match (self.has_x, self.k_f > 0.0, self.k_x > 0.0) {
+            (true, true, _) => distance * (from_x / self.k_f / self.root_p_up).portable_powi(2),
+            (true, false, true) => self.k_x * self.k_x / distance,
+            // Nothing couples x to the rest.
+            (true, false, false) => 1.0,
+            (false, ..) => 0.0,
+        };
+        // With l = 1: l_e = from_x/from_e. In units in which (1/l + 1/l_e) is 1 + from_e/from_x.
+        let from_inputs = 1.0 + from_e / from_x;
+        let output = from_e * from_x + from_x * from_x;
+        let moved = budget.share * self.dynamics.half_gain.portable_powi(2) / from_inputs;
+        let with_gain = if self.dynamics.moved.is_empty() { 0.0 } else { from_inputs / budget.share };
+        Some(Multipliers { w, output, moved, input: from_inputs + with_gain })
+    }
+}
+
+/// What is left to find Pi with, for l = 1.
+#[derive(Clone, Copy, Debug)]
+pub struct Multipliers {
+    /// w, positive where xi counts.
+    pub w: f64,
+    /// At least `l_e k_d^2 + c_x`, positive.
+    pub output: f64,
+    /// `l_b b_d^2`.
+    pub moved: f64,
+    /// At least the sum of 1/l, 1/l_e and 1/l_b over the signals that do not vanish, positive.
+    pub input: f64,
+}
+
+/// The least value that golden-section search meets between two arguments.
+fn golden(function: impl Fn(f64) -> f64, mut low: f64, mut up: f64) -> f64 {
+    let ratio = (5f64.sqrt() - 1.0) / 2.0;
+    let mut inner = [up - ratio * (up - low), low + ratio * (up - low)];
+    let mut values = inner.map(&function);
+    for _ in 0..40 {
+        if values[0] < values[1] {
+            up = inner[1];
+            inner = [up - ratio * (up - low), inner[0]];
+            values = [function(inner[0]), values[0]];
+        } else {
+            low = inner[0];
+            inner = [inner[1], low + ratio * (up - low)];
+            values = [values[1], function(inner[1])];
+        }
+    }
+    values[0].min(values[1])
+}

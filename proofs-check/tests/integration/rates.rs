@@ -1,0 +1,252 @@
+//! Rates for given numbers of oscillators (docs/mathematics.md, section 13.6): accepted as they are written, and refused where anything
+//! of them is not what it is.
+
+use crate::common::{accepted, assert_refused, judged, names, rehash, text};
+use proofs_check::verdict::Verdict;
+use rug::Rational;
+use serde_json::{Value, json};
+
+/// One of a specification with x, for n_o = 0 and 2.
+const PAPER: &str = "paper-example-at-rest";
+
+fn stored(name: &str) -> Value {
+    serde_json::from_str(&text("rates", name)).unwrap()
+}
+
+/// The certificate with other values at JSON pointers; without a field where the value is null.
+fn edited(mut certificate: Value, changes: &[(&str, Value)]) -> Value {
+    for (pointer, value) in changes {
+        let (parent, name) = pointer.rsplit_once('/').unwrap();
+        match (certificate.pointer_mut(parent).unwrap_or_else(|| panic!("{parent} exists")), value) {
+            (Value::Array(list), _) => list[name.parse::<usize>().unwrap()] = value.clone(),
+            (parent, Value::Null) => drop(parent.as_object_mut().unwrap().remove(name)),
+            (parent, _) => parent[name] = value.clone(),
+        }
+    }
+    certificate
+}
+
+/// The claim in words with what the rates of the claim read.
+fn reworded(mut certificate: Value) -> Value {
+    let statement = certificate["claim"]["statement"].as_str().unwrap();
+    let main = statement.split(" With n_o = ").next().unwrap().to_owned();
+    let sigma = certificate["claim"]["sigma_star"].as_str().unwrap();
+    let sentence = |rate: &Value| {
+        let text = |name: &str| rate[name].as_str().map_or_else(|| rate[name].to_string(), str::to_owned);
+        format!(
+            " With n_o = {} and sigma = {sigma} exactly also |e(t) - e_per(t)| <= {} exp(-{} (t - t_0)) for these solutions, e_per that of \
+             the periodic solution and t_0 the initial time.",
+            text("n_o"),
+            text("factor"),
+            text("rate")
+        )
+    };
+    let besides: String = certificate["claim"]["for_n_o"].as_array().into_iter().flatten().map(sentence).collect();
+    certificate["claim"]["statement"] = json!(main + &besides);
+    certificate
+}
+
+/// A number of the certificate times a factor.
+fn times(certificate: &Value, pointer: &str, factor: f64) -> Value {
+    let before = certificate.pointer(pointer).unwrap().as_str().unwrap();
+    let (numerator, denominator) = before.split_once('/').unwrap_or((before, "1"));
+    let number = |text| proofs_check::json::decimal(text).unwrap();
+    let value = number(numerator) / number(denominator) * Rational::from_f64(factor).unwrap();
+    json!(value.to_string())
+}
+
+#[track_caller]
+fn refused(certificate: Value, verdict: Verdict, rule: &str, pointer: &str) {
+    assert_refused(&judged(&reworded(certificate)), verdict, rule, pointer);
+}
+
+#[test]
+fn stored_ones_are_accepted() {
+    for name in names("rates") {
+        let certificate = stored(&name);
+        let report = accepted(&certificate);
+        assert!(report.is_flawless(), "{name}: {}", report.text(false));
+        let statement = &report.proved.as_ref().unwrap().subject.statement;
+        for rate in certificate["claim"]["for_n_o"].as_array().unwrap() {
+            assert!(statement.contains(&format!(" With n_o = {} and ", rate["n_o"])), "{name}: {statement}");
+        }
+    }
+}
+
+#[test]
+fn each_number_matters() {
+    for name in names("rates") {
+        let certificate = stored(&name);
+        let count = certificate["claim"]["for_n_o"].as_array().unwrap().len();
+        for i in 0..count {
+            let (claim, witness) = (format!("/claim/for_n_o/{i}"), format!("/witness/for_n_o/{i}"));
+            let mut changes = vec![
+                // Twice is beyond the largest rate that can be proved, or the factor would not do.
+                (format!("{claim}/rate"), 2.0, format!("{witness}/Pi")),
+                (format!("{claim}/factor"), 1.0 - 1e-4, format!("{claim}/factor")),
+                (format!("{witness}/e_low"), 1.02, format!("{witness}/e_low")),
+                (format!("{witness}/e_low"), 1.0 - 1e-3, format!("{claim}/factor")),
+                (format!("{witness}/e_up"), 1.01, format!("{claim}/factor")),
+                (format!("{witness}/e_up"), 0.5, format!("{witness}/z_up")),
+                (format!("{witness}/z_up"), 0.5, format!("{witness}/z_up")),
+                (format!("{witness}/Pi/0/0"), 3.0, witness.clone()),
+                (format!("{witness}/Pi/1/1"), 3.0, witness.clone()),
+                (format!("{witness}/Pi/1/1"), -1.0, format!("{witness}/e_low")),
+            ];
+            if certificate["witness"]["for_n_o"][i]["w"].is_string() {
+                changes.extend(
+                    [("w", 10.0), ("w", 0.1), ("l", 10.0), ("l", 0.1)]
+                        .map(|(name, factor)| (format!("{witness}/{name}"), factor, format!("{witness}/Pi"))),
+                );
+            }
+            for (pointer, factor, place) in changes {
+                let value = times(&certificate, &pointer, factor);
+                refused(edited(certificate.clone(), &[(&pointer, value)]), Verdict::Invalid, "rates", &place);
+            }
+        }
+    }
+}
+
+#[test]
+fn signs_are_demanded() {
+    let certificate = stored(PAPER);
+    for (pointer, names) in
+        [("/claim/for_n_o/0", &["rate", "factor"][..]), ("/witness/for_n_o/0", &["e_low", "w", "l"])]
+    {
+        for name in names {
+            let pointer = format!("{pointer}/{name}");
+            for value in [json!("0"), times(&certificate, &pointer, -1.0)] {
+                refused(edited(certificate.clone(), &[(&pointer, value)]), Verdict::Invalid, "rates", &pointer);
+            }
+        }
+    }
+}
+
+/// What proves one n_o proves no other, and a rate stands beside what proves it.
+#[test]
+fn a_rate_is_that_of_its_own_number() {
+    let certificate = stored(PAPER);
+    let [claim, witness] = ["claim", "witness"].map(|part| certificate[part]["for_n_o"].clone());
+    let with = |changes: &[(&str, Value)]| edited(certificate.clone(), changes);
+    // Another n_o for both: Pi is of another order.
+    let other = with(&[("/claim/for_n_o/1/n_o", json!(3)), ("/witness/for_n_o/1/n_o", json!(3))]);
+    refused(other, Verdict::BadInput, "format", "/witness/for_n_o/1/Pi");
+    refused(with(&[("/claim/for_n_o/1/n_o", json!(3))]), Verdict::BadInput, "format", "/witness/for_n_o/1/n_o");
+    // In another order, twice, without one, with one too many.
+    let both = |claim: Value, witness: Value| with(&[("/claim/for_n_o", claim), ("/witness/for_n_o", witness)]);
+    let swapped = |list: &Value| json!([list[1], list[0]]);
+    refused(both(swapped(&claim), swapped(&witness)), Verdict::BadInput, "format", "/claim/for_n_o/1/n_o");
+    refused(
+        both(json!([claim[0], claim[0]]), json!([witness[0], witness[0]])),
+        Verdict::BadInput,
+        "format",
+        "/claim/for_n_o/1",
+    );
+    refused(both(claim.clone(), json!([witness[0]])), Verdict::BadInput, "format", "/witness/for_n_o");
+    refused(both(json!([claim[0]]), witness.clone()), Verdict::BadInput, "format", "/witness/for_n_o");
+    refused(with(&[("/witness/for_n_o", Value::Null)]), Verdict::BadInput, "format", "/witness/for_n_o");
+    refused(with(&[("/claim/for_n_o", Value::Null)]), Verdict::BadInput, "format", "/witness/for_n_o");
+    // Of one of them alone nothing is missing.
+    accepted(&reworded(both(json!([claim[1]]), json!([witness[1]]))));
+    // The rate of another n_o.
+    let lent = with(&[("/claim/for_n_o/1/rate", claim[0]["rate"].clone())]);
+    refused(lent, Verdict::Invalid, "rates", "/witness/for_n_o/1/Pi");
+}
+
+/// A rate is proved at the gain of the claim, and of no other.
+#[test]
+fn a_rate_is_that_of_the_gain_of_the_claim() {
+    let certificate = stored(PAPER);
+    // The main claim holds at a larger gain too, where the words are made right.
+    let larger = times(&certificate, "/claim/sigma_star", 1.5);
+    let statement = certificate["claim"]["statement"].as_str().unwrap();
+    let sigma = certificate["claim"]["sigma_star"].as_str().unwrap();
+    let statement =
+        statement.replace(&format!("sigma >= {sigma},"), &format!("sigma >= {},", larger.as_str().unwrap()));
+    let changes =
+        [("/claim/sigma_star", larger), ("/claim/statement", json!(statement)), ("/claim/control", Value::Null)];
+    let moved = edited(certificate, &changes);
+    let alone = edited(moved.clone(), &[("/claim/for_n_o", Value::Null), ("/witness/for_n_o", Value::Null)]);
+    accepted(&reworded(alone));
+    refused(moved, Verdict::Invalid, "rates", "/witness/for_n_o/0/Pi");
+}
+
+#[test]
+fn the_words_are_those_of_the_numbers() {
+    let certificate = stored(PAPER);
+    let statement = certificate["claim"]["statement"].as_str().unwrap().to_owned();
+    for changed in [
+        statement.split(" With n_o = ").next().unwrap().to_owned(),
+        statement.replace("exactly", "or any larger"),
+        statement.replace("With n_o = 0", "With n_o = 1"),
+    ] {
+        assert_ne!(changed, statement);
+        let report = judged(&edited(certificate.clone(), &[("/claim/statement", json!(changed))]));
+        assert_refused(&report, Verdict::Invalid, "claim", "/claim/statement");
+    }
+}
+
+/// Without w and l only where x has no part in e.
+#[test]
+fn x_is_left_out_where_it_has_no_part() {
+    let certificate = stored(PAPER);
+    let without = [("/witness/for_n_o/0/w", Value::Null), ("/witness/for_n_o/0/l", Value::Null)];
+    refused(edited(certificate.clone(), &without), Verdict::Invalid, "rates", "/witness/for_n_o/0");
+    refused(edited(certificate.clone(), &without[..1]), Verdict::BadInput, "format", "/witness/for_n_o/0");
+    // With more of q_x than was proved.
+    let no_x = stored("no-x");
+    assert!(no_x["witness"]["for_n_o"][0].get("w").is_none());
+}
+
+#[test]
+fn data_that_say_less_prove_less() {
+    let certificate = stored(PAPER);
+    for (bound, more) in [("q_x", "sqrt(1 + E^2) + 3"), ("f_e", "X + 9"), ("q_e", "X + 9")] {
+        let mut changed = edited(certificate.clone(), &[(&format!("/specification/bounds/{bound}"), json!(more))]);
+        rehash(&mut changed);
+        assert_eq!(judged(&changed).verdict, Verdict::Invalid, "{bound}");
+    }
+}
+
+#[test]
+fn what_cannot_be_read_is_named() {
+    let certificate = stored(PAPER);
+    let count = "/witness/for_n_o/0/n_o";
+    let row = certificate["witness"]["for_n_o"][1]["Pi"][1].clone();
+    for (pointer, value, place) in [
+        ("/claim/for_n_o", json!({}), "/claim/for_n_o"),
+        ("/claim/for_n_o/0/n_o", json!("0"), "/claim/for_n_o/0/n_o"),
+        ("/claim/for_n_o/1/n_o", json!(51), "/claim/for_n_o/1/n_o"),
+        (count, json!(1), "/witness/for_n_o/0/Pi"),
+        ("/claim/for_n_o/0/rate", json!("inf"), "/claim/for_n_o/0/rate"),
+        ("/claim/for_n_o/0/noise", json!("1"), "/claim/for_n_o/0/noise"),
+        ("/witness/for_n_o/0/k", json!("1"), "/witness/for_n_o/0/k"),
+        ("/witness/for_n_o", json!([]), "/witness/for_n_o"),
+        ("/witness/for_n_o/0/Pi/0", json!([]), "/witness/for_n_o/0/Pi/0"),
+        ("/witness/for_n_o/1/Pi/2", row, "/witness/for_n_o/1/Pi/2"),
+        ("/witness/for_n_o/0/e_up", json!("sqrt(2)"), "/witness/for_n_o/0/e_up"),
+    ] {
+        let report = judged(&edited(certificate.clone(), &[(pointer, value)]));
+        assert_refused(&report, Verdict::BadInput, "format", place);
+    }
+}
+
+/// Certificates of other kinds have none.
+#[test]
+fn other_claims_have_no_rates() {
+    let part =
+        |certificate: &Value| [certificate["claim"]["for_n_o"].clone(), certificate["witness"]["for_n_o"].clone()];
+    let [claim, witness] = part(&stored(PAPER));
+    for (folder, name, place) in [
+        ("sampled", "paper-example", "/claim/for_n_o"),
+        ("plants", "joint.certificate", "/claim/for_n_o"),
+        ("plants", "splitting.certificate", "/claim/for_n_o"),
+    ] {
+        let other: Value = serde_json::from_str(&text(folder, name)).unwrap();
+        let mut made = edited(other, &[("/claim/for_n_o", claim.clone()), ("/witness/for_n_o", witness.clone())]);
+        if folder == "plants" {
+            made = reworded(made);
+        }
+        assert_refused(&judged(&made), Verdict::BadInput, "format", place);
+    }
+}

@@ -1,0 +1,192 @@
+//! Rates for given n_o as a part of claims (derivation, 13.6): against the loops that the data allow, and along solutions.
+
+use crate::support::{Shipped, answer, certified, json, program};
+use faer::Mat;
+use rug::Rational;
+use serde_json::Value;
+use sigmastar_prove::certificate::certificate_json;
+use sigmastar_prove::certify::{Options, certify_at};
+use sigmastar_prove::rate::bound::RateForCount;
+use sigmastar_theory::data::Data;
+use sigmastar_theory::derivation::stability::ErrorBox;
+
+const COUNTS: [u32; 4] = [0, 1, 4, 10];
+
+/// How fast linear plants with one state converge, at the periodic solution: `x' = -a x + g e`, `q = r x + d e` with
+/// P = p_up, so that all of |g| = k_f, |r| = b_qx and the ends and the middle of d are within the data. The slowest of all signs.
+fn slowest(data: &Data<'_>, error_box: &ErrorBox<sigmastar_exact::enclosure::Enclosure>, sigma: f64, n_o: u32) -> f64 {
+    let of = |value: &sigmastar_exact::enclosure::Enclosure| value.midpoint_f64();
+    let (a, k_f, k_x) = (of(&error_box.rate), of(&error_box.k_f), of(&error_box.k_x) * of(&data.p_low).sqrt());
+    // Where q does not have x, e does not have its rate either.
+    let a = if k_x == 0.0 { 1e9 } else { a };
+    let (below, above) = (-of(&error_box.sector.below), of(&error_box.sector.above));
+    let (mu, w) = (of(&data.mu), of(&data.base_frequency));
+    let weight = |l: usize| data.spec.internal_model.weights.weight(l as u64, 128).midpoint_f64();
+    let order = 2 * n_o as usize + 3;
+    let mut found = f64::INFINITY;
+    for sign in [-1.0, 0.0, 1.0] {
+        for d in [below, f64::midpoint(below, above), above] {
+            // (x, e, zeta): y = r x + d e + mu s, e' = y - sigma e, zeta' = Phi zeta - M y.
+            let y = |j: usize| match j {
+                0 => k_x,
+                1 => d,
+                2 => mu * weight(0),
+                _ if j % 2 == 1 => mu * weight((j - 1) / 2),
+                _ => 0.0,
+            };
+            let matrix = Mat::from_fn(order, order, |i, j| match i {
+                0 => [-a, sign * k_f].get(j).copied().unwrap_or(0.0),
+                1 => y(j) - if j == 1 { sigma } else { 0.0 },
+                2 => -y(j),
+                _ => {
+                    let turn = (i - 1) as f64 / 2.0;
+                    let (is_first, l) = (i % 2 == 1, turn.floor() * w);
+                    match (is_first, j) {
+                        (true, j) => (if j == i + 1 { l } else { 0.0 }) - y(j),
+                        (false, j) if j == i - 1 => -l,
+                        _ => 0.0,
+                    }
+                }
+            });
+            let values = matrix.eigenvalues().expect("finite");
+            found = values.iter().map(|value| -value.re).fold(found, f64::min);
+        }
+    }
+    found
+}
+
+/// At 1.5 sigma* each rate is at least a share of that of the slowest of a few members, and never more: by the median 0.3.
+#[test]
+fn rates_are_near_those_of_the_loops() {
+    let mut shares: Vec<(f64, String)> = Vec::new();
+    for Shipped { name, spec, run, .. } in certified() {
+        let gain = run.sigma_star().expect("certified") * Rational::from((3, 2));
+        let options = Options { compare: false, ..Options::default() };
+        let mut run = certify_at(spec, options, None, &gain).expect("not refuted");
+        assert_eq!(run.sigma_star(), Some(&gain), "{name}");
+        run.prove_rates(&COUNTS).expect("by norms");
+        let proof = run.sharp.proved().expect("certified");
+        let data = Data::new(spec, 128);
+        let periodic = [&proof.evaluation.periodic.x_per, &proof.evaluation.periodic.e_per];
+        let there = ErrorBox::new(&data, proof.witness.paths, periodic, [&data.zero(), &data.zero()]);
+        for RateForCount { n_o, bound } in &run.for_n_o {
+            let bound = bound.as_ref().unwrap_or_else(|| panic!("{name} {n_o}: no rate"));
+            let share = bound.witness.rate.to_f64() / slowest(&data, &there, gain.to_f64(), *n_o);
+            assert!(share <= 1.0 + 1e-9, "{name} {n_o}: {share}");
+            assert!(bound.factor.to_f64() >= run.claimed_set().expect("certified").e0.to_f64(), "{name} {n_o}");
+            shares.push((share, format!("{name} {n_o}")));
+        }
+        let certificate = certificate_json(&run).expect("certified");
+        let report = proofs_check::check(certificate.to_string().as_bytes());
+        assert!(
+            report.verdict == proofs_check::verdict::Verdict::Valid && report.is_flawless(),
+            "{name}: {}",
+            report.text(false)
+        );
+    }
+    shares.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let median = shares[shares.len() / 2].0;
+    assert!(median >= 0.3, "{median} {shares:?}");
+}
+
+/// The plant of the paper, of which the specification of the paper bounds the shifted right sides: `(x, e, z)'` with n_o = 1, mu = 1.
+fn paper(sigma: f64, time: f64, [x, y, e, z0, z1, z2]: [f64; 6]) -> [f64; 6] {
+    let turn = std::f64::consts::TAU;
+    let c = (turn * time).cos();
+    let f = [
+        -x / 5.0 + 3f64.sqrt() * y + y.sin() / 10.0 + (turn * time).sin(),
+        -(3f64.sqrt()) * x - y + y * y / 10.0 + y * e + (2.0 * turn * time).cos() * (1.0 + (turn * time).sin()),
+    ];
+    let q = 1.0 + x + (e * y).atan() + c + c * c + c.powi(3) + c.powi(4);
+    let s = 2.0 * (z0 - e) + (z1 - e);
+    // Gamma = -(Phi + sigma) M.
+    [f[0], f[1], q - sigma * e + s, -sigma * e, turn * z2 - sigma * e, -turn * z1 + turn * e]
+}
+
+fn step(sigma: f64, time: f64, h: f64, state: [f64; 6]) -> [f64; 6] {
+    let add = |a: [f64; 6], b: [f64; 6], c: f64| std::array::from_fn(|i| a[i] + c * b[i]);
+    let k1 = paper(sigma, time, state);
+    let k2 = paper(sigma, time + h / 2.0, add(state, k1, h / 2.0));
+    let k3 = paper(sigma, time + h / 2.0, add(state, k2, h / 2.0));
+    let k4 = paper(sigma, time + h, add(state, k3, h));
+    std::array::from_fn(|i| state[i] + h / 6.0 * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i]))
+}
+
+/// Solutions of a plant within the data, from the boundary of the set, stay below factor exp(-rate t), for 40 periods.
+#[test]
+fn solutions_decay_as_it_is_claimed() {
+    let spec = "specs/paper-example-at-rest.json";
+    let found = answer(&["certify", spec, "--sigma", "45", "--n-o", "1", "--no-compare", "--format", "json"]);
+    let report = json(&found.stdout);
+    let number = |value: &Value| value.as_str().expect("a number").parse::<f64>().expect("a decimal");
+    let rate = &report["for_n_o"][0];
+    let (rate, factor) = (number(&rate["rate"]), number(&rate["factor"]));
+    let [x_0, e_0] = ["X0", "E0"].map(|name| number(&report["initial_set"][name]));
+    const STEPS: usize = 4000;
+    let (sigma, h) = (45.0, 1.0 / STEPS as f64);
+    let run = |mut state: [f64; 6], periods: usize, mut see: Box<dyn FnMut(usize, [f64; 6]) + '_>| {
+        for i in 0..periods * STEPS {
+            see(i, state);
+            state = step(sigma, (i % STEPS) as f64 * h, h, state);
+        }
+        state
+    };
+    // The periodic solution, after a long time.
+    let settled = run([0.0; 6], 120, Box::new(|_, _| {}));
+    let mut periodic = Vec::new();
+    run(settled, 1, Box::new(|_, state| periodic.push(state[2])));
+    let mut slowest = 0.0_f64;
+    // x_0(0) of section 9.
+    for [x, y, e] in [[1.0, 0.0, 1.0], [0.0, 1.0, -1.0], [-0.7, 0.7, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, -1.0]] {
+        let start = [-0.17869 + 0.999 * x_0 * x, 0.073256 + 0.999 * x_0 * y, e_0 * e, 0.0, 0.0, 0.0];
+        let mut worst = 0.0_f64;
+        run(
+            start,
+            40,
+            Box::new(|i, state| {
+                let error = (state[2] - periodic[i % STEPS]).abs();
+                // What is left of the transient in the periodic solution, and of rounding.
+                if error > 1e-8 {
+                    worst = worst.max(error / (factor * (-rate * i as f64 * h).exp()));
+                }
+            }),
+        );
+        assert!(worst <= 1.0 && worst > 0.0, "{x} {y} {e}: {worst}");
+        slowest = slowest.max(worst);
+    }
+    assert!(slowest > 1e-3, "nothing is near the bound: {slowest}");
+}
+
+#[test]
+fn what_has_no_rates_is_refused_with_the_reason() {
+    for (arguments, part) in [
+        (&["specs/paper-example.json", "--n-o", "51"][..], "50"),
+        (&["specs/paper-example.json", "--n-o", "0..8"], "at most 8"),
+        (&["specs/paper-example.json", "--n-o", "inf"], "inf"),
+        (&["specs/paper-example.json", "--n-o", "-1"], "`-1`"),
+        (&["specs/paper-example.json", "--n-o", "1", "--sampling-period", "1/500"], "at samples"),
+        (&["specs/plants/converter.json", "--n-o", "1"], "not available for a claim by ("),
+    ] {
+        let output = program().arg("certify").args(arguments).args(["--format", "json"]).output().expect("it runs");
+        let report = json(&output.stdout);
+        assert_eq!((output.status.code(), &report["verdict"]), (Some(2), &Value::from("bad-input")), "{arguments:?}");
+        let message = report["errors"][0]["message"].as_str().expect("a message");
+        assert!(message.contains(part), "{arguments:?}: {message}");
+    }
+}
+
+/// One that is given to be decided again keeps its claim, and has rates where they are asked for.
+#[test]
+fn a_witness_is_read_beside_rates() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let [first, again] = ["first.json", "again.json"].map(|name| folder.path().join(name).display().to_string());
+    let run = |arguments: &[&str]| program().args(arguments).output().expect("it runs").status.code();
+    let spec = "specs/no-x.json";
+    assert_eq!(run(&["certify", spec, "--n-o", "2,0", "-o", &first, "--no-compare"]), Some(0));
+    assert_eq!(run(&["certify", spec, "--witness", &first, "--n-o", "0,2", "-o", &again, "--no-compare"]), Some(0));
+    let read = |path: &str| json(&std::fs::read(path).expect("written"));
+    let (first, again) = (read(&first), read(&again));
+    assert_eq!(first["claim"], again["claim"]);
+    assert_eq!(first["witness"], again["witness"]);
+    assert_eq!(first["claim"]["for_n_o"][1]["n_o"], 2);
+}
