@@ -3,6 +3,7 @@
 use super::bound::Bound;
 use super::bounding::Bounds;
 use super::document::Document;
+use super::actuator::Actuator;
 use super::input_gain::InputGain;
 use super::of_plant::OfPlant;
 pub use super::parts::{
@@ -42,6 +43,8 @@ pub struct Specification {
     pub initial_set: InitialSet,
     /// The gain of the actuator, where it is not exactly 1.
     pub input_gain: Option<InputGain>,
+    /// What the actuator takes, where the claim is to keep to it.
+    pub actuator: Option<Actuator>,
     /// The relative-degree filter, when e is a combination of xi_1, ..., xi_r.
     pub relative_degree: Option<RelativeDegree>,
     /// The document as it was read, without `$schema`: key order and the text of numbers as written.

@@ -6,7 +6,7 @@ use crate::search::{SampledProposal, SharpProposal};
 use rug::Rational;
 use sigmastar_lang::plant::{self, Plant};
 use sigmastar_lang::spec::{
-    Constant, Document, ErrorKind, InputGain, InternalModel, Period, Sampling, SpecErrors, Specification, Value,
+    Actuator, Constant, Document, ErrorKind, InputGain, InternalModel, Period, Sampling, SpecErrors, Specification, Value,
 };
 
 /// Where the search for a gain may start, and what it saw beside.
@@ -134,6 +134,15 @@ impl Subject {
         match self {
             Subject::Specification(spec) => spec.input_gain.as_ref(),
             Subject::Plant(plant) => plant.input_gain.as_ref(),
+        }
+    }
+
+    /// What the actuator takes, where the document states it.
+    #[must_use]
+    pub fn actuator(&self) -> Option<&Actuator> {
+        match self {
+            Subject::Specification(spec) => spec.actuator.as_ref(),
+            Subject::Plant(plant) => plant.actuator.as_ref(),
         }
     }
 

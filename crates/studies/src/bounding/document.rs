@@ -115,7 +115,8 @@ fn write(
     let rest =
         [("domain", ends), ("internal_model", internal_model(plant)), ("initial_set", initial_set(&spec.initial_set))];
     let input_gain = plant.document.get("input_gain").map(|gain| ("input_gain", gain.clone()));
-    object(all.into_iter().chain(forcing).chain(rest).chain(input_gain))
+    let actuator = plant.actuator.as_ref().map(|actuator| ("actuator", object([("max", stated(&actuator.max))])));
+    object(all.into_iter().chain(forcing).chain(rest).chain(input_gain).chain(actuator))
 }
 
 /// That of the plant, without names of its parameters.

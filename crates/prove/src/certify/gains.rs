@@ -1,0 +1,94 @@
+//! What larger gains bring (derivation, 13.5): bounds at multiples of the gain of a claim, for the same initial set.
+
+use super::bounding::prove_up_to;
+use super::options::Ladder;
+use super::proof::SharpProof;
+use super::round::round_again;
+use crate::search::{FloatModel, Goal, SharpProposal, search_sharp_at};
+use rayon::prelude::*;
+use rug::Rational;
+use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_exact::number::{Direction, round_rational};
+use sigmastar_lang::spec::{Constant, InitialSet, Specification};
+use sigmastar_theory::data::Data;
+use sigmastar_theory::derivation::consequences::error_bounds;
+use sigmastar_theory::derivation::control::Control;
+use sigmastar_theory::derivation::initial_set::ClaimedSet;
+use sigmastar_theory::derivation::mistuned::Mistuning;
+
+/// The gains, in tenths of that of the claim.
+const TENTHS: [u32; 6] = [10, 12, 15, 20, 30, 50];
+
+/// The numbers of oscillators of which the steady error is bounded.
+pub const SHOWN_N_O: [u64; 2] = [0, 10];
+
+/// Bounds at one gain, for every solution from the initial set of the claim.
+///
+/// Guarantee: every condition is proved for a witness at this gain, so that the gain is certified for that set, too.
+#[derive(Clone, Debug)]
+pub struct GainRow {
+    /// The gain.
+    pub sigma: Rational,
+    /// Of |e| along the periodic solution, for the numbers of oscillators of [`SHOWN_N_O`].
+    pub steady: [Enclosure; 2],
+    /// Of |e| on the way, for every n_o.
+    pub peak: Enclosure,
+    /// Of what is put out, for every n_o.
+    pub control: Control<Enclosure>,
+}
+
+impl GainRow {
+    fn of(spec: &Specification, proof: &SharpProof) -> GainRow {
+        let data = Data::new(spec, proof.precision);
+        let (evaluation, mistuning) = (&proof.evaluation, Mistuning::new(&data));
+        let sigma = data.rational(&proof.witness.sigma);
+        let e_per = &evaluation.periodic.e_per;
+        let sup = |n_o| error_bounds(&data, &evaluation.excitation, mistuning.as_ref(), &sigma, e_per, n_o).sup;
+        GainRow {
+            sigma: proof.witness.sigma.clone(),
+            steady: SHOWN_N_O.map(sup),
+            peak: evaluation.peak.clone(),
+            control: evaluation.control.clone(),
+        }
+    }
+}
+
+/// The rows of a claim, whose own is the first; a gain at which nothing is proved from near `start` has none. The error boxes of the others are
+/// those with the smallest bound of |e| that are found.
+pub(super) fn gain_rows(
+    spec: &Specification,
+    proof: &SharpProof,
+    (model, start): (&FloatModel, &SharpProposal),
+) -> Vec<GainRow> {
+    let set = &proof.witness.set;
+    let spec = &Specification { initial_set: fixed(set, Constant::rational), ..spec.clone() };
+    let model = model.with_goal(Goal::Peak).with_set(fixed(set, Rational::to_f64));
+    let reach = proof.decided().reach();
+    let row = |tenths: &u32| {
+        if *tenths == 10 {
+            return Some(GainRow::of(spec, proof));
+        }
+        let sigma = round_rational(&(Rational::from((*tenths, 10)) * &proof.witness.sigma), 6, Direction::Up);
+        let found = search_sharp_at(&model, sigma.to_f64(), Some(start)).ok()?;
+        let (k0, k1) = (proof.witness.k0.clone(), proof.witness.k1.clone());
+        let pair = (k0, k1, proof.witness.transfer.clone());
+        let data = Data::new(spec, proof.precision);
+        let ladder = Ladder { start: proof.precision, limit: proof.precision };
+        let proof = round_again(&data, &model, (&found, &sigma), pair, ladder)?;
+        // The data of the claim are proved on a domain, or up to the arguments that it uses.
+        let [x, e] = proof.decided().reach()?;
+        let within = reach.as_ref().is_some_and(|[known_x, known_e]| x <= *known_x && e <= *known_e);
+        let known = spec.domain.is_some() || spec.plant().is_some() || within || prove_up_to(spec, &x, &e).is_ok();
+        known.then(|| GainRow::of(spec, &proof))
+    };
+    TENTHS.par_iter().filter_map(row).collect()
+}
+
+/// A set of stated sizes.
+fn fixed<N>(ClaimedSet { x0, e0, z0 }: &ClaimedSet, number: impl Fn(&Rational) -> N) -> InitialSet<N> {
+    let (x0, e0) = (number(x0), number(e0));
+    match z0 {
+        None => InitialSet::Aligned { x0: Some(x0), e0: Some(e0) },
+        Some(z0) => InitialSet::Box { x0, e0, z0: number(z0) },
+    }
+}
