@@ -175,8 +175,8 @@ fn regulator(spec: &Specification) -> String {
     let output = spec.input_gain.as_ref().map_or_else(String::new, |gain| format!(", and{}", output(gain)));
     format!(
         "the regulator runs in continuous time with exactly the mu, weights and base frequency stated{frequency}{output}: no \
-         sampling, delay, {}or noise",
-        if spec.actuator.is_some() { "" } else { "saturation " }
+         {} or noise",
+        if spec.actuator.is_some() { "sampling, delay" } else { "sampling, delay, saturation" }
     )
 }
 

@@ -42,8 +42,8 @@ pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences
                 format!("; sigma*, the smallest gain for which the loop is proved, is about {} (an estimate)", estimate(least))
             });
             format!(
-                "sigma = {sigma} in 1/time, the smallest one that is found with which{}; the loop is proved for every larger one, too; \
-                 the same for every n_o{least}",
+                "sigma = {sigma} in 1/time, the smallest one that is found with which{}; the loop is proved for every larger one, too, \
+                 whose bounds are others; the same for every n_o{least}",
                 with.trim_start_matches("; with it")
             )
         }

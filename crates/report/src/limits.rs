@@ -47,9 +47,9 @@ pub(super) fn kept_json(limits: &Limits, bounds: &Bounds<'_>) -> Value {
     if fields.is_empty() { Value::Null } else { fields.into() }
 }
 
-/// ", and an actuator that takes |u| <= 50, which u never exceeds"; nothing where there is none.
+/// " and an actuator that takes |u| <= 50 (u never exceeds it)"; nothing where there is none.
 pub(super) fn of_actuator(spec: &Specification) -> String {
     spec.actuator.as_ref().map_or_else(String::new, |actuator| {
-        format!(", and an actuator that takes |u| <= {}, beyond which u never is,", clean(&actuator.max.text))
+        format!(" and an actuator that takes |u| <= {} (u never exceeds it)", clean(&actuator.max.text))
     })
 }

@@ -67,6 +67,16 @@ impl BestSharp {
             Ok(least) => least,
             Err(obstacle) => return refused(obstacle, model),
         };
+        let kept = |proof: &SharpProof| {
+            let SharpEvaluation { periodic, peak, control, .. } = &proof.evaluation;
+            asked.is_none_or(|limits| limits.kept([&periodic.e_per, peak], control))
+        };
+        // The smallest gain itself may do.
+        let proof = round_sharp(data, &model, &least, (kind, gain), options.ladder);
+        if let Some(proof) = proof.filter(|proof| proof.truth().is_true() && kept(proof)) {
+            let outcome = Some(proof).into();
+            return BestSharp { model, proposal: Some(least), outcome, smallest_gain: gain.is_none().then_some(least.sigma) };
+        }
         let at = |goal: Goal, sigma: f64| {
             let model = model.with_goal(goal);
             let proposal = search_sharp_at(&model, sigma, start)?;
@@ -81,10 +91,6 @@ impl BestSharp {
             let sigma = gain.cloned().or_else(|| found.sigma());
             let with = model.with_goal(found.goal);
             let proof = round_sharp(data, &with, &found.proposal, (kind, sigma.as_ref()), options.ladder);
-            let kept = |proof: &SharpProof| {
-                let SharpEvaluation { periodic, peak, control, .. } = &proof.evaluation;
-                asked.is_none_or(|limits| limits.kept([&periodic.e_per, peak], control))
-            };
             let outcome: Outcome<SharpProof> = match proof {
                 // Nothing is claimed that does not keep to what was asked for.
                 Some(proof) if !kept(&proof) => Outcome::NotFound(found.failing().into()),

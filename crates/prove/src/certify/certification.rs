@@ -8,7 +8,7 @@ use super::no_plant::NoPlant;
 use super::options::Options;
 use super::proof::{Decided, Outcome, Proof, RepairedProof, SharpProof};
 use super::verdict::Verdict;
-use crate::search::{Binding, Datum, OptionalDatum};
+use crate::search::{Binding, Datum, Failing, Obstacle, OptionalDatum};
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_lang::spec::model::Specification;
@@ -140,6 +140,16 @@ impl Certification<'_> {
     #[must_use]
     pub fn is_smallest(&self) -> bool {
         self.given_gain.is_none() && self.limits.is_empty() && self.spec.actuator.is_none()
+    }
+
+    /// Whether this run, without a claim, comes closer to what was to be kept than another one.
+    #[must_use]
+    pub fn closer_to_limits_than(&self, other: &Certification<'_>) -> bool {
+        let missed = |run: &Certification<'_>| match &run.sharp {
+            Outcome::NotFound(Obstacle { failing: Failing::Limit { asked, least, .. }, .. }) => least / asked,
+            _ => f64::INFINITY,
+        };
+        missed(self) < missed(other)
     }
 
     /// Bounds of |e| along the periodic solution and on the way, and of the control, at the gain of the claim, if certified.

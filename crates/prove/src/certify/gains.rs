@@ -1,9 +1,11 @@
 //! What larger gains bring (derivation, 13.5): bounds at multiples of the gain of a claim, for the same initial set.
 
+use super::best::model;
 use super::bounding::prove_up_to;
+use super::certification::Certification;
 use super::options::Ladder;
 use super::proof::SharpProof;
-use super::round::round_again;
+use super::round::{TransferKind, round_again};
 use crate::search::{FloatModel, Goal, SharpProposal, search_sharp_at};
 use rayon::prelude::*;
 use rug::Rational;
@@ -15,9 +17,10 @@ use sigmastar_theory::derivation::consequences::error_bounds;
 use sigmastar_theory::derivation::control::Control;
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
 use sigmastar_theory::derivation::mistuned::Mistuning;
+use sigmastar_theory::transfer::TransferProof;
 
 /// The gains, in tenths of that of the claim.
-const TENTHS: [u32; 6] = [10, 12, 15, 20, 30, 50];
+const TENTHS: [u32; 5] = [12, 15, 20, 30, 50];
 
 /// The numbers of oscillators of which the steady error is bounded.
 pub const SHOWN_N_O: [u64; 2] = [0, 10];
@@ -53,9 +56,11 @@ impl GainRow {
     }
 }
 
-/// The rows of a claim, whose own is the first; a gain at which nothing is proved from near `start` has none. The error boxes of the others are
-/// those with the smallest bound of |e| that are found.
-pub(super) fn gain_rows(
+/// The rows of larger gains than that of a claim; one at which nothing is proved from near `start` has none. The error boxes are those with the
+/// smallest bound of |e| that are found.
+///
+/// `spec` has the data of the claim, or others of the same plant in the same coordinates.
+fn gain_rows(
     spec: &Specification,
     proof: &SharpProof,
     (model, start): (&FloatModel, &SharpProposal),
@@ -65,9 +70,6 @@ pub(super) fn gain_rows(
     let model = model.with_goal(Goal::Peak).with_set(fixed(set, Rational::to_f64));
     let reach = proof.decided().reach();
     let row = |tenths: &u32| {
-        if *tenths == 10 {
-            return Some(GainRow::of(spec, proof));
-        }
         let sigma = round_rational(&(Rational::from((*tenths, 10)) * &proof.witness.sigma), 6, Direction::Up);
         let found = search_sharp_at(&model, sigma.to_f64(), Some(start)).ok()?;
         let (k0, k1) = (proof.witness.k0.clone(), proof.witness.k1.clone());
@@ -82,6 +84,35 @@ pub(super) fn gain_rows(
         known.then(|| GainRow::of(spec, &proof))
     };
     TENTHS.par_iter().filter_map(row).collect()
+}
+
+impl Certification<'_> {
+    /// The rows of a run that is certified without an actuator; of one with an actuator nothing is said of another gain.
+    pub(super) fn set_gains(&mut self, model: &FloatModel, start: &SharpProposal) {
+        let Some(proof) = self.sharp.proved().filter(|_| self.claim().is_some() && self.spec.actuator.is_none()) else { return };
+        let mut rows = vec![GainRow::of(self.spec, proof)];
+        rows.extend(gain_rows(self.spec, proof, (model, start)));
+        self.gains = rows;
+    }
+
+    /// The rows with those of other data of the same plant, in the same coordinates, in their place where |e| stays smaller.
+    pub fn with_gains_of(&mut self, spec: &Specification, start: &SharpProposal) {
+        let Some(proof) = self.sharp.proved().filter(|_| !self.gains.is_empty()) else { return };
+        let kind = match proof.witness.transfer {
+            TransferProof::ClosedForm => TransferKind::ClosedForm,
+            TransferProof::Matched { .. } => TransferKind::Matched,
+            TransferProof::Boxes(_) => TransferKind::Boxes,
+        };
+        let model = model(&Data::new(spec, proof.precision), kind);
+        for row in gain_rows(spec, proof, (&model, start)) {
+            match self.gains.iter_mut().find(|known| known.sigma == row.sigma) {
+                Some(known) if row.peak.lt(&known.peak).is_true() => *known = row,
+                Some(_) => {}
+                None => self.gains.push(row),
+            }
+        }
+        self.gains.sort_by(|a, b| a.sigma.cmp(&b.sigma));
+    }
 }
 
 /// A set of stated sizes.

@@ -5,7 +5,6 @@ use super::bounding::{BoundingProblem, prove_on_domain, prove_up_to};
 use super::certification::{Alternatives, Certification, ExactClaim, PrintedFigure, RelativeDegreeGains};
 use super::constants::Columns;
 use super::decide::{decide, decide_exact};
-use super::gains::gain_rows;
 use super::limits::Limits;
 use super::matrix_checks::MatrixChecks;
 use super::no_plant::no_plant;
@@ -119,11 +118,8 @@ fn certify_wanted<'s>(
     };
     let parts = Parts { sharp, repaired, printed, exact, exact_failing: Vec::new(), unproved, proposal };
     let mut run = assemble(spec, options, &data, parts, &sharp_model)?;
-    // With an actuator nothing is said of a larger gain.
-    if let (Verdict::Certified, Outcome::Proved(proof), Some(near), None) = (run.verdict, &run.sharp, &near, &spec.actuator)
-        && options.compare
-    {
-        run.gains = gain_rows(spec, proof, (&sharp_model, near));
+    if let Some(near) = near.filter(|_| options.compare) {
+        run.set_gains(&sharp_model, &near);
     }
     let limits = asked.limits.cloned().unwrap_or_default();
     Ok(Certification { given_gain: asked.gain.cloned(), limits, smallest_gain, ..run })

@@ -204,6 +204,16 @@ fn kept(
         }?;
         search.largest_at(&proposal).map(|largest| (proposal, largest))
     };
+    let kept = |proof: &SampledProof| {
+        let SampledEvaluation { size, peak, control, .. } = &proof.evaluation;
+        limits.kept([&size.e_per, peak], control)
+    };
+    // The smallest gain itself may do.
+    let search = SampledSearch::new(model, law.clone());
+    let proof = round(data, (sampling, numbers), (model, &search), (&least, gain), ladder);
+    if let Some(proof) = proof.filter(|proof| proof.truth().is_true() && kept(proof)) {
+        return Some(proof).into();
+    }
     let mut outcome = None;
     for room in ROOMS {
         let found = match float.smallest([least.sigma, law.step.recip()], (given, room), at) {
@@ -214,10 +224,6 @@ fn kept(
         let model = model.with_goal(found.goal);
         let search = SampledSearch::new(&model, law.clone());
         let proof = round(data, (sampling, numbers), (&model, &search), (&found.proposal, Some(&sigma)), ladder);
-        let kept = |proof: &SampledProof| {
-            let SampledEvaluation { size, peak, control, .. } = &proof.evaluation;
-            limits.kept([&size.e_per, peak], control)
-        };
         let attempt: Outcome<SampledProof> = match proof {
             // Nothing is claimed that does not keep to what was asked for.
             Some(proof) if !kept(&proof) => Outcome::NotFound(found.failing().into()),

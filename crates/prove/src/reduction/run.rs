@@ -107,15 +107,28 @@ impl Prepared {
         let smallest = gain.is_none() && self.limits.is_empty() && spec.actuator.is_none();
         let run = match &self.start {
             Start::Continuous(start) => {
-                let proposal = start.as_ref().map(|(proposal, _)| proposal);
-                certify_within(spec, options, proposal, (gain, &self.limits)).map(|mut run| {
-                    if let Some((_, Alternatives { by_norms, aligned, nominal_gain })) = start.as_ref().filter(|_| smallest)
+                let proposal = start.as_ref().map(|sought| &sought.proposal);
+                let other = start.as_ref().and_then(|sought| sought.without_joint.as_deref());
+                let run = certify_within(spec, options, proposal, (gain, &self.limits));
+                // Of a larger gain than the smallest one joint metrics say less.
+                let run = match other.filter(|_| !smallest) {
+                    None => run,
+                    Some((spec, proposal)) => {
+                        certify_within(spec, options, Some(proposal), (gain, &self.limits)).and_then(|other| better(run?, other))
+                    }
+                };
+                run.map(|mut run| {
+                    if let Some((spec, proposal)) = other.filter(|_| smallest) {
+                        run.with_gains_of(spec, proposal);
+                    }
+                    let alternatives = start.as_ref().filter(|_| smallest).map(|sought| sought.alternatives);
+                    if let Some(Alternatives { by_norms, aligned, nominal_gain }) = alternatives
                         && let Some(sigma) = run.sigma_star().map(Rational::to_f64)
                     {
                         // From few samples norms may seem to need less than they do.
                         run.alternatives.by_norms = by_norms.filter(|by_norms| *by_norms > sigma);
-                        run.alternatives.aligned = run.alternatives.aligned.or(*aligned);
-                        let nominal_gain = run.alternatives.nominal_gain.or(*nominal_gain);
+                        run.alternatives.aligned = run.alternatives.aligned.or(aligned);
+                        let nominal_gain = run.alternatives.nominal_gain.or(nominal_gain);
                         run.alternatives.nominal_gain = nominal_gain.filter(|nominal| *nominal < sigma);
                     }
                     if let Some(plant) = self.plant.as_ref().filter(|_| smallest && options.compare && run.claim().is_some()) {
@@ -145,6 +158,16 @@ impl Prepared {
         };
         run.map_err(|refusal: Refusal| refusal.errors(spec))
     }
+}
+
+/// The one with the smaller gain of two runs, or with one at all; where neither has one, the one that comes closer to what is asked for.
+fn better<'s>(first: Certification<'s>, second: Certification<'s>) -> Result<Certification<'s>, Refusal> {
+    let takes_second = match (first.sigma_star(), second.sigma_star()) {
+        (Some(one), Some(other)) => other < one,
+        (None, None) => second.closer_to_limits_than(&first),
+        (one, _) => one.is_none(),
+    };
+    Ok(if takes_second { second } else { first })
 }
 
 impl Run<'_> {
