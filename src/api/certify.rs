@@ -34,7 +34,7 @@ pub fn certify(subject: impl Into<Subject>, options: &CertifyOptions) -> Result<
 }
 
 fn run(subject: &Subject, options: &CertifyOptions) -> Result<Certificate, Error> {
-    let Asked { options, gain, step } = options.checked()?;
+    let Asked { options, gain, step, limits } = options.checked()?;
     let asked = match &step {
         None => subject.clone(),
         Some(step) => {
@@ -47,6 +47,7 @@ fn run(subject: &Subject, options: &CertifyOptions) -> Result<Certificate, Error
         return Err(Error::misfit(misfit));
     }
     let prepared = Prepared::new(asked.read.clone(), gain).map_err(|all| Error::documents(&all))?;
+    let prepared = prepared.within(limits);
     let run = prepared.certify(options).map_err(|all| Error::documents(&all))?;
     Certificate::new(&run, &asked).ok_or_else(|| not_certified(&run))
 }

@@ -27,7 +27,8 @@ pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences
         return Vec::new();
     };
     let sigma = write_exact(sigma);
-    let kept = run.bounds().and_then(|(steady, peak, control)| limits::kept(&run.limits, &Bounds { steady, peak, control }));
+    let kept =
+        run.bounds().and_then(|(steady, peak, control)| limits::kept(&run.limits, &Bounds { steady, peak, control }));
     let with = kept.map_or_else(String::new, |kept| format!("; with it {kept}"));
     let gain = match (&run.given_gain, &run.spec.actuator) {
         (_, Some(actuator)) => format!(
@@ -39,7 +40,10 @@ pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences
         }
         (None, None) if !run.limits.is_empty() => {
             let least = run.smallest_gain.map_or_else(String::new, |least| {
-                format!("; sigma*, the smallest gain for which the loop is proved, is about {} (an estimate)", estimate(least))
+                format!(
+                    "; sigma*, the smallest gain for which the loop is proved, is about {} (an estimate)",
+                    estimate(least)
+                )
             });
             format!(
                 "sigma = {sigma} in 1/time, the smallest one that is found with which{}; the loop is proved for every larger one, too, \

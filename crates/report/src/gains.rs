@@ -1,10 +1,10 @@
 //! What larger gains bring: certified bounds at multiples of the gain of a claim.
 
 use serde_json::{Value, json};
-use sigmastar_document::number::{full, upper};
+use sigmastar_document::number::{exact, full, upper};
 use sigmastar_document::{Block, Table};
 use sigmastar_exact::enclosure::Enclosure;
-use sigmastar_exact::number::write_exact;
+use sigmastar_exact::number::{Direction, write_exact};
 use sigmastar_prove::certify::{Certification, GainRow, SHOWN_N_O};
 
 /// By so much more than at the start |e| is remarked to be on the way.
@@ -19,18 +19,19 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
         return Vec::new();
     }
     let [none, some] = SHOWN_N_O.map(|n_o| format!("sup|e| at most, n_o = {n_o}"));
-    let titles = ["sigma", &none, &some, "|e| on the way", "|u| along it", "|u| on the way"];
+    let titles = ["sigma", &none, &some, "E0", "|e| on the way", "|u| along it", "|u| on the way"];
     let mut table = Table::new(&titles);
-    for GainRow { sigma, steady: [first, second], peak, control } in &run.gains {
+    for GainRow { sigma, e0, steady: [first, second], peak, control } in &run.gains {
         let largest = &control.steady + &control.transient;
-        let sizes = [first, second, peak, &control.steady, &largest].map(upper);
-        table.push(std::iter::once(write_exact(sigma)).chain(sizes));
+        let [peak, along, largest] = [peak, &control.steady, &largest].map(upper);
+        table.push([write_exact(sigma), upper(first), upper(second), exact(e0, Direction::Down), peak, along, largest]);
     }
     vec![
         Block::heading("What larger gains bring"),
         Block::says(
-            "Along the periodic solution and on the way to it from the initial set of the claim. Each row is proved for every n_o (but \
-             where one is named), by a witness of its own that has no independent check: `certify --sigma V -o FILE` writes one that has.",
+            "Along the periodic solution, and on the way to it from |e| <= E0 and the rest of the initial set: where the file states no \
+             sizes of the set they are twice those of the periodic solution at that gain. Each row is proved for every n_o (but where one \
+             is named), with a witness of its own that no independent program checks: `certify --sigma V -o FILE` writes a certificate.",
         ),
         Block::Table(table),
     ]
@@ -38,10 +39,10 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
 
 /// The rows as JSON.
 pub(super) fn rows_json(run: &Certification<'_>) -> Value {
-    let row = |GainRow { sigma, steady, peak, control }: &GainRow| {
+    let row = |GainRow { sigma, e0, steady, peak, control }: &GainRow| {
         let named = SHOWN_N_O.iter().zip(steady).map(|(n_o, bound)| json!({ "n_o": n_o, "sup": full(bound) }));
         json!({
-            "sigma": write_exact(sigma), "steady_error": named.collect::<Vec<_>>(), "peak_error": full(peak),
+            "sigma": write_exact(sigma), "E0": write_exact(e0), "steady_error": named.collect::<Vec<_>>(), "peak_error": full(peak),
             "control": { "steady": full(&control.steady), "transient": full(&control.transient) },
         })
     };
@@ -59,12 +60,13 @@ pub(super) fn remark(run: &Certification<'_>) -> Option<String> {
     }
     let better = run.gains.iter().skip(1).find(|row| row.peak.upper_f64() <= WORTH * peak);
     let better = better.map_or_else(String::new, |row| {
-        format!(": at sigma = {} it is {}", write_exact(&row.sigma), upper(&row.peak))
+        let e0 = exact(&row.e0, Direction::Down);
+        format!(": at sigma = {} it is {}, from {e0}", write_exact(&row.sigma), upper(&row.peak))
     });
     Some(format!(
         "Remark: on the way |e| is proved to be at most {}, from at most {} at the start. A larger gain may help{better}; `--peak-error V` \
          seeks one.",
         upper(&own.peak),
-        write_exact(&set.e0)
+        exact(&set.e0, Direction::Down)
     ))
 }

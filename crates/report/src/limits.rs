@@ -42,7 +42,9 @@ fn named(limits: &Limits, bounds: &Bounds<'_>) -> [(&'static str, &'static str, 
 pub(super) fn kept_json(limits: &Limits, bounds: &Bounds<'_>) -> Value {
     let named = named(limits, bounds).into_iter();
     let fields: Map<String, Value> = named
-        .filter_map(|(name, _, limit, bound)| Some((name.to_owned(), json!({ "asked": limit?, "proved": full(&bound) }))))
+        .filter_map(|(name, _, limit, bound)| {
+            Some((name.to_owned(), json!({ "asked": limit?, "proved": full(&bound) })))
+        })
         .collect();
     if fields.is_empty() { Value::Null } else { fields.into() }
 }

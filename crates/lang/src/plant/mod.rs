@@ -8,7 +8,8 @@ pub use read::{FORMAT, VERSIONS};
 
 use crate::expr::{Formula, Formulas, PlantExpr, PlantNames, PlantVariable, Program};
 use crate::spec::{
-    Actuator, Constant, Document, Domain, ErrorKind, InitialSet, InputGain, InternalModel, Parameters, Period, SpecErrors,
+    Actuator, Constant, Document, Domain, ErrorKind, InitialSet, InputGain, InternalModel, Parameters, Period,
+    SpecErrors,
 };
 use rug::Rational;
 use std::ops::Range;

@@ -4,8 +4,8 @@ use super::{Initial, InitialRegulator, Plant, periodicity};
 use crate::expr::{Definitions, Expr, Phase, PlantExpr, PlantNames};
 use crate::spec::{
     Constant, Document, Domain, ErrorKind, Errors, InitialSet, Parameters, Period, Reported, SpecErrors, Value,
-    any_constant_in, positive_constant_in, read_actuator, read_input_gain, read_internal_model, read_parameters, read_period,
-    read_with_ball,
+    any_constant_in, positive_constant_in, read_actuator, read_input_gain, read_internal_model, read_parameters,
+    read_period, read_with_ball,
 };
 use std::path::Path;
 

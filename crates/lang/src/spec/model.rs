@@ -1,9 +1,9 @@
 //! What a bounding specification says, with every number exact.
 
+use super::actuator::Actuator;
 use super::bound::Bound;
 use super::bounding::Bounds;
 use super::document::Document;
-use super::actuator::Actuator;
 use super::input_gain::InputGain;
 use super::of_plant::OfPlant;
 pub use super::parts::{

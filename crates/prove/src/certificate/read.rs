@@ -8,8 +8,8 @@ use rug::Rational;
 use sigmastar_lang::expr::Definitions;
 use sigmastar_lang::spec::model::PeriodicMatrix;
 use sigmastar_lang::spec::{
-    Actuator, Document, ErrorKind, Errors, InputGain, Object, Reported, SpecErrors, Value, read_actuator, read_input_gain,
-    read_parameters,
+    Actuator, Document, ErrorKind, Errors, InputGain, Object, Reported, SpecErrors, Value, read_actuator,
+    read_input_gain, read_parameters,
 };
 use sigmastar_plants::lyapunov::{ProvedTriple, ProvedTriples};
 use sigmastar_theory::derivation::initial_set::ClaimedSet;

@@ -4,8 +4,8 @@ use super::fields::{NumberFields, paths_json};
 use super::of_plant::plant_parts;
 use super::triple::lyapunov_parts;
 use super::write::{
-    FORMAT, VERSION, actuator_json, conclusion, conditions_json, control_json, every_input_gain, exact, input_gain_json, object,
-    parameters_json, set_json, text, upper_end, within_actuator,
+    FORMAT, VERSION, actuator_json, conclusion, conditions_json, control_json, every_input_gain, exact,
+    input_gain_json, object, parameters_json, set_json, text, upper_end, within_actuator,
 };
 use crate::certify::SampledCertification;
 use serde_json::Value;

@@ -57,8 +57,12 @@ impl BestSharp {
         (kind, model): (TransferKind, FloatModel),
         (Wanted { start, gain, limits: asked }, limits): (Wanted<'_>, FloatLimits),
     ) -> BestSharp {
-        let refused =
-            |obstacle, model| BestSharp { model, proposal: None, outcome: Outcome::NotFound(obstacle), smallest_gain: None };
+        let refused = |obstacle, model| BestSharp {
+            model,
+            proposal: None,
+            outcome: Outcome::NotFound(obstacle),
+            smallest_gain: None,
+        };
         let least = match gain {
             Some(gain) => at_gain(&model, gain.to_f64(), start),
             None => smallest(&model, start),
@@ -75,7 +79,12 @@ impl BestSharp {
         let proof = round_sharp(data, &model, &least, (kind, gain), options.ladder);
         if let Some(proof) = proof.filter(|proof| proof.truth().is_true() && kept(proof)) {
             let outcome = Some(proof).into();
-            return BestSharp { model, proposal: Some(least), outcome, smallest_gain: gain.is_none().then_some(least.sigma) };
+            return BestSharp {
+                model,
+                proposal: Some(least),
+                outcome,
+                smallest_gain: gain.is_none().then_some(least.sigma),
+            };
         }
         let at = |goal: Goal, sigma: f64| {
             let model = model.with_goal(goal);

@@ -1,4 +1,4 @@
-//! What larger gains bring (derivation, 13.5): bounds at multiples of the gain of a claim, for the same initial set.
+//! What larger gains bring (derivation, 13.5): bounds at multiples of the gain of a claim.
 
 use super::best::model;
 use super::bounding::prove_up_to;
@@ -11,11 +11,10 @@ use rayon::prelude::*;
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, round_rational};
-use sigmastar_lang::spec::{Constant, InitialSet, Specification};
+use sigmastar_lang::spec::Specification;
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::consequences::error_bounds;
 use sigmastar_theory::derivation::control::Control;
-use sigmastar_theory::derivation::initial_set::ClaimedSet;
 use sigmastar_theory::derivation::mistuned::Mistuning;
 use sigmastar_theory::transfer::TransferProof;
 
@@ -25,13 +24,16 @@ const TENTHS: [u32; 5] = [12, 15, 20, 30, 50];
 /// The numbers of oscillators of which the steady error is bounded.
 pub const SHOWN_N_O: [u64; 2] = [0, 10];
 
-/// Bounds at one gain, for every solution from the initial set of the claim.
+/// Bounds at one gain, for every solution from the initial set there: where the specification states no sizes of it they are those of the
+/// periodic solution at this gain.
 ///
-/// Guarantee: every condition is proved for a witness at this gain, so that the gain is certified for that set, too.
+/// Guarantee: every condition is proved for a witness at this gain.
 #[derive(Clone, Debug)]
 pub struct GainRow {
     /// The gain.
     pub sigma: Rational,
+    /// E0 of the initial set.
+    pub e0: Rational,
     /// Of |e| along the periodic solution, for the numbers of oscillators of [`SHOWN_N_O`].
     pub steady: [Enclosure; 2],
     /// Of |e| on the way, for every n_o.
@@ -49,6 +51,7 @@ impl GainRow {
         let sup = |n_o| error_bounds(&data, &evaluation.excitation, mistuning.as_ref(), &sigma, e_per, n_o).sup;
         GainRow {
             sigma: proof.witness.sigma.clone(),
+            e0: proof.witness.set.e0.clone(),
             steady: SHOWN_N_O.map(sup),
             peak: evaluation.peak.clone(),
             control: evaluation.control.clone(),
@@ -60,14 +63,8 @@ impl GainRow {
 /// smallest bound of |e| that are found.
 ///
 /// `spec` has the data of the claim, or others of the same plant in the same coordinates.
-fn gain_rows(
-    spec: &Specification,
-    proof: &SharpProof,
-    (model, start): (&FloatModel, &SharpProposal),
-) -> Vec<GainRow> {
-    let set = &proof.witness.set;
-    let spec = &Specification { initial_set: fixed(set, Constant::rational), ..spec.clone() };
-    let model = model.with_goal(Goal::Peak).with_set(fixed(set, Rational::to_f64));
+fn gain_rows(spec: &Specification, proof: &SharpProof, (model, start): (&FloatModel, &SharpProposal)) -> Vec<GainRow> {
+    let model = model.with_goal(Goal::Peak);
     let reach = proof.decided().reach();
     let row = |tenths: &u32| {
         let sigma = round_rational(&(Rational::from((*tenths, 10)) * &proof.witness.sigma), 6, Direction::Up);
@@ -89,7 +86,9 @@ fn gain_rows(
 impl Certification<'_> {
     /// The rows of a run that is certified without an actuator; of one with an actuator nothing is said of another gain.
     pub(super) fn set_gains(&mut self, model: &FloatModel, start: &SharpProposal) {
-        let Some(proof) = self.sharp.proved().filter(|_| self.claim().is_some() && self.spec.actuator.is_none()) else { return };
+        let Some(proof) = self.sharp.proved().filter(|_| self.claim().is_some() && self.spec.actuator.is_none()) else {
+            return;
+        };
         let mut rows = vec![GainRow::of(self.spec, proof)];
         rows.extend(gain_rows(self.spec, proof, (model, start)));
         self.gains = rows;
@@ -112,14 +111,5 @@ impl Certification<'_> {
             }
         }
         self.gains.sort_by(|a, b| a.sigma.cmp(&b.sigma));
-    }
-}
-
-/// A set of stated sizes.
-fn fixed<N>(ClaimedSet { x0, e0, z0 }: &ClaimedSet, number: impl Fn(&Rational) -> N) -> InitialSet<N> {
-    let (x0, e0) = (number(x0), number(e0));
-    match z0 {
-        None => InitialSet::Aligned { x0: Some(x0), e0: Some(e0) },
-        Some(z0) => InitialSet::Box { x0, e0, z0: number(z0) },
     }
 }

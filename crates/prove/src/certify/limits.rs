@@ -65,7 +65,7 @@ const DOUBLINGS: i32 = 40;
 const STEPS: usize = 12;
 
 /// What a proof may need more than a candidate, in turn.
-pub(super) const ROOMS: [f64; 4] = [1e-6, 1e-4, 1e-2, 0.1];
+pub(super) const ROOMS: [f64; 4] = [1e-4, 1e-3, 1e-2, 0.1];
 
 impl FloatLimits {
     /// None where nothing is to be kept.
@@ -112,7 +112,11 @@ impl FloatLimits {
     }
 
     /// The best proposal at a gain, for whichever goal.
-    fn best<P>(&self, sigma: f64, at: &impl Fn(Goal, f64) -> Result<(P, Largest), Obstacle>) -> Result<Found<P>, Obstacle> {
+    fn best<P>(
+        &self,
+        sigma: f64,
+        at: &impl Fn(Goal, f64) -> Result<(P, Largest), Obstacle>,
+    ) -> Result<Found<P>, Obstacle> {
         let mut outcome = Err(Failing::NotFinite(None).into());
         for goal in self.goals() {
             match (at(goal, sigma), &outcome) {

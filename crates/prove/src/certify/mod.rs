@@ -40,8 +40,6 @@ pub use options::{Ladder, Options, TransferChoice};
 pub use produce::{certify, certify_at, certify_near, certify_within, recheck};
 pub use proof::{Decidable, Decided, GivenWitness, Outcome, Proof, RepairedProof, SampledProof, SharpProof, Witness};
 pub use refusal::{Refusal, WITHOUT_INPUT_GAIN, not_available_with_input_gain};
-pub use sampled::{
-    SampledCertification, certify_sampled, certify_sampled_within, recheck_sampled, sampled_model,
-};
+pub use sampled::{SampledCertification, certify_sampled, certify_sampled_within, recheck_sampled, sampled_model};
 pub use smaller::SmallerChoice;
 pub use verdict::{Verdict, verdict_of_errors};

@@ -108,12 +108,14 @@ fn certify_wanted<'s>(
     let printed = if others { printed_figure(&data, &paper_model) } else { PrintedFigure::default() };
     let exact = match (&sharp, spec.internal_model.matched) {
         // It is of another gain.
-        (Outcome::Proved(proof), true) if spec.actuator.is_none() => exact_claim(&data, &sharp_model, &proof.witness.set, options.ladder)
-            // Its error box has its own size, and may reach beyond the arguments of the other derivations.
-            .filter(|claim| {
-                let ExactWitness { d_x, d_e, .. } = &claim.witness;
-                spec.domain.is_some() || prove_up_to(spec, d_x, d_e).is_ok()
-            }),
+        (Outcome::Proved(proof), true) if spec.actuator.is_none() => {
+            exact_claim(&data, &sharp_model, &proof.witness.set, options.ladder)
+                // Its error box has its own size, and may reach beyond the arguments of the other derivations.
+                .filter(|claim| {
+                    let ExactWitness { d_x, d_e, .. } = &claim.witness;
+                    spec.domain.is_some() || prove_up_to(spec, d_x, d_e).is_ok()
+                })
+        }
         _ => None,
     };
     let parts = Parts { sharp, repaired, printed, exact, exact_failing: Vec::new(), unproved, proposal };

@@ -113,9 +113,8 @@ impl Prepared {
                 // Of a larger gain than the smallest one joint metrics say less.
                 let run = match other.filter(|_| !smallest) {
                     None => run,
-                    Some((spec, proposal)) => {
-                        certify_within(spec, options, Some(proposal), (gain, &self.limits)).and_then(|other| better(run?, other))
-                    }
+                    Some((spec, proposal)) => certify_within(spec, options, Some(proposal), (gain, &self.limits))
+                        .and_then(|other| better(run?, other)),
                 };
                 run.map(|mut run| {
                     if let Some((spec, proposal)) = other.filter(|_| smallest) {
@@ -131,7 +130,9 @@ impl Prepared {
                         let nominal_gain = run.alternatives.nominal_gain.or(nominal_gain);
                         run.alternatives.nominal_gain = nominal_gain.filter(|nominal| *nominal < sigma);
                     }
-                    if let Some(plant) = self.plant.as_ref().filter(|_| smallest && options.compare && run.claim().is_some()) {
+                    if let Some(plant) =
+                        self.plant.as_ref().filter(|_| smallest && options.compare && run.claim().is_some())
+                    {
                         let gain = |plant: &Plant| reduce(plant, None).ok().map(|found| found.proposal.sigma);
                         run.interval_costs = interval_costs(plant, gain);
                     }
@@ -167,7 +168,9 @@ fn better<'s>(first: Certification<'s>, second: Certification<'s>) -> Result<Cer
         (None, None) => second.closer_to_limits_than(&first),
         (one, _) => one.is_none(),
     };
-    Ok(if takes_second { second } else { first })
+    let smallest_gain = [first.smallest_gain, second.smallest_gain].into_iter().flatten().reduce(f64::min);
+    let taken = if takes_second { second } else { first };
+    Ok(Certification { smallest_gain, ..taken })
 }
 
 impl Run<'_> {

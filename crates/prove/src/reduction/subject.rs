@@ -7,7 +7,8 @@ use crate::search::{SampledProposal, SharpProposal};
 use rug::Rational;
 use sigmastar_lang::plant::{self, Plant};
 use sigmastar_lang::spec::{
-    Actuator, Constant, Document, ErrorKind, InputGain, InternalModel, Period, Sampling, SpecErrors, Specification, Value,
+    Actuator, Constant, Document, ErrorKind, InputGain, InternalModel, Period, Sampling, SpecErrors, Specification,
+    Value,
 };
 
 /// Where the search for a gain may start, and what it saw beside.

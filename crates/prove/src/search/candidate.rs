@@ -144,6 +144,15 @@ pub(super) fn error_box_by_norms(
         if !decay.sigma_threshold.is_finite() {
             return Err(model.not_finite(x_b, e_b));
         }
-        Ok(AtSigma { rho, eta, d_x, dist_e, dist_z, paths, threshold: decay.sigma_threshold, cost: decay.sigma_threshold })
+        Ok(AtSigma {
+            rho,
+            eta,
+            d_x,
+            dist_e,
+            dist_z,
+            paths,
+            threshold: decay.sigma_threshold,
+            cost: decay.sigma_threshold,
+        })
     })
 }

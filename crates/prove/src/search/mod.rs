@@ -44,8 +44,8 @@ pub use printed::{PrintedProposal, search_printed};
 pub use repaired::{RepairedProposal, largest_e_repaired, perron_repaired, search_repaired};
 pub use sampled::{SampledLimit, SampledProposal, SampledSearch, ScanPoint};
 pub use sharp::{
-    SharpParameters, SharpProposal, at_sigma, search_sharp, search_sharp_at, search_sharp_near, sensitivities,
-    largest_at, start_distances, without_optional_data,
+    SharpParameters, SharpProposal, at_sigma, largest_at, search_sharp, search_sharp_at, search_sharp_near,
+    sensitivities, start_distances, without_optional_data,
 };
 pub use smaller_set::smaller_set;
 pub use threshold::{ByMatrix, Threshold};

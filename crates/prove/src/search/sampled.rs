@@ -242,7 +242,10 @@ impl<'m> SampledSearch<'m> {
     ///
     /// # Errors
     /// What stands in the way.
-    pub fn largest_at(&self, SampledProposal { sigma, floors, rho, eta, .. }: &SampledProposal) -> Result<Largest, Obstacle> {
+    pub fn largest_at(
+        &self,
+        SampledProposal { sigma, floors, rho, eta, .. }: &SampledProposal,
+    ) -> Result<Largest, Obstacle> {
         let (set, at) = self.at(*sigma, *floors, Some((*rho, *eta)), ROOM)?;
         let gains = SampledGains::new(&self.law, sigma, &self.model.period);
         let answer = self.law.answer(sigma, &self.model.period, &gains.means);

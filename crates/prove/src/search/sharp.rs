@@ -311,7 +311,10 @@ pub fn at_sigma(
 ///
 /// # Errors
 /// The obstacle, when the candidate is not feasible there.
-pub fn largest_at(model: &FloatModel, SharpProposal { parameters, sigma, .. }: &SharpProposal) -> Result<Largest, Obstacle> {
+pub fn largest_at(
+    model: &FloatModel,
+    SharpProposal { parameters, sigma, .. }: &SharpProposal,
+) -> Result<Largest, Obstacle> {
     let (set, at) = at_sigma(model, parameters, *sigma, ROOM)?;
     let answer = Answer::continuous(model);
     Ok(largest(model, &AtOrigin::new(model), &answer, [*sigma, model.mu], (&set, &at)))

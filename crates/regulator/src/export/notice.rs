@@ -103,7 +103,9 @@ pub fn notice(export: &Export<'_>) -> Vec<String> {
     lines.push(NOT_COVERED.to_owned());
     let never = match (export.certificate.map(|certificate| certificate.scope), export.actuator) {
         (Some(Scope::Samples), Some(_)) => "; from the set of the certificate it never is",
-        (Some(Scope::Continuous), Some(_)) => "; from the set of the certificate that of the law in continuous time never is",
+        (Some(Scope::Continuous), Some(_)) => {
+            "; from the set of the certificate that of the law in continuous time never is"
+        }
         _ => "",
     };
     if let Some(limit) = export.discrete.and_then(|(discrete, _)| discrete.saturation) {

@@ -115,9 +115,8 @@ impl SampledEvaluation {
         };
         let answer = law.answer(&sigma, &data.period, &gains.means);
         let nominal = data.spec.input_gain.as_ref().map(|gain| gain.nominal.enclose(data.precision));
-        let control =
-            Control { steady: answer.steady(&origin, &size.forcing, &by_parts), transient: reach.transient }
-                .over(nominal.as_ref());
+        let control = Control { steady: answer.steady(&origin, &size.forcing, &by_parts), transient: reach.transient }
+            .over(nominal.as_ref());
         let peak = &size.e_per + reach.error;
         conditions.push(Condition::less("C4", level_words(data), start, exit));
         match matrix_inequality::proved_for(data, witness) {

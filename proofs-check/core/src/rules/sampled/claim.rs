@@ -1,8 +1,8 @@
 //! What a claim about a sampled regulator says besides: the law, and its sampling period exactly (docs/mathematics.md, section 12).
 
 use super::law::RULE;
-use crate::constant::Constant;
 use crate::actuator;
+use crate::constant::Constant;
 use crate::input_gain;
 use crate::json::Fields;
 use crate::period;
