@@ -85,6 +85,7 @@ impl Given {
         Provenance {
             sha256: self.sha256.clone(),
             sigma_star: write_exact(&self.sigma_star),
+            one_gain: self.sampled.is_some() || self.with_actuator,
             statement: self.statement.clone(),
             scope: match self.covers_samples(regulator) {
                 Some(true) => Scope::Samples,

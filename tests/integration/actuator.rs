@@ -297,6 +297,7 @@ fn exports_clip_where_the_actuator_saturates() {
         assert!(std::fs::read_to_string(&c).unwrap().contains("if (u > limit)"));
         // Another limit is outside of the claim, and another gain is not the one that is claimed.
         let other = json_of(&[&step[..], &["--saturation", "20"]].concat());
+        assert!(other["certificate"].get("sigma").is_some());
         assert!(other.get("actuator").is_none() && other["discrete"]["saturation"] == 20.0);
         assert!(!other["notice"].to_string().contains("never is"));
         let refused = export(&[&step[..], &["--sigma", "300"]].concat()).assert().code(2);

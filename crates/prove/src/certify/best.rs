@@ -1,6 +1,6 @@
 //! The sharp derivation with the transfer proof, and the candidate, that give the smallest sigma.
 
-use super::limits::{FloatLimits, Limits, ROOMS};
+use super::limits::{FloatLimits, Limits, NEAR, ROOMS};
 use super::options::{Options, TransferChoice};
 use super::proof::{Outcome, SharpProof};
 use super::round::{TransferKind, round_sharp};
@@ -75,9 +75,10 @@ impl BestSharp {
             let SharpEvaluation { periodic, peak, control, .. } = &proof.evaluation;
             asked.is_none_or(|limits| limits.kept([&periodic.e_per, peak], control))
         };
-        // The smallest gain itself may do.
+        // The smallest gain itself may do, but for rounding.
+        let is_it = |proof: &SharpProof| gain.is_some() || proof.witness.sigma <= least.sigma * NEAR;
         let proof = round_sharp(data, &model, &least, (kind, gain), options.ladder);
-        if let Some(proof) = proof.filter(|proof| proof.truth().is_true() && kept(proof)) {
+        if let Some(proof) = proof.filter(|proof| proof.truth().is_true() && is_it(proof) && kept(proof)) {
             let outcome = Some(proof).into();
             return BestSharp {
                 model,

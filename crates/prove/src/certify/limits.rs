@@ -64,6 +64,9 @@ const DOUBLINGS: i32 = 40;
 /// Steps of the bisection between a gain that does not do and one that does.
 const STEPS: usize = 12;
 
+/// By how much more rounding may make a gain.
+pub(super) const NEAR: f64 = 1.0 + 1e-4;
+
 /// What a proof may need more than a candidate, in turn.
 pub(super) const ROOMS: [f64; 4] = [1e-4, 1e-3, 1e-2, 0.1];
 

@@ -145,7 +145,8 @@ pub fn recheck<'s>(
     let data = Data::new(spec, options.ladder.start.max(53));
     let GivenWitness { witness, exact } = file;
     let sharp = Some(decide(spec, witness.as_ref().clone(), options.ladder)).into();
-    let claimed = exact.as_ref().map(|exact| ExactClaim {
+    // With an actuator it is not claimed: it is about other gains.
+    let claimed = exact.as_ref().filter(|_| spec.actuator.is_none()).map(|exact| ExactClaim {
         witness: exact.clone(),
         evaluation: decide_exact(spec, &witness.set, exact, options.ladder),
     });

@@ -2,7 +2,7 @@
 
 use super::bounding::{BoundingProblem, prove_on_domain, prove_up_to};
 use super::decide::decide;
-use super::limits::{FloatLimits, Limits, ROOMS};
+use super::limits::{FloatLimits, Limits, NEAR, ROOMS};
 use super::no_plant::{NoPlant, no_plant};
 use super::options::Ladder;
 use super::produce::undecided_or_error;
@@ -208,10 +208,11 @@ fn kept(
         let SampledEvaluation { size, peak, control, .. } = &proof.evaluation;
         limits.kept([&size.e_per, peak], control)
     };
-    // The smallest gain itself may do.
+    // The smallest gain itself may do, but for rounding.
+    let is_it = |proof: &SampledProof| given || proof.witness.sigma <= least.sigma * NEAR;
     let search = SampledSearch::new(model, law.clone());
     let proof = round(data, (sampling, numbers), (model, &search), (&least, gain), ladder);
-    if let Some(proof) = proof.filter(|proof| proof.truth().is_true() && kept(proof)) {
+    if let Some(proof) = proof.filter(|proof| proof.truth().is_true() && is_it(proof) && kept(proof)) {
         return Some(proof).into();
     }
     let mut outcome = None;

@@ -34,9 +34,8 @@ pub fn json(export: &Export<'_>) -> Value {
             },
         })
     });
-    let certificate = export.certificate.map(|Provenance { sha256, sigma_star, statement, scope }| {
-        let one_gain = scope.is_sampled() || export.actuator.is_some();
-        let gain = if one_gain { "sigma" } else { "sigma_star" };
+    let certificate = export.certificate.map(|Provenance { sha256, sigma_star, one_gain, statement, scope }| {
+        let gain = if *one_gain { "sigma" } else { "sigma_star" };
         let covers = if scope.is_sampled() { "covers_law" } else { "covers_sigma" };
         object!({ "sha256": sha256, gain: sigma_star, "statement": statement, covers: scope.covers() })
     });

@@ -16,6 +16,8 @@ pub struct Provenance {
     pub sha256: String,
     /// Its sigma*, exactly; of a claim about the regulator at samples its gain.
     pub sigma_star: String,
+    /// Whether it is about that gain alone: at samples, or with an actuator.
+    pub one_gain: bool,
     /// Its claim, in its own words.
     pub statement: String,
     /// What it says about this regulator.
@@ -72,7 +74,7 @@ impl Scope {
 pub fn notice(export: &Export<'_>) -> Vec<String> {
     let mut lines = match export.certificate {
         None => vec!["No certificate was given: nothing is claimed.".to_owned()],
-        Some(Provenance { sha256, sigma_star, statement, scope }) => {
+        Some(Provenance { sha256, sigma_star, statement, scope, .. }) => {
             let named = format!("Certificate with SHA-256 {sha256} (of its canonical form)");
             let claims = format!("{named}; `sigmastar check` decides it. It claims: {}", plain(statement));
             let about = match scope {
