@@ -145,7 +145,7 @@ fn from_the_set_the_actuator_never_saturates() {
         let mut largest = 0.0_f64;
         for finding in &outcome.findings {
             let Finding::Holds { trial, shares } = finding else { panic!("{name}: {finding:?}") };
-            assert_eq!(trial.sigma, gain);
+            assert!((trial.sigma / gain - 1.0).abs() < 1e-14);
             let share = shares.iter().find(|(quantity, _)| *quantity == ON_THE_WAY).unwrap().1;
             largest = largest.max(share);
         }
@@ -217,10 +217,7 @@ fn a_gain_that_keeps_to_limits() {
         let proved = number(&kept["limits"][part]["proved"]);
         assert!(proved <= limit * (1.0 + 1e-12) && proved > 0.99 * limit, "{flag}: {proved}");
         let gain = number(&kept["sigma_star"]);
-        assert!(
-            gain > least_gain && number(&object!(kept["sigma_star_estimate"].to_string())) <= gain,
-            "{flag} {gain}"
-        );
+        assert!(gain > least_gain && number(&kept["sigma_star_estimate"]) <= gain * 1.01, "{flag} {gain}");
         assert!(proofs_check::check(&std::fs::read(path).unwrap()).is_flawless());
         // Just below it no proof that keeps it is found.
         let below = format!("{:.6}", 0.98 * gain);
@@ -296,7 +293,7 @@ fn exports_clip_where_the_actuator_saturates() {
         export(&call).assert().success();
         assert!(std::fs::read_to_string(&c).unwrap().contains("if (u > limit)"));
         // Another limit is outside of the claim, and another gain is not the one that is claimed.
-        let other = json_of(&[&step[..], &["--saturation", "20"]].concat());
+        let other = json_of(&["--discretise", "1/1000", "--saturation", "20"]);
         assert!(other["certificate"].get("sigma").is_some());
         assert!(other.get("actuator").is_none() && other["discrete"]["saturation"] == 20.0);
         assert!(!other["notice"].to_string().contains("never is"));
@@ -310,8 +307,8 @@ fn exports_clip_where_the_actuator_saturates() {
 #[test]
 fn simulations_saturate() {
     let folder = tempfile::tempdir().unwrap();
-    let start = object!({ "x": [0, 0], "e": 40 });
-    let plant = text("plants/paper-example", &[actuator("3"), ("/initial", start)]);
+    let start = object!({ "x": [], "e": 10 });
+    let plant = text("plants/linear", &[actuator("3"), ("/initial", start)]);
     let file = written(folder.path(), "plant.json", &plant);
     for sampled in [&[][..], &["--sampled", "1/500"]] {
         let csv = folder.path().join("run.csv");
