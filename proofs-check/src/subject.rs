@@ -73,7 +73,7 @@ impl Subject {
                 list.extend(spec.period.range().map(period));
                 match claim.sampled {
                     Some(_) => {
-                        list.extend(Regulator::assumed());
+                        list.extend(Regulator::assumed(spec.actuator.is_some()));
                         list.extend(spec.input_gain.as_ref().map(|gain| format!("the regulator{}", output(gain))));
                     }
                     None => list.push(regulator(spec)),
@@ -175,7 +175,8 @@ fn regulator(spec: &Specification) -> String {
     let output = spec.input_gain.as_ref().map_or_else(String::new, |gain| format!(", and{}", output(gain)));
     format!(
         "the regulator runs in continuous time with exactly the mu, weights and base frequency stated{frequency}{output}: no \
-         sampling, delay, saturation or noise"
+         {} or noise",
+        if spec.actuator.is_some() { "sampling, delay" } else { "sampling, delay, saturation" }
     )
 }
 

@@ -77,7 +77,7 @@ impl Certificate {
 /// describes (the plant, where its formulas are given) has a periodic solution to which every solution from the initial set
 /// converges exponentially.
 ///
-/// About the regulator at samples ([`Claim::samples`]) the claim is one of exactly this gain, and of every number of
+/// With an `actuator` the claim is one of exactly this gain. About the regulator at samples ([`Claim::samples`]) the claim is one of exactly this gain, and of every number of
 /// oscillators below half of the samples of a period.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
@@ -96,8 +96,11 @@ impl Claim {
         let certified = run.certified()?;
         let (sigma, set) = (certified.sigma, certified.set);
         let (sigma_star_f64, samples, statement) = match run {
-            Run::Continuous(run) => (rounded_up(sigma), None, statement(run, sigma, set)),
-            // The claim is about one gain: a larger double is not covered either.
+            // Where the claim is about one gain a larger double is not covered either.
+            Run::Continuous(run) => {
+                let rounded = if run.spec.actuator.is_some() { nearest(sigma) } else { rounded_up(sigma) };
+                (rounded, None, statement(run, sigma, set))
+            }
             Run::Sampled(run) => {
                 let witness = &run.claim()?.witness;
                 let gain = write_exact(&witness.law.gain);
@@ -116,14 +119,14 @@ impl Claim {
         })
     }
 
-    /// The gain sigma*, exactly: a decimal or a fraction. At samples the one gain that the claim is about.
+    /// The gain sigma*, exactly: a decimal or a fraction. At samples, and with an actuator, the one gain that the claim is about.
     #[must_use]
     pub fn sigma_star(&self) -> &str {
         &self.sigma_star
     }
 
-    /// The smallest double that is not below sigma*: the claim holds for it too. At samples, where it holds for no other gain,
-    /// the double nearest to it.
+    /// The smallest double that is not below sigma*: the claim holds for it too. At samples and with an actuator, where it holds for no
+    /// other gain, the double nearest to it.
     #[must_use]
     pub fn sigma_star_f64(&self) -> f64 {
         self.sigma_star_f64

@@ -35,7 +35,7 @@ pub fn certify(subject: impl Into<Subject>, options: &CertifyOptions) -> Result<
 }
 
 fn run(subject: &Subject, options: &CertifyOptions) -> Result<Certificate, Error> {
-    let Asked { options, gain, step, counts } = options.checked()?;
+    let Asked { options, gain, step, counts, limits } = options.checked()?;
     let asked = match &step {
         None => subject.clone(),
         Some(step) => {
@@ -51,6 +51,7 @@ fn run(subject: &Subject, options: &CertifyOptions) -> Result<Certificate, Error
         return Err(Error::no_rates(NoRatesOfClaim::AtSamples));
     }
     let prepared = Prepared::new(asked.read.clone(), gain).map_err(|all| Error::documents(&all))?;
+    let prepared = prepared.within(limits);
     let mut run = prepared.certify(options).map_err(|all| Error::documents(&all))?;
     run.prove_rates(&counts).map_err(Error::no_rates)?;
     Certificate::new(&run, &asked).ok_or_else(|| not_certified(&run))

@@ -5,7 +5,7 @@ use super::{positive, rational};
 use rug::Rational;
 use sigmastar_exact::enclosure::{DEFAULT_PRECISION, MAX_PRECISION};
 use sigmastar_lang::spec::Constant;
-use sigmastar_prove::certify::{Ladder, Options, TransferChoice, rate_counts};
+use sigmastar_prove::certify::{Ladder, Limits, Options, TransferChoice, rate_counts};
 
 /// What a run of [`certify`](sigmastar_prove::certify) does. The defaults are those of the command `sigmastar certify`.
 ///
@@ -22,6 +22,8 @@ pub struct CertifyOptions {
     sigma: Option<String>,
     sampling_period: Option<String>,
     n_o: Vec<u32>,
+    /// Of the steady error, of the error on the way, of what is put out.
+    limits: [Option<String>; 3],
 }
 
 /// Options that are in range.
@@ -30,6 +32,7 @@ pub(super) struct Asked {
     pub(super) gain: Option<Rational>,
     pub(super) step: Option<Constant>,
     pub(super) counts: Vec<u32>,
+    pub(super) limits: Limits,
 }
 
 impl Default for CertifyOptions {
@@ -41,6 +44,7 @@ impl Default for CertifyOptions {
             sigma: None,
             sampling_period: None,
             n_o: Vec::new(),
+            limits: [None, None, None],
         }
     }
 }
@@ -115,6 +119,30 @@ impl CertifyOptions {
         self
     }
 
+    /// Certify the smallest gain that is found with which |e| of the periodic solution is at most this, a positive rational number, for
+    /// every number of oscillators; with [`CertifyOptions::sigma`] refuse a gain with which that is not proved.
+    #[must_use]
+    pub fn steady_error(self, limit: impl Into<String>) -> CertifyOptions {
+        self.limited(0, limit.into())
+    }
+
+    /// The same of |e| on the way from the initial set.
+    #[must_use]
+    pub fn peak_error(self, limit: impl Into<String>) -> CertifyOptions {
+        self.limited(1, limit.into())
+    }
+
+    /// The same of what is put out on the way from the initial set: a bound that grows with the gain.
+    #[must_use]
+    pub fn max_control(self, limit: impl Into<String>) -> CertifyOptions {
+        self.limited(2, limit.into())
+    }
+
+    fn limited(mut self, which: usize, limit: String) -> CertifyOptions {
+        self.limits[which] = Some(limit);
+        self
+    }
+
     /// The options of the layers below.
     ///
     /// # Errors
@@ -134,6 +162,13 @@ impl CertifyOptions {
         let gain = self.sigma.as_ref().map(|text| rational("sigma", text)).transpose()?;
         let step = self.sampling_period.as_ref().map(|text| positive("sampling_period", text)).transpose()?;
         let counts = rate_counts(&self.n_o).map_err(Error::no_rates)?;
-        Ok(Asked { options, gain, step, counts })
+        let limit = |name, text: &Option<String>| text.as_ref().map(|text| rational(name, text)).transpose();
+        let [steady, peak, control] = &self.limits;
+        let limits = Limits {
+            steady_error: limit("steady_error", steady)?,
+            peak_error: limit("peak_error", peak)?,
+            control: limit("max_control", control)?,
+        };
+        Ok(Asked { options, gain, step, counts, limits })
     }
 }

@@ -160,6 +160,10 @@ fn found(subject: Subject, sigma: Option<&str>, n_o: &[u32]) -> Result<Rates, Er
             let help = "give a gain of at least sigma*, or none for sigma* itself";
             return Err(Error::new(ErrorKind::Range, message, help));
         }
+        Err(NoRates::OtherGain(sigma)) => {
+            let message = format!("with `actuator` only sigma = {} is certified", write_exact(&sigma));
+            return Err(Error::new(ErrorKind::Range, message, "give no gain, or leave `actuator` out"));
+        }
         Err(NoRates::InputGain) => {
             let message = not_available_with_input_gain("a rate of convergence");
             return Err(Error::new(ErrorKind::NotAvailable, message, WITHOUT_INPUT_GAIN));

@@ -211,6 +211,13 @@ impl SpecificationBuilder {
         self.with("input_gain", object(ends).into())
     }
 
+    /// An actuator that takes what is put out up to `max` in size and cuts off what is beyond: a claim is about one gain, and keeps to it from
+    /// its initial set.
+    #[must_use]
+    pub fn actuator(self, max: &str) -> SpecificationBuilder {
+        self.with("actuator", object([("max", text(max))]).into())
+    }
+
     /// The weights n_0 and `n_l = l^-(1 + epsilon)` for l >= 1.
     #[must_use]
     pub fn power_weights(self, n0: &str, epsilon: &str) -> SpecificationBuilder {

@@ -10,7 +10,7 @@ use super::progress::{Audience, Working};
 use super::subject::{Subject, proving, with_sampling_period};
 use super::{input, output};
 use sigmastar_prove::certificate::{certificate_of, is_sampled, read_for};
-use sigmastar_prove::certify::{NoRatesOfClaim, rate_counts};
+use sigmastar_prove::certify::{Limits, NoRatesOfClaim, rate_counts};
 use sigmastar_prove::rate::bound::MAX_OSCILLATORS;
 use sigmastar_prove::reduction::{Prepared, Run};
 use sigmastar_report::RunReport;
@@ -24,7 +24,7 @@ pub fn run(args: &CertifyArgs) -> u8 {
 fn attempt(args: &CertifyArgs) -> Result<u8, Failure> {
     // What is wrong with the call is said before any work is done.
     let output = args.replace.asked(args.output.as_deref(), Input::Specification(&args.spec), "the certificate")?;
-    let targets = targets(args)?;
+    let (targets, limits) = (targets(args)?, limits(args)?);
     if args.spec == args.witness.clone().unwrap_or_default() {
         let message = "the specification and the witness cannot be the same file";
         return Err(Failure::call(message, "--witness names a certificate written with -o"));
@@ -50,7 +50,7 @@ fn attempt(args: &CertifyArgs) -> Result<u8, Failure> {
     let counts = counts(args, sampled)?;
     let working = proving(&subject, args.quiet);
     let prepared = match &witness {
-        None => Prepared::new(subject, gain),
+        None => Prepared::new(subject, gain).map(|prepared| prepared.within(limits)),
         Some(certificate) => {
             let witness = read_for(certificate, &subject)?;
             if witness.of_another && !args.quiet {
@@ -91,6 +91,16 @@ fn counts(args: &CertifyArgs, sampled: bool) -> Result<Vec<u32>, Failure> {
 
 fn no_rates(reason: NoRatesOfClaim) -> Failure {
     Failure::call(reason.message("--n-o"), reason.help())
+}
+
+/// What is to be kept at the gain.
+fn limits(args: &CertifyArgs) -> Result<Limits, Failure> {
+    let limit = |flag: &str, text: &Option<String>| text.as_deref().map(|text| input::rational(flag, text)).transpose();
+    Ok(Limits {
+        steady_error: limit("--steady-error", &args.steady_error)?,
+        peak_error: limit("--peak-error", &args.peak_error)?,
+        control: limit("--max-control", &args.max_control)?,
+    })
 }
 
 fn targets(args: &CertifyArgs) -> Result<Vec<Target>, Failure> {

@@ -55,7 +55,9 @@ fn attempt(args: &ControllerArgs) -> Result<u8, Failure> {
             "use units of time in which the gains, frequencies and sampling time have ordinary magnitudes",
         )
     };
-    let limit = saturation.map(|limit| limit.to_f64());
+    // What the actuator takes, unless another limit is asked for.
+    let actuator = subject.actuator().filter(|_| saturation.is_none()).map(|actuator| actuator.max.to_f64());
+    let limit = saturation.map(|limit| limit.to_f64()).or(actuator);
     let discrete = step.as_ref().map(|step| design.discretise(step).ok_or_else(beyond)).transpose()?;
     let discrete = discrete.map(|discrete| discrete.saturated(limit));
     if !regulator.is_representable() || !discrete.as_ref().is_none_or(Discrete::is_representable) {
@@ -74,6 +76,7 @@ fn attempt(args: &ControllerArgs) -> Result<u8, Failure> {
         regulator: &regulator,
         discrete,
         aligned: subject.starts_aligned(),
+        actuator,
         certificate: certificate.as_ref(),
     };
     let text = match args.format {
@@ -114,6 +117,7 @@ fn refuse(
     }
     if let Some(Provenance { sigma_star, scope, .. }) = certificate {
         let way_out = match scope {
+            Scope::OtherGain => "leave --sigma out where a certificate is exported",
             Scope::OtherSamples => "leave --sigma and --discretise out, and take n_o below half of the samples",
             _ => "take a gain of at least sigma*, or leave --sigma out where a certificate is exported",
         };

@@ -15,6 +15,8 @@ pub struct Given {
     sigma_star: Rational,
     /// The sampling period, K and Nb2, where it is about the regulator at samples: sigma* then is its only gain.
     sampled: Option<(Sampling, SampledGain)>,
+    /// Whether it is about its gain alone because of an actuator.
+    with_actuator: bool,
     statement: String,
     /// The digests that it states, of a specification and of a plant.
     made_for: [Option<String>; 2],
@@ -35,12 +37,14 @@ impl Given {
             Failure::call("the certificate has no `claim.statement`", "take a certificate that `certify -o` wrote")
         })?;
         let made_for = ["/specification_sha256", "/plant_sha256"].map(text);
-        Ok(Given { sha256: document.root().sha256(), sigma_star, sampled, statement, made_for })
+        let with_actuator = document.at("/claim/actuator").is_some();
+        Ok(Given { sha256: document.root().sha256(), sigma_star, sampled, with_actuator, statement, made_for })
     }
 
-    /// sigma*, rounded up to a double: the gain that is exported is certified too. Of the regulator at samples exactly its gain.
+    /// sigma*, rounded up to a double: the gain that is exported is certified too. Of the regulator at samples, and with an actuator,
+    /// exactly its gain.
     pub fn gain(&self) -> Option<Constant> {
-        if self.sampled.is_some() {
+        if self.sampled.is_some() || self.with_actuator {
             return Some(Constant::rational(&self.sigma_star));
         }
         let up = Enclosure::from_rational(&self.sigma_star, DEFAULT_PRECISION).upper_f64();
@@ -81,10 +85,15 @@ impl Given {
         Provenance {
             sha256: self.sha256.clone(),
             sigma_star: write_exact(&self.sigma_star),
+            one_gain: self.sampled.is_some() || self.with_actuator,
             statement: self.statement.clone(),
             scope: match self.covers_samples(regulator) {
                 Some(true) => Scope::Samples,
                 Some(false) => Scope::OtherSamples,
+                None if self.with_actuator => match sigma.as_rational() {
+                    Some(sigma) if *sigma == self.sigma_star => Scope::Continuous,
+                    _ => Scope::OtherGain,
+                },
                 None if covers_sigma() => Scope::Continuous,
                 None => Scope::BelowSigmaStar,
             },

@@ -32,6 +32,10 @@ fn attempt(args: &RateArgs) -> Result<u8, Failure> {
             let help = "give a gain of at least sigma*, or leave the flag out for sigma* itself";
             return Err(Failure::call(message, help));
         }
+        Err(NoRates::OtherGain(sigma)) => {
+            let message = format!("with `actuator` only sigma = {} is certified", write_exact(&sigma));
+            return Err(Failure::call(message, "leave --sigma out, or `actuator`"));
+        }
         Err(NoRates::InputGain) => {
             return Err(Failure::call(not_available_with_input_gain("`rate`"), WITHOUT_INPUT_GAIN));
         }

@@ -44,10 +44,10 @@ pub fn attempt(args: &SimulateArgs, step: &str) -> Result<u8, Failure> {
         }
         _ => return Err(Failure::call("no regulator is given", "give --sigma and --n-o, or --controller")),
     };
-    let discrete = match &limit {
-        None => discrete,
-        Some(limit) => discrete.saturated(Some(limit.to_f64())),
-    };
+    // What is cut off by the actuator the law is told, as its export is.
+    let limit = limit.or_else(|| plant.actuator.as_ref().map(|actuator| actuator.max.clone()));
+    let limit = limit.map(|limit| limit.to_f64()).or(discrete.saturation);
+    let discrete = discrete.saturated(limit);
     if !args.quiet {
         gain_remarks(&plant, gain.as_ref(), &regulator);
     }

@@ -1,6 +1,7 @@
 //! The first lines of a report on a certified claim: the gain, from where, what to do next, what sets the gain, what is
 //! assumed. The sections below say more of each.
 
+use super::limits::{self, Bounds};
 use super::sensitivity;
 use super::verdict::assumed;
 use super::words;
@@ -13,6 +14,7 @@ use sigmastar_prove::certify::{Certification, SampledCertification, claimed_ball
 use sigmastar_prove::rate::bound::RateForCount;
 use sigmastar_theory::derivation::control::Control;
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
+use sigmastar_theory::derivation::sampled::SampledEvaluation;
 use sigmastar_theory::derivation::targets::Consequences;
 
 /// The numbers of oscillators of which the error is said.
@@ -26,9 +28,31 @@ pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences
         return Vec::new();
     };
     let sigma = write_exact(sigma);
-    let gain = match run.given_gain {
-        Some(_) => format!("sigma = {sigma} in 1/time, as it was given, or any larger; the same for every n_o"),
-        None => format!("sigma* = {sigma} in 1/time, or any larger; the same for every n_o"),
+    let kept =
+        run.bounds().and_then(|(steady, peak, control)| limits::kept(&run.limits, &Bounds { steady, peak, control }));
+    let with = kept.map_or_else(String::new, |kept| format!("; with it {kept}"));
+    let gain = match (&run.given_gain, &run.spec.actuator) {
+        (_, Some(actuator)) => format!(
+            "sigma = {sigma} in 1/time, this one alone{with}; |u| never exceeds the {} that the actuator takes; the same for every n_o",
+            clean(&actuator.max.text)
+        ),
+        (Some(_), None) => {
+            format!("sigma = {sigma} in 1/time, as it was given, or any larger{with}; the same for every n_o")
+        }
+        (None, None) if !run.limits.is_empty() => {
+            let least = run.smallest_gain.map_or_else(String::new, |least| {
+                format!(
+                    "; sigma*, the smallest gain for which the loop is proved, is about {} (an estimate)",
+                    estimate(least)
+                )
+            });
+            format!(
+                "sigma = {sigma} in 1/time, the smallest one that is found with which{}; the loop is proved for every larger one, too, \
+                 whose bounds are others; the same for every n_o{least}",
+                with.trim_start_matches("; with it")
+            )
+        }
+        (None, None) => format!("sigma* = {sigma} in 1/time, or any larger; the same for every n_o"),
     };
     let next = match rechecked {
         true => {
@@ -77,9 +101,12 @@ pub(super) fn of_samples(run: &SampledCertification<'_>, rechecked: bool) -> Vec
     let (Some(proof), Some(periodic)) = (run.claim(), run.periodic_solution()) else { return Vec::new() };
     let witness = &proof.witness;
     // That gain stands exactly in the sentence above: the claim is about no other.
-    let gain = "exactly that sigma, in 1/time, for this sampling period alone: no threshold, neither for larger gains nor for \
-                faster samples"
-        .to_owned();
+    let SampledEvaluation { size, peak, control, .. } = &proof.evaluation;
+    let kept = limits::kept(&run.limits, &Bounds { steady: &size.e_per, peak, control });
+    let gain = format!(
+        "exactly that sigma, in 1/time, for this sampling period alone: no threshold, neither for larger gains nor for faster samples{}",
+        kept.map_or_else(String::new, |kept| format!("; with it {kept}"))
+    );
     let next = match rechecked {
         true => {
             "`sigmastar check FILE` decides the certificate with other code; `controller FILE --n-o N` writes the code"
@@ -96,7 +123,10 @@ pub(super) fn of_samples(run: &SampledCertification<'_>, rechecked: bool) -> Vec
     facts.push(("to", to(run.spec, &periodic, radii, run.control().map(|bounds| (bounds, "")))));
     facts.extend(uncertain_gain(run.spec).map(|said| ("input gain", said)));
     facts.extend(interval_costs(&run.interval_costs, "the gain").map(|said| ("intervals", said)));
-    let of_the_computer = "no delay, rounding, quantisation or saturation";
+    let of_the_computer = match run.spec.actuator {
+        Some(_) => "no delay, rounding or quantisation",
+        None => "no delay, rounding, quantisation or saturation",
+    };
     facts.push(("assumed", format!("{}; {of_the_computer}", assumed(run.spec, run.largest_arguments(), None))));
     vec![Block::facts(facts), Block::says(norms(run.spec, "law"))]
 }

@@ -1,7 +1,7 @@
 //! The report on a certification: what a person, or a script, reads about a run.
 
 use super::{
-    brief, conditions, consequences, constants, exact_regulation, for_n_o, json, matrix_checks, of_plant, printed,
+    brief, conditions, consequences, constants, exact_regulation, for_n_o, gains, json, matrix_checks, of_plant, printed,
     relative_degree, sensitivity, sets, verdict,
 };
 use sigmastar_document::{Block, Readable, clean};
@@ -64,6 +64,7 @@ impl Readable for Report<'_> {
         }
         blocks.extend(sensitivity::section(run));
         blocks.extend(self.consequences.iter().flat_map(|all| consequences::section(run.spec, all)));
+        blocks.extend(gains::section(run));
         blocks.extend(exact_regulation::section(run, self.rechecked));
         blocks.extend(relative_degree::section(run));
         blocks

@@ -26,6 +26,9 @@ pub(super) fn section(run: &Certification<'_>, rechecked: bool) -> Vec<Block> {
         _ if !run.spec.internal_model.matched => {
             "Not claimed: it needs a base frequency of exactly 2 pi / period (`\"matched\": true`).".to_owned()
         }
+        _ if run.spec.actuator.is_some() => {
+            "Not claimed with an actuator that saturates: it is about other gains.".to_owned()
+        }
         _ if rechecked => "Not part of the certificate whose witness was decided again.".to_owned(),
         _ if run.sharp.proved().is_none() => "Not worked out: it belongs to the sharp derivation.".to_owned(),
         _ => "Nothing was proved about exact regulation.".to_owned(),

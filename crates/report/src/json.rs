@@ -2,6 +2,8 @@
 
 use super::failures::{FORMAT, VERSION, errors_json};
 use super::for_n_o::rates_json;
+use super::gains::rows_json;
+use super::limits::{Bounds, kept_json};
 use super::matrix_checks::checks_json;
 use super::obstacles::advice;
 use super::of_plant::plant_json;
@@ -33,13 +35,17 @@ pub(super) fn report(run: &Certification<'_>, consequences: Option<&Consequences
     if let (Some(sigma), Some(claimed), Some(periodic), Some(error_box)) =
         (run.sigma_star(), run.claimed_set(), run.periodic_solution(), run.error_box())
     {
-        report["sigma_star"] = json!(write_exact(sigma));
+        report[if run.spec.actuator.is_some() { "sigma" } else { "sigma_star" }] = json!(write_exact(sigma));
         report["given_gain"] = json!(run.given_gain.is_some());
         report["basis"] = json!(basis(run));
         report["initial_set"] = set_fields(claimed).collect();
         let [x, e, zeta, z] = periodic.each_ref().map(full);
         report["periodic_solution"] = json!({ "x": x, "e": e, "zeta": zeta, "z": z });
         report["control"] = control(run.control());
+        if let Some((steady, peak, control)) = run.bounds().filter(|_| !run.limits.is_empty()) {
+            report["limits"] = kept_json(&run.limits, &Bounds { steady, peak, control });
+            report["sigma_star_estimate"] = json!(run.smallest_gain.map(estimate));
+        }
         let [x, e] = error_box.each_ref().map(full);
         report["error_box"] = json!({ "D_x": x, "D_e": e });
     }
@@ -67,6 +73,7 @@ pub(super) fn report(run: &Certification<'_>, consequences: Option<&Consequences
         ("sigma_star_aligned_estimate", json!(run.alternatives.aligned.map(estimate))),
         ("sigma_star_by_norms_estimate", json!(run.alternatives.by_norms.map(estimate))),
         ("consequences", consequences.map_or(Value::Null, consequences_json)),
+        ("gains", rows_json(run)),
         ("exact_regulation", exact_regulation(run)),
         ("relative_degree", gains_json(run)),
     ] {
@@ -74,6 +81,9 @@ pub(super) fn report(run: &Certification<'_>, consequences: Option<&Consequences
     }
     if let Some(rates) = rates_json(run) {
         report["for_n_o"] = rates;
+    }
+    if let Some(actuator) = actuator(run.spec) {
+        report["actuator"] = actuator;
     }
     if let Some(gain) = input_gain(run.spec) {
         report["input_gain"] = gain;
@@ -92,6 +102,11 @@ pub(super) fn report(run: &Certification<'_>, consequences: Option<&Consequences
 pub(super) fn input_gain(spec: &Specification) -> Option<Value> {
     let InputGain { nominal, low, high, .. } = spec.input_gain.as_ref()?;
     Some(json!({ "nominal": nominal.text, "low": low.text, "high": high.text }))
+}
+
+/// What the actuator takes, where that is stated.
+pub(super) fn actuator(spec: &Specification) -> Option<Value> {
+    spec.actuator.as_ref().map(|actuator| json!({ "max": actuator.max.text }))
 }
 
 /// The gain with each interval closed to its nominal value.

@@ -8,7 +8,7 @@ use sigmastar_exact::number::write_exact;
 use sigmastar_lang::expr::BoundingFailure;
 use sigmastar_lang::spec::{InitialSet, SIZES};
 use sigmastar_prove::certify::{BoundingProblem, Certification, Outcome, SmallerChoice, Verdict};
-use sigmastar_prove::search::{Failing, Obstacle};
+use sigmastar_prove::search::{Failing, Limited, Obstacle};
 use sigmastar_theory::derivation::condition::Condition;
 
 /// So many items of a list are in the short form.
@@ -187,6 +187,9 @@ fn obstacle_advice(run: &Certification<'_>, obstacle: Obstacle, add: &mut dyn Fn
             add("smaller q_x, f_e");
         }
         Failing::Gain { .. } => add("a larger gain, or none: without --sigma the smallest one is sought"),
+        Failing::Limit { which, .. } => {
+            add(&format!("{}, or a smaller initial set", wider(which)));
+        }
         Failing::InputGain { .. } => add("a narrower interval `input_gain`"),
         Failing::Hold { .. } | Failing::Samples => add("a smaller gain or a shorter sampling period"),
         Failing::Sampling => add("a shorter sampling period, or a smaller mu"),
@@ -194,6 +197,14 @@ fn obstacle_advice(run: &Certification<'_>, obstacle: Obstacle, add: &mut dyn Fn
     }
     if let Some([x, e]) = run.largest_arguments().map(|arguments| arguments.each_ref().map(upper)) {
         add(&format!("the last witness used the bounding functions up to X = {x}, E = {e}"));
+    }
+}
+
+/// What a limit that is not kept asks for.
+pub(super) fn wider(which: Limited) -> &'static str {
+    match which {
+        Limited::Actuator => "a larger `actuator.max`",
+        Limited::SteadyError | Limited::PeakError | Limited::Control => "a larger limit",
     }
 }
 

@@ -1,5 +1,6 @@
 //! What the data themselves are to be looked at for; no verdict depends on it.
 
+use super::gains;
 use rug::Rational;
 use sigmastar_document::number::{estimate, exact};
 use sigmastar_exact::number::Direction;
@@ -10,7 +11,7 @@ use sigmastar_prove::certify::{Certification, ExceededBy, NoPlant, SampledCertif
 pub fn remarks(run: &Certification<'_>) -> Vec<String> {
     let mut remarks = of(run.no_plant.as_ref(), run.has_force_at_origin());
     remarks.extend(unused_parameters(run.spec));
-    if let Some(sigma) = run.sigma_star().filter(|_| run.given_gain.is_none())
+    if let Some(sigma) = run.sigma_star().filter(|_| run.is_smallest())
         && sigma.to_f64() * run.spec.period.longest().to_f64() > LARGE
     {
         let cause = far_above_its_samples(run.spec.bounds.proved_values().entries()).unwrap_or_else(|| {
@@ -21,6 +22,7 @@ pub fn remarks(run: &Certification<'_>) -> Vec<String> {
         });
         remarks.push(format!("Remark: sigma* is above 10^4 divided by the period.{cause}"));
     }
+    remarks.extend(gains::remark(run));
     remarks
 }
 

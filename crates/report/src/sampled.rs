@@ -1,8 +1,9 @@
 //! The report on a certification of the regulator at samples.
 
 use super::failures::{FORMAT, VERSION, errors_json};
-use super::json::{conditions_with_truth, control, input_gain, interval_costs};
-use super::obstacles::{describe, first_of, rest_of};
+use super::json::{actuator, conditions_with_truth, control, input_gain, interval_costs};
+use super::limits::{self, Bounds, kept_json};
+use super::obstacles::{describe, first_of, rest_of, wider};
 use super::of_plant::plant_json;
 use super::remarks::sampled_remarks;
 use super::sets::{Boxes, Sizes};
@@ -18,6 +19,7 @@ use sigmastar_exact::number::{Direction, write_exact};
 use sigmastar_prove::certificate::{no_plant_json, set_fields};
 use sigmastar_prove::certify::{Outcome, SampledCertification, SampledProof, Verdict};
 use sigmastar_prove::search::{Failing, Obstacle};
+use sigmastar_theory::derivation::sampled::SampledEvaluation;
 
 /// Everything that the report is made from.
 pub struct SampledReport<'r> {
@@ -94,6 +96,9 @@ impl<'r> SampledReport<'r> {
                     "a smaller mu: theta = h mu Nbar^2/2 is what the oscillators lose to the sampling".to_owned(),
                 );
             }
+            Outcome::NotFound(Obstacle { failing: Failing::Limit { which, .. }, .. }) => {
+                items.push(format!("{}, a smaller initial set, or a shorter sampling period", wider(*which)));
+            }
             Outcome::NotFound(_) => {
                 items.push(
                     "the continuous-time claim first, without a sampling period: its report says more".to_owned(),
@@ -124,14 +129,20 @@ impl<'r> SampledReport<'r> {
         let mut items = vec![
             format!(
                 "Derivation: sharp, for the regulator at samples (section 12 of the mathematics{}).",
-                if run.spec.input_gain.is_some() { ", 13.1 for the input gain" } else { "" }
+                [
+                    if run.spec.input_gain.is_some() { ", 13.1 for the input gain" } else { "" },
+                    if run.spec.actuator.is_some() { ", 13.5 for the actuator" } else { "" },
+                ]
+                .concat()
             ),
             "The gain is a value for this sampling period, not a threshold: neither a larger gain nor a shorter sampling period \
              follows from it."
                 .to_owned(),
-            "Assumed of the computer: u is held over each sample, no delay of the computation, no rounding, no quantisation, no \
-             saturation; a period has exactly the whole number of samples."
-                .to_owned(),
+            format!(
+                "Assumed of the computer: u is held over each sample, no delay of the computation, no rounding, no quantisation{}; a period \
+                 has exactly the whole number of samples.",
+                if run.spec.actuator.is_some() { "" } else { ", no saturation" }
+            ),
         ];
         items.extend(of_the_data(run.spec, run.largest_arguments(), None));
         items.push("Used: the base frequency is exactly 2 pi / period (proved of the numbers given).".to_owned());
@@ -150,7 +161,7 @@ fn certified(run: &SampledCertification<'_>, proof: &SampledProof) -> String {
     let samples = witness.sampling.samples;
     format!(
         "Certified: the regulator at samples h = {} apart ({samples} in a period) with sigma = {} and K = {}, mu = {} and base \
-         frequency {}, for every number of oscillators n_o < {samples}/2 and every phase of the samples{}: every solution that \
+         frequency {}, for every number of oscillators n_o < {samples}/2 and every phase of the samples{}{}: every solution that \
          starts, at a sampling instant, from {} converges exponentially to a T-periodic solution, T = {}.",
         clean(&witness.sampling.text()),
         write_exact(&witness.sigma),
@@ -158,6 +169,7 @@ fn certified(run: &SampledCertification<'_>, proof: &SampledProof) -> String {
         clean(&spec.internal_model.mu.text),
         clean(&spec.internal_model.base_frequency.text),
         words::of_all(spec),
+        limits::of_actuator(spec),
         words::set(spec, &witness.set),
         clean(&spec.period.nominal().text),
     )
@@ -268,6 +280,10 @@ impl Readable for SampledReport<'_> {
             let [x, e, zeta, z] = periodic.each_ref().map(full);
             report["periodic_solution"] = json!({ "x": x, "e": e, "zeta": zeta, "z": z });
             report["control"] = control(run.control());
+            if !run.limits.is_empty() {
+                let SampledEvaluation { size, peak, control, .. } = &proof.evaluation;
+                report["limits"] = kept_json(&run.limits, &Bounds { steady: &size.e_per, peak, control });
+            }
             if !run.interval_costs.is_empty() {
                 report["sigma_without_interval_estimates"] = interval_costs(&run.interval_costs);
             }
@@ -277,6 +293,9 @@ impl Readable for SampledReport<'_> {
         }
         if let Some(gain) = input_gain(run.spec) {
             report["input_gain"] = gain;
+        }
+        if let Some(actuator) = actuator(run.spec) {
+            report["actuator"] = actuator;
         }
         if let Some([x, e]) = run.largest_arguments().map(|arguments| arguments.each_ref().map(full)) {
             report["largest_arguments"] = json!({ "X": x, "E": e });

@@ -41,7 +41,10 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
         ellipse: true,
     };
     let mut blocks = vec![
-        Block::Heading(format!("sigma* = {} and the sets", number::exact(sigma, Direction::Up))),
+        Block::Heading(match run.is_smallest() {
+            true => format!("sigma* = {} and the sets", number::exact(sigma, Direction::Up)),
+            false => format!("sigma = {} and the sets", number::exact(sigma, Direction::Up)),
+        }),
         Block::Table(sizes.table),
     ];
     blocks.extend(boxes.figure().map(Block::Drawing));

@@ -1,12 +1,13 @@
 //! The verdict in one sentence, and what it rests on.
 
+use super::limits;
 use super::obstacles;
 use super::remarks::remarks;
 use super::words;
 use sigmastar_document::number::{exact, upper};
 use sigmastar_document::{Block, clean};
 use sigmastar_exact::enclosure::Enclosure;
-use sigmastar_exact::number::Direction;
+use sigmastar_exact::number::{Direction, write_exact};
 use sigmastar_lang::spec::model::{Lyapunov, LyapunovSource};
 use sigmastar_lang::spec::{Bound, Specification};
 use sigmastar_prove::certificate::members;
@@ -19,12 +20,13 @@ pub fn sentence(run: &Certification<'_>) -> String {
     let spec = run.spec;
     match (run.sigma_star(), run.claimed_set()) {
         (Some(sigma), Some(set)) => format!(
-            "Certified: with sigma = {} (or any larger), mu = {} and base frequency {}, for every number of oscillators \
-             n_o >= 0{}, every solution that starts, at any time, from {} converges exponentially to a T-periodic \
+            "Certified: with sigma = {}{}, mu = {} and base frequency {}{}, for every number of oscillators n_o >= 0{}, every solution that starts, at any time, from {} converges exponentially to a T-periodic \
              solution{}.",
-            exact(sigma, Direction::Up),
+            if spec.actuator.is_some() { write_exact(sigma) } else { exact(sigma, Direction::Up) },
+            if spec.actuator.is_some() { "" } else { " (or any larger)" },
             clean(&spec.internal_model.mu.text),
             clean(&spec.internal_model.base_frequency.text),
+            limits::of_actuator(spec),
             words::of_all(spec),
             words::set(spec, set),
             match spec.period.interval() {
@@ -51,7 +53,12 @@ pub(super) fn detail(run: &Certification<'_>) -> Vec<Block> {
     let mut blocks = Vec::new();
     if run.verdict == Verdict::Certified {
         blocks.push(Block::heading("What the claim rests on"));
-        if run.given_gain.is_some() {
+        if run.spec.actuator.is_some() {
+            blocks.push(Block::says(
+                "The claim is about this gain alone: the bounds of the control, which the actuator has to take, grow with it. From the set \
+                 the control never reaches what the actuator cuts off, so that the saturation changes nothing.",
+            ));
+        } else if run.given_gain.is_some() {
             blocks.push(Block::says(
                 "The gain was given: the claim is about it and all larger ones, and smaller ones may certify too. How far it is \
                  from the threshold is the relative margin of C5b.",
@@ -73,7 +80,9 @@ pub(super) fn basis(run: &Certification<'_>) -> Vec<String> {
         (false, None) => "",
     };
     let of_gain = if run.spec.input_gain.is_some() { ", 13.1 for the input gain" } else { "" };
-    let derivation = format!("Derivation: sharp (sections 2, 3, 5 and 10 of the mathematics{of_gain}{of_stability}).");
+    let of_actuator = if run.spec.actuator.is_some() { ", 13.5 for the actuator" } else { "" };
+    let derivation =
+        format!("Derivation: sharp (sections 2, 3, 5 and 10 of the mathematics{of_gain}{of_actuator}{of_stability}).");
     let mut items = vec![derivation];
     let further = run.exact_arguments().filter(|_| run.largest_arguments().is_some());
     items.extend(of_the_data(run.spec, run.largest_arguments(), further));
@@ -131,7 +140,10 @@ pub(super) fn assumed(spec: &Specification, used: Option<[Enclosure; 2]>, furthe
     });
     let of_the_period = words::period(spec)
         .map_or_else(String::new, |interval| format!(", and that the period is one constant from {interval}"));
-    assumed_of_the_plant(spec, used, further) + &of_the_actuator + &of_the_period
+    let of_its_limit = spec.actuator.as_ref().map_or_else(String::new, |actuator| {
+        format!(", and that the actuator takes |u| <= {} as it is", clean(&actuator.max.text))
+    });
+    assumed_of_the_plant(spec, used, further) + &of_the_actuator + &of_its_limit + &of_the_period
 }
 
 fn assumed_of_the_plant(spec: &Specification, used: Option<[Enclosure; 2]>, further: Option<[Enclosure; 2]>) -> String {

@@ -91,7 +91,13 @@ fn claim(sampled: bool, of_plant: bool) -> Vec<Field> {
     } else {
         fields.extend([
             must("derivation", "Derivation", "How it is proved.", Shape::Word(vec!["sharp"])),
-            must("sigma_star", "sigma*", "Every gain from this one on is certified, in 1/time.", rational()),
+            may(
+                "sigma_star",
+                "sigma*",
+                "Every gain from this one on is certified, in 1/time; without an actuator.",
+                rational(),
+            ),
+            may("sigma", "Gain sigma", "The one gain that is certified, in 1/time; with an actuator.", rational()),
             word("n_o", "n_o", "For which numbers of oscillators.", "every n_o >= 0"),
         ]);
     }
@@ -109,6 +115,13 @@ fn claim(sampled: bool, of_plant: bool) -> Vec<Field> {
             ("Smallest gain", "The smallest gain that is covered."),
             ("Largest gain", "The largest gain that is covered."),
         ],
+    ));
+    let max = must("max", "Greatest control", "In the units of what is put out.", Shape::Constant(Sign::Positive));
+    fields.push(may(
+        "actuator",
+        "Actuator",
+        "What it takes, which what is put out never exceeds; there where the document has one.",
+        Shape::Object(vec![max]),
     ));
     if !sampled {
         fields.push(covered(

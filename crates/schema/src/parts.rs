@@ -96,6 +96,24 @@ pub(super) fn input_gain() -> Field {
     )
 }
 
+/// `actuator`.
+pub(super) fn actuator() -> Field {
+    let fields = vec![must(
+        "max",
+        "Greatest control",
+        "The greatest size of what is put out that the actuator takes, in the units of that: with an input gain of the control over the \
+         nominal gain.",
+        POSITIVE,
+    )];
+    may(
+        "actuator",
+        "Actuator",
+        "An actuator that saturates: what is put out acts as it is up to `max` in size. A claim then is about one gain, and from its set \
+         the actuator never saturates.",
+        Shape::Object(fields),
+    )
+}
+
 fn weights() -> Shape {
     let family = |name| must("family", "Family", "How the weights are given.", Shape::Word(vec![name]));
     let power = vec![

@@ -1,6 +1,6 @@
 //! The fields of a plant.
 
-use super::parts::{POSITIVE, header, initial_set, input_gain, internal_model, period};
+use super::parts::{POSITIVE, actuator, header, initial_set, input_gain, internal_model, period};
 use super::shape::{Field, Shape, Sign, any_list, may, must};
 use sigmastar_lang::plant::{FORMAT, VERSIONS};
 
@@ -58,6 +58,7 @@ pub(super) fn fields(whole: bool) -> Vec<Field> {
         may("domain", "Domain", "Where the model holds; everywhere without it.", Shape::Object(domain)),
         internal_model(),
         input_gain(),
+        actuator(),
     ]);
     fields
 }

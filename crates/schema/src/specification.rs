@@ -1,6 +1,6 @@
 //! The fields of a bounding specification.
 
-use super::parts::{NONNEGATIVE, POSITIVE, header, initial_set, input_gain, internal_model, period};
+use super::parts::{NONNEGATIVE, POSITIVE, actuator, header, initial_set, input_gain, internal_model, period};
 use super::shape::{Field, Shape, Sign, list, may, must};
 use sigmastar_lang::spec::{Bound, FORMAT, MAX_HARMONICS, MAX_RELATIVE_DEGREE_COEFFICIENTS, MAX_STATES, VERSIONS};
 
@@ -35,6 +35,7 @@ pub(super) fn fields(whole: bool) -> Vec<Field> {
         may("domain", "Domain", "Where the bounding functions hold; everywhere without it.", Shape::Object(domain)),
         internal_model(),
         input_gain(),
+        actuator(),
         must("initial_set", "Initial set", "The initial conditions that the claim covers.", initial_set(false)),
         may("relative_degree", "Relative degree", "The filter of an output of higher relative degree.", {
             Shape::Object(vec![filter])

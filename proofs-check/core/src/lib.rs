@@ -5,6 +5,7 @@
 // What tests compare with need not be the same on every machine.
 #![cfg_attr(test, allow(clippy::disallowed_methods))]
 
+pub mod actuator;
 pub mod bound;
 pub mod constant;
 pub mod data;

@@ -4,6 +4,7 @@
 //! ([`crate::weights`]), `matched` only where base_frequency * period = 2 pi exactly, and `sampling_period` only with it and
 //! where period / sampling_period is a whole number >= 2 exactly.
 
+use crate::actuator::{self, Actuator};
 use crate::bound::{BOUND_NAMES, BOUNDS, REQUIRED};
 use crate::constant::{Constant, Number, PRECISIONS, RULE, expression, positive, positive_with};
 use crate::exact::Exact;
@@ -92,6 +93,8 @@ pub struct Specification {
     pub initial_set: AskedSet,
     /// The gain of the actuator signal, where it need not be 1.
     pub input_gain: Option<Range>,
+    /// What the actuator takes, where the claim keeps to it.
+    pub actuator: Option<Actuator>,
     /// Where the specification is a plant's formulas: what is known of them.
     pub plant: Option<Box<OfPlant>>,
 }
@@ -184,6 +187,7 @@ impl Specification {
 
         let (initial_set, _) = read_set(&file.required("initial_set")?, false, &[])?;
         let input_gain = input_gain::read(&mut file, &[])?;
+        let actuator = actuator::read(&mut file, &[])?;
         file.optional("relative_degree").map(|field| filter(&field)).transpose()?;
         file.finish()?;
         let domain = domain.transpose()?;
@@ -205,6 +209,7 @@ impl Specification {
             domain,
             initial_set,
             input_gain,
+            actuator,
             plant: None,
         })
     }

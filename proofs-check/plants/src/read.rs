@@ -4,6 +4,7 @@
 use super::cells::{self, Cell};
 use super::parts::{Forcing, Orbit};
 use super::time::Wave;
+use proofs_core::actuator;
 use proofs_core::constant::{Constant, positive_with};
 use proofs_core::expr::{Expr, Named};
 use proofs_core::input_gain;
@@ -110,6 +111,7 @@ pub fn read(field: &Field<'_>, witness: &mut Fields<'_>) -> Outcome<(Specificati
     });
     let domain = domain.transpose()?;
     let input_gain = input_gain::read_of_family(&mut file, &constants, &intervals)?;
+    let actuator = actuator::read(&mut file, &constants)?;
     let model = spec::InternalModel::read(&file.required("internal_model")?, &period, &constants)?;
     file.finish()?;
 
@@ -147,6 +149,7 @@ pub fn read(field: &Field<'_>, witness: &mut Fields<'_>) -> Outcome<(Specificati
         domain: None,
         initial_set,
         input_gain,
+        actuator,
         plant: Some(Box::new(known.clone())),
     };
     let of_cell = |Cell { family, orbit, forcing }| Plant {

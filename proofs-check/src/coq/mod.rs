@@ -78,6 +78,10 @@ fn read(file: &Field<'_>) -> Outcome<Parts> {
         let pointer = format!("{}/period", embedded.pointer);
         return unsupported(&pointer, "no theorem is written of a claim about every period of an interval");
     }
+    if spec.actuator.is_some() {
+        let pointer = format!("{}/actuator", embedded.pointer);
+        return unsupported(&pointer, "no theorem is written of a claim with an actuator: certify without `actuator`");
+    }
     if spec.plant.as_ref().is_some_and(|plant| !plant.parameters.is_empty()) {
         let pointer = format!("{}/parameters", embedded.pointer);
         return unsupported(&pointer, "no theorem is written of a claim about every parameter of an interval");

@@ -2,6 +2,7 @@
 
 #![allow(clippy::disallowed_methods, reason = "what is compared need not be the same on every machine")]
 
+mod actuator;
 mod aligned;
 mod arguments;
 mod at_samples;

@@ -22,13 +22,25 @@ pub struct CertifyArgs {
     #[arg(long, value_name = "V", allow_hyphen_values = true)]
     pub sigma: Option<String>,
 
+    /// Certify the smallest gain that is found with which |e| of the periodic solution is at most V for every n_o
+    #[arg(long, value_name = "V", allow_hyphen_values = true)]
+    pub steady_error: Option<String>,
+
+    /// Certify the smallest gain that is found with which |e| is at most V on the way from the initial set
+    #[arg(long, value_name = "V", allow_hyphen_values = true)]
+    pub peak_error: Option<String>,
+
+    /// Certify the smallest gain that is found with which what is put out is at most V on the way from the initial set
+    #[arg(long, value_name = "V", allow_hyphen_values = true)]
+    pub max_control: Option<String>,
+
     /// Certify the regulator at samples this far apart, an exact positive constant; sets or replaces `sampling_period`
     #[arg(long, value_name = "H", allow_hyphen_values = true)]
     pub sampling_period: Option<String>,
 
     /// Decide the witness of this certificate again instead of searching
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath,
-          conflicts_with_all = ["transfer", "sigma"])]
+          conflicts_with_all = ["transfer", "sigma", "steady_error", "peak_error", "max_control"])]
     pub witness: Option<PathBuf>,
 
     /// Format of the report

@@ -33,6 +33,7 @@ pub const CERTIFY_EXAMPLES: &str = "Examples:
   sigmastar certify plant.json
   sigmastar certify plant.json -o plant.certificate.json
   sigmastar certify plant.json --target-rms 1e-3
+  sigmastar certify plant.json --peak-error 2 -o plant.certificate.json
   sigmastar certify plant.json --witness plant.certificate.json
   sigmastar certify plant.json --sampling-period 1/1000 --sigma 60
   sigmastar certify - --format json < plant.json";

@@ -38,7 +38,8 @@ pub struct ControllerArgs {
     #[arg(long)]
     pub uncertified: bool,
 
-    /// Clip the control to |u| <= U, an exact positive constant, without windup; outside every claim
+    /// Clip the control to |u| <= U, an exact positive constant, without windup; outside every claim [default: `actuator` of the file,
+    /// where it has one]
     #[arg(long, value_name = "U", allow_hyphen_values = true, requires = "discretise")]
     pub saturation: Option<String>,
 
@@ -100,7 +101,7 @@ pub struct SimulateArgs {
     #[arg(long, value_name = "QE[,QU]", requires = "sampled", value_delimiter = ',', allow_hyphen_values = true)]
     pub quantise: Vec<String>,
 
-    /// Clip the control to |u| <= U, with the exported law's anti-windup
+    /// Clip the control to |u| <= U, with the exported law's anti-windup [default: `actuator` of the plant file, where it has one]
     #[arg(long, value_name = "U", requires = "sampled", allow_hyphen_values = true)]
     pub saturation: Option<String>,
 

@@ -81,7 +81,7 @@ pub(super) fn unfinished(failure: &IntegrationFailure) -> Finding {
 
 fn why(failure: &IntegrationFailure) -> String {
     match failure {
-        IntegrationFailure::Escaped { .. } => failure.to_string(),
+        IntegrationFailure::Escaped { .. } | IntegrationFailure::Saturated { .. } => failure.to_string(),
         IntegrationFailure::TooMuchWork { .. } => "the simulation of the closed loop takes too much work".to_owned(),
         IntegrationFailure::Stiff { .. } | IntegrationFailure::StepTooLong { .. } => {
             "what the simulation of the closed loop gives depends on its tolerance".to_owned()

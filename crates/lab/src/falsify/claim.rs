@@ -138,6 +138,16 @@ impl TriedClaim {
         self.control.filter(|_| sigma <= self.sigma * ABOVE)
     }
 
+    /// The gain of a trial over that of the claim: with an actuator the claim is about its gain alone.
+    pub(super) fn gain_of(&self, share: f64) -> f64 {
+        if self.spec.actuator.is_some() { 1.0 } else { share }
+    }
+
+    /// The largest |u| that the actuator takes.
+    pub(super) fn actuator(&self) -> Option<f64> {
+        self.spec.actuator.as_ref().map(|actuator| actuator.max.to_f64())
+    }
+
     /// A claim about a specification that claims nothing, for tests of what is drawn.
     #[cfg(test)]
     pub(super) fn for_tests(spec: Specification, reach: [f64; 2]) -> TriedClaim {

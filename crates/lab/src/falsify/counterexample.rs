@@ -57,8 +57,10 @@ pub fn counterexample_plant(
         let values = plant.parameters.list().iter().map(|one| (one.name.clone(), one.value.text.clone().into()));
         file["parameters"] = values.collect::<serde_json::Map<_, _>>().into();
     }
-    if let Some(gain) = claim.spec.document.get("input_gain") {
-        file["input_gain"] = gain.clone();
+    for name in ["input_gain", "actuator"] {
+        if let Some(part) = claim.spec.document.get(name) {
+            file[name] = part.clone();
+        }
     }
     Document::parse("trial", &format!("{file:#}\n"))
 }

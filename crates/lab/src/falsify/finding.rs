@@ -110,6 +110,8 @@ pub(super) const LYAPUNOV: &str = "Lyapunov function on the way, against its sta
 /// The control along the periodic solution, and what it differs by on the way.
 pub(super) const STEADY_CONTROL: &str = "sup|u| of the periodic solution";
 pub(super) const CONTROL: &str = "|u - u_p| on the way, against its bound";
+/// What is put out, where the actuator saturates.
+pub(super) const SATURATION: &str = "|u| on the way, against what the actuator takes";
 
 /// The trial that came closest to a bound, of those in which every bound holds.
 #[derive(Clone, Copy, Debug)]

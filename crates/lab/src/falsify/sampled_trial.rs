@@ -2,7 +2,7 @@
 
 use super::checks::{Checks, PERIODS, norm, unfinished, why_none};
 use super::claim::TriedClaim;
-use super::finding::{CONTROL, Finding, LYAPUNOV, MULTIPLIER, STEADY_CONTROL, Trial, TriedPlant};
+use super::finding::{CONTROL, Finding, LYAPUNOV, MULTIPLIER, SATURATION, STEADY_CONTROL, Trial, TriedPlant};
 use super::random::Random;
 use super::run::{self, Largest};
 use super::sampled_claim::SampledClaim;
@@ -201,14 +201,14 @@ fn check_approach(
 ) -> Result<(), IntegrationFailure> {
     let n = sampled.states();
     let Some(mut run) = SampledRun::new(sampled, 0, &trial.start) else { return Ok(()) };
-    let (mut away, mut level, mut control) = ([0.0_f64; 2], [0.0_f64; 2], 0.0_f64);
+    let (mut away, mut level, mut control) = ([0.0_f64; 2], [0.0_f64; 2], [0.0_f64; 2]);
     let [low, up, eta] = claim.lyapunov.unwrap_or_default();
     // At the gain b the weight of zeta is b eta.
     let eta = eta * claim.share_of_h(trial);
     for index in 0..PERIODS {
         let intervals = period(sampled, &mut run, Tolerance::ORDINARY)?;
         for (sample, (interval, of_orbit)) in intervals.iter().zip(orbit).enumerate() {
-            control = control.max((interval.u - of_orbit.u).abs());
+            control = [control[0].max((interval.u - of_orbit.u).abs()), control[1].max(interval.u.abs())];
             let difference: Vec<f64> = interval.zeta.iter().zip(&of_orbit.zeta).map(|(a, b)| a - b).collect();
             let zeta = eta * sampled.regulator.weighted_norm(&difference).portable_powi(2);
             for (piece, point) in interval.pieces.iter().zip(&of_orbit.pieces) {
@@ -232,7 +232,11 @@ fn check_approach(
     checks.at_most("|x - x_p| on the way, against D_x", away[0], d_x);
     checks.at_most("|e - e_p| on the way, against D_e", away[1], d_e);
     if let Some([_, transient]) = claim.control {
-        checks.at_most(CONTROL, control, transient);
+        checks.at_most(CONTROL, control[0], transient);
+    }
+    // The law of a trial does not clip, so that this is what it asks for.
+    if let Some(max) = claim.actuator() {
+        checks.at_most(SATURATION, control[1], max);
     }
     checks.at_most(LYAPUNOV, level[1], level[0]);
     Ok(())

@@ -3,7 +3,7 @@
 use super::checks::{Checks, PERIODS, norm, unfinished, why_none};
 use super::claim::TriedClaim;
 use super::finding::{
-    CONTROL, Falsification, Finding, LYAPUNOV, MULTIPLIER, STEADY_CONTROL, Trial, TrialSettings, TriedPlant,
+    CONTROL, Falsification, Finding, LYAPUNOV, MULTIPLIER, SATURATION, STEADY_CONTROL, Trial, TrialSettings, TriedPlant,
 };
 use super::frame::{ABOVE, OwnPlant};
 use super::random::Random;
@@ -66,7 +66,7 @@ fn run_trial(claim: &TriedClaim, seed: u64, number: u64) -> Finding {
         return Finding::Unfinished(no_member(claim).to_owned());
     };
     let n_o = TRIED_N_O[random.whole(0, TRIED_N_O.len() as u32 - 1) as usize];
-    let sigma = claim.sigma * ABOVE;
+    let sigma = claim.sigma * claim.gain_of(ABOVE);
     let regulator = regulator(claim, sigma, n_o);
     let start = boundary(claim, plant.family.states(), &regulator, &mut random);
     let input_gain = claim.member(number, &mut random).input_gain;
@@ -83,7 +83,7 @@ fn run_trial(claim: &TriedClaim, seed: u64, number: u64) -> Finding {
 /// A trial of the plant that the claim is about, or of a member of its family.
 fn run_own(claim: &TriedClaim, own: &OwnPlant, mut random: Random, number: u64) -> Finding {
     let n_o = TRIED_N_O[random.whole(0, TRIED_N_O.len() as u32 - 1) as usize];
-    let sigma = claim.sigma * OwnPlant::gain(number);
+    let sigma = claim.sigma * claim.gain_of(OwnPlant::gain(number));
     let regulator = regulator(claim, sigma, n_o);
     let n = own.plant.states();
     let mut start = boundary(claim, n, &regulator, &mut random);
@@ -184,7 +184,7 @@ fn check_orbit(
     let z = largest(&|y| closed_loop.regulator.weighted_norm(&y[n + 1..]));
     checks.at_most("sup|z|_N of the periodic solution", z, claim.periodic_z);
     if let Some([steady, _]) = claim.control_at(trial.sigma) {
-        let u = largest(&|y| closed_loop.control(y, Disturbance::default()).abs());
+        let u = largest(&|y| closed_loop.demanded(y, Disturbance::default()).abs());
         checks.at_most(STEADY_CONTROL, u, steady * ABOVE);
     }
     if let Some(psi) = claim.psi {
@@ -211,7 +211,7 @@ fn check_approach(
 ) -> Result<(), IntegrationFailure> {
     let n = closed_loop.states();
     let m = closed_loop.regulator.m();
-    let (mut y, mut away, mut level, mut control) = (trial.start.clone(), [0.0_f64; 2], [0.0_f64; 2], 0.0_f64);
+    let (mut y, mut away, mut level, mut control) = (trial.start.clone(), [0.0_f64; 2], [0.0_f64; 2], [0.0_f64; 2]);
     let period = closed_loop.period;
     let share_of_h = claim.share_of_h(trial);
     for index in 0..PERIODS {
@@ -223,7 +223,8 @@ fn check_approach(
             let (x, e) = (claim.own.as_ref().map_or_else(|| norm(&difference[..n]), own), difference[n]);
             away = [away[0].max(x), away[1].max(e.abs())];
             // u is linear in (e, z).
-            control = control.max(closed_loop.control(&difference, Disturbance::default()).abs());
+            let of = |y: &[f64]| closed_loop.demanded(y, Disturbance::default()).abs();
+            control = [control[0].max(of(&difference)), control[1].max(of(sample))];
             let zeta: Vec<f64> = difference[n + 1..].iter().zip(&m).map(|(z, m)| z - m * e).collect();
             let zeta = closed_loop.regulator.weighted_norm(&zeta);
             if let Some((joint, own)) = claim.joint.as_ref().zip(claim.own.as_ref()) {
@@ -247,7 +248,10 @@ fn check_approach(
     checks.at_most("|x - x_p| on the way, against D_x", away[0], d_x);
     checks.at_most("|e - e_p| on the way, against D_e", away[1], d_e);
     if let Some([_, transient]) = claim.control_at(trial.sigma) {
-        checks.at_most(CONTROL, control, transient * ABOVE);
+        checks.at_most(CONTROL, control[0], transient * ABOVE);
+    }
+    if let Some(max) = claim.actuator() {
+        checks.at_most(SATURATION, control[1], max);
     }
     if claim.lyapunov.is_some() || claim.joint.is_some() {
         checks.at_most(LYAPUNOV, level[1], level[0]);

@@ -51,6 +51,8 @@ pub struct ClosedLoop {
     held: f64,
     /// The gain of the actuator.
     gain: f64,
+    /// The largest |u| that the actuator takes; what is beyond is cut off.
+    limit: Option<f64>,
 }
 
 impl ClosedLoop {
@@ -66,7 +68,14 @@ impl ClosedLoop {
             effort: Arc::default(),
             held: 0.0,
             gain: plant.input_gain.as_ref().map_or(1.0, |gain| gain.nominal.to_f64()),
+            limit: plant.actuator.as_ref().map(|actuator| actuator.max.to_f64()),
         }
+    }
+
+    /// The largest |u| that the actuator takes, where it saturates.
+    #[must_use]
+    pub fn limit(&self) -> Option<f64> {
+        self.limit
     }
 
     /// The same with an actuator of this gain.
@@ -80,10 +89,11 @@ impl ClosedLoop {
         self.gain / self.regulator.divisor()
     }
 
-    /// The plant with a control that is held: x' = f(t, x, e), e' = q(t, x, e) + u, with u = 0 at first.
+    /// The plant with a control that is held: x' = f(t, x, e), e' = q(t, x, e) + u, with u = 0 at first. It acts as it is: what holds it
+    /// cuts it off.
     #[must_use]
     pub fn held(plant: &Plant) -> ClosedLoop {
-        ClosedLoop::new(plant, Regulator::high_gain(0.0))
+        ClosedLoop { limit: None, ..ClosedLoop::new(plant, Regulator::high_gain(0.0)) }
     }
 
     /// Holds another control from now on.
@@ -150,9 +160,16 @@ impl ClosedLoop {
         program.operations() as u64
     }
 
-    /// The control u for a state, as it is put out.
+    /// The control u for a state, as it acts: cut off at what the actuator takes.
     #[must_use]
     pub fn control(&self, y: &[f64], noise: Disturbance) -> f64 {
+        let demanded = self.demanded(y, noise);
+        self.limit.map_or(demanded, |limit| demanded.clamp(-limit, limit))
+    }
+
+    /// The control u for a state, as it is put out.
+    #[must_use]
+    pub fn demanded(&self, y: &[f64], noise: Disturbance) -> f64 {
         let e = y[self.states];
         let sum = self.regulator.internal_model_output(&y[self.states + 1..], e + noise.model);
         let law = self.regulator.mu * sum - self.regulator.sigma * (e + noise.feedback);
@@ -168,9 +185,24 @@ impl ClosedLoop {
         self.add_regulator(y, noise, &mut plant[n], dz);
     }
 
+    /// Whether the actuator does not take what is put out at a state.
+    pub(super) fn saturates(&self, y: &[f64], noise: Disturbance) -> bool {
+        self.limit.is_some_and(|limit| self.demanded(y, noise).abs() > limit)
+    }
+
     /// Adds u to e' and sets z'.
     #[inline]
     fn add_regulator(&self, y: &[f64], noise: Disturbance, de: &mut f64, dz: &mut [f64]) {
+        let plant = *de;
+        self.add_unlimited(y, noise, de, dz);
+        if self.saturates(y, noise) {
+            *de = plant + self.gain * self.control(y, noise);
+        }
+    }
+
+    /// The same for an actuator that takes everything.
+    #[inline]
+    fn add_unlimited(&self, y: &[f64], noise: Disturbance, de: &mut f64, dz: &mut [f64]) {
         let Regulator { sigma, mu, frequencies, weights, .. } = &self.regulator;
         let (e, z) = (y[self.states], &y[self.states + 1..]);
         // With 1 for the gain the same bits.
@@ -232,7 +264,8 @@ impl ClosedLoop {
             }
         }
         let Regulator { sigma, mu, frequencies, weights, .. } = &self.regulator;
-        let b = self.acting();
+        // What is cut off does not move.
+        let b = if self.saturates(y, Disturbance::default()) { 0.0 } else { self.acting() };
         jacobian[n * d + n] -= b * (sigma + mu * weights.iter().sum::<f64>());
         for (l, weight) in weights.iter().enumerate() {
             // z_0, z_11, z_21, ... follow e.
@@ -282,6 +315,31 @@ mod tests {
                     assert!((jacobian[row * d + column] - quotient).abs() < 1e-7, "{row} {column}");
                 }
             }
+        }
+    }
+
+    #[test]
+    fn beyond_what_the_actuator_takes_nothing_acts() {
+        let text = include_str!("../../../../specs/plants/linear.json");
+        let free = Plant::from_json("linear", text).unwrap();
+        let limited = text.replacen('{', "{ \"actuator\": { \"max\": 2 },", 1);
+        let limited = Plant::from_json("linear", &limited).unwrap();
+        let regulator = Regulator::new(3.0, 1.5, 2.0, vec![2.0, 1.0, 0.4]);
+        let [free, limited] = [&free, &limited].map(|plant| ClosedLoop::new(plant, regulator.clone()));
+        let slope = |closed_loop: &ClosedLoop, y: &[f64]| {
+            closed_loop.linearise(&mut closed_loop.derivative_evaluator(), 0.25, y)
+        };
+        // Of this size the control is within 2, and of twice that it is not.
+        for (scale, saturates) in [(0.1, false), (4.0, true), (-4.0, true)] {
+            let y = [0.3, -1.0, 0.5, 0.25, 2.0, -0.7].map(|part| part * scale);
+            let u = free.control(&y, Disturbance::default());
+            assert_eq!((u.abs() > 2.0, limited.saturates(&y, Disturbance::default())), (saturates, saturates));
+            assert_eq!(limited.control(&y, Disturbance::default()), u.clamp(-2.0, 2.0));
+            let ((without, of_without), (with, of_with)) = (slope(&free, &y), slope(&limited, &y));
+            assert!((with[0] - (without[0] - u + u.clamp(-2.0, 2.0))).abs() < 1e-13);
+            assert_eq!(with[1..], without[1..]);
+            assert_eq!(of_with == of_without, !saturates);
+            assert_eq!(of_with[1..6].iter().all(|entry| *entry == 0.0), saturates);
         }
     }
 

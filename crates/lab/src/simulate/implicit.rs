@@ -3,10 +3,10 @@
 //! The lengths are the span divided by powers of 2, so that times carry no rounding and the weights of a length are computed
 //! once. Each step is made as a whole and as two halves: the difference is the estimate of its error, the halves count.
 
-use super::ClosedLoop;
 use super::collocation::{Collocation, Table};
 use super::integration::{IntegrationFailure, Span, Tolerance, is_bounded};
 use super::radau::NODES;
+use super::{ClosedLoop, Disturbance};
 use std::collections::BTreeMap;
 
 /// The shortest step is the span divided by 2 to this power.
@@ -112,6 +112,9 @@ impl<'l> Steps<'l> {
         let table = self.tables.entry(level).or_insert_with(|| Table::new(closed_loop, h));
         let Some(stages) = self.collocation.stages(table, t, y) else { return Ok(None) };
         let end = self.collocation.end(table, y, &stages);
+        if [y, &end].into_iter().any(|y| closed_loop.saturates(y, Disturbance::default())) {
+            return Err(IntegrationFailure::Saturated { t });
+        }
         Ok(Some(Made { t, stages, end }))
     }
 

@@ -61,6 +61,12 @@ pub enum IntegrationFailure {
         /// The last time that was reached.
         t: f64,
     },
+    /// The loop is stiff, and its actuator saturates: implicit steps are those of the linear law.
+    #[error("the loop is stiff, and its actuator saturates near t = {t:.6}: this is not simulated in continuous time")]
+    Saturated {
+        /// When it does.
+        t: f64,
+    },
     /// A fixed step beyond the stability of its method.
     #[error("{steps} steps per period are too few for this loop: the method is not stable with them")]
     StepTooLong {
@@ -77,6 +83,9 @@ impl IntegrationFailure {
     pub fn way_out(&self, flag: &str) -> String {
         match self {
             IntegrationFailure::Escaped { .. } => "check the plant, or take a larger gain".to_owned(),
+            IntegrationFailure::Saturated { .. } => {
+                "simulate the regulator at samples (`--sampled`), or start nearer to the periodic solution".to_owned()
+            }
             IntegrationFailure::TooMuchWork { .. } => {
                 "take fewer oscillators, periods or samples, or a plant with fewer states or shorter right sides"
                     .to_owned()

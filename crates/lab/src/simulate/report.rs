@@ -23,9 +23,13 @@ impl Readable for SimulationReport<'_> {
         let mut blocks = vec![
             Block::Title(format!("{}: simulation", clean(&plant.name))),
             Block::says(format!(
-                "Floating point, no claim. {}; period {}.",
+                "Floating point, no claim. {}; period {}.{}",
                 regulator_words(&closed_loop.regulator),
-                number(closed_loop.period)
+                number(closed_loop.period),
+                closed_loop.limit().map_or_else(String::new, |limit| format!(
+                    " The actuator takes |u| <= {} and cuts off what is beyond.",
+                    number(limit)
+                ))
             )),
             Block::heading("Steady state"),
         ];

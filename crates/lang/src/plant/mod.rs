@@ -8,7 +8,8 @@ pub use read::{FORMAT, VERSIONS};
 
 use crate::expr::{Formula, Formulas, PlantExpr, PlantNames, PlantVariable, Program};
 use crate::spec::{
-    Constant, Document, Domain, ErrorKind, InitialSet, InputGain, InternalModel, Parameters, Period, SpecErrors,
+    Actuator, Constant, Document, Domain, ErrorKind, InitialSet, InputGain, InternalModel, Parameters, Period,
+    SpecErrors,
 };
 use rug::Rational;
 use std::ops::Range;
@@ -42,6 +43,8 @@ pub struct Plant {
     pub internal_model: InternalModel,
     /// The gain of the actuator, where it is not exactly 1.
     pub input_gain: Option<InputGain>,
+    /// What the actuator takes, where the claim is to keep to it.
+    pub actuator: Option<Actuator>,
     /// The document as it was read.
     pub document: serde_json::Value,
     /// SHA-256, in hexadecimal, of the canonical form of the document.

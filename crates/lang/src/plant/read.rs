@@ -4,8 +4,8 @@ use super::{Initial, InitialRegulator, Plant, periodicity};
 use crate::expr::{Definitions, Expr, Phase, PlantExpr, PlantNames};
 use crate::spec::{
     Constant, Document, Domain, ErrorKind, Errors, InitialSet, Parameters, Period, Reported, SpecErrors, Value,
-    any_constant_in, positive_constant_in, read_input_gain, read_internal_model, read_parameters, read_period,
-    read_with_ball,
+    any_constant_in, positive_constant_in, read_actuator, read_input_gain, read_internal_model, read_parameters,
+    read_period, read_with_ball,
 };
 use std::path::Path;
 
@@ -13,8 +13,8 @@ use std::path::Path;
 pub const FORMAT: &str = "sigmastar/plant";
 
 /// The members in which a parameter may be used.
-const WITH_PARAMETERS: [&str; 8] =
-    ["period", "f", "q", "initial", "initial_set", "domain", "internal_model", "input_gain"];
+const WITH_PARAMETERS: [&str; 9] =
+    ["period", "f", "q", "initial", "initial_set", "domain", "internal_model", "input_gain", "actuator"];
 
 /// The versions of it that are read.
 pub const VERSIONS: [u64; 1] = [1];
@@ -71,6 +71,7 @@ fn read(value: &Value<'_>, errors: &mut Errors) -> Result<Plant, Reported> {
         .and_then(|value| read_internal_model(&value, period.as_ref().ok(), constants, errors));
     let input_gain =
         object.optional("input_gain").map(|value| read_input_gain(&value, &parameters, errors)).transpose();
+    let actuator = object.optional("actuator").map(|value| read_actuator(&value, constants, errors)).transpose();
     object.finish(errors);
     // Without the names of the states the right sides have no meaning to check.
     let names = names?.with_parameters(constants.clone());
@@ -110,6 +111,7 @@ fn read(value: &Value<'_>, errors: &mut Errors) -> Result<Plant, Reported> {
         domain: domain?,
         internal_model: internal_model?,
         input_gain: input_gain?,
+        actuator: actuator?,
         document,
         sha256,
         source: value.document().clone(),

@@ -7,6 +7,7 @@
 //! and no answer. [`Specification::from_json`] does all of it; the reader of documents serves certificates and
 //! witness files as well.
 
+mod actuator;
 mod bound;
 mod bounding;
 mod comments;
@@ -43,6 +44,7 @@ pub mod weights;
 mod weights_proof;
 mod weights_read;
 
+pub use actuator::{Actuator, read_actuator};
 pub use bound::Bound;
 pub use bounding::Bounds;
 pub use constant::{any_constant, any_constant_in, nonnegative_constant, positive_constant, positive_constant_in};

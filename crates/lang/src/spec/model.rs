@@ -1,5 +1,6 @@
 //! What a bounding specification says, with every number exact.
 
+use super::actuator::Actuator;
 use super::bound::Bound;
 use super::bounding::Bounds;
 use super::document::Document;
@@ -42,6 +43,8 @@ pub struct Specification {
     pub initial_set: InitialSet,
     /// The gain of the actuator, where it is not exactly 1.
     pub input_gain: Option<InputGain>,
+    /// What the actuator takes, where the claim is to keep to it.
+    pub actuator: Option<Actuator>,
     /// The relative-degree filter, when e is a combination of xi_1, ..., xi_r.
     pub relative_degree: Option<RelativeDegree>,
     /// The document as it was read, without `$schema`: key order and the text of numbers as written.

@@ -1,5 +1,6 @@
 //! From a document to a specification.
 
+use super::actuator::read_actuator;
 use super::bound::Bound;
 use super::bounding::Bounds;
 use super::constant::{any_constant, expression, nonnegative_constant, positive_constant, positive_constant_in, whole};
@@ -99,6 +100,8 @@ fn read(value: &Value<'_>, errors: &mut Errors) -> Result<Specification, Reporte
     let initial_set = object.required("initial_set", errors).and_then(|value| initial_set::read(&value, errors));
     let input_gain =
         object.optional("input_gain").map(|value| read_input_gain(&value, &Parameters::default(), errors)).transpose();
+    let actuator =
+        object.optional("actuator").map(|value| read_actuator(&value, Definitions::none(), errors)).transpose();
     let relative_degree =
         object.optional("relative_degree").map(|value| read_relative_degree(&value, errors)).transpose();
     object.finish(errors);
@@ -116,6 +119,7 @@ fn read(value: &Value<'_>, errors: &mut Errors) -> Result<Specification, Reporte
         internal_model: internal_model?,
         initial_set: initial_set?,
         input_gain: input_gain?,
+        actuator: actuator?,
         relative_degree: relative_degree?,
         document,
         sha256,

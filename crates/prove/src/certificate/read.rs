@@ -7,7 +7,8 @@ use crate::certify::GivenWitness;
 use rug::Rational;
 use sigmastar_lang::spec::model::PeriodicMatrix;
 use sigmastar_lang::spec::{
-    Document, ErrorKind, Errors, Object, Parameters, Reported, SpecErrors, Value, read_input_gain, read_parameters,
+    Actuator, Document, ErrorKind, Errors, InputGain, Object, Parameters, Reported, SpecErrors, Value, read_actuator,
+    read_input_gain, read_parameters,
 };
 use sigmastar_plants::lyapunov::{ProvedTriple, ProvedTriples};
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
@@ -109,7 +110,7 @@ pub(super) fn read_rows(value: &Value<'_>, what: &str, errors: &mut Errors) -> R
     Ok(rows)
 }
 
-/// What the claim contributes to the witness: sigma*, and the initial set. Its input gain is that of the embedded document.
+/// What the claim contributes to the witness: the gain, and the initial set. Its input gain and actuator are those of the embedded document.
 fn claim_part(
     value: &Value<'_>,
     subject: Option<&Value<'_>>,
@@ -133,29 +134,48 @@ fn claim_part(
             Err(errors.report(value.error(ErrorKind::UnknownName, message).expected("expected `sharp`")))
         }
     });
-    let input_gain = own_input_gain(&mut claim, value, subject, errors);
-    let sigma = rational(&mut claim, "sigma_star", errors);
+    let actuator = own_actuator(&mut claim, value, subject, errors);
+    // With an actuator nothing is said of a larger gain.
+    let gain = if value.member("actuator").is_some() { "sigma" } else { "sigma_star" };
+    let sigma = rational(&mut claim, gain, errors);
     let set = read_set(&mut claim, errors);
     claim.finish(errors);
     derivation?;
-    input_gain?;
+    actuator?;
     Ok((sigma?, set?))
 }
 
-/// That the input gain of a claim is the one of the document that it embeds.
-pub(super) fn own_input_gain(
+/// That the input gain and the actuator of a claim are those of the document that it embeds.
+pub(super) fn own_actuator(
     claim: &mut Object<'_>,
     value: &Value<'_>,
     subject: Option<&Value<'_>>,
     errors: &mut Errors,
 ) -> Result<(), Reported> {
-    match (claim.optional("input_gain"), subject.and_then(|subject| subject.member("input_gain"))) {
+    let gain = own_part(claim, value, subject, ("input_gain", read_input_gain, InputGain::is), errors);
+    let read = |value: &Value<'_>, parameters: &Parameters, errors: &mut Errors| {
+        read_actuator(value, parameters.definitions(), errors)
+    };
+    gain.and(own_part(claim, value, subject, ("actuator", read, Actuator::is), errors))
+}
+
+/// A part with constants: its name, how it is read, and whether two of it are the same.
+type Part<T> = (&'static str, fn(&Value<'_>, &Parameters, &mut Errors) -> Result<T, Reported>, fn(&T, &T) -> bool);
+
+fn own_part<T>(
+    claim: &mut Object<'_>,
+    value: &Value<'_>,
+    subject: Option<&Value<'_>>,
+    part: Part<T>,
+    errors: &mut Errors,
+) -> Result<(), Reported> {
+    match (claim.optional(part.0), subject.and_then(|subject| subject.member(part.0))) {
         (None, None) => Ok(()),
         (stated, embedded) => {
             let parameters = subject.and_then(|subject| subject.member("parameters"));
             let parameters = parameters.map(|value| read_parameters(&value, &[], errors)).transpose();
             parameters.and_then(|parameters| {
-                same_input_gain(stated, embedded, (value, &parameters.unwrap_or_default()), errors)
+                same_part(stated, embedded, (value, &parameters.unwrap_or_default()), part, errors)
             })
         }
     }
@@ -166,26 +186,26 @@ pub(super) fn embedded<'v>(root: &Value<'v>) -> Option<Value<'v>> {
     ["plant", "specification"].into_iter().find_map(|name| root.member(name))
 }
 
-/// That they are the same three numbers or expressions of parameters; in the document the names of constants may stand.
-fn same_input_gain(
+/// That they are the same numbers or expressions of parameters; in the document the names of constants may stand.
+fn same_part<T>(
     stated: Option<Value<'_>>,
     embedded: Option<Value<'_>>,
     (claim, parameters): (&Value<'_>, &Parameters),
+    (name, read, same): Part<T>,
     errors: &mut Errors,
 ) -> Result<(), Reported> {
     let place = stated.clone().unwrap_or_else(|| claim.clone());
     let [stated, embedded] =
-        [stated, embedded].map(|value| value.map(|value| read_input_gain(&value, parameters, errors)).transpose());
+        [stated, embedded].map(|value| value.map(|value| read(&value, parameters, errors)).transpose());
     let same = match (stated?, embedded?) {
-        (Some(stated), Some(embedded)) => stated.is(&embedded),
+        (Some(stated), Some(embedded)) => same(&stated, &embedded),
         _ => false,
     };
     if same {
         return Ok(());
     }
-    let message = "the claim and the document in the certificate differ in `input_gain`";
-    let error =
-        place.error(ErrorKind::Range, message).expected("expected the same three numbers in both, or in neither");
+    let message = format!("the claim and the document in the certificate differ in `{name}`");
+    let error = place.error(ErrorKind::Range, message).expected("expected the same numbers in both, or in neither");
     Err(errors.report(error.help("`certify` writes a new one")))
 }
 

@@ -1,7 +1,7 @@
 //! Reading the claim and the witness of a certificate of the regulator at samples.
 
 use super::fields::{NumberFields, PLANT_FIELDS, rational, read_paths};
-use super::read::{COMMON, embedded, own_input_gain, read_set, small_integer};
+use super::read::{COMMON, embedded, own_actuator, read_set, small_integer};
 use super::sampled::{REGULATOR, SAMPLED};
 use super::triple::{EXISTENCE, STABILITY};
 use super::write::{FORMAT, VERSION};
@@ -76,10 +76,10 @@ fn read_claim(value: &Value<'_>, subject: Option<&Value<'_>>, errors: &mut Error
     let step = claim.required("sampling_period", errors).and_then(|value| positive_constant(&value, errors));
     let samples = small_integer(&mut claim, "samples", errors);
     let gain = rational(&mut claim, "gain", errors);
-    let input_gain = own_input_gain(&mut claim, value, subject, errors);
+    let actuator = own_actuator(&mut claim, value, subject, errors);
     let set = read_set(&mut claim, errors);
     claim.finish(errors);
-    regulator.and(derivation).and(input_gain)?;
+    regulator.and(derivation).and(actuator)?;
     let sampling = Sampling { step: step?, samples: samples? };
     Ok(Claim { sigma: sigma?, sampling, gain: gain?, set: set? })
 }

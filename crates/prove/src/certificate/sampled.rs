@@ -4,8 +4,8 @@ use super::fields::{NumberFields, paths_json};
 use super::of_plant::plant_parts;
 use super::triple::lyapunov_parts;
 use super::write::{
-    FORMAT, VERSION, conclusion, conditions_json, control_json, every_input_gain, exact, input_gain_json, object,
-    parameters_json, set_json, text, upper_end,
+    FORMAT, VERSION, actuator_json, conclusion, conditions_json, control_json, every_input_gain, exact,
+    input_gain_json, object, parameters_json, set_json, text, upper_end, within_actuator,
 };
 use crate::certify::SampledCertification;
 use serde_json::Value;
@@ -47,7 +47,10 @@ pub fn sampled_certificate_json(run: &SampledCertification<'_>) -> Option<Value>
         ("control", control_json(run.control()?)),
         ("statement", text(sampled_statement(spec, witness))),
     ];
-    let claim = object(heading.into_iter().chain(input_gain_json(spec)).chain(parameters_json(spec)).chain(rest));
+    let claim = {
+        let of_actuator = input_gain_json(spec).into_iter().chain(actuator_json(spec));
+        object(heading.into_iter().chain(of_actuator).chain(parameters_json(spec)).chain(rest))
+    };
     let further = [("weight_sum", exact(&witness.law.weight_sum)), ("transfer", object([("proof", text(SAMPLED))]))];
     let parts =
         further.into_iter().chain([paths_json(witness.paths)]).chain(lyapunov_parts(spec)).chain(plant_parts(spec));
@@ -75,12 +78,13 @@ pub fn sampled_statement(spec: &Specification, witness: &SampledWitness) -> Stri
     let samples = witness.sampling.samples;
     format!(
         "For the digital regulator with the gain sigma = {}, the sampling period h = {} ({samples} samples a period) and \
-         K = {}, for every number of oscillators n_o < {samples}/2 and every phase of the sampling grid{}, with period T = {}, \
+         K = {}, for every number of oscillators n_o < {samples}/2 and every phase of the sampling grid{}{}, with period T = {}, \
          mu = {} and base frequency {}, {}",
         write_exact(&witness.sigma),
         witness.sampling.text(),
         write_exact(&witness.law.gain),
         every_input_gain(spec),
+        within_actuator(spec),
         spec.period.nominal().text,
         model.mu.text,
         model.base_frequency.text,

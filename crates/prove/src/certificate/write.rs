@@ -10,7 +10,7 @@ use serde_json::{Map, Value};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, round_rational, write_exact};
 use sigmastar_lang::spec::model::LyapunovSource;
-use sigmastar_lang::spec::{Bound, Constant, InputGain, Interval, OfPlant, Parameters, Specification};
+use sigmastar_lang::spec::{Actuator, Bound, Constant, InputGain, Interval, OfPlant, Parameters, Specification};
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::condition::Condition;
 use sigmastar_theory::derivation::control::Control;
@@ -78,7 +78,7 @@ pub fn certificate_json(run: &Certification<'_>) -> Option<Value> {
     let heading = [
         ("verdict", text(run.verdict.to_string())),
         ("derivation", text("sharp")),
-        ("sigma_star", exact(sigma)),
+        (if spec.actuator.is_some() { "sigma" } else { "sigma_star" }, exact(sigma)),
         ("n_o", text("every n_o >= 0")),
         ("mu", text(constant(mu))),
     ];
@@ -95,7 +95,8 @@ pub fn certificate_json(run: &Certification<'_>) -> Option<Value> {
         ("control", control_json(run.control()?)),
     ];
     let said = ("statement", text(statement(run, sigma, set) + &run.rates_in_words()));
-    let names = input_gain_json(spec).into_iter().chain(period).chain(parameters_json(spec)).chain(rest);
+    let of_actuator = input_gain_json(spec).into_iter().chain(actuator_json(spec));
+    let names = of_actuator.chain(period).chain(parameters_json(spec)).chain(rest);
     let claim = object(heading.into_iter().chain(names).chain(claimed_rates(run)).chain([said]));
     let regulation = run.exact.as_ref().map(|exact| {
         let numbers = exact.witness.json().into_iter().chain([paths_json(exact.witness.paths)]);
@@ -152,6 +153,12 @@ pub fn certificate_json(run: &Certification<'_>) -> Option<Value> {
 pub(super) fn input_gain_json(spec: &Specification) -> Option<(&'static str, Value)> {
     let written = spec.input_gain.as_ref()?.written();
     Some(("input_gain", object(written.map(|(name, value)| (name, text(value))))))
+}
+
+/// What the actuator takes, where the claim keeps to it.
+pub(super) fn actuator_json(spec: &Specification) -> Option<(&'static str, Value)> {
+    let Actuator { max } = spec.actuator.as_ref()?;
+    Some(("actuator", object([("max", text(constant(max)))])))
 }
 
 /// The intervals of the parameters, for all of which the claim is; none of a single plant.
@@ -237,9 +244,10 @@ pub fn statement(run: &Certification<'_>, sigma: &Rational, set: &ClaimedSet) ->
         }
     };
     format!(
-        "For every number of oscillators n_o >= 0 and every gain sigma >= {}{input_gain}, with {period}, mu = {} and base frequency \
-         {}{reach}, {}",
+        "For every number of oscillators n_o >= 0 and {} {}{input_gain}{}, with {period}, mu = {} and base frequency {}{reach}, {}",
+        if spec.actuator.is_some() { "the gain sigma =" } else { "every gain sigma >=" },
         write_exact(sigma),
+        within_actuator(spec),
         model.mu.text,
         model.base_frequency.text,
         conclusion(spec, set, "at any initial time"),
@@ -252,6 +260,16 @@ pub(super) fn every_input_gain(spec: &Specification) -> String {
         format!(
             " and every input gain in [{}, {}] (one constant; the regulator divides by the nominal {})",
             low.text, high.text, nominal.text
+        )
+    })
+}
+
+/// ", with an actuator that takes ..."; nothing where there is none.
+pub(super) fn within_actuator(spec: &Specification) -> String {
+    spec.actuator.as_ref().map_or_else(String::new, |Actuator { max }| {
+        format!(
+            ", with an actuator that takes what is put out up to {} in size and cuts off what is beyond (which nothing ever is)",
+            max.text
         )
     })
 }

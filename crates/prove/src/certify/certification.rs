@@ -1,22 +1,26 @@
 //! What a run found out.
 
 use super::bounding::BoundingProblem;
+use super::gains::GainRow;
+use super::limits::Limits;
 use super::matrix_checks::MatrixChecks;
 use super::no_plant::NoPlant;
 use super::options::Options;
 use super::proof::{Decided, Outcome, Proof, RepairedProof, SharpProof};
 use super::verdict::Verdict;
 use crate::rate::bound::RateForCount;
-use crate::search::{Binding, Datum, OptionalDatum};
+use crate::search::{Binding, Datum, Failing, Obstacle, OptionalDatum};
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_lang::spec::model::Specification;
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::condition::{Condition, all};
+use sigmastar_theory::derivation::control::Control;
 use sigmastar_theory::derivation::exact_regulation::{ExactEvaluation, ExactWitness};
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
 use sigmastar_theory::derivation::printed::{Infeasible, PrintedEvaluation};
 use sigmastar_theory::derivation::relative_degree::RelativeDegreeError;
+use sigmastar_theory::derivation::sharp::SharpEvaluation;
 use sigmastar_theory::derivation::table::Row;
 
 /// What the printed formulas say about the data; nothing where the data are those of a plant's formulas.
@@ -70,6 +74,10 @@ pub struct Certification<'s> {
     pub options: Options,
     /// The gain that was asked about, where the smallest one was not sought.
     pub given_gain: Option<Rational>,
+    /// What was to be kept at the gain.
+    pub limits: Limits,
+    /// About the smallest gain, where it is another one that was sought; floating point.
+    pub smallest_gain: Option<f64>,
     /// The verdict.
     pub verdict: Verdict,
     /// The derivation of the claim.
@@ -99,6 +107,8 @@ pub struct Certification<'s> {
     /// For each parameter with an interval sigma* with it closed to the nominal value (an estimate), and none where nothing is found
     /// then; empty unless the run was to compare.
     pub interval_costs: Vec<(String, Option<f64>)>,
+    /// Bounds at the gain of the claim and at larger ones; empty without a claim, with an actuator, and where no search was made.
+    pub gains: Vec<GainRow>,
     /// Bounding functions that were neither proved nor refuted.
     pub unproved_bounds: Vec<BoundingProblem>,
     /// Every constant in the three derivations.
@@ -127,6 +137,30 @@ impl Certification<'_> {
     #[must_use]
     pub fn sigma_star(&self) -> Option<&Rational> {
         self.claim().map(|claim| claim.sigma)
+    }
+
+    /// Whether the gain of the claim is the smallest one that was found: none was given, and nothing was to be kept.
+    #[must_use]
+    pub fn is_smallest(&self) -> bool {
+        self.given_gain.is_none() && self.limits.is_empty() && self.spec.actuator.is_none()
+    }
+
+    /// Whether this run, without a claim, comes closer to what was to be kept than another one.
+    #[must_use]
+    pub fn closer_to_limits_than(&self, other: &Certification<'_>) -> bool {
+        let missed = |run: &Certification<'_>| match &run.sharp {
+            Outcome::NotFound(Obstacle { failing: Failing::Limit { asked, least, .. }, .. }) => least / asked,
+            _ => f64::INFINITY,
+        };
+        missed(self) < missed(other)
+    }
+
+    /// Bounds of |e| along the periodic solution and on the way, and of the control, at the gain of the claim, if certified.
+    #[must_use]
+    pub fn bounds(&self) -> Option<(&Enclosure, &Enclosure, &Control<Enclosure>)> {
+        let proof = self.sharp.proved().filter(|_| self.claim().is_some())?;
+        let SharpEvaluation { periodic, peak, control, .. } = &proof.evaluation;
+        Some((&periodic.e_per, peak, control))
     }
 
     /// The claimed initial set, if certified.

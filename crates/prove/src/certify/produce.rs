@@ -5,6 +5,7 @@ use super::bounding::{BoundingProblem, prove_on_domain, prove_up_to};
 use super::certification::{Alternatives, Certification, ExactClaim, PrintedFigure, RelativeDegreeGains};
 use super::constants::Columns;
 use super::decide::{decide, decide_exact};
+use super::limits::Limits;
 use super::matrix_checks::MatrixChecks;
 use super::no_plant::no_plant;
 use super::options::Options;
@@ -29,7 +30,7 @@ use sigmastar_theory::transfer::{TradeOff, printed_transfer};
 /// Certifies a specification: search, then rigorous decision.
 ///
 /// Guarantee: the verdict is `Certified` only if the bounding functions are proved on every argument used and every
-/// condition is proved for the witness.
+/// condition is proved for the witness. With an actuator the gain is the smallest one that is found for which C6 holds.
 ///
 /// # Errors
 /// Bounding functions that are *refuted*, with their counterexamples, and an unstable filter: bad input.
@@ -46,7 +47,7 @@ pub fn certify_near<'s>(
     options: Options,
     start: Option<&SharpProposal>,
 ) -> Result<Certification<'s>, Refusal> {
-    certify_wanted(spec, options, Wanted { start, gain: None })
+    certify_wanted(spec, options, Wanted { start, ..Wanted::default() })
 }
 
 /// The same for a gain that is given: the claim, if it is proved, is about this gain and all larger ones.
@@ -59,7 +60,21 @@ pub fn certify_at<'s>(
     start: Option<&SharpProposal>,
     gain: &Rational,
 ) -> Result<Certification<'s>, Refusal> {
-    certify_wanted(spec, options, Wanted { start, gain: Some(gain) })
+    certify_wanted(spec, options, Wanted { start, gain: Some(gain), limits: None })
+}
+
+/// The same for the smallest gain that is found with which the limits are kept, or for the one that is given: a claim that is proved keeps
+/// to them at its gain.
+///
+/// # Errors
+/// Those of [`certify`].
+pub fn certify_within<'s>(
+    spec: &'s Specification,
+    options: Options,
+    start: Option<&SharpProposal>,
+    (gain, limits): (Option<&Rational>, &Limits),
+) -> Result<Certification<'s>, Refusal> {
+    certify_wanted(spec, options, Wanted { start, gain, limits: Some(limits) })
 }
 
 fn certify_wanted<'s>(
@@ -77,28 +92,39 @@ fn certify_wanted<'s>(
     // From a plant's formulas only the data of the claim are computed; the other derivations know of no input gain, and
     // of no interval of the period: their K_alpha falls as T grows.
     let others = spec.plant().is_none() && data.input_gain.is_none() && spec.period.interval().is_none();
+    // They know of no actuator either.
+    let others = others && spec.actuator.is_none();
     let repaired = (options.compare && others).then(|| match search_repaired(&paper_model) {
         Err(obstacle) => Outcome::NotFound(obstacle),
         Ok(proposal) => round_repaired(&data, &paper_model, &proposal, options.ladder).into(),
     });
-    let BestSharp { model: sharp_model, proposal, outcome: sharp } = best_sharp(&data, options, asked);
+    let BestSharp { model: sharp_model, proposal, outcome: sharp, smallest_gain } = best_sharp(&data, options, asked);
+    let near = proposal;
     // Figures about the smallest gain say nothing about one that is given.
-    let proposal = proposal.filter(|_| asked.gain.is_none());
+    let limited = spec.actuator.is_some() || asked.limits.is_some_and(|limits| !limits.is_empty());
+    let proposal = proposal.filter(|_| asked.gain.is_none() && !limited);
     let sharp = proved_up_to_arguments(spec, sharp, Some(&mut unproved))?;
     let repaired = repaired.map(|outcome| proved_up_to_arguments(spec, outcome, None)).transpose()?;
     let printed = if others { printed_figure(&data, &paper_model) } else { PrintedFigure::default() };
     let exact = match (&sharp, spec.internal_model.matched) {
-        (Outcome::Proved(proof), true) => exact_claim(&data, &sharp_model, &proof.witness.set, options.ladder)
-            // Its error box has its own size, and may reach beyond the arguments of the other derivations.
-            .filter(|claim| {
-                let ExactWitness { d_x, d_e, .. } = &claim.witness;
-                spec.domain.is_some() || prove_up_to(spec, d_x, d_e).is_ok()
-            }),
+        // It is of another gain.
+        (Outcome::Proved(proof), true) if spec.actuator.is_none() => {
+            exact_claim(&data, &sharp_model, &proof.witness.set, options.ladder)
+                // Its error box has its own size, and may reach beyond the arguments of the other derivations.
+                .filter(|claim| {
+                    let ExactWitness { d_x, d_e, .. } = &claim.witness;
+                    spec.domain.is_some() || prove_up_to(spec, d_x, d_e).is_ok()
+                })
+        }
         _ => None,
     };
     let parts = Parts { sharp, repaired, printed, exact, exact_failing: Vec::new(), unproved, proposal };
-    let run = assemble(spec, options, &data, parts, &sharp_model)?;
-    Ok(Certification { given_gain: asked.gain.cloned(), ..run })
+    let mut run = assemble(spec, options, &data, parts, &sharp_model)?;
+    if let Some(near) = near.filter(|_| options.compare) {
+        run.set_gains(&sharp_model, &near);
+    }
+    let limits = asked.limits.cloned().unwrap_or_default();
+    Ok(Certification { given_gain: asked.gain.cloned(), limits, smallest_gain, ..run })
 }
 
 /// Decides the witness of a certificate again, without any search.
@@ -119,7 +145,8 @@ pub fn recheck<'s>(
     let data = Data::new(spec, options.ladder.start.max(53));
     let GivenWitness { witness, exact } = file;
     let sharp = Some(decide(spec, witness.as_ref().clone(), options.ladder)).into();
-    let claimed = exact.as_ref().map(|exact| ExactClaim {
+    // With an actuator it is not claimed: it is about other gains.
+    let claimed = exact.as_ref().filter(|_| spec.actuator.is_none()).map(|exact| ExactClaim {
         witness: exact.clone(),
         evaluation: decide_exact(spec, &witness.set, exact, options.ladder),
     });
@@ -210,10 +237,13 @@ fn assemble<'s>(
         alternatives,
         interval_costs: Vec::new(),
         without_optional,
+        gains: Vec::new(),
         unproved_bounds: unproved,
         constants: constants.rows,
         for_n_o: Vec::new(),
         given_gain: None,
+        limits: Limits::default(),
+        smallest_gain: None,
     })
 }
 

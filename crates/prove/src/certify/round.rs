@@ -118,10 +118,7 @@ fn transfer_pair(data: &Data<'_>, pair: (f64, f64, u32), kind: TransferKind) -> 
 }
 
 /// k0 and k1 with their proof.
-type ProvedPair = (Rational, Rational, TransferProof);
-
-/// The pair of a proposal, and what was proved for it.
-type KnownPair = ((f64, f64, u32), Option<ProvedPair>);
+pub(super) type ProvedPair = (Rational, Rational, TransferProof);
 
 /// The room between both sides of S1 and S2 that numbers of so many digits need: a hundred times their last digit.
 pub(super) fn room(digits: u32) -> f64 {
@@ -137,9 +134,30 @@ pub(super) fn round_sharp(
     ladder: Ladder,
 ) -> Option<SharpProof> {
     let mut known = None;
+    let mut pair = |found: (f64, f64, u32)| {
+        // The slack does not move the pair, nor the boxes that prove it.
+        if known.as_ref().is_none_or(|(pair, _)| *pair != found) {
+            known = Some((found, transfer_pair(data, found, kind)));
+        }
+        known.as_ref().and_then(|(_, proved)| proved.clone())
+    };
     first_proved(data, ladder, |(digits, slack)| {
         let sigma = given.cloned().or_else(|| rounded_sigma(proposal.sigma, slack))?;
-        sharp_witness(data, model, (proposal, sigma), kind, (digits, slack), &mut known)
+        sharp_witness(data, model, (proposal, sigma), &mut pair, (digits, slack))
+    })
+}
+
+/// The same at a gain with a pair that is proved, and one attempt with numbers of either length.
+pub(super) fn round_again(
+    data: &Data<'_>,
+    model: &FloatModel,
+    (proposal, sigma): (&SharpProposal, &Rational),
+    pair: ProvedPair,
+    ladder: Ladder,
+) -> Option<SharpProof> {
+    [(SHORT_DIGITS, 1e-6), (LONG_DIGITS, 1e-6)].into_iter().find_map(|attempt| {
+        let witness = sharp_witness(data, model, (proposal, sigma.clone()), &mut |_| Some(pair.clone()), attempt)?;
+        Some(decide(data.spec, witness, ladder)).filter(|proof| proof.truth().is_true())
     })
 }
 
@@ -147,16 +165,11 @@ fn sharp_witness(
     data: &Data<'_>,
     model: &FloatModel,
     (proposal, sigma): (&SharpProposal, Rational),
-    kind: TransferKind,
+    pair: &mut dyn FnMut((f64, f64, u32)) -> Option<ProvedPair>,
     (digits, slack): (u32, f64),
-    known: &mut Option<KnownPair>,
 ) -> Option<SharpWitness> {
     let (found, at) = at_sigma(model, &proposal.parameters, sigma.to_f64(), room(digits)).ok()?;
-    // The slack does not move the pair, nor the boxes that prove it.
-    if known.as_ref().is_none_or(|(pair, _)| *pair != found.pair) {
-        *known = Some((found.pair, transfer_pair(data, found.pair, kind)));
-    }
-    let (k0, k1, transfer) = known.as_ref().and_then(|(_, proved)| proved.clone())?;
+    let (k0, k1, transfer) = pair(found.pair)?;
 
     let up = |value: f64| round_f64(value, digits, Direction::Up);
     let squares = |r: &MeanSquares<f64>| Some(MeanSquares { x: up(r.x)?, e: up(r.e)?, e_rate: up(r.e_rate)? });

@@ -2,6 +2,7 @@
 
 use super::bounding::{BoundingProblem, prove_on_domain, prove_up_to};
 use super::decide::decide;
+use super::limits::{FloatLimits, Limits, NEAR, ROOMS};
 use super::no_plant::{NoPlant, no_plant};
 use super::options::Ladder;
 use super::produce::undecided_or_error;
@@ -11,7 +12,7 @@ use super::round::{
     LONG_DIGITS, RoundedBox, SHORT_DIGITS, box_with, claimed_set, first_proved, room, rounded_box, rounded_sigma,
 };
 use super::verdict::Verdict;
-use crate::search::{Extreme, Failing, FloatModel, SampledLimit, SampledProposal, SampledSearch};
+use crate::search::{Extreme, Failing, FloatModel, Goal, Obstacle, SampledLimit, SampledProposal, SampledSearch};
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, round_f64, round_rational};
@@ -23,7 +24,9 @@ use sigmastar_theory::derivation::control::Control;
 use sigmastar_theory::derivation::harmonics::AtOrigin;
 use sigmastar_theory::derivation::initial_set::claimed_distances;
 use sigmastar_theory::derivation::mean_squares::{Gains, MeanSquares, PeriodicSize, SetBounds};
-use sigmastar_theory::derivation::sampled::{SampledGains, SampledLaw, SampledWitness, energy, sampled_trade_off};
+use sigmastar_theory::derivation::sampled::{
+    SampledEvaluation, SampledGains, SampledLaw, SampledWitness, energy, sampled_trade_off,
+};
 
 /// Everything that a run about the regulator at samples found out.
 #[derive(Clone, Debug)]
@@ -34,6 +37,8 @@ pub struct SampledCertification<'s> {
     pub sampling: Sampling,
     /// The gain that was asked about, where the smallest one was not sought.
     pub given_gain: Option<Rational>,
+    /// What was to be kept at the gain.
+    pub limits: Limits,
     /// The verdict.
     pub verdict: Verdict,
     /// The proof, or what came of it.
@@ -114,6 +119,20 @@ pub fn certify_sampled<'s>(
     start: Option<&SampledProposal>,
     ladder: Ladder,
 ) -> Result<SampledCertification<'s>, Refusal> {
+    certify_sampled_within(spec, sampling, (gain, &Limits::default()), start, ladder)
+}
+
+/// The same with limits that a claim keeps to: at the gain that is given, or at the smallest one that is found with which it does.
+///
+/// # Errors
+/// Those of [`certify_sampled`].
+pub fn certify_sampled_within<'s>(
+    spec: &'s Specification,
+    sampling: &Sampling,
+    (gain, limits): (Option<&Rational>, &Limits),
+    start: Option<&SampledProposal>,
+    ladder: Ladder,
+) -> Result<SampledCertification<'s>, Refusal> {
     let unproved = undecided_or_error(prove_on_domain(spec))?;
     let data = Data::new(spec, ladder.start.max(53));
     let Some(law) = spec.internal_model.sampled_gain(&sampling.step) else {
@@ -126,21 +145,97 @@ pub fn certify_sampled<'s>(
         return assemble(spec, sampling, Some(gain), (Outcome::NotFound(obstacle), None), unproved);
     }
     let model = sampled_model(&data, sampling, &law);
-    let search = SampledSearch::new(&model, SampledLaw::new(&data, sampling, &law).to_f64());
-    let proposal = match (start, gain) {
-        (Some(known), gain) => search.near(known, gain.map(Rational::to_f64)),
-        (None, Some(gain)) => search.at_gain(gain.to_f64()),
-        (None, None) => search.smallest(),
-    };
-    let (outcome, found) = match proposal {
-        Err(obstacle) => (Outcome::NotFound(obstacle), None),
-        Ok(proposal) => {
-            let proof = round(&data, (sampling, &law), (&model, &search), (&proposal, gain), ladder);
+    let law = (SampledLaw::new(&data, sampling, &law).to_f64(), law);
+    let search = SampledSearch::new(&model, law.0.clone());
+    let proposal = proposed(&search, start, gain);
+    let (outcome, found) = match (proposal, FloatLimits::new(spec, limits)) {
+        (Err(obstacle), _) => (Outcome::NotFound(obstacle), None),
+        (Ok(proposal), None) => {
+            let proof = round(&data, (sampling, &law.1), (&model, &search), (&proposal, gain), ladder);
             let limit = search.limit(&proposal);
             (proof.into(), Some((proposal, limit)))
         }
+        (Ok(least), Some(within)) => {
+            let keep = Keep { limits, within, least, start };
+            (kept(&data, (sampling, &law), &model, keep, gain, ladder), None)
+        }
     };
-    assemble(spec, sampling, gain, (outcome, found), unproved)
+    let run = assemble(spec, sampling, gain, (outcome, found), unproved)?;
+    Ok(SampledCertification { limits: limits.clone(), ..run })
+}
+
+/// The best proposal at the gain that is given, or at the smallest one; near a known one where there is one.
+fn proposed(
+    search: &SampledSearch<'_>,
+    start: Option<&SampledProposal>,
+    gain: Option<&Rational>,
+) -> Result<SampledProposal, Obstacle> {
+    match (start, gain) {
+        (Some(known), gain) => search.near(known, gain.map(Rational::to_f64)),
+        (None, Some(gain)) => search.at_gain(gain.to_f64()),
+        (None, None) => search.smallest(),
+    }
+}
+
+/// What is to be kept, and where its search begins.
+struct Keep<'k> {
+    limits: &'k Limits,
+    within: FloatLimits,
+    least: SampledProposal,
+    start: Option<&'k SampledProposal>,
+}
+
+/// The proof at the smallest gain from that of `least` on that is found with which the limits are kept, or at the one that is given.
+fn kept(
+    data: &Data<'_>,
+    (sampling, (law, numbers)): (&Sampling, &(SampledLaw<f64>, SampledGain)),
+    model: &FloatModel,
+    Keep { limits, within: float, least, start }: Keep<'_>,
+    gain: Option<&Rational>,
+    ladder: Ladder,
+) -> Outcome<SampledProof> {
+    let given = gain.is_some() || model.at_samples.gain().is_some();
+    let at = |goal: Goal, sigma: f64| {
+        let model = model.with_goal(goal);
+        let search = SampledSearch::new(&model, law.clone());
+        let proposal = match start {
+            Some(known) => search.near(known, Some(sigma)),
+            None => search.at_gain(sigma),
+        }?;
+        search.largest_at(&proposal).map(|largest| (proposal, largest))
+    };
+    let kept = |proof: &SampledProof| {
+        let SampledEvaluation { size, peak, control, .. } = &proof.evaluation;
+        limits.kept([&size.e_per, peak], control)
+    };
+    // The smallest gain itself may do, but for rounding.
+    let is_it = |proof: &SampledProof| given || proof.witness.sigma <= least.sigma * NEAR;
+    let search = SampledSearch::new(model, law.clone());
+    let proof = round(data, (sampling, numbers), (model, &search), (&least, gain), ladder);
+    if let Some(proof) = proof.filter(|proof| proof.truth().is_true() && is_it(proof) && kept(proof)) {
+        return Some(proof).into();
+    }
+    let mut outcome = None;
+    for room in ROOMS {
+        let found = match float.smallest([least.sigma, law.step.recip()], (given, room), at) {
+            Ok(found) => found,
+            Err(obstacle) => return outcome.unwrap_or(Outcome::NotFound(obstacle)),
+        };
+        let Some(sigma) = gain.cloned().or_else(|| within(sampling, found.sigma()?)) else { continue };
+        let model = model.with_goal(found.goal);
+        let search = SampledSearch::new(&model, law.clone());
+        let proof = round(data, (sampling, numbers), (&model, &search), (&found.proposal, Some(&sigma)), ladder);
+        let attempt: Outcome<SampledProof> = match proof {
+            // Nothing is claimed that does not keep to what was asked for.
+            Some(proof) if !kept(&proof) => Outcome::NotFound(found.failing().into()),
+            proof => proof.into(),
+        };
+        if attempt.proved().is_some() {
+            return attempt;
+        }
+        outcome = Some(attempt);
+    }
+    outcome.unwrap_or_else(|| Outcome::NotFound(Failing::NotFinite(None).into()))
 }
 
 /// Decides the witness of a certificate again, without any search.
@@ -194,6 +289,7 @@ fn assemble<'s>(
         spec,
         sampling: sampling.clone(),
         given_gain: gain.cloned(),
+        limits: Limits::default(),
         verdict: if proved { Verdict::Certified } else { Verdict::Undecided },
         no_plant: no_plant(&data, reach.as_ref().filter(|_| spec.domain.is_none())),
         outcome,

@@ -92,7 +92,10 @@ pub(super) fn with_joint_metrics(
     }
     let search = JointSearch { proofs, model, known, places: Default::default() };
     let found = search.least(reduced.proposal.sigma).and_then(|found| search.proved(&found));
-    found.filter(|found| found.proposal.sigma < reduced.proposal.sigma).unwrap_or(reduced)
+    match found.filter(|found| found.proposal.sigma < reduced.proposal.sigma) {
+        Some(found) => Reduced { without_joint: Some(Box::new((reduced.spec, reduced.proposal))), ..found },
+        None => reduced,
+    }
 }
 
 impl JointSearch<'_> {
@@ -234,7 +237,7 @@ impl JointSearch<'_> {
             |values: ProvedValues| values.with_joint_existence(existence).with_joint_stability(Some(stability.clone()));
         let (with_values, spec) = self.proofs.with_needed(&needed, joint).ok()?;
         let proposal = search_sharp_near(&with_values, &proposal).ok()?;
-        Some(Reduced { spec, proposal, alternatives: Alternatives::default() })
+        Some(Reduced { spec, proposal, alternatives: Alternatives::default(), without_joint: None })
     }
 }
 

@@ -31,7 +31,12 @@ pub struct Reduced {
     pub proposal: SharpProposal,
     /// What else was looked at.
     pub alternatives: Alternatives,
+    /// Where the gain rests on joint metrics, the same without them: of a larger gain it says more.
+    pub without_joint: Option<Box<WithoutJoint>>,
 }
+
+/// A specification without joint metrics, and where the search for its gain may start.
+pub type WithoutJoint = (Specification, SharpProposal);
 
 /// The transfer constants that a claim will use: without a matched base frequency those of the closed form may be so much larger
 /// that no gain is found with them.

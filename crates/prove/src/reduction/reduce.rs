@@ -449,8 +449,9 @@ impl Proofs<'_> {
     ) -> Result<Result<(FloatModel, Reduced), Obstacle>, PlantRefusal> {
         let at = arguments(model, proposal, above, enlarged, self.along.second().is_some())?;
         let (with_values, spec) = self.with_needed(&at, |values| values)?;
-        Ok(search_sharp_near(&with_values, proposal)
-            .map(|proposal| (with_values, Reduced { spec, proposal, alternatives: Alternatives::default() })))
+        Ok(search_sharp_near(&with_values, proposal).map(|proposal| {
+            (with_values, Reduced { spec, proposal, alternatives: Alternatives::default(), without_joint: None })
+        }))
     }
 }
 

@@ -194,6 +194,7 @@ fn help(obstacle: &Obstacle) -> &'static str {
             "a smaller initial set (`at-rest` without sizes is the smallest), or less coupling between e and x"
         }
         Failing::Gain { .. } => "a larger gain, or none: the smallest one is then sought",
+        Failing::Limit { .. } => "a larger limit, or a smaller initial set",
         Failing::InputGain { .. } => "a narrower `input_gain`",
         Failing::Hold { given: true, .. } => "a smaller gain, or a shorter sampling period",
         Failing::Hold { given: false, .. } | Failing::Samples => "a shorter sampling period, or a smaller gain",

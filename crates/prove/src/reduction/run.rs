@@ -5,8 +5,8 @@ use super::reduce::reduce;
 use super::subject::Sought;
 use super::{FreeNumbers, Subject, Witness};
 use crate::certify::{
-    Alternatives, Certification, NoRatesOfClaim, Options, Refusal, SampledCertification, Verdict, certify_at,
-    certify_near, certify_sampled, recheck, recheck_sampled,
+    Alternatives, Certification, Limits, NoRatesOfClaim, Options, Refusal, SampledCertification, Verdict,
+    certify_sampled_within, certify_within, recheck, recheck_sampled,
 };
 use crate::search::SampledProposal;
 use rug::Rational;
@@ -29,6 +29,7 @@ pub struct Prepared {
     spec: Specification,
     start: Start,
     gain: Option<Rational>,
+    limits: Limits,
     /// The plant, where it is one whose least gain is sought.
     plant: Option<Box<Plant>>,
 }
@@ -63,6 +64,7 @@ impl Prepared {
     /// # Errors
     /// What keeps the data from being proved, at its place; not empty.
     pub fn new(subject: Subject, gain: Option<Rational>) -> Result<Prepared, Vec<SpecErrors>> {
+        let limits = Limits::default();
         let plant = match &subject {
             Subject::Plant(plant) if gain.is_none() => Some(plant.clone()),
             _ => None,
@@ -70,11 +72,11 @@ impl Prepared {
         match subject.sampling().cloned() {
             None => {
                 let (spec, start) = subject.proved_with_alternatives(gain.as_ref())?;
-                Ok(Prepared { spec, start: Start::Continuous(start), gain, plant })
+                Ok(Prepared { spec, start: Start::Continuous(start), gain, limits, plant })
             }
             Some(sampling) => {
                 let (spec, start) = subject.proved_at_samples(&sampling, gain.as_ref())?;
-                Ok(Prepared { spec, start: Start::Sampled(Box::new(sampling), start), gain, plant })
+                Ok(Prepared { spec, start: Start::Sampled(Box::new(sampling), start), gain, limits, plant })
             }
         }
     }
@@ -85,7 +87,14 @@ impl Prepared {
     /// What is not proved, at its place, and a witness of the other regulator or of other samples; not empty.
     pub fn again(subject: &Subject, witness: Witness) -> Result<Prepared, Vec<SpecErrors>> {
         let spec = witness.proved(subject)?;
-        Ok(Prepared { spec, start: Start::Given(witness.numbers), gain: None, plant: None })
+        Ok(Prepared { spec, start: Start::Given(witness.numbers), gain: None, limits: Limits::default(), plant: None })
+    }
+
+    /// The same, for a claim that is to keep to limits at its gain: at the one that is given, or at the smallest one that is found with
+    /// which it does.
+    #[must_use]
+    pub fn within(self, limits: Limits) -> Prepared {
+        Prepared { limits, ..self }
     }
 
     /// Searches, rounds and decides. Hypothesis: the options fit ([`Options::misfit`]).
@@ -94,39 +103,53 @@ impl Prepared {
     /// What the data are refused for, at its place; not empty.
     pub fn certify(&self, options: Options) -> Result<Run<'_>, Vec<SpecErrors>> {
         let (spec, gain) = (&self.spec, self.gain.as_ref());
+        // Figures about the smallest gain say nothing about another one.
+        let smallest = gain.is_none() && self.limits.is_empty() && spec.actuator.is_none();
         let run = match &self.start {
             Start::Continuous(start) => {
-                let proposal = start.as_ref().map(|(proposal, _)| proposal);
-                match gain {
-                    None => certify_near(spec, options, proposal),
-                    Some(gain) => certify_at(spec, options, proposal, gain),
-                }
-                .map(|mut run| {
-                    if let (Some((_, Alternatives { by_norms, aligned, nominal_gain })), None) = (start, gain)
+                let proposal = start.as_ref().map(|sought| &sought.proposal);
+                let other = start.as_ref().and_then(|sought| sought.without_joint.as_deref());
+                let run = certify_within(spec, options, proposal, (gain, &self.limits));
+                // Of a larger gain than the smallest one joint metrics say less.
+                let run = match other.filter(|_| !smallest) {
+                    None => run,
+                    Some((spec, proposal)) => certify_within(spec, options, Some(proposal), (gain, &self.limits))
+                        .and_then(|other| better(run?, other)),
+                };
+                run.map(|mut run| {
+                    if let Some((spec, proposal)) = other.filter(|_| smallest) {
+                        run.with_gains_of(spec, proposal);
+                    }
+                    let alternatives = start.as_ref().filter(|_| smallest).map(|sought| sought.alternatives);
+                    if let Some(Alternatives { by_norms, aligned, nominal_gain }) = alternatives
                         && let Some(sigma) = run.sigma_star().map(Rational::to_f64)
                     {
                         // From few samples norms may seem to need less than they do.
                         run.alternatives.by_norms = by_norms.filter(|by_norms| *by_norms > sigma);
-                        run.alternatives.aligned = run.alternatives.aligned.or(*aligned);
-                        let nominal_gain = run.alternatives.nominal_gain.or(*nominal_gain);
+                        run.alternatives.aligned = run.alternatives.aligned.or(aligned);
+                        let nominal_gain = run.alternatives.nominal_gain.or(nominal_gain);
                         run.alternatives.nominal_gain = nominal_gain.filter(|nominal| *nominal < sigma);
                     }
-                    if let Some(plant) = self.plant.as_ref().filter(|_| options.compare && run.claim().is_some()) {
+                    if let Some(plant) =
+                        self.plant.as_ref().filter(|_| smallest && options.compare && run.claim().is_some())
+                    {
                         let gain = |plant: &Plant| reduce(plant, None).ok().map(|found| found.proposal.sigma);
                         run.interval_costs = interval_costs(plant, gain);
                     }
                     Run::Continuous(Box::new(run))
                 })
             }
-            Start::Sampled(sampling, start) => certify_sampled(spec, sampling, gain, start.as_ref(), options.ladder)
-                .map(|mut run| {
+            Start::Sampled(sampling, start) => {
+                let wanted = (gain, &self.limits);
+                certify_sampled_within(spec, sampling, wanted, start.as_ref(), options.ladder).map(|mut run| {
                     let claimed = run.claim().map(|proof| proof.witness.sigma.to_f64());
-                    if let Some(sigma) = claimed.filter(|_| options.compare && gain.is_none()) {
+                    if let Some(sigma) = claimed.filter(|_| options.compare && smallest) {
                         let subject = (spec, self.plant.as_deref());
                         run.interval_costs = costs_at_samples(subject, (sampling, sigma), options.ladder);
                     }
                     Run::Sampled(Box::new(run))
-                }),
+                })
+            }
             Start::Given(FreeNumbers::Continuous(witness)) => {
                 recheck(spec, witness, options).map(|run| Run::Continuous(Box::new(run)))
             }
@@ -136,6 +159,18 @@ impl Prepared {
         };
         run.map_err(|refusal: Refusal| refusal.errors(spec))
     }
+}
+
+/// The one with the smaller gain of two runs, or with one at all; where neither has one, the one that comes closer to what is asked for.
+fn better<'s>(first: Certification<'s>, second: Certification<'s>) -> Result<Certification<'s>, Refusal> {
+    let takes_second = match (first.sigma_star(), second.sigma_star()) {
+        (Some(one), Some(other)) => other < one,
+        (None, None) => second.closer_to_limits_than(&first),
+        (one, _) => one.is_none(),
+    };
+    let smallest_gain = [first.smallest_gain, second.smallest_gain].into_iter().flatten().reduce(f64::min);
+    let taken = if takes_second { second } else { first };
+    Ok(Certification { smallest_gain, ..taken })
 }
 
 impl Run<'_> {

@@ -46,6 +46,7 @@ pub fn specification(plant: &Plant, of_plant: OfPlant, values: ProvedValues) -> 
         internal_model: plant.internal_model.clone(),
         initial_set,
         input_gain: plant.input_gain.clone(),
+        actuator: plant.actuator.clone(),
         relative_degree: None,
         document: plant.document.clone(),
         sha256: plant.sha256.clone(),

@@ -1,16 +1,23 @@
 //! What is certified: a bounding specification, or a plant by its formulas.
 
+use super::proofs::{Reduced, WithoutJoint};
 use super::{reduce, reduce_sampled};
 use crate::certify::{Alternatives, WITHOUT_INPUT_GAIN, not_available_with_input_gain, with_triple};
 use crate::search::{SampledProposal, SharpProposal};
 use rug::Rational;
 use sigmastar_lang::plant::{self, Plant};
 use sigmastar_lang::spec::{
-    Constant, Document, ErrorKind, InputGain, InternalModel, Period, Sampling, SpecErrors, Specification, Value,
+    Actuator, Constant, Document, ErrorKind, InputGain, InternalModel, Period, Sampling, SpecErrors, Specification,
+    Value,
 };
 
 /// Where the search for a gain may start, and what it saw beside.
-pub(super) type Sought = (SharpProposal, Alternatives);
+pub(super) struct Sought {
+    pub(super) proposal: SharpProposal,
+    pub(super) alternatives: Alternatives,
+    /// The same without joint metrics, where there are some.
+    pub(super) without_joint: Option<Box<WithoutJoint>>,
+}
 
 /// The document with another sampling period, which is called `name` in the label of the errors; itself where it has no internal
 /// model, for what is wrong with it is told as ever.
@@ -137,6 +144,15 @@ impl Subject {
         }
     }
 
+    /// What the actuator takes, where the document states it.
+    #[must_use]
+    pub fn actuator(&self) -> Option<&Actuator> {
+        match self {
+            Subject::Specification(spec) => spec.actuator.as_ref(),
+            Subject::Plant(plant) => plant.actuator.as_ref(),
+        }
+    }
+
     /// That what is asked for can be had of a document with this input gain, which it does not honour.
     ///
     /// # Errors
@@ -168,7 +184,7 @@ impl Subject {
     /// What keeps the data from being proved, at its place; not empty.
     pub fn proved(self) -> Result<(Specification, Option<SharpProposal>), Vec<SpecErrors>> {
         let (spec, start) = self.proved_with_alternatives(None)?;
-        Ok((spec, start.map(|(proposal, _)| proposal)))
+        Ok((spec, start.map(|sought| sought.proposal)))
     }
 
     /// The same for a gain that is given or for the smallest one, with what the search of a plant saw beside.
@@ -183,7 +199,8 @@ impl Subject {
             }
             Subject::Plant(plant) => {
                 let reduced = reduce(&plant, gain).map_err(|refusal| refusal.errors(&plant))?;
-                Ok((reduced.spec, Some((reduced.proposal, reduced.alternatives))))
+                let Reduced { spec, proposal, alternatives, without_joint } = reduced;
+                Ok((spec, Some(Sought { proposal, alternatives, without_joint })))
             }
         }
     }

@@ -1,5 +1,7 @@
 //! Parts of a candidate that the derivations share, in floating point.
 
+#[cfg(doc)]
+use super::goal::Goal;
 use super::model::FloatModel;
 use super::obstacle::{Closest, Failing, Obstacle};
 use super::scan;
@@ -26,8 +28,10 @@ pub struct AtSigma {
     pub dist_z: f64,
     /// The paths of f and of q.
     pub paths: Paths,
-    /// What is made small: the right side of C5, or of the law at samples the radius of its forms, to be below 1.
+    /// The right side of C5, or of the law at samples the radius of its forms, to be below 1.
     pub threshold: f64,
+    /// What is made small: the threshold, or what a [`Goal`] has in its place.
+    pub cost: f64,
 }
 
 /// The larger one of the two shares of C1 and of a first entry of the contraction matrix below 1 (with room for rounding), to
@@ -140,6 +144,15 @@ pub(super) fn error_box_by_norms(
         if !decay.sigma_threshold.is_finite() {
             return Err(model.not_finite(x_b, e_b));
         }
-        Ok(AtSigma { rho, eta, d_x, dist_e, dist_z, paths, threshold: decay.sigma_threshold })
+        Ok(AtSigma {
+            rho,
+            eta,
+            d_x,
+            dist_e,
+            dist_z,
+            paths,
+            threshold: decay.sigma_threshold,
+            cost: decay.sigma_threshold,
+        })
     })
 }

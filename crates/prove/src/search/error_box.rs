@@ -68,7 +68,7 @@ pub fn best_shape(
     refine(model, &evaluate, scan(&rhos, far_rhos, at_rho)?)
 }
 
-/// The smallest threshold over all of the values and over those of `far` that help, one after the other.
+/// The smallest cost over all of the values and over those of `far` that help, one after the other.
 fn scan(
     near: &[f64],
     far: impl Iterator<Item = f64>,
@@ -77,7 +77,7 @@ fn scan(
     let mut closest = Closest::default();
     let mut best: Option<AtSigma> = None;
     let mut look = |value: f64| match evaluate(value) {
-        Ok(at) if best.is_none_or(|b| at.threshold < b.threshold) => {
+        Ok(at) if best.is_none_or(|b| at.cost < b.cost) => {
             best = Some(at);
             true
         }
@@ -100,16 +100,6 @@ fn scan(
     closest.or(best)
 }
 
-/// The best error box that local minimisation reaches from a known one; `None` where that is not feasible here.
-pub fn error_box_near(
-    model: &FloatModel,
-    periodic: (f64, f64),
-    distances: [f64; 3],
-    (shape, sigma): ((f64, f64), f64),
-) -> Option<AtSigma> {
-    shape_near(model, |rho, eta| error_box(model, periodic, distances, ((rho, eta), sigma)), shape)
-}
-
 /// The best shape that local minimisation reaches from a known one; `None` where that is not feasible here.
 pub fn shape_near(
     model: &FloatModel,
@@ -127,7 +117,7 @@ fn refine(
     // rho too close to 1 would leave no room between the two members of C4.
     let decode = |p: &[f64]| evaluate(1.0 + p[0].portable_exp().max(1e-6), p[1].portable_exp()).ok();
     let first = [(start.rho - 1.0).portable_ln(), start.eta.portable_ln()];
-    let cost = |p: &[f64]| decode(p).map(|at| at.threshold.portable_ln());
+    let cost = |p: &[f64]| decode(p).map(|at| at.cost.portable_ln());
     let refined = minimise(cost, &first, &[0.4, 0.4], model.effort().descent(8));
-    Ok(refined.and_then(|(best, _)| decode(&best)).filter(|at| at.threshold <= start.threshold).unwrap_or(start))
+    Ok(refined.and_then(|(best, _)| decode(&best)).filter(|at| at.cost <= start.cost).unwrap_or(start))
 }

@@ -4,6 +4,7 @@ use super::at_samples::AtSamples;
 use super::by_energy::ByEnergy;
 use super::effort::Effort;
 use super::float_bound::FloatBound;
+use super::goal::Goal;
 use super::obstacle::{Extreme, Failing, Obstacle};
 use super::threshold::ByMatrix;
 use sigmastar_lang::spec::model::{InitialSet, SIZES, StartSizes};
@@ -113,6 +114,8 @@ pub struct FloatModel {
     bounds: Vec<ScaledBound>,
     /// Whether what is found with it is only compared.
     rough: bool,
+    /// What the shape of an error box is chosen for.
+    pub goal: Goal,
     /// What stands in the place of C5, if anything.
     pub by_matrix: Option<ByMatrix>,
     /// What bounds the periodic solution beside the gains of loops, if anything.
@@ -182,6 +185,7 @@ impl FloatModel {
                 })
                 .collect(),
             rough: false,
+            goal: Goal::default(),
             by_matrix: {
                 let values = spec.bounds.proved_values();
                 let joint = values.joint_stability().map(|joint| ByMatrix::Joint(Arc::new(joint.clone())));
@@ -431,6 +435,12 @@ impl FloatModel {
     #[must_use]
     pub fn rough(self) -> FloatModel {
         FloatModel { rough: true, ..self }
+    }
+
+    /// The same model with error boxes for something else.
+    #[must_use]
+    pub fn with_goal(&self, goal: Goal) -> FloatModel {
+        FloatModel { goal, ..self.clone() }
     }
 
     /// The same model with another initial set.

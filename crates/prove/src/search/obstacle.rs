@@ -48,8 +48,45 @@ pub enum Failing {
     Sampling,
     /// A period would need more samples than are taken.
     Samples,
+    /// What is to be kept is not, for every gain and error box that was tried.
+    Limit {
+        /// What is to be kept.
+        which: Limited,
+        /// What it is to be.
+        asked: f64,
+        /// About the least that would do.
+        least: f64,
+        /// The gain for which that does.
+        sigma: f64,
+    },
     /// A proof was found, but the bounding functions are not proved up to its arguments.
     Bounds,
+}
+
+/// What a claim may have to keep to at its gain.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Limited {
+    /// |e| along the periodic solution.
+    SteadyError,
+    /// |e| on the way from the initial set.
+    PeakError,
+    /// What is put out, as it is asked for.
+    Control,
+    /// What is put out, as the actuator takes it: C6.
+    Actuator,
+}
+
+impl Limited {
+    /// What is to be at most what it is asked to be.
+    #[must_use]
+    pub fn describe(self) -> &'static str {
+        match self {
+            Limited::SteadyError => "the steady |e| is not proved to be at most",
+            Limited::PeakError => "|e| on the way from the initial set is not proved to be at most",
+            Limited::Control => "what is put out is not proved to be at most",
+            Limited::Actuator => "C6: what is put out is not proved to be at most the max of the actuator,",
+        }
+    }
 }
 
 /// A number that is too large or too small.
@@ -98,6 +135,7 @@ impl Failing {
             Failing::Sampling => 9,
             Failing::Samples => 10,
             Failing::Bounds => 11,
+            Failing::Limit { .. } => 12,
         }
     }
 }
@@ -167,6 +205,13 @@ impl Obstacle {
             Failing::Sampling => {
                 format!("C5h: the decay from sample to sample is not positive for any error box that was tried{place}")
             }
+            Failing::Limit { which, asked, least, sigma } => format!(
+                "{} {}: the least for which a proof is found is about {}, at the gain {}",
+                which.describe(),
+                short(asked),
+                short(least),
+                short(sigma)
+            ),
             Failing::Samples => "a period would need more samples than are taken".to_owned(),
             Failing::Bounds => {
                 format!("the bounding functions are not proved up to the arguments of the proof that was found{place}")

@@ -7,6 +7,7 @@ use super::box_at_samples::error_box_at_samples;
 use super::candidate::{AtSigma, Shape};
 use super::error_box::{best_shape, shape_near};
 use super::floors::{ordinary, raised, tiny};
+use super::goal::{Largest, largest, weighed};
 use super::model::FloatModel;
 use super::obstacle::{Closest, Failing, Obstacle};
 use super::periodic::{Floors, PeriodicSet};
@@ -15,7 +16,7 @@ use super::sharp::{ROOM, search_sharp, start_distances};
 use rug::Rational;
 use sigmastar_exact::number::Portable;
 use sigmastar_theory::derivation::harmonics::AtOrigin;
-use sigmastar_theory::derivation::sampled::{DecayForms, DecayNumbers, Form, Part, SampledLaw};
+use sigmastar_theory::derivation::sampled::{DecayForms, DecayNumbers, Form, Part, SampledGains, SampledLaw};
 
 /// Points of the scan of sigma.
 const POINTS: u32 = 48;
@@ -182,6 +183,17 @@ impl<'m> SampledSearch<'m> {
         sigma: f64,
         set: &PeriodicSet,
         distances: [f64; 3],
+        shape: (f64, f64),
+    ) -> Result<AtSigma, Obstacle> {
+        let at = self.error_box(sigma, set, distances, shape)?;
+        weighed(self.model, at, distances, [sigma, self.law.gain], LARGEST)
+    }
+
+    fn error_box(
+        &self,
+        sigma: f64,
+        set: &PeriodicSet,
+        distances: [f64; 3],
         (rho, eta): (f64, f64),
     ) -> Result<AtSigma, Obstacle> {
         if let Some(known) = &self.model.at_samples.stability {
@@ -198,7 +210,7 @@ impl<'m> SampledSearch<'m> {
             let radius = radius(&forms.start).zip(radius(&forms.end)).ok_or(coupled)?;
             // Where nothing is coupled the radius is 0, which has no logarithm.
             let threshold = radius.0.max(radius.1).max(1e-300);
-            Ok(AtSigma { rho, eta, d_x: shape.d_x, dist_e, dist_z, paths: shape.paths, threshold })
+            Ok(AtSigma { rho, eta, d_x: shape.d_x, dist_e, dist_z, paths: shape.paths, threshold, cost: threshold })
         })
     }
 
@@ -224,6 +236,20 @@ impl<'m> SampledSearch<'m> {
             return Err(Failing::Sampling.into());
         }
         Ok(self.with_ordinary_floors(found))
+    }
+
+    /// What is bounded at the gain of a proposal.
+    ///
+    /// # Errors
+    /// What stands in the way.
+    pub fn largest_at(
+        &self,
+        SampledProposal { sigma, floors, rho, eta, .. }: &SampledProposal,
+    ) -> Result<Largest, Obstacle> {
+        let (set, at) = self.at(*sigma, *floors, Some((*rho, *eta)), ROOM)?;
+        let gains = SampledGains::new(&self.law, sigma, &self.model.period);
+        let answer = self.law.answer(sigma, &self.model.period, &gains.means);
+        Ok(largest(self.model, &self.origin, &answer, [*sigma, self.law.gain], (&set, &at)))
     }
 
     /// The same shape as a known one, where the bounding functions are known near it alone: at the gain that is given, or at

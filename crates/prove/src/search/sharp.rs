@@ -2,8 +2,9 @@
 
 use super::binding::Binding;
 use super::candidate::AtSigma;
-use super::error_box::{best_error_box, error_box, error_box_near};
+use super::error_box::{best_shape, error_box, shape_near};
 use super::floors::{ordinary, raised, tiny};
+use super::goal::{Largest, largest, weighed};
 use super::model::{Datum, FloatModel, OptionalDatum};
 use super::obstacle::{Closest, Failing, Obstacle};
 use super::periodic::{ExistenceForm, Floors, PeriodicSet};
@@ -11,6 +12,7 @@ use super::root::crossing;
 use super::scan;
 use super::threshold::ByMatrix;
 use sigmastar_exact::number::Portable;
+use sigmastar_theory::derivation::control::Answer;
 use sigmastar_theory::derivation::harmonics::AtOrigin;
 use sigmastar_theory::derivation::initial_set::distances;
 
@@ -73,14 +75,16 @@ impl Search<'_> {
         let set = PeriodicSet::least(self.model, &self.origin, sigma, (self.form, self.floors), room)?;
         let distances = start_distances(self.model, &set);
         let periodic = (set.x_per, set.e_per);
+        let evaluate = |rho: f64, eta: f64| {
+            let at = error_box(self.model, periodic, distances, ((rho, eta), sigma))?;
+            weighed(self.model, at, distances, [sigma, self.model.mu], sigma)
+        };
         let at = match self.near {
             // A shape is sought together with the coordinates where it is dear.
-            Some(shape) if self.model.by_matrix.is_some() => {
-                error_box(self.model, periodic, distances, (shape, sigma))?
-            }
+            Some((rho, eta)) if self.model.by_matrix.is_some() => evaluate(rho, eta)?,
             near => {
-                let near = near.and_then(|shape| error_box_near(self.model, periodic, distances, (shape, sigma)));
-                near.map_or_else(|| best_error_box(self.model, periodic, distances, sigma), Ok)?
+                let near = near.and_then(|shape| shape_near(self.model, evaluate, shape));
+                near.map_or_else(|| best_shape(self.model, evaluate), Ok)?
             }
         };
         Ok((set, at))
@@ -301,6 +305,19 @@ pub fn at_sigma(
 ) -> Result<(PeriodicSet, AtSigma), Obstacle> {
     let SharpParameters { form, floors, rho, eta } = *parameters;
     Search { model, origin: AtOrigin::new(model), form, floors, near: Some((rho, eta)) }.at(sigma, room)
+}
+
+/// What is bounded at the gain of a proposal.
+///
+/// # Errors
+/// The obstacle, when the candidate is not feasible there.
+pub fn largest_at(
+    model: &FloatModel,
+    SharpProposal { parameters, sigma, .. }: &SharpProposal,
+) -> Result<Largest, Obstacle> {
+    let (set, at) = at_sigma(model, parameters, *sigma, ROOM)?;
+    let answer = Answer::continuous(model);
+    Ok(largest(model, &AtOrigin::new(model), &answer, [*sigma, model.mu], (&set, &at)))
 }
 
 /// By how much (relatively) sigma* falls for each of these models, in which one datum is better; floating point, local steps

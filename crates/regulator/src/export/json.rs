@@ -34,8 +34,8 @@ pub fn json(export: &Export<'_>) -> Value {
             },
         })
     });
-    let certificate = export.certificate.map(|Provenance { sha256, sigma_star, statement, scope }| {
-        let gain = if scope.is_sampled() { "sigma" } else { "sigma_star" };
+    let certificate = export.certificate.map(|Provenance { sha256, sigma_star, one_gain, statement, scope }| {
+        let gain = if *one_gain { "sigma" } else { "sigma_star" };
         let covers = if scope.is_sampled() { "covers_law" } else { "covers_sigma" };
         object!({ "sha256": sha256, gain: sigma_star, "statement": statement, covers: scope.covers() })
     });
@@ -60,6 +60,9 @@ pub fn json(export: &Export<'_>) -> Value {
     // The gain of the actuator, where the document states one.
     if let Some(nominal) = regulator.nominal {
         file["input_gain"] = object!({ "nominal": nominal });
+    }
+    if let Some(max) = export.actuator {
+        file["actuator"] = object!({ "max": max });
     }
     file
 }

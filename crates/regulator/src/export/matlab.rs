@@ -3,7 +3,8 @@
 use super::notice::comment;
 use super::{Export, decimal, notice, sampled_law};
 
-/// A script that sets `sigma`, `mu`, `nominal` (the gain of the actuator, where there is one), `frequencies`, `weights`, `Phi`, `Gamma`, `M`, `N`, `z_start` (z at the first instant, of e
+/// A script that sets `sigma`, `mu`, `nominal` (the gain of the actuator, where there is one), `actuator_max`
+/// (what it takes, where that is stated), `frequencies`, `weights`, `Phi`, `Gamma`, `M`, `N`, `z_start` (z at the first instant, of e
 /// there) and, with a discretisation, `step`, `K`, `weight_sum`, `decay`, `spectral_radius` (of the sampled loop on e' = u), `Phi_d`, `Gamma_d`, `C_d`, `D_d`, and
 /// `saturation` where u is clipped. It uses base functions only and runs in MATLAB and in Octave.
 #[must_use]
@@ -20,6 +21,9 @@ pub fn matlab(export: &Export<'_>) -> String {
     script.push_str(&format!("mu = {};\n", decimal(regulator.mu)));
     if let Some(nominal) = regulator.nominal {
         script.push_str(&format!("nominal = {};\n", decimal(nominal)));
+    }
+    if let Some(max) = export.actuator {
+        script.push_str(&format!("actuator_max = {};\n", decimal(max)));
     }
     script.push_str(&format!("frequencies = [{}];\n", row(&regulator.frequencies)));
     script.push_str(&format!("weights = [{}];\n", row(&regulator.weights)));

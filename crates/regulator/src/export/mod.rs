@@ -25,6 +25,8 @@ pub struct Export<'r> {
     pub discrete: Option<(&'r Discrete, Convergence)>,
     /// Whether it sets z = M e at its first instant (section 13.7); else it starts with z = 0.
     pub aligned: bool,
+    /// The largest |u| that the actuator takes, where the document states it and nothing else was asked for.
+    pub actuator: Option<f64>,
     /// The certificate, where one was given for this plant.
     pub certificate: Option<&'r Provenance>,
 }

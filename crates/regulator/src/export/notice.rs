@@ -16,6 +16,8 @@ pub struct Provenance {
     pub sha256: String,
     /// Its sigma*, exactly; of a claim about the regulator at samples its gain.
     pub sigma_star: String,
+    /// Whether it is about that gain alone: at samples, or with an actuator.
+    pub one_gain: bool,
     /// Its claim, in its own words.
     pub statement: String,
     /// What it says about this regulator.
@@ -29,6 +31,8 @@ pub enum Scope {
     Continuous,
     /// The regulator in continuous time, with larger gains than this one.
     BelowSigmaStar,
+    /// The regulator in continuous time, with another gain than this one: a claim with an actuator is about one.
+    OtherGain,
     /// The regulator at samples: exactly this law.
     Samples,
     /// The regulator at samples with another gain, sampling period, internal model or too many oscillators.
@@ -54,6 +58,9 @@ impl Scope {
         match self {
             Scope::Continuous | Scope::Samples => None,
             Scope::BelowSigmaStar => Some(format!("sigma is below its sigma* = {sigma_star}")),
+            Scope::OtherGain => Some(format!(
+                "with the actuator that it states it is about sigma = {sigma_star} alone, and this is another gain"
+            )),
             Scope::OtherSamples => Some(format!(
                 "it is about one law at samples, with sigma = {sigma_star} and the sampling period that it states, and this is \
                  another one"
@@ -67,7 +74,7 @@ impl Scope {
 pub fn notice(export: &Export<'_>) -> Vec<String> {
     let mut lines = match export.certificate {
         None => vec!["No certificate was given: nothing is claimed.".to_owned()],
-        Some(Provenance { sha256, sigma_star, statement, scope }) => {
+        Some(Provenance { sha256, sigma_star, statement, scope, .. }) => {
             let named = format!("Certificate with SHA-256 {sha256} (of its canonical form)");
             let claims = format!("{named}; `sigmastar check` decides it. It claims: {}", plain(statement));
             let about = match scope {
@@ -96,12 +103,21 @@ pub fn notice(export: &Export<'_>) -> Vec<String> {
         ));
     }
     lines.push(NOT_COVERED.to_owned());
+    let never = match (export.certificate.map(|certificate| certificate.scope), export.actuator) {
+        (Some(Scope::Samples), Some(_)) => "; from the set of the certificate it never is",
+        (Some(Scope::Continuous), Some(_)) => {
+            "; from the set of the certificate that of the law in continuous time never is"
+        }
+        _ => "",
+    };
     if let Some(limit) = export.discrete.and_then(|(discrete, _)| discrete.saturation) {
-        let limit = super::decimal(limit);
+        let (limit, no_claim) = (super::decimal(limit), "No claim covers a run in which that happens.");
         lines.push(format!(
-            "u is clipped to |u| <= {limit}. Against windup z is told the control applied: where u is clipped, h M (applied - \
-             wanted) is added to z_next. No claim covers a run in which that happens."
+            "u is clipped to |u| <= {limit}{never}. Against windup z is told the control applied: where u is clipped, h M (applied - \
+             wanted) is added to z_next. {no_claim}"
         ));
+    } else if let Some(max) = export.actuator {
+        lines.push(format!("The actuator takes |u| <= {}: clip u there{never}.", super::decimal(max)));
     }
     lines
 }

@@ -115,7 +115,8 @@ fn write(
     let rest =
         [("domain", ends), ("internal_model", internal_model(plant)), ("initial_set", initial_set(&spec.initial_set))];
     let input_gain = spec.input_gain.as_ref().map(|gain| ("input_gain", input_gain(gain)));
-    object(all.into_iter().chain(forcing).chain(rest).chain(input_gain))
+    let actuator = plant.actuator.as_ref().map(|actuator| ("actuator", object([("max", stated(&actuator.max))])));
+    object(all.into_iter().chain(forcing).chain(rest).chain(input_gain).chain(actuator))
 }
 
 /// The numbers of that of a plant.

@@ -58,6 +58,8 @@ pub enum NoRates {
     NoPlant(Box<NoPlant>),
     /// The gain is below this sigma*.
     BelowSigmaStar(Rational),
+    /// With an actuator that saturates the claim is about this gain alone.
+    OtherGain(Rational),
     /// The input gain is uncertain: the inequalities of a rate are those of one gain.
     InputGain,
 }
@@ -84,6 +86,9 @@ pub fn certified_rates(
     let sigma = sigma.unwrap_or_else(|| sigma_star.clone());
     if sigma < *sigma_star {
         return Err(NoRates::BelowSigmaStar(sigma_star.clone()));
+    }
+    if run.spec.actuator.is_some() && sigma != *sigma_star {
+        return Err(NoRates::OtherGain(sigma_star.clone()));
     }
     let found = rates(&data, proof, &sigma, n_o);
     Ok((sigma, found))

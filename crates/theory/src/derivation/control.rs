@@ -2,11 +2,13 @@
 //!
 //! Inside of this file u is the control of the law; what an actuator with an input gain is given is that over its nominal value.
 
+use super::condition::Condition;
 use super::harmonics::AtOrigin;
 use super::joint;
 use super::mean_squares::Forcing;
-use crate::data::{Numbers, Problem};
+use crate::data::{Data, Numbers, Problem};
 use rug::Rational;
+use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::real::{Operand, Real};
 use sigmastar_lang::spec::JointStability;
 
@@ -30,6 +32,18 @@ where
             Some(nominal) => Control { steady: &self.steady / nominal, transient: &self.transient / nominal },
             None => self,
         }
+    }
+}
+
+impl Control<Enclosure> {
+    /// (C6), where the specification has an actuator. Hypothesis: these bound what is put out.
+    ///
+    /// Guarantee: of every solution from the claimed set what is put out is never larger than the actuator takes, at this gain. So it is the
+    /// solution of the loop with the saturation, too.
+    #[must_use]
+    pub fn condition(&self, data: &Data<'_>) -> Option<Condition> {
+        let max = data.spec.actuator.as_ref()?.max.enclose(data.precision);
+        Some(Condition::at_most("C6", "steady + transient <= max of the actuator", &self.steady + &self.transient, max))
     }
 }
 
@@ -88,26 +102,47 @@ where
     sigma * e_per + mu * &problem.numbers().n_bar * z
 }
 
-/// sqrt(L_0 (sigma^2 + mu^2 Nbar^2/h)), by Cauchy-Schwarz: U = w_x x'P x + e^2 + h |zeta|_N^2 stays below its value L_0 at the start. At
-/// samples K stands for mu, and eta for h.
-#[must_use]
-pub fn transient<R: Real>(problem: &impl Problem<R>, [sigma, mu]: [&R; 2], h: &R, level: &R) -> R
+/// How far a solution from the claimed set is from the periodic one, at all times.
+#[derive(Clone, Debug)]
+pub struct Reach<R> {
+    /// Of |e - e_per(t)|.
+    pub error: R,
+    /// Of |u - u_per(t)|.
+    pub transient: R,
+}
+
+impl<R: Real> Reach<R>
 where
     for<'a> &'a R: Operand<R>,
 {
-    (level * (sigma.sqr() + (mu * &problem.numbers().n_bar).sqr() / h)).sqrt()
+    /// What bounds both.
+    #[must_use]
+    pub fn max(self, other: &Reach<R>) -> Reach<R> {
+        Reach { error: self.error.max(&other.error), transient: self.transient.max(&other.transient) }
+    }
 }
 
-/// The same of the metric `lam Pi_1 + (1 - lam) Pi_2`, lam = threshold/sigma (section 13.7, (Jm)): sqrt(V_0 (sigma^2/e_low + 2 mu Nbar^2/k_p)),
-/// where V_0 is not above that share of both left sides of C4, and e_low and k_p are that share of both.
+/// sqrt(L_0) and sqrt(L_0 (sigma^2 + mu^2 Nbar^2/h)), by Cauchy-Schwarz: U = w_x x'P x + e^2 + h |zeta|_N^2 stays below its value L_0 at the
+/// start. At samples K stands for mu, and eta for h, and U does so between them, too.
 #[must_use]
-pub fn joint_transient<R: Real>(
+pub fn reach<R: Real>(problem: &impl Problem<R>, [sigma, mu]: [&R; 2], h: &R, level: &R) -> Reach<R>
+where
+    for<'a> &'a R: Operand<R>,
+{
+    let transient = (level * (sigma.sqr() + (mu * &problem.numbers().n_bar).sqr() / h)).sqrt();
+    Reach { error: level.sqrt(), transient }
+}
+
+/// The same of the metric `lam Pi_1 + (1 - lam) Pi_2`, lam = threshold/sigma (section 13.7, (Jm)): sqrt(V_0/e_low) and
+/// sqrt(V_0 (sigma^2/e_low + 2 mu Nbar^2/k_p)), where V_0 is not above that share of both left sides of C4, and e_low and k_p are that share of both.
+#[must_use]
+pub fn joint_reach<R: Real>(
     problem: &impl Problem<R>,
     JointStability { inequality, levels }: &JointStability,
     number: impl Fn(&Rational) -> R,
     sigma: &Rational,
     distances: [&R; 3],
-) -> R
+) -> Reach<R>
 where
     for<'a> &'a R: Operand<R>,
 {
@@ -122,7 +157,8 @@ where
         k_p = k_p + share * number(&metric.k_p);
     }
     let sigma = number(sigma);
-    (start * (sigma.sqr() / e_low + R::int(2) * (mu * n_bar.sqr()) / k_p)).sqrt()
+    let transient = (&start * (sigma.sqr() / &e_low + R::int(2) * (mu * n_bar.sqr()) / k_p)).sqrt();
+    Reach { error: (start / e_low).sqrt(), transient }
 }
 
 #[cfg(test)]

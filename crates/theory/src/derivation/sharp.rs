@@ -105,6 +105,8 @@ pub struct SharpEvaluation {
     pub by_matrix: Option<(Enclosure, &'static str)>,
     /// How large the control gets at sigma.
     pub control: Control<Enclosure>,
+    /// How large |e| gets at sigma on the way from the claimed set: e_per and how far from there.
+    pub peak: Enclosure,
     /// All conditions in order.
     pub conditions: Vec<Condition>,
 }
@@ -114,7 +116,7 @@ impl SharpEvaluation {
     ///
     /// Guarantee: if [`SharpEvaluation::truth`] is `True` and the bounding functions are finite, nonnegative where they bound
     /// norms, and nondecreasing (a rate nonincreasing) up to (max{X_p, X_b}, max{E_p, E_b}), then for every n_o >= 0 and every
-    /// sigma' >= sigma there is a T-periodic solution with sup|x| <= x_per, sup|e| <= e_per, sup|zeta|_N <= Z, and every
+    /// sigma' >= sigma (with an actuator, which then never saturates, for sigma alone) there is a T-periodic solution with sup|x| <= x_per, sup|e| <= e_per, sup|zeta|_N <= Z, and every
     /// solution from the claimed set, at any initial time, converges to it exponentially.
     #[must_use]
     pub fn new(data: &Data<'_>, witness: &SharpWitness) -> SharpEvaluation {
@@ -151,7 +153,7 @@ impl SharpEvaluation {
         let distances = [&dist_x, &dist_e, &dist_z];
         let inequality = matrix_inequality::proved_for(data, &witness.w_x, &witness.h);
         let joint = data.spec.bounds.proved_values().joint_stability();
-        let transient = if let Some(joint) = joint {
+        let reach = if let Some(joint) = joint {
             conditions.extend(joint::conditions(
                 data,
                 joint,
@@ -160,12 +162,12 @@ impl SharpEvaluation {
                 &error_box,
                 (&witness.sigma, ""),
             ));
-            control::joint_transient(data, joint, number, &witness.sigma, distances)
+            control::joint_reach(data, joint, number, &witness.sigma, distances)
         } else {
             let (start, exit) = level_condition(data, distances, [&d_x, &d_e, &w_x, &h]);
             // At the gain b the weight of zeta is b h, and the level no larger than at b_hi.
             let least = data.input_gain.as_ref().map_or_else(|| h.clone(), |gain| &gain.low * &h);
-            let transient = control::transient(data, [&sigma, &data.mu], &least, &start);
+            let reach = control::reach(data, [&sigma, &data.mu], &least, &start);
             conditions.push(Condition::less("C4", level_words(data), start, exit));
             match inequality {
                 Some(inequality) => {
@@ -177,12 +179,14 @@ impl SharpEvaluation {
                     conditions.extend(by_norms_conditions(&decay, &sigma));
                 }
             }
-            transient
+            reach
         };
+        let peak = &periodic.e_per + reach.error;
         let by_parts = control::by_parts(data, [&sigma, &data.mu], [&periodic.e_per, &z]);
         let steady = control::Answer::continuous(data).steady(&origin, &periodic.forcing, &by_parts);
         let nominal = data.spec.input_gain.as_ref().map(|gain| gain.nominal.enclose(data.precision));
-        let control = Control { steady, transient }.over(nominal.as_ref());
+        let control = Control { steady, transient: reach.transient }.over(nominal.as_ref());
+        conditions.extend(control.condition(data));
         let by_matrix = match (joint, inequality) {
             (Some(joint), _) => Some((number(&joint.inequality.value), "section 13.7, (Jm)")),
             (None, Some(inequality)) => Some((number(&inequality.value), "section 13.7, (M)")),
@@ -210,6 +214,7 @@ impl SharpEvaluation {
             decay,
             by_matrix,
             control,
+            peak,
             conditions,
         }
     }

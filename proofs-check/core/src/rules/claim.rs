@@ -5,6 +5,7 @@ use super::control::NAMES;
 use super::rates::Rate;
 use super::sampled::claim::{N_O, Regulator};
 use super::set::ClaimedSet;
+use crate::actuator;
 use crate::constant::Constant;
 use crate::data::Data;
 use crate::input_gain;
@@ -25,7 +26,7 @@ const ALIGNED: &str = "aligned";
 
 /// The numbers of a claim.
 pub struct Claim<'a> {
-    /// sigma*, or the one gain of a sampled regulator.
+    /// sigma*, or the one gain of a sampled regulator or of a claim with an actuator.
     pub sigma: Rational,
     /// The sampled regulator that it is about, if it is.
     pub sampled: Option<Regulator<'a>>,
@@ -41,6 +42,8 @@ pub struct Claim<'a> {
     pub statement: Field<'a>,
     /// The radius of the ball that the set of a plant contains, with its place and as it is written.
     ball: Option<(Rational, Field<'a>)>,
+    /// The actuator that it keeps to, if it names one: then it is about `sigma` alone.
+    actuator: Option<Field<'a>>,
     /// The input gain that it is about, if it names one.
     input_gain: Option<Field<'a>>,
     /// The period that it is about, if it names one.
@@ -97,7 +100,8 @@ impl<'a> Claim<'a> {
         let (sigma, sigma_text) = match &sampled {
             Some(regulator) => (regulator.sigma.clone(), ""),
             None => {
-                let sigma = fields.required("sigma_star")?;
+                // With an actuator nothing is said of a larger gain.
+                let sigma = fields.required(if fields.has("actuator") { "sigma" } else { "sigma_star" })?;
                 (sigma.rational()?, sigma.numeral()?)
             }
         };
@@ -117,6 +121,7 @@ impl<'a> Claim<'a> {
             sampled,
             set: numbers,
             ball,
+            actuator: fields.optional("actuator"),
             input_gain: fields.optional("input_gain"),
             period: fields.optional("period"),
             parameters: fields.optional("parameters"),
@@ -151,6 +156,7 @@ impl<'a> Claim<'a> {
             return reads(RULE, &self.mu, &spec.mu.text);
         }
         input_gain::agrees(spec.input_gain.as_ref(), self.input_gain.as_ref(), &self.pointer)?;
+        actuator::agrees(spec.actuator.as_ref(), self.actuator.as_ref(), &self.pointer)?;
         period::agrees(&spec.period, self.period.as_ref(), &self.pointer)?;
         let of_family = spec.plant.as_ref().map_or(&[][..], |plant| &plant.parameters);
         let family = parameters::agree(of_family, self.parameters.as_ref(), &self.pointer)?;
@@ -234,10 +240,11 @@ impl<'a> Claim<'a> {
         }
         let reach = if spec.matched { "" } else { " (which need not match the period)" };
         let words = format!(
-            "For every number of oscillators n_o >= 0 and every gain sigma >= {}{}, with {}, mu = {} and base \
-             frequency {}{reach}",
+            "For every number of oscillators n_o >= 0 and {} {}{}{}, with {}, mu = {} and base frequency {}{reach}",
+            if spec.actuator.is_some() { "the gain sigma =" } else { "every gain sigma >=" },
             self.sigma_text,
             input_gain::in_words(spec.input_gain.as_ref()),
+            actuator::in_words(spec.actuator.as_ref()),
             period::in_words(&spec.period),
             spec.mu.text,
             spec.base_frequency.text,

@@ -2,10 +2,11 @@
 //!
 //! Guarantee: |u| of the periodic solution is at most `steady` for every n_o, and every solution from the claimed set has
 //! |u - u_per| <= `transient` at all times. Of an actuator with an input gain that is so of what it is given, the control of the law over
-//! the nominal gain ([`put_out`]); before, u is that of the law.
+//! the nominal gain ([`put_out`]); before, u is that of the law. Where an actuator is given it never saturates ([`saturation`]).
 
 use crate::data::Data;
 use crate::interval::Interval;
+use crate::verdict::Condition;
 
 /// The bounds under their names in a file.
 pub const NAMES: [&str; 2] = ["steady", "transient"];
@@ -54,6 +55,13 @@ pub fn put_out(d: &Data<'_>, bounds: [Interval; 2]) -> [Interval; 2] {
         Some(gain) => bounds.map(|bound| bound / gain.nominal.enclose(d.precision)),
         None => bounds,
     }
+}
+
+/// C6: of a solution from the claimed set what is put out is never larger than the actuator takes. So it is a solution of the loop with the
+/// saturation, too, whose solutions are unique.
+pub fn saturation(d: &Data<'_>, [steady, transient]: &[Interval; 2]) -> Option<Condition> {
+    let max = d.spec.actuator.as_ref()?.max.enclose(d.precision);
+    Some(Condition::at_most("C6", "steady + transient <= max of the actuator", steady + transient, max))
 }
 
 /// `sigma e_per + mu Nbar Z`.

@@ -10,10 +10,11 @@ use super::joint::Joint;
 use super::sampled::{self, claim::Regulator};
 use super::set::ClaimedSet;
 use super::{bounding, regulation, sharp};
+use crate::actuator;
 use crate::data::Data;
 use crate::interval::Interval;
 use crate::json::Fields;
-use crate::verdict::{Condition, Outcome};
+use crate::verdict::{Condition, Outcome, Verdict, finding};
 use rug::Rational;
 
 /// The free numbers of a claim about either regulator.
@@ -106,6 +107,10 @@ impl Derivation {
         all(name, pointer, evaluated.transfer.iter().chain(&evaluated.conditions), lines)?;
         without_domain(d, &evaluated.arguments, lines)?;
         if let Some(exact) = &self.regulation {
+            if d.spec.actuator.is_some() {
+                let message = "with an actuator nothing is proved of infinitely many oscillators";
+                return Err(finding(Verdict::Undecided, actuator::RULE, &exact.pointer, message));
+            }
             lines.push(format!("exact regulation, sigma_oo = {}", exact.sigma));
             let Inequalities { stability, joint, .. } = self.inequalities();
             let conditions = regulation::evaluate(d, set, exact, (stability, joint))?;

@@ -1,7 +1,7 @@
 //! The sharp derivation: every condition from the witness (docs/mathematics.md, sections 5 and 10).
 //!
 //! Guarantee, if all conditions hold and the bounding functions are as proved up to `arguments`: for every n_o >= 0 and
-//! every sigma' >= sigma there is a T-periodic solution with |x| <= x_per, |e| <= e_per, |zeta|_N <= Z, and every
+//! every sigma' >= sigma (with an actuator for sigma alone) there is a T-periodic solution with |x| <= x_per, |e| <= e_per, |zeta|_N <= Z, and every
 //! solution from the claimed set, at any initial time, converges to it exponentially.
 
 use super::common::{Evaluated, Free};
@@ -170,5 +170,6 @@ pub fn evaluate(d: &Data<'_>, w: &Witness) -> Outcome<Sharp> {
             threshold
         }
     };
+    evaluated.conditions.extend(control::saturation(d, &evaluated.control));
     Ok(Sharp { evaluated, solution, error_box, threshold })
 }

@@ -55,6 +55,8 @@ pub struct SampledEvaluation {
     pub forms: DecayForms<Enclosure>,
     /// How large the control gets.
     pub control: Control<Enclosure>,
+    /// How large |e| gets on the way from the claimed set, between samples too.
+    pub peak: Enclosure,
     /// All conditions in order.
     pub conditions: Vec<Condition>,
 }
@@ -103,18 +105,19 @@ impl SampledEvaluation {
         let with_gain = [&sigma, &law.gain];
         let by_parts = control::by_parts(data, with_gain, [&size.e_per, &z]);
         // At the gain b the weight of zeta is b eta: the square is convex in b, so that it is largest at an end.
-        let transient = |eta: &Enclosure, start: &Enclosure| control::transient(data, with_gain, eta, start);
-        let transient = match &data.input_gain {
-            None => transient(&eta, &start),
+        let reach = |eta: &Enclosure, start: &Enclosure| control::reach(data, with_gain, eta, start);
+        let reach = match &data.input_gain {
+            None => reach(&eta, &start),
             Some(InputGain { low, high }) => {
                 let least = &start - &eta * (high - low) * dist_z.sqr();
-                transient(&(low * &eta), &least).max(&transient(&(high * &eta), &start))
+                reach(&(low * &eta), &least).max(&reach(&(high * &eta), &start))
             }
         };
         let answer = law.answer(&sigma, &data.period, &gains.means);
         let nominal = data.spec.input_gain.as_ref().map(|gain| gain.nominal.enclose(data.precision));
-        let control =
-            Control { steady: answer.steady(&origin, &size.forcing, &by_parts), transient }.over(nominal.as_ref());
+        let control = Control { steady: answer.steady(&origin, &size.forcing, &by_parts), transient: reach.transient }
+            .over(nominal.as_ref());
+        let peak = &size.e_per + reach.error;
         conditions.push(Condition::less("C4", level_words(data), start, exit));
         match matrix_inequality::proved_for(data, witness) {
             Some(inequality) => conditions.extend(matrix_inequality::conditions(data, inequality, &error_box)),
@@ -123,7 +126,8 @@ impl SampledEvaluation {
                 conditions.extend(form_conditions(data, &forms));
             }
         }
-        SampledEvaluation { product, law, bounds, size, z, error_box, forms, control, conditions }
+        conditions.extend(control.condition(data));
+        SampledEvaluation { product, law, bounds, size, z, error_box, forms, control, peak, conditions }
     }
 
     /// The truth of all conditions together.

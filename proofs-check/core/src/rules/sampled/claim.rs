@@ -1,6 +1,7 @@
 //! What a claim about a sampled regulator says besides: the law, and its sampling period exactly (docs/mathematics.md, section 12).
 
 use super::law::RULE;
+use crate::actuator;
 use crate::constant::Constant;
 use crate::input_gain;
 use crate::json::Fields;
@@ -60,26 +61,29 @@ impl<'a> Regulator<'a> {
         let (samples, [sigma, gain]) = (self.samples, self.texts);
         format!(
             "For the digital regulator with the gain sigma = {sigma}, the sampling period h = {} ({samples} samples a period) and \
-             K = {gain}, for every number of oscillators n_o < {samples}/2 and every phase of the sampling grid{}, with {}, \
+             K = {gain}, for every number of oscillators n_o < {samples}/2 and every phase of the sampling grid{}{}, with {}, \
              mu = {} and base frequency {}",
             self.sampling.text,
             input_gain::in_words(spec.input_gain.as_ref()),
+            actuator::in_words(spec.actuator.as_ref()),
             period::in_words(&spec.period),
             spec.mu.text,
             spec.base_frequency.text,
         )
     }
 
-    /// What the claim takes for granted of the regulator.
-    pub fn assumed() -> Vec<String> {
-        [
+    /// What the claim takes for granted of the regulator; `saturates`: the saturation of the actuator is in the claim.
+    pub fn assumed(saturates: bool) -> Vec<String> {
+        let saturation = if saturates { "" } else { "no saturation, " };
+        vec![
             "the regulator is the sampled law u_k = -sigma e_k + K v_k, v_k = M'N R (z_k - M e_k), z_(k+1) = R (z_k - M e_k) + \
              (1 - h sigma) M e_k, R = e^(Phi h), with exactly this sigma, h and K, the weights stated and base_frequency exactly \
-             2 pi/period; between samples the plant runs continuously and u is held",
-            "no computation delay, no rounding of the regulator's arithmetic or of R, no quantisation, no saturation, no noise, no \
-             jitter of the samples",
+             2 pi/period; between samples the plant runs continuously and u is held"
+                .to_owned(),
+            format!(
+                "no computation delay, no rounding of the regulator's arithmetic or of R, no quantisation, {saturation}no noise, no jitter \
+                 of the samples"
+            ),
         ]
-        .map(str::to_owned)
-        .to_vec()
     }
 }

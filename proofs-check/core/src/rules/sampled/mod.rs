@@ -90,5 +90,6 @@ pub fn evaluate(d: &Data<'_>, w: &Witness) -> Outcome<Evaluated> {
         evaluated.conditions.extend(error_box.one_sided.iter().cloned());
         evaluated.conditions.extend(stability::conditions(&law, &error_box, [&w_x, &eta]));
     }
+    evaluated.conditions.extend(control::saturation(d, &evaluated.control));
     Ok(evaluated)
 }

@@ -1,0 +1,36 @@
+//! An actuator that saturates (derivation, 13.5): a bound of what is put out, which the claim keeps.
+
+use super::constant::positive_constant_in;
+use super::document::Value;
+use super::error::{Errors, Reported};
+use super::parts::Constant;
+use super::quantity::Quantity;
+use crate::expr::Definitions;
+
+/// `actuator`: what is put out acts as it is up to `max` in size, and as `max` beyond.
+#[derive(Clone, Debug)]
+pub struct Actuator {
+    /// The greatest |what is put out| that the actuator takes, above 0, in the units of that: with an input gain of the control of the
+    /// law over the nominal gain.
+    pub max: Constant,
+}
+
+impl Actuator {
+    /// Whether the other one certainly has the same `max`, however it is written.
+    #[must_use]
+    pub fn is(&self, other: &Actuator) -> bool {
+        Quantity::constant(&self.max).equals(&Quantity::constant(&other.max)).is_true()
+            || self.max.text == other.max.text
+    }
+}
+
+/// Reads `actuator`: one positive constant, in which the names of a plant's constants may stand.
+///
+/// # Errors
+/// Reports a field that is missing or unknown, and a number that is not positive.
+pub fn read_actuator(value: &Value<'_>, names: &Definitions, errors: &mut Errors) -> Result<Actuator, Reported> {
+    let mut object = value.object(errors)?;
+    let max = object.required("max", errors).and_then(|value| positive_constant_in(&value, names, errors));
+    object.finish(errors);
+    Ok(Actuator { max: max? })
+}

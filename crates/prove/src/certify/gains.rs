@@ -1,0 +1,115 @@
+//! What larger gains bring (derivation, 13.5): bounds at multiples of the gain of a claim.
+
+use super::best::model;
+use super::bounding::prove_up_to;
+use super::certification::Certification;
+use super::options::Ladder;
+use super::proof::SharpProof;
+use super::round::{TransferKind, round_again};
+use crate::search::{FloatModel, Goal, SharpProposal, search_sharp_at};
+use rayon::prelude::*;
+use rug::Rational;
+use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_exact::number::{Direction, round_rational};
+use sigmastar_lang::spec::Specification;
+use sigmastar_theory::data::Data;
+use sigmastar_theory::derivation::consequences::error_bounds;
+use sigmastar_theory::derivation::control::Control;
+use sigmastar_theory::derivation::mistuned::Mistuning;
+use sigmastar_theory::transfer::TransferProof;
+
+/// The gains, in tenths of that of the claim.
+const TENTHS: [u32; 5] = [12, 15, 20, 30, 50];
+
+/// The numbers of oscillators of which the steady error is bounded.
+pub const SHOWN_N_O: [u64; 2] = [0, 10];
+
+/// Bounds at one gain, for every solution from the initial set there: where the specification states no sizes of it they are those of the
+/// periodic solution at this gain.
+///
+/// Guarantee: every condition is proved for a witness at this gain.
+#[derive(Clone, Debug)]
+pub struct GainRow {
+    /// The gain.
+    pub sigma: Rational,
+    /// E0 of the initial set.
+    pub e0: Rational,
+    /// Of |e| along the periodic solution, for the numbers of oscillators of [`SHOWN_N_O`].
+    pub steady: [Enclosure; 2],
+    /// Of |e| on the way, for every n_o.
+    pub peak: Enclosure,
+    /// Of what is put out, for every n_o.
+    pub control: Control<Enclosure>,
+}
+
+impl GainRow {
+    fn of(spec: &Specification, proof: &SharpProof) -> GainRow {
+        let data = Data::new(spec, proof.precision);
+        let (evaluation, mistuning) = (&proof.evaluation, Mistuning::new(&data));
+        let sigma = data.rational(&proof.witness.sigma);
+        let e_per = &evaluation.periodic.e_per;
+        let sup = |n_o| error_bounds(&data, &evaluation.excitation, mistuning.as_ref(), &sigma, e_per, n_o).sup;
+        GainRow {
+            sigma: proof.witness.sigma.clone(),
+            e0: proof.witness.set.e0.clone(),
+            steady: SHOWN_N_O.map(sup),
+            peak: evaluation.peak.clone(),
+            control: evaluation.control.clone(),
+        }
+    }
+}
+
+/// The rows of larger gains than that of a claim; one at which nothing is proved from near `start` has none. The error boxes are those with the
+/// smallest bound of |e| that are found.
+///
+/// `spec` has the data of the claim, or others of the same plant in the same coordinates.
+fn gain_rows(spec: &Specification, proof: &SharpProof, (model, start): (&FloatModel, &SharpProposal)) -> Vec<GainRow> {
+    let model = model.with_goal(Goal::Peak);
+    let reach = proof.decided().reach();
+    let row = |tenths: &u32| {
+        let sigma = round_rational(&(Rational::from((*tenths, 10)) * &proof.witness.sigma), 6, Direction::Up);
+        let found = search_sharp_at(&model, sigma.to_f64(), Some(start)).ok()?;
+        let (k0, k1) = (proof.witness.k0.clone(), proof.witness.k1.clone());
+        let pair = (k0, k1, proof.witness.transfer.clone());
+        let data = Data::new(spec, proof.precision);
+        let ladder = Ladder { start: proof.precision, limit: proof.precision };
+        let proof = round_again(&data, &model, (&found, &sigma), pair, ladder)?;
+        // The data of the claim are proved on a domain, or up to the arguments that it uses.
+        let [x, e] = proof.decided().reach()?;
+        let within = reach.as_ref().is_some_and(|[known_x, known_e]| x <= *known_x && e <= *known_e);
+        let known = spec.domain.is_some() || spec.plant().is_some() || within || prove_up_to(spec, &x, &e).is_ok();
+        known.then(|| GainRow::of(spec, &proof))
+    };
+    TENTHS.par_iter().filter_map(row).collect()
+}
+
+impl Certification<'_> {
+    /// The rows of a run that is certified without an actuator; of one with an actuator nothing is said of another gain.
+    pub(super) fn set_gains(&mut self, model: &FloatModel, start: &SharpProposal) {
+        let Some(proof) = self.sharp.proved().filter(|_| self.claim().is_some() && self.spec.actuator.is_none()) else {
+            return;
+        };
+        let mut rows = vec![GainRow::of(self.spec, proof)];
+        rows.extend(gain_rows(self.spec, proof, (model, start)));
+        self.gains = rows;
+    }
+
+    /// The rows with those of other data of the same plant, in the same coordinates, in their place where |e| stays smaller.
+    pub fn with_gains_of(&mut self, spec: &Specification, start: &SharpProposal) {
+        let Some(proof) = self.sharp.proved().filter(|_| !self.gains.is_empty()) else { return };
+        let kind = match proof.witness.transfer {
+            TransferProof::ClosedForm => TransferKind::ClosedForm,
+            TransferProof::Matched { .. } => TransferKind::Matched,
+            TransferProof::Boxes(_) => TransferKind::Boxes,
+        };
+        let model = model(&Data::new(spec, proof.precision), kind);
+        for row in gain_rows(spec, proof, (&model, start)) {
+            match self.gains.iter_mut().find(|known| known.sigma == row.sigma) {
+                Some(known) if row.peak.lt(&known.peak).is_true() => *known = row,
+                Some(_) => {}
+                None => self.gains.push(row),
+            }
+        }
+        self.gains.sort_by(|a, b| a.sigma.cmp(&b.sigma));
+    }
+}

@@ -1,0 +1,323 @@
+//! An actuator that saturates, limits of the error and the control, and the rows of larger gains (docs/mathematics.md, 13.5): what is certified,
+//! that no member of a claim saturates, and what a regulator and a simulation make of it.
+
+use crate::support::{json, options, program, specification_text, utf8};
+use proofs_check::verdict::Verdict as Answer;
+use serde_json::{Value, json as object};
+use sigmastar_document::progress::Silent;
+use sigmastar_lab::falsify::{Finding, TrialSettings, TriedClaim, falsify};
+use sigmastar_lang::spec::{Document, Specification};
+use sigmastar_prove::certificate::{certificate_json, certificate_of, read_witness};
+use sigmastar_prove::certify::{Certification, Options, Outcome, Verdict, certify, recheck};
+use sigmastar_prove::reduction::{Prepared, Subject};
+use sigmastar_prove::search::{Failing, Limited, Obstacle};
+use std::path::Path;
+
+const NAME: &str = "paper-example-rms-at-rest";
+
+/// A shipped file with other members.
+fn text(name: &str, members: &[(&str, Value)]) -> String {
+    let mut document: Value = serde_json::from_str(&specification_text(name)).unwrap();
+    for (pointer, value) in members {
+        let (parent, member) = pointer.rsplit_once('/').unwrap();
+        document.pointer_mut(parent).unwrap()[member] = value.clone();
+    }
+    document.to_string()
+}
+
+fn actuator(max: &str) -> (&'static str, Value) {
+    ("/actuator", object!({ "max": max }))
+}
+
+fn with_max(max: &str) -> Specification {
+    Specification::from_json("spec", &text(NAME, &[actuator(max)])).unwrap()
+}
+
+/// About the least max for which a proof is found, and its gain.
+fn least(run: &Certification<'_>) -> [f64; 2] {
+    match &run.sharp {
+        Outcome::NotFound(Obstacle {
+            failing: Failing::Limit { which: Limited::Actuator, least, sigma, .. }, ..
+        }) => [*least, *sigma],
+        other => panic!("{other:?}"),
+    }
+}
+
+/// The certificate of a document of any kind.
+fn certificate(text: &str) -> Value {
+    let subject = Subject::read(&Document::parse("document", text).unwrap()).unwrap();
+    let prepared = Prepared::new(subject, None).unwrap();
+    certificate_of(&prepared.certify(options()).unwrap()).expect("certified")
+}
+
+#[test]
+fn one_positive_constant() {
+    let read = |part: Value| Specification::from_json("spec", &text(NAME, &[("/actuator", part)]));
+    assert_eq!(read(object!({ "max": "3*sqrt(2)" })).unwrap().actuator.unwrap().max.text, "3*sqrt(2)");
+    for (wrong, place) in [
+        (object!({ "max": "0" }), "/actuator/max"),
+        (object!({ "max": "-3" }), "/actuator/max"),
+        (object!({ "max": "x" }), "/actuator/max"),
+        (object!({ "max": "3", "min": "1" }), "/actuator/min"),
+        (object!({}), "/actuator/max"),
+        (object!("3"), "/actuator"),
+        (object!(null), "/actuator"),
+    ] {
+        let errors = read(wrong.clone()).unwrap_err();
+        assert!(errors.errors().iter().any(|error| error.pointer == place), "{wrong}: {}", errors.render(false));
+    }
+}
+
+/// A claim is certified down to about the least max that is told, at one gain, and below that nothing is claimed.
+#[test]
+fn the_least_max_that_is_told_is_where_claims_end() {
+    let tight = with_max("1");
+    let run = certify(&tight, options()).unwrap();
+    assert_eq!(run.verdict, Verdict::Undecided);
+    let [least_max, sigma] = least(&run);
+    assert!((20.0..30.0).contains(&least_max) && (10.0..100.0).contains(&sigma), "{least_max} {sigma}");
+    for (share, certified) in [(1.001, true), (0.999, false)] {
+        let spec = with_max(&format!("{:.6}", share * least_max));
+        let run = certify(&spec, options()).unwrap();
+        assert_eq!(run.verdict == Verdict::Certified, certified, "{share}");
+        assert!(run.exact.is_none() && run.gains.is_empty());
+    }
+    // With room the claim is that of the smallest gain.
+    let [plain, roomy] = [Specification::from_json("spec", &specification_text(NAME)).unwrap(), with_max("1000")];
+    let [plain, roomy] = [&plain, &roomy].map(|spec| certify(spec, options()).unwrap());
+    assert_eq!(plain.sigma_star(), roomy.sigma_star());
+    assert!(plain.exact.is_some() && roomy.exact.is_none());
+    assert_eq!(roomy.conditions().last().map(|condition| condition.id), Some("C6"));
+}
+
+#[test]
+fn the_claim_is_about_one_gain() {
+    let spec = with_max("26");
+    let run = certify(&spec, Options::default()).unwrap();
+    let certificate = certificate_json(&run).expect("certified");
+    let claim = &certificate["claim"];
+    assert!(claim["sigma"].is_string() && claim.get("sigma_star").is_none());
+    assert_eq!(claim["actuator"], object!({ "max": "26" }));
+    let statement = claim["statement"].as_str().unwrap();
+    assert!(statement.contains("the gain sigma = ") && statement.contains("up to 26 in size"), "{statement}");
+    assert!(certificate.get("comparison").is_none() && certificate["witness"].get("exact_regulation").is_none());
+    let answer = proofs_check::check(certificate.to_string().as_bytes());
+    assert!(answer.is_flawless(), "{}", answer.text(false));
+    // Decided again from the certificate; refuted where the actuator takes less.
+    let witness = read_witness(&Document::parse("certificate", &certificate.to_string()).unwrap()).unwrap();
+    assert_eq!(recheck(&spec, &witness, options()).unwrap().verdict, Verdict::Certified);
+    assert_eq!(recheck(&with_max("25.5"), &witness, options()).unwrap().verdict, Verdict::Refuted);
+    // A claim with the one and a file with the other are not read.
+    for (from, to) in [("/claim/sigma", "/claim/sigma_star"), ("/claim/actuator", "/claim/acutator")] {
+        let mut forged = certificate.clone();
+        let moved = forged.pointer_mut(from).unwrap().take();
+        let claim = forged["claim"].as_object_mut().unwrap();
+        claim.remove(from.rsplit('/').next().unwrap());
+        claim.insert(to.rsplit('/').next().unwrap().to_owned(), moved);
+        let document = Document::parse("certificate", &forged.to_string()).unwrap();
+        assert!(read_witness(&document).is_err(), "{from}");
+    }
+}
+
+const ON_THE_WAY: &str = "|u| on the way, against what the actuator takes";
+
+/// Of each kind of claim: the checker agrees, and no member of it asks the actuator for more than it takes; told that it takes less, one does.
+#[test]
+fn from_the_set_the_actuator_never_saturates() {
+    let gain = object!({ "nominal": "2", "low": "1.8", "high": "2.2" });
+    let sampled = ("/internal_model/sampling_period", object!("1/1000"));
+    for (name, members) in [
+        (NAME, vec![actuator("26")]),
+        (NAME, vec![actuator("30"), sampled]),
+        (NAME, vec![actuator("15.5"), ("/input_gain", gain)]),
+        ("plants/paper-example", vec![actuator("24")]),
+        ("plants/linear", vec![actuator("1e6")]),
+    ] {
+        let made = certificate(&text(name, &members));
+        let answer = proofs_check::check(made.to_string().as_bytes());
+        assert_eq!(answer.verdict, Answer::Valid, "{name}: {}", answer.text(false));
+        let tried = |certificate: &Value, trials: u64| {
+            let claim = TriedClaim::from_document(&Document::parse("certificate", &certificate.to_string()).unwrap());
+            falsify(&claim.unwrap(), TrialSettings { trials, seed: 3, only: None }, &Silent)
+        };
+        let outcome = tried(&made, 6);
+        let gain: f64 = made["claim"]["sigma"].as_str().unwrap().parse().unwrap();
+        let mut largest = 0.0_f64;
+        for finding in &outcome.findings {
+            let Finding::Holds { trial, shares } = finding else { panic!("{name}: {finding:?}") };
+            assert!((trial.sigma / gain - 1.0).abs() < 1e-14);
+            let share = shares.iter().find(|(quantity, _)| *quantity == ON_THE_WAY).unwrap().1;
+            largest = largest.max(share);
+        }
+        assert!(largest <= 1.0 && (largest > 0.02 || name.ends_with("linear")), "{name}: {largest}");
+        // Of what it asks for a tenth.
+        let max: f64 = members[0].1["max"].as_str().unwrap().parse().unwrap();
+        let mut forged = made.clone();
+        let less = format!("{:.9}", 0.5 * largest * max);
+        let about = if forged.get("plant").is_some() { "plant" } else { "specification" };
+        forged[about]["actuator"]["max"] = less.clone().into();
+        forged["claim"]["actuator"]["max"] = less.into();
+        let found = tried(&forged, 6);
+        let (_, violation) = found.counterexample().expect("it asks for more");
+        assert_eq!(violation.quantity, ON_THE_WAY, "{name}");
+    }
+}
+
+/// The bounds of the control and of the way hold for every member that is drawn, and are of the size of what is met.
+#[test]
+fn the_bounds_of_the_control_are_no_larger_than_they_need_be() {
+    let mut best = [0.0_f64; 2];
+    for name in ["linear", NAME, "plants/linear", "plants/duffing"] {
+        let made = certificate(&specification_text(name));
+        let claim = TriedClaim::from_document(&Document::parse("certificate", &made.to_string()).unwrap()).unwrap();
+        let outcome = falsify(&claim, TrialSettings { trials: 24, seed: 5, only: None }, &Silent);
+        assert!(outcome.counterexample().is_none(), "{name}");
+        for closest in outcome.closest() {
+            match closest.quantity {
+                "sup|u| of the periodic solution" => best[0] = best[0].max(closest.share),
+                "|u - u_p| on the way, against its bound" => best[1] = best[1].max(closest.share),
+                _ => {}
+            }
+        }
+    }
+    assert!(best[0] > 0.5 && best[1] > 0.2 && best.iter().all(|share| *share <= 1.0), "{best:?}");
+}
+
+fn written(folder: &Path, name: &str, text: &str) -> String {
+    let path = folder.join(name);
+    std::fs::write(&path, text).unwrap();
+    path.to_str().unwrap().to_owned()
+}
+
+fn report(arguments: &[&str]) -> (i32, Value) {
+    let output = program().arg("certify").args(arguments).args(["--format", "json", "-q"]).output().unwrap();
+    (output.status.code().unwrap(), json(&output.stdout))
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_str().unwrap().parse().unwrap()
+}
+
+/// The gain that is certified keeps what was asked for, hardly a smaller one does, and what cannot be kept is undecided.
+#[test]
+fn a_gain_that_keeps_to_limits() {
+    let file = format!("specs/{NAME}.json");
+    let (_, plain) = report(&[&file]);
+    let least_gain = number(&plain["sigma_star"]);
+    for (flag, asked, part) in [
+        ("--steady-error", "1/100", "steady_error"),
+        ("--peak-error", "0.9", "peak_error"),
+        ("--max-control", "26", "control"),
+    ] {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("certificate.json");
+        let (code, kept) = report(&[&file, flag, asked, "-o", path.to_str().unwrap()]);
+        assert_eq!(code, 0, "{flag}");
+        let limit = if asked == "1/100" { 0.01 } else { asked.parse().unwrap() };
+        let proved = number(&kept["limits"][part]["proved"]);
+        assert!(proved <= limit * (1.0 + 1e-12) && proved > 0.99 * limit, "{flag}: {proved}");
+        let gain = number(&kept["sigma_star"]);
+        assert!(gain > least_gain && number(&kept["sigma_star_estimate"]) <= gain * 1.01, "{flag} {gain}");
+        assert!(proofs_check::check(&std::fs::read(path).unwrap()).is_flawless());
+        // Just below it no proof that keeps it is found.
+        let below = format!("{:.6}", 0.98 * gain);
+        let (code, missed) = report(&[&file, flag, asked, "--sigma", &below]);
+        assert_eq!((code, missed["verdict"].as_str().unwrap()), (3, "undecided"), "{flag}");
+        assert!(missed["statement"].as_str().unwrap().contains("the least for which a proof is found is about"));
+        let (code, given) = report(&[&file, flag, asked, "--sigma", &format!("{:.6}", gain * 1.001)]);
+        assert_eq!((code, &given["given_gain"]), (0, &object!(true)), "{flag}");
+    }
+    let (code, never) = report(&[&file, "--max-control", "1"]);
+    assert_eq!(code, 3);
+    assert!(never["statement"].as_str().unwrap().contains("what is put out is not proved to be at most 1"));
+    for wrong in ["0", "-1", "x", "sqrt(2)"] {
+        program().args(["certify", &file, "--peak-error", wrong]).assert().code(2);
+    }
+    program().args(["certify", &file, "--witness", &file, "--max-control", "1"]).assert().code(2);
+}
+
+/// Each row is what `--sigma` certifies at that gain, or less.
+#[test]
+fn rows_of_larger_gains() {
+    for (file, at_least) in [(format!("specs/{NAME}.json"), 5), ("specs/plants/linear.json".to_owned(), 2)] {
+        let (_, whole) = report(&[&file]);
+        let rows = whole["gains"].as_array().unwrap();
+        assert!(rows.len() >= at_least, "{file}: {rows:?}");
+        assert_eq!(rows[0]["sigma"], whole["sigma_star"]);
+        for (at, row) in rows.iter().enumerate().skip(1) {
+            assert!(number(&row["sigma"]) > 1.19 * number(&rows[0]["sigma"]));
+            let (code, own) = report(&[&file, "--sigma", row["sigma"].as_str().unwrap()]);
+            assert_eq!(code, 0);
+            let steady = number(&row["steady_error"][0]["sup"]);
+            let of_claim = number(&own["periodic_solution"]["e"]);
+            assert!((steady / of_claim - 1.0).abs() < 1e-3, "{file} {at}: {steady} {of_claim}");
+            assert!(steady <= number(&rows[at - 1]["steady_error"][0]["sup"]) * (1.0 + 1e-9));
+            let peak = number(&row["peak_error"]);
+            assert!(peak <= (of_claim + number(&own["error_box"]["D_e"])) * (1.0 + 1e-3), "{file} {at}: {peak}");
+        }
+    }
+    let (_, without) = report(&[&format!("specs/{NAME}.json"), "--no-compare"]);
+    assert_eq!(without["gains"], object!([]));
+}
+
+/// Exports clip, and say what the certificate says of that; another gain is refused.
+#[test]
+fn exports_clip_where_the_actuator_saturates() {
+    let folder = tempfile::tempdir().unwrap();
+    let sampled = ("/internal_model/sampling_period", object!("1/1000"));
+    for (members, at_samples) in [(vec![actuator("30")], false), (vec![actuator("30"), sampled], true)] {
+        let certificate = certificate(&text(NAME, &members));
+        let file = written(folder.path(), "certificate.json", &certificate.to_string());
+        let export = |more: &[&str]| {
+            let mut call = program();
+            call.args(["controller", &file, "--n-o", "3"]).args(more);
+            call
+        };
+        let json_of = |more: &[&str]| json(&export(more).assert().success().get_output().stdout);
+        let step = if at_samples { vec![] } else { vec!["--discretise", "1/1000"] };
+        let made = json_of(&step);
+        assert_eq!((&made["actuator"]["max"], &made["discrete"]["saturation"]), (&object!(30.0), &object!(30.0)));
+        assert!(made["certificate"].get("sigma").is_some() && made["certificate"].get("sigma_star").is_none());
+        let notice = made["notice"].to_string();
+        let said = if at_samples {
+            "from the set of the certificate it never is"
+        } else {
+            "that of the law in continuous time never is"
+        };
+        assert!(notice.contains(said), "{notice}");
+        let script =
+            utf8(export(&[&step[..], &["--format", "matlab"]].concat()).assert().success().get_output().stdout.clone());
+        assert!(script.contains("actuator_max = 30;") && script.contains("saturation = 30;"), "{script}");
+        let c = folder.path().join("regulator.c");
+        let call = [&step[..], &["--format", "c", "--force", "-o", c.to_str().unwrap()]].concat();
+        export(&call).assert().success();
+        assert!(std::fs::read_to_string(&c).unwrap().contains("if (u > limit)"));
+        // Another limit is outside of the claim, and another gain is not the one that is claimed.
+        let other = json_of(&["--discretise", "1/1000", "--saturation", "20"]);
+        assert!(other["certificate"].get("sigma").is_some());
+        assert!(other.get("actuator").is_none() && other["discrete"]["saturation"] == 20.0);
+        assert!(!other["notice"].to_string().contains("never is"));
+        let refused = export(&[&step[..], &["--sigma", "300"]].concat()).assert().code(2);
+        let told = utf8(refused.get_output().stderr.clone());
+        assert!(told.contains(if at_samples { "another one" } else { "alone, and this is another gain" }), "{told}");
+    }
+}
+
+/// A run in continuous time and at samples is cut off at what the actuator takes.
+#[test]
+fn simulations_saturate() {
+    let folder = tempfile::tempdir().unwrap();
+    let start = object!({ "x": [], "e": 10 });
+    let plant = text("plants/linear", &[actuator("3"), ("/initial", start)]);
+    let file = written(folder.path(), "plant.json", &plant);
+    for sampled in [&[][..], &["--sampled", "1/500"]] {
+        let csv = folder.path().join("run.csv");
+        let call = ["simulate", &file, "--sigma", "2", "--n-o", "2", "--periods", "3", "--force", "--csv"];
+        program().args(call).arg(&csv).args(sampled).output().unwrap();
+        let rows = std::fs::read_to_string(&csv).unwrap();
+        let column = rows.lines().next().unwrap().split(',').position(|name| name == "u").unwrap();
+        let u: Vec<f64> =
+            rows.lines().skip(1).map(|row| row.split(',').nth(column).unwrap().parse().unwrap()).collect();
+        assert!(u.iter().all(|u| u.abs() <= 3.0) && u.iter().filter(|u| u.abs() == 3.0).count() > 20, "{sampled:?}");
+    }
+}
