@@ -80,7 +80,7 @@ fn read_claim(value: &Value<'_>, subject: Option<&Value<'_>>, errors: &mut Error
     let set = read_set(&mut claim, errors);
     claim.finish(errors);
     regulator.and(derivation).and(input_gain)?;
-    let sampling = Sampling { step: step?, samples: samples? };
+    let sampling = Sampling { step: step?, samples: samples?, delayed: delayed? };
     Ok(Claim { sigma: sigma?, sampling, gain: gain?, set: set? })
 }
 

@@ -95,7 +95,39 @@ pub fn transient<R: Real>(problem: &impl Problem<R>, [sigma, mu]: [&R; 2], h: &R
 where
     for<'a> &'a R: Operand<R>,
 {
-    (level * (sigma.sqr() + (mu * &problem.numbers().n_bar).sqr() / h)).sqrt()
+    (level * squares(problem, [sigma, mu], h)).sqrt()
+}
+
+/// sigma^2 + mu^2 Nbar^2/h.
+fn squares<R: Real>(problem: &impl Problem<R>, [sigma, mu]: [&R; 2], h: &R) -> R
+where
+    for<'a> &'a R: Operand<R>,
+{
+    sigma.sqr() + (mu * &problem.numbers().n_bar).sqr() / h
+}
+
+/// The same at samples with a delay, u = -sigma e + K M'N R zeta + h (sigma + K b1) y_last: with the level of U + gm h y_last^2, and
+/// [`of_past`] besides.
+#[must_use]
+pub fn transient_with<R: Real>(
+    problem: &impl Problem<R>,
+    with_gain: [&R; 2],
+    h: &R,
+    (level, of_past): (&R, &R),
+) -> R
+where
+    for<'a> &'a R: Operand<R>,
+{
+    (level * (squares(problem, with_gain, h) + of_past)).sqrt()
+}
+
+/// h (sigma + K Nb2)^2/gm, for |b1| <= Nb2.
+#[must_use]
+pub fn of_past<R: Real>([sigma, gain]: [&R; 2], [step, weight_sum]: [&R; 2], gm: &R) -> R
+where
+    for<'a> &'a R: Operand<R>,
+{
+    step * (sigma + gain * weight_sum).sqr() / gm
 }
 
 /// The same of the metric `lam Pi_1 + (1 - lam) Pi_2`, lam = threshold/sigma (section 13.7, (Jm)): sqrt(V_0 (sigma^2/e_low + 2 mu Nbar^2/k_p)),

@@ -1,4 +1,4 @@
-//! (C5h): the quadratic forms of the decay from sample to sample (derivation, 12.3).
+//! (C5h): the quadratic forms of the decay from sample to sample (derivation, 12.3); with a delay (C5d), forms in one variable more (13.4).
 
 use super::law::SampledLaw;
 use crate::data::{Numbers, Problem};
@@ -21,6 +21,21 @@ pub struct Form<R> {
     pub xy: R,
     /// Of -EY.
     pub ey: R,
+    /// What a delay adds.
+    pub past: Option<Past<R>>,
+}
+
+/// `pp P^2 - xp XP - ep EP - yp YP` for P = |y_{k-1}|; the last three are nonnegative.
+#[derive(Clone, Debug)]
+pub struct Past<R> {
+    /// Of P^2.
+    pub pp: R,
+    /// Of -XP.
+    pub xp: R,
+    /// Of -EP.
+    pub ep: R,
+    /// Of -YP.
+    pub yp: R,
 }
 
 impl<R: Real> Form<R>
@@ -29,12 +44,29 @@ where
 {
     /// The leading principal minors of its matrix: all positive if and only if the form is positive definite.
     #[must_use]
-    pub fn minors(&self) -> [R; 3] {
+    pub fn minors(&self) -> Vec<R> {
         let two = R::int(2);
         let [p, q, r] = [&self.ey / &two, &self.xe / &two, &self.xy / &two];
         let second = &self.xx * &self.ee - q.sqr();
-        let third = &second * &self.yy - &self.xx * p.sqr() - &self.ee * r.sqr() - two * (&p * &q * &r);
-        [self.xx.clone(), second, third]
+        let third = &second * &self.yy - &self.xx * p.sqr() - &self.ee * r.sqr() - &two * (&p * &q * &r);
+        let mut minors = vec![self.xx.clone(), second.clone(), third.clone()];
+        if let Some(Past { pp, xp, ep, yp }) = &self.past {
+            // pp det - a' adj a, with -a the last column and -p, -q, -r the others.
+            let [a, b, c] = [xp, ep, yp].map(|part| part / &two);
+            let adjugate = [
+                &self.ee * &self.yy - p.sqr(),
+                &self.xx * &self.yy - r.sqr(),
+                second,
+                &q * &self.yy + &p * &r,
+                &r * &self.ee + &p * &q,
+                &p * &self.xx + &q * &r,
+            ];
+            let [aa, bb, cc, ab, ac, bc] = &adjugate;
+            let squares = a.sqr() * aa + b.sqr() * bb + c.sqr() * cc;
+            let mixed = &a * &b * ab + &a * &c * ac + &b * &c * bc;
+            minors.push(pp * third - squares - R::int(2) * mixed);
+        }
+        minors
     }
 }
 
@@ -70,6 +102,8 @@ pub struct DecayNumbers<'n, R> {
     pub w_x: &'n R,
     /// eta, the weight of zeta.
     pub eta: &'n R,
+    /// gm, the weight of h y_{k-1}^2; of a law with a delay alone.
+    pub gm: &'n R,
 }
 
 impl<R: Real> DecayForms<R>
@@ -79,7 +113,7 @@ where
     /// Evaluates the forms on an error box.
     ///
     /// Guarantee: where `within` and the minors of both are positive, U falls from sample to sample in the box, and at no time
-    /// between samples exceeds what it was at the last one; for every n_o < N_s/2.
+    /// between samples exceeds what it was at the last one; for every n_o < N_s/2. With a delay so does U + gm h y_{k-1}^2.
     #[must_use]
     pub fn new(problem: &impl Problem<R>, error_box: &ErrorBox<R>, numbers: &DecayNumbers<'_, R>) -> DecayForms<R> {
         DecayForms::without(problem, error_box, numbers, None)
@@ -93,7 +127,7 @@ where
         numbers: &DecayNumbers<'_, R>,
         part: Option<Part>,
     ) -> DecayForms<R> {
-        let DecayNumbers { law, sigma, w_x, eta } = *numbers;
+        let DecayNumbers { law, sigma, w_x, eta, gm } = *numbers;
         let Numbers { p_up, .. } = problem.numbers();
         let ErrorBox { k_x, k_f, rate, sector, .. } = error_box;
         let (one, two) = (R::int(1), R::int(2));
@@ -122,17 +156,37 @@ where
             };
             let (low, high) = law.input_gain.as_ref().map(|InputGain { low, high }| (low, high)).unzip();
             let worst = at(sector.above.clone(), low).max(&at(-sector.below.clone(), high));
-            Form {
+            // (eta/K) t^2 k_e^2/(3 kp), of y and its own mean.
+            let bend = &weight * within_t.sqr() * &within / R::int(3);
+            let past = law.delayed.then(|| {
+                // y + h sigma y_{k-1} is what moves e.
+                let product = &law.step * sigma;
+                let rest = &one - &ts;
+                let shift = law.input_gain.as_ref().map_or_else(|| R::int(0), InputGain::largest_shift);
+                Past {
+                    pp: gm - &hold * product.sqr(),
+                    xp: &coupling * &c_y * &product,
+                    ep: &two * rest.max(&-rest.clone()) * &product,
+                    yp: &two * &hold * &product
+                        + &weight * &hold * &k_e * &product
+                        + &bend * &product
+                        + R::int(4) * &weight * law.lost()
+                        + &two * &weight * shift * &product,
+                }
+            });
+            let mut form = Form {
                 xx: &two * w_x * rate - &coupling * c_x,
                 xe: &coupling * c_e,
                 xy: &coupling * c_y + &two * &weight * k_x * (&one + &g),
                 ee: sigma * (&two - &ts),
                 ey: &two * worst + &two * &weight * &g * &k_e,
-                yy: &two * &weight * (&one - theta)
-                    - &hold
-                    - &weight * &hold * &sector.above
-                    - &weight * within_t.sqr() * &within / R::int(3),
+                yy: &two * &weight * (&one - theta) - &hold - &weight * &hold * &sector.above - bend,
+                past,
+            };
+            if form.past.is_some() {
+                form.yy = form.yy - gm;
             }
+            form
         };
         DecayForms { start: form(R::int(0)), end: form(R::int(1)), within }
     }

@@ -1,5 +1,6 @@
 //! The free numbers of a claim about the regulator at samples.
 
+use super::delay::DelayWitness;
 use crate::derivation::initial_set::ClaimedSet;
 use crate::derivation::mean_squares::MeanSquares;
 use crate::derivation::paths::Paths;
@@ -41,6 +42,8 @@ pub struct SampledWitness {
     pub set: ClaimedSet,
     /// Along which paths f and q are split on the error box.
     pub paths: Paths,
+    /// What a delay adds: with one exactly where `sampling` says so.
+    pub delay: Option<DelayWitness>,
 }
 
 impl SampledWitness {
@@ -48,6 +51,11 @@ impl SampledWitness {
     #[must_use]
     pub fn squares(&self) -> MeanSquares<&Rational> {
         MeanSquares { x: &self.r_x, e: &self.r_e, e_rate: &self.r_d }
+    }
+
+    /// What a delay adds; zeros, with which nothing is proved, where there should be some and is none.
+    pub(super) fn delay_numbers(&self) -> DelayWitness {
+        self.delay.clone().unwrap_or_else(|| DelayWitness { gm: Rational::new(), y_0: Rational::new() })
     }
 
     /// The gain and the law, which a matrix inequality is about.
