@@ -121,7 +121,7 @@ fn prove(d: &Data<'_>, claim: &Claim<'_>, derivation: &Derivation, lines: &mut V
     }
     let proved = derivation.prove(d, lines)?;
     let free = derivation.free();
-    claim.check(d, &proved, [&free.x_p, &free.e_p])?;
+    claim.check(d, &proved, [&free.x_p, &free.e_p], derivation.prediction())?;
     lines.push(
         "claim: verdict, n_o, mu, set, periodic solution, control and statement follow from what is proved".to_owned(),
     );

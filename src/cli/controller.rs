@@ -46,9 +46,10 @@ fn attempt(args: &ControllerArgs) -> Result<u8, Failure> {
     let step = step.or_else(|| given.as_ref().and_then(Given::step).cloned());
     let design = Design::new(subject.internal_model(), &sigma, args.n_o).for_actuator(subject.input_gain());
     let delayed = args.delay_samples.map(|count| count == 1).or(given.as_ref().and_then(Given::delayed));
-    let design = design.with_delay(delayed.unwrap_or(design.is_delayed()));
-    let (model, delayed) = (subject.internal_model(), design.is_delayed());
-    let asked = Asked { model, sigma: &sigma, step: step.as_ref(), delayed, n_o: args.n_o };
+    let delayed = delayed.unwrap_or(design.is_delayed());
+    let design = design.with_delay(delayed);
+    let asked =
+        Asked { model: subject.internal_model(), sigma: &sigma, step: step.as_ref(), delayed, n_o: args.n_o };
     let certificate = provenance(given.as_ref(), &subject, &asked);
     refuse(args, &design, step.as_ref(), certificate.as_ref())?;
     let regulator = design.regulator();

@@ -81,7 +81,10 @@ pub(super) fn of_samples(run: &SampledCertification<'_>, rechecked: bool) -> Vec
     facts.push(("to", to(run.spec, &periodic, radii, run.control().map(|bounds| (bounds, "")))));
     facts.extend(uncertain_gain(run.spec).map(|said| ("input gain", said)));
     facts.extend(interval_costs(&run.interval_costs, "the gain").map(|said| ("intervals", said)));
-    let of_the_computer = "no delay, rounding, quantisation or saturation";
+    let of_the_computer = match run.sampling.delayed {
+        false => "no delay, rounding, quantisation or saturation",
+        true => "every control put out at the next sample, no rounding, quantisation or saturation",
+    };
     facts.push(("assumed", format!("{}; {of_the_computer}", assumed(run.spec, run.largest_arguments(), None))));
     vec![Block::facts(facts), Block::says(norms(run.spec, "law"))]
 }

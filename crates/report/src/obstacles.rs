@@ -188,6 +188,7 @@ fn obstacle_advice(run: &Certification<'_>, obstacle: Obstacle, add: &mut dyn Fn
         }
         Failing::Gain { .. } => add("a larger gain, or none: without --sigma the smallest one is sought"),
         Failing::InputGain { .. } => add("a narrower interval `input_gain`"),
+        Failing::Delay { .. } => add("a shorter sampling period or a smaller mu"),
         Failing::Hold { .. } | Failing::Samples => add("a smaller gain or a shorter sampling period"),
         Failing::Sampling => add("a shorter sampling period, or a smaller mu"),
         Failing::Bounds => add("a `domain` on which the bounding functions are valid"),

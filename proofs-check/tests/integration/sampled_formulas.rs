@@ -121,7 +121,13 @@ impl Float {
 
     fn terms(&self) -> Terms {
         let weight_sum = decimal("4.612375348685489").unwrap();
-        Terms { sigma: rational(self.sigma), samples: self.samples, gain: rational(self.gain), weight_sum }
+        Terms {
+            sigma: rational(self.sigma),
+            samples: self.samples,
+            gain: rational(self.gain),
+            weight_sum,
+            delayed: self.delayed,
+        }
     }
 
     /// pi/N_s.

@@ -158,6 +158,10 @@ impl<'m> SampledSearch<'m> {
         near: Option<(f64, f64)>,
         room: f64,
     ) -> Result<(PeriodicSet, AtSigma), Obstacle> {
+        let share = 3.0 * self.law.lost();
+        if self.law.delayed && (share.is_nan() || share >= 1.0) {
+            return Err(Failing::Delay { share }.into());
+        }
         let set = PeriodicSet::least_sampled(self.model, &self.origin, (&self.law, sigma), floors, room)?;
         let distances = self.distances(&set);
         let evaluate = |rho: f64, eta: f64| self.evaluate(sigma, &set, distances, (rho, eta));

@@ -5,6 +5,7 @@ use super::law::SampledLaw;
 use super::witness::SampledWitness;
 use crate::data::Data;
 use crate::derivation::condition::Condition;
+use crate::derivation::sign_conditions;
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::real::{Operand, Real};
@@ -35,8 +36,7 @@ pub(super) fn conditions(data: &Data<'_>, witness: &SampledWitness, law: &Sample
         Some(step) => data.rational(&(Rational::from(step * &y_0) - e_0)),
         None => &law.step * data.rational(&y_0) - data.rational(e_0),
     };
-    vec![
-        Condition::less("sign", "0 < gm", data.zero(), data.rational(&gm)),
-        Condition::at_most("set", "0 <= h Y_0 - E_0", data.zero(), room),
-    ]
+    let mut conditions = sign_conditions(data, &[("gm", &gm)]);
+    conditions.push(Condition::at_most("set", "0 <= h Y_0 - E_0", data.zero(), room));
+    conditions
 }

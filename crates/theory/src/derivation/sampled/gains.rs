@@ -321,6 +321,9 @@ mod tests {
         let mut e = vec![Complex::new(0.0, 0.0); n as usize];
         let mut means = vec![Complex::new(q_mean, 0.0); n as usize];
         let c = |l: i64| weights.weight_f64(l.unsigned_abs()) * if l == 0 { 1.0 } else { 0.5 };
+        // y of the sample before, and M'N R M.
+        let mut last = e.clone();
+        let through: f64 = (-n_o..=n_o).map(|l| c(l) * (TAU * l as f64 / n as f64).cos()).sum();
         // Of each oscillator, by the frequency at which it turns.
         let mut zeta = vec![e.clone(); 2 * n_o as usize + 1];
         for (m, c) in &both {
@@ -347,12 +350,21 @@ mod tests {
             }
             let g: Complex<f64> = (-n_o..=n_o).map(|l| c(l) / (within(l) - 1.0)).sum();
             let d = (turn(phi) - (1.0 - h * sigma)) / h;
-            let own = mean / (d * (1.0 + b * law.gain * h * g) - (1.0 - b) * sigma);
+            // y, and e from it: without a delay y/D.
+            let (y, own) = if law.delayed {
+                let back = turn(-phi);
+                let y = mean / (1.0 + b * law.gain * h * (g - through * back) - (1.0 - b) * sigma * back / d);
+                (y, (1.0 + h * sigma * back) * y / d)
+            } else {
+                let own = mean / (d * (1.0 + b * law.gain * h * g) - (1.0 - b) * sigma);
+                (d * own, own)
+            };
             for k in 0..n {
                 e[k as usize] += own * at(k);
+                last[k as usize] += y * turn(-phi) * at(k);
                 for l in -n_o..=n_o {
                     let factor = turn(TAU * l as f64 / n as f64) * (within(l) - 1.0);
-                    zeta[(l + n_o) as usize][k as usize] -= h * d * own / factor * at(k);
+                    zeta[(l + n_o) as usize][k as usize] -= h * y / factor * at(k);
                 }
             }
         }
@@ -370,7 +382,8 @@ mod tests {
                 .map(|l| c(l) * turn(TAU * l as f64 / n as f64) * zeta[(l + n_o) as usize][k as usize])
                 .sum();
             // It is what the law puts out.
-            let law_u = law.gain * v.re - sigma * here;
+            let off = if law.delayed { h * last[k as usize].re } else { 0.0 };
+            let law_u = law.gain * (v.re + through * off) - sigma * (here - off);
             assert!((law_u - u / b).abs() < 1e-8 * (1.0 + law_u.abs()), "{law_u} {u} {b}");
             for step in 0..FINE {
                 let s = h * (f64::from(step) + 0.5) / f64::from(FINE);
@@ -399,20 +412,28 @@ mod tests {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
             (state >> 40) as f64 / 2f64.powi(23) - 1.0
         };
-        let (mut worst, mut with_gain, mut seen) = ([0.0_f64; 6], [0.0_f64; 6], 0);
+        let (mut worst, mut with_gain, mut with_delay, mut seen) = ([0.0_f64; 6], [0.0_f64; 6], [0.0_f64; 6], 0);
         let models = [(2, "1"), (3, "1"), (12, "1"), (25, "1"), (25, "30")];
         let intervals = [[1.0, 1.0], [0.8, 1.25], [0.5, 1.1], [0.95, 1.8]];
-        for ((samples, mu), [low, high]) in
-            models.into_iter().flat_map(|model| intervals.map(|interval| (model, interval)))
-        {
+        let cases = models.into_iter().flat_map(|model| intervals.map(|interval| (model, interval)));
+        for (((samples, mu), [low, high]), delayed) in cases.flat_map(|case| [false, true].map(|delayed| (case, delayed))) {
             let spec = example(samples, mu, |file| {
                 file["input_gain"] = json!({ "nominal": 1, "low": low.to_string(), "high": high.to_string() });
+                file["internal_model"]["delay_samples"] = u8::from(delayed).into();
             });
             let data = Data::new(&spec, 128);
             let enclosed = law(&data);
             let law = enclosed.to_f64();
+            // The law with a delay needs more samples.
+            if delayed && 3.0 * law.load() >= 2.0 {
+                continue;
+            }
             let pairs = sampled_trade_off(&data, &enclosed).candidates;
-            let worst = if high > low { &mut with_gain } else { &mut worst };
+            let worst = match (delayed, high > low) {
+                (true, _) => &mut with_delay,
+                (false, true) => &mut with_gain,
+                (false, false) => &mut worst,
+            };
             for product in [0.02, 0.3, 1.0] {
                 let sigma = product / law.step;
                 let gains = SampledGains::new(&law, &sigma, &1.0);
@@ -470,6 +491,8 @@ mod tests {
             let least = [0.6, 0.6, 0.6, 0.6, 0.6, 0.3];
             assert!(worst.iter().zip(least).all(|(ratio, least)| *ratio > least), "{worst:?}");
         }
+        // 1 + h sigma, and |b1| for b1 E^-1, lose something.
+        assert!(with_delay.iter().zip([0.5, 0.5, 0.5, 0.5, 0.5, 0.2]).all(|(ratio, least)| *ratio > least), "{with_delay:?}");
     }
 
     /// Z for the best pair (k0, k1).
@@ -481,6 +504,12 @@ mod tests {
         pairs: &[(f64, f64, u32)],
     ) -> f64 {
         let w = data.base_frequency.midpoint_f64();
+        if let Some(swing) = gains.swing {
+            // T = 1.
+            let of = |(k0, k1, _): &(f64, f64, u32)| k0 / (w * w) * size * size + k1 / w.powi(4) * rate * rate;
+            let mean = pairs.iter().map(of).fold(f64::INFINITY, f64::min);
+            return (swing * size * size + gains.enlarged.powi(2) * mean).sqrt();
+        }
         let of = |(k0, k1, _): &(f64, f64, u32)| {
             (1.0 / (2.0 * law.mu) + k0 / (w * w)) * size * size + k1 / w.powi(4) * rate * rate
         };

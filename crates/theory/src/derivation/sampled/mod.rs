@@ -101,9 +101,7 @@ impl SampledEvaluation {
         conditions.extend(law_conditions(data, &law, &product));
         conditions.extend(room_condition(data, &law, &gains));
         conditions.extend(too_large_a_sum(data, &law));
-        if law.delayed {
-            conditions.extend(delay::conditions(data, witness, &law));
-        } else {
+        if !law.delayed {
             conditions.extend(energy::conditions(data, witness));
         }
         conditions.extend(match gains.has_energy() {
@@ -137,6 +135,9 @@ impl SampledEvaluation {
         let nominal = data.spec.input_gain.as_ref().map(|gain| gain.nominal.enclose(data.precision));
         let control =
             Control { steady: answer.steady(&origin, &size.forcing, &by_parts), transient }.over(nominal.as_ref());
+        if law.delayed {
+            conditions.extend(delay::conditions(data, witness, &law));
+        }
         conditions.push(match law.delayed {
             false => Condition::less("C4", level_words(data), start, exit),
             true => Condition::less("C4d", format!("gm h (Y_0 + y_per)^2 + {}", level_words(data)), start, exit),
