@@ -43,6 +43,7 @@ mod plant_rules;
 mod plant_support;
 mod sampled_certificates;
 mod sampled_claims;
+mod sampled_delay;
 mod sampled_formulas;
 mod sampled_gain;
 mod sampled_plants;

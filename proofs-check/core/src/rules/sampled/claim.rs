@@ -85,7 +85,8 @@ impl<'a> Regulator<'a> {
             ),
             true => (
                 "et_(k+1) = e_k - h sigma et_k, z_(k+1) = R (z_k - M e_k) + M et_(k+1), u_(k+1) = -sigma et_(k+1) + K M'N R \
-                 (z_(k+1) - M et_(k+1)), put out exactly at the sample k+1",
+                 (z_(k+1) - M et_(k+1)), put out exactly at the sample k+1; u_0 is that of the law too, or -sigma et_0 where z_0 = M e_0 \
+                 is set",
                 "no computation that takes more than a sample",
             ),
         };
