@@ -48,8 +48,7 @@ fn attempt(args: &ControllerArgs) -> Result<u8, Failure> {
     let delayed = args.delay_samples.map(|count| count == 1).or(given.as_ref().and_then(Given::delayed));
     let delayed = delayed.unwrap_or(design.is_delayed());
     let design = design.with_delay(delayed);
-    let asked =
-        Asked { model: subject.internal_model(), sigma: &sigma, step: step.as_ref(), delayed, n_o: args.n_o };
+    let asked = Asked { model: subject.internal_model(), sigma: &sigma, step: step.as_ref(), delayed, n_o: args.n_o };
     let certificate = provenance(given.as_ref(), &subject, &asked);
     refuse(args, &design, step.as_ref(), certificate.as_ref())?;
     let regulator = design.regulator();
@@ -137,7 +136,11 @@ fn refuse(
 }
 
 /// Says what the sampling does that is no reason to refuse it.
-fn remarks((design, step): (&Design<'_>, &Constant), (regulator, discrete): (&Regulator, &Discrete), sampled: Convergence) {
+fn remarks(
+    (design, step): (&Design<'_>, &Constant),
+    (regulator, discrete): (&Regulator, &Discrete),
+    sampled: Convergence,
+) {
     if let Some(samples) = design.uneven_samples(step) {
         output::remark(&format!(
             "a period has {samples:.6} samples, not a whole number: the samples fall differently in every period, and the \

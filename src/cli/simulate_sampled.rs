@@ -48,7 +48,10 @@ pub fn attempt(args: &SimulateArgs, step: &str) -> Result<u8, Failure> {
     };
     if discrete.prediction.is_some() && converters.delay > 0.0 {
         let help = "leave --delay out, or take the law without a delay: --delay-samples 0";
-        return Err(Failure::call("the law with a delay puts its control out at the next sample: --delay is not for it", help));
+        return Err(Failure::call(
+            "the law with a delay puts its control out at the next sample: --delay is not for it",
+            help,
+        ));
     }
     let discrete = match &limit {
         None => discrete,

@@ -43,7 +43,7 @@ fn radius(regulator: &Regulator, discrete: &Discrete) -> f64 {
 #[test]
 fn every_number_of_oscillators_below_half_the_samples_is_stable() {
     let mut largest = 0.0_f64;
-    for samples in [20, 50, 101, 200].into_iter().step_by(every(2)) {
+    for samples in [20_u32, 50, 101, 200].into_iter().step_by(every(2)) {
         for (mu, share) in [("0.1", 0.05), ("1", 0.3), ("4", 1.0)] {
             for n_o in (0..samples.div_ceil(2)).step_by(if samples > 60 { every(11) } else { every(3) }) {
                 let (regulator, discrete, told) = law(mu, share * f64::from(samples), n_o, samples);
@@ -94,7 +94,9 @@ fn a_late_law_is_unstable_for_many_oscillators() {
     let words = told("12", &[]);
     assert!(words.contains("a computation that takes the whole sample makes that loop unstable"), "{words}");
     assert!(words.contains("1.000004") && words.contains("delay_samples"), "{words}");
-    assert!(!told("6", &[]).contains("whole sample") && !told("12", &["--delay-samples", "1"]).contains("whole sample"));
+    assert!(
+        !told("6", &[]).contains("whole sample") && !told("12", &["--delay-samples", "1"]).contains("whole sample")
+    );
 }
 
 /// The linear system of an export, and what is read back from it, are the stepper.
@@ -111,14 +113,19 @@ fn the_export_is_the_stepper() {
     let (regulator, own, _) = law("1", 7.0, 3, 50);
     assert_eq!(discrete, own);
     let value: Value = serde_json::from_str(&text).unwrap();
-    assert_eq!((&value["discrete"]["delay_samples"], value["discrete"]["Phi"].as_array().unwrap().len()), (&json!(1), 8));
+    assert_eq!(
+        (&value["discrete"]["delay_samples"], value["discrete"]["Phi"].as_array().unwrap().len()),
+        (&json!(1), 8)
+    );
     let phi = discrete.transition();
     let mut stepper = Stepper::new(regulator.clone(), discrete.clone());
     let mut x = vec![0.0; discrete.dimension()];
     for k in 0..200 {
         let e = (0.37 * f64::from(k)).sin();
         let u: f64 = discrete.output.iter().zip(&x).map(|(c, x)| c * x).sum::<f64>() + discrete.feedthrough * e;
-        x = (0..x.len()).map(|i| (0..x.len()).map(|j| phi[(i, j)] * x[j]).sum::<f64>() + discrete.input[i] * e).collect();
+        x = (0..x.len())
+            .map(|i| (0..x.len()).map(|j| phi[(i, j)] * x[j]).sum::<f64>() + discrete.input[i] * e)
+            .collect();
         assert!((stepper.step(e) - u).abs() < 1e-9);
         assert!(stepper.state().iter().zip(&x).all(|(a, b)| (a - b).abs() < 1e-9));
     }
@@ -181,7 +188,9 @@ fn falsify_finds_nothing_in_a_true_claim_and_what_is_wrong_in_a_forged_one() {
         let Finding::Holds { shares, .. } = finding else { panic!("{finding:?}") };
         assert!(shares.iter().all(|(_, share)| *share <= 1.0), "{shares:?}");
     }
-    for (place, factor) in [("/claim/periodic_solution/e", 0.01), ("/claim/control/transient", 0.01), ("/witness/D_e", 0.03)] {
+    for (place, factor) in
+        [("/claim/periodic_solution/e", 0.01), ("/claim/control/transient", 0.01), ("/witness/D_e", 0.03)]
+    {
         let mut forged = DELAYED.clone();
         let number = forged.pointer_mut(place).unwrap();
         let value = number.as_str().unwrap().parse::<f64>().unwrap();
@@ -213,14 +222,21 @@ fn what_is_refused() {
         change(&mut document);
         Specification::from_json("asked", &document.to_string())
     };
-    assert!(read(&|spec| spec["internal_model"]["delay_samples"] = 1.into()).unwrap().internal_model.sampling.unwrap().delayed);
+    assert!(
+        read(&|spec| spec["internal_model"]["delay_samples"] = 1.into())
+            .unwrap()
+            .internal_model
+            .sampling
+            .unwrap()
+            .delayed
+    );
     for (value, words) in [
         (json!(2), "a control takes 2 samples"),
-        (json!(-1), "whole number"),
-        (json!("1"), "whole number"),
-        (json!(true), "whole number"),
-        (json!(0.5), "whole number"),
-        (Value::Null, "whole number"),
+        (json!(-1), "`delay_samples` is"),
+        (json!("1"), "`delay_samples` is"),
+        (json!(true), "`delay_samples` is"),
+        (json!(0.5), "`delay_samples` is"),
+        (Value::Null, "`delay_samples` is"),
     ] {
         let error = read(&|spec| spec["internal_model"]["delay_samples"] = value.clone()).unwrap_err().to_string();
         assert!(error.contains(words), "{value}: {error}");

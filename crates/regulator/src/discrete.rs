@@ -72,7 +72,8 @@ impl Discrete {
     #[must_use]
     pub fn first_control(&self, regulator: &Regulator, z: &[f64]) -> f64 {
         let turns = [[1.0, 0.0]].into_iter().chain(self.rotations.iter().copied());
-        let parts = z.iter().take(1).map(|z| [*z, 0.0]).chain(z[z.len().min(1)..].chunks_exact(2).map(|z| [z[0], z[1]]));
+        let parts =
+            z.iter().take(1).map(|z| [*z, 0.0]).chain(z[z.len().min(1)..].chunks_exact(2).map(|z| [z[0], z[1]]));
         let terms = regulator.weights.iter().zip(turns).zip(parts);
         let sum: f64 = terms.map(|((weight, [cosine, sine]), [a, b])| weight * (cosine * a + sine * b)).sum();
         let u = self.gain * sum / regulator.divisor();

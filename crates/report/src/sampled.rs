@@ -144,7 +144,10 @@ impl<'r> SampledReport<'r> {
             ),
         ];
         if run.sampling.delayed {
-            items.push("With a delay everything is by norms: matrix inequalities over a plant's derivatives are not used.".to_owned());
+            items.push(
+                "With a delay everything is by norms: matrix inequalities over a plant's derivatives are not used."
+                    .to_owned(),
+            );
         }
         items.extend(of_the_data(run.spec, run.largest_arguments(), None));
         items.push("Used: the base frequency is exactly 2 pi / period (proved of the numbers given).".to_owned());

@@ -66,7 +66,18 @@ impl Float {
         let h = period / f64::from(samples);
         let growth = 1.0 + h * mu * NBAR_SQUARED / 2.0;
         let sigma = share / h;
-        Float { period, mu, sigma, samples, h, gain: mu / growth, growth, a: 1.0 - h * sigma, ends: [1.0; 2], delayed: false }
+        Float {
+            period,
+            mu,
+            sigma,
+            samples,
+            h,
+            gain: mu / growth,
+            growth,
+            a: 1.0 - h * sigma,
+            ends: [1.0; 2],
+            delayed: false,
+        }
     }
 
     fn with_gain(self, ends: [f64; 2]) -> Float {

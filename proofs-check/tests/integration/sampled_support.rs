@@ -43,9 +43,11 @@ pub fn words(certificate: &Value) -> String {
         text(&set["E0"]),
         text(&set["Z0"]),
         samples = text(&claim["samples"]),
-        delayed = if claim["delay_samples"] == 1 { "whose control is computed in the sample before it acts, " } else { "" },
+        delayed =
+            if claim["delay_samples"] == 1 { "whose control is computed in the sample before it acts, " } else { "" },
         start = match &certificate["witness"]["Y_0"] {
-            y_0 if claim["delay_samples"] == 1 => format!(", with a prediction of e there within h*{} of it", text(y_0)),
+            y_0 if claim["delay_samples"] == 1 =>
+                format!(", with a prediction of e there within h*{} of it", text(y_0)),
             _ => String::new(),
         },
     )

@@ -7,7 +7,8 @@ use super::triple::{EXISTENCE, STABILITY};
 use super::write::{FORMAT, VERSION};
 use rug::Rational;
 use sigmastar_lang::spec::{
-    Document, ErrorKind, Errors, Object, Reported, SampledGain, Sampling, SpecErrors, Value, positive_constant, read_delay,
+    Document, ErrorKind, Errors, Object, Reported, SampledGain, Sampling, SpecErrors, Value, positive_constant,
+    read_delay,
 };
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
 use sigmastar_theory::derivation::sampled::{DelayWitness, SampledWitness};

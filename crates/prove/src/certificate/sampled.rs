@@ -48,7 +48,8 @@ pub fn sampled_certificate_json(run: &SampledCertification<'_>) -> Option<Value>
         ("statement", text(sampled_statement(spec, witness))),
     ];
     let delay = witness.sampling.delayed.then(|| ("delay_samples", Value::from(1)));
-    let claim = object(heading.into_iter().chain(delay).chain(input_gain_json(spec)).chain(parameters_json(spec)).chain(rest));
+    let claim =
+        object(heading.into_iter().chain(delay).chain(input_gain_json(spec)).chain(parameters_json(spec)).chain(rest));
     let of_delay = witness.delay.as_ref().map_or_else(Vec::new, NumberFields::json);
     let further = [("weight_sum", exact(&witness.law.weight_sum)), ("transfer", object([("proof", text(SAMPLED))]))];
     let parts =

@@ -8,12 +8,11 @@ use super::produce::undecided_or_error;
 use super::proof::{Outcome, SampledProof};
 use super::refusal::Refusal;
 use super::round::{
-    LONG_DIGITS, RoundedBox, SHORT_DIGITS, box_with, claimed_set, first_proved, nearest, room, rounded_box, rounded_sigma,
+    LONG_DIGITS, RoundedBox, SHORT_DIGITS, box_with, claimed_set, first_proved, nearest, room, rounded_box,
+    rounded_sigma,
 };
 use super::verdict::Verdict;
-use crate::search::{
-    Extreme, Failing, FloatModel, PastShare, SampledLimit, SampledProposal, SampledSearch, weight_h,
-};
+use crate::search::{Extreme, Failing, FloatModel, PastShare, SampledLimit, SampledProposal, SampledSearch, weight_h};
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, round_f64, round_rational};

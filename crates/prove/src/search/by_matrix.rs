@@ -74,7 +74,16 @@ fn joint_error_box(
     let metrics = inequality.metrics().into_iter().zip(levels);
     if rho > 1.0 && eta > 0.0 && metrics.into_iter().all(inside) {
         let threshold = inequality.value.to_f64();
-        return Ok(AtSigma { rho, eta, d_x, dist_e, dist_z, paths: Paths::both(Path::Straight), past: None, threshold });
+        return Ok(AtSigma {
+            rho,
+            eta,
+            d_x,
+            dist_e,
+            dist_z,
+            paths: Paths::both(Path::Straight),
+            past: None,
+            threshold,
+        });
     }
     Err(Failing::Bounds.at(x_b, e_b))
 }

@@ -521,8 +521,15 @@ mod tests {
         };
         let mut seen = [0; 2];
         for _ in 0..4000 {
-            let form =
-                Form { xx: next() + 0.1, ee: next() + 0.1, yy: next() + 0.1, xe: next(), xy: next(), ey: next(), past: None };
+            let form = Form {
+                xx: next() + 0.1,
+                ee: next() + 0.1,
+                yy: next() + 0.1,
+                xe: next(),
+                xy: next(),
+                ey: next(),
+                past: None,
+            };
             let definite = form.minors().iter().all(|minor| *minor > 0.0);
             let radius = radius(&form).unwrap();
             if (radius - 1.0).abs() > 1e-9 {

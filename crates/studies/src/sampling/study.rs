@@ -118,7 +118,8 @@ fn default_gains(continuous: Option<f64>) -> Vec<Rational> {
 /// The pair of a gain with the fewest samples: doubled until a search finds a witness, then bisected.
 fn longest(certifier: &impl Certifier, period: &Constant, gain: &Rational) -> Result<Pair, Obstacle> {
     let sigma = gain.to_f64();
-    let promise = |n: u32| samples(certifier, period, n).ok_or(MANY).and_then(|sampling| certifier.promise(&sampling, sigma));
+    let promise =
+        |n: u32| samples(certifier, period, n).ok_or(MANY).and_then(|sampling| certifier.promise(&sampling, sigma));
     // h sigma <= 1.
     let least = (period.to_f64() * sigma * (1.0 - 1e-12)).ceil().max(2.0);
     if least > f64::from(MAX_SAMPLES) {

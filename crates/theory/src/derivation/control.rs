@@ -109,12 +109,7 @@ where
 /// The same at samples with a delay, u = -sigma e + K M'N R zeta + h (sigma + K b1) y_last: with the level of U + gm h y_last^2, and
 /// [`of_past`] besides.
 #[must_use]
-pub fn transient_with<R: Real>(
-    problem: &impl Problem<R>,
-    with_gain: [&R; 2],
-    h: &R,
-    (level, of_past): (&R, &R),
-) -> R
+pub fn transient_with<R: Real>(problem: &impl Problem<R>, with_gain: [&R; 2], h: &R, (level, of_past): (&R, &R)) -> R
 where
     for<'a> &'a R: Operand<R>,
 {

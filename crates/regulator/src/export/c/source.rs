@@ -80,7 +80,9 @@ fn step(upper: &str, prefix: &Prefix, oscillators: bool, put_out: PutOut) -> Str
     };
     let index = if oscillators { "    int l;\n" } else { "" };
     let (next, first) = match delayed {
-        true => (", next", "    /* What e is at the next sample without input. */\n    next = e + controller->ahead;\n"),
+        true => {
+            (", next", "    /* What e is at the next sample without input. */\n    next = e + controller->ahead;\n")
+        }
         false => ("", ""),
     };
     // What R turns further with a delay.

@@ -2,7 +2,7 @@
 //! stored in the Lyapunov function, and how far the prediction may be off at the start.
 
 use super::law::SampledLaw;
-use super::witness::SampledWitness;
+use super::witness::{DelayWitness, SampledWitness};
 use crate::data::Data;
 use crate::derivation::condition::Condition;
 use crate::derivation::sign_conditions;
@@ -10,17 +10,8 @@ use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::real::{Operand, Real};
 
-/// The further free numbers.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct DelayWitness {
-    /// gm > 0, the weight of h y_{k-1}^2.
-    pub gm: Rational,
-    /// Y_0: |e_0 - et_0| <= h Y_0 at the start.
-    pub y_0: Rational,
-}
-
 /// `gm h (Y_0 + y_per)^2`, what the last y has in the level at the start.
-pub fn stored<R: Real>(step: &R, gm: &R, [y_0, y_per]: [&R; 2]) -> R
+pub(super) fn stored<R: Real>(step: &R, gm: &R, [y_0, y_per]: [&R; 2]) -> R
 where
     for<'a> &'a R: Operand<R>,
 {

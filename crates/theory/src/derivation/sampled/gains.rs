@@ -416,7 +416,9 @@ mod tests {
         let models = [(2, "1"), (3, "1"), (12, "1"), (25, "1"), (25, "30")];
         let intervals = [[1.0, 1.0], [0.8, 1.25], [0.5, 1.1], [0.95, 1.8]];
         let cases = models.into_iter().flat_map(|model| intervals.map(|interval| (model, interval)));
-        for (((samples, mu), [low, high]), delayed) in cases.flat_map(|case| [false, true].map(|delayed| (case, delayed))) {
+        for (((samples, mu), [low, high]), delayed) in
+            cases.flat_map(|case| [false, true].map(|delayed| (case, delayed)))
+        {
             let spec = example(samples, mu, |file| {
                 file["input_gain"] = json!({ "nominal": 1, "low": low.to_string(), "high": high.to_string() });
                 file["internal_model"]["delay_samples"] = u8::from(delayed).into();
@@ -492,7 +494,10 @@ mod tests {
             assert!(worst.iter().zip(least).all(|(ratio, least)| *ratio > least), "{worst:?}");
         }
         // 1 + h sigma, and |b1| for b1 E^-1, lose something.
-        assert!(with_delay.iter().zip([0.5, 0.5, 0.5, 0.5, 0.5, 0.2]).all(|(ratio, least)| *ratio > least), "{with_delay:?}");
+        assert!(
+            with_delay.iter().zip([0.5, 0.5, 0.5, 0.5, 0.5, 0.2]).all(|(ratio, least)| *ratio > least),
+            "{with_delay:?}"
+        );
     }
 
     /// Z for the best pair (k0, k1).

@@ -15,13 +15,12 @@ mod pair;
 mod stability;
 mod witness;
 
-pub use delay::{DelayWitness, stored};
 pub use energy::SampledEnergyNumbers;
 pub use gains::SampledGains;
 pub use law::SampledLaw;
 pub use pair::{SampledPair, sampled_trade_off};
 pub use stability::{DecayForms, DecayNumbers, Form, Part, Past};
-pub use witness::SampledWitness;
+pub use witness::{DelayWitness, SampledWitness};
 
 use super::condition::{self, Condition};
 use super::control::{self, Control};
@@ -116,7 +115,7 @@ impl SampledEvaluation {
         let by_parts = control::by_parts(data, with_gain, [predicted.as_ref().unwrap_or(&size.e_per), &z]);
         if law.delayed {
             let y_per = gains.largest_mean(&size.forcing);
-            start = start + stored(&law.step, &gm, [&y_0, &y_per]);
+            start = start + delay::stored(&law.step, &gm, [&y_0, &y_per]);
         }
         // At the gain b the weight of zeta is b eta: the square is convex in b, so that it is largest at an end.
         let of_past = law.delayed.then(|| control::of_past(with_gain, [&law.step, &law.weight_sum], &gm));
@@ -206,11 +205,7 @@ fn law_conditions(data: &Data<'_>, law: &SampledLaw<Enclosure>, product: &Enclos
 
 /// With an input gain every harmonic has an answer, and a bound: no denominator vanishes. Told where it is not proved, and without it
 /// nothing that a periodic solution needs is.
-fn room_condition(
-    data: &Data<'_>,
-    law: &SampledLaw<Enclosure>,
-    gains: &SampledGains<Enclosure>,
-) -> Option<Condition> {
+fn room_condition(data: &Data<'_>, law: &SampledLaw<Enclosure>, gains: &SampledGains<Enclosure>) -> Option<Condition> {
     let what = if law.delayed {
         "0 < 1/(1+th1) - |1-b| sigma/|D_j| for every harmonic j, b = b_lo and b_hi"
     } else {

@@ -1,6 +1,5 @@
 //! The free numbers of a claim about the regulator at samples.
 
-use super::delay::DelayWitness;
 use crate::derivation::initial_set::ClaimedSet;
 use crate::derivation::mean_squares::MeanSquares;
 use crate::derivation::paths::Paths;
@@ -44,6 +43,15 @@ pub struct SampledWitness {
     pub paths: Paths,
     /// What a delay adds: with one exactly where `sampling` says so.
     pub delay: Option<DelayWitness>,
+}
+
+/// What a delay adds to them (derivation, 13.4).
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct DelayWitness {
+    /// gm > 0, the weight of h y_{k-1}^2.
+    pub gm: Rational,
+    /// Y_0: |e_0 - et_0| <= h Y_0 at the start.
+    pub y_0: Rational,
 }
 
 impl SampledWitness {

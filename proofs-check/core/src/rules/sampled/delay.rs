@@ -50,13 +50,7 @@ impl Past {
     ///
     /// At the start y_{-1} is within Y_0 of 0, that of the periodic solution within `y_per`. Where the regulator starts with z = M e the last y
     /// that zeta is told is 0 there and that of e is not: both are within the sum.
-    pub fn level(
-        &self,
-        law: &Law<'_>,
-        free: &Free,
-        reach: &[Interval; 3],
-        y_per: &Interval,
-    ) -> (Condition, Interval) {
+    pub fn level(&self, law: &Law<'_>, free: &Free, reach: &[Interval; 3], y_per: &Interval) -> (Condition, Interval) {
         let d = law.d;
         let [d_x, d_e, w_x, h, gm] = [&free.d_x, &free.d_e, &free.w_x, &free.h, &self.gm].map(|value| d.number(value));
         let stored = &gm * &law.h * (d.number(&self.y_0) + y_per).sqr();
