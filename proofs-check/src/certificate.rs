@@ -131,7 +131,7 @@ fn prove(
     }
     let proved = derivation.prove(d, lines)?;
     let free = derivation.free();
-    claim.check(d, &proved, [&free.x_p, &free.e_p])?;
+    claim.check(d, &proved, [&free.x_p, &free.e_p], derivation.prediction())?;
     if !rates.is_empty() {
         if !derivation.rests_on_norms() {
             return bad("/claim/for_n_o", "rates are proved with a claim by norms, not with a matrix inequality");

@@ -7,7 +7,6 @@ use proofs_core::plant::OfPlant;
 use proofs_core::range::Range;
 use proofs_core::rules::claim::Claim;
 use proofs_core::rules::derivation::Derivation;
-use proofs_core::rules::sampled::claim::Regulator;
 use proofs_core::spec::Specification;
 use proofs_core::verdict::{Outcome, invalid};
 use rug::Rational;
@@ -71,9 +70,9 @@ impl Subject {
                     None => assumed(spec, arguments),
                 };
                 list.extend(spec.period.range().map(period));
-                match claim.sampled {
-                    Some(_) => {
-                        list.extend(Regulator::assumed(spec.actuator.is_some()));
+                match &claim.sampled {
+                    Some(sampled) => {
+                        list.extend(sampled.assumed(spec.actuator.is_some()));
                         list.extend(spec.input_gain.as_ref().map(|gain| format!("the regulator{}", output(gain))));
                     }
                     None => list.push(regulator(spec)),

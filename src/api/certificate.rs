@@ -104,7 +104,9 @@ impl Claim {
             Run::Sampled(run) => {
                 let witness = &run.claim()?.witness;
                 let gain = write_exact(&witness.law.gain);
-                let samples = Samples { period: witness.sampling.text(), count: witness.sampling.samples, gain };
+                let sampling = &witness.sampling;
+                let samples =
+                    Samples { period: sampling.text(), count: sampling.samples, gain, delayed: sampling.delayed };
                 (nearest(sigma), Some(samples), sampled_statement(run.spec, witness))
             }
         };
@@ -174,6 +176,8 @@ pub struct Samples {
     pub count: u32,
     /// K of the law `u = -sigma e + K v`, a double, exactly.
     pub gain: String,
+    /// Whether it is the law whose control is computed in the sample before it acts (`delay_samples` 1).
+    pub delayed: bool,
 }
 
 /// The set `|x| <= x0`, `|e| <= e0`, `sqrt(z'Nz) <= z0`, or `z = M e` in the place of the last; of a plant by its formulas

@@ -106,7 +106,8 @@ pub fn regulator_matrices(subject: impl Into<Subject>, sigma: &str, n_o: u32) ->
 ///
 /// # Errors
 /// Those of [`regulator_matrices`]; what is wrong with the sampling time; [`Range`](ErrorKind::Range) for one that works
-/// badly or not at all: `sigma step > 1`, or the fastest oscillator turns by half a turn or more in a sample.
+/// badly or not at all: `sigma step > 1`, or the fastest oscillator turns by half a turn or more in a sample;
+/// [`NotAvailable`](ErrorKind::NotAvailable) where the document has `delay_samples` 1, whose law has other matrices.
 pub fn sampled_regulator(
     subject: impl Into<Subject>,
     sigma: &str,
@@ -115,6 +116,11 @@ pub fn sampled_regulator(
 ) -> Result<SampledRegulator, Error> {
     let (subject, sigma) = (subject.into(), positive("sigma", sigma)?);
     let design = design(&subject, &sigma, n_o)?;
+    if design.is_delayed() {
+        let message = "the law with `delay_samples` 1 is not given as matrices here";
+        let help = "export it with `sigmastar controller`, or leave `delay_samples` out";
+        return Err(Error::new(ErrorKind::NotAvailable, message, help));
+    }
     let regulator = representable(&design)?;
     let step = positive("step", step)?;
     if let Some(error) = design.sampling_errors(&step).first() {

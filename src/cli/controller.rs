@@ -11,7 +11,7 @@ use sigmastar_document::clean;
 use sigmastar_lang::spec::Constant;
 use sigmastar_prove::reduction::Subject;
 use sigmastar_regulator::export::{self, CNames, CSources, Export, Prefix, Provenance, Scope};
-use sigmastar_regulator::{Convergence, Design, Discrete};
+use sigmastar_regulator::{Convergence, Design, Discrete, Regulator};
 use std::path::{Path, PathBuf};
 
 /// Runs the command and returns the exit code.
@@ -45,7 +45,10 @@ fn attempt(args: &ControllerArgs) -> Result<u8, Failure> {
 
     let step = step.or_else(|| given.as_ref().and_then(Given::step).cloned());
     let design = Design::new(subject.internal_model(), &sigma, args.n_o).for_actuator(subject.input_gain());
-    let asked = Asked { model: subject.internal_model(), sigma: &sigma, step: step.as_ref(), n_o: args.n_o };
+    let delayed = args.delay_samples.map(|count| count == 1).or(given.as_ref().and_then(Given::delayed));
+    let delayed = delayed.unwrap_or(design.is_delayed());
+    let design = design.with_delay(delayed);
+    let asked = Asked { model: subject.internal_model(), sigma: &sigma, step: step.as_ref(), delayed, n_o: args.n_o };
     let certificate = provenance(given.as_ref(), &subject, &asked);
     refuse(args, &design, step.as_ref(), certificate.as_ref())?;
     let regulator = design.regulator();
@@ -67,7 +70,7 @@ fn attempt(args: &ControllerArgs) -> Result<u8, Failure> {
         None => None,
         Some((discrete, step)) => {
             let sampled = Convergence::new(&design, step, &regulator, discrete).ok_or_else(beyond)?;
-            remarks(&design, step, sampled);
+            remarks((&design, step), (&regulator, discrete), sampled);
             Some((discrete, sampled))
         }
     };
@@ -137,7 +140,11 @@ fn refuse(
 }
 
 /// Says what the sampling does that is no reason to refuse it.
-fn remarks(design: &Design<'_>, step: &Constant, sampled: Convergence) {
+fn remarks(
+    (design, step): (&Design<'_>, &Constant),
+    (regulator, discrete): (&Regulator, &Discrete),
+    sampled: Convergence,
+) {
     if let Some(samples) = design.uneven_samples(step) {
         output::remark(&format!(
             "a period has {samples:.6} samples, not a whole number: the samples fall differently in every period, and the \
@@ -146,6 +153,16 @@ fn remarks(design: &Design<'_>, step: &Constant, sampled: Convergence) {
     }
     if sampled.is_unstable() {
         output::remark(&format!("{sampled}; the export says so too"));
+    }
+    // A computation that is late costs most where an oscillator turns by a quarter of a turn in a sample or more.
+    let late = Convergence::late(regulator, discrete).filter(|late| late.is_unstable() || design.turns_far(step));
+    if let Some(late) = late {
+        let what = if late.is_unstable() { "makes that loop unstable" } else { "brings that loop to the edge" };
+        output::remark(&format!(
+            "the control has to be put out at its own sample: a computation that takes the whole sample {what} (spectral radius \
+             {} on e' = u); `delay_samples` 1 in the internal model, or --delay-samples 1, is the law for that",
+            late.spectral_radius()
+        ));
     }
 }
 

@@ -56,11 +56,16 @@ impl Given {
         self.sampled.as_ref().map(|(sampling, _)| &sampling.step)
     }
 
-    /// Whether this regulator is the one at samples that it is about: the same gain, sampling period, K and Nb2, exactly, and few
+    /// Whether its law has a delay, where it is about the regulator at samples.
+    pub fn delayed(&self) -> Option<bool> {
+        self.sampled.as_ref().map(|(sampling, _)| sampling.delayed)
+    }
+
+    /// Whether this regulator is the one at samples that it is about: the same gain, sampling period, delay, K and Nb2, exactly, and few
     /// enough oscillators. `None` where it is about the regulator in continuous time.
     fn covers_samples(&self, regulator: &Asked<'_>) -> Option<bool> {
         let (sampling, law) = self.sampled.as_ref()?;
-        let same_step = regulator.step.is_some_and(|step| sampling.is(step));
+        let same_step = regulator.step.is_some_and(|step| sampling.is(step)) && regulator.delayed == sampling.delayed;
         let same_law = regulator.step.and_then(|step| regulator.model.sampled_gain(step)).as_ref() == Some(law);
         let same_gain = regulator.sigma.as_rational() == Some(&self.sigma_star);
         Some(same_step && same_law && same_gain && 2 * u64::from(regulator.n_o) < u64::from(sampling.samples))
@@ -109,6 +114,8 @@ pub struct Asked<'a> {
     pub sigma: &'a Constant,
     /// The sampling period, if any.
     pub step: Option<&'a Constant>,
+    /// Whether its law at samples has a delay.
+    pub delayed: bool,
     /// The number of oscillators.
     pub n_o: u32,
 }

@@ -12,7 +12,7 @@ use sigmastar_lab::simulate::{
     Converters, FIGURE_FILES, SampledLoop, SampledSettings, SampledSimulationReport, sampled_csv, sampled_figures,
     simulate_sampled,
 };
-use sigmastar_lang::plant::{Initial, Plant};
+use sigmastar_lang::plant::{Initial, InitialRegulator, Plant};
 use sigmastar_lang::spec::Constant;
 use sigmastar_prove::certify::Verdict;
 use sigmastar_regulator::{Design, Discrete, Regulator, WrongDimension, read_discrete, read_regulator};
@@ -35,6 +35,8 @@ pub fn attempt(args: &SimulateArgs, step: &str) -> Result<u8, Failure> {
         (Some(_), ..) => from_file(args, &step)?,
         (None, Some(sigma), Some(n_o)) => {
             let design = Design::new(&plant.internal_model, sigma, n_o).for_actuator(plant.input_gain.as_ref());
+            let delayed = args.delay_samples.map_or(design.is_delayed(), |count| count == 1);
+            let design = design.with_delay(delayed);
             if !args.quiet {
                 for error in design.sampling_errors(&step) {
                     output::remark(&format!("{error}; it is simulated as it is"));
@@ -44,6 +46,13 @@ pub fn attempt(args: &SimulateArgs, step: &str) -> Result<u8, Failure> {
         }
         _ => return Err(Failure::call("no regulator is given", "give --sigma and --n-o, or --controller")),
     };
+    if discrete.prediction.is_some() && converters.delay > 0.0 {
+        let help = "leave --delay out, or take the law without a delay: --delay-samples 0";
+        return Err(Failure::call(
+            "the law with a delay puts its control out at the next sample: --delay is not for it",
+            help,
+        ));
+    }
     // What is cut off by the actuator the law is told, as its export is.
     let limit = limit.or_else(|| plant.actuator.as_ref().map(|actuator| actuator.max.clone()));
     let limit = limit.map(|limit| limit.to_f64()).or(discrete.saturation);
@@ -132,7 +141,7 @@ fn from_file(args: &SimulateArgs, step: &Constant) -> Result<(Regulator, Discret
         let message = format!("the law in `{name}` is for the sampling time {}, not {}", discrete.step, step.to_f64());
         return Err(Failure::call(message, "give that one to --sampled, or export the regulator for the other"));
     }
-    if discrete.input.len() != regulator.dimension() {
+    if discrete.dimension() != regulator.dimension() + usize::from(discrete.prediction.is_some()) {
         let message = format!("the law in `{name}` is not of the dimension of its regulator");
         return Err(Failure::call(message, "export the regulator again"));
     }
@@ -142,10 +151,8 @@ fn from_file(args: &SimulateArgs, step: &Constant) -> Result<(Regulator, Discret
 /// The initial condition of the plant file.
 fn start(sampled: &SampledLoop, initial: &Initial) -> Result<Vec<f64>, Failure> {
     let z = sampled.regulator.start(&initial.z, initial.e).map_err(wrong_dimension)?;
-    let mut start: Vec<f64> = initial.x.iter().copied().chain([initial.e]).chain(z).collect();
-    // With a delay no control acts yet.
-    start.resize(sampled.dimension(), 0.0);
-    Ok(start)
+    let start: Vec<f64> = initial.x.iter().copied().chain([initial.e]).chain(z).collect();
+    Ok(sampled.starting(start, matches!(initial.z, InitialRegulator::Aligned)))
 }
 
 /// The refusal of an initial z that is for another number of oscillators.

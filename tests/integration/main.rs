@@ -20,6 +20,7 @@ mod cli_words;
 mod controller;
 mod controller_c;
 mod controller_certificate;
+mod delayed;
 mod documents;
 mod effort;
 mod errata_data;

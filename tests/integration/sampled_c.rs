@@ -3,7 +3,7 @@
 
 use crate::controller::installed;
 use crate::sampled::at_samples;
-use crate::sampled_falsify::{CERTIFICATE, SAMPLES};
+use crate::sampled_falsify::{CERTIFICATE, DELAYED, SAMPLES};
 use crate::support::{PLANT_TEXT, program};
 use sigmastar_document::progress::Silent;
 use sigmastar_lab::simulate::{Piece, SampledLoop, SampledRun, Tolerance, sampled_steady_state};
@@ -56,11 +56,19 @@ int main(void)
             return 1;
         }
     }
+#ifdef SIGMASTAR_DELAY_SAMPLES
+    if (!get(&controller.ahead)) {
+        return 1;
+    }
+#endif
     while (get(&e)) {
         put(sigmastar_step(&controller, e));
         for (i = 0; i < SIGMASTAR_STATES; i++) {
             put(controller.z[i]);
         }
+#ifdef SIGMASTAR_DELAY_SAMPLES
+        put(controller.ahead);
+#endif
         printf("\n");
         fflush(stdout);
     }
@@ -106,7 +114,7 @@ impl Drop for Exported {
 /// The loop over some periods: at each sample zeta, and the plant after it.
 fn run(sampled: &SampledLoop, program: &Path, start: &[f64], periods: usize) -> Vec<(Vec<f64>, Piece)> {
     let n = sampled.states();
-    let mut exported = Exported::new(program, &start[n + 1..]);
+    let mut exported = Exported::new(program, &start[n + 1..][..sampled.discrete.dimension()]);
     let mut run = SampledRun::new(sampled, 0, start).unwrap();
     let m = sampled.regulator.m();
     let mut intervals = Vec::new();
@@ -125,7 +133,7 @@ fn norm(values: &[f64]) -> f64 {
 }
 
 /// The C code of the certificate, whose header says that it is about this law, and what it does not cover.
-fn export(folder: &Path, certificate: &Path, sigma: &Constant, n_o: u32) -> std::path::PathBuf {
+fn export(folder: &Path, (certificate, delayed): (&Path, bool), sigma: &Constant, n_o: u32) -> std::path::PathBuf {
     let (source, main, binary) = (folder.join("law.c"), folder.join("main.c"), folder.join("law"));
     let (n_o, step) = (n_o.to_string(), format!("1/{SAMPLES}"));
     let arguments =
@@ -133,7 +141,8 @@ fn export(folder: &Path, certificate: &Path, sigma: &Constant, n_o: u32) -> std:
     program().arg("controller").arg(certificate).args(arguments).arg(&source).assert().success();
     let header = std::fs::read_to_string(source.with_extension("h")).unwrap();
     let header = header.split_whitespace().filter(|word| *word != "*").collect::<Vec<_>>().join(" ");
-    for words in ["The law at samples here is the one that is claimed", "No claim covers the rounding", "a delay"] {
+    let delay = if delayed { "put out at the sample k + 1" } else { "a delay" };
+    for words in ["The law at samples here is the one that is claimed", "No claim covers the rounding", delay] {
         assert!(header.contains(words), "{header}");
     }
     std::fs::write(&main, MAIN).unwrap();
@@ -175,13 +184,22 @@ fn at_rest(sampled: &SampledLoop) -> Vec<Vec<[f64; 2]>> {
 
 #[test]
 fn the_exported_c_keeps_every_bound_of_the_claim() {
+    keeps_every_bound(&CERTIFICATE);
+}
+
+#[test]
+fn the_exported_c_with_a_delay_keeps_every_bound_of_the_claim() {
+    keeps_every_bound(&DELAYED);
+}
+
+fn keeps_every_bound(stated: &serde_json::Value) {
     if !installed("gcc", &["--version"]) {
         return;
     }
     let folder = tempfile::tempdir().unwrap();
     let certificate = folder.path().join("certificate.json");
-    std::fs::write(&certificate, CERTIFICATE.to_string()).unwrap();
-    let claim = read_claim(&Document::parse("certificate", &CERTIFICATE.to_string()).unwrap()).unwrap();
+    std::fs::write(&certificate, stated.to_string()).unwrap();
+    let claim = read_claim(&Document::parse("certificate", &stated.to_string()).unwrap()).unwrap();
     let (witness, plant) = (at_samples(&claim), Plant::from_json("paper-example", PLANT_TEXT).unwrap());
     let data = Data::new(&claim.spec, 128);
     let (w_x, eta) = (witness.w_x.to_f64(), witness.eta.to_f64());
@@ -191,7 +209,7 @@ fn the_exported_c_keeps_every_bound_of_the_claim() {
     let set = [&witness.set.x0, &witness.set.e0, z_0].map(rug::Rational::to_f64);
     let sigma = Constant::rational(&witness.sigma);
     for (n_o, phase) in [(0, 0.0), (1, 0.37), (5, 0.0), (20, 0.9), (SAMPLES / 2 - 1, 0.123)] {
-        let program = export(folder.path(), &certificate, &sigma, n_o);
+        let program = export(folder.path(), (&certificate, witness.delay.is_some()), &sigma, n_o);
         let design = Design::new(&claim.spec.internal_model, &sigma, n_o);
         let discrete = design.discretise(&witness.sampling.step).unwrap();
         assert_eq!(rug::Rational::from_f64(discrete.gain), Some(witness.law.gain.clone()), "the K of the claim");
@@ -218,6 +236,15 @@ fn the_exported_c_keeps_every_bound_of_the_claim() {
         for sign in [1.0, -1.0] {
             let mut start = boundary(&regulator, set, sign);
             (start[0], start[1]) = (start[0] + x_0[0][0][0], start[1] + x_0[0][0][1]);
+            let start = sampled.starting(start, false);
+            // What y of the last sample stores, where nothing is predicted yet.
+            let stored = witness.delay.as_ref().map_or(0.0, |delay| {
+                // s is -h sigma et, and e - et is h y.
+                let [e, ahead] = [steady.start[2], steady.start[3 + regulator.dimension()]];
+                let of_orbit = e + ahead / (sampled.step() * sampled.regulator.sigma);
+                let off = start[2] - of_orbit;
+                delay.gm.to_f64() / sampled.step() * off * off
+            });
             let (mut level, mut away, mut distances) = (0.0, [0.0_f64; 2], Vec::new());
             for (index, (zeta, piece)) in run(&sampled, &program, &start, PERIODS).iter().enumerate() {
                 let (of_orbit, point) = &orbit[index % orbit.len()];
@@ -230,7 +257,7 @@ fn the_exported_c_keeps_every_bound_of_the_claim() {
                     // The Lyapunov function at samples, and what it has of x and e between them.
                     let rest = e * e + if at == 0 { energy } else { 0.0 };
                     if index + at == 0 {
-                        level = up * x * x + rest;
+                        level = up * x * x + rest + stored;
                     }
                     assert!(low * x * x + rest <= level * (1.0 + 1e-9), "n_o = {n_o}, sample {index}");
                 }

@@ -15,20 +15,27 @@ pub const SAMPLES: u32 = 200;
 const SIGMA: u32 = 75;
 
 /// The certificate of the paper's example for the law at samples.
-pub static CERTIFICATE: LazyLock<Value> = LazyLock::new(|| {
+pub static CERTIFICATE: LazyLock<Value> = LazyLock::new(|| certified(|_| ()));
+
+/// The same for the law with a delay.
+pub static DELAYED: LazyLock<Value> =
+    LazyLock::new(|| certified(|document| document["internal_model"]["delay_samples"] = 1.into()));
+
+pub fn certified(change: impl FnOnce(&mut Value)) -> Value {
     let mut document: Value = serde_json::from_str(EXAMPLE_TEXT).unwrap();
     document["internal_model"]["sampling_period"] = format!("1/{SAMPLES}").into();
+    change(&mut document);
     let spec = Specification::from_json("example", &document.to_string()).unwrap();
     let sampling = spec.internal_model.sampling.clone().unwrap();
     let run = certify_sampled(&spec, &sampling, Some(&SIGMA.into()), None, Ladder::default()).unwrap();
     sampled_certificate_json(&run).expect("certified")
-});
+}
 
 fn claim(certificate: &Value) -> TriedClaim {
     TriedClaim::from_document(&Document::parse("certificate", &certificate.to_string()).unwrap()).unwrap()
 }
 
-fn tried(certificate: &Value, trials: u64) -> Falsification {
+pub fn tried(certificate: &Value, trials: u64) -> Falsification {
     falsify(&claim(certificate), TrialSettings { trials, seed: 1, only: None }, &Silent)
 }
 

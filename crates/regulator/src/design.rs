@@ -18,14 +18,29 @@ pub struct Design<'m> {
     pub(super) model: &'m InternalModel,
     pub(super) sigma: &'m Constant,
     pub(super) n_o: u32,
+    pub(super) delayed: bool,
     nominal: Option<&'m Constant>,
 }
 
 impl<'m> Design<'m> {
-    /// The regulator of an internal model with the gain sigma and n_o oscillators.
+    /// The regulator of an internal model with the gain sigma and n_o oscillators; at samples the law with a delay, where the model
+    /// asks for that.
     #[must_use]
     pub fn new(model: &'m InternalModel, sigma: &'m Constant, n_o: u32) -> Design<'m> {
-        Design { model, sigma, n_o, nominal: None }
+        let delayed = model.sampling.as_ref().is_some_and(|sampling| sampling.delayed);
+        Design { model, sigma, n_o, delayed, nominal: None }
+    }
+
+    /// The same with or without a delay, whatever the model asks for.
+    #[must_use]
+    pub fn with_delay(self, delayed: bool) -> Design<'m> {
+        Design { delayed, ..self }
+    }
+
+    /// Whether a control of its law at samples has a sample to be computed (derivation, 13.4).
+    #[must_use]
+    pub fn is_delayed(&self) -> bool {
+        self.delayed
     }
 
     /// The same for an actuator with this input gain: the control is divided by its nominal value (derivation, 13.1).
@@ -53,7 +68,8 @@ impl<'m> Design<'m> {
     ///
     /// With a = l w h: R = e^(Phi h) has the blocks [[cos a, sin a], [-sin a, cos a]], so that R M = (cos a, -sin a) in
     /// block l, and 1 in the integrator. Guarantee: K is the double itself, with K h Nb2 < 2 proved for the double Nb2,
-    /// which is not below the sum of all weights; each other entry is the exact one for that K, rounded once.
+    /// which is not below the sum of all weights; each other entry is the exact one for that K, rounded once. With a delay
+    /// (section 13.4) the last state is what e moves by until the next sample, and C has R^2 for R.
     ///
     /// `None` where that is not to be had in double precision: h mu times the sum of the weights is beyond 2^50.
     #[must_use]
@@ -71,7 +87,9 @@ impl<'m> Design<'m> {
         let sigma = self.sigma.enclose(PRECISION);
         let product = &sigma * &step;
         let weights = self.weights();
-        let (mut rotations, mut input) = (Vec::new(), vec![(-&product).midpoint_f64()]);
+        // Without a delay what e keeps goes to z at once; with one it is added at the next sample.
+        let kept = if self.delayed { Enclosure::from_integer(0, PRECISION) } else { product.clone() };
+        let (mut rotations, mut input) = (Vec::new(), vec![(-&kept).midpoint_f64() + 0.0]);
         // What is put out is over the nominal gain of the actuator.
         let nominal = self.nominal.map(|nominal| nominal.enclose(PRECISION));
         let put_out = |value: Enclosure| {
@@ -84,16 +102,25 @@ impl<'m> Design<'m> {
             let (sine, cosine) = (angle.sin(), angle.cos());
             // 1 - cos a = 2 sin^2(a/2), which cancels nothing.
             let versine = 2 * (angle / 2).sin().sqr();
-            input.extend([(&versine - &product).midpoint_f64(), sine.midpoint_f64()]);
+            input.extend([(&versine - &kept).midpoint_f64(), sine.midpoint_f64()]);
             let scaled = &exact_gain * weight;
-            output.extend([put_out(&scaled * &cosine), put_out(&scaled * &sine)]);
-            direct = &direct + &(weight * &cosine);
+            let [turned_cosine, turned_sine] = match self.delayed {
+                true => [1 - 2 * sine.sqr(), 2 * &sine * &cosine],
+                false => [cosine.clone(), sine.clone()],
+            };
+            output.extend([put_out(&scaled * &turned_cosine), put_out(&scaled * &turned_sine)]);
+            direct = &direct + &(weight * &turned_cosine);
             rotations.push([cosine.midpoint_f64(), sine.midpoint_f64()]);
+        }
+        if self.delayed {
+            input.push((-&product).midpoint_f64());
+            output.push(put_out(-&sigma));
         }
         Some(Discrete {
             step: step.midpoint_f64(),
             gain,
             weight_sum,
+            prediction: self.delayed.then(|| product.midpoint_f64()),
             decay: (Enclosure::one(PRECISION) - product).midpoint_f64(),
             rotations,
             input,

@@ -3,7 +3,9 @@
 use super::Discrete;
 use super::export::VERSION;
 use super::read::positive;
-use sigmastar_lang::spec::{Document, ErrorKind, Errors, Object, Reported, SpecErrors, Value, any_constant};
+use sigmastar_lang::spec::{
+    Document, ErrorKind, Errors, Object, Reported, SpecErrors, Value, any_constant, read_delay,
+};
 
 /// Reads the law at samples back, every number the double that was written; `None` where the file has none, or is of version 1,
 /// which had another law.
@@ -34,21 +36,30 @@ fn discrete(root: &Value<'_>, errors: &mut Errors) -> Result<Option<Discrete>, R
         let rows: Vec<_> = value.array(errors)?.iter().map(|row| numbers(row, errors)).collect();
         rows.into_iter().collect::<Result<Vec<Vec<f64>>, Reported>>()
     });
+    let delayed = file.optional("delay_samples").map_or(Ok(false), |value| read_delay(&value, errors));
+    let prediction = match delayed {
+        Ok(true) => single(&mut file, "prediction", errors).map(Some),
+        other => other.map(|_| None),
+    };
     let saturation = file.optional("saturation").filter(|value| value.type_name() != "null");
     let saturation = saturation.map(|value| positive(&value, errors)).transpose();
     file.finish(errors);
     let (phi, input, output) = (phi?, input?, output?);
     let block = |l: usize| Some([*phi.get(2 * l + 1)?.get(2 * l + 1)?, *phi.get(2 * l + 1)?.get(2 * l + 2)?]);
-    let rotations: Option<Vec<[f64; 2]>> = (0..input.len() / 2).map(block).collect();
-    let Some(rotations) = rotations.filter(|_| input.len() % 2 == 1 && output.len() == input.len()) else {
+    let prediction = prediction?;
+    // Of z alone.
+    let own = input.len().saturating_sub(usize::from(prediction.is_some()));
+    let rotations: Option<Vec<[f64; 2]>> = (0..own / 2).map(block).collect();
+    let Some(rotations) = rotations.filter(|_| own % 2 == 1 && output.len() == input.len()) else {
         let error = law.error(ErrorKind::Range, "`Phi`, `Gamma` and `C` are of different dimensions");
-        return Err(errors.report(error.expected("expected 2 n_o + 1 each")));
+        return Err(errors.report(error.expected("expected 2 n_o + 1 each, with `delay_samples` one more")));
     };
     Ok(Some(Discrete {
         step: step?,
         gain: gain?,
         weight_sum: weight_sum?,
         decay: decay?,
+        prediction,
         rotations,
         input,
         output,

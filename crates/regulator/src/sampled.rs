@@ -17,7 +17,8 @@ pub struct Convergence {
 }
 
 impl Convergence {
-    /// The loop with the law as it is exported: e(k+1) = e(k) + h u(k). `None` where a number is beyond double precision.
+    /// The loop with the law as it is exported: e(k+1) = e(k) + h u(k); with a delay with the control that was put out for this sample.
+    /// `None` where a number is beyond double precision.
     #[must_use]
     pub fn new(
         design: &Design<'_>,
@@ -25,9 +26,24 @@ impl Convergence {
         regulator: &Regulator,
         discrete: &Discrete,
     ) -> Option<Convergence> {
-        let radius = spectral_radius(&energy_matrix(regulator, discrete))?;
+        let matrix = match discrete.prediction {
+            None => energy_matrix(regulator, discrete),
+            Some(_) => delayed_matrix(regulator, discrete),
+        };
+        let radius = spectral_radius(&matrix)?;
         // e takes nothing from zeta but what zeta does by itself: the loop is triangular, with 1 - h sigma for e.
         Some(Convergence { radius: radius.max(discrete.decay.abs()), proved: design.converges(step) })
+    }
+
+    /// The loop with the law without a delay where its computation takes the whole sample, e(k+1) = e(k) + h u(k-1); of such a law alone.
+    /// `None` of one with a delay, and where a number is beyond double precision.
+    #[must_use]
+    pub fn late(regulator: &Regulator, discrete: &Discrete) -> Option<Convergence> {
+        if discrete.prediction.is_some() {
+            return None;
+        }
+        let radius = spectral_radius(&late_matrix(regulator, discrete))?;
+        Some(Convergence { radius, proved: false })
     }
 
     /// The spectral radius in ten digits, in floating point: by this factor the loop converges from sample to sample in the end.
@@ -62,23 +78,84 @@ impl fmt::Display for Convergence {
     }
 }
 
-/// R - h K M M'N R, which moves zeta, in the coordinates in which its energy is the square of the Euclidean norm.
+/// The law in the coordinates in which the energy of zeta is the square of the Euclidean norm.
+struct Scaled {
+    /// Of zeta.
+    n: usize,
+    /// R.
+    transition: Mat<f64>,
+    /// root N M.
+    input: Vec<f64>,
+    /// (root N M)' R.
+    output: Vec<f64>,
+}
+
+impl Scaled {
+    fn new(regulator: &Regulator, discrete: &Discrete) -> Scaled {
+        let n = regulator.dimension();
+        let roots: Vec<f64> = regulator.n_diagonal().iter().map(|weight| weight.sqrt()).collect();
+        let input: Vec<f64> = regulator.m().iter().zip(&roots).map(|(m, root)| m * root).collect();
+        let transition = discrete.transition();
+        // R turns pairs of equal weights.
+        let row = |column: usize| match column {
+            0 => input[0],
+            column => {
+                let first = (column - 1) / 2 * 2 + 1;
+                input[first] * transition[(first, column)]
+            }
+        };
+        let output = (0..n).map(row).collect();
+        Scaled { n, transition, input, output }
+    }
+
+    /// M'N R M.
+    fn through(&self) -> f64 {
+        self.input.iter().zip(&self.output).map(|(m, row)| m * row).sum()
+    }
+}
+
+/// R - h K M M'N R, which moves zeta.
 fn energy_matrix(regulator: &Regulator, discrete: &Discrete) -> Mat<f64> {
-    let n = regulator.dimension();
-    let roots: Vec<f64> = regulator.n_diagonal().iter().map(|weight| weight.sqrt()).collect();
-    let scaled: Vec<f64> = regulator.m().iter().zip(&roots).map(|(m, root)| m * root).collect();
-    let transition = discrete.transition();
-    // (root M)' R, where R turns pairs of equal weights.
-    let row = |column: usize| match column {
-        0 => scaled[0],
-        column => {
-            let first = (column - 1) / 2 * 2 + 1;
-            scaled[first] * transition[(first, column)]
-        }
-    };
-    let row: Vec<f64> = (0..n).map(row).collect();
+    let Scaled { n, transition, input, output } = Scaled::new(regulator, discrete);
     let factor = discrete.step * discrete.gain;
-    Mat::from_fn(n, n, |i, j| transition[(i, j)] - factor * scaled[i] * row[j])
+    Mat::from_fn(n, n, |i, j| transition[(i, j)] - factor * input[i] * output[j])
+}
+
+/// With a delay zeta_next = R zeta - h M y, y = K (M'N R zeta + h M'N R M y_last), in (zeta, y).
+fn delayed_matrix(regulator: &Regulator, discrete: &Discrete) -> Mat<f64> {
+    let law = Scaled::new(regulator, discrete);
+    let (n, through) = (law.n, discrete.step * law.through());
+    let y = |j: usize| discrete.gain * if j < n { law.output[j] } else { through };
+    let turned = |i: usize, j: usize| if j < n { law.transition[(i, j)] } else { 0.0 };
+    Mat::from_fn(n + 1, n + 1, |i, j| match i < n {
+        true => turned(i, j) - discrete.step * law.input[i] * y(j),
+        false => y(j),
+    })
+}
+
+/// Of the law without a delay, put out a sample late: e_next = e + h u_last, u = -sigma e + K v, z_next = R (z - M e) + (1 - h sigma) M e, in
+/// (z, e, h u).
+fn late_matrix(regulator: &Regulator, discrete: &Discrete) -> Mat<f64> {
+    let law = Scaled::new(regulator, discrete);
+    let (n, product) = (law.n, 1.0 - discrete.decay);
+    // R (z - M e) and v, in z and e.
+    let moved = |i: usize, j: usize| match j {
+        j if j < n => law.transition[(i, j)],
+        j if j == n => -(0..n).map(|k| law.transition[(i, k)] * law.input[k]).sum::<f64>(),
+        _ => 0.0,
+    };
+    let v = |j: usize| match j {
+        j if j < n => law.output[j],
+        j if j == n => -law.through(),
+        _ => 0.0,
+    };
+    let of_e = |j: usize| if j == n { 1.0 } else { 0.0 };
+    let through_gain = discrete.step * discrete.gain;
+    Mat::from_fn(n + 2, n + 2, |i, j| match i {
+        i if i < n => moved(i, j) + discrete.decay * law.input[i] * of_e(j),
+        i if i == n => f64::from(u8::from(j >= n)),
+        _ => through_gain * v(j) - product * of_e(j),
+    })
 }
 
 /// The largest modulus of the eigenvalues of a square matrix; `None` where an entry is not finite.

@@ -36,6 +36,16 @@ pub enum SamplingError {
         /// The number of oscillators that this sampling time serves.
         oscillators: u32,
     },
+    /// 3 K h Nb2/2 is not proved to be below 1, which the law with a delay needs.
+    #[error(
+        "3 K h Nb2/2 = {share:.6} with the sampling time h, where Nb2 is the sum of all weights: the law with a delay needs it below 1"
+    )]
+    TooSlowForDelay {
+        /// 3 K h Nb2/2.
+        share: f64,
+        /// The sampling time below which it is less than 1, rounded down.
+        below: f64,
+    },
 }
 
 impl SamplingError {
@@ -49,23 +59,28 @@ impl SamplingError {
             SamplingError::Aliasing { below, oscillators, .. } => {
                 format!("take a sampling time well below {below:.6e}, or at most {oscillators} oscillators")
             }
+            SamplingError::TooSlowForDelay { below, .. } => {
+                format!("take a sampling time well below {below:.6e}, or a smaller mu")
+            }
         }
     }
 }
 
 impl Design<'_> {
-    /// What is bad about a sampling time h; empty where n_o w h < pi and h sigma <= 1 are proved.
+    /// What is bad about a sampling time h; empty where n_o w h < pi and h sigma <= 1 are proved, with a delay also 3 K h Nb2 < 2.
     #[must_use]
     pub fn sampling_errors(&self, step: &Constant) -> Vec<SamplingError> {
-        self.too_slow(step).into_iter().chain(self.aliasing(step)).collect()
+        self.too_slow(step).into_iter().chain(self.aliasing(step)).chain(self.too_slow_for_delay(step)).collect()
     }
 
     /// Whether the sampled loop on e' = u is proved to converge, in exact arithmetic (derivation, section 12): without input
-    /// e is multiplied by 1 - h sigma, and the energy of zeta falls as long as no two modes turn alike, since K h Nb2 < 2.
+    /// e is multiplied by 1 - h sigma, and the energy of zeta falls as long as no two modes turn alike, since K h Nb2 < 2; with a delay
+    /// that of zeta and of the last y, since 3 K h Nb2 < 2 (13.4).
     #[must_use]
     pub fn converges(&self, step: &Constant) -> bool {
         let product = self.sigma.enclose(PRECISION) * step.enclose(PRECISION);
-        product.lt(&Enclosure::from_integer(2, PRECISION)).is_true() && self.aliasing(step).is_none()
+        let slow = product.lt(&Enclosure::from_integer(2, PRECISION)).is_true();
+        slow && self.aliasing(step).is_none() && self.too_slow_for_delay(step).is_none()
     }
 
     /// The number of samples in the period T = 2 pi/base_frequency, where it is not a whole one (as far as that can be told).
@@ -89,6 +104,14 @@ impl Design<'_> {
         Some(samples.midpoint_f64())
     }
 
+    /// Whether the fastest oscillator turns by nearly a quarter of a turn in a sample, or more: n_o is near N_s/4 or above.
+    #[must_use]
+    pub fn turns_far(&self, step: &Constant) -> bool {
+        let base = self.model.base_frequency.enclose(PRECISION) * step.enclose(PRECISION);
+        let angle = i64::from(self.n_o) * &base;
+        !angle.lt(&(Enclosure::pi(PRECISION) * 9 / 20)).is_true()
+    }
+
     fn too_slow(&self, step: &Constant) -> Option<SamplingError> {
         let exact = self.sigma.exact.as_ref().zip(step.exact.as_ref()).and_then(|(sigma, step)| sigma.mul(step));
         let one = Monomial::rational(Rational::from(1));
@@ -100,6 +123,26 @@ impl Design<'_> {
         };
         let below = (Enclosure::one(PRECISION) / sigma).lower_f64();
         (!fast).then(|| SamplingError::TooSlowForSigma { product: product.midpoint_f64(), below })
+    }
+
+    fn too_slow_for_delay(&self, step: &Constant) -> Option<SamplingError> {
+        if !self.delayed {
+            return None;
+        }
+        let h = step.enclose(PRECISION);
+        let total = self.model.weights.total(PRECISION);
+        // Without K in double precision h mu Nb2 is far beyond 1, and 3 K h Nb2/2 near 3.
+        let share = self.model.sampled_gain(step).map_or_else(
+            || Enclosure::from_integer(3, PRECISION),
+            |law| {
+                let [gain, sum] = [&law.gain, &law.weight_sum].map(|value| Enclosure::from_rational(value, PRECISION));
+                3 * (gain * sum * &h) / 2
+            },
+        );
+        // K h Nb2 = 2/3 where h mu Nb2 = 1.
+        let below = (Enclosure::one(PRECISION) / (self.model.mu.enclose(PRECISION) * total)).lower_f64();
+        let slow = !share.lt(&Enclosure::one(PRECISION)).is_true();
+        slow.then(|| SamplingError::TooSlowForDelay { share: share.midpoint_f64(), below })
     }
 
     fn aliasing(&self, step: &Constant) -> Option<SamplingError> {

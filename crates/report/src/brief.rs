@@ -123,9 +123,10 @@ pub(super) fn of_samples(run: &SampledCertification<'_>, rechecked: bool) -> Vec
     facts.push(("to", to(run.spec, &periodic, radii, run.control().map(|bounds| (bounds, "")))));
     facts.extend(uncertain_gain(run.spec).map(|said| ("input gain", said)));
     facts.extend(interval_costs(&run.interval_costs, "the gain").map(|said| ("intervals", said)));
+    let late = if run.sampling.delayed { "every control put out at the next sample, no" } else { "no delay," };
     let of_the_computer = match run.spec.actuator {
-        Some(_) => "no delay, rounding or quantisation",
-        None => "no delay, rounding, quantisation or saturation",
+        Some(_) => format!("{late} rounding or quantisation"),
+        None => format!("{late} rounding, quantisation or saturation"),
     };
     facts.push(("assumed", format!("{}; {of_the_computer}", assumed(run.spec, run.largest_arguments(), None))));
     vec![Block::facts(facts), Block::says(norms(run.spec, "law"))]

@@ -191,6 +191,7 @@ fn obstacle_advice(run: &Certification<'_>, obstacle: Obstacle, add: &mut dyn Fn
             add(&format!("{}, or a smaller initial set", wider(which)));
         }
         Failing::InputGain { .. } => add("a narrower interval `input_gain`"),
+        Failing::Delay { .. } => add("a shorter sampling period or a smaller mu"),
         Failing::Hold { .. } | Failing::Samples => add("a smaller gain or a shorter sampling period"),
         Failing::Sampling => add("a shorter sampling period, or a smaller mu"),
         Failing::Bounds => add("a `domain` on which the bounding functions are valid"),

@@ -84,6 +84,9 @@ impl<'r> SampledReport<'r> {
                         .to_owned(),
                 );
             }
+            Outcome::NotFound(Obstacle { failing: Failing::Delay { .. }, .. }) => {
+                items.push("a shorter sampling period, or a smaller mu".to_owned());
+            }
             Outcome::NotFound(Obstacle {
                 failing: Failing::Sampling | Failing::Coupling | Failing::Existence, ..
             }) => {
@@ -130,6 +133,7 @@ impl<'r> SampledReport<'r> {
             format!(
                 "Derivation: sharp, for the regulator at samples (section 12 of the mathematics{}).",
                 [
+                    if run.sampling.delayed { ", 13.4 for the delay" } else { "" },
                     if run.spec.input_gain.is_some() { ", 13.1 for the input gain" } else { "" },
                     if run.spec.actuator.is_some() { ", 13.5 for the actuator" } else { "" },
                 ]
@@ -139,11 +143,22 @@ impl<'r> SampledReport<'r> {
              follows from it."
                 .to_owned(),
             format!(
-                "Assumed of the computer: u is held over each sample, no delay of the computation, no rounding, no quantisation{}; a period \
-                 has exactly the whole number of samples.",
+                "Assumed of the computer: u is held over each sample, {}, no rounding, no quantisation{}; a period has exactly the whole \
+                 number of samples.",
+                if run.sampling.delayed {
+                    "what is computed from a measurement is put out exactly at the next sample"
+                } else {
+                    "no delay of the computation"
+                },
                 if run.spec.actuator.is_some() { "" } else { ", no saturation" }
             ),
         ];
+        if run.sampling.delayed {
+            items.push(
+                "With a delay everything is by norms: matrix inequalities over a plant's derivatives are not used."
+                    .to_owned(),
+            );
+        }
         items.extend(of_the_data(run.spec, run.largest_arguments(), None));
         items.push("Used: the base frequency is exactly 2 pi / period (proved of the numbers given).".to_owned());
         items
@@ -160,10 +175,11 @@ fn certified(run: &SampledCertification<'_>, proof: &SampledProof) -> String {
     let (spec, witness) = (run.spec, &proof.witness);
     let samples = witness.sampling.samples;
     format!(
-        "Certified: the regulator at samples h = {} apart ({samples} in a period) with sigma = {} and K = {}, mu = {} and base \
+        "Certified: the regulator at samples h = {} apart ({samples} in a period){} with sigma = {} and K = {}, mu = {} and base \
          frequency {}, for every number of oscillators n_o < {samples}/2 and every phase of the samples{}{}: every solution that \
-         starts, at a sampling instant, from {} converges exponentially to a T-periodic solution, T = {}.",
+         starts, at a sampling instant, from {}{} converges exponentially to a T-periodic solution, T = {}.",
         clean(&witness.sampling.text()),
+        if witness.sampling.delayed { ", each control computed in the sample before it acts," } else { "" },
         write_exact(&witness.sigma),
         sigmastar_document::number::compact(&proof.evaluation.law.gain),
         clean(&spec.internal_model.mu.text),
@@ -171,6 +187,13 @@ fn certified(run: &SampledCertification<'_>, proof: &SampledProof) -> String {
         words::of_all(spec),
         limits::of_actuator(spec),
         words::set(spec, &witness.set),
+        match &witness.delay {
+            None => String::new(),
+            Some(delay) => format!(
+                " and a prediction of e that is off by at most h Y_0, Y_0 = {} (at rest et_0 = u_0 = 0 is)",
+                exact(&delay.y_0, Direction::Up)
+            ),
+        },
         clean(&spec.period.nominal().text),
     )
 }
@@ -269,6 +292,9 @@ impl Readable for SampledReport<'_> {
             "sampling_period": run.sampling.text(), "samples": run.sampling.samples,
             "given_gain": run.given_gain.is_some(),
         });
+        if run.sampling.delayed {
+            report["delay_samples"] = json!(1);
+        }
         if let (Some(proof), Some(periodic)) = (run.claim(), run.periodic_solution()) {
             let (witness, law) = (&proof.witness, &proof.evaluation.law);
             report["sigma"] = json!(write_exact(&witness.sigma));

@@ -8,7 +8,7 @@ use sigmastar_prove::rate::bound::{MAX_COUNTS, MAX_OSCILLATORS};
 use sigmastar_theory::derivation::exact_regulation::ExactWitness;
 use sigmastar_theory::derivation::paths::Path;
 use sigmastar_theory::derivation::repaired::RepairedWitness;
-use sigmastar_theory::derivation::sampled::SampledWitness;
+use sigmastar_theory::derivation::sampled::{DelayWitness, SampledWitness};
 use sigmastar_theory::derivation::sharp::SharpWitness;
 
 /// An exact rational number, as a decimal or a fraction.
@@ -87,6 +87,12 @@ fn claim(sampled: bool, of_plant: bool) -> Vec<Field> {
             must("samples", "Samples", "period / h, a whole number.", Shape::Whole(2, 999_999_999)),
             must("gain", "Gain K", "K of the law at samples, a double.", rational()),
             word("n_o", "n_o", "For which numbers of oscillators.", "every n_o < samples/2"),
+            may(
+                "delay_samples",
+                "Samples of delay",
+                "1 where it is about the law whose control is computed in the sample before it acts.",
+                Shape::Whole(0, 1),
+            ),
         ]);
     } else {
         fields.extend([
@@ -230,6 +236,8 @@ fn witness(kind: Kind, main: bool) -> Vec<Field> {
     let mut fields = numbers(names, free);
     if kind == Kind::Sampled {
         fields.extend(numbers(&["weight_sum"], free));
+        let of_delay = "A free number of the law with a delay; there with `delay_samples` alone.";
+        fields.extend(DelayWitness::NAMES.iter().map(|name| may(name, *name, of_delay, rational())));
     }
     if kind != Kind::Repaired {
         fields.push(paths());

@@ -51,6 +51,12 @@ pub(super) fn internal_model() -> Field {
             "Asks for the regulator at samples, in units of time: the period is a whole multiple, and `matched` is true.",
             POSITIVE,
         ),
+        may(
+            "delay_samples",
+            "Samples of delay",
+            "1 for the law whose control is computed in the sample before it acts, with `sampling_period`; 0 is the law without it.",
+            Shape::Whole(0, 1),
+        ),
     ];
     must("internal_model", "Internal model", "The oscillators of the regulator.", Shape::Object(fields))
 }

@@ -86,6 +86,8 @@ pub struct Specification {
     pub matched: bool,
     /// N_s = T/h, where a sampling period is given: a claim in continuous time does not use it.
     pub samples: Option<Integer>,
+    /// Whether a control is computed in the sample before it acts.
+    pub delayed: bool,
     pub weights: Weights,
     pub bounds: [Option<Expr>; BOUNDS],
     pub q_0: Option<Forcing>,
@@ -105,6 +107,8 @@ pub struct InternalModel {
     pub base_frequency: Constant,
     pub matched: bool,
     pub samples: Option<Integer>,
+    /// `delay_samples`: whether a control is computed in the sample before it acts.
+    pub delayed: bool,
     pub weights: Weights,
 }
 
@@ -129,6 +133,15 @@ fn read_samples(
     let period = period.demand_exact(&field.pointer, "a sampling period")?;
     demand(Some(matched), RULE, &field.pointer, "a sampling period needs `matched`")?;
     samples(period, &sampling, &field.pointer).map(Some)
+}
+
+/// `delay_samples`: 0 or 1.
+pub fn read_delay(field: &Field<'_>) -> Outcome<bool> {
+    match field.whole()? {
+        0 => Ok(false),
+        1 => Ok(true),
+        _ => bad(&field.pointer, "expected 0 or 1"),
+    }
 }
 
 fn nonnegative(field: Field<'_>, constants: &[Named]) -> Outcome<Constant> {
@@ -182,7 +195,7 @@ impl Specification {
             fields.finish().map(|()| ends)
         });
 
-        let InternalModel { mu, base_frequency, matched, samples, weights } =
+        let InternalModel { mu, base_frequency, matched, samples, delayed, weights } =
             InternalModel::read(&file.required("internal_model")?, &period, &[])?;
 
         let (initial_set, _) = read_set(&file.required("initial_set")?, false, &[])?;
@@ -203,6 +216,7 @@ impl Specification {
             base_frequency,
             matched,
             samples,
+            delayed,
             weights,
             bounds,
             q_0,
@@ -246,8 +260,13 @@ impl InternalModel {
             demand(equal, RULE, &pointer, "base_frequency * period = 2 pi")?;
         }
         let samples = read_samples(&mut model, period, matched, constants)?;
+        let delayed = match model.optional("delay_samples") {
+            None => false,
+            Some(field) if samples.is_none() => return bad(&field.pointer, "it needs a sampling period"),
+            Some(field) => read_delay(&field)?,
+        };
         model.finish()?;
-        Ok(InternalModel { mu, base_frequency, matched, samples, weights })
+        Ok(InternalModel { mu, base_frequency, matched, samples, delayed, weights })
     }
 }
 

@@ -143,6 +143,7 @@ pub fn read(field: &Field<'_>, witness: &mut Fields<'_>) -> Outcome<(Specificati
         base_frequency: model.base_frequency,
         matched: model.matched,
         samples: model.samples,
+        delayed: model.delayed,
         weights: model.weights,
         bounds: Default::default(),
         q_0: Some(cells::largest(&cells)),

@@ -46,6 +46,7 @@ mod plant_support;
 mod rates;
 mod sampled_certificates;
 mod sampled_claims;
+mod sampled_delay;
 mod sampled_formulas;
 mod sampled_gain;
 mod sampled_plants;

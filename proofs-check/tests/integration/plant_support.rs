@@ -60,7 +60,13 @@ impl AtSamples {
     pub fn read(parts: &Value) -> Outcome<AtSamples> {
         let value = |name: &str| decimal(parts[name].as_str().unwrap()).unwrap();
         let samples = u32::try_from(parts["samples"].as_u64().unwrap()).unwrap();
-        let law = Terms { sigma: value("sigma"), samples, gain: value("gain"), weight_sum: value("weight_sum") };
+        let law = Terms {
+            sigma: value("sigma"),
+            samples,
+            gain: value("gain"),
+            weight_sum: value("weight_sum"),
+            delayed: false,
+        };
         let part = |name: &str| parts.get(name).map(|part| parse(part.to_string().as_bytes()).unwrap());
         let (stability, existence) = (part("stability"), part("existence"));
         let field = |json, name: &str| Field { json, pointer: format!("/witness/{name}_inequality") };

@@ -87,10 +87,16 @@ fn no_number_of_a_witness_may_be_too_good() {
 
 #[test]
 fn wrong_figures_are_told_and_take_nothing_away() {
-    let original = stored("paper-example");
+    for (name, [level, form]) in [("paper-example", ["C4", "C5h"]), ("paper-example-delay", ["C4d", "C5d"])] {
+        figures_of(name, [level, form]);
+    }
+}
+
+fn figures_of(name: &str, [level, form]: [&str; 2]) {
+    let original = stored(name);
     let conditions = original["conditions"].as_array().unwrap();
     let ids: Vec<&str> = conditions.iter().map(|condition| condition["id"].as_str().unwrap()).collect();
-    for id in ["S0", "S0b", "S0c", "S0d", "T", "S1", "S2", "S2b", "S2c", "C4", "C5h"] {
+    for id in ["S0", "S0b", "S0c", "S0d", "T", "S1", "S2", "S2b", "S2c", level, form] {
         assert!(ids.contains(&id), "{id} in {ids:?}");
     }
     for index in 0..conditions.len() {

@@ -22,11 +22,11 @@ pub fn words(certificate: &Value) -> String {
     };
     let given = |value: Option<&Value>, words: &'static str| value.map_or("", |_| words);
     format!(
-        "For the digital regulator with the gain sigma = {}, the sampling period h = {} ({samples} samples a period) and K = {}, for \
+        "For the digital regulator {delayed}with the gain sigma = {}, the sampling period h = {} ({samples} samples a period) and K = {}, for \
          every number of oscillators n_o < {samples}/2 and every phase of the sampling grid{}, with period T = {}, mu = {} and base \
          frequency {}, every plant within the bounding functions{where_} and with the Lyapunov triple p_low = {}, p_up = {}, alpha \
          = {} (given, not proved){}{} has a T-periodic solution of the closed loop to which every solution from |x| <= {}, |e| <= \
-         {}, sqrt(z'Nz) <= {}, at any sampling instant, converges exponentially.",
+         {}, sqrt(z'Nz) <= {}, at any sampling instant{start}, converges exponentially.",
         text(&claim["sigma"]),
         text(&claim["sampling_period"]),
         text(&claim["gain"]),
@@ -43,6 +43,13 @@ pub fn words(certificate: &Value) -> String {
         text(&set["E0"]),
         text(&set["Z0"]),
         samples = text(&claim["samples"]),
+        delayed =
+            if claim["delay_samples"] == 1 { "whose control is computed in the sample before it acts, " } else { "" },
+        start = match &certificate["witness"]["Y_0"] {
+            y_0 if claim["delay_samples"] == 1 =>
+                format!(", with a prediction of e there within h*{} of it", text(y_0)),
+            _ => String::new(),
+        },
     )
 }
 

@@ -30,6 +30,11 @@ pub struct ControllerArgs {
     #[arg(long, value_name = "DT", allow_hyphen_values = true)]
     pub discretise: Option<String>,
 
+    /// 1: the law whose control is computed in the sample before the one in which it acts, 0: the one without such a delay
+    /// (`delay_samples` of the file, or of the certificate, without this flag)
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=1))]
+    pub delay_samples: Option<u32>,
+
     /// Certificate for the specification or plant: a gain below its sigma* is refused, and its claim goes into the export
     #[arg(long, value_name = "CERTIFICATE", value_hint = ValueHint::FilePath)]
     pub certificate: Option<PathBuf>,
@@ -92,6 +97,12 @@ pub struct SimulateArgs {
     #[arg(long, value_name = "H", allow_hyphen_values = true,
           conflicts_with_all = ["high_gain", "fixed", "noise_power", "noise_everywhere"])]
     pub sampled: Option<String>,
+
+    /// 1: the law whose control is put out at the next sample, 0: the one without such a delay (`delay_samples` of the plant file
+    /// without this flag; a file of --controller has its own)
+    #[arg(long, value_name = "N", requires = "sampled", conflicts_with = "controller",
+          value_parser = clap::value_parser!(u32).range(0..=1))]
+    pub delay_samples: Option<u32>,
 
     /// Time that a control takes to be computed: it acts D after its sample, 0 <= D <= H
     #[arg(long, value_name = "D", requires = "sampled", allow_hyphen_values = true)]

@@ -15,6 +15,8 @@ pub struct SampledClaim {
     pub samples: u32,
     /// K, with the sum of weights that it rests on.
     pub law: SampledGain,
+    /// gm, where a control takes a sample to be computed.
+    pub gm: Option<f64>,
 }
 
 impl SampledClaim {
@@ -24,6 +26,7 @@ impl SampledClaim {
             step: witness.sampling.step.clone(),
             samples: witness.sampling.samples,
             law: witness.law.clone(),
+            gm: witness.delay.as_ref().map(|delay| delay.gm.to_f64()),
         }
     }
 
@@ -31,6 +34,7 @@ impl SampledClaim {
     #[must_use]
     pub fn regulator(&self, spec: &Specification, n_o: u32) -> Option<(Regulator, Discrete)> {
         let design = Design::new(&spec.internal_model, &self.sigma, n_o).for_actuator(spec.input_gain.as_ref());
+        let design = design.with_delay(self.gm.is_some());
         let (regulator, discrete) = (design.regulator(), design.discretise_with(&self.step, &self.law)?);
         (regulator.is_representable() && discrete.is_representable()).then_some((regulator, discrete))
     }

@@ -74,15 +74,22 @@ pub(super) fn run(claim: &TriedClaim, law: &SampledClaim, mut random: Random, nu
         // A certificate that was tampered with: its samples are not those of its period.
         return Finding::Unfinished(format!("{} samples of the claimed length are not a period", law.samples));
     }
-    check(claim, trial, &sampled)
+    check(claim, (trial, law.gm), &sampled)
 }
 
-/// A period of the loop: for each sampling interval zeta and z at its start, u and the plant on it.
+/// A period of the loop: for each sampling interval zeta and z at its start, u and the plant on it, and of the law with a delay by how
+/// much e at its end is off its prediction, which is h y.
 struct Interval {
     zeta: Vec<f64>,
     z: Vec<f64>,
     u: f64,
     pieces: Vec<Piece>,
+    off: f64,
+}
+
+/// The whole state at the first sample of a trial.
+fn start_of(claim: &TriedClaim, sampled: &SampledLoop, trial: &Trial) -> Vec<f64> {
+    sampled.starting(trial.start.clone(), claim.initial.z0.is_none())
 }
 
 fn period(
@@ -98,14 +105,20 @@ fn period(
         let e = run.plant_state().last().copied().unwrap_or_default();
         let z = run.regulator_state().to_vec();
         let zeta = z.iter().zip(&m).map(|(z, m)| z - m * e).collect();
+        // s of the law with a delay.
+        let ahead = run.whole_state().get(sampled.states() + 1 + m.len()).copied().unwrap_or_default();
         let pieces = run.advance(each, tolerance)?;
-        intervals.push(Interval { zeta, z, u: run.put_out(), pieces });
+        // What acts first; without a delay that is all that acts.
+        let u = pieces.first().map_or_else(|| run.put_out(), |piece| piece.u);
+        let off = run.plant_state().last().copied().unwrap_or_default() - (e + ahead);
+        intervals.push(Interval { zeta, z, u, pieces, off });
     }
     Ok(intervals)
 }
 
-fn check(claim: &TriedClaim, trial: Trial, sampled: &SampledLoop) -> Finding {
-    let steady = match sampled_periodic_solution(sampled, &trial.start, &Silent) {
+fn check(claim: &TriedClaim, (trial, gm): (Trial, Option<f64>), sampled: &SampledLoop) -> Finding {
+    let start = start_of(claim, sampled, &trial);
+    let steady = match sampled_periodic_solution(sampled, &start, &Silent) {
         Ok(steady) => steady,
         // That no periodic solution is found says nothing about the claim; the run itself may.
         Err(SampledSteadyError::Search(error)) => return alone(claim, trial, sampled, why_none(&error)),
@@ -120,10 +133,10 @@ fn check(claim: &TriedClaim, trial: Trial, sampled: &SampledLoop) -> Finding {
     let multiplier = steady.largest_multiplier().unwrap_or(0.0);
     let mut checks = Checks::around(claim, &steady.start, steady.residual, multiplier);
     check_orbit(claim, sampled, &steady, &orbit, &mut checks);
-    if checks.are_broken() && !run::comes_to(&trial, &steady.start, |_, y| passed(sampled, y)) {
+    if checks.are_broken() && !run::comes_to(&start, &steady.start, |_, y| passed(sampled, y)) {
         return alone(claim, trial, sampled, run::ELSEWHERE.to_owned());
     }
-    match check_approach(claim, &trial, sampled, &orbit, &mut checks) {
+    match check_approach(claim, (&trial, gm), sampled, &orbit, &mut checks) {
         Ok(()) => checks.finding(trial),
         Err(failure @ IntegrationFailure::Escaped { .. }) => alone(claim, trial, sampled, failure.to_string()),
         Err(failure) => unfinished(&failure),
@@ -142,7 +155,7 @@ fn passed(sampled: &SampledLoop, y: &[f64]) -> Result<Vec<f64>, IntegrationFailu
 /// The finding of a trial for which there is no periodic solution to compare with.
 fn alone(claim: &TriedClaim, trial: Trial, sampled: &SampledLoop, why: String) -> Finding {
     let mut largest = Largest::default();
-    if let Some(mut run) = SampledRun::new(sampled, 0, &trial.start) {
+    if let Some(mut run) = SampledRun::new(sampled, 0, &start_of(claim, sampled, &trial)) {
         // What happens within a sample after which it has escaped is not looked at.
         let intervals =
             (0..PERIODS * sampled.samples_rounded_up()).map_while(|_| run.advance(BETWEEN, Tolerance::ORDINARY).ok());
@@ -194,13 +207,21 @@ fn check_orbit(
 /// An integration that did not come to its end.
 fn check_approach(
     claim: &TriedClaim,
-    trial: &Trial,
+    (trial, gm): (&Trial, Option<f64>),
     sampled: &SampledLoop,
     orbit: &[Interval],
     checks: &mut Checks,
 ) -> Result<(), IntegrationFailure> {
     let n = sampled.states();
-    let Some(mut run) = SampledRun::new(sampled, 0, &trial.start) else { return Ok(()) };
+    let start = start_of(claim, sampled, trial);
+    let Some(mut run) = SampledRun::new(sampled, 0, &start) else { return Ok(()) };
+    // gm h y^2 of the last y, of which both that of e and that of zeta count at an aligned start; nothing is predicted there.
+    let stored = gm.map_or(0.0, |gm| {
+        let of_orbit = orbit.last().map_or(0.0, |interval| interval.off);
+        let e = start.get(n).copied().unwrap_or_default();
+        let off = (e - of_orbit).abs().max(of_orbit.abs());
+        gm / sampled.step() * off * off
+    });
     let (mut away, mut level, mut control) = ([0.0_f64; 2], [0.0_f64; 2], [0.0_f64; 2]);
     let [low, up, eta] = claim.lyapunov.unwrap_or_default();
     // At the gain b the weight of zeta is b eta.
@@ -221,7 +242,7 @@ fn check_approach(
                     // Between samples z is not that of this moment, and its part of the function is at least 0.
                     let rest = e * e + if at == 0 { zeta } else { 0.0 };
                     if index + sample + at == 0 {
-                        level[0] = up * x * x + rest;
+                        level[0] = up * x * x + rest + stored;
                     }
                     level[1] = level[1].max(low * x * x + rest);
                 }

@@ -124,7 +124,7 @@ pub(super) fn check(claim: &TriedClaim, trial: Trial, closed_loop: &ClosedLoop) 
         let pass = |index: usize, y: &[f64]| {
             flow(closed_loop, index as f64 * closed_loop.period, closed_loop.period, y, Tolerance::ORDINARY)
         };
-        if !run::comes_to(&trial, &steady.start, pass) {
+        if !run::comes_to(&trial.start, &steady.start, pass) {
             return run::alone(claim, trial, closed_loop, run::ELSEWHERE.to_owned());
         }
     }

@@ -73,6 +73,6 @@ pub use proved_values::{ProvedValue, ProvedValues, SampledInequalities};
 pub use read::read_internal_model;
 pub use read::{FORMAT, MAX_HARMONICS, MAX_RELATIVE_DEGREE_COEFFICIENTS, VERSIONS};
 pub use sampled_inequality::{SampledExistence, SampledInequality, SampledLoop};
-pub use sampling::{MAX_SAMPLES, SampledGain, Sampling};
+pub use sampling::{MAX_SAMPLES, SampledGain, Sampling, read_delay};
 pub use weights::Weights;
 pub use weights_read::MAX_WEIGHTS;

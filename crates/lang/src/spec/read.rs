@@ -14,6 +14,7 @@ use super::parameters::Parameters;
 use super::parts::{Constant, Domain, KnownForcing, Lyapunov, RelativeDegree};
 use super::period::{Period, needs_exact_period, read_period};
 use super::quantity::Quantity;
+use super::sampling::read_delay;
 use super::{sampling, weights_read};
 use crate::expr::{Definitions, Expr, Monomial, Variables};
 use rug::Rational;
@@ -233,6 +234,13 @@ pub fn read_internal_model(
     };
     let weights = object.required("weights", errors).and_then(|value| weights_read::read(&value, errors));
     let step = object.optional("sampling_period");
+    let delay = object.optional("delay_samples");
+    let delayed = delay.as_ref().map_or(Ok(false), |value| read_delay(value, errors));
+    if let (None, Some(delay)) = (&step, &delay) {
+        let error = delay.error(ErrorKind::MissingField, "`delay_samples` is of the regulator at samples");
+        let help = "give `sampling_period` beside it, or leave it out";
+        errors.report(error.expected("expected `sampling_period` beside it").help(help));
+    }
     object.finish(errors);
     if let (Ok(true), Some(period), Ok(value), Ok(frequency)) = (matched, period, &frequency_value, &base_frequency) {
         let help = "set `matched` to false: the claim then has what the mistuned oscillators still do";
@@ -249,7 +257,7 @@ pub fn read_internal_model(
                 help,
                 errors,
             )?;
-            Some(sampling::read(&step, period.nominal(), matched, names, errors)?)
+            Some(sampling::read((&step, delayed?), period.nominal(), matched, names, errors)?)
         }
         _ => None,
     };

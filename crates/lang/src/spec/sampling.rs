@@ -23,6 +23,8 @@ pub struct Sampling {
     pub step: Constant,
     /// T/h, proved: at least 2, at most [`MAX_SAMPLES`].
     pub samples: u32,
+    /// Whether a control takes the sample after its measurement to be computed, `delay_samples` 1 (derivation, 13.4).
+    pub delayed: bool,
 }
 
 /// K and Nb2 of the law at samples, both doubles, exactly: what an exported regulator runs with.
@@ -34,13 +36,29 @@ pub struct SampledGain {
     pub weight_sum: Rational,
 }
 
+/// Reads `delay_samples`: whether it is 1.
+///
+/// # Errors
+/// What is neither 0 nor 1.
+pub fn read_delay(value: &Value<'_>, errors: &mut Errors) -> Result<bool, Reported> {
+    match value.integer(errors)? {
+        0 => Ok(false),
+        1 => Ok(true),
+        more => {
+            let error = whole(value, ErrorKind::Range, format!("a control takes {more} samples to be computed"));
+            let help = "where it takes longer than a sample, take a longer sampling period";
+            Err(errors.report(error.expected("expected 0 or 1").help(help)))
+        }
+    }
+}
+
 /// Reads h and proves that T/h is a whole number of at least 2; `matched` says whether the base frequency is 2 pi/T.
 ///
 /// # Errors
 /// A constant that is not positive; a base frequency that is not matched; a number of samples that is not whole, below 2, above
 /// [`MAX_SAMPLES`], or not known exactly.
 pub(super) fn read(
-    value: &Value<'_>,
+    (value, delayed): (&Value<'_>, bool),
     period: &Constant,
     matched: Result<bool, Reported>,
     names: &Definitions,
@@ -55,7 +73,7 @@ pub(super) fn read(
         );
     }
     match samples(period, &step) {
-        Ok(samples) => Ok(Sampling { step, samples }),
+        Ok(samples) => Ok(Sampling { step, samples, delayed }),
         Err(problem) => {
             let (kind, message) = problem.describe(period);
             let expected = format!("expected period / sampling_period to be a whole number from 2 to {MAX_SAMPLES}");
@@ -124,10 +142,16 @@ fn samples(period: &Constant, step: &Constant) -> Result<u32, Problem> {
 }
 
 impl Sampling {
-    /// The samples h apart in a period, where there is a whole number of them in range.
+    /// The samples h apart in a period, where there is a whole number of them in range; without a delay.
     #[must_use]
     pub fn new(period: &Constant, step: Constant) -> Option<Sampling> {
-        samples(period, &step).ok().map(|samples| Sampling { step, samples })
+        samples(period, &step).ok().map(|samples| Sampling { step, samples, delayed: false })
+    }
+
+    /// The same samples, with a delay or without one.
+    #[must_use]
+    pub fn with_delay(self, delayed: bool) -> Sampling {
+        Sampling { delayed, ..self }
     }
 
     /// Whether two sampling periods are the same number, as far as that is known exactly.

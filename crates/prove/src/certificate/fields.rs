@@ -11,7 +11,7 @@ use sigmastar_theory::derivation::initial_set::ClaimedSet;
 use sigmastar_theory::derivation::mean_squares::MeanSquares;
 use sigmastar_theory::derivation::paths::{Path, Paths};
 use sigmastar_theory::derivation::repaired::RepairedWitness;
-use sigmastar_theory::derivation::sampled::SampledWitness;
+use sigmastar_theory::derivation::sampled::{DelayWitness, SampledWitness};
 use sigmastar_theory::derivation::sharp::SharpWitness;
 use sigmastar_theory::transfer::TransferProof;
 
@@ -122,7 +122,9 @@ numbers!(SampledWitness {
     eta: "h",
     k0: "k0",
     k1: "k1"
-} and (sigma: Rational, sampling: Sampling, law: SampledGain, set: ClaimedSet, paths: Paths));
+} and (sigma: Rational, sampling: Sampling, law: SampledGain, set: ClaimedSet, paths: Paths, delay: Option<DelayWitness>));
+
+numbers!(DelayWitness { gm: "gm", y_0: "Y_0" } and ());
 
 numbers!(ExactWitness { sigma: "sigma_star_oo", d_x: "D_x", d_e: "D_e", w_x: "w_x", h: "h" } and (paths: Paths));
 

@@ -1,6 +1,6 @@
 //! Reading the claim and the witness of a certificate of the regulator at samples.
 
-use super::fields::{NumberFields, PLANT_FIELDS, rational, read_paths};
+use super::fields::{EXISTENCE_INEQUALITY, INEQUALITY, NumberFields, PLANT_FIELDS, rational, read_paths};
 use super::read::{COMMON, embedded, own_actuator, read_set, small_integer};
 use super::sampled::{REGULATOR, SAMPLED};
 use super::triple::{EXISTENCE, STABILITY};
@@ -8,9 +8,10 @@ use super::write::{FORMAT, VERSION};
 use rug::Rational;
 use sigmastar_lang::spec::{
     Document, ErrorKind, Errors, Object, Reported, SampledGain, Sampling, SpecErrors, Value, positive_constant,
+    read_delay,
 };
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
-use sigmastar_theory::derivation::sampled::SampledWitness;
+use sigmastar_theory::derivation::sampled::{DelayWitness, SampledWitness};
 
 /// Whether a certificate says that it is about the regulator at samples.
 #[must_use]
@@ -43,19 +44,27 @@ fn read(root: &Value<'_>, errors: &mut Errors) -> Result<SampledWitness, Reporte
     let mut fields = witness.object(errors)?;
     let of_plant: &[&'static str] = if root.member("plant").is_some() { &PLANT_FIELDS } else { &[] };
     for field in [STABILITY, EXISTENCE].iter().chain(of_plant) {
-        let _ = fields.optional(field);
+        if let Some(value) = fields.optional(field).filter(|_| sampling.delayed && BY_MATRIX.contains(field)) {
+            let error = value.error(ErrorKind::NotAvailable, format!("`{field}` says nothing of the law with a delay"));
+            let expected = "expected a witness by norms, as `certify` writes it for `delay_samples` 1";
+            return Err(errors.report(error.expected(expected)));
+        }
     }
     let witness = SampledWitness::read(&mut fields, errors, |fields, errors| {
         let weight_sum = rational(fields, "weight_sum", errors);
         let transfer = fields.required("transfer", errors).and_then(|value| read_transfer(&value, errors));
         let law = SampledGain { gain, weight_sum: weight_sum? };
         let paths = read_paths(fields, errors);
+        let delay = sampling.delayed.then(|| DelayWitness::read(fields, errors, |_, _| Ok(()))).transpose();
         transfer?;
-        Ok((sigma, sampling, law, set, paths?))
+        Ok((sigma, sampling, law, set, paths?, delay?))
     });
     fields.finish(errors);
     witness
 }
+
+/// Matrix inequalities, which are of the law without a delay.
+const BY_MATRIX: [&str; 2] = [INEQUALITY, EXISTENCE_INEQUALITY];
 
 /// What the claim contributes to the witness.
 struct Claim {
@@ -75,12 +84,13 @@ fn read_claim(value: &Value<'_>, subject: Option<&Value<'_>>, errors: &mut Error
     let sigma = rational(&mut claim, "sigma", errors);
     let step = claim.required("sampling_period", errors).and_then(|value| positive_constant(&value, errors));
     let samples = small_integer(&mut claim, "samples", errors);
+    let delayed = claim.optional("delay_samples").map_or(Ok(false), |value| read_delay(&value, errors));
     let gain = rational(&mut claim, "gain", errors);
     let actuator = own_actuator(&mut claim, value, subject, errors);
     let set = read_set(&mut claim, errors);
     claim.finish(errors);
     regulator.and(derivation).and(actuator)?;
-    let sampling = Sampling { step: step?, samples: samples? };
+    let sampling = Sampling { step: step?, samples: samples?, delayed: delayed? };
     Ok(Claim { sigma: sigma?, sampling, gain: gain?, set: set? })
 }
 

@@ -11,7 +11,7 @@ use crate::certify::SampledCertification;
 use serde_json::Value;
 use sigmastar_exact::number::write_exact;
 use sigmastar_lang::spec::Specification;
-use sigmastar_theory::derivation::sampled::SampledWitness;
+use sigmastar_theory::derivation::sampled::{DelayWitness, SampledWitness};
 
 /// The word for the regulator of these claims.
 pub(super) const REGULATOR: &str = "digital";
@@ -47,10 +47,12 @@ pub fn sampled_certificate_json(run: &SampledCertification<'_>) -> Option<Value>
         ("control", control_json(run.control()?)),
         ("statement", text(sampled_statement(spec, witness))),
     ];
+    let delay = witness.sampling.delayed.then(|| ("delay_samples", Value::from(1)));
     let claim = {
-        let of_actuator = input_gain_json(spec).into_iter().chain(actuator_json(spec));
+        let of_actuator = delay.into_iter().chain(input_gain_json(spec)).chain(actuator_json(spec));
         object(heading.into_iter().chain(of_actuator).chain(parameters_json(spec)).chain(rest))
     };
+    let of_delay = witness.delay.as_ref().map_or_else(Vec::new, NumberFields::json);
     let further = [("weight_sum", exact(&witness.law.weight_sum)), ("transfer", object([("proof", text(SAMPLED))]))];
     let parts =
         further.into_iter().chain([paths_json(witness.paths)]).chain(lyapunov_parts(spec)).chain(plant_parts(spec));
@@ -66,7 +68,7 @@ pub fn sampled_certificate_json(run: &SampledCertification<'_>) -> Option<Value>
         (embedded, spec.document.clone()),
         (digest, text(spec.sha256.clone())),
         ("claim", claim),
-        ("witness", object(witness.json().into_iter().chain(parts))),
+        ("witness", object(witness.json().into_iter().chain(of_delay).chain(parts))),
         ("conditions", conditions_json(&proof.evaluation.conditions)),
     ]))
 }
@@ -76,10 +78,17 @@ pub fn sampled_certificate_json(run: &SampledCertification<'_>) -> Option<Value>
 pub fn sampled_statement(spec: &Specification, witness: &SampledWitness) -> String {
     let model = &spec.internal_model;
     let samples = witness.sampling.samples;
+    let start = match &witness.delay {
+        None => "at any sampling instant".to_owned(),
+        Some(DelayWitness { y_0, .. }) => {
+            format!("at any sampling instant, with a prediction of e there within h*{} of it", write_exact(y_0))
+        }
+    };
     format!(
-        "For the digital regulator with the gain sigma = {}, the sampling period h = {} ({samples} samples a period) and \
+        "For the digital regulator {}with the gain sigma = {}, the sampling period h = {} ({samples} samples a period) and \
          K = {}, for every number of oscillators n_o < {samples}/2 and every phase of the sampling grid{}{}, with period T = {}, \
          mu = {} and base frequency {}, {}",
+        if witness.sampling.delayed { "whose control is computed in the sample before it acts, " } else { "" },
         write_exact(&witness.sigma),
         witness.sampling.text(),
         write_exact(&witness.law.gain),
@@ -88,6 +97,6 @@ pub fn sampled_statement(spec: &Specification, witness: &SampledWitness) -> Stri
         spec.period.nominal().text,
         model.mu.text,
         model.base_frequency.text,
-        conclusion(spec, &witness.set, "at any sampling instant"),
+        conclusion(spec, &witness.set, &start),
     )
 }

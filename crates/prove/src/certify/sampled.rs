@@ -9,10 +9,13 @@ use super::produce::undecided_or_error;
 use super::proof::{Outcome, SampledProof};
 use super::refusal::Refusal;
 use super::round::{
-    LONG_DIGITS, RoundedBox, SHORT_DIGITS, box_with, claimed_set, first_proved, room, rounded_box, rounded_sigma,
+    LONG_DIGITS, RoundedBox, SHORT_DIGITS, box_with, claimed_set, first_proved, nearest, room, rounded_box,
+    rounded_sigma,
 };
 use super::verdict::Verdict;
-use crate::search::{Extreme, Failing, FloatModel, Goal, Obstacle, SampledLimit, SampledProposal, SampledSearch};
+use crate::search::{
+    Extreme, Failing, FloatModel, Goal, Obstacle, PastShare, SampledLimit, SampledProposal, SampledSearch, weight_h,
+};
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, round_f64, round_rational};
@@ -25,7 +28,7 @@ use sigmastar_theory::derivation::harmonics::AtOrigin;
 use sigmastar_theory::derivation::initial_set::claimed_distances;
 use sigmastar_theory::derivation::mean_squares::{Gains, MeanSquares, PeriodicSize, SetBounds};
 use sigmastar_theory::derivation::sampled::{
-    SampledEvaluation, SampledGains, SampledLaw, SampledWitness, energy, sampled_trade_off,
+    DelayWitness, SampledEvaluation, SampledGains, SampledLaw, SampledWitness, energy, sampled_trade_off,
 };
 
 /// Everything that a run about the regulator at samples found out.
@@ -339,6 +342,19 @@ fn round(
             Some(weights) => box_of(weights),
             None => rounded_box(model, d_x, at.rho, far, at.eta, slack),
         }?;
+        let (eta, delay) = match at.past {
+            None => (eta, None),
+            Some(past) => {
+                let y_0 = y_0(sampling, &set.e0)?;
+                let y_per = gains.largest_mean(&size.forcing).upper_f64();
+                // As far as the claimed set has it.
+                let distance = sampling.step.to_f64().sqrt() * (y_0.to_f64() + y_per) * (1.0 + 1e-15);
+                let past = PastShare { distance: past.distance.max(distance), ..past };
+                let gm = nearest(past.weight(at.eta, far[0]), LONG_DIGITS)?;
+                let eta = nearest(weight_h((1.0 - past.share) * at.eta, far[0], far[1]), LONG_DIGITS)?;
+                (eta, Some(DelayWitness { gm, y_0 }))
+            }
+        };
         let (sampling, law) = (sampling.clone(), law.clone());
         Some(SampledWitness {
             sigma,
@@ -357,8 +373,18 @@ fn round(
             k1,
             set,
             paths: at.paths,
+            delay,
         })
     })
+}
+
+/// Y_0 with E_0 <= h Y_0, exactly where that is a short number.
+fn y_0(sampling: &Sampling, e_0: &Rational) -> Option<Rational> {
+    let exact = match sampling.step.as_rational() {
+        Some(step) => Rational::from(e_0 / step),
+        None => (Enclosure::from_rational(e_0, 512) / sampling.step.enclose(512)).upper_rational()?,
+    };
+    Some(round_rational(&exact, LONG_DIGITS, Direction::Up))
 }
 
 /// The gain, or the largest one with h sigma <= 1 where it is beyond that.

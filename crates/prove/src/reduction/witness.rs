@@ -89,6 +89,15 @@ fn same_samples(subject: &Subject, stated: &Sampling, asked: Option<&Sampling>) 
         let message = format!("another sampling period is asked for than {step}, which the certificate is about");
         return Err(told(subject, "/internal_model/sampling_period", message, SEARCH));
     }
+    if asked.is_some_and(|asked| asked.delayed != stated.delayed) {
+        let with = |delayed: bool| if delayed { "with a delay" } else { "without a delay" };
+        let message = format!(
+            "the law {} is asked for, and the certificate is about the one {}",
+            with(!stated.delayed),
+            with(stated.delayed)
+        );
+        return Err(told(subject, "/internal_model/delay_samples", message, SEARCH));
+    }
     match Sampling::new(subject.period().nominal(), stated.step.clone()) {
         Some(real) if real.samples == stated.samples && subject.is_matched() => Ok(()),
         Some(_) | None => {

@@ -30,5 +30,6 @@ pub(super) fn error_box_at_samples(
     }
     // Where nothing is coupled the radius is 0, which has no logarithm.
     let threshold = radius.max(1e-300);
-    Ok(AtSigma { rho, eta, d_x, dist_e, dist_z, paths: Paths::both(Path::Straight), threshold, cost: threshold })
+    let paths = Paths::both(Path::Straight);
+    Ok(AtSigma { rho, eta, d_x, dist_e, dist_z, paths, past: None, threshold, cost: threshold })
 }

@@ -46,7 +46,7 @@ pub(super) fn error_box_by_matrix(
     if !threshold.is_finite() {
         return Err(Failing::Curvature.at(at[0], at[1]));
     }
-    Ok(AtSigma { rho, eta, d_x, dist_e, dist_z, paths: Paths::both(path), threshold, cost: threshold })
+    Ok(AtSigma { rho, eta, d_x, dist_e, dist_z, paths: Paths::both(path), past: None, threshold, cost: threshold })
 }
 
 /// What is kept between both members of C4, for rounding.
@@ -81,6 +81,7 @@ fn joint_error_box(
             dist_e,
             dist_z,
             paths: Paths::both(Path::Straight),
+            past: None,
             threshold,
             cost: threshold,
         });

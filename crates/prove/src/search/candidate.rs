@@ -28,10 +28,29 @@ pub struct AtSigma {
     pub dist_z: f64,
     /// The paths of f and of q.
     pub paths: Paths,
+    /// What of eta is stored in the last y, of the law at samples with a delay (derivation, 13.4).
+    pub past: Option<PastShare>,
     /// The right side of C5, or of the law at samples the radius of its forms, to be below 1.
     pub threshold: f64,
     /// What is made small: the threshold, or what a [`Goal`] has in its place.
     pub cost: f64,
+}
+
+/// The weight of the last y, gm h y^2 = share eta dE^2 at the distance.
+#[derive(Clone, Copy, Debug)]
+pub struct PastShare {
+    /// The share of eta, between 0 and 1; the rest is that of zeta.
+    pub share: f64,
+    /// sqrt(h) (Y_0 + y_per).
+    pub distance: f64,
+}
+
+impl PastShare {
+    /// gm.
+    #[must_use]
+    pub fn weight(&self, eta: f64, dist_e: f64) -> f64 {
+        weight_h(self.share * eta, dist_e, self.distance)
+    }
 }
 
 /// The larger one of the two shares of C1 and of a first entry of the contraction matrix below 1 (with room for rounding), to
@@ -84,10 +103,11 @@ pub(super) struct Shape {
 impl Shape {
     /// That of a candidate, along its paths.
     pub(super) fn of(model: &FloatModel, (x_per, e_per): (f64, f64), at: &AtSigma) -> Shape {
-        let AtSigma { rho, eta, d_x, dist_e, dist_z, paths, .. } = *at;
+        let AtSigma { rho, eta, d_x, dist_e, dist_z, paths, past, .. } = *at;
         let level = active_level(eta, dist_e, rho);
         let error_box = ErrorBox::new(model, paths, [&x_per, &e_per], [&d_x, &level.sqrt()]);
-        Shape { d_x, w_x: level / (model.p_low * d_x * d_x), weight: weight_h(eta, dist_e, dist_z), paths, error_box }
+        let weight = weight_h(eta * past.map_or(1.0, |past| 1.0 - past.share), dist_e, dist_z);
+        Shape { d_x, w_x: level / (model.p_low * d_x * d_x), weight, paths, error_box }
     }
 
     /// What `evaluate` makes of the box along the paths for which that is least; the box lies in the domain, and the rates on it
@@ -151,6 +171,7 @@ pub(super) fn error_box_by_norms(
             dist_e,
             dist_z,
             paths,
+            past: None,
             threshold: decay.sigma_threshold,
             cost: decay.sigma_threshold,
         })

@@ -26,8 +26,21 @@ pub enum Goal {
 /// How far the threshold stays below the gain where it is not what is made small, for rounding; what is proved with its weights is not moved.
 const BELOW: f64 = 1.0 - 1e-6;
 
-/// The gain that multiplies e, and the one that multiplies M'N zeta: mu, or at samples K.
-pub(super) type Law = [f64; 2];
+/// What multiplies what in the control.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Law {
+    /// The gain that multiplies e, and the one that multiplies M'N zeta: mu, or at samples K.
+    pub gains: [f64; 2],
+    /// h and Nb2, where the last y is in the control: with a delay (derivation, 13.4).
+    pub past: Option<[f64; 2]>,
+}
+
+impl Law {
+    /// That of the regulator in continuous time.
+    pub fn continuous(sigma: f64, model: &FloatModel) -> Law {
+        Law { gains: [sigma, model.mu], past: None }
+    }
+}
 
 /// The candidate with what it costs; `least` is what its threshold has to be below.
 ///
@@ -45,7 +58,7 @@ pub(super) fn weighed(
     let cost = match model.goal {
         Goal::Threshold => return Ok(at),
         _ if at.threshold.is_nan() || at.threshold > largest => {
-            return Err(Failing::Gain { given: law[0], smallest: None }.into());
+            return Err(Failing::Gain { given: law.gains[0], smallest: None }.into());
         }
         Goal::Control => reach(model, &at, distances, law).transient,
         Goal::Peak => reach(model, &at, distances, law).error,
@@ -54,15 +67,20 @@ pub(super) fn weighed(
 }
 
 /// How far e and u go from those of the periodic solution, from the initial set.
-pub(super) fn reach(model: &FloatModel, at: &AtSigma, distances: [f64; 3], [sigma, gain]: Law) -> control::Reach<f64> {
+pub(super) fn reach(model: &FloatModel, at: &AtSigma, distances: [f64; 3], law: Law) -> control::Reach<f64> {
+    let [sigma, gain] = law.gains;
     if let (Some(ByMatrix::Joint(joint)), Some(sigma)) = (&model.by_matrix, Rational::from_f64(sigma)) {
         let [x, e, z] = &distances;
         return control::joint_reach(model, joint, Rational::to_f64, &sigma, [x, e, z]);
     }
-    let (level, h) = (active_level(at.eta, at.dist_e, at.rho), weight_h(at.eta, at.dist_e, at.dist_z));
+    let of_zeta = at.past.map_or(at.eta, |past| at.eta * (1.0 - past.share));
+    let (level, h) = (active_level(at.eta, at.dist_e, at.rho), weight_h(of_zeta, at.dist_e, at.dist_z));
+    let past = law.past.zip(at.past).map(|([step, sum], past)| {
+        control::of_past([&sigma, &gain], [&step, &sum], &past.weight(at.eta, at.dist_e))
+    });
     // At the gain b the weight of zeta is b h.
     let least = model.input_gain.as_ref().map_or(h, |known| known.low * h);
-    control::reach(model, [&sigma, &gain], &least, &level)
+    control::reach(model, [&sigma, &gain], &least, (&level, past.as_ref()))
 }
 
 /// The largest |u| of the law and the largest |e| on the way from the initial set, of a candidate.
@@ -75,7 +93,7 @@ pub(super) fn largest(
 ) -> Largest {
     let bounds = SetBounds::new(model, set.x_p, set.e_p);
     let forcing = Forcing::new(&bounds, origin, set.refined.as_ref().unwrap_or(&set.squares));
-    let by_parts = control::by_parts(model, law.each_ref(), [&set.e_per, &set.z]);
+    let by_parts = control::by_parts(model, law.gains.each_ref(), [&set.e_per, &set.z]);
     let reach = reach(model, at, start_distances(model, set), law);
     let control = answer.steady(origin, &forcing, &by_parts) + reach.transient;
     Largest { control, steady_error: set.e_per, peak_error: set.e_per + reach.error }

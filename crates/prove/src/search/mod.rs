@@ -32,7 +32,7 @@ mod threshold;
 pub use at_samples::{AtSamples, BySampledEnergy, BySampledMatrix, SampledEnergyAt, SampledRadiusAt};
 pub use binding::Binding;
 pub use by_energy::{ByEnergy, EnergyMargin, SHARE};
-pub use candidate::{AtSigma, active_level, weight_h};
+pub use candidate::{AtSigma, PastShare, active_level, weight_h};
 pub use exact::search_exact;
 pub use float_bound::FloatBound;
 pub use goal::{Goal, Largest};

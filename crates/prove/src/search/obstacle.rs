@@ -37,6 +37,11 @@ pub enum Failing {
         /// Whether the gain is given.
         given: bool,
     },
+    /// 3 K h Nb2/2 >= 1, which a law with a delay needs to be less (derivation, 13.4).
+    Delay {
+        /// 3 K h Nb2/2.
+        share: f64,
+    },
     /// The interval of the input gain is so wide that C5 has no h for it at any gain (derivation, 13.1).
     InputGain {
         /// b_lo.
@@ -131,7 +136,7 @@ impl Failing {
             Failing::Curvature => 5,
             Failing::Coupling => 6,
             Failing::Gain { .. } => 7,
-            Failing::Hold { .. } => 8,
+            Failing::Hold { .. } | Failing::Delay { .. } => 8,
             Failing::Sampling => 9,
             Failing::Samples => 10,
             Failing::Bounds => 11,
@@ -195,6 +200,10 @@ impl Obstacle {
                  {}, and 1/h is {}",
                 short(sigma),
                 short(largest)
+            ),
+            Failing::Delay { share } => format!(
+                "3 K h Nb2/2 = {}, where Nb2 is the sum of all weights: the law with a delay needs it below 1",
+                short(share)
             ),
             Failing::InputGain { low, high } => format!(
                 "the input gain is too uncertain: with b from {} to {} times the nominal one C5 has no weight of the internal model at \

@@ -56,6 +56,8 @@ pub struct PeriodicSet {
     pub z: f64,
     /// k0, k1 and K.
     pub pair: (f64, f64, u32),
+    /// Of the law at samples, a bound of sup|y_k|.
+    pub y_per: f64,
 }
 
 /// Steps of the iteration at most.
@@ -171,7 +173,8 @@ impl Iteration<'_> {
         if !z.is_finite() {
             return Err(model.not_finite(x_p, e_p));
         }
-        Ok(PeriodicSet { x_p, e_p, squares, kap, refined, x_per: size.x_per, e_per: size.e_per, z, pair })
+        let [x_per, e_per, y_per] = [size.x_per, size.e_per, gains.largest_mean(&size.forcing)];
+        Ok(PeriodicSet { x_p, e_p, squares, kap, refined, x_per, e_per, z, pair, y_per })
     }
 
     /// The gains with what a matrix inequality says on (X_p, E_p), where there is one there.

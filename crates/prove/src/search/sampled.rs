@@ -4,10 +4,10 @@
 //! scanned from below up to 1/h, and refined where the scan changes its mind.
 
 use super::box_at_samples::error_box_at_samples;
-use super::candidate::{AtSigma, Shape};
+use super::candidate::{AtSigma, PastShare, Shape};
 use super::error_box::{best_shape, shape_near};
 use super::floors::{ordinary, raised, tiny};
-use super::goal::{Largest, largest, weighed};
+use super::goal::{Largest, Law, largest, weighed};
 use super::model::FloatModel;
 use super::obstacle::{Closest, Failing, Obstacle};
 use super::periodic::{Floors, PeriodicSet};
@@ -16,7 +16,15 @@ use super::sharp::{ROOM, search_sharp, start_distances};
 use rug::Rational;
 use sigmastar_exact::number::Portable;
 use sigmastar_theory::derivation::harmonics::AtOrigin;
-use sigmastar_theory::derivation::sampled::{DecayForms, DecayNumbers, Form, Part, SampledGains, SampledLaw};
+use sigmastar_theory::derivation::sampled::{DecayForms, DecayNumbers, Form, Part, Past, SampledGains, SampledLaw};
+
+/// Where an error box is open although a distance is 0.
+const FLOOR: f64 = 1e-6;
+
+/// The odds of the share of eta that serves the last y: so many, a factor exp(2) apart, up to exp(4); then a section.
+const ODDS: u32 = 10;
+const ODDS_STEP: f64 = 2.0;
+const HALVINGS: u32 = 5;
 
 /// Points of the scan of sigma.
 const POINTS: u32 = 48;
@@ -151,8 +159,12 @@ impl<'m> SampledSearch<'m> {
         near: Option<(f64, f64)>,
         room: f64,
     ) -> Result<(PeriodicSet, AtSigma), Obstacle> {
+        let share = 3.0 * self.law.lost();
+        if self.law.delayed && (share.is_nan() || share >= 1.0) {
+            return Err(Failing::Delay { share }.into());
+        }
         let set = PeriodicSet::least_sampled(self.model, &self.origin, (&self.law, sigma), floors, room)?;
-        let distances = start_distances(self.model, &set);
+        let distances = self.distances(&set);
         let evaluate = |rho: f64, eta: f64| self.evaluate(sigma, &set, distances, (rho, eta));
         let near = near.and_then(|shape| shape_near(self.model, evaluate, shape));
         let at = match near {
@@ -172,28 +184,45 @@ impl<'m> SampledSearch<'m> {
         refined: bool,
     ) -> Option<(PeriodicSet, AtSigma)> {
         let set = PeriodicSet::least_sampled(self.model, &self.origin, (&self.law, sigma), floors, room).ok()?;
-        let distances = start_distances(self.model, &set);
+        let distances = self.distances(&set);
         let evaluate = |rho: f64, eta: f64| self.evaluate(sigma, &set, distances, (rho, eta));
         let at = if refined { shape_near(self.model, evaluate, (rho, eta)) } else { evaluate(rho, eta).ok() };
         Some((set, at?))
+    }
+
+    /// dX, dE, dZ, and with a delay sqrt(h) (Y_0 + y_per) for Y_0 = E_0/h: at rest nothing is predicted.
+    fn distances(&self, set: &PeriodicSet) -> ([f64; 3], Option<f64>) {
+        let distances = start_distances(self.model, set);
+        let past = self.law.delayed.then(|| {
+            let e_0 = self.model.required_set(set.x_p, set.e_p, set.z).e0;
+            let step = self.law.step;
+            ((e_0 + step * set.y_per) / step.sqrt()).max(FLOOR * distances[1] / step.sqrt())
+        });
+        (distances, past)
     }
 
     fn evaluate(
         &self,
         sigma: f64,
         set: &PeriodicSet,
-        distances: [f64; 3],
+        (distances, past): ([f64; 3], Option<f64>),
         shape: (f64, f64),
     ) -> Result<AtSigma, Obstacle> {
-        let at = self.error_box(sigma, set, distances, shape)?;
-        weighed(self.model, at, distances, [sigma, self.law.gain], LARGEST)
+        let at = self.error_box(sigma, set, (distances, past), shape)?;
+        weighed(self.model, at, distances, self.gains(sigma), LARGEST)
+    }
+
+    /// What multiplies what in the control.
+    fn gains(&self, sigma: f64) -> Law {
+        let past = self.law.delayed.then_some([self.law.step, self.law.weight_sum]);
+        Law { gains: [sigma, self.law.gain], past }
     }
 
     fn error_box(
         &self,
         sigma: f64,
         set: &PeriodicSet,
-        distances: [f64; 3],
+        (distances, past): ([f64; 3], Option<f64>),
         (rho, eta): (f64, f64),
     ) -> Result<AtSigma, Obstacle> {
         if let Some(known) = &self.model.at_samples.stability {
@@ -202,21 +231,34 @@ impl<'m> SampledSearch<'m> {
         }
         let [_, dist_e, dist_z] = distances;
         Shape::best(self.model, (set.x_per, set.e_per), distances, (rho, eta), |shape| {
-            let forms = self.forms(sigma, &shape, None);
-            if forms.within.is_nan() || forms.within <= 0.0 {
-                return Err(Failing::Sampling.at(shape.error_box.x_b, shape.error_box.e_b));
-            }
-            let coupled = Failing::Coupling.at(shape.error_box.x_b, shape.error_box.e_b);
-            let radius = radius(&forms.start).zip(radius(&forms.end)).ok_or(coupled)?;
-            // Where nothing is coupled the radius is 0, which has no logarithm.
-            let threshold = radius.0.max(radius.1).max(1e-300);
-            Ok(AtSigma { rho, eta, d_x: shape.d_x, dist_e, dist_z, paths: shape.paths, threshold, cost: threshold })
+            let radius_with = |shape: &Shape, gm: f64| {
+                let forms = self.forms(sigma, (shape, gm), None);
+                if forms.within.is_nan() || forms.within <= 0.0 {
+                    return Err(Failing::Sampling.at(shape.error_box.x_b, shape.error_box.e_b));
+                }
+                let coupled = Failing::Coupling.at(shape.error_box.x_b, shape.error_box.e_b);
+                let radius = radius(&forms.start).zip(radius(&forms.end)).ok_or(coupled)?;
+                // Where nothing is coupled the radius is 0, which has no logarithm.
+                Ok(radius.0.max(radius.1).max(1e-300))
+            };
+            let (past, threshold) = match past {
+                None => (None, radius_with(&shape, 0.0)?),
+                Some(distance) => {
+                    let (past, threshold) = best_share(distance, |past| {
+                        let weight = shape.weight * (1.0 - past.share);
+                        radius_with(&Shape { weight, ..shape.clone() }, past.weight(eta, dist_e))
+                    })?;
+                    (Some(past), threshold)
+                }
+            };
+            Ok(AtSigma { rho, eta, d_x: shape.d_x, dist_e, dist_z, paths: shape.paths, past, threshold, cost: threshold })
         })
     }
 
-    fn forms(&self, sigma: f64, shape: &Shape, without: Option<Part>) -> DecayForms<f64> {
+    /// The forms of a shape, with the weight gm of the last y where there is a delay.
+    fn forms(&self, sigma: f64, (shape, gm): (&Shape, f64), without: Option<Part>) -> DecayForms<f64> {
         let Shape { w_x, weight, error_box, .. } = shape;
-        let numbers = DecayNumbers { law: &self.law, sigma: &sigma, w_x, eta: weight };
+        let numbers = DecayNumbers { law: &self.law, sigma: &sigma, w_x, eta: weight, gm: &gm };
         DecayForms::without(self.model, error_box, &numbers, without)
     }
 
@@ -249,7 +291,7 @@ impl<'m> SampledSearch<'m> {
         let (set, at) = self.at(*sigma, *floors, Some((*rho, *eta)), ROOM)?;
         let gains = SampledGains::new(&self.law, sigma, &self.model.period);
         let answer = self.law.answer(sigma, &self.model.period, &gains.means);
-        Ok(largest(self.model, &self.origin, &answer, [*sigma, self.law.gain], (&set, &at)))
+        Ok(largest(self.model, &self.origin, &answer, self.gains(*sigma), (&set, &at)))
     }
 
     /// The same shape as a known one, where the bounding functions are known near it alone: at the gain that is given, or at
@@ -365,8 +407,9 @@ impl<'m> SampledSearch<'m> {
             return SampledLimit::Matrix;
         }
         let shape = Shape::of(self.model, (set.x_per, set.e_per), &at);
+        let gm = at.past.map_or(0.0, |past| past.weight(at.eta, at.dist_e));
         let of = |part: Option<Part>| {
-            let forms = self.forms(sigma, &shape, part);
+            let forms = self.forms(sigma, (&shape, gm), part);
             [&forms.start, &forms.end].map(|form| radius(form).unwrap_or(f64::INFINITY))
         };
         let [start, end] = of(None);
@@ -384,10 +427,43 @@ impl<'m> SampledSearch<'m> {
     }
 }
 
+/// The share of eta that serves the last y best, for which `radius` is least: a scan over its odds, then a section.
+///
+/// # Errors
+/// What stands in the way of every share.
+fn best_share(
+    distance: f64,
+    radius: impl Fn(PastShare) -> Result<f64, Obstacle>,
+) -> Result<(PastShare, f64), Obstacle> {
+    // Odds exp(t).
+    let share_at = |t: f64| PastShare { share: 1.0 / (1.0 + (-t).portable_exp()), distance };
+    let mut closest = Closest::default();
+    let mut best: Option<(f64, f64)> = None;
+    let mut look = |t: f64, best: &mut Option<(f64, f64)>| match radius(share_at(t)) {
+        Ok(found) if best.is_none_or(|(_, least)| found < least) => *best = Some((t, found)),
+        Ok(_) => {}
+        Err(obstacle) => closest.record(obstacle),
+    };
+    for k in 0..ODDS {
+        look(ODDS_STEP * (f64::from(k) - f64::from(ODDS - 3)), &mut best);
+    }
+    let mut step = ODDS_STEP;
+    for _ in 0..HALVINGS {
+        step /= 2.0;
+        let Some((middle, _)) = best else { break };
+        look(middle - step, &mut best);
+        look(middle + step, &mut best);
+    }
+    closest.or(best).map(|(t, radius)| (share_at(t), radius))
+}
+
 /// The spectral radius of what is off the diagonal of a form that is scaled to 1 on it: below 1 if and only if the form is
 /// positive definite. `None` where the diagonal is not positive.
 fn radius(form: &Form<f64>) -> Option<f64> {
-    let Form { xx, ee, yy, xe, xy, ey } = form;
+    let Form { xx, ee, yy, xe, xy, ey, past } = form;
+    if let Some(Past { pp, xp, ep, yp }) = past {
+        return radius_of_four([xx, ee, yy, pp], [[xe, yp], [xy, ep], [ey, xp]]);
+    }
     if ![xx, ee, yy].iter().all(|value| **value > 0.0 && value.is_finite()) {
         return None;
     }
@@ -408,9 +484,65 @@ fn radius(form: &Form<f64>) -> Option<f64> {
     r.is_finite().then_some(r)
 }
 
+/// The same in four variables. `pairs` are what is off the diagonal, each with the one that shares no variable with it.
+fn radius_of_four(diagonal: [&f64; 4], pairs: [[&f64; 2]; 3]) -> Option<f64> {
+    if !diagonal.iter().all(|value| **value > 0.0 && value.is_finite()) {
+        return None;
+    }
+    let [x, e, y, p] = diagonal.map(|value| value.sqrt());
+    let scaled = |value: &f64, scale: f64| value / (2.0 * scale);
+    let [[xe, yp], [xy, ep], [ey, xp]] = pairs;
+    let [xe, yp, xy] = [scaled(xe, x * e), scaled(yp, y * p), scaled(xy, x * y)];
+    let [ep, ey, xp] = [scaled(ep, e * p), scaled(ey, e * y), scaled(xp, x * p)];
+    let squares: f64 = [xe, yp, xy, ep, ey, xp].iter().map(|value| value * value).sum();
+    if squares == 0.0 {
+        return Some(0.0);
+    }
+    let triangles = xe * ey * xy + xe * ep * xp + xy * yp * xp + ey * yp * ep;
+    let [a, b, c] = [xe * yp, xy * ep, ey * xp];
+    let determinant = a * a + b * b + c * c - 2.0 * (a * b + a * c + b * c);
+    // The largest root of r^4 - squares r^2 - 2 triangles r + determinant, by Newton's method from above: the squares of all four add up
+    // to 2 squares, and their sum is 0.
+    let mut r = (1.5 * squares).sqrt();
+    for _ in 0..60 {
+        let value = ((r * r - squares) * r - 2.0 * triangles) * r + determinant;
+        let step = value / ((4.0 * r * r - 2.0 * squares) * r - 2.0 * triangles);
+        r -= step;
+        if step.is_nan() || step.abs() <= 1e-15 * r {
+            break;
+        }
+    }
+    r.is_finite().then_some(r)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// In four variables too.
+    #[test]
+    fn the_radius_of_four_tells_definite_forms_apart() {
+        let mut state = 9_u64;
+        let mut next = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 40) as f64 / 2f64.powi(24)
+        };
+        let mut seen = [0; 2];
+        for _ in 0..4000 {
+            let scale = 0.2 + next();
+            let past = Past { pp: next() + 0.1, xp: scale * next(), ep: scale * next(), yp: scale * next() };
+            let [xe, xy, ey] = [0; 3].map(|_| scale * next());
+            let [xx, ee, yy] = [0; 3].map(|_| next() + 0.1);
+            let form = Form { xx, ee, yy, xe, xy, ey, past: Some(past) };
+            let definite = form.minors().iter().all(|minor| *minor > 0.0);
+            let radius = radius(&form).unwrap();
+            if (radius - 1.0).abs() > 1e-9 {
+                assert_eq!(radius < 1.0, definite, "{form:?} {radius}");
+                seen[usize::from(definite)] += 1;
+            }
+        }
+        assert!(seen.iter().all(|count| *count > 500), "{seen:?}");
+    }
 
     #[test]
     fn the_radius_tells_definite_forms_apart() {
@@ -421,8 +553,15 @@ mod tests {
         };
         let mut seen = [0; 2];
         for _ in 0..4000 {
-            let form =
-                Form { xx: next() + 0.1, ee: next() + 0.1, yy: next() + 0.1, xe: next(), xy: next(), ey: next() };
+            let form = Form {
+                xx: next() + 0.1,
+                ee: next() + 0.1,
+                yy: next() + 0.1,
+                xe: next(),
+                xy: next(),
+                ey: next(),
+                past: None,
+            };
             let definite = form.minors().iter().all(|minor| *minor > 0.0);
             let radius = radius(&form).unwrap();
             if (radius - 1.0).abs() > 1e-9 {
@@ -431,7 +570,7 @@ mod tests {
             }
         }
         assert!(seen.iter().all(|count| *count > 500), "{seen:?}");
-        let free = Form { xx: 1.0, ee: 2.0, yy: 3.0, xe: 0.0, xy: 0.0, ey: 0.0 };
+        let free = Form { xx: 1.0, ee: 2.0, yy: 3.0, xe: 0.0, xy: 0.0, ey: 0.0, past: None };
         assert_eq!(radius(&free), Some(0.0));
         assert_eq!(radius(&Form { yy: -1.0, ..free }), None);
     }

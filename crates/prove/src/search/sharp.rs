@@ -4,7 +4,7 @@ use super::binding::Binding;
 use super::candidate::AtSigma;
 use super::error_box::{best_shape, error_box, shape_near};
 use super::floors::{ordinary, raised, tiny};
-use super::goal::{Largest, largest, weighed};
+use super::goal::{Largest, Law, largest, weighed};
 use super::model::{Datum, FloatModel, OptionalDatum};
 use super::obstacle::{Closest, Failing, Obstacle};
 use super::periodic::{ExistenceForm, Floors, PeriodicSet};
@@ -77,7 +77,7 @@ impl Search<'_> {
         let periodic = (set.x_per, set.e_per);
         let evaluate = |rho: f64, eta: f64| {
             let at = error_box(self.model, periodic, distances, ((rho, eta), sigma))?;
-            weighed(self.model, at, distances, [sigma, self.model.mu], sigma)
+            weighed(self.model, at, distances, Law::continuous(sigma, self.model), sigma)
         };
         let at = match self.near {
             // A shape is sought together with the coordinates where it is dear.
@@ -317,7 +317,7 @@ pub fn largest_at(
 ) -> Result<Largest, Obstacle> {
     let (set, at) = at_sigma(model, parameters, *sigma, ROOM)?;
     let answer = Answer::continuous(model);
-    Ok(largest(model, &AtOrigin::new(model), &answer, [*sigma, model.mu], (&set, &at)))
+    Ok(largest(model, &AtOrigin::new(model), &answer, Law::continuous(*sigma, model), (&set, &at)))
 }
 
 /// By how much (relatively) sigma* falls for each of these models, in which one datum is better; floating point, local steps

@@ -12,14 +12,14 @@ pub const VERSION: u64 = 2;
 pub const VERSIONS: [u64; 2] = [1, VERSION];
 
 /// The regulator as JSON: parameters, matrices row by row, what is claimed and what is not, and the law at samples with the
-/// spectral radius of its loop where there is one. Every number is a double in the fewest digits that give it back.
+/// spectral radius of its loop where there is one; with a delay Phi, Gamma, C, D are those of (z, s) and u_next. Every number is a double in the fewest digits that give it back.
 #[must_use]
 pub fn json(export: &Export<'_>) -> Value {
     let regulator = export.regulator;
     let discrete = export.discrete.map(|(discrete, sampled)| {
-        object!({
+        let mut law = object!({
             "hold": "zero-order",
-            "law": sampled_law(regulator),
+            "law": sampled_law(regulator, discrete),
             "step": discrete.step,
             "K": discrete.gain,
             "weight_sum": discrete.weight_sum,
@@ -32,7 +32,11 @@ pub fn json(export: &Export<'_>) -> Value {
             "sampled_loop": {
                 "plant": "e' = u", "spectral_radius": sampled.spectral_radius(), "verdict": sampled.verdict(),
             },
-        })
+        });
+        if let Some(product) = discrete.prediction {
+            (law["delay_samples"], law["prediction"]) = (1.into(), product.into());
+        }
+        law
     });
     let certificate = export.certificate.map(|Provenance { sha256, sigma_star, one_gain, statement, scope }| {
         let gain = if *one_gain { "sigma" } else { "sigma_star" };

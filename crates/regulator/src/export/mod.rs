@@ -9,7 +9,7 @@ mod npz;
 pub use c::{CNames, CSources, Prefix, PrefixError, c_sources};
 pub use json::{FORMAT, VERSION, VERSIONS, json};
 pub use matlab::matlab;
-pub use notice::{Provenance, SAMPLED_LAW, Scope, notice};
+pub use notice::{DELAYED_LAW, Provenance, SAMPLED_LAW, Scope, notice};
 pub use npz::npz;
 
 use super::{Convergence, Discrete, Regulator};
@@ -40,10 +40,14 @@ fn continuous_law(regulator: &Regulator) -> &'static str {
 }
 
 /// The law at samples.
-fn sampled_law(regulator: &Regulator) -> String {
+fn sampled_law(regulator: &Regulator, discrete: &Discrete) -> String {
+    let (law, control) = match discrete.prediction {
+        None => (SAMPLED_LAW, "-sigma e + K v"),
+        Some(_) => (DELAYED_LAW, "-sigma e1 + K v"),
+    };
     match regulator.nominal {
-        None => SAMPLED_LAW.to_owned(),
-        Some(_) => SAMPLED_LAW.replace("u = -sigma e + K v", "u = (-sigma e + K v)/nominal"),
+        None => law.to_owned(),
+        Some(_) => law.replace(control, &format!("({control})/nominal")),
     }
 }
 

@@ -5,9 +5,20 @@ use super::Export;
 /// The law at samples, as exports write it: Phi is R there.
 pub const SAMPLED_LAW: &str = "v = M'N Phi (z - M e), u = -sigma e + K v, z_next = Phi (z - M e) + (1 - h sigma) M e";
 
+/// The same with a delay: the state is (z, s).
+pub const DELAYED_LAW: &str = "e1 = e + s, z_next = R (z - M e) + M e1, v = M'N R (z_next - M e1), u_next = -sigma e1 + K v, \
+                               s_next = -h sigma e1";
+
 /// What no claim of this project covers.
 const NOT_COVERED: &str = "No claim covers the rounding of these numbers and of the arithmetic with them, a delay of the \
                            computation, quantisation, or saturation.";
+/// The same of the law with a delay.
+const NOT_COVERED_WITH_DELAY: &str = "No claim covers the rounding of these numbers and of the arithmetic with them, a \
+                                      computation that takes more than a sample, quantisation, or saturation.";
+
+/// When what happens, with a delay.
+const DELAY: &str = "The computation has a whole sample (delay_samples: 1): e_k is measured at the sample k, u_(k+1) is computed from \
+                     it, and put out at the sample k + 1. Until the first one is, put out 0.";
 
 /// What a certificate says of a regulator.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -89,6 +100,10 @@ pub fn notice(export: &Export<'_>) -> Vec<String> {
             }
         }
     };
+    let delayed = export.discrete.is_some_and(|(discrete, _)| discrete.prediction.is_some());
+    if delayed {
+        lines.push(DELAY.to_owned());
+    }
     if export.aligned {
         lines.push("Start with z = M e, e the error at the first instant: the initial set is `aligned`.".to_owned());
     }
@@ -102,7 +117,7 @@ pub fn notice(export: &Export<'_>) -> Vec<String> {
             super::decimal(nominal)
         ));
     }
-    lines.push(NOT_COVERED.to_owned());
+    lines.push(if delayed { NOT_COVERED_WITH_DELAY } else { NOT_COVERED }.to_owned());
     let never = match (export.certificate.map(|certificate| certificate.scope), export.actuator) {
         (Some(Scope::Samples), Some(_)) => "; from the set of the certificate it never is",
         (Some(Scope::Continuous), Some(_)) => {
@@ -112,9 +127,10 @@ pub fn notice(export: &Export<'_>) -> Vec<String> {
     };
     if let Some(limit) = export.discrete.and_then(|(discrete, _)| discrete.saturation) {
         let (limit, no_claim) = (super::decimal(limit), "No claim covers a run in which that happens.");
+        let (told, by) = if delayed { ("s", "h") } else { ("z", "h M") };
         lines.push(format!(
-            "u is clipped to |u| <= {limit}{never}. Against windup z is told the control applied: where u is clipped, h M (applied - \
-             wanted) is added to z_next. {no_claim}"
+            "u is clipped to |u| <= {limit}{never}. Against windup {told} is told the control applied: where u is clipped, {by} (applied - \
+             wanted) is added to {told}_next. {no_claim}"
         ));
     } else if let Some(max) = export.actuator {
         lines.push(format!("The actuator takes |u| <= {}: clip u there{never}.", super::decimal(max)));

@@ -11,7 +11,8 @@ use zip::{CompressionMethod, DateTime, ZipWriter};
 /// divided, where there is one), `frequencies`, `weights`, `Phi`,
 /// `Gamma`, `M`, `N`, `aligned` (whether z = M e at the first instant; else z = 0 there), `notice` (what is claimed and what is not:
 /// bytes of UTF-8) and, with a discretisation, `step`, `K`,
-/// `weight_sum`, `decay`, `Phi_d`, `Gamma_d`, `C_d`, `D_d`, `saturation` where u is clipped, and of the sampled loop on e' = u
+/// `weight_sum`, `decay`, `Phi_d`, `Gamma_d`, `C_d`, `D_d`, `saturation` where u is clipped, with a delay `delay_samples` and `prediction`
+/// (h sigma; the matrices then are those of (z, s)), and of the sampled loop on e' = u
 /// `spectral_radius` and `unstable` (a Boolean).
 ///
 /// # Errors
@@ -45,7 +46,9 @@ pub fn npz(export: &Export<'_>) -> ZipResult<Vec<u8>> {
             ("decay", discrete.decay),
             ("D_d", discrete.feedthrough),
         ];
-        for (name, value) in numbers.into_iter().chain(discrete.saturation.map(|limit| ("saturation", limit))) {
+        let delayed = discrete.prediction.map(|product| [("delay_samples", 1.0), ("prediction", product)]);
+        let further = discrete.saturation.map(|limit| ("saturation", limit));
+        for (name, value) in numbers.into_iter().chain(delayed.into_iter().flatten()).chain(further) {
             archive.number(name, value)?;
         }
         archive.vector("C_d", &discrete.output)?;

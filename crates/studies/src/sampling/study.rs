@@ -57,7 +57,7 @@ impl SamplingStudy {
     /// Certifies the pairs of the lists; without either list, of some that fit the continuous-time gain.
     ///
     /// Guarantee: every pair that is found is certified by itself. The gain, or the sampling period, is the best that was found,
-    /// not the best there is.
+    /// not the best there is. It is about the law with a delay where the document asks for that.
     #[must_use]
     pub fn new(
         certifier: &impl Certifier,
@@ -67,10 +67,11 @@ impl SamplingStudy {
     ) -> SamplingStudy {
         let continuous = certifier.continuous().ok();
         let (steps, gains) = match (steps, gains) {
-            (None, None) => (default_steps(period, continuous), default_gains(continuous)),
+            (None, None) => (default_steps(certifier, period, continuous), default_gains(continuous)),
             (steps, gains) => (steps.unwrap_or_default(), gains.unwrap_or_default()),
         };
         let of_step = |sampling: Sampling| {
+            let sampling = sampling.with_delay(delayed(certifier));
             let found = certifier.pair(&sampling, None);
             Row { asked: Asked::Step(sampling), found }
         };
@@ -89,19 +90,24 @@ impl SamplingStudy {
     }
 }
 
-/// The samples T/n apart.
-fn samples(period: &Constant, n: u32) -> Option<Sampling> {
-    Sampling::new(period, period.divided_by(n)?)
+/// Whether it is about the law with a delay.
+fn delayed(certifier: &impl Certifier) -> bool {
+    certifier.model().sampling.as_ref().is_some_and(|sampling| sampling.delayed)
 }
 
-fn default_steps(period: &Constant, continuous: Option<f64>) -> Vec<Sampling> {
+/// The samples T/n apart.
+fn samples(certifier: &impl Certifier, period: &Constant, n: u32) -> Option<Sampling> {
+    Some(Sampling::new(period, period.divided_by(n)?)?.with_delay(delayed(certifier)))
+}
+
+fn default_steps(certifier: &impl Certifier, period: &Constant, continuous: Option<f64>) -> Vec<Sampling> {
     let Some(sigma) = continuous else { return Vec::new() };
     let mut counts: Vec<u32> = PRODUCTS
         .iter()
         .map(|product| (period.to_f64() * sigma / product).ceil().clamp(2.0, f64::from(MAX_SAMPLES)) as u32)
         .collect();
     counts.dedup();
-    counts.into_iter().filter_map(|n| samples(period, n)).collect()
+    counts.into_iter().filter_map(|n| samples(certifier, period, n)).collect()
 }
 
 fn default_gains(continuous: Option<f64>) -> Vec<Rational> {
@@ -112,7 +118,8 @@ fn default_gains(continuous: Option<f64>) -> Vec<Rational> {
 /// The pair of a gain with the fewest samples: doubled until a search finds a witness, then bisected.
 fn longest(certifier: &impl Certifier, period: &Constant, gain: &Rational) -> Result<Pair, Obstacle> {
     let sigma = gain.to_f64();
-    let promise = |n: u32| samples(period, n).ok_or(MANY).and_then(|sampling| certifier.promise(&sampling, sigma));
+    let promise =
+        |n: u32| samples(certifier, period, n).ok_or(MANY).and_then(|sampling| certifier.promise(&sampling, sigma));
     // h sigma <= 1.
     let least = (period.to_f64() * sigma * (1.0 - 1e-12)).ceil().max(2.0);
     if least > f64::from(MAX_SAMPLES) {
@@ -134,7 +141,7 @@ fn longest(certifier: &impl Certifier, period: &Constant, gain: &Rational) -> Re
     }
     let mut closest = Closest::default();
     for _ in 0..=AGAIN {
-        match samples(period, high).ok_or(MANY).and_then(|at| certifier.pair(&at, Some(gain))) {
+        match samples(certifier, period, high).ok_or(MANY).and_then(|at| certifier.pair(&at, Some(gain))) {
             Ok(pair) => return Ok(pair),
             Err(obstacle) => closest.record(obstacle),
         }

@@ -122,14 +122,32 @@ where
     }
 }
 
-/// sqrt(L_0) and sqrt(L_0 (sigma^2 + mu^2 Nbar^2/h)), by Cauchy-Schwarz: U = w_x x'P x + e^2 + h |zeta|_N^2 stays below its value L_0 at the
-/// start. At samples K stands for mu, and eta for h, and U does so between them, too.
+/// h (sigma + K Nb2)^2/gm, for |b1| <= Nb2: what the last y has in the control of a law with a delay,
+/// u = -sigma e + K M'N R zeta + h (sigma + K b1) y_last, where U + gm h y_last^2 stays below its value at the start.
 #[must_use]
-pub fn reach<R: Real>(problem: &impl Problem<R>, [sigma, mu]: [&R; 2], h: &R, level: &R) -> Reach<R>
+pub fn of_past<R: Real>([sigma, gain]: [&R; 2], [step, weight_sum]: [&R; 2], gm: &R) -> R
 where
     for<'a> &'a R: Operand<R>,
 {
-    let transient = (level * (sigma.sqr() + (mu * &problem.numbers().n_bar).sqr() / h)).sqrt();
+    step * (sigma + gain * weight_sum).sqr() / gm
+}
+
+/// sqrt(L_0) and sqrt(L_0 (sigma^2 + mu^2 Nbar^2/h)), by Cauchy-Schwarz: U = w_x x'P x + e^2 + h |zeta|_N^2 stays below its value L_0 at the
+/// start. At samples K stands for mu, and eta for h, and U does so between them, too. With a delay [`of_past`] is added to the square, and L_0 is that
+/// of U + gm h y_last^2.
+#[must_use]
+pub fn reach<R: Real>(
+    problem: &impl Problem<R>,
+    [sigma, mu]: [&R; 2],
+    h: &R,
+    (level, past): (&R, Option<&R>),
+) -> Reach<R>
+where
+    for<'a> &'a R: Operand<R>,
+{
+    let squares = sigma.sqr() + (mu * &problem.numbers().n_bar).sqr() / h;
+    let squares = past.map_or_else(|| squares.clone(), |past| &squares + past);
+    let transient = (level * squares).sqrt();
     Reach { error: level.sqrt(), transient }
 }
 

@@ -276,6 +276,11 @@ pub trait Gains<R: Real> {
         R::unknown()
     }
 
+    /// A bound of sup|y_k| of the law at samples; unknown of the one in continuous time.
+    fn largest_mean(&self, _: &Forcing<R>) -> R {
+        R::unknown()
+    }
+
     /// Z^2, a bound of zeta'N zeta at every instant (or at every sample) of the periodic solution; k0, k1 in units of
     /// x = omega/w.
     fn z_squared(&self, problem: &impl Problem<R>, forcing: &Forcing<R>, k: [&R; 2]) -> R;

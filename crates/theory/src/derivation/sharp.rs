@@ -167,7 +167,7 @@ impl SharpEvaluation {
             let (start, exit) = level_condition(data, distances, [&d_x, &d_e, &w_x, &h]);
             // At the gain b the weight of zeta is b h, and the level no larger than at b_hi.
             let least = data.input_gain.as_ref().map_or_else(|| h.clone(), |gain| &gain.low * &h);
-            let reach = control::reach(data, [&sigma, &data.mu], &least, &start);
+            let reach = control::reach(data, [&sigma, &data.mu], &least, (&start, None));
             conditions.push(Condition::less("C4", level_words(data), start, exit));
             match inequality {
                 Some(inequality) => {

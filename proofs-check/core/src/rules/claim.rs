@@ -142,7 +142,15 @@ impl<'a> Claim<'a> {
 
     /// Compares every field with the specification, and demands that the stored sizes of the periodic solution bound those
     /// that are proved; `exact` are rational bounds of |x| and |e|.
-    pub fn check(&self, d: &Data<'_>, evaluated: &Evaluated, exact: [&Rational; 2]) -> Outcome<()> {
+    ///
+    /// `start` is Y_0 as the witness of a law with a delay writes it.
+    pub fn check(
+        &self,
+        d: &Data<'_>,
+        evaluated: &Evaluated,
+        exact: [&Rational; 2],
+        start: Option<&str>,
+    ) -> Outcome<()> {
         reads(RULE, &self.verdict, "certified")?;
         let spec = d.spec;
         match &self.sampled {
@@ -185,10 +193,10 @@ impl<'a> Claim<'a> {
             fields.finish()?;
         }
         let statement = match &spec.plant {
-            None => self.in_words(spec),
+            None => self.in_words(spec, start),
             Some(plant) => {
                 self.check_ball(plant)?;
-                self.of_plant(spec, plant, family)?
+                self.of_plant((spec, plant), family, start)?
             }
         };
         let besides: String = self.rates.iter().map(|rate| rate.in_words(self.sigma_text)).collect();
@@ -205,7 +213,12 @@ impl<'a> Claim<'a> {
     }
 
     /// The claim about a plant in words.
-    fn of_plant(&self, spec: &Specification, plant: &OfPlant, family: Option<String>) -> Outcome<String> {
+    fn of_plant(
+        &self,
+        (spec, plant): (&Specification, &OfPlant),
+        family: Option<String>,
+        y_0: Option<&str>,
+    ) -> Outcome<String> {
         let about = family.map_or_else(
             || "the plant of these formulas".to_owned(),
             |parameters| format!("every plant of these formulas with {parameters}"),
@@ -226,7 +239,7 @@ impl<'a> Claim<'a> {
                 ),
             ),
         };
-        let (regulator, when) = self.regulator(spec);
+        let (regulator, when) = self.regulator(spec, y_0);
         Ok(format!(
             "{regulator}, {about}{domain} has a T-periodic solution of the closed loop to which \
              every solution from {states}{start}, at any {when}, converges exponentially{orbit}.",
@@ -234,9 +247,10 @@ impl<'a> Claim<'a> {
     }
 
     /// The beginning of the claim in words, and where its solutions start.
-    fn regulator(&self, spec: &Specification) -> (String, &'static str) {
+    fn regulator(&self, spec: &Specification, y_0: Option<&str>) -> (String, String) {
         if let Some(regulator) = &self.sampled {
-            return (regulator.in_words(spec), "sampling instant");
+            let off = |y_0| format!(", with a prediction of e there within h*{y_0} of it");
+            return (regulator.in_words(spec), format!("sampling instant{}", y_0.map_or_else(String::new, off)));
         }
         let reach = if spec.matched { "" } else { " (which need not match the period)" };
         let words = format!(
@@ -249,11 +263,11 @@ impl<'a> Claim<'a> {
             spec.mu.text,
             spec.base_frequency.text,
         );
-        (words, "initial time")
+        (words, "initial time".to_owned())
     }
 
     /// The claim in words, as the specification and the numbers of the claim make it.
-    fn in_words(&self, spec: &Specification) -> String {
+    fn in_words(&self, spec: &Specification, y_0: Option<&str>) -> String {
         let domain = spec
             .domain
             .as_ref()
@@ -268,7 +282,7 @@ impl<'a> Claim<'a> {
         let harmonics =
             if spec.q_0.is_some() { " and harmonics of q(t,0,0) within `q_0` (given, not proved)" } else { "" };
         let (x0, start) = &self.set_text;
-        let (regulator, when) = self.regulator(spec);
+        let (regulator, when) = self.regulator(spec, y_0);
         format!(
             "{regulator}, every plant within the bounding functions{domain} and {triple}{rate}{harmonics} \
              has a T-periodic solution of the closed loop to which every solution from |x| <= {x0}, {start}, at \

@@ -79,6 +79,14 @@ impl Derivation {
         matches!(&self.witness, Witness::Sharp(w) if matches!(w.stability, sharp::Stability::Norms))
     }
 
+    /// Y_0 as it is written, of a law with a delay.
+    pub fn prediction(&self) -> Option<&str> {
+        match &self.witness {
+            Witness::Sharp(_) => None,
+            Witness::Sampled(w) => w.past.as_ref().map(|past| past.text.as_str()),
+        }
+    }
+
     /// The numbers that both regulators have. X_p and E_p bound the periodic solution exactly.
     pub fn free(&self) -> &Free {
         match &self.witness {

@@ -52,7 +52,7 @@ pub fn period_derivative(
             let u = column.stepper.step(e);
             for (at, map) in maps.iter().enumerate() {
                 // With a delay the control of the last sample acts first.
-                let control = if at == 0 && sampled.converters.delay > 0.0 { column.held } else { u };
+                let control = if at == 0 && sampled.delay() > 0.0 { column.held } else { u };
                 apply(map, &mut column.plant, control);
             }
             column.held = u;
@@ -60,7 +60,7 @@ pub fn period_derivative(
     }
     let mut matrix = DMatrix::zeros(d, d);
     for (at, column) in columns.iter().enumerate() {
-        let held = (sampled.converters.delay > 0.0).then_some(column.held);
+        let held = (sampled.delay() > 0.0).then_some(column.held);
         let values = column.plant.iter().chain(column.stepper.state()).copied().chain(held);
         values.enumerate().for_each(|(row, value)| matrix[(row, at)] = value);
     }
@@ -69,7 +69,7 @@ pub fn period_derivative(
 
 fn column(sampled: &SampledLoop, unit: &[f64]) -> Option<Column> {
     let (plant, rest) = unit.split_at_checked(sampled.states() + 1)?;
-    let (z, held) = rest.split_at_checked(sampled.regulator.dimension())?;
+    let (z, held) = rest.split_at_checked(sampled.discrete.dimension())?;
     let stepper = Stepper::starting(sampled.regulator.clone(), sampled.discrete.clone(), z.to_vec())?;
     Some(Column { plant: plant.to_vec(), stepper, held: held.first().copied().unwrap_or(0.0) })
 }

@@ -96,7 +96,7 @@ impl Readable for SampledSimulationReport<'_> {
             "sampled": {
                 "step": sampled.discrete.step, "samples": sampled.samples(), "phase": sampled.phase,
                 "K": sampled.discrete.gain, "weight_sum": sampled.discrete.weight_sum,
-                "delay": sampled.converters.delay, "quantum_e": sampled.converters.measured,
+                "delay": sampled.delay(), "quantum_e": sampled.converters.measured,
                 "quantum_u": sampled.converters.put_out, "saturation": sampled.discrete.saturation,
             },
             "steady_state": steady, "long_run": long, "noisy_run": null,

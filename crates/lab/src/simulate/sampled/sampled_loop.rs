@@ -113,10 +113,30 @@ impl SampledLoop {
             }
     }
 
-    /// The dimension of a state at a sample: x, e, z and, with a delay, the control that still acts.
+    /// The time after its sample at which a control acts: the whole step with the law that has it to be computed.
+    #[must_use]
+    pub fn delay(&self) -> f64 {
+        if self.discrete.prediction.is_some() { self.step() } else { self.converters.delay }
+    }
+
+    /// The dimension of a state at a sample: x, e, the state of the law and, with a delay, the control that still acts.
     #[must_use]
     pub fn dimension(&self) -> usize {
-        self.states() + 1 + self.regulator.dimension() + usize::from(self.converters.delay > 0.0)
+        self.states() + 1 + self.discrete.dimension() + usize::from(self.delay() > 0.0)
+    }
+
+    /// The state at the first sample from x, e and z: nothing is predicted yet. The control that acts is 0; of the law with a delay
+    /// that of z, or 0 where it starts `aligned`.
+    #[must_use]
+    pub fn starting(&self, mut state: Vec<f64>, aligned: bool) -> Vec<f64> {
+        let z = state.get(self.states() + 1..).unwrap_or_default();
+        let delayed = self.discrete.prediction.is_some();
+        let acting = if delayed && !aligned { self.discrete.first_control(&self.regulator, z) } else { 0.0 };
+        state.resize(self.dimension(), 0.0);
+        if let (true, Some(last)) = (delayed, state.last_mut()) {
+            *last = acting;
+        }
+        state
     }
 
     /// The plant alone.
@@ -155,7 +175,7 @@ impl<'l> SampledRun<'l> {
     #[must_use]
     pub fn new(sampled: &'l SampledLoop, sample: usize, state: &[f64]) -> Option<SampledRun<'l>> {
         let (plant, rest) = state.split_at_checked(sampled.states() + 1)?;
-        let (z, held) = rest.split_at_checked(sampled.regulator.dimension())?;
+        let (z, held) = rest.split_at_checked(sampled.discrete.dimension())?;
         let held = match held {
             [] => 0.0,
             [held] => *held,
@@ -174,10 +194,11 @@ impl<'l> SampledRun<'l> {
     /// z at the next sample, before the law has seen it.
     #[must_use]
     pub fn regulator_state(&self) -> &[f64] {
-        self.stepper.state()
+        let state = self.stepper.state();
+        &state[..state.len().min(self.sampled.regulator.dimension())]
     }
 
-    /// The control of the last sample.
+    /// The control that was computed at the last sample.
     #[must_use]
     pub fn put_out(&self) -> f64 {
         self.held
@@ -192,7 +213,7 @@ impl<'l> SampledRun<'l> {
     /// The state, as [`SampledRun::new`] takes it.
     #[must_use]
     pub fn whole_state(&self) -> Vec<f64> {
-        let held = (self.sampled.converters.delay > 0.0).then_some(self.held);
+        let held = (self.sampled.delay() > 0.0).then_some(self.held);
         self.state.iter().chain(self.stepper.state()).copied().chain(held).collect()
     }
 
@@ -220,7 +241,7 @@ impl<'l> SampledRun<'l> {
     ) -> Result<Vec<Piece>, IntegrationFailure> {
         let u = quantised(u, self.sampled.converters.put_out);
         let (t, h) = (self.time(), self.sampled.step());
-        let delay = self.sampled.converters.delay.min(h);
+        let delay = self.sampled.delay().min(h);
         let mut pieces = Vec::with_capacity(2);
         for (start, length, control) in [(t, delay, self.held), (t + delay, h - delay, u)] {
             if length > 0.0 {

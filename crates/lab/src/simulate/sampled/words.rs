@@ -13,7 +13,11 @@ pub(super) fn loop_words(sampled: &SampledLoop) -> String {
 pub(super) fn converter_words(sampled: &SampledLoop) -> Vec<String> {
     let mut words = Vec::new();
     let converters = &sampled.converters;
-    if converters.delay > 0.0 {
+    if sampled.discrete.prediction.is_some() {
+        words.push(
+            "each control is computed in the sample before the one in which it acts (delay_samples: 1)".to_owned(),
+        );
+    } else if converters.delay > 0.0 {
         words.push(format!("each control acts {} after its sample", number(converters.delay)));
     }
     if let Some(quantum) = converters.measured {

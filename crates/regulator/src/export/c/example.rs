@@ -16,6 +16,11 @@ pub(super) fn example(export: &Export<'_>, discrete: &Discrete, names: &CNames) 
     // What the actuator makes of u.
     let acting = export.regulator.nominal.map_or_else(|| "u".to_owned(), |gain| format!("{} * u", decimal(gain)));
     let argument = if export.aligned { ", e" } else { "" };
+    // With a delay the control that is returned acts in the next sample.
+    let (declared, called, kept) = match discrete.prediction {
+        Some(_) => ("    double u = 0.0;\n", "double next", "            u = next;\n"),
+        None => ("", "double u", ""),
+    };
     format!(
         "/* A first run of the regulator for: {}\n\
          \x20* The plant is e' = q(t) + {acting}; q is two arcs of a parabola in each period of {samples} samples. Prints the largest |e| of\n\
@@ -27,14 +32,14 @@ pub(super) fn example(export: &Export<'_>, discrete: &Discrete, names: &CNames) 
          static double disturbance(double phase)\n{{\n\
          \x20   if (phase < 0.5) {{\n        return amplitude * 16.0 * phase * (0.5 - phase);\n    }}\n\
          \x20   return -amplitude * 16.0 * (phase - 0.5) * (1.0 - phase);\n}}\n\n\
-         int main(void)\n{{\n    {prefix}_controller controller;\n    double e = 0.0;\n    int period, k;\n\n\
+         int main(void)\n{{\n    {prefix}_controller controller;\n    double e = 0.0;\n{declared}    int period, k;\n\n\
          \x20   {prefix}_reset(&controller{argument});\n\
          \x20   for (period = 1; period <= 20; period++) {{\n        double largest = 0.0;\n\n\
          \x20       for (k = 0; k < samples; k++) {{\n\
-         \x20           double u = {prefix}_step(&controller, e);\n\
+         \x20           {called} = {prefix}_step(&controller, e);\n\
          \x20           double size = e < 0.0 ? -e : e;\n\n\
          \x20           if (size > largest) {{\n                largest = size;\n            }}\n\
-         \x20           e += {upper}_SAMPLING_TIME * (disturbance((k + 0.5) / samples) + {acting});\n        }}\n\
+         \x20           e += {upper}_SAMPLING_TIME * (disturbance((k + 0.5) / samples) + {acting});\n{kept}        }}\n\
          \x20       printf(\"period %2d: largest |e| = %.3e\\n\", period, largest);\n    }}\n    return 0;\n}}\n",
         harmless(export.name),
         names.header,

@@ -29,9 +29,14 @@ pub(super) fn header(
         format!("In floating point, {sampled}."),
     ];
     words.extend(notice(export));
-    words.push(format!(
-        "Call {prefix}_step once per sample with the measured error; apply the control that it returns."
-    ));
+    let delayed = discrete.prediction.is_some();
+    words.push(match delayed {
+        false => format!("Call {prefix}_step once per sample with the measured error; apply the control that it returns."),
+        true => format!(
+            "Call {prefix}_step once per sample, with the error measured at it; put out the control that it returns at the next \
+             sample, whenever it is ready."
+        ),
+    });
     let words: Vec<String> = words.iter().map(|line| harmless(line)).collect();
     let saturation = discrete.saturation.map_or_else(String::new, |limit| {
         format!("#define {upper}_SATURATION {} /* {} */\n", hexadecimal(limit), decimal(limit))
@@ -40,6 +45,18 @@ pub(super) fn header(
         true => ("Sets z = M e, with the error e of the sample that the next step takes.", ", double e"),
         false => ("Sets the state to rest (z = 0).", ""),
     };
+    let (macros, member, returned) = match delayed {
+        true => (
+            format!("#define {upper}_DELAY_SAMPLES 1\n"),
+            "    double ahead;\n",
+            "Takes the error of this sample, returns the control to be put out at the next one, and moves the state to it.",
+        ),
+        false => (
+            String::new(),
+            "",
+            "Takes the error of this sample, returns the control for it, and moves the state to the next sample.",
+        ),
+    };
     format!(
         "/*\n{}\x20*/\n\
          #ifndef {upper}_CONTROLLER_H\n\
@@ -47,12 +64,12 @@ pub(super) fn header(
          #define {upper}_CONTROLLER_ID {id}\n\
          #define {upper}_OSCILLATORS {n_o}\n\
          #define {upper}_STATES {dimension}\n\
-         #define {upper}_SAMPLING_TIME {} /* {} */\n{saturation}\n\
-         typedef struct {{\n    double z[{upper}_STATES];\n}} {prefix}_controller;\n\n\
+         #define {upper}_SAMPLING_TIME {} /* {} */\n{macros}{saturation}\n\
+         typedef struct {{\n    double z[{upper}_STATES];\n{member}}} {prefix}_controller;\n\n\
          #ifdef __cplusplus\nextern \"C\" {{\n#endif\n\n\
          /* {start} */\n\
          void {prefix}_reset({prefix}_controller *controller{argument});\n\n\
-         /* Takes the error of this sample, returns the control for it, and moves the state to the next sample. */\n\
+         /* {returned} */\n\
          double {prefix}_step({prefix}_controller *controller, double e);\n\n\
          #ifdef __cplusplus\n}}\n#endif\n\n#endif\n",
         comment(&words, " * "),

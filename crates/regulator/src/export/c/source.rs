@@ -14,7 +14,8 @@ pub(super) fn source(export: &Export<'_>, discrete: &Discrete, prefix: &Prefix) 
          \x20* -ffp-contract=off, other compilers follow this pragma. */\n\
          #if !defined(__GNUC__) || defined(__clang__)\n#pragma STDC FP_CONTRACT OFF\n#endif\n\n",
     );
-    let numbers = [("sigma", regulator.sigma), ("gain", discrete.gain), ("decay", discrete.decay)];
+    let kept = discrete.prediction.map_or(("decay", discrete.decay), |product| ("product", product));
+    let numbers = [("sigma", regulator.sigma), ("gain", discrete.gain), kept];
     let saturation = discrete.saturation.map(|limit| [("step", discrete.step), ("limit", limit)]);
     let nominal = regulator.nominal.map(|nominal| ("nominal", nominal));
     for (name, value) in numbers.into_iter().chain(nominal).chain(saturation.into_iter().flatten()) {
@@ -26,18 +27,20 @@ pub(super) fn source(export: &Export<'_>, discrete: &Discrete, prefix: &Prefix) 
         source.push_str(&array("sine", &sines));
     }
     let upper = prefix.upper();
-    source.push_str(&reset(&upper, prefix, !cosines.is_empty(), export.aligned));
-    let put_out = PutOut { saturation: discrete.saturation.is_some(), nominal: regulator.nominal.is_some() };
+    let delayed = discrete.prediction.is_some();
+    source.push_str(&reset(&upper, prefix, (!cosines.is_empty(), delayed), export.aligned));
+    let put_out = PutOut { saturation: discrete.saturation.is_some(), nominal: regulator.nominal.is_some(), delayed };
     source.push_str(&step(&upper, prefix, !cosines.is_empty(), put_out));
     source
 }
 
-/// z at the first instant: 0, or M e.
-fn reset(upper: &str, prefix: &Prefix, oscillators: bool, aligned: bool) -> String {
+/// z at the first instant: 0, or M e; with a delay nothing is predicted yet.
+fn reset(upper: &str, prefix: &Prefix, (oscillators, delayed): (bool, bool), aligned: bool) -> String {
+    let ahead = if delayed { "    controller->ahead = 0.0;\n" } else { "" };
     if !aligned {
         return format!(
             "\nvoid {prefix}_reset({prefix}_controller *controller)\n{{\n    int i;\n\n\
-             \x20   for (i = 0; i < {upper}_STATES; i++) {{\n        controller->z[i] = 0.0;\n    }}\n}}\n\n"
+             \x20   for (i = 0; i < {upper}_STATES; i++) {{\n        controller->z[i] = 0.0;\n    }}\n{ahead}}}\n\n"
         );
     }
     let (index, blocks) = match oscillators {
@@ -52,7 +55,7 @@ fn reset(upper: &str, prefix: &Prefix, oscillators: bool, aligned: bool) -> Stri
     };
     format!(
         "\nvoid {prefix}_reset({prefix}_controller *controller, double e)\n{{\n{index}\
-         \x20   controller->z[0] = e;\n{blocks}}}\n\n"
+         \x20   controller->z[0] = e;\n{blocks}{ahead}}}\n\n"
     )
 }
 
@@ -63,20 +66,33 @@ struct PutOut {
     saturation: bool,
     /// Whether it is divided by a nominal gain.
     nominal: bool,
+    /// Whether it is put out at the next sample.
+    delayed: bool,
 }
 
 /// The operations of the Rust stepper, in its order.
 fn step(upper: &str, prefix: &Prefix, oscillators: bool, put_out: PutOut) -> String {
-    let PutOut { saturation, nominal } = put_out;
+    let PutOut { saturation, nominal, delayed } = put_out;
     let wanted = match (saturation, nominal) {
         (false, _) => "",
         (true, false) => ", wanted",
         (true, true) => ", wanted, applied",
     };
     let index = if oscillators { "    int l;\n" } else { "" };
+    let (next, first) = match delayed {
+        true => {
+            (", next", "    /* What e is at the next sample without input. */\n    next = e + controller->ahead;\n")
+        }
+        false => ("", ""),
+    };
+    // What R turns further with a delay.
+    let turned = match delayed {
+        true => "(cosine[l - 1] * z[2 * l - 1] + sine[l - 1] * z[2 * l])",
+        false => "z[2 * l - 1]",
+    };
     let mut text = format!(
         "double {prefix}_step({prefix}_controller *controller, double e)\n{{\n    double *z = controller->z;\n\
-         \x20   double sum, carry, u{wanted};\n{index}\n\
+         \x20   double sum, carry, u{next}{wanted};\n{index}\n{first}\
          \x20   /* z becomes R (z - M e). */\n    z[0] -= e;\n    sum = weight[0] * z[0];\n"
     );
     if oscillators {
@@ -85,34 +101,41 @@ fn step(upper: &str, prefix: &Prefix, oscillators: bool, put_out: PutOut) -> Str
              \x20       double a = z[2 * l - 1] - e;\n        double b = z[2 * l];\n\n\
              \x20       z[2 * l - 1] = cosine[l - 1] * a + sine[l - 1] * b;\n\
              \x20       z[2 * l] = cosine[l - 1] * b - sine[l - 1] * a;\n\
-             \x20       sum += weight[l] * z[2 * l - 1];\n    }}\n"
+             \x20       sum += weight[l] * {turned};\n    }}\n"
         ));
     }
-    text.push_str("    u = gain * sum - sigma * e;\n    carry = decay * e;\n");
+    text.push_str(match delayed {
+        true => "    u = gain * sum - sigma * next;\n    carry = -(product * next);\n",
+        false => "    u = gain * sum - sigma * e;\n    carry = decay * e;\n",
+    });
+    let (added, told) = if delayed { ("next", "the prediction") } else { ("carry", "z") };
     if nominal && !saturation {
         text.push_str("    /* What is put out is over the nominal gain of the actuator. */\n    u = u / nominal;\n");
     }
     if nominal && saturation {
-        text.push_str(
-            "    /* What is put out is over the nominal gain of the actuator. Against windup: z is told the control that\n\
+        text.push_str(&format!(
+            "    /* What is put out is over the nominal gain of the actuator. Against windup: {told} is told the control that\n\
              \x20    * is applied. */\n    wanted = u;\n    applied = u;\n    u = wanted / nominal;\n\
-             \x20   if (u > limit) {\n        u = limit;\n        applied = nominal * limit;\n    }\n\
-             \x20   if (u < -limit) {\n        u = -limit;\n        applied = -(nominal * limit);\n    }\n\
+             \x20   if (u > limit) {{\n        u = limit;\n        applied = nominal * limit;\n    }}\n\
+             \x20   if (u < -limit) {{\n        u = -limit;\n        applied = -(nominal * limit);\n    }}\n\
              \x20   carry += step * (applied - wanted);\n",
-        );
+        ));
     }
     if saturation && !nominal {
-        text.push_str(
-            "    /* Against windup: z is told the control that is applied. */\n    wanted = u;\n\
-             \x20   if (u > limit) {\n        u = limit;\n    }\n    if (u < -limit) {\n        u = -limit;\n    }\n\
+        text.push_str(&format!(
+            "    /* Against windup: {told} is told the control that is applied. */\n    wanted = u;\n\
+             \x20   if (u > limit) {{\n        u = limit;\n    }}\n    if (u < -limit) {{\n        u = -limit;\n    }}\n\
              \x20   carry += step * (u - wanted);\n",
-        );
+        ));
     }
-    text.push_str("    z[0] += carry;\n");
+    text.push_str(&format!("    z[0] += {added};\n"));
     if oscillators {
         text.push_str(&format!(
-            "    for (l = 1; l <= {upper}_OSCILLATORS; l++) {{\n        z[2 * l - 1] += carry;\n    }}\n"
+            "    for (l = 1; l <= {upper}_OSCILLATORS; l++) {{\n        z[2 * l - 1] += {added};\n    }}\n"
         ));
+    }
+    if delayed {
+        text.push_str("    controller->ahead = carry;\n");
     }
     text.push_str("    return u;\n}\n");
     text

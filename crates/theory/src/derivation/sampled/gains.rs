@@ -24,8 +24,10 @@ pub struct SampledGains<R> {
     pub rms_by_rate: R,
     /// 2 (1 + theta)/(2 - h sigma): rms(e') over rms(q).
     pub rate: R,
-    /// 1 + theta: the mean square of the y_k over rms(q).
+    /// 1 + theta: the mean square of the y_k over rms(q); with a delay times 1 + h sigma.
     pub means: R,
+    /// The same without that factor: the bound of the harmonics of y, and of the mean square of the y_k, over those of q.
+    pub of_y: R,
     /// sqrt(1/sg_S^2 + (h/pi)^2): rms(e') over rms(q').
     pub rate_by_rate: R,
     /// (h/(2 pi)) sqrt(h T): what e is off its straight lines between samples, over rms(q').
@@ -46,6 +48,10 @@ pub struct SampledGains<R> {
     /// mu of the law, and what multiplies Z: 1 + theta, with an input gain times `1 + dl max sigma |e_j|/|qb_j|`.
     mu: R,
     enlarged: R,
+    /// sqrt(N_s) and sqrt((T^2 - h^2)/12): sup|y_k| over its mean square, and over rms(q') where each |y_j| is at most |qb_j|.
+    sup_of_y: [R; 2],
+    /// With a delay, what takes the place of T/(2 mu) (1+theta)^2 in Z^2, over T.
+    swing: Option<R>,
 }
 
 impl<R: Real> SampledGains<R>
@@ -56,14 +62,16 @@ where
     ///
     /// With Sb_j = min{1 + theta, 1/|cos(pi j/N_s)|} the harmonics of y are at most Sb_j times those of the means of q, and 0
     /// for j <= n_o; the sums are over j = 1, ..., N_s - 1, of which j and N_s - j are alike. With an input gain F_j of 13.1
-    /// bounds each of them.
+    /// bounds each of them. With a delay 1 + th1 stands for Sb_j (S3 is not available), and e has 1 + h sigma more; hypothesis then:
+    /// 3 K h Nb2 < 2.
     #[must_use]
     pub fn new(law: &SampledLaw<R>, sigma: &R, period: &R) -> SampledGains<R> {
         let one = R::int(1);
         let product = &law.step * sigma;
         let decay = &one - &product;
         let share = |sine: &R| sigma.sqr() + &decay * law.frequency_squared(sine);
-        let largest = law.enlarged.sqr();
+        let largest = law.of_y().sqr();
+        let of_delay = law.of_delay(sigma);
         let mut worst = law.input_gain.as_ref().map(Worst::new);
         let nothing = &largest * R::int(0);
         let (mut sup, mut sup_by_rate, mut sup_of_means) = (nothing.clone(), nothing.clone(), nothing);
@@ -72,7 +80,7 @@ where
             let size = share(sine);
             let gain = if let Some(worst) = &mut worst {
                 worst.take(law, sigma, [sine, &size])
-            } else if law.samples <= SHARP_SAMPLES && cosine.is_certainly_positive() {
+            } else if !law.delayed && law.samples <= SHARP_SAMPLES && cosine.is_certainly_positive() {
                 largest.min(&(&one / cosine))
             } else {
                 largest.clone()
@@ -86,28 +94,35 @@ where
         }
         let first = law.first_frequency_squared();
         let rate_of_means = R::int(2) / (R::int(2) - product);
-        let (rms, rate, means, enlarged) = match &worst {
+        let (rms, rate, of_y, shifted) = match &worst {
             None => {
                 let rms = &one / slowest(law, sigma, &decay);
-                (rms, &rate_of_means * &law.enlarged, law.enlarged.clone(), law.enlarged.clone())
+                (rms, &rate_of_means * law.of_y(), law.of_y(), one.clone())
             }
             Some(Worst { gain, error, rate, means, .. }) => {
                 let [rms, rate, means] = [error, rate, means].map(R::sqrt);
-                let enlarged = &law.enlarged * (&one + gain.largest_shift() * sigma * &rms);
-                (rms, rate, means, enlarged)
+                // What drives zeta beside q is (1-b) sigma e, with a delay (1-b) sigma et, |et_j| = |y_j/D_j|.
+                let shifted = &one + gain.largest_shift() * sigma * &rms;
+                (rms, rate, means, shifted)
             }
         };
+        let enlarged = law.of_y() * &shifted;
+        let swing = law.delayed.then(|| swing_with_delay(law, [&of_y, &shifted]));
+        let delayed = |value: R| if law.delayed { &of_delay * value } else { value };
+        let [sup, sup_by_rate, rms, rate, means] =
+            [sup.sqrt(), sup_by_rate.sqrt(), rms, rate, of_y.clone()].map(delayed);
         let in_between = &law.step / &law.pi;
         SampledGains {
-            sup: sup.sqrt(),
+            sup,
             sup_of_means: sup_of_means.sqrt(),
             rate_of_means,
             between_by_size: (&law.step * period).sqrt() / R::int(2),
             energy: None,
-            sup_by_rate: sup_by_rate.sqrt(),
+            sup_by_rate,
             rms_by_rate: &rms / first.sqrt(),
             rate,
             means,
+            of_y,
             rate_by_rate: (rms.sqr() + in_between.sqr()).sqrt(),
             rms,
             between: &in_between / R::int(2) * (&law.step * period).sqrt(),
@@ -115,7 +130,17 @@ where
             room: worst.map(|worst| worst.room),
             mu: law.mu.clone(),
             enlarged,
+            sup_of_y: [R::int(i64::from(law.samples)).sqrt(), ((period.sqr() - law.step.sqr()) / R::int(12)).sqrt()],
+            swing,
         }
+    }
+
+    /// sup|et_k|, the largest prediction along the periodic solution, from bounds of q and q': |et_j| = |y_j|/|D_j|, so that it has 1 + h sigma
+    /// less than e.
+    #[must_use]
+    pub fn largest_prediction(&self, law: &SampledLaw<R>, sigma: &R, forcing: &Forcing<R>) -> R {
+        let Forcing { q_rms, q_rate_rms, .. } = forcing;
+        (&self.sup * q_rms).min_known(&(&self.sup_by_rate * q_rate_rms)) / law.of_delay(sigma)
     }
 
     /// The same with the bounds of a matrix inequality, which are taken where they are smaller. What bounds a solution with q(t,0,0)
@@ -132,11 +157,31 @@ where
     }
 }
 
+/// What a period adds to the mean of |zeta_k|_N^2 at most, over `T R_q^2`: `1/(2 K cq) + h Nb2 (1+th1)^2`. With an input gain `b K` for K,
+/// at the worse end of b, times the square of what q + (1-b) sigma et is over q, and the bound of |y|_s for 1 + th1.
+fn swing_with_delay<R: Real>(law: &SampledLaw<R>, [of_y, shifted]: [&R; 2]) -> R
+where
+    for<'a> &'a R: Operand<R>,
+{
+    let of = |b: &R| {
+        let gain = &law.gain * b;
+        R::int(1) / (R::int(2) * &gain * (R::int(1) - &gain * &law.step * &law.weight_sum))
+    };
+    let raised = match &law.input_gain {
+        None => of(&R::int(1)),
+        // b - b^2 K h Nb2 is concave in b.
+        Some(InputGain { low, high }) => of(low).max(&of(high)),
+    };
+    raised * shifted.sqr() + &law.step * &law.weight_sum * of_y.sqr()
+}
+
 /// The worst harmonics with an input gain (derivation, 13.1): with `D_j = (e^{i om h} - a)/h`
 ///
 /// `|e_j| <= F_j |qb_j|`, `F_j = |D_j| / min_b ( |D_j|^2/(1+theta) - (1-b) sigma Re D_j )`, y_j = D_j e_j,
 ///
-/// over b in {b_lo, b_hi}, with theta that of b_hi. For `e_j = qb_j/(D_j (1 + b K h G) - (1-b) sigma)`, where `1 + b K h G = 1 - be + i eta` with a
+/// over b in {b_lo, b_hi}, with theta that of b_hi. With a delay `|y_j| <= |qb_j|/(1/(1+th1) - dl sigma/|D_j|)`, dl the largest |1 - b|, and
+/// F_j is that over |D_j| (13.1).
+/// For `e_j = qb_j/(D_j (1 + b K h G) - (1-b) sigma)`, where `1 + b K h G = 1 - be + i eta` with a
 /// real eta and `1 - be >= 1/(1+theta)`: that is on a line, the distance of which from 0 is the minimum over `|D_j|`.
 struct Worst<'g, R> {
     gain: &'g InputGain<R>,
@@ -168,7 +213,11 @@ where
         let along = sigma * (sigma - &law.step * &squared / R::int(2)) / size;
         let InputGain { low, high } = self.gain;
         let moved = (&along * (&one - low)).max(&(along * (&one - high)));
-        let room = &one - law.lost() - moved;
+        // With a delay the circle of radius sigma/|D_j| about 0 that (1-b) sigma E^-1/D_j lies on counts in every direction.
+        let room = match law.delayed {
+            false => &one - law.lost() - moved,
+            true => &one - law.lost() * R::int(3) - self.gain.largest_shift() * sigma / size.sqrt(),
+        };
         let of_y = if room.is_certainly_positive() { &one / room.sqr() } else { R::unknown() };
         let own = &of_y / size;
         self.room = self.room.min(&room);
@@ -187,9 +236,9 @@ where
 {
     let one = R::int(1);
     let first = sigma.sqr() + decay * law.first_frequency_squared();
-    let squared = law.enlarged.sqr();
+    let squared = law.of_y().sqr();
     let plain = &first / &squared;
-    if law.samples > SHARP_SAMPLES {
+    if law.delayed || law.samples > SHARP_SAMPLES {
         return plain.sqrt();
     }
     let turn = &one - &one / &squared;
@@ -226,9 +275,22 @@ where
         self.energy.as_ref().map_or_else(R::unknown, |energy| energy.x.clone())
     }
 
-    /// `Z^2 = (1+theta)^2 [ (T/(2 mu) + k0/w^2) R_q^2 + (k1/w^4) R_1^2 ]` (12.2), a bound of sup_k |zeta_k|_N^2.
+    /// `Y min{ sqrt(N_s) R_q, sqrt((T^2 - h^2)/12) R_1 }`, Y the bound of the harmonics of y over those of q, 1 + th1 with a delay (13.4): y has no
+    /// mean.
+    fn largest_mean(&self, forcing: &Forcing<R>) -> R {
+        let [by_size, by_rate] = &self.sup_of_y;
+        &self.of_y * (by_size * &forcing.q_rms).min_known(&(by_rate * &forcing.q_rate_rms))
+    }
+
+    /// `Z^2 = (1+theta)^2 [ (T/(2 mu) + k0/w^2) R_q^2 + (k1/w^4) R_1^2 ]` (12.2), a bound of sup_k |zeta_k|_N^2. With a delay
+    /// `Z^2 = T R_q^2 [ 1/(2 K cq) + h Nb2 (1+th1)^2 ] + (1+th1)^2 [ (k0/w^2) R_q^2 + (k1/w^4) R_1^2 ]`, cq = 1 - K h Nb2 (13.4).
     fn z_squared(&self, problem: &impl Problem<R>, forcing: &Forcing<R>, [k0, k1]: [&R; 2]) -> R {
         let [kappa_0, kappa_1] = problem.numbers().kappas(k0, k1);
+        if let Some(swing) = &self.swing {
+            let own = self.enlarged.sqr();
+            let of_size = &problem.numbers().period * swing + &own * kappa_0;
+            return of_size * forcing.q_rms.sqr() + own * kappa_1 * forcing.q_rate_rms.sqr();
+        }
         let swing = &problem.numbers().period / (R::int(2) * &self.mu);
         self.enlarged.sqr() * ((swing + kappa_0) * forcing.q_rms.sqr() + kappa_1 * forcing.q_rate_rms.sqr())
     }
@@ -259,6 +321,9 @@ mod tests {
         let mut e = vec![Complex::new(0.0, 0.0); n as usize];
         let mut means = vec![Complex::new(q_mean, 0.0); n as usize];
         let c = |l: i64| weights.weight_f64(l.unsigned_abs()) * if l == 0 { 1.0 } else { 0.5 };
+        // y of the sample before, and M'N R M.
+        let mut last = e.clone();
+        let through: f64 = (-n_o..=n_o).map(|l| c(l) * (TAU * l as f64 / n as f64).cos()).sum();
         // Of each oscillator, by the frequency at which it turns.
         let mut zeta = vec![e.clone(); 2 * n_o as usize + 1];
         for (m, c) in &both {
@@ -285,12 +350,21 @@ mod tests {
             }
             let g: Complex<f64> = (-n_o..=n_o).map(|l| c(l) / (within(l) - 1.0)).sum();
             let d = (turn(phi) - (1.0 - h * sigma)) / h;
-            let own = mean / (d * (1.0 + b * law.gain * h * g) - (1.0 - b) * sigma);
+            // y, and e from it: without a delay y/D.
+            let (y, own) = if law.delayed {
+                let back = turn(-phi);
+                let y = mean / (1.0 + b * law.gain * h * (g - through * back) - (1.0 - b) * sigma * back / d);
+                (y, (1.0 + h * sigma * back) * y / d)
+            } else {
+                let own = mean / (d * (1.0 + b * law.gain * h * g) - (1.0 - b) * sigma);
+                (d * own, own)
+            };
             for k in 0..n {
                 e[k as usize] += own * at(k);
+                last[k as usize] += y * turn(-phi) * at(k);
                 for l in -n_o..=n_o {
                     let factor = turn(TAU * l as f64 / n as f64) * (within(l) - 1.0);
-                    zeta[(l + n_o) as usize][k as usize] -= h * d * own / factor * at(k);
+                    zeta[(l + n_o) as usize][k as usize] -= h * y / factor * at(k);
                 }
             }
         }
@@ -308,7 +382,8 @@ mod tests {
                 .map(|l| c(l) * turn(TAU * l as f64 / n as f64) * zeta[(l + n_o) as usize][k as usize])
                 .sum();
             // It is what the law puts out.
-            let law_u = law.gain * v.re - sigma * here;
+            let off = if law.delayed { h * last[k as usize].re } else { 0.0 };
+            let law_u = law.gain * (v.re + through * off) - sigma * (here - off);
             assert!((law_u - u / b).abs() < 1e-8 * (1.0 + law_u.abs()), "{law_u} {u} {b}");
             for step in 0..FINE {
                 let s = h * (f64::from(step) + 0.5) / f64::from(FINE);
@@ -337,20 +412,30 @@ mod tests {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
             (state >> 40) as f64 / 2f64.powi(23) - 1.0
         };
-        let (mut worst, mut with_gain, mut seen) = ([0.0_f64; 6], [0.0_f64; 6], 0);
+        let (mut worst, mut with_gain, mut with_delay, mut seen) = ([0.0_f64; 6], [0.0_f64; 6], [0.0_f64; 6], 0);
         let models = [(2, "1"), (3, "1"), (12, "1"), (25, "1"), (25, "30")];
         let intervals = [[1.0, 1.0], [0.8, 1.25], [0.5, 1.1], [0.95, 1.8]];
-        for ((samples, mu), [low, high]) in
-            models.into_iter().flat_map(|model| intervals.map(|interval| (model, interval)))
+        let cases = models.into_iter().flat_map(|model| intervals.map(|interval| (model, interval)));
+        for (((samples, mu), [low, high]), delayed) in
+            cases.flat_map(|case| [false, true].map(|delayed| (case, delayed)))
         {
             let spec = example(samples, mu, |file| {
                 file["input_gain"] = json!({ "nominal": 1, "low": low.to_string(), "high": high.to_string() });
+                file["internal_model"]["delay_samples"] = u8::from(delayed).into();
             });
             let data = Data::new(&spec, 128);
             let enclosed = law(&data);
             let law = enclosed.to_f64();
+            // The law with a delay needs more samples.
+            if delayed && 3.0 * law.load() >= 2.0 {
+                continue;
+            }
             let pairs = sampled_trade_off(&data, &enclosed).candidates;
-            let worst = if high > low { &mut with_gain } else { &mut worst };
+            let worst = match (delayed, high > low) {
+                (true, _) => &mut with_delay,
+                (false, true) => &mut with_gain,
+                (false, false) => &mut worst,
+            };
             for product in [0.02, 0.3, 1.0] {
                 let sigma = product / law.step;
                 let gains = SampledGains::new(&law, &sigma, &1.0);
@@ -408,6 +493,11 @@ mod tests {
             let least = [0.6, 0.6, 0.6, 0.6, 0.6, 0.3];
             assert!(worst.iter().zip(least).all(|(ratio, least)| *ratio > least), "{worst:?}");
         }
+        // 1 + h sigma, and |b1| for b1 E^-1, lose something.
+        assert!(
+            with_delay.iter().zip([0.5, 0.5, 0.5, 0.5, 0.5, 0.2]).all(|(ratio, least)| *ratio > least),
+            "{with_delay:?}"
+        );
     }
 
     /// Z for the best pair (k0, k1).
@@ -419,6 +509,12 @@ mod tests {
         pairs: &[(f64, f64, u32)],
     ) -> f64 {
         let w = data.base_frequency.midpoint_f64();
+        if let Some(swing) = gains.swing {
+            // T = 1.
+            let of = |(k0, k1, _): &(f64, f64, u32)| k0 / (w * w) * size * size + k1 / w.powi(4) * rate * rate;
+            let mean = pairs.iter().map(of).fold(f64::INFINITY, f64::min);
+            return (swing * size * size + gains.enlarged.powi(2) * mean).sqrt();
+        }
         let of = |(k0, k1, _): &(f64, f64, u32)| {
             (1.0 / (2.0 * law.mu) + k0 / (w * w)) * size * size + k1 / w.powi(4) * rate * rate
         };

@@ -25,6 +25,8 @@ pub struct SampledLaw<R> {
     pub mu: R,
     /// The same of K itself, which is the mu that is asked for.
     pub nominal_mu: R,
+    /// Whether a control takes the sample after its measurement to be computed (derivation, 13.4).
+    pub delayed: bool,
     /// The interval of the input gain; none where it is 1 (derivation, 13.1).
     pub input_gain: Option<InputGain<R>>,
     /// pi.
@@ -44,7 +46,8 @@ impl SampledLaw<Enclosure> {
         let sines = (1..=sampling.samples / 2).map(sine).collect();
         let [step, gain, weight_sum] =
             [sampling.step.enclose(data.precision), data.rational(&gain.gain), data.rational(&gain.weight_sum)];
-        SampledLaw::with((step, sampling.samples), [gain, weight_sum], data.input_gain.clone(), (pi, sines))
+        let samples = (step, sampling.samples, sampling.delayed);
+        SampledLaw::with(samples, [gain, weight_sum], data.input_gain.clone(), (pi, sines))
     }
 
     /// The same law in doubles, for a search.
@@ -54,7 +57,7 @@ impl SampledLaw<Enclosure> {
             [&self.step, &self.gain, &self.weight_sum, &self.pi].map(Enclosure::midpoint_f64);
         let sines = self.sines.iter().map(Enclosure::midpoint_f64).collect();
         let input_gain = self.input_gain.as_ref().map(InputGain::midpoints);
-        SampledLaw::with((step, self.samples), [gain, weight_sum], input_gain, (pi, sines))
+        SampledLaw::with((step, self.samples, self.delayed), [gain, weight_sum], input_gain, (pi, sines))
     }
 }
 
@@ -63,7 +66,7 @@ where
     for<'a> &'a R: Operand<R>,
 {
     fn with(
-        (step, samples): (R, u32),
+        (step, samples, delayed): (R, u32, bool),
         [gain, weight_sum]: [R; 2],
         input_gain: Option<InputGain<R>>,
         (pi, sines): (R, Vec<R>),
@@ -79,7 +82,7 @@ where
             }
         };
         let sines = Arc::new(sines);
-        SampledLaw { step, samples, gain, weight_sum, enlarged, mu, nominal_mu, input_gain, pi, sines }
+        SampledLaw { step, samples, gain, weight_sum, enlarged, mu, nominal_mu, delayed, input_gain, pi, sines }
     }
 
     /// K h Nb2, to be below 2; with an input gain that of b_hi K.
@@ -87,6 +90,19 @@ where
     pub fn load(&self) -> R {
         let load = &self.gain * &self.step * &self.weight_sum;
         self.input_gain.as_ref().map_or_else(|| load.clone(), |gain| &gain.high * &load)
+    }
+
+    /// |y_j| is at most so many times |qb_j|, without an input gain: 1 + theta; with a delay 1 + th1 := 1/(1 - 3 K h Nb2/2), meaningful
+    /// where 3 K h Nb2 < 2 (that of b_hi K where there is a gain).
+    #[must_use]
+    pub fn of_y(&self) -> R {
+        if self.delayed { R::int(1) / (R::int(1) - self.lost() * R::int(3)) } else { self.enlarged.clone() }
+    }
+
+    /// 1 + h sigma with a delay, 1 without: e_j = (1 + h sigma E^-1) y_j/D_j, E = e^{i om h}.
+    #[must_use]
+    pub fn of_delay(&self, sigma: &R) -> R {
+        if self.delayed { R::int(1) + &self.step * sigma } else { R::int(1) }
     }
 
     /// theta/(1 + theta) = K h Nb2/2.
@@ -104,7 +120,7 @@ where
 
     /// What the control makes of the harmonics of the means of q (derivation, 13.5): with g = 2 Y/(2 - h sigma), Y = `of_means` the bound of
     /// |y|_s over |qb|_s, 1 + theta without an input gain, F is 2/sqrt(4 - g) up to g = 3 and g - 1 above, with an input gain
-    /// `(1 + g)/b_lo`; and the sum of all |u_j| is at most `F sqrt((T^2 - h^2)/12)` times rms(q').
+    /// `(1 + g)/b_lo`, with a delay 1 + g with (1 + h sigma) Y for Y; and the sum of all |u_j| is at most `F sqrt((T^2 - h^2)/12)` times rms(q').
     ///
     /// u_j = (P Y_j - 1) q_j where P = (E - 1)/(E - a), E = e^{i om h}, is on the circle over [0, 2/(2 - h sigma)] and Y_j on that over
     /// [0, 1 + theta]; with an input gain b u_j = (E - 1) e_j/h - q_j, e_j = h y_j/(E - a).
@@ -113,6 +129,7 @@ where
         let most = R::int(2) * of_means / (R::int(2) - &self.step * sigma);
         let (mean, harmonic) = match &self.input_gain {
             Some(gain) => (R::int(1) / &gain.low, (R::int(1) + most) / &gain.low),
+            None if self.delayed => (R::int(1), R::int(1) + most),
             None if (R::int(3) - &most).is_certainly_positive() => (R::int(1), R::int(2) / (R::int(4) - most).sqrt()),
             None => (R::int(1), R::int(2).max(&(most - R::int(1)))),
         };

@@ -1,8 +1,10 @@
 //! The regulator at samples (derivation, 12): conditions S0, S1, S2, C4, C5h decided from a rational witness; with matrix inequalities
-//! over a plant's derivatives in the place of C5h and beside S2 (13.7).
+//! over a plant's derivatives in the place of C5h and beside S2 (13.7). Where a control takes a sample to be computed (13.4) C4d and C5d
+//! stand in the place of C4 and C5h, and all is by norms.
 //!
 //! A claim is about exactly one sigma and one sampling period: nothing here is monotone in either.
 
+mod delay;
 pub mod energy;
 #[cfg(test)]
 pub(super) mod examples;
@@ -17,8 +19,8 @@ pub use energy::SampledEnergyNumbers;
 pub use gains::SampledGains;
 pub use law::SampledLaw;
 pub use pair::{SampledPair, sampled_trade_off};
-pub use stability::{DecayForms, DecayNumbers, Form, Part};
-pub use witness::SampledWitness;
+pub use stability::{DecayForms, DecayNumbers, Form, Part, Past};
+pub use witness::{DelayWitness, SampledWitness};
 
 use super::condition::{self, Condition};
 use super::control::{self, Control};
@@ -68,7 +70,7 @@ impl SampledEvaluation {
     /// norms, and nondecreasing (a rate nonincreasing) up to (max{X_p, X_b}, max{E_p, E_b}), then for this sigma and h, every
     /// n_o < N_s/2 and every phase of the sampling grid there is a T-periodic solution with sup|x| <= x_per,
     /// sup|e| <= e_per, |zeta_k|_N <= Z, and every solution that is in the claimed set at a sampling instant converges to it
-    /// exponentially.
+    /// exponentially. With a delay the claimed set has |e_0 - et_0| <= h Y_0 besides.
     #[must_use]
     pub fn new(data: &Data<'_>, witness: &SampledWitness) -> SampledEvaluation {
         let number = |value: &Rational| data.rational(value);
@@ -80,32 +82,48 @@ impl SampledEvaluation {
         };
         let origin = AtOrigin::new(data);
         let bounds = SetBounds::new(data, number(&witness.x_p), number(&witness.e_p));
-        let gains = SampledGains::new(&law, &sigma, &data.period).with_energy(energy::proved(data, &origin, witness));
+        // Matrix inequalities say nothing of the law with a delay.
+        let known = if law.delayed { None } else { energy::proved(data, &origin, witness) };
+        let gains = SampledGains::new(&law, &sigma, &data.period).with_energy(known);
         let squares = witness.squares().map(|value| number(value));
         let size = PeriodicSize::new(data, &bounds, &origin, &gains, &squares);
         let z = gains.z_squared(data, &size.forcing, [&number(&witness.k0), &number(&witness.k1)]).sqrt();
         let [d_x, d_e, w_x, eta] = [&witness.d_x, &witness.d_e, &witness.w_x, &witness.eta].map(number);
         let error_box = ErrorBox::new(data, witness.paths, [&size.x_per, &size.e_per], [&d_x, &d_e]);
-        let forms = DecayForms::new(data, &error_box, &DecayNumbers { law: &law, sigma: &sigma, w_x: &w_x, eta: &eta });
+        let DelayWitness { gm, y_0 } = witness.delay_numbers();
+        let (gm, y_0) = (number(&gm), number(&y_0));
+        let numbers = DecayNumbers { law: &law, sigma: &sigma, w_x: &w_x, eta: &eta, gm: &gm };
+        let forms = DecayForms::new(data, &error_box, &numbers);
 
         let mut conditions = signs(data, witness);
         conditions.extend(set_conditions(data, &witness.set, &witness.x_p, &witness.e_p, &z));
         conditions.extend(domain_conditions(data, bounds.x_p.max(&error_box.x_b), bounds.e_p.max(&error_box.e_b)));
         conditions.push(SampledPair { law: &law, k0: &witness.k0, k1: &witness.k1 }.condition(data));
         conditions.extend(law_conditions(data, &law, &product));
-        conditions.extend(room_condition(data, &gains));
+        conditions.extend(room_condition(data, &law, &gains));
         conditions.extend(too_large_a_sum(data, &law));
-        conditions.extend(energy::conditions(data, witness));
+        if !law.delayed {
+            conditions.extend(energy::conditions(data, witness));
+        }
         conditions.extend(match gains.has_energy() {
             true => energy::existence_conditions(data, &bounds, &origin, &gains, &squares),
             false => existence_conditions(data, &bounds, &origin, &gains, &squares),
         });
         let [dist_x, dist_e, dist_z] = claimed_distances(data, &witness.set, [&size.x_per, &size.e_per, &z]);
-        let (start, exit) = level_condition(data, [&dist_x, &dist_e, &dist_z], [&d_x, &d_e, &w_x, &eta]);
+        let (mut start, exit) = level_condition(data, [&dist_x, &dist_e, &dist_z], [&d_x, &d_e, &w_x, &eta]);
         let with_gain = [&sigma, &law.gain];
-        let by_parts = control::by_parts(data, with_gain, [&size.e_per, &z]);
+        // With a delay u = -sigma et + K M'N R^2 zeta_last.
+        let predicted = law.delayed.then(|| gains.largest_prediction(&law, &sigma, &size.forcing));
+        let by_parts = control::by_parts(data, with_gain, [predicted.as_ref().unwrap_or(&size.e_per), &z]);
+        if law.delayed {
+            let y_per = gains.largest_mean(&size.forcing);
+            start = start + delay::stored(&law.step, &gm, [&y_0, &y_per]);
+        }
         // At the gain b the weight of zeta is b eta: the square is convex in b, so that it is largest at an end.
-        let reach = |eta: &Enclosure, start: &Enclosure| control::reach(data, with_gain, eta, start);
+        let of_past = law.delayed.then(|| control::of_past(with_gain, [&law.step, &law.weight_sum], &gm));
+        let reach = |eta: &Enclosure, start: &Enclosure| {
+            control::reach(data, with_gain, eta, (start, of_past.as_ref()))
+        };
         let reach = match &data.input_gain {
             None => reach(&eta, &start),
             Some(InputGain { low, high }) => {
@@ -118,12 +136,18 @@ impl SampledEvaluation {
         let control = Control { steady: answer.steady(&origin, &size.forcing, &by_parts), transient: reach.transient }
             .over(nominal.as_ref());
         let peak = &size.e_per + reach.error;
-        conditions.push(Condition::less("C4", level_words(data), start, exit));
-        match matrix_inequality::proved_for(data, witness) {
+        if law.delayed {
+            conditions.extend(delay::conditions(data, witness, &law));
+        }
+        conditions.push(match law.delayed {
+            false => Condition::less("C4", level_words(data), start, exit),
+            true => Condition::less("C4d", format!("gm h (Y_0 + y_per)^2 + {}", level_words(data)), start, exit),
+        });
+        match matrix_inequality::proved_for(data, witness).filter(|_| !law.delayed) {
             Some(inequality) => conditions.extend(matrix_inequality::conditions(data, inequality, &error_box)),
             None => {
                 conditions.extend(one_sided(data, witness.paths.q.place_of_de(), &error_box.sector_at));
-                conditions.extend(form_conditions(data, &forms));
+                conditions.extend(form_conditions(data, &forms, if law.delayed { "C5d" } else { "C5h" }));
             }
         }
         conditions.extend(control.condition(data));
@@ -164,15 +188,15 @@ fn signs(data: &Data<'_>, witness: &SampledWitness) -> Vec<Condition> {
 fn law_conditions(data: &Data<'_>, law: &SampledLaw<Enclosure>, product: &Enclosure) -> Vec<Condition> {
     let one = Enclosure::one(data.precision);
     let two = Enclosure::from_integer(2, data.precision);
+    let (times, load) = match law.delayed {
+        true => ("3 ", law.load() * Enclosure::from_integer(3, data.precision)),
+        false => ("", law.load()),
+    };
+    let gain = if law.input_gain.is_some() { "b_hi K" } else { "K" };
     vec![
         Condition::at_most("S0", "h sigma <= 1", product.clone(), one),
         Condition::at_most("S0b", "Nbar^2 <= weight_sum", data.n_bar_squared.clone(), law.weight_sum.clone()),
-        Condition::less(
-            "S0c",
-            if law.input_gain.is_some() { "b_hi K h weight_sum < 2" } else { "K h weight_sum < 2" },
-            law.load(),
-            two,
-        ),
+        Condition::less("S0c", format!("{times}{gain} h weight_sum < 2"), load, two),
         Condition::at_most(
             "S0d",
             "|K (1 + theta) - mu| <= mu/10^6",
@@ -184,8 +208,12 @@ fn law_conditions(data: &Data<'_>, law: &SampledLaw<Enclosure>, product: &Enclos
 
 /// With an input gain every harmonic has an answer, and a bound: no denominator vanishes. Told where it is not proved, and without it
 /// nothing that a periodic solution needs is.
-fn room_condition(data: &Data<'_>, gains: &SampledGains<Enclosure>) -> Option<Condition> {
-    let what = "0 < 1/(1+theta) - (1-b) sigma Re D_j/|D_j|^2 for every harmonic j, b = b_lo and b_hi";
+fn room_condition(data: &Data<'_>, law: &SampledLaw<Enclosure>, gains: &SampledGains<Enclosure>) -> Option<Condition> {
+    let what = if law.delayed {
+        "0 < 1/(1+th1) - |1-b| sigma/|D_j| for every harmonic j, b = b_lo and b_hi"
+    } else {
+        "0 < 1/(1+theta) - (1-b) sigma Re D_j/|D_j|^2 for every harmonic j, b = b_lo and b_hi"
+    };
     let condition = Condition::less("S0e", what, data.zero(), gains.room.clone()?);
     (!condition.truth().is_true()).then_some(condition)
 }
@@ -224,9 +252,9 @@ fn existence_conditions(
     ]
 }
 
-/// (C5h).
-fn form_conditions(data: &Data<'_>, forms: &DecayForms<Enclosure>) -> Vec<Condition> {
-    let positive = |what: String, value: Enclosure| Condition::less("C5h", what, data.zero(), value);
+/// (C5h), with a delay (C5d).
+fn form_conditions(data: &Data<'_>, forms: &DecayForms<Enclosure>, id: &'static str) -> Vec<Condition> {
+    let positive = |what: String, value: Enclosure| Condition::less(id, what, data.zero(), value);
     let mut conditions = vec![positive("0 < 1 - h k_e/pi".to_owned(), forms.within.clone())];
     for (name, form) in [("Q_0", &forms.start), ("Q_h", &forms.end)] {
         let minors = form.minors().into_iter().zip(1..);

@@ -1,4 +1,4 @@
-//! (C5h): the quadratic forms of the decay from sample to sample (derivation, 12.3).
+//! (C5h): the quadratic forms of the decay from sample to sample (derivation, 12.3); with a delay (C5d), forms in one variable more (13.4).
 
 use super::law::SampledLaw;
 use crate::data::{Numbers, Problem};
@@ -21,6 +21,21 @@ pub struct Form<R> {
     pub xy: R,
     /// Of -EY.
     pub ey: R,
+    /// What a delay adds.
+    pub past: Option<Past<R>>,
+}
+
+/// `pp P^2 - xp XP - ep EP - yp YP` for P = |y_{k-1}|; the last three are nonnegative.
+#[derive(Clone, Debug)]
+pub struct Past<R> {
+    /// Of P^2.
+    pub pp: R,
+    /// Of -XP.
+    pub xp: R,
+    /// Of -EP.
+    pub ep: R,
+    /// Of -YP.
+    pub yp: R,
 }
 
 impl<R: Real> Form<R>
@@ -29,12 +44,29 @@ where
 {
     /// The leading principal minors of its matrix: all positive if and only if the form is positive definite.
     #[must_use]
-    pub fn minors(&self) -> [R; 3] {
+    pub fn minors(&self) -> Vec<R> {
         let two = R::int(2);
         let [p, q, r] = [&self.ey / &two, &self.xe / &two, &self.xy / &two];
         let second = &self.xx * &self.ee - q.sqr();
-        let third = &second * &self.yy - &self.xx * p.sqr() - &self.ee * r.sqr() - two * (&p * &q * &r);
-        [self.xx.clone(), second, third]
+        let third = &second * &self.yy - &self.xx * p.sqr() - &self.ee * r.sqr() - &two * (&p * &q * &r);
+        let mut minors = vec![self.xx.clone(), second.clone(), third.clone()];
+        if let Some(Past { pp, xp, ep, yp }) = &self.past {
+            // pp det - a' adj a, with -a the last column and -p, -q, -r the others.
+            let [a, b, c] = [xp, ep, yp].map(|part| part / &two);
+            let adjugate = [
+                &self.ee * &self.yy - p.sqr(),
+                &self.xx * &self.yy - r.sqr(),
+                second,
+                &q * &self.yy + &p * &r,
+                &r * &self.ee + &p * &q,
+                &p * &self.xx + &q * &r,
+            ];
+            let [aa, bb, cc, ab, ac, bc] = &adjugate;
+            let squares = a.sqr() * aa + b.sqr() * bb + c.sqr() * cc;
+            let mixed = &a * &b * ab + &a * &c * ac + &b * &c * bc;
+            minors.push(pp * third - squares - R::int(2) * mixed);
+        }
+        minors
     }
 }
 
@@ -70,6 +102,8 @@ pub struct DecayNumbers<'n, R> {
     pub w_x: &'n R,
     /// eta, the weight of zeta.
     pub eta: &'n R,
+    /// gm, the weight of h y_{k-1}^2; of a law with a delay alone.
+    pub gm: &'n R,
 }
 
 impl<R: Real> DecayForms<R>
@@ -79,7 +113,7 @@ where
     /// Evaluates the forms on an error box.
     ///
     /// Guarantee: where `within` and the minors of both are positive, U falls from sample to sample in the box, and at no time
-    /// between samples exceeds what it was at the last one; for every n_o < N_s/2.
+    /// between samples exceeds what it was at the last one; for every n_o < N_s/2. With a delay so does U + gm h y_{k-1}^2.
     #[must_use]
     pub fn new(problem: &impl Problem<R>, error_box: &ErrorBox<R>, numbers: &DecayNumbers<'_, R>) -> DecayForms<R> {
         DecayForms::without(problem, error_box, numbers, None)
@@ -93,7 +127,7 @@ where
         numbers: &DecayNumbers<'_, R>,
         part: Option<Part>,
     ) -> DecayForms<R> {
-        let DecayNumbers { law, sigma, w_x, eta } = *numbers;
+        let DecayNumbers { law, sigma, w_x, eta, gm } = *numbers;
         let Numbers { p_up, .. } = problem.numbers();
         let ErrorBox { k_x, k_f, rate, sector, .. } = error_box;
         let (one, two) = (R::int(1), R::int(2));
@@ -122,17 +156,37 @@ where
             };
             let (low, high) = law.input_gain.as_ref().map(|InputGain { low, high }| (low, high)).unzip();
             let worst = at(sector.above.clone(), low).max(&at(-sector.below.clone(), high));
-            Form {
+            // (eta/K) t^2 k_e^2/(3 kp), of y and its own mean.
+            let bend = &weight * within_t.sqr() * &within / R::int(3);
+            let past = law.delayed.then(|| {
+                // y + h sigma y_{k-1} is what moves e.
+                let product = &law.step * sigma;
+                let rest = &one - &ts;
+                let shift = law.input_gain.as_ref().map_or_else(|| R::int(0), InputGain::largest_shift);
+                Past {
+                    pp: gm - &hold * product.sqr(),
+                    xp: &coupling * &c_y * &product,
+                    ep: &two * rest.max(&-rest.clone()) * &product,
+                    yp: &two * &hold * &product
+                        + &weight * &hold * &k_e * &product
+                        + &bend * &product
+                        + R::int(4) * &weight * law.lost()
+                        + &two * &weight * shift * &product,
+                }
+            });
+            let mut form = Form {
                 xx: &two * w_x * rate - &coupling * c_x,
                 xe: &coupling * c_e,
                 xy: &coupling * c_y + &two * &weight * k_x * (&one + &g),
                 ee: sigma * (&two - &ts),
                 ey: &two * worst + &two * &weight * &g * &k_e,
-                yy: &two * &weight * (&one - theta)
-                    - &hold
-                    - &weight * &hold * &sector.above
-                    - &weight * within_t.sqr() * &within / R::int(3),
+                yy: &two * &weight * (&one - theta) - &hold - &weight * &hold * &sector.above - bend,
+                past,
+            };
+            if form.past.is_some() {
+                form.yy = form.yy - gm;
             }
+            form
         };
         DecayForms { start: form(R::int(0)), end: form(R::int(1)), within }
     }
@@ -188,6 +242,34 @@ mod tests {
         ErrorBox { x_b: 1.0, e_b: 1.0, k_x, sector, sector_at: [1.0; 2], k_f, gamma: 0.0, rate }
     }
 
+    /// The fourth minor, against elimination.
+    #[test]
+    fn the_minors_of_four_variables() {
+        let mut next = random(5);
+        for _ in 0..200 {
+            let past = Past { pp: next(), xp: next(), ep: next(), yp: next() };
+            let [xx, ee, yy, xe, xy, ey] = [0; 6].map(|_| next());
+            let rows = [
+                [xx, -xe / 2.0, -xy / 2.0, -past.xp / 2.0],
+                [-xe / 2.0, ee, -ey / 2.0, -past.ep / 2.0],
+                [-xy / 2.0, -ey / 2.0, yy, -past.yp / 2.0],
+                [-past.xp / 2.0, -past.ep / 2.0, -past.yp / 2.0, past.pp],
+            ];
+            let form = Form { xx, ee, yy, xe, xy, ey, past: Some(past) };
+            let (mut rows, mut product) = (rows, 1.0);
+            let minors = form.minors();
+            assert_eq!(minors.len(), 4);
+            for (i, minor) in minors.into_iter().enumerate() {
+                product *= rows[i][i];
+                assert!((minor - product).abs() < 1e-9 * (1.0 + product.abs()), "{i}: {minor} {product}");
+                for k in i + 1..4 {
+                    let factor = rows[k][i] / rows[i][i];
+                    (0..4).for_each(|j| rows[k][j] -= factor * rows[i][j]);
+                }
+            }
+        }
+    }
+
     #[test]
     fn the_form_at_the_start_is_that_of_continuous_time() {
         let spec = spec("1");
@@ -198,7 +280,7 @@ mod tests {
         for _ in 0..2000 {
             let error_box = box_of(&mut next, 4.0);
             let (w_x, eta, sigma) = (0.2 + 4.0 * next(), 0.05 + next(), 30.0 * next());
-            let numbers = DecayNumbers { law: &law, sigma: &sigma, w_x: &w_x, eta: &eta };
+            let numbers = DecayNumbers { law: &law, sigma: &sigma, w_x: &w_x, eta: &eta, gm: &0.0 };
             let start = DecayForms::new(&model, &error_box, &numbers).start;
             let ErrorBox { rate, k_x, k_f, sector, .. } = &error_box;
             let terms = DecayTerms::new([&w_x, &eta], [rate, &law.gain, &1.0], [k_x, k_f], sector);
@@ -215,12 +297,16 @@ mod tests {
     #[test]
     fn the_level_falls_as_the_forms_say() {
         let mut next = random(11);
-        let mut tightest = [f64::INFINITY; 3];
-        for (mu, [low, high]) in [("1", [1.0, 1.0]), ("20", [1.0, 1.0]), ("1", [0.6, 1.4]), ("20", [0.8, 1.5])] {
+        let mut tightest = [f64::INFINITY; 6];
+        let models = [("1", [1.0, 1.0]), ("20", [1.0, 1.0]), ("1", [0.6, 1.4]), ("20", [0.8, 1.5])];
+        let with_delay = [("1", [1.0, 1.0]), ("4", [1.0, 1.0]), ("1", [0.6, 1.4]), ("4", [0.8, 1.5])];
+        let models = models.map(|model| (model, false)).into_iter().chain(with_delay.map(|model| (model, true)));
+        for ((mu, [low, high]), delayed) in models {
             let spec = example(40, mu, |document| {
                 document["lyapunov"]["p_up"] = "1".into();
                 let ends = [low, high].map(|end: f64| end.to_string());
                 document["input_gain"] = serde_json::json!({ "nominal": "1", "low": ends[0], "high": ends[1] });
+                document["internal_model"]["delay_samples"] = u8::from(delayed).into();
             });
             let data = Data::new(&spec, 128);
             let (model, law) = parts(&data);
@@ -232,10 +318,11 @@ mod tests {
                 let error_box = box_of(&mut next, 20.0);
                 let sigma = (0.05 + 0.95 * next()) / law.step;
                 let (w_x, eta) = (0.1 + next(), 10f64.powf(-2.0 + 3.0 * next()));
+                let gm = if delayed { eta * 10f64.powf(-2.0 + 3.0 * next()) } else { 0.0 };
                 let forms = DecayForms::new(
                     &model,
                     &error_box,
-                    &DecayNumbers { law: &law, sigma: &sigma, w_x: &w_x, eta: &eta },
+                    &DecayNumbers { law: &law, sigma: &sigma, w_x: &w_x, eta: &eta, gm: &gm },
                 );
                 if forms.within <= 0.0 {
                     continue;
@@ -248,7 +335,10 @@ mod tests {
                     angle.cos() * zeta[2] - angle.sin() * zeta[1],
                 ];
                 let v = 2.0 * turned[0] + turned[1];
-                let u = b * (law.gain * v - sigma * e);
+                // The last y; M'N R M = 2 + cos, and the prediction is off by h times that y.
+                let last = if delayed { (2.0 * next() - 1.0) * 10f64.powf(3.0 * next() - 1.0) } else { 0.0 };
+                let (predicted, v) = (e - law.step * last, v + law.step * (2.0 + angle.cos()) * last);
+                let u = b * (law.gain * v - sigma * predicted);
                 let norm = |zeta: [f64; 3]| -> f64 { zeta.iter().zip(weights).map(|(z, n)| n * z * z).sum() };
                 let level = |x: f64, e: f64, zeta: [f64; 3]| w_x * x * x + e * e + b * eta * norm(zeta);
                 let ErrorBox { k_x, k_f, rate, sector, .. } = &error_box;
@@ -272,20 +362,26 @@ mod tests {
                     q_mean += (slope * em + by_x * xm) / f64::from(steps);
                     (xs, es) = (xs + dt * c, es + dt * d);
                 }
-                let y = b * law.gain * v + (1.0 - b) * sigma * e + q_mean;
+                let y = b * law.gain * v + (1.0 - b) * sigma * predicted + q_mean;
                 let moved = [turned[0] - t * y, turned[1] - t * y, turned[2]];
-                let fall = (level(x, e, zeta) - level(xs, es, moved)) / t;
+                let fall = (level(x, e, zeta) - level(xs, es, moved)) / t + gm * (last * last - y * y);
                 let [x_rms, e_size, y_size] = [x_squares.sqrt(), e.abs(), y.abs()];
                 let value = |form: &Form<f64>| {
                     form.xx * x_rms * x_rms + form.ee * e_size * e_size + form.yy * y_size * y_size
                         - form.xe * x_rms * e_size
                         - form.xy * x_rms * y_size
                         - form.ey * e_size * y_size
+                        + form.past.as_ref().map_or(0.0, |past| {
+                            let p = last.abs();
+                            past.pp * p * p - past.xp * x_rms * p - past.ep * e_size * p - past.yp * y_size * p
+                        })
                 };
+                assert_eq!(forms.end.past.is_some(), delayed);
                 let least = (1.0 - until) * value(&forms.start) + until * value(&forms.end);
-                let scale = fall.abs() + least.abs() + y * y * eta;
+                let scale = fall.abs() + least.abs() + y * y * eta + gm * last * last;
                 assert!(fall >= least - 1e-4 * scale, "{fall} {least} {b} {error_box:?}");
-                tightest[end] = tightest[end].min((fall - least) / scale);
+                let kind = end + if delayed { 3 } else { 0 };
+                tightest[kind] = tightest[kind].min((fall - least) / scale);
             }
         }
         // The bound is not idle.

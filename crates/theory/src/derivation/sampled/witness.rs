@@ -41,6 +41,17 @@ pub struct SampledWitness {
     pub set: ClaimedSet,
     /// Along which paths f and q are split on the error box.
     pub paths: Paths,
+    /// What a delay adds: with one exactly where `sampling` says so.
+    pub delay: Option<DelayWitness>,
+}
+
+/// What a delay adds to them (derivation, 13.4).
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct DelayWitness {
+    /// gm > 0, the weight of h y_{k-1}^2.
+    pub gm: Rational,
+    /// Y_0: |e_0 - et_0| <= h Y_0 at the start.
+    pub y_0: Rational,
 }
 
 impl SampledWitness {
@@ -48,6 +59,11 @@ impl SampledWitness {
     #[must_use]
     pub fn squares(&self) -> MeanSquares<&Rational> {
         MeanSquares { x: &self.r_x, e: &self.r_e, e_rate: &self.r_d }
+    }
+
+    /// What a delay adds; zeros, with which nothing is proved, where there should be some and is none.
+    pub(super) fn delay_numbers(&self) -> DelayWitness {
+        self.delay.clone().unwrap_or_else(|| DelayWitness { gm: Rational::new(), y_0: Rational::new() })
     }
 
     /// The gain and the law, which a matrix inequality is about.

@@ -6,7 +6,7 @@ use crate::constant::Constant;
 use crate::input_gain;
 use crate::json::Fields;
 use crate::period;
-use crate::spec::{Specification, samples};
+use crate::spec::{Specification, read_delay, samples};
 use crate::verdict::{Outcome, bad, demand};
 use rug::Rational;
 
@@ -20,6 +20,8 @@ pub struct Regulator<'a> {
     pub gain: Rational,
     /// N_s.
     pub samples: u32,
+    /// Whether a control is computed in the sample before it acts.
+    pub delayed: bool,
     sampling: Constant,
     pointer: String,
     texts: [&'a str; 2],
@@ -41,6 +43,7 @@ impl<'a> Regulator<'a> {
             sigma: sigma.rational()?,
             gain: gain.rational()?,
             samples: count,
+            delayed: fields.optional("delay_samples").map_or(Ok(false), |field| read_delay(&field))?,
             sampling: Constant::read(&sampling)?,
             pointer: sampling.pointer,
             texts: [sigma.numeral()?, gain.numeral()?],
@@ -53,16 +56,19 @@ impl<'a> Regulator<'a> {
         let exactly = samples(period, &self.sampling, &self.pointer)?;
         demand(Some(exactly == self.samples), RULE, &self.pointer, "period = samples * sampling_period")?;
         let asked = spec.samples.as_ref().is_none_or(|asked| *asked == self.samples);
-        demand(Some(asked), RULE, &self.pointer, "it is the sampling period of the specification")
+        demand(Some(asked), RULE, &self.pointer, "it is the sampling period of the specification")?;
+        let asked = spec.samples.is_none() || self.delayed == spec.delayed;
+        demand(Some(asked), RULE, &self.pointer, "`delay_samples` is that of the specification")
     }
 
     /// The beginning of the claim in words.
     pub fn in_words(&self, spec: &Specification) -> String {
         let (samples, [sigma, gain]) = (self.samples, self.texts);
         format!(
-            "For the digital regulator with the gain sigma = {sigma}, the sampling period h = {} ({samples} samples a period) and \
+            "For the digital regulator {}with the gain sigma = {sigma}, the sampling period h = {} ({samples} samples a period) and \
              K = {gain}, for every number of oscillators n_o < {samples}/2 and every phase of the sampling grid{}{}, with {}, \
              mu = {} and base frequency {}",
+            if self.delayed { "whose control is computed in the sample before it acts, " } else { "" },
             self.sampling.text,
             input_gain::in_words(spec.input_gain.as_ref()),
             actuator::in_words(spec.actuator.as_ref()),
@@ -73,16 +79,28 @@ impl<'a> Regulator<'a> {
     }
 
     /// What the claim takes for granted of the regulator; `saturates`: the saturation of the actuator is in the claim.
-    pub fn assumed(saturates: bool) -> Vec<String> {
+    pub fn assumed(&self, saturates: bool) -> Vec<String> {
         let saturation = if saturates { "" } else { "no saturation, " };
+        let (law, late) = match self.delayed {
+            false => (
+                "u_k = -sigma e_k + K v_k, v_k = M'N R (z_k - M e_k), z_(k+1) = R (z_k - M e_k) + (1 - h sigma) M e_k",
+                "no computation delay",
+            ),
+            true => (
+                "et_(k+1) = e_k - h sigma et_k, z_(k+1) = R (z_k - M e_k) + M et_(k+1), u_(k+1) = -sigma et_(k+1) + K M'N R \
+                 (z_(k+1) - M et_(k+1)), put out exactly at the sample k+1; u_0 is that of the law too, or -sigma et_0 where z_0 = M e_0 \
+                 is set",
+                "no computation that takes more than a sample",
+            ),
+        };
         vec![
-            "the regulator is the sampled law u_k = -sigma e_k + K v_k, v_k = M'N R (z_k - M e_k), z_(k+1) = R (z_k - M e_k) + \
-             (1 - h sigma) M e_k, R = e^(Phi h), with exactly this sigma, h and K, the weights stated and base_frequency exactly \
-             2 pi/period; between samples the plant runs continuously and u is held"
-                .to_owned(),
             format!(
-                "no computation delay, no rounding of the regulator's arithmetic or of R, no quantisation, {saturation}no noise, no jitter \
-                 of the samples"
+                "the regulator is the sampled law {law}, R = e^(Phi h), with exactly this sigma, h and K, the weights stated and \
+                 base_frequency exactly 2 pi/period; between samples the plant runs continuously and u is held"
+            ),
+            format!(
+                "{late}, no rounding of the regulator's arithmetic or of R, no quantisation, {saturation}no noise, no jitter of \
+                 the samples"
             ),
         ]
     }

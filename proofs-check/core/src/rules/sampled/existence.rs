@@ -6,6 +6,7 @@
 //! for the response to harmonics are those of a continuous regulator, and are not used; what it says of q is. With an inequality of
 //! existence S1b to S2c are strict, and what it says of the solution is in their minima.
 
+use super::delay;
 use super::gains::Gains;
 use super::inequality::Existence;
 use super::law::Law;
@@ -22,6 +23,8 @@ pub struct Solution {
     pub z: Interval,
     /// A bound of |u| along it.
     pub steady: Interval,
+    /// A bound of |y_k| along it.
+    pub largest_y: Interval,
     pub conditions: Vec<Condition>,
 }
 
@@ -48,7 +51,7 @@ pub fn evaluate(
     let between_rms = (&law.h / &pi).sqr() * &r_1;
     let at_samples = (&gains.sup * &r_q).least(&(&gains.sup_t * &r_1));
     // sum e_k = 0, so e has a zero.
-    let mut sup_e = (at_samples + between).least(&(period * r_e * r_d).sqrt());
+    let mut sup_e = (&at_samples + between).least(&(period * r_e * r_d).sqrt());
     let mut rms_e = (&gains.rms * &r_q).least(&(&gains.rms_t * &r_1)) + between_rms;
     let mut rms_e_t = (&gains.slope * &r_q).least(&((gains.rms.sqr() + (&law.h / &pi).sqr()).sqrt() * &r_1));
 
@@ -78,9 +81,25 @@ pub fn evaluate(
     let w_squared = d.w.sqr();
     let mean = (period / (&law.mu * 2) + pair[0] / &w_squared) * r_q.sqr() + pair[1] / w_squared.sqr() * r_1.sqr();
     // The input of zeta is what y is without b K v_k, so (1-b) sigma e_k is in it.
-    let [up, down] = law.shifts(&(&law.sigma * &gains.rms));
-    let z = &law.growth * mean.sqrt() * (1 + up.max(&-down));
-    let by_parts = control::by_parts(d, [&law.sigma, &law.gain], [&e, &z]);
+    let [up, down] = law.shifts(&(&law.sigma * &gains.prediction));
+    let shifted = 1 + up.max(&-down);
+    let (z, of_u) = if law.delayed {
+        // Each |y_j| is at most 1 + th1 times what drives zeta, which is at most `shifted` times |q_j|; a step raises |zeta|_N^2 by at
+        // most `h q^2/(2 b K cq) + h^2 Nb2 y_{k-1}^2`, cq = 1 - b K h Nb2.
+        let load = |gain: &Interval| 1 - gain * &law.h * law.sum();
+        let raised = |gain: Interval| (&gain * 2 * load(&gain)).recip();
+        let [low, high] = [d.by_gain(|gain| &gain.low, &law.gain), d.by_gain(|gain| &gain.high, &law.gain)];
+        let raised = raised(low).max(&raised(high)) * shifted.sqr() + &law.h * law.sum() * gains.of_y.sqr();
+        let share = (law.of_y() * &shifted).sqr();
+        let mean = &share * (pair[0] / &w_squared * r_q.sqr() + pair[1] / w_squared.sqr() * r_1.sqr());
+        let z = (period * raised * r_q.sqr() + mean).sqrt();
+        // u = -sigma et + K M'N R^2 zeta_{k-1}.
+        (z, at_samples / law.ahead())
+    } else {
+        (&law.growth * mean.sqrt() * shifted, e.clone())
+    };
+    let by_parts = control::by_parts(d, [&law.sigma, &law.gain], [&of_u, &z]);
+    let largest_y = delay::largest(law, &gains.of_y, [&r_q, &r_1]);
     let steady = law.answer(&gains.slope_by_y).steady(&bounds.along(&r), &by_parts);
-    Solution { x: bounds.sup_x(&e, r_e), z, steady, e, conditions }
+    Solution { x: bounds.sup_x(&e, r_e), z, steady, largest_y, e, conditions }
 }

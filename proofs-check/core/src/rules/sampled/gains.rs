@@ -26,13 +26,17 @@ pub struct Gains {
     pub slope: Interval,
     /// `2/(2 - h sigma)` times the largest `|y_j|` over `|q_j|`, which is at most 1 + theta without a gain.
     pub slope_by_y: Interval,
+    /// The largest `|y_j|` over `|q_j|`.
+    pub of_y: Interval,
+    /// The largest `|et_j|` over `|q_j|` of the prediction with a delay, which is `|y_j/D_j|`; e has 1 + h sigma more. Without one that of e.
+    pub prediction: Interval,
 }
 
 impl Gains {
     /// Over the harmonics; j and N_s - j are equal.
     pub fn new(law: &Law<'_>) -> Gains {
         let d = law.d;
-        let (largest, sharpened) = (law.growth.sqr(), law.samples <= MAX_SHARPENED);
+        let (largest, sharpened) = (law.of_y().sqr(), law.samples <= MAX_SHARPENED && !law.delayed);
         // The squares of |e_j| over |q_j|, of om_j, and of |D_j| = |e^{i om h} - a|/h.
         let harmonic = |j| {
             let sine = law.sine(j);
@@ -54,23 +58,28 @@ impl Gains {
         let sum = |of: Of| all.iter().zip(1..).fold(d.int(0), |sum, (at, j)| sum + of(at) * times(j)).sqrt();
         let most = |of: Of| all.iter().fold(d.int(0), |most, at| most.max(&of(at))).sqrt();
         let by_y = |y: &Interval| y * 2 / (2 - &law.share);
-        let [rms, rms_t, slope, slope_by_y] = if d.gain.is_some() {
+        let [rms, rms_t, slope, of_y] = if d.gain.is_some() {
             let of_y = most(|[error, _, size]| error * size);
             let slope = most(|[error, frequency, _]| error * frequency);
-            [most(|[error, ..]| error.clone()), most(|[error, frequency, _]| error / frequency), slope, by_y(&of_y)]
+            [most(|[error, ..]| error.clone()), most(|[error, frequency, _]| error / frequency), slope, of_y]
         } else {
-            let (rms, slope) = (slowest(law, sharpened).recip(), by_y(&law.growth));
+            let (rms, of_y) = (slowest(law, sharpened).recip(), law.of_y());
             let rms_t = &rms / law.frequency_squared(&law.sine(1)).sqrt();
-            [rms, rms_t, slope.clone(), slope]
+            [rms, rms_t, by_y(&of_y), of_y]
         };
+        // Up to here all is of y_j/D_j, which is e without a delay and the prediction with one.
+        let (prediction, ahead) = (rms.clone(), law.ahead());
+        let of_e = |value: Interval| if law.delayed { value * &ahead } else { value };
         Gains {
-            sup: sum(|[error, ..]| error.clone()),
+            sup: of_e(sum(|[error, ..]| error.clone())),
             sup_y: sum(|[.., size]| size.recip()),
-            sup_t: sum(|[error, frequency, _]| error / frequency),
-            rms,
-            rms_t,
-            slope,
-            slope_by_y,
+            sup_t: of_e(sum(|[error, frequency, _]| error / frequency)),
+            rms: of_e(rms),
+            rms_t: of_e(rms_t),
+            slope: of_e(slope),
+            slope_by_y: of_e(by_y(&of_y)),
+            of_y,
+            prediction,
         }
     }
 }
@@ -84,7 +93,7 @@ fn slowest(law: &Law<'_>, sharpened: bool) -> Interval {
     let speed = |squared: Interval| (law.sigma.sqr() + &law.a * squared).sqrt();
     let first = speed(law.frequency_squared(&sine));
     if !sharpened {
-        return first / &law.growth;
+        return first / law.of_y();
     }
     let cosine = (1 - sine.sqr()).max(&d.int(0)).sqrt();
     let turn = (1 - law.growth.sqr().recip()).max(&d.int(0));

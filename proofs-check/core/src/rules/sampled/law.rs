@@ -31,6 +31,8 @@ pub struct Terms {
     pub gain: Rational,
     /// Nb2, at least the sum of all weights.
     pub weight_sum: Rational,
+    /// Whether a control is computed in the sample before it acts.
+    pub delayed: bool,
 }
 
 /// The numbers of section 12 under their names there.
@@ -54,6 +56,8 @@ pub struct Law<'a> {
     pub growth: Interval,
     /// mu = b_lo K (1 + theta) with theta of b_lo K.
     pub mu: Interval,
+    /// Whether a control is computed in the sample before it acts (section 13.4).
+    pub delayed: bool,
     weight_sum: Interval,
 }
 
@@ -79,6 +83,7 @@ impl<'a> Law<'a> {
             mu: mu(&d.by_gain(|ends| &ends.low, &gain)),
             growth: growth(&loss),
             samples: terms.samples,
+            delayed: terms.delayed,
             d,
             sigma,
             h,
@@ -90,12 +95,37 @@ impl<'a> Law<'a> {
         }
     }
 
+    /// Nb2.
+    pub fn sum(&self) -> &Interval {
+        &self.weight_sum
+    }
+
+    /// The bound of `|y_j|` over `|q_j|`, without a gain: 1 + theta; with a delay `1 + th1 = 1/(1 - 3 b_hi K h Nb2/2)`, for the real part of
+    /// `1 + K h G - K h b1 E^-1` is at least `1 - K h Nb2/2 - K h Nb2`.
+    pub fn of_y(&self) -> Interval {
+        let rest = 1 - &self.loss * 3;
+        if !self.delayed {
+            self.growth.clone()
+        } else if rest.is_positive() {
+            rest.recip()
+        } else {
+            Interval::undefined(self.d.precision)
+        }
+    }
+
+    /// What e has besides with a delay, 1 + h sigma: `e_j = (1 + h sigma E^-1) y_j/D_j`.
+    pub fn ahead(&self) -> Interval {
+        if self.delayed { 1 + &self.share } else { self.d.int(1) }
+    }
+
     /// How the control answers the means of q: with g = 2 (1 + theta)/(2 - h sigma) the factor is `2/sqrt(4 - g)` for g <= 3 and `g - 1` for
     /// g >= 3, which is 2 at 3 and rises with g; `sum 1/om_j^2 = (T^2 - h^2)/12` over the samples. With a gain b u_k is
     /// `(e_{k+1} - e_k)/h - qb_k` and u_0 `-q_0/b`: the factor is `(1 + g)/b`, with the g that bounds the differences of e by q.
     pub fn answer(&self, g: &Interval) -> Answer {
         let (mean, factor) = match &self.d.gain {
             Some(gain) => (gain.low.recip(), (g + 1) / &gain.low),
+            // u_k is (e_{k+1} - e_k)/h - qb_k here too.
+            None if self.delayed => (self.d.int(1), g + 1),
             None if (3 - g).is_nonnegative() => (self.d.int(1), 2 / (4 - g).sqrt()),
             None => (self.d.int(1), (g - 1).max(&self.d.int(2))),
         };
@@ -106,11 +136,18 @@ impl<'a> Law<'a> {
     /// The square of `|e_j|` over that of `|q_j|` with a gain, from `om_j^2` and `|D_j|^2`, where `D_j = (e^{i om h} - a)/h` has the real part
     /// `sigma - (h/2) om_j^2`: `|D_j|^2` over the square of the least over b of `|D_j|^2/(1 + theta) - (1-b) sigma Re D_j`. That is linear in b,
     /// and not above `|D_j|` times the distance of `(1-b) sigma` from the line `D_j (1 - beta + i Y)`, `1 - beta >= 1/(1 + theta)`, for
-    /// `q_j = (D_j (1 - beta + i Y) - (1-b) sigma) e_j`. Nothing is known where it is not above 0.
+    /// `q_j = (D_j (1 - beta + i Y) - (1-b) sigma) e_j`. Nothing is known where it is not above 0. With a delay this is of the prediction
+    /// et in the place of e: `y_j = D_j E et_j`, and `q_j = (1 + b K h G - b K h b1 E^-1) y_j - (1-b) sigma et_j`.
     pub fn of_error(&self, frequency_squared: &Interval, size_squared: &Interval) -> Interval {
         let real = &self.sigma - &self.h / 2 * frequency_squared;
         let [up, down] = self.shifts(&(&self.sigma * real));
-        let least = size_squared / &self.growth - up.max(&down);
+        let least = match self.delayed {
+            false => size_squared / &self.growth - up.max(&down),
+            true => {
+                let [up, down] = self.shifts(&self.sigma);
+                size_squared / self.of_y() - size_squared.sqrt() * up.max(&-down)
+            }
+        };
         if least.is_positive() { size_squared / least.sqr() } else { Interval::undefined(self.d.precision) }
     }
 
@@ -129,10 +166,11 @@ impl<'a> Law<'a> {
         }
         let apart = (&self.nominal - &d.mu).abs();
         let largest = if d.gain.is_some() { "b_hi K" } else { "K" };
+        let (times, load) = if self.delayed { ("3 ", &self.loss * 6) } else { ("", &self.loss * 2) };
         let conditions = vec![
             Condition::at_most("S0", "h sigma <= 1", self.share.clone(), d.int(1)),
             Condition::at_most("S0b", "Nbar^2 <= weight_sum", d.n_bar.sqr(), self.weight_sum.clone()),
-            Condition::less("S0c", format!("{largest} h weight_sum < 2"), &self.loss * 2, d.int(2)),
+            Condition::less("S0c", format!("{times}{largest} h weight_sum < 2"), load, d.int(2)),
             Condition::at_most("S0d", "|K (1 + theta) - mu| <= mu/10^6", apart, &d.mu / MU_PARTS),
         ];
         conditions.iter().try_for_each(|condition| condition.demand(RULE, pointer))?;

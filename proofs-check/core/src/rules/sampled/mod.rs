@@ -3,10 +3,11 @@
 //! Guarantee, if all conditions hold and the bounding functions are as proved up to `arguments`: for this sigma and h, every
 //! n_o < N_s/2 and every phase of the sampling grid there is a T-periodic solution with |x| <= x_per, |e| <= e_per at all times and
 //! |zeta_k|_N <= Z at the samples, and every solution that is in the claimed set at a sample converges to it exponentially. With an
-//! input gain, or for a family, that is so of each. It is about exact arithmetic, without delay, quantisation or saturation. A matrix
-//! inequality, proved of the plant's formulas, may stand in the place of C5h, and another one beside S1 and S2.
+//! input gain, or for a family, that is so of each. It is about exact arithmetic, without quantisation or saturation, and without a delay of
+//! the computation, or with one of a sample that the law knows of (section 13.4). A matrix inequality, proved of the plant's formulas, may stand in the place of C5h, and another one beside S1 and S2.
 
 pub mod claim;
+pub mod delay;
 pub mod existence;
 pub mod gains;
 pub mod inequality;
@@ -22,6 +23,7 @@ use super::set::{self, ClaimedSet};
 use crate::data::Data;
 use crate::json::Fields;
 use crate::verdict::{Outcome, bad, demand};
+use delay::Past;
 use inequality::{Existence, Inequalities, Stability};
 use law::{Law, Terms};
 
@@ -34,6 +36,8 @@ pub struct Witness {
     pub stability: Option<Stability>,
     /// What adds to S1 and S2, where it is given.
     pub existence: Option<Existence>,
+    /// What a delay adds.
+    pub past: Option<Past>,
 }
 
 impl Witness {
@@ -51,7 +55,13 @@ impl Witness {
         let stability = fields.optional("matrix_inequality");
         let stability = stability.map(|field| Stability::read(&field, [&free.w_x, &free.h])).transpose()?;
         let existence = fields.optional("existence_inequality").map(|field| Existence::read(&field)).transpose()?;
-        Ok(Witness { free, terms: Terms { sigma, samples, gain, weight_sum }, stability, existence })
+        let delayed = claimed.delayed;
+        let by_matrix = stability.as_ref().map(|part: &Stability| &part.pointer);
+        if let (true, Some(pointer)) = (delayed, by_matrix.or(existence.as_ref().map(|part| &part.pointer))) {
+            return bad(pointer, "a matrix inequality says nothing of a law with a delay");
+        }
+        let past = if delayed { Some(Past::read(fields)?) } else { None };
+        Ok(Witness { free, terms: Terms { sigma, samples, gain, weight_sum, delayed }, stability, existence, past })
     }
 
     /// Those that have to be proved of the formulas.
@@ -81,14 +91,21 @@ pub fn evaluate(d: &Data<'_>, w: &Witness) -> Outcome<Evaluated> {
     let covers = w.existence.iter().flat_map(|part| covers(d, [&free.x_p, &free.e_p], [&part.x, &part.e]));
     let existence = of_law.into_iter().chain(covers).chain(solution.conditions);
     let (error_box, reach, mut evaluated) = free.evaluate(d, sizes, vec![transfer], existence);
-    let (level, transient) = free.level(d, &reach, [&law.sigma, &law.gain], true);
+    let (level, transient) = match &w.past {
+        None => free.level(d, &reach, [&law.sigma, &law.gain], true),
+        Some(past) => {
+            evaluated.conditions.push(past.conditions(&law, &free.set.e0, &free.pointer)?);
+            past.level(&law, free, &reach, &solution.largest_y)
+        }
+    };
     evaluated.conditions.push(level);
     evaluated.control = control::put_out(d, [solution.steady, transient]);
     if let Some(part) = &w.stability {
         evaluated.conditions.extend(reaches(d, &error_box, [&part.x, &part.e], RULE));
     } else {
         evaluated.conditions.extend(error_box.one_sided.iter().cloned());
-        evaluated.conditions.extend(stability::conditions(&law, &error_box, [&w_x, &eta]));
+        let gm = w.past.as_ref().map(|past| d.number(&past.gm));
+        evaluated.conditions.extend(stability::conditions(&law, &error_box, [&w_x, &eta], gm.as_ref()));
     }
     evaluated.conditions.extend(control::saturation(d, &evaluated.control));
     Ok(evaluated)
