@@ -246,7 +246,7 @@ fn what_is_refused() {
         model.remove("sampling_period");
         model.insert("delay_samples".to_owned(), 1.into());
     };
-    assert!(read(&alone).unwrap_err().to_string().contains("expected `sampling_period` beside it"));
+    assert!(read(&alone).unwrap_err().to_string().contains("is of the regulator at samples"));
     // Too large a load: mu of 300 at 200 samples has h mu Nb2 > 1.
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("asked.json");
