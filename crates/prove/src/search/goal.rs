@@ -1,15 +1,4 @@
-//! What the shape of an error box is chosen for, in floating point (derivation, 13.5).
-
-use super::candidate::{AtSigma, active_level, weight_h};
-use super::model::FloatModel;
-use super::obstacle::{Failing, Obstacle};
-use super::periodic::PeriodicSet;
-use super::sharp::start_distances;
-use super::threshold::ByMatrix;
-use rug::Rational;
-use sigmastar_theory::derivation::control::{self, Answer};
-use sigmastar_theory::derivation::harmonics::AtOrigin;
-use sigmastar_theory::derivation::mean_squares::{Forcing, SetBounds};
+//! What the shape of an error box is chosen for (derivation, 13.5).
 
 /// What is made small over the shapes of an error box; of all but the first one at a gain that is given, where the threshold is below it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -21,73 +10,4 @@ pub enum Goal {
     Control,
     /// How far e goes from that of the periodic solution.
     Peak,
-}
-
-/// How far the threshold stays below the gain where it is not what is made small, for rounding; what is proved with its weights is not moved.
-const BELOW: f64 = 1.0 - 1e-6;
-
-/// The gain that multiplies e, and the one that multiplies M'N zeta: mu, or at samples K.
-pub(super) type Law = [f64; 2];
-
-/// The candidate with what it costs; `least` is what its threshold has to be below.
-///
-/// # Errors
-/// That the threshold is not below.
-pub(super) fn weighed(
-    model: &FloatModel,
-    at: AtSigma,
-    distances: [f64; 3],
-    law: Law,
-    least: f64,
-) -> Result<AtSigma, Obstacle> {
-    let moves = model.by_matrix.is_none() && model.at_samples.stability.is_none();
-    let largest = if moves { least * BELOW } else { least };
-    let cost = match model.goal {
-        Goal::Threshold => return Ok(at),
-        _ if at.threshold.is_nan() || at.threshold > largest => {
-            return Err(Failing::Gain { given: law[0], smallest: None }.into());
-        }
-        Goal::Control => reach(model, &at, distances, law).transient,
-        Goal::Peak => reach(model, &at, distances, law).error,
-    };
-    if cost.is_finite() { Ok(AtSigma { cost, ..at }) } else { Err(Failing::NotFinite(None).into()) }
-}
-
-/// How far e and u go from those of the periodic solution, from the initial set.
-pub(super) fn reach(model: &FloatModel, at: &AtSigma, distances: [f64; 3], [sigma, gain]: Law) -> control::Reach<f64> {
-    if let (Some(ByMatrix::Joint(joint)), Some(sigma)) = (&model.by_matrix, Rational::from_f64(sigma)) {
-        let [x, e, z] = &distances;
-        return control::joint_reach(model, joint, Rational::to_f64, &sigma, [x, e, z]);
-    }
-    let (level, h) = (active_level(at.eta, at.dist_e, at.rho), weight_h(at.eta, at.dist_e, at.dist_z));
-    // At the gain b the weight of zeta is b h.
-    let least = model.input_gain.as_ref().map_or(h, |known| known.low * h);
-    control::reach(model, [&sigma, &gain], &least, &level)
-}
-
-/// The largest |u| of the law and the largest |e| on the way from the initial set, of a candidate.
-pub(super) fn largest(
-    model: &FloatModel,
-    origin: &AtOrigin<f64>,
-    answer: &Answer<f64>,
-    law: Law,
-    (set, at): (&PeriodicSet, &AtSigma),
-) -> Largest {
-    let bounds = SetBounds::new(model, set.x_p, set.e_p);
-    let forcing = Forcing::new(&bounds, origin, set.refined.as_ref().unwrap_or(&set.squares));
-    let by_parts = control::by_parts(model, law.each_ref(), [&set.e_per, &set.z]);
-    let reach = reach(model, at, start_distances(model, set), law);
-    let control = answer.steady(origin, &forcing, &by_parts) + reach.transient;
-    Largest { control, steady_error: set.e_per, peak_error: set.e_per + reach.error }
-}
-
-/// What is bounded at one gain, in floating point.
-#[derive(Clone, Copy, Debug)]
-pub struct Largest {
-    /// |u| of the law, at all times.
-    pub control: f64,
-    /// |e| along the periodic solution.
-    pub steady_error: f64,
-    /// |e| at all times.
-    pub peak_error: f64,
 }
