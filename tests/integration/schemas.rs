@@ -217,6 +217,7 @@ fn specifications() -> Vec<Value> {
                 ("internal_model", explicit),
                 ("initial_set", at_rest),
                 ("input_gain", json!({ "nominal": 1, "low": "4/5", "high": 1.25 })),
+                ("actuator", json!({ "max": "3*pi" })),
             ],
         ),
         with(
@@ -238,7 +239,14 @@ fn plants() -> Vec<Value> {
     vec![
         with(file, &[("$schema", json!("x")), ("initial", start)]),
         with(file, &[("parameters", json!({ "k": "1/5", "J": { "nominal": 2, "low": 1, "high": 3 } }))]),
-        with(file, &[("internal_model", explicit), ("input_gain", json!({ "nominal": 2, "low": 1, "high": 3 }))]),
+        with(
+            file,
+            &[
+                ("internal_model", explicit),
+                ("input_gain", json!({ "nominal": 2, "low": 1, "high": 3 })),
+                ("actuator", json!({ "max": 30 })),
+            ],
+        ),
         set(json!({ "kind": "paper" })),
         set(json!({ "kind": "at-rest" })),
         set(json!({ "kind": "at-rest", "ball": 1, "E0": 1 })),

@@ -1,8 +1,8 @@
 //! The report on a certification: what a person, or a script, reads about a run.
 
 use super::{
-    brief, conditions, consequences, constants, exact_regulation, for_n_o, gains, json, matrix_checks, of_plant, printed,
-    relative_degree, sensitivity, sets, verdict,
+    brief, conditions, consequences, constants, exact_regulation, for_n_o, gains, json, matrix_checks, of_plant,
+    printed, relative_degree, sensitivity, sets, verdict,
 };
 use sigmastar_document::{Block, Readable, clean};
 use sigmastar_lang::spec::InputGain;

@@ -1,7 +1,7 @@
 //! The sharp derivation with the transfer proof, and the candidate, that give the smallest sigma.
 
-use super::limits::{FloatLimits, Limits, NEAR, ROOMS};
-use super::options::{Options, TransferChoice};
+use super::limits::{FloatLimits, NEAR, ROOMS};
+use super::options::{Limits, Options, TransferChoice};
 use super::proof::{Outcome, SharpProof};
 use super::round::{TransferKind, round_sharp};
 use crate::search::{

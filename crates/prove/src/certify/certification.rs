@@ -1,11 +1,9 @@
 //! What a run found out.
 
 use super::bounding::BoundingProblem;
-use super::gains::GainRow;
-use super::limits::Limits;
 use super::matrix_checks::MatrixChecks;
 use super::no_plant::NoPlant;
-use super::options::Options;
+use super::options::{Limits, Options};
 use super::proof::{Decided, Outcome, Proof, RepairedProof, SharpProof};
 use super::verdict::Verdict;
 use crate::rate::bound::RateForCount;
@@ -63,6 +61,27 @@ pub struct Alternatives {
     pub aligned: Option<f64>,
     /// With the input gain known to be the nominal one, where it is uncertain; by the kind of proof that the claim has.
     pub nominal_gain: Option<f64>,
+}
+
+/// The numbers of oscillators of which the steady error is bounded.
+pub const SHOWN_N_O: [u64; 2] = [0, 10];
+
+/// Bounds at one gain, for every solution from the initial set there: where the specification states no sizes of it they are those of the
+/// periodic solution at this gain.
+///
+/// Guarantee: every condition is proved for a witness at this gain.
+#[derive(Clone, Debug)]
+pub struct GainRow {
+    /// The gain.
+    pub sigma: Rational,
+    /// E0 of the initial set.
+    pub e0: Rational,
+    /// Of |e| along the periodic solution, for the numbers of oscillators of [`SHOWN_N_O`].
+    pub steady: [Enclosure; 2],
+    /// Of |e| on the way, for every n_o.
+    pub peak: Enclosure,
+    /// Of what is put out, for every n_o.
+    pub control: Control<Enclosure>,
 }
 
 /// Everything a run found out.

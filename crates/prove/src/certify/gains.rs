@@ -2,60 +2,36 @@
 
 use super::best::model;
 use super::bounding::prove_up_to;
-use super::certification::Certification;
+use super::certification::{Certification, GainRow, SHOWN_N_O};
 use super::options::Ladder;
 use super::proof::SharpProof;
 use super::round::{TransferKind, round_again};
 use crate::search::{FloatModel, Goal, SharpProposal, search_sharp_at};
 use rayon::prelude::*;
 use rug::Rational;
-use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, round_rational};
 use sigmastar_lang::spec::Specification;
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::consequences::error_bounds;
-use sigmastar_theory::derivation::control::Control;
 use sigmastar_theory::derivation::mistuned::Mistuning;
 use sigmastar_theory::transfer::TransferProof;
 
 /// The gains, in tenths of that of the claim.
 const TENTHS: [u32; 5] = [12, 15, 20, 30, 50];
 
-/// The numbers of oscillators of which the steady error is bounded.
-pub const SHOWN_N_O: [u64; 2] = [0, 10];
-
-/// Bounds at one gain, for every solution from the initial set there: where the specification states no sizes of it they are those of the
-/// periodic solution at this gain.
-///
-/// Guarantee: every condition is proved for a witness at this gain.
-#[derive(Clone, Debug)]
-pub struct GainRow {
-    /// The gain.
-    pub sigma: Rational,
-    /// E0 of the initial set.
-    pub e0: Rational,
-    /// Of |e| along the periodic solution, for the numbers of oscillators of [`SHOWN_N_O`].
-    pub steady: [Enclosure; 2],
-    /// Of |e| on the way, for every n_o.
-    pub peak: Enclosure,
-    /// Of what is put out, for every n_o.
-    pub control: Control<Enclosure>,
-}
-
-impl GainRow {
-    fn of(spec: &Specification, proof: &SharpProof) -> GainRow {
-        let data = Data::new(spec, proof.precision);
-        let (evaluation, mistuning) = (&proof.evaluation, Mistuning::new(&data));
-        let sigma = data.rational(&proof.witness.sigma);
-        let e_per = &evaluation.periodic.e_per;
-        let sup = |n_o| error_bounds(&data, &evaluation.excitation, mistuning.as_ref(), &sigma, e_per, n_o).sup;
-        GainRow {
-            sigma: proof.witness.sigma.clone(),
-            e0: proof.witness.set.e0.clone(),
-            steady: SHOWN_N_O.map(sup),
-            peak: evaluation.peak.clone(),
-            control: evaluation.control.clone(),
-        }
+/// The row of a proof.
+fn row_of(spec: &Specification, proof: &SharpProof) -> GainRow {
+    let data = Data::new(spec, proof.precision);
+    let (evaluation, mistuning) = (&proof.evaluation, Mistuning::new(&data));
+    let sigma = data.rational(&proof.witness.sigma);
+    let e_per = &evaluation.periodic.e_per;
+    let sup = |n_o| error_bounds(&data, &evaluation.excitation, mistuning.as_ref(), &sigma, e_per, n_o).sup;
+    GainRow {
+        sigma: proof.witness.sigma.clone(),
+        e0: proof.witness.set.e0.clone(),
+        steady: SHOWN_N_O.map(sup),
+        peak: evaluation.peak.clone(),
+        control: evaluation.control.clone(),
     }
 }
 
@@ -78,7 +54,7 @@ fn gain_rows(spec: &Specification, proof: &SharpProof, (model, start): (&FloatMo
         let [x, e] = proof.decided().reach()?;
         let within = reach.as_ref().is_some_and(|[known_x, known_e]| x <= *known_x && e <= *known_e);
         let known = spec.domain.is_some() || spec.plant().is_some() || within || prove_up_to(spec, &x, &e).is_ok();
-        known.then(|| GainRow::of(spec, &proof))
+        known.then(|| row_of(spec, &proof))
     };
     TENTHS.par_iter().filter_map(row).collect()
 }
@@ -89,7 +65,7 @@ impl Certification<'_> {
         let Some(proof) = self.sharp.proved().filter(|_| self.claim().is_some() && self.spec.actuator.is_none()) else {
             return;
         };
-        let mut rows = vec![GainRow::of(self.spec, proof)];
+        let mut rows = vec![row_of(self.spec, proof)];
         rows.extend(gain_rows(self.spec, proof, (model, start)));
         self.gains = rows;
     }

@@ -1,53 +1,13 @@
 //! The smallest gain that is found with which bounds are kept (derivation, 13.5): of |e| and of what is put out.
 
+use super::options::Limits;
 use super::round::rounded_sigma;
 use crate::search::{Failing, Goal, Largest, Limited, Obstacle};
 use rug::Rational;
-use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::Portable;
 use sigmastar_lang::spec::Specification;
-use sigmastar_theory::derivation::control::Control;
 
-/// What a claim is to keep to, at its gain; each where it is asked for.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Limits {
-    /// Of |e| along the periodic solution, for every n_o.
-    pub steady_error: Option<Rational>,
-    /// Of |e| on the way from the initial set, at all times.
-    pub peak_error: Option<Rational>,
-    /// Of what is put out, on the way from the initial set, at all times.
-    pub control: Option<Rational>,
-}
-
-impl Limits {
-    /// Whether nothing is asked for.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.named().all(|(_, limit)| limit.is_none())
-    }
-
-    fn named(&self) -> impl Iterator<Item = (Limited, Option<&Rational>)> {
-        [
-            (Limited::SteadyError, self.steady_error.as_ref()),
-            (Limited::PeakError, self.peak_error.as_ref()),
-            (Limited::Control, self.control.as_ref()),
-        ]
-        .into_iter()
-    }
-
-    /// Whether the bounds at the gain of a proof are certainly not above: of |e| along the periodic solution and on the way, and of the
-    /// control.
-    #[must_use]
-    pub fn kept(&self, [steady, peak]: [&Enclosure; 2], control: &Control<Enclosure>) -> bool {
-        let largest = &control.steady + &control.transient;
-        let bounds = [steady, peak, &largest];
-        self.named().zip(bounds).all(|((_, limit), bound)| {
-            limit.is_none_or(|limit| bound.upper_rational().is_some_and(|upper| upper <= *limit))
-        })
-    }
-}
-
-/// The same in floating point, with that of the actuator.
+/// What a claim is to keep to in floating point, with what the actuator takes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FloatLimits {
     limits: [(Limited, Option<f64>); 4],

@@ -30,16 +30,16 @@ mod verdict;
 
 pub use ball::{claimed_ball, covers_ball, inverse_norm, within_ball};
 pub use bounding::{BoundingProblem, prove_on_domain, prove_up_to};
-pub use certification::{Alternatives, Certification, ExactClaim, PrintedFigure, RelativeDegreeGains};
+pub use certification::{
+    Alternatives, Certification, ExactClaim, GainRow, PrintedFigure, RelativeDegreeGains, SHOWN_N_O,
+};
 pub use decide::{decide, decide_exact};
-pub use gains::{GainRow, SHOWN_N_O};
 pub use jacobian::{MAX_SEARCHES, Resolution, resolve, resolve_with, with_triple};
-pub use limits::Limits;
 pub use matrix_checks::{ContractionCheck, MatrixChecks, SylvesterCheck};
 pub use misfit::Misfit;
 pub use no_plant::{ExceededBy, NoPlant, has_states, no_plant};
 pub use nominal_ball::nominal_ball;
-pub use options::{Ladder, Options, TransferChoice};
+pub use options::{Ladder, Limits, Options, TransferChoice};
 pub use produce::{certify, certify_at, certify_near, certify_within, recheck};
 pub use proof::{Decidable, Decided, GivenWitness, Outcome, Proof, RepairedProof, SampledProof, SharpProof, Witness};
 pub use rates::{NoRatesOfClaim, rate_counts};

@@ -1,6 +1,9 @@
 //! What a run is asked for.
 
-use sigmastar_exact::enclosure::{DEFAULT_PRECISION, MAX_PRECISION};
+use crate::search::Limited;
+use rug::Rational;
+use sigmastar_exact::enclosure::{DEFAULT_PRECISION, Enclosure, MAX_PRECISION};
+use sigmastar_theory::derivation::control::Control;
 
 /// Which proof of the transfer bound a claim uses. The repaired derivation always has the closed form.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -43,5 +46,44 @@ pub struct Options {
 impl Default for Options {
     fn default() -> Options {
         Options { transfer: TransferChoice::default(), ladder: Ladder::default(), compare: true }
+    }
+}
+
+/// What a claim is to keep to, at its gain; each where it is asked for.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Limits {
+    /// Of |e| along the periodic solution, for every n_o.
+    pub steady_error: Option<Rational>,
+    /// Of |e| on the way from the initial set, at all times.
+    pub peak_error: Option<Rational>,
+    /// Of what is put out, on the way from the initial set, at all times.
+    pub control: Option<Rational>,
+}
+
+impl Limits {
+    /// Whether nothing is asked for.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.named().all(|(_, limit)| limit.is_none())
+    }
+
+    fn named(&self) -> impl Iterator<Item = (Limited, Option<&Rational>)> {
+        [
+            (Limited::SteadyError, self.steady_error.as_ref()),
+            (Limited::PeakError, self.peak_error.as_ref()),
+            (Limited::Control, self.control.as_ref()),
+        ]
+        .into_iter()
+    }
+
+    /// Whether the bounds at the gain of a proof are certainly not above: of |e| along the periodic solution and on the way, and of the
+    /// control.
+    #[must_use]
+    pub fn kept(&self, [steady, peak]: [&Enclosure; 2], control: &Control<Enclosure>) -> bool {
+        let largest = &control.steady + &control.transient;
+        let bounds = [steady, peak, &largest];
+        self.named().zip(bounds).all(|((_, limit), bound)| {
+            limit.is_none_or(|limit| bound.upper_rational().is_some_and(|upper| upper <= *limit))
+        })
     }
 }

@@ -2,9 +2,9 @@
 
 use super::bounding::{BoundingProblem, prove_on_domain, prove_up_to};
 use super::decide::decide;
-use super::limits::{FloatLimits, Limits, NEAR, ROOMS};
+use super::limits::{FloatLimits, NEAR, ROOMS};
 use super::no_plant::{NoPlant, no_plant};
-use super::options::Ladder;
+use super::options::{Ladder, Limits};
 use super::produce::undecided_or_error;
 use super::proof::{Outcome, SampledProof};
 use super::refusal::Refusal;

@@ -21,6 +21,7 @@ mod model;
 mod obstacle;
 mod periodic;
 mod printed;
+mod reach;
 mod repaired;
 mod root;
 mod sampled;
@@ -35,17 +36,18 @@ pub use by_energy::{ByEnergy, EnergyMargin, SHARE};
 pub use candidate::{AtSigma, PastShare, active_level, weight_h};
 pub use exact::search_exact;
 pub use float_bound::FloatBound;
-pub use goal::{Goal, Largest};
+pub use goal::Goal;
 pub use minimise::{Descent, minimise};
 pub use model::{Datum, FloatModel, OptionalDatum};
 pub use obstacle::{Closest, Extreme, Failing, Limited, Obstacle};
 pub use periodic::{ExistenceForm, Floors, PeriodicSet};
 pub use printed::{PrintedProposal, search_printed};
+pub use reach::{Largest, start_distances};
 pub use repaired::{RepairedProposal, largest_e_repaired, perron_repaired, search_repaired};
 pub use sampled::{SampledLimit, SampledProposal, SampledSearch, ScanPoint};
 pub use sharp::{
     SharpParameters, SharpProposal, at_sigma, largest_at, search_sharp, search_sharp_at, search_sharp_near,
-    sensitivities, start_distances, without_optional_data,
+    sensitivities, without_optional_data,
 };
 pub use smaller_set::smaller_set;
 pub use threshold::{ByMatrix, Threshold};

@@ -7,12 +7,12 @@ use super::box_at_samples::error_box_at_samples;
 use super::candidate::{AtSigma, PastShare, Shape};
 use super::error_box::{best_shape, shape_near};
 use super::floors::{ordinary, raised, tiny};
-use super::goal::{Largest, Law, largest, weighed};
 use super::model::FloatModel;
 use super::obstacle::{Closest, Failing, Obstacle};
 use super::periodic::{Floors, PeriodicSet};
+use super::reach::{Largest, largest, start_distances, weighed};
 use super::scan;
-use super::sharp::{ROOM, search_sharp, start_distances};
+use super::sharp::{ROOM, search_sharp};
 use rug::Rational;
 use sigmastar_exact::number::Portable;
 use sigmastar_theory::derivation::harmonics::AtOrigin;
@@ -251,7 +251,17 @@ impl<'m> SampledSearch<'m> {
                     (Some(past), threshold)
                 }
             };
-            Ok(AtSigma { rho, eta, d_x: shape.d_x, dist_e, dist_z, paths: shape.paths, past, threshold, cost: threshold })
+            Ok(AtSigma {
+                rho,
+                eta,
+                d_x: shape.d_x,
+                dist_e,
+                dist_z,
+                paths: shape.paths,
+                past,
+                threshold,
+                cost: threshold,
+            })
         })
     }
 

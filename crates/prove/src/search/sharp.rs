@@ -4,17 +4,16 @@ use super::binding::Binding;
 use super::candidate::AtSigma;
 use super::error_box::{best_shape, error_box, shape_near};
 use super::floors::{ordinary, raised, tiny};
-use super::goal::{Largest, Law, largest, weighed};
 use super::model::{Datum, FloatModel, OptionalDatum};
 use super::obstacle::{Closest, Failing, Obstacle};
 use super::periodic::{ExistenceForm, Floors, PeriodicSet};
+use super::reach::{Largest, largest, start_distances, weighed};
 use super::root::crossing;
 use super::scan;
 use super::threshold::ByMatrix;
 use sigmastar_exact::number::Portable;
 use sigmastar_theory::derivation::control::Answer;
 use sigmastar_theory::derivation::harmonics::AtOrigin;
-use sigmastar_theory::derivation::initial_set::distances;
 
 /// How existence is proved, and the shape of the error box: from these and sigma every other free number follows.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,9 +44,6 @@ pub(super) const ROOM: f64 = 1e-10;
 
 /// Shares of (b_qe - m)/2 that are tried as kap.
 const DAMPED: [f64; 2] = [1.0, 0.3];
-
-/// The smallest distance of the initial set from the periodic solution, as a share of the latter's size.
-const FLOOR: f64 = 1e-6;
 
 /// The share of the smallest rate in the data below which a gain is as good as none.
 const NEGLIGIBLE: f64 = 1e-20;
@@ -164,16 +160,6 @@ impl Search<'_> {
         let found = crossing(excess, (exponent(low.0), low.1), (exponent(high.0), high.1), width).portable_exp();
         Ok(found.min(high.0))
     }
-}
-
-/// dX, dE, dZ of the required set from a periodic solution, kept away from 0: a larger distance only strengthens C4. dZ is that of
-/// [`FloatModel::weighed`].
-#[must_use]
-pub fn start_distances(model: &FloatModel, set: &PeriodicSet) -> [f64; 3] {
-    let start = model.required_set(set.x_p, set.e_p, set.z);
-    let [x, e, z] = distances(model, &start, [&set.x_per, &set.e_per, &set.z]);
-    let e = e.max(FLOOR * set.e_p);
-    [x.max(FLOOR * set.x_p), e, model.weighed(z.max(FLOOR * model.n_bar * e))]
 }
 
 /// Searches for the smallest sigma.

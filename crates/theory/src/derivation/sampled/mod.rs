@@ -121,9 +121,8 @@ impl SampledEvaluation {
         }
         // At the gain b the weight of zeta is b eta: the square is convex in b, so that it is largest at an end.
         let of_past = law.delayed.then(|| control::of_past(with_gain, [&law.step, &law.weight_sum], &gm));
-        let reach = |eta: &Enclosure, start: &Enclosure| {
-            control::reach(data, with_gain, eta, (start, of_past.as_ref()))
-        };
+        let reach =
+            |eta: &Enclosure, start: &Enclosure| control::reach(data, with_gain, eta, (start, of_past.as_ref()));
         let reach = match &data.input_gain {
             None => reach(&eta, &start),
             Some(InputGain { low, high }) => {
