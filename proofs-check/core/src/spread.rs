@@ -21,7 +21,7 @@ pub fn ends(expr: &Expr, family: &[Span]) -> Option<[Rational; 2]> {
     let [bits, moved] = ENDS;
     let slack = |end: &Rational| Rational::from(end.abs_ref()) >> moved;
     let (low, high) = (all.lower()?, all.upper()?);
-    let (low, high) = (Rational::from(&low - slack(&low)), Rational::from(&high + slack(&high)));
+    let (low, high) = (&low - slack(&low), &high + slack(&high));
     Some([Interval::rational(&low, bits).lower()?, Interval::rational(&high, bits).upper()?])
 }
 

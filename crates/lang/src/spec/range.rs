@@ -57,7 +57,7 @@ pub(super) fn range(expr: &PlantExpr, parameters: &Parameters) -> Option<[Ration
     let range = range?;
     let (low, high) = (range.lower_rational()?, range.upper_rational()?);
     let slack = |end: &Rational| Rational::from(end.abs_ref()) >> SLACK;
-    let (low, high) = (Rational::from(&low - slack(&low)), Rational::from(&high + slack(&high)));
+    let (low, high) = (&low - slack(&low), &high + slack(&high));
     let rounded = |end: &Rational| Enclosure::from_rational(end, BITS);
     Some([rounded(&low).lower_rational()?, rounded(&high).upper_rational()?])
 }

@@ -10,7 +10,7 @@ use super::floors::{ordinary, raised, tiny};
 use super::model::FloatModel;
 use super::obstacle::{Closest, Failing, Obstacle};
 use super::periodic::{Floors, PeriodicSet};
-use super::reach::{Largest, largest, start_distances, weighed};
+use super::reach::{Largest, Law, largest, start_distances, weighed};
 use super::scan;
 use super::sharp::{ROOM, search_sharp};
 use rug::Rational;

@@ -7,7 +7,7 @@ use super::floors::{ordinary, raised, tiny};
 use super::model::{Datum, FloatModel, OptionalDatum};
 use super::obstacle::{Closest, Failing, Obstacle};
 use super::periodic::{ExistenceForm, Floors, PeriodicSet};
-use super::reach::{Largest, largest, start_distances, weighed};
+use super::reach::{Largest, Law, largest, start_distances, weighed};
 use super::root::crossing;
 use super::scan;
 use super::threshold::ByMatrix;
