@@ -1,7 +1,8 @@
 //! The whole way from a subject to a decided claim, of either regulator.
 
 use super::interval_costs::{costs_at_samples, interval_costs};
-use super::reduce::reduce;
+use super::proofs::WithoutJoint;
+use super::reduce::{reduce, reduce_by_norms};
 use super::subject::Sought;
 use super::{FreeNumbers, Subject, Witness};
 use crate::certify::{
@@ -32,6 +33,8 @@ pub struct Prepared {
     limits: Limits,
     /// The plant, where it is one whose least gain is sought.
     plant: Option<Box<Plant>>,
+    /// The data of that plant by norms, where bounds are to be kept: of a larger gain than the least one they may say more.
+    by_norms: Option<Box<WithoutJoint>>,
 }
 
 /// What a run found out. What it claims is about the regulator at samples where the subject asks for that.
@@ -72,11 +75,11 @@ impl Prepared {
         match subject.sampling().cloned() {
             None => {
                 let (spec, start) = subject.proved_with_alternatives(gain.as_ref())?;
-                Ok(Prepared { spec, start: Start::Continuous(start), gain, limits, plant })
+                Ok(Prepared { spec, start: Start::Continuous(start), gain, limits, plant, by_norms: None })
             }
             Some(sampling) => {
                 let (spec, start) = subject.proved_at_samples(&sampling, gain.as_ref())?;
-                Ok(Prepared { spec, start: Start::Sampled(Box::new(sampling), start), gain, limits, plant })
+                Ok(Prepared { spec, start: Start::Sampled(Box::new(sampling), start), gain, limits, plant, by_norms: None })
             }
         }
     }
@@ -87,14 +90,19 @@ impl Prepared {
     /// What is not proved, at its place, and a witness of the other regulator or of other samples; not empty.
     pub fn again(subject: &Subject, witness: Witness) -> Result<Prepared, Vec<SpecErrors>> {
         let spec = witness.proved(subject)?;
-        Ok(Prepared { spec, start: Start::Given(witness.numbers), gain: None, limits: Limits::default(), plant: None })
+        let (start, limits) = (Start::Given(witness.numbers), Limits::default());
+        Ok(Prepared { spec, start, gain: None, limits, plant: None, by_norms: None })
     }
 
     /// The same, for a claim that is to keep to limits at its gain: at the one that is given, or at the smallest one that is found with
     /// which it does.
     #[must_use]
     pub fn within(self, limits: Limits) -> Prepared {
-        Prepared { limits, ..self }
+        let kept = !limits.is_empty() || self.spec.actuator.is_some();
+        let plant = self.plant.as_ref().filter(|_| kept && matches!(self.start, Start::Continuous(_)));
+        let reduced = plant.and_then(|plant| reduce_by_norms(plant).ok());
+        let by_norms = reduced.map(|reduced| Box::new((reduced.spec, reduced.proposal)));
+        Prepared { limits, by_norms, ..self }
     }
 
     /// Searches, rounds and decides. Hypothesis: the options fit ([`Options::misfit`]).
@@ -109,13 +117,16 @@ impl Prepared {
             Start::Continuous(start) => {
                 let proposal = start.as_ref().map(|sought| &sought.proposal);
                 let other = start.as_ref().and_then(|sought| sought.without_joint.as_deref());
+                let by_norms = self.by_norms.as_deref();
                 let run = certify_within(spec, options, proposal, (gain, &self.limits));
-                // Of a larger gain than the smallest one joint metrics say less.
-                let run = match other.filter(|_| !smallest) {
-                    None => run,
-                    Some((spec, proposal)) => certify_within(spec, options, Some(proposal), (gain, &self.limits))
-                        .and_then(|other| better(run?, other)),
-                };
+                // Of a larger gain than the smallest one joint metrics, and matrices, say less.
+                let run = other.into_iter().chain(by_norms).filter(|_| !smallest).fold(run, |run, (spec, proposal)| {
+                    match (run, certify_within(spec, options, Some(proposal), (gain, &self.limits))) {
+                        (Ok(run), Ok(other)) => better(run, other),
+                        (Err(_), other) => other,
+                        (run, Err(_)) => run,
+                    }
+                });
                 run.map(|mut run| {
                     if let Some((spec, proposal)) = other.filter(|_| smallest) {
                         run.with_gains_of(spec, proposal);
