@@ -366,8 +366,8 @@ fn the_schema_of_certificates_is_that_of_what_is_written() {
         assert_eq!(validator.complaints(&shipped.certificate), None, "{}", shipped.name);
         names(&shipped.certificate, &mut used);
     }
-    for folder in ["proofs-check/tests/certificates", "proofs-check/tests/sampled", "proofs-check/tests/plants"] {
-        for path in files(folder).iter().filter(|path| !path.ends_with("plants/paper-example.json")) {
+    for folder in ["certificates", "sampled", "plants", "actuator"].map(|name| format!("proofs-check/tests/{name}")) {
+        for path in files(&folder).iter().filter(|path| !path.ends_with("plants/paper-example.json")) {
             let certificate = parsed(path);
             assert!(validator.is_valid(&certificate), "{}", path.display());
             names(&certificate, &mut used);
