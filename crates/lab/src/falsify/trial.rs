@@ -99,7 +99,9 @@ fn run_own(claim: &TriedClaim, own: &OwnPlant, mut random: Random, number: u64) 
     check(&claim, Trial { number, plant, sigma, n_o, start, input_gain, period, parameters, phase: None }, &closed_loop)
 }
 
+/// What is put out is told, not cut off: the first time that the actuator does not take it the claim is broken.
 fn with_gain(closed_loop: ClosedLoop, gain: Option<f64>) -> ClosedLoop {
+    let closed_loop = closed_loop.without_limit();
     match gain {
         Some(gain) => closed_loop.with_input_gain(gain),
         None => closed_loop,

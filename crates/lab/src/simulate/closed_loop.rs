@@ -78,6 +78,12 @@ impl ClosedLoop {
         self.limit
     }
 
+    /// The same with an actuator that takes everything: for whoever asks what is put out.
+    #[must_use]
+    pub fn without_limit(self) -> ClosedLoop {
+        ClosedLoop { limit: None, ..self }
+    }
+
     /// The same with an actuator of this gain.
     #[must_use]
     pub fn with_input_gain(self, gain: f64) -> ClosedLoop {

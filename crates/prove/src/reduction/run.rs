@@ -79,7 +79,14 @@ impl Prepared {
             }
             Some(sampling) => {
                 let (spec, start) = subject.proved_at_samples(&sampling, gain.as_ref())?;
-                Ok(Prepared { spec, start: Start::Sampled(Box::new(sampling), start), gain, limits, plant, by_norms: None })
+                Ok(Prepared {
+                    spec,
+                    start: Start::Sampled(Box::new(sampling), start),
+                    gain,
+                    limits,
+                    plant,
+                    by_norms: None,
+                })
             }
         }
     }
