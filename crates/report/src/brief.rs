@@ -116,8 +116,14 @@ pub(super) fn of_samples(run: &SampledCertification<'_>, rechecked: bool) -> Vec
              --format c -o FILE.c` writes the code"
         }
     };
-    let mut facts =
-        vec![("gain", gain), ("from", from(run.spec, &witness.set, "a sampling instant")), ("next", next.to_owned())];
+    let when = witness.delay.as_ref().map_or_else(
+        || "a sampling instant".to_owned(),
+        |delay| {
+            let y_0 = exact(&delay.y_0, Direction::Down);
+            format!("a sampling instant, with a prediction of e there that is off by at most h Y_0, Y_0 = {y_0}")
+        },
+    );
+    let mut facts = vec![("gain", gain), ("from", from(run.spec, &witness.set, &when)), ("next", next.to_owned())];
     facts.extend(run.found.map(|(_, limit)| ("set by", format!("{} (an estimate)", limit.describe()))));
     let radii = [&witness.d_x, &witness.d_e].map(|radius| exact(radius, Direction::Up));
     facts.push(("to", to(run.spec, &periodic, radii, run.control().map(|bounds| (bounds, "")))));

@@ -27,7 +27,7 @@ pub(super) fn section(spec: &Specification, consequences: &Consequences) -> Vec<
     )));
     blocks.push(Block::Table(table));
     blocks.extend(consequences.mistuned.as_ref().map(|mistuned| Block::says(mistuned_words(spec, mistuned))));
-    blocks.push(Block::Drawing(figure(consequences)));
+    blocks.push(Block::Drawing(figure(spec, consequences)));
     blocks
 }
 
@@ -64,7 +64,7 @@ pub(super) fn answers(consequences: &Consequences) -> Option<Block> {
 }
 
 /// The bounds over n_o + 1, which is positive, so that both axes are logarithmic. It is drawn from doubles and claims nothing.
-fn figure(consequences: &Consequences) -> Figure {
+fn figure(spec: &Specification, consequences: &Consequences) -> Figure {
     let curve = |label: &str, of: fn(&ErrorBounds) -> &Enclosure| {
         let points = consequences.by_n_o.iter().map(|(n_o, bounds)| (*n_o as f64 + 1.0, of(bounds).upper_f64()));
         // A bound of 0 has no place on the axis.
@@ -72,7 +72,10 @@ fn figure(consequences: &Consequences) -> Figure {
         Curve { label: label.to_owned(), points, style: Style::Marked }
     };
     Figure {
-        title: "Bounds of the regulated error, at sigma* and above".to_owned(),
+        title: match spec.actuator {
+            None => "Bounds of the regulated error, at sigma* and above".to_owned(),
+            Some(_) => "Bounds of the regulated error, at the gain of the claim".to_owned(),
+        },
         x: "n_o + 1 [pure number]".to_owned(),
         y: "e [unit of e]".to_owned(),
         scale: Scale::LogLog,
@@ -83,11 +86,16 @@ fn figure(consequences: &Consequences) -> Figure {
 
 fn psi_items(spec: &Specification, consequences: &Consequences) -> Vec<String> {
     let Psi { psi_1, psi_x, psi_2 } = &consequences.psi;
-    let mut items = vec![format!("sup|e| <= psi_1/sigma with psi_1 = {}, for every n_o and mu", upper(psi_1))];
-    items.extend(
-        spec.state_name()
-            .map(|state| format!("sup|{state}| <= psi_x/sigma with psi_x = {}, for every n_o and mu", upper(psi_x))),
-    );
+    let mut items = Vec::new();
+    // With an actuator nothing is said of another gain.
+    if spec.actuator.is_none() {
+        items.push(format!("sup|e| <= psi_1/sigma with psi_1 = {}, for every n_o and mu", upper(psi_1)));
+        items.extend(
+            spec.state_name().map(|state| {
+                format!("sup|{state}| <= psi_x/sigma with psi_x = {}, for every n_o and mu", upper(psi_x))
+            }),
+        );
+    }
     if consequences.mistuned.is_none() {
         items.push(format!("the integral of e^2 over a period <= psi_2/(n_o + 1)^2 with psi_2 = {}", upper(psi_2)));
     }

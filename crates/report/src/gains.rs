@@ -3,12 +3,8 @@
 use serde_json::{Value, json};
 use sigmastar_document::number::{exact, full, upper};
 use sigmastar_document::{Block, Table};
-use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, write_exact};
 use sigmastar_prove::certify::{Certification, GainRow, SHOWN_N_O};
-
-/// By so much more than at the start |e| is remarked to be on the way.
-const FAR: f64 = 10.0;
 
 /// The share of the bound of |e| that a larger gain has to leave to be named.
 const WORTH: f64 = 0.5;
@@ -53,12 +49,10 @@ pub(super) fn rows_json(run: &Certification<'_>) -> Value {
 /// That the bound of |e| on the way is far above the initial set, with a gain that is better where there is one.
 pub(super) fn remark(run: &Certification<'_>) -> Option<String> {
     let (set, own) = (run.claimed_set()?, run.gains.first()?);
-    let e0 = Enclosure::from_rational(&set.e0, run.precision);
-    let start = e0.upper_f64().max(own.steady[0].upper_f64());
-    let peak = own.peak.upper_f64();
-    if peak.is_nan() || peak <= FAR * start {
+    if !own.goes_far() {
         return None;
     }
+    let peak = own.peak.upper_f64();
     let better = run.gains.iter().skip(1).find(|row| row.peak.upper_f64() <= WORTH * peak);
     let better = better.map_or_else(String::new, |row| {
         let e0 = exact(&row.e0, Direction::Down);

@@ -49,9 +49,9 @@ pub(super) fn kept_json(limits: &Limits, bounds: &Bounds<'_>) -> Value {
     if fields.is_empty() { Value::Null } else { fields.into() }
 }
 
-/// " and an actuator that takes |u| <= 50 (u never exceeds it)"; nothing where there is none.
+/// " and an actuator that takes |u| <= 50 (u does not exceed it from the set)"; nothing where there is none.
 pub(super) fn of_actuator(spec: &Specification) -> String {
     spec.actuator.as_ref().map_or_else(String::new, |actuator| {
-        format!(" and an actuator that takes |u| <= {} (u never exceeds it)", clean(&actuator.max.text))
+        format!(" and an actuator that takes |u| <= {} (u does not exceed it from the set)", clean(&actuator.max.text))
     })
 }

@@ -191,7 +191,7 @@ fn certified(run: &SampledCertification<'_>, proof: &SampledProof) -> String {
             None => String::new(),
             Some(delay) => format!(
                 " and a prediction of e that is off by at most h Y_0, Y_0 = {} (at rest et_0 = u_0 = 0 is)",
-                exact(&delay.y_0, Direction::Up)
+                exact(&delay.y_0, Direction::Down)
             ),
         },
         clean(&spec.period.nominal().text),

@@ -46,7 +46,7 @@ pub fn agrees(asked: Option<&Actuator>, claimed: Option<&Field<'_>>, claim: &str
 pub fn in_words(actuator: Option<&Actuator>) -> String {
     actuator.map_or_else(String::new, |actuator| {
         format!(
-            ", with an actuator that takes what is put out up to {} in size and cuts off what is beyond (which nothing ever is)",
+            ", with an actuator that takes what is put out up to {} in size and cuts off what is beyond (which nothing is from the set below)",
             actuator.max.text
         )
     })

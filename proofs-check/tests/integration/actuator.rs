@@ -4,7 +4,7 @@
 use super::common::{edited, judged, open, text};
 use super::mutations::replacements;
 use proofs_check::json::parse;
-use proofs_check::verdict::Verdict::{self, BadInput, Invalid, Undecided};
+use proofs_check::verdict::Verdict::{self, BadInput, Invalid, Undecided, Valid};
 use proofs_check::{Report, sha256};
 use serde_json::{Value, json};
 
@@ -143,4 +143,18 @@ fn no_theorem_is_written() {
     let answer = proofs_check::coq::theorem(text("actuator", "specification").as_bytes());
     let finding = answer.unwrap_err();
     assert_eq!((finding.verdict, finding.pointer.as_str()), (Undecided, "/specification/actuator"));
+}
+
+/// (M) at a gain above its threshold tau: at a gain b of the actuator what falls has `b h tau/sigma` beside zeta (section 13.1, Theorem G3). The file
+/// was made with `b h`, which is not proved to fall, and says a max that only this would allow.
+#[test]
+fn with_an_uncertain_gain_the_weight_is_that_of_the_threshold() {
+    let mut made = stored("uncertain");
+    let report = judged(&made);
+    let finding = report.finding.as_ref().expect("it must be refused");
+    assert_eq!(report.verdict, Invalid);
+    assert!(finding.message.contains("C6"), "{}", finding.message);
+    made["claim"]["control"]["transient"] = "145".into();
+    assert_eq!(judged(&with_max(made.clone(), "148.6")).verdict, Invalid);
+    assert_eq!(judged(&with_max(made, "151")).verdict, Valid);
 }

@@ -54,10 +54,13 @@ fn blocks(claim: &TriedClaim, outcome: &Falsification) -> Vec<Block> {
                 sampled.law.gain.to_f64()
             )
         }
+        (None, Some(_)) if claim.spec.actuator.is_some() => "of the plant itself at the gain of the claim,".to_owned(),
+        (None, None) if claim.spec.actuator.is_some() => "at the gain of the claim,".to_owned(),
         (None, Some(_)) => "of the plant itself at sigma* and above,".to_owned(),
         (None, None) => "at 1.000001 sigma*,".to_owned(),
     };
-    let name = if claim.sampled.is_some() { "sigma" } else { "sigma*" };
+    let of_one_gain = claim.sampled.is_some() || claim.spec.actuator.is_some();
+    let name = if of_one_gain { "sigma" } else { "sigma*" };
     blocks.push(Block::says(format!(
         "{} trials {gains} {name} = {}, base frequency {}, seed {}: in {held} every bound holds, in {violated} one \
          does not, {} could not be finished. Floating point: what is found can be simulated again, what is not found is no \

@@ -268,7 +268,7 @@ pub(super) fn every_input_gain(spec: &Specification) -> String {
 pub(super) fn within_actuator(spec: &Specification) -> String {
     spec.actuator.as_ref().map_or_else(String::new, |Actuator { max }| {
         format!(
-            ", with an actuator that takes what is put out up to {} in size and cuts off what is beyond (which nothing ever is)",
+            ", with an actuator that takes what is put out up to {} in size and cuts off what is beyond (which nothing is from the set below)",
             max.text
         )
     })

@@ -84,6 +84,18 @@ pub struct GainRow {
     pub control: Control<Enclosure>,
 }
 
+/// By so much more than at the start |e| may be on the way before a larger gain is looked for.
+const FAR: f64 = 10.0;
+
+impl GainRow {
+    /// Whether the bound of |e| on the way is far above what |e| is at the start, and along the periodic solution.
+    #[must_use]
+    pub fn goes_far(&self) -> bool {
+        let start = self.e0.to_f64().max(self.steady[0].upper_f64());
+        self.peak.upper_f64() > FAR * start
+    }
+}
+
 /// Everything a run found out.
 #[derive(Clone, Debug)]
 pub struct Certification<'s> {

@@ -38,7 +38,7 @@ fn row_of(spec: &Specification, proof: &SharpProof) -> GainRow {
 /// The rows of larger gains than that of a claim; one at which nothing is proved from near `start` has none. The error boxes are those with the
 /// smallest bound of |e| that are found.
 ///
-/// `spec` has the data of the claim, or others of the same plant in the same coordinates.
+/// `spec` has the data of the claim, or others of the same plant.
 fn gain_rows(spec: &Specification, proof: &SharpProof, (model, start): (&FloatModel, &SharpProposal)) -> Vec<GainRow> {
     let model = model.with_goal(Goal::Peak);
     let reach = proof.decided().reach();
@@ -70,7 +70,14 @@ impl Certification<'_> {
         self.gains = rows;
     }
 
-    /// The rows with those of other data of the same plant, in the same coordinates, in their place where |e| stays smaller.
+    /// Whether the bound of |e| on the way at the gain of the claim is far above what it is at the start.
+    #[must_use]
+    pub fn goes_far(&self) -> bool {
+        self.gains.first().is_some_and(GainRow::goes_far)
+    }
+
+    /// The rows with those of other data of the same plant, in their place where |e| stays smaller. Hypothesis: in the same
+    /// coordinates, where the set is stated in them.
     pub fn with_gains_of(&mut self, spec: &Specification, start: &SharpProposal) {
         let Some(proof) = self.sharp.proved().filter(|_| !self.gains.is_empty()) else { return };
         let kind = match proof.witness.transfer {

@@ -138,6 +138,13 @@ impl Prepared {
                     if let Some((spec, proposal)) = other.filter(|_| smallest) {
                         run.with_gains_of(spec, proposal);
                     }
+                    // Joint metrics, and the weights of a matrix inequality, are those of the smallest gain.
+                    let plant = self.plant.as_ref().filter(|plant| options.compare && plant.initial_set.x0().is_none());
+                    if let Some(plant) = plant.filter(|_| smallest && run.goes_far())
+                        && let Ok(by_norms) = reduce_by_norms(plant)
+                    {
+                        run.with_gains_of(&by_norms.spec, &by_norms.proposal);
+                    }
                     let alternatives = start.as_ref().filter(|_| smallest).map(|sought| sought.alternatives);
                     if let Some(Alternatives { by_norms, aligned, nominal_gain }) = alternatives
                         && let Some(sigma) = run.sigma_star().map(Rational::to_f64)

@@ -81,8 +81,9 @@ pub(super) fn reach(model: &FloatModel, at: &AtSigma, distances: [f64; 3], law: 
         .past
         .zip(at.past)
         .map(|([step, sum], past)| control::of_past([&sigma, &gain], [&step, &sum], &past.weight(at.eta, at.dist_e)));
-    // At the gain b the weight of zeta is b h.
-    let least = model.input_gain.as_ref().map_or(h, |known| known.low * h);
+    // At the gain b the weight of zeta is b h, by a matrix inequality below its threshold less.
+    let share = if model.by_matrix.is_some() { at.threshold / sigma } else { 1.0 };
+    let least = model.input_gain.as_ref().map_or(h, |known| known.low * h * share);
     control::reach(model, [&sigma, &gain], &least, (&level, past.as_ref()))
 }
 

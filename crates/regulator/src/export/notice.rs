@@ -117,7 +117,15 @@ pub fn notice(export: &Export<'_>) -> Vec<String> {
             super::decimal(nominal)
         ));
     }
-    lines.push(if delayed { NOT_COVERED_WITH_DELAY } else { NOT_COVERED }.to_owned());
+    let in_claim =
+        matches!((export.certificate.map(|certificate| certificate.scope), export.actuator), (Some(_), Some(_)));
+    let not_covered = if delayed { NOT_COVERED_WITH_DELAY } else { NOT_COVERED };
+    // With an actuator the saturation is in the claim.
+    lines.push(if in_claim {
+        not_covered.replace(", quantisation, or saturation", ", or quantisation")
+    } else {
+        not_covered.to_owned()
+    });
     let never = match (export.certificate.map(|certificate| certificate.scope), export.actuator) {
         (Some(Scope::Samples), Some(_)) => "; from the set of the certificate it never is",
         (Some(Scope::Continuous), Some(_)) => {

@@ -165,8 +165,10 @@ impl SharpEvaluation {
             control::joint_reach(data, joint, number, &witness.sigma, distances)
         } else {
             let (start, exit) = level_condition(data, distances, [&d_x, &d_e, &w_x, &h]);
-            // At the gain b the weight of zeta is b h, and the level no larger than at b_hi.
-            let least = data.input_gain.as_ref().map_or_else(|| h.clone(), |gain| &gain.low * &h);
+            // At the gain b the weight of zeta is b h, by (M) tau/sigma times that (Theorem G3), and the level no larger than at b_hi.
+            let share =
+                inequality.map_or_else(|| Enclosure::one(data.precision), |known| number(&known.value) / &sigma);
+            let least = data.input_gain.as_ref().map_or_else(|| h.clone(), |gain| &gain.low * &h * &share);
             let reach = control::reach(data, [&sigma, &data.mu], &least, (&start, None));
             conditions.push(Condition::less("C4", level_words(data), start, exit));
             match inequality {

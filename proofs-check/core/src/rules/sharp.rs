@@ -147,7 +147,11 @@ pub fn evaluate(d: &Data<'_>, w: &Witness) -> Outcome<Sharp> {
             (levels.to_vec(), transient)
         }
         None => {
-            let (level, transient) = free.level(d, &reach, [&sigma, &d.mu], false);
+            let share = match (&w.stability, &d.gain) {
+                (Stability::Matrix(inequality), Some(_)) => d.number(&inequality.sigma) / &sigma,
+                _ => d.int(1),
+            };
+            let (level, transient) = free.level(d, &reach, [&sigma, &d.mu], (false, &share));
             (vec![level], transient)
         }
     };

@@ -33,8 +33,8 @@ pub(super) fn header(
     words.push(match delayed {
         false => format!("Call {prefix}_step once per sample with the measured error; apply the control that it returns."),
         true => format!(
-            "Call {prefix}_step once per sample, with the error measured at it; put out the control that it returns at the next \
-             sample, whenever it is ready."
+            "Call {prefix}_step once per sample, with the error measured at it; put out the control that it returns exactly at the \
+             next sample, not before, however early it is ready."
         ),
     });
     let words: Vec<String> = words.iter().map(|line| harmless(line)).collect();

@@ -92,7 +92,7 @@ pub fn evaluate(d: &Data<'_>, w: &Witness) -> Outcome<Evaluated> {
     let existence = of_law.into_iter().chain(covers).chain(solution.conditions);
     let (error_box, reach, mut evaluated) = free.evaluate(d, sizes, vec![transfer], existence);
     let (level, transient) = match &w.past {
-        None => free.level(d, &reach, [&law.sigma, &law.gain], true),
+        None => free.level(d, &reach, [&law.sigma, &law.gain], (true, &d.int(1))),
         Some(past) => {
             evaluated.conditions.push(past.conditions(&law, &free.set.e0, &free.pointer)?);
             past.level(&law, free, &reach, &solution.largest_y)
