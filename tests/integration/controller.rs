@@ -346,8 +346,13 @@ fn sampling_that_cannot_work_is_refused() {
         let assert = controller(&call).arg("--uncertified").assert().success();
         assert.stderr(predicate::str::contains("exported because of --uncertified"));
     }
-    // Equality is allowed for sigma.
-    controller(&[spec, "--sigma", "10", "--n-o", "4", "--discretise", "1/10"]).assert().success().stderr("");
+    // Equality is allowed for sigma; that the computation may not take the sample is said.
+    let assert = controller(&[spec, "--sigma", "10", "--n-o", "4", "--discretise", "1/10"]).assert().success();
+    assert.stderr(
+        predicate::str::contains("a computation that takes the whole sample")
+            .and(predicate::str::contains("--uncertified").not()),
+    );
+    controller(&[spec, "--sigma", "1", "--n-o", "0", "--discretise", "1/10"]).assert().success().stderr("");
     let assert = controller(&[spec, "--sigma", "5", "--n-o", "1", "--discretise", "3/100"]).assert().success();
     assert.stderr(predicate::str::contains("33.333333 samples, not a whole number"));
 }

@@ -274,7 +274,8 @@ fn what_is_wrong_with_intervals_is_told() {
         (with(json!({ "nominal": "sqrt(2)", "low": 0, "high": 2 })), Range, "/parameters/k/nominal"),
         (with(json!({ "nominal": "c", "low": 0, "high": 2 })), Expression, "/parameters/k/nominal"),
         (in_a_constant, Expression, "/domain/x"),
-        (in_a_gain, Expression, "/input_gain/low"),
+        // A range that reaches 0.
+        (in_a_gain, Range, "/input_gain/low"),
         (many, Range, "/parameters"),
     ] {
         let errors = Plant::from_json("plant", &plant.to_string()).map(|_| ()).unwrap_err();
