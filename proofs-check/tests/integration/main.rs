@@ -47,6 +47,7 @@ mod rates;
 mod sampled_certificates;
 mod sampled_claims;
 mod sampled_delay;
+mod sampled_delay_formulas;
 mod sampled_formulas;
 mod sampled_gain;
 mod sampled_plants;

@@ -32,7 +32,10 @@ fn reworded(mut certificate: Value) -> Value {
     let main = statement.split(" With n_o = ").next().unwrap().to_owned();
     let sigma = certificate["claim"]["sigma_star"].as_str().unwrap();
     let sentence = |rate: &Value| {
-        let text = |name: &str| rate[name].as_str().map_or_else(|| rate[name].to_string(), str::to_owned);
+        let text = |name: &str| {
+            let text = rate[name].as_str().map_or_else(|| rate[name].to_string(), str::to_owned);
+            if text.contains('/') { format!("({text})") } else { text }
+        };
         format!(
             " With n_o = {} and sigma = {sigma} exactly also |e(t) - e_per(t)| <= {} exp(-{} (t - t_0)) for these solutions, e_per that of \
              the periodic solution and t_0 the initial time.",
@@ -71,6 +74,21 @@ fn stored_ones_are_accepted() {
             assert!(statement.contains(&format!(" With n_o = {} and ", rate["n_o"])), "{name}: {statement}");
         }
     }
+}
+
+/// `exp(-1/1000 (t - t_0))` could be read in two ways.
+#[test]
+fn a_fraction_stands_in_parentheses() {
+    let mut slower = stored(PAPER);
+    let before = slower["claim"]["for_n_o"][0]["rate"].as_str().unwrap().to_owned();
+    slower["claim"]["for_n_o"][0]["rate"] = times(&slower, "/claim/for_n_o/0/rate", 0.5);
+    let slower = reworded(slower);
+    let rate = slower["claim"]["for_n_o"][0]["rate"].as_str().unwrap().to_owned();
+    assert!(rate.contains('/') && !before.contains('/'), "{before} {rate}");
+    accepted(&slower);
+    let bare = slower["claim"]["statement"].as_str().unwrap().replace(&format!("({rate})"), &rate);
+    let bare = edited(slower, &[("/claim/statement", json!(bare))]);
+    assert_refused(&judged(&bare), Verdict::Invalid, "claim", "/claim/statement");
 }
 
 #[test]

@@ -20,7 +20,7 @@ use serde_json::json;
 use std::f64::consts::PI;
 
 /// n_0 = 2, n_l = l^-1.5: the sum of all.
-const NBAR_SQUARED: f64 = 4.612_375_348_685_488;
+pub const NBAR_SQUARED: f64 = 4.612_375_348_685_488;
 
 /// The paper's example with another T and mu, and q steep enough for its parts to be seen.
 fn specification(period: &str, mu: f64, [low, high]: [f64; 2]) -> Specification {
@@ -39,30 +39,30 @@ fn specification(period: &str, mu: f64, [low, high]: [f64; 2]) -> Specification 
     Specification::read(&field(&json), &mut field(&none).fields().unwrap()).unwrap_or_else(|e| panic!("{e:?}"))
 }
 
-fn rational(value: f64) -> Rational {
+pub fn rational(value: f64) -> Rational {
     Rational::from_f64(value).unwrap()
 }
 
 /// The law of section 12 in floating point.
 #[derive(Clone, Copy, Debug)]
-struct Float {
-    period: f64,
-    mu: f64,
-    sigma: f64,
-    samples: u32,
-    h: f64,
-    gain: f64,
+pub struct Float {
+    pub period: f64,
+    pub mu: f64,
+    pub sigma: f64,
+    pub samples: u32,
+    pub h: f64,
+    pub gain: f64,
     /// With b_hi K.
-    growth: f64,
-    a: f64,
+    pub growth: f64,
+    pub a: f64,
     /// Of b.
-    ends: [f64; 2],
+    pub ends: [f64; 2],
     /// Whether a control is computed in the sample before it acts.
-    delayed: bool,
+    pub delayed: bool,
 }
 
 impl Float {
-    fn new(period: f64, mu: f64, samples: u32, share: f64) -> Float {
+    pub fn new(period: f64, mu: f64, samples: u32, share: f64) -> Float {
         let h = period / f64::from(samples);
         let growth = 1.0 + h * mu * NBAR_SQUARED / 2.0;
         let sigma = share / h;
@@ -80,46 +80,46 @@ impl Float {
         }
     }
 
-    fn with_gain(self, ends: [f64; 2]) -> Float {
+    pub fn with_gain(self, ends: [f64; 2]) -> Float {
         Float { growth: 1.0 / (1.0 - ends[1] * self.loss()), ends, ..self }
     }
 
     /// K h Nb2/2.
-    fn loss(&self) -> f64 {
+    pub fn loss(&self) -> f64 {
         self.gain * self.h * NBAR_SQUARED / 2.0
     }
 
     /// b_lo K (1 + theta), with its own theta.
-    fn least_mu(&self) -> f64 {
+    pub fn least_mu(&self) -> f64 {
         self.ends[0] * self.gain / (1.0 - self.ends[0] * self.loss())
     }
 
     /// b from its least to its largest.
-    fn gains(&self) -> impl Iterator<Item = f64> {
+    pub fn gains(&self) -> impl Iterator<Item = f64> {
         let [low, high] = self.ends;
         (0..=8).map(move |i| low + f64::from(i) / 8.0 * (high - low))
     }
 
     /// |D_j|, and its real part.
-    fn size(&self, j: u32) -> [f64; 2] {
+    pub fn size(&self, j: u32) -> [f64; 2] {
         let squared = self.frequency(j).powi(2);
         [(self.sigma.powi(2) + self.a * squared).sqrt(), self.sigma - self.h / 2.0 * squared]
     }
 
     /// That of D_j = (e^{i phi} - a)/h.
-    fn imaginary(&self, j: u32) -> f64 {
+    pub fn imaginary(&self, j: u32) -> f64 {
         (2.0 * f64::from(j) * self.angle()).sin() / self.h
     }
 
     /// The least |D_j| times the distance of a point (1-b) sigma from its line.
-    fn room(&self, j: u32) -> f64 {
+    pub fn room(&self, j: u32) -> f64 {
         let [size, real] = self.size(j);
         let at = |b: f64| size * size / self.growth - (1.0 - b) * self.sigma * real;
         at(self.ends[0]).min(at(self.ends[1]))
     }
 
     /// The bound of |e_j| over |q_j|.
-    fn error(&self, j: u32) -> f64 {
+    pub fn error(&self, j: u32) -> f64 {
         let [size, _] = self.size(j);
         if self.ends == [1.0; 2] {
             return self.growth.min(1.0 / (f64::from(j) * self.angle()).cos().abs()) / size;
@@ -128,11 +128,11 @@ impl Float {
     }
 
     /// The largest of a number of each harmonic.
-    fn most(&self, of: impl Fn(u32) -> f64) -> f64 {
+    pub fn most(&self, of: impl Fn(u32) -> f64) -> f64 {
         (1..self.samples).map(of).fold(0.0, f64::max)
     }
 
-    fn terms(&self) -> Terms {
+    pub fn terms(&self) -> Terms {
         let weight_sum = decimal("4.612375348685489").unwrap();
         Terms {
             sigma: rational(self.sigma),
@@ -144,15 +144,15 @@ impl Float {
     }
 
     /// pi/N_s.
-    fn angle(&self) -> f64 {
+    pub fn angle(&self) -> f64 {
         PI / f64::from(self.samples)
     }
 
-    fn frequency(&self, j: u32) -> f64 {
+    pub fn frequency(&self, j: u32) -> f64 {
         2.0 / self.h * (f64::from(j) * self.angle()).sin()
     }
 
-    fn w(&self) -> f64 {
+    pub fn w(&self) -> f64 {
         2.0 * PI / self.period
     }
 }
@@ -167,7 +167,7 @@ fn share(l: i64) -> f64 {
 }
 
 /// Laws of every kind: few samples and many, h sigma up to 1, theta small and large.
-fn laws() -> Vec<Float> {
+pub fn laws() -> Vec<Float> {
     let mut laws = Vec::new();
     for (period, mu) in [(1.0, 1.0), (2.0, 0.05), (0.5, 40.0)] {
         for samples in [2, 3, 4, 5, 8, 31, 64] {
@@ -184,7 +184,7 @@ fn laws() -> Vec<Float> {
 
 const GAINS: [[f64; 2]; 5] = [[0.75, 1.25], [0.875, 1.125], [0.5, 1.0], [1.0, 1.5], [0.25, 4.0]];
 
-fn with_law(float: &Float, check: impl FnOnce(&Law<'_>)) {
+pub fn with_law(float: &Float, check: impl FnOnce(&Law<'_>)) {
     let spec = specification(&format!("{}", float.period), float.mu, float.ends);
     let data = Data::new(&spec, 192);
     let law = Law::new(&data, &float.terms());
@@ -193,7 +193,7 @@ fn with_law(float: &Float, check: impl FnOnce(&Law<'_>)) {
 }
 
 #[track_caller]
-fn close(what: &str, value: &Interval, expected: f64, float: &Float) {
+pub fn close(what: &str, value: &Interval, expected: f64, float: &Float) {
     let (lo, hi) = (value.lo().to_f64(), value.hi().to_f64());
     let apart = (lo - expected).abs() + (hi - expected).abs();
     assert!(apart <= 1e-9 * expected.abs(), "{what}: [{lo}, {hi}], not {expected}: {float:?}");
@@ -409,18 +409,22 @@ fn many_harmonics() {
     assert!(!accepts(100.0, 1.0, 0.01).0);
 }
 
-const AT: [f64; 2] = [0.25, 0.5];
+pub const AT: [f64; 2] = [0.25, 0.5];
+
+/// What S2 is at [`AT`] with the means (1/8, 1/4, 2) and the pair (20, 60).
+pub fn existence_at(law: &Law<'_>) -> existence::Solution {
+    let d = law.d;
+    let [x, e] = AT.map(|value| d.number(&rational(value)));
+    let pair = [d.number(&Rational::from(20)), d.number(&Rational::from(60))];
+    existence::evaluate(law, (&[0.125, 0.25, 2.0].map(rational), None), [&x, &e], [&pair[0], &pair[1]])
+}
 
 /// S2 by its parts at (X_p, E_p) = (1/4, 1/2), (r_x, r_e, r_d) = (1/8, 1/4, 2).
 #[test]
 fn parts_of_existence() {
     for float in laws() {
         with_law(&float, |law| {
-            let d = law.d;
-            let [x, e] = AT.map(|value| d.number(&rational(value)));
-            let pair = [d.number(&Rational::from(20)), d.number(&Rational::from(60))];
-            let means = [0.125, 0.25, 2.0].map(rational);
-            let found = existence::evaluate(law, (&means, None), [&x, &e], [&pair[0], &pair[1]]);
+            let found = existence_at(law);
             let (c, alpha, t, h) = (1.5512_f64.sqrt(), 0.58, float.period, float.h);
             let [x_p, e_p] = AT;
             let rate = alpha - c * 0.2237 * x_p / 2.0;
@@ -462,124 +466,6 @@ fn parts_of_existence() {
             };
             let by_rate = factor * ((t * t - h * h) / 12.0).sqrt() * r_1;
             close("steady", &found.steady, (r_q / low + by_rate).min(by_parts), &float);
-        });
-    }
-}
-
-/// Section 13.4, with and without a gain: the laws above that have room for a delay.
-fn delayed_laws() -> Vec<Float> {
-    let apart = |float: &Float| (1.0 - float.ends[0]).max(float.ends[1] - 1.0);
-    let room = |float: &Float| 1.0 - 3.0 * float.ends[1] * float.loss() - apart(float);
-    let laws: Vec<Float> = laws().into_iter().filter(|float| room(float) > 1e-3).collect();
-    assert!(laws.len() > 60 && laws.iter().any(|float| float.ends != [1.0; 2]));
-    laws.into_iter().map(|float| Float { delayed: true, ..float }).collect()
-}
-
-#[test]
-fn parts_of_existence_with_a_delay() {
-    for float in delayed_laws() {
-        with_law(&float, |law| {
-            let d = law.d;
-            let [x, e] = AT.map(|value| d.number(&rational(value)));
-            let pair = [d.number(&Rational::from(20)), d.number(&Rational::from(60))];
-            let means = [0.125, 0.25, 2.0].map(rational);
-            let found = existence::evaluate(law, (&means, None), [&x, &e], [&pair[0], &pair[1]]);
-            let (t, h, sigma, [low, high]) = (float.period, float.h, float.sigma, float.ends);
-            let apart = (1.0 - low).max(high - 1.0);
-            // 1 + th1, and |y_j| over |q_j| harmonic by harmonic.
-            let enlarged = 1.0 / (1.0 - 3.0 * high * float.loss());
-            let of_y = |j: u32| 1.0 / (1.0 / enlarged - apart * sigma / float.size(j)[0]);
-            let ahead = 1.0 + h * sigma;
-            let sum = |term: &dyn Fn(u32) -> f64| (1..float.samples).map(term).sum::<f64>().sqrt();
-            let of_e = |j: u32| of_y(j) / float.size(j)[0];
-            let gains = Gains::new(law);
-            close("bt", &gains.sup, ahead * sum(&|j| of_e(j).powi(2)), &float);
-            close("tau", &gains.sup_t, ahead * sum(&|j| (of_e(j) / float.frequency(j)).powi(2)), &float);
-            close("rms", &gains.rms, ahead * float.most(of_e), &float);
-            close("rms_t", &gains.rms_t, ahead * float.most(|j| of_e(j) / float.frequency(j)), &float);
-            let slope = match low < high {
-                true => float.most(|j| of_e(j) * float.frequency(j)),
-                false => 2.0 / (2.0 - h * sigma) * enlarged,
-            };
-            close("slope", &gains.slope, ahead * slope, &float);
-            close("of_y", &gains.of_y, float.most(of_y), &float);
-            let [x_p, e_p] = AT;
-            let (f_e, f_x) = (x_p + 0.189, 2.302 + 0.112 * x_p + 0.2237 * x_p);
-            let (q_x, q_e) = (0.3 + 0.5 * x_p + 0.7 * e_p, 0.5 + 2.0 * x_p + 3.0 * e_p);
-            let r_q = (4.822 + x_p + (e_p * f_e).atan()).min(4.822 + q_x * 0.125 + q_e * 0.25);
-            let r_1 = 24.18 + 2.106 * e_p + q_x * (f_x * 0.125 + f_e * 0.25) + q_e * 2.0;
-            let shifted = 1.0 + apart * sigma * float.most(of_e);
-            let raised = |b: f64| 1.0 / (2.0 * b * float.gain * (1.0 - 2.0 * b * float.loss()));
-            let raised = raised(low).max(raised(high)) * shifted * shifted;
-            let swing = t * (raised + h * NBAR_SQUARED * float.most(of_y).powi(2)) * r_q * r_q;
-            let w = float.w();
-            let mean = (enlarged * shifted).powi(2) * (20.0 / w.powi(2) * r_q * r_q + 60.0 / w.powi(4) * r_1 * r_1);
-            let z = (swing + mean).sqrt();
-            close("Z", &found.z, z, &float);
-            let by_rate = ((t * t - h * h) / 12.0).sqrt() * r_1;
-            let y_per = float.most(of_y) * by_rate.min(f64::from(float.samples).sqrt() * r_q);
-            close("y_per", &found.largest_y, y_per, &float);
-            let factor = (1.0 + 2.0 / (2.0 - h * sigma) * ahead * float.most(of_y)) / low;
-            let predicted =
-                (sum(&|j| of_e(j).powi(2)) * r_q).min(sum(&|j| (of_e(j) / float.frequency(j)).powi(2)) * r_1);
-            let by_parts = sigma * predicted + float.gain * NBAR_SQUARED.sqrt() * z;
-            close("steady", &found.steady, (r_q / low + factor * by_rate).min(by_parts), &float);
-        });
-    }
-}
-
-#[test]
-fn parts_of_stability_with_a_delay() {
-    let (x_per, e_per, d_x, d_e, w_x, eta, gm) = (0.01, 0.02, 0.04, 0.08, 3.0, 0.7, 0.3);
-    let (x_b, e_b) = (x_per + d_x, e_per + d_e);
-    for float in delayed_laws() {
-        with_law(&float, |law| {
-            let number = |value: f64| law.d.number(&rational(value));
-            let [x_p, e_p, far_x, far_e] = [x_per, e_per, d_x, d_e].map(number);
-            let paths = Paths { f: Path::StateFirst, q: Path::StateFirst };
-            let error_box = ErrorBox::new(law.d, paths, [&x_p, &e_p], [&far_x, &far_e]);
-            let (w, zeta, past) = (number(w_x), number(eta), number(gm));
-            let found = stability::conditions(law, &error_box, [&w, &zeta], Some(&past));
-            assert_eq!(found.len(), 9);
-            let c = 1.5512_f64.sqrt();
-            let rate = 0.58 - c * (0.2237 * x_per + e_per + 0.2237 * d_x / 2.0);
-            let (k_x, k_l, m) = (0.3 + 0.5 * x_b + 0.7 * e_per, 0.5 + 2.0 * x_b + 3.0 * e_b, 0.1 + x_b + e_b);
-            let (h, k_e, s, hs) = (float.h, k_l, eta / float.gain, float.h * float.sigma);
-            let apart = (1.0 - float.ends[0]).max(float.ends[1] - 1.0);
-            let room = 1.0 - h * k_e / PI;
-            let coupling = w_x * c * (x_b + 0.189);
-            for (t, at_end, first) in [(0.0, 0.0, 1), (h, 1.0, 5)] {
-                let ts = t * float.sigma;
-                let drift = t * k_e / (PI * room);
-                let (c_x, c_e, c_y) =
-                    (t * k_x / (PI * room), (1.0 - ts + ts * ts / 3.0).sqrt() + drift, t / (3.0_f64.sqrt() * room));
-                let g = t * k_e / 12.0_f64.sqrt() / room;
-                let p_y = t * t * k_e * k_e / (6.0 * room);
-                let side = |b: f64, slope: f64| 1.0 - ts + s * ((1.0 - ts / 2.0) * slope + (1.0 - b) * float.sigma);
-                let d_t = float.gains().flat_map(|b| [m, -k_l].map(|slope| side(b, slope).abs())).fold(0.0, f64::max);
-                let load = float.ends[1] * float.loss();
-                let (xx, xe) = (2.0 * w_x * rate - 2.0 * coupling * c_x, -coupling * c_e);
-                let xy = -coupling * c_y - s * k_x * (1.0 + g);
-                let (ee, ey) = (float.sigma * (2.0 - ts), -d_t - s * g * k_e);
-                let yy = 2.0 * s * (1.0 - at_end * load) - t - s * t * m - 2.0 * s * p_y - gm;
-                let (xp, ep) = (-coupling * c_y * hs, -(1.0 - ts).abs() * hs);
-                let yp = -t * hs - s * t * k_e * hs / 2.0 - s * p_y * hs - 2.0 * s * load - s * apart * hs;
-                let pp = gm - t * hs * hs;
-                let mut rows = [[xx, xe, xy, xp], [xe, ee, ey, ep], [xy, ey, yy, yp], [xp, ep, yp, pp]];
-                let size: Vec<f64> = (0..4).map(|i| rows[i].iter().map(|v| v.abs()).sum()).collect();
-                let (mut minor, mut scale) = (1.0, 1.0);
-                for i in 0..4 {
-                    minor *= rows[i][i];
-                    scale *= size[i];
-                    let [lo, hi] = [found[first + i].rhs.lo(), found[first + i].rhs.hi()].map(|end| end.to_f64());
-                    let near = (lo - minor).abs() + (hi - minor).abs() <= 1e-8 * scale;
-                    assert!(near, "minor {} at t = {t}: [{lo}, {hi}], not {minor}: {float:?}", i + 1);
-                    for k in i + 1..4 {
-                        let factor = rows[k][i] / rows[i][i];
-                        (i..4).for_each(|j| rows[k][j] -= factor * rows[i][j]);
-                    }
-                }
-            }
         });
     }
 }

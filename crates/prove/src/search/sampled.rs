@@ -529,14 +529,18 @@ fn radius_of_four(diagonal: [&f64; 4], pairs: [[&f64; 2]; 3]) -> Option<f64> {
 mod tests {
     use super::*;
 
+    /// Numbers in [0, 1), the same ones each time.
+    fn numbers(mut state: u64) -> impl FnMut() -> f64 {
+        move || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 40) as f64 / 2f64.powi(24)
+        }
+    }
+
     /// In four variables too.
     #[test]
     fn the_radius_of_four_tells_definite_forms_apart() {
-        let mut state = 9_u64;
-        let mut next = || {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            (state >> 40) as f64 / 2f64.powi(24)
-        };
+        let mut next = numbers(9);
         let mut seen = [0; 2];
         for _ in 0..4000 {
             let scale = 0.2 + next();
@@ -556,11 +560,7 @@ mod tests {
 
     #[test]
     fn the_radius_tells_definite_forms_apart() {
-        let mut state = 7_u64;
-        let mut next = || {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            (state >> 40) as f64 / 2f64.powi(24)
-        };
+        let mut next = numbers(7);
         let mut seen = [0; 2];
         for _ in 0..4000 {
             let form = Form {

@@ -9,13 +9,6 @@ pub const SAMPLED_LAW: &str = "v = M'N Phi (z - M e), u = -sigma e + K v, z_next
 pub const DELAYED_LAW: &str = "e1 = e + s, z_next = R (z - M e) + M e1, v = M'N R (z_next - M e1), u_next = -sigma e1 + K v, \
                                s_next = -h sigma e1";
 
-/// What no claim of this project covers.
-const NOT_COVERED: &str = "No claim covers the rounding of these numbers and of the arithmetic with them, a delay of the \
-                           computation, quantisation, or saturation.";
-/// The same of the law with a delay.
-const NOT_COVERED_WITH_DELAY: &str = "No claim covers the rounding of these numbers and of the arithmetic with them, a \
-                                      computation that takes more than a sample, quantisation, or saturation.";
-
 /// When what happens, with a delay.
 const DELAY: &str = "The computation has a whole sample (delay_samples: 1): e_k is measured at the sample k, u_(k+1) is computed from \
                      it, and put out at the sample k + 1. Until the first one is, put out 0.";
@@ -117,16 +110,17 @@ pub fn notice(export: &Export<'_>) -> Vec<String> {
             super::decimal(nominal)
         ));
     }
-    let in_claim =
-        matches!((export.certificate.map(|certificate| certificate.scope), export.actuator), (Some(_), Some(_)));
-    let not_covered = if delayed { NOT_COVERED_WITH_DELAY } else { NOT_COVERED };
-    // With an actuator the saturation is in the claim.
-    lines.push(if in_claim {
-        not_covered.replace(", quantisation, or saturation", ", or quantisation")
-    } else {
-        not_covered.to_owned()
-    });
-    let never = match (export.certificate.map(|certificate| certificate.scope), export.actuator) {
+    let claimed = (export.certificate.map(|certificate| certificate.scope), export.actuator);
+    // With an actuator the saturation is in a claim about the regulator that is exported, and in no other.
+    let saturates = match (claimed, export.discrete) {
+        ((Some(Scope::Samples), Some(_)), _) | ((Some(Scope::Continuous), Some(_)), None) => "or quantisation",
+        _ => "quantisation, or saturation",
+    };
+    let late = if delayed { "a computation that takes more than a sample" } else { "a delay of the computation" };
+    lines.push(format!(
+        "No claim covers the rounding of these numbers and of the arithmetic with them, {late}, {saturates}."
+    ));
+    let never = match claimed {
         (Some(Scope::Samples), Some(_)) => "; from the set of the certificate it never is",
         (Some(Scope::Continuous), Some(_)) => {
             "; from the set of the certificate that of the law in continuous time never is"

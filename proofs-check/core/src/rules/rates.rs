@@ -63,7 +63,11 @@ impl<'a> Rate<'a> {
 
     /// Its sentence in the claim, with a space before it.
     pub fn in_words(&self, sigma: &str) -> String {
-        let [rate, factor] = self.texts;
+        // A fraction stands in front of a product.
+        let [rate, factor] = self.texts.map(|text| match text.contains('/') {
+            true => format!("({text})"),
+            false => text.to_owned(),
+        });
         format!(
             " With n_o = {} and sigma = {sigma} exactly also |e(t) - e_per(t)| <= {factor} exp(-{rate} (t - t_0)) for these solutions, e_per \
              that of the periodic solution and t_0 the initial time.",
