@@ -285,6 +285,8 @@ fn exports_clip_where_the_actuator_saturates() {
             "that of the law in continuous time never is"
         };
         assert!(notice.contains(said), "{notice}");
+        // The saturation is in the claim about this law alone: one about the law in continuous time says nothing of its samples.
+        assert_eq!(notice.contains("quantisation, or saturation"), !at_samples, "{notice}");
         let script =
             utf8(export(&[&step[..], &["--format", "matlab"]].concat()).assert().success().get_output().stdout.clone());
         assert!(script.contains("actuator_max = 30;") && script.contains("saturation = 30;"), "{script}");
@@ -296,7 +298,8 @@ fn exports_clip_where_the_actuator_saturates() {
         let other = json_of(&["--discretise", "1/1000", "--saturation", "20"]);
         assert!(other["certificate"].get("sigma").is_some());
         assert!(other.get("actuator").is_none() && other["discrete"]["saturation"] == 20.0);
-        assert!(!other["notice"].to_string().contains("never is"));
+        let notice = other["notice"].to_string();
+        assert!(!notice.contains("never is") && notice.contains("quantisation, or saturation"), "{notice}");
         let refused = export(&[&step[..], &["--sigma", "300"]].concat()).assert().code(2);
         let told = utf8(refused.get_output().stderr.clone());
         assert!(told.contains(if at_samples { "another one" } else { "alone, and this is another gain" }), "{told}");
