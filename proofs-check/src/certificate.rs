@@ -76,10 +76,7 @@ pub fn check(json: &Json, other: Option<&Json>, figures_limit: u64, lines: &mut 
         control: claim.control.clone(),
         no_plant: if continuous { file.optional("no_plant") } else { None },
     };
-    let rates = witness.optional("for_n_o").map(|field| Witness::read_all(&field)).transpose()?.unwrap_or_default();
-    if rates.len() != claim.rates.len() {
-        return bad("/witness/for_n_o", "expected one for each rate of the claim");
-    }
+    let rates = Witness::read_all(witness.optional("for_n_o").as_ref(), &claim.rates, !continuous)?;
     witness.finish()?;
     file.finish()?;
 
@@ -136,7 +133,8 @@ fn prove(
         if !derivation.rests_on_norms() {
             return bad("/claim/for_n_o", "rates are proved with a claim by norms, not with a matrix inequality");
         }
-        rates::prove(d, (free, &proved.sizes, &claim.sigma), (&claim.rates, rates), lines)?;
+        let about = (free, &proved.sizes, &claim.sigma, derivation.law());
+        rates::prove(d, about, (&claim.rates, rates), lines)?;
     }
     lines.push(
         "claim: verdict, n_o, mu, set, periodic solution, control and statement follow from what is proved".to_owned(),

@@ -72,10 +72,13 @@ impl Subject {
                 list.extend(spec.period.range().map(period));
                 match &claim.sampled {
                     Some(sampled) => {
-                        list.extend(sampled.assumed(spec.actuator.is_some()));
+                        list.extend(sampled.assumed(spec.actuator.is_some(), claim.says_of_noise()));
                         list.extend(spec.input_gain.as_ref().map(|gain| format!("the regulator{}", output(gain))));
                     }
-                    None => list.push(regulator(spec)),
+                    None => list.push(regulator(spec, claim.says_of_noise())),
+                }
+                if claim.says_of_noise() {
+                    list.push(NOISE.to_owned());
                 }
                 list
             },
@@ -168,14 +171,19 @@ fn output(gain: &Range) -> String {
     format!(" puts out v = u/{nominal}; g is one constant in [{low}, {high}]")
 }
 
-/// What it takes for granted of a continuous regulator.
-fn regulator(spec: &Specification) -> String {
+/// What is assumed where something is said of noise.
+const NOISE: &str = "where noise is said: at all times the regulator takes e + v for e, and the plant has q + d for q, with v within the \
+                     noise and half a step of the measurement and d within the disturbance, whatever they are otherwise";
+
+/// What it takes for granted of a continuous regulator; `noisy`: something is said of noise.
+fn regulator(spec: &Specification, noisy: bool) -> String {
     let frequency = if spec.matched { ", with base_frequency exactly 2 pi/period" } else { "" };
     let output = spec.input_gain.as_ref().map_or_else(String::new, |gain| format!(", and{}", output(gain)));
     format!(
         "the regulator runs in continuous time with exactly the mu, weights and base frequency stated{frequency}{output}: no \
-         {} or noise",
-        if spec.actuator.is_some() { "sampling, delay" } else { "sampling, delay, saturation" }
+         {} or noise{}",
+        if spec.actuator.is_some() { "sampling, delay" } else { "sampling, delay, saturation" },
+        if noisy { " but where it is said" } else { "" }
     )
 }
 

@@ -19,6 +19,7 @@ pub mod jacobian;
 pub mod json;
 pub mod matrix;
 pub mod monotone;
+pub mod noise;
 pub mod period;
 pub mod plant;
 pub mod propose;

@@ -13,6 +13,7 @@ use crate::input_gain;
 use crate::interval::Interval;
 use crate::jacobian::{self, Jacobian};
 use crate::json::{Field, Fields, Json};
+use crate::noise::Noise;
 use crate::period::Period;
 use crate::plant::OfPlant;
 use crate::range::Range;
@@ -97,6 +98,8 @@ pub struct Specification {
     pub input_gain: Option<Range>,
     /// What the actuator takes, where the claim keeps to it.
     pub actuator: Option<Actuator>,
+    /// Noise and disturbance, of which what is said of given n_o speaks alone.
+    pub noise: Noise,
     /// Where the specification is a plant's formulas: what is known of them.
     pub plant: Option<Box<OfPlant>>,
 }
@@ -201,6 +204,7 @@ impl Specification {
         let (initial_set, _) = read_set(&file.required("initial_set")?, false, &[])?;
         let input_gain = input_gain::read(&mut file, &[])?;
         let actuator = actuator::read(&mut file, &[])?;
+        let noise = Noise::read(&mut file)?;
         file.optional("relative_degree").map(|field| filter(&field)).transpose()?;
         file.finish()?;
         let domain = domain.transpose()?;
@@ -224,6 +228,7 @@ impl Specification {
             initial_set,
             input_gain,
             actuator,
+            noise,
             plant: None,
         })
     }

@@ -10,6 +10,7 @@ use proofs_core::expr::{Expr, Named};
 use proofs_core::input_gain;
 use proofs_core::jacobian;
 use proofs_core::json::{Field, Fields, Json};
+use proofs_core::noise::Noise;
 use proofs_core::period::Period;
 use proofs_core::plant::OfPlant;
 use proofs_core::plant::coordinates::Coordinates;
@@ -112,6 +113,7 @@ pub fn read(field: &Field<'_>, witness: &mut Fields<'_>) -> Outcome<(Specificati
     let domain = domain.transpose()?;
     let input_gain = input_gain::read_of_family(&mut file, &constants, &intervals)?;
     let actuator = actuator::read(&mut file, &constants)?;
+    let noise = Noise::read(&mut file)?;
     let model = spec::InternalModel::read(&file.required("internal_model")?, &period, &constants)?;
     file.finish()?;
 
@@ -151,6 +153,7 @@ pub fn read(field: &Field<'_>, witness: &mut Fields<'_>) -> Outcome<(Specificati
         initial_set,
         input_gain,
         actuator,
+        noise,
         plant: Some(Box::new(known.clone())),
     };
     let of_cell = |Cell { family, orbit, forcing }| Plant {

@@ -2,7 +2,7 @@
 
 use super::common::Evaluated;
 use super::control::NAMES;
-use super::rates::Rate;
+use super::rates::claimed::Rate;
 use super::sampled::claim::{N_O, Regulator};
 use super::set::ClaimedSet;
 use crate::actuator;
@@ -36,7 +36,7 @@ pub struct Claim<'a> {
     pub periodic: Field<'a>,
     /// Bounds of the control, where they are claimed.
     pub control: Option<Field<'a>>,
-    /// The rates for given numbers of oscillators that it claims besides.
+    /// What it says besides of given numbers of oscillators.
     pub rates: Vec<Rate<'a>>,
     /// The claim in words.
     pub statement: Field<'a>,
@@ -111,9 +111,10 @@ impl<'a> Claim<'a> {
         let ball = if has_ball { Some(set.required("ball")?) } else { None };
         let ball = ball.map(|field| field.rational().map(|value| (value, field))).transpose()?;
         set.finish()?;
-        let rates = fields.optional("for_n_o").map(|field| match sampled {
-            None => Rate::read_all(&field),
-            Some(_) => bad(&field.pointer, "rates for given n_o are those of the regulator in continuous time"),
+        let delayed = sampled.as_ref().is_some_and(|regulator| regulator.delayed);
+        let rates = fields.optional("for_n_o").map(|field| match delayed {
+            false => Rate::read_all(&field),
+            true => bad(&field.pointer, "nothing is proved of given n_o of a law with a delay"),
         });
         let claim = Claim {
             rates: rates.transpose()?.unwrap_or_default(),
@@ -138,6 +139,11 @@ impl<'a> Claim<'a> {
         };
         fields.finish()?;
         Ok(claim)
+    }
+
+    /// Whether it says something of noise.
+    pub fn says_of_noise(&self) -> bool {
+        self.rates.iter().any(|rate| rate.noise.is_some())
     }
 
     /// Compares every field with the specification, and demands that the stored sizes of the periodic solution bound those
@@ -199,7 +205,9 @@ impl<'a> Claim<'a> {
                 self.of_plant((spec, plant), family, start)?
             }
         };
-        let besides: String = self.rates.iter().map(|rate| rate.in_words(self.sigma_text)).collect();
+        let sigma = self.sampled.as_ref().map_or(self.sigma_text, Regulator::sigma_text);
+        let kind = [self.sampled.is_some(), self.set.z0.is_none()];
+        let besides: String = self.rates.iter().map(|rate| rate.in_words(sigma, kind, &spec.noise)).collect();
         reads(RULE, &self.statement, &(statement + &besides))
     }
 

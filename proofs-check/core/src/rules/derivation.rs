@@ -74,9 +74,20 @@ impl Derivation {
         }
     }
 
-    /// Whether the error decays by C5, in continuous time.
+    /// Whether the error decays by C5 or, at samples without a delay, by C5h.
     pub fn rests_on_norms(&self) -> bool {
-        matches!(&self.witness, Witness::Sharp(w) if matches!(w.stability, sharp::Stability::Norms))
+        match &self.witness {
+            Witness::Sharp(w) => matches!(w.stability, sharp::Stability::Norms),
+            Witness::Sampled(w) => w.stability.is_none() && w.past.is_none(),
+        }
+    }
+
+    /// The law of a claim at samples.
+    pub fn law(&self) -> Option<&sampled::law::Terms> {
+        match &self.witness {
+            Witness::Sharp(_) => None,
+            Witness::Sampled(w) => Some(&w.terms),
+        }
     }
 
     /// Y_0 as it is written, of a law with a delay.

@@ -61,6 +61,11 @@ impl<'a> Regulator<'a> {
         demand(Some(asked), RULE, &self.pointer, "`delay_samples` is that of the specification")
     }
 
+    /// sigma as it is written.
+    pub fn sigma_text(&self) -> &'a str {
+        self.texts[0]
+    }
+
     /// The beginning of the claim in words.
     pub fn in_words(&self, spec: &Specification) -> String {
         let (samples, [sigma, gain]) = (self.samples, self.texts);
@@ -78,9 +83,11 @@ impl<'a> Regulator<'a> {
         )
     }
 
-    /// What the claim takes for granted of the regulator; `saturates`: the saturation of the actuator is in the claim.
-    pub fn assumed(&self, saturates: bool) -> Vec<String> {
+    /// What the claim takes for granted of the regulator; `saturates`: the saturation of the actuator is in the claim, `noisy`: something is said
+    /// of noise and quantisation.
+    pub fn assumed(&self, saturates: bool, noisy: bool) -> Vec<String> {
         let saturation = if saturates { "" } else { "no saturation, " };
+        let but = if noisy { " but where it is said" } else { "" };
         let (law, late) = match self.delayed {
             false => (
                 "u_k = -sigma e_k + K v_k, v_k = M'N R (z_k - M e_k), z_(k+1) = R (z_k - M e_k) + (1 - h sigma) M e_k",
@@ -99,8 +106,8 @@ impl<'a> Regulator<'a> {
                  base_frequency exactly 2 pi/period; between samples the plant runs continuously and u is held"
             ),
             format!(
-                "{late}, no rounding of the regulator's arithmetic or of R, no quantisation, {saturation}no noise, no jitter of \
-                 the samples"
+                "{late}, no rounding of the regulator's arithmetic or of R, no quantisation{but}, {saturation}no \
+                 noise{but}, no jitter of the samples"
             ),
         ]
     }

@@ -1,0 +1,88 @@
+//! Rule: noise and a disturbance, as a file states them (docs/mathematics.md, section 13.6). They count in what a claim says of given n_o
+//! alone: all else that it says is of the loop without them.
+//!
+//! What is measured is `e + v`, |v| <= v_bar at all times, and q + d stands for q, |d| <= d_bar. Guarantee: `v_bar = noise + quantum/2`, for a
+//! converter in steps of `quantum` rounds to the nearest, and `d_bar = disturbance`, none of the three below 0.
+
+use crate::constant::RULE;
+use crate::json::{Field, Fields};
+use crate::verdict::{Outcome, bad, demand};
+use rug::Rational;
+
+/// A number of a file and how it is written.
+#[derive(Clone, Debug)]
+struct Size {
+    value: Rational,
+    text: String,
+}
+
+impl Size {
+    fn read(field: &Field<'_>) -> Outcome<Size> {
+        let value = field.rational()?;
+        demand(Some(value >= 0), RULE, &field.pointer, "the number is nonnegative")?;
+        Ok(Size { value, text: field.numeral()?.to_owned() })
+    }
+
+    fn value(of: Option<&Size>) -> Rational {
+        of.map_or_else(Rational::new, |size| size.value.clone())
+    }
+}
+
+/// What a file says of noise: nothing, as a rule.
+#[derive(Clone, Debug, Default)]
+pub struct Noise {
+    noise: Option<Size>,
+    quantum: Option<Size>,
+    disturbance: Option<Size>,
+}
+
+impl Noise {
+    /// Takes `measurement` and `disturbance` out of a file, where they are.
+    pub fn read(file: &mut Fields<'_>) -> Outcome<Noise> {
+        let mut read = Noise::default();
+        if let Some(field) = file.optional("measurement") {
+            let mut fields = field.fields()?;
+            let mut size = |name| fields.optional(name).map(|field| Size::read(&field)).transpose();
+            (read.noise, read.quantum) = (size("noise")?, size("quantum")?);
+            if read.noise.is_none() && read.quantum.is_none() {
+                return bad(&field.pointer, "expected `noise`, `quantum` or both");
+            }
+            fields.finish()?;
+        }
+        read.disturbance = file.optional("disturbance").map(|field| Size::read(&field)).transpose()?;
+        Ok(read)
+    }
+
+    /// The most that a measurement is off.
+    pub fn v_bar(&self) -> Rational {
+        Size::value(self.noise.as_ref()) + Size::value(self.quantum.as_ref()) / 2
+    }
+
+    /// The most that is added to q.
+    pub fn d_bar(&self) -> Rational {
+        Size::value(self.disturbance.as_ref())
+    }
+
+    /// Whether there is none.
+    pub fn is_none(&self) -> bool {
+        self.v_bar() + self.d_bar() == 0
+    }
+
+    /// Those that are there, in words.
+    pub fn in_words(&self) -> String {
+        let part = |size: &Option<Size>, of: &dyn Fn(&str) -> String| {
+            size.as_ref().filter(|size| size.value != 0).map(|size| of(&apart(&size.text)))
+        };
+        let parts = [
+            part(&self.noise, &|size| format!("noise of at most {size} on the measurement of e")),
+            part(&self.quantum, &|size| format!("a measurement of e in steps of {size}")),
+            part(&self.disturbance, &|size| format!("a disturbance of at most {size} added to q")),
+        ];
+        parts.into_iter().flatten().collect::<Vec<_>>().join(", ")
+    }
+}
+
+/// A numeral within a sentence or in front of a product: a fraction stands in parentheses.
+pub fn apart(text: &str) -> String {
+    if text.contains('/') { format!("({text})") } else { text.to_owned() }
+}

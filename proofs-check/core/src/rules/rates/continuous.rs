@@ -1,0 +1,219 @@
+//! Rule (R) and (N): rates and noise of one n_o in continuous time (docs/mathematics.md, section 13.6).
+//!
+//! With `zs = N^(1/2) zeta`, `b = N^(1/2) M`, `y = (e, zs)` and `B = (1, -b)`, all of them differences to the periodic solution, in the
+//! error box `y' = A y + B (delta e + u + d) + B_v v`, `A = [-sigma, mu b'; 0, Phi - mu b b']`, `delta` in `[-k_e, most]`, `|u| <= k_x xi`, and
+//! `(xi^2)' <= -2 a_2 xi^2 + 2 sqrt(P_up) k_f xi |e|`. Of v the law has `z' = Phi z + Gamma (e + v)` and `-(sigma + mu b'b) v` in u, so that
+//! `B_v = (-(sigma + mu b'b); -Phi b + mu b (b'b))`.
+//!
+//! With an input gain b_u the loop has `b_u mu` for mu and `delta + (1-b_u) sigma` for delta (section 13.1), and
+//! `B_v = (-b_u (sigma + mu b'b); -Phi b - (1-b_u) sigma b + b_u mu b (b'b))`: all of it is affine in `(b_u, delta)`, and the four corners serve.
+//!
+//! Guarantee: with `W = w xi^2 + y'Pi y`, `w, l > 0`, and the form
+//! `2 w (a_2 - rate) xi^2 - 2 w sqrt(P_up) k_f xi e - 2 y'Pi ((A + rate) y + B delta e + B u + B d + B_v v) + l (u^2 - k_x^2 xi^2) + g_d d^2 + g_v v^2`
+//! positive definite at each corner, `W' <= -2 rate W + g_d d^2 + g_v v^2` (for e < 0 by the form at (xi, -y, -u, -d, -v); its corner l is
+//! above 0). Without w and l, k_x is 0: then the equations of y do not have xi, and `W = y'Pi y` serves.
+//!
+//! So without inputs `e^2 <= W/e_low` falls from at most `w P_up dX^2 + e_up dE^2 + z_up dZ^2`, which `factor^2 e_low` is not below; and
+//! from rest `W <= (g_d d_bar^2 + g_v v_bar^2)/(2 lambda)`.
+
+use super::claimed::{RULE, Rate};
+use super::noise::{added, of_states, weight};
+use super::norm::{Norm, Stored, no_part_of_x, positive};
+use crate::data::Data;
+use crate::interval::Interval;
+use crate::json::Fields;
+use crate::matrix::positive_definite;
+use crate::rules::stability::ErrorBox;
+use crate::verdict::{Outcome, bad, demand};
+use rug::Rational;
+
+/// A form with what proves that it is positive definite, but for the rate.
+pub struct Proof {
+    stored: Stored,
+    /// w and l; none where x has no part in it.
+    of_x: Option<[Rational; 2]>,
+}
+
+/// What proves the limits with noise.
+pub struct OfNoise {
+    proof: Proof,
+    lambda: Rational,
+    g_d: Option<Rational>,
+    g_v: Option<Rational>,
+}
+
+impl Proof {
+    /// Takes it out of a part for this n_o.
+    pub fn read(fields: &mut Fields<'_>, n_o: u32) -> Outcome<Proof> {
+        let stored = Stored::read(fields, n_o)?;
+        let of_x = match (fields.optional("w"), fields.optional("l")) {
+            (None, None) => None,
+            (Some(w), Some(l)) => Some([w.rational()?, l.rational()?]),
+            _ => return bad(&fields.pointer, "`w` and `l` go together"),
+        };
+        Ok(Proof { stored, of_x })
+    }
+}
+
+impl OfNoise {
+    /// The same for the part `noise`.
+    pub fn read(fields: &mut Fields<'_>, n_o: u32) -> Outcome<OfNoise> {
+        let proof = Proof::read(fields, n_o)?;
+        let lambda = fields.required("lambda")?.rational()?;
+        let mut optional = |name| fields.optional(name).map(|field| field.rational()).transpose();
+        Ok(OfNoise { proof, lambda, g_d: optional("g_d")?, g_v: optional("g_v")? })
+    }
+}
+
+/// A corner: b_u, b_u mu and delta.
+struct Corner {
+    gain: Interval,
+    mu: Interval,
+    slope: Interval,
+}
+
+/// The error system of one n_o, with Pi.
+pub struct Loop<'a> {
+    d: &'a Data<'a>,
+    error_box: &'a ErrorBox,
+    sigma: Interval,
+    norm: Norm,
+    pointer: &'a str,
+    /// w and l.
+    of_x: Option<[Interval; 2]>,
+}
+
+impl<'a> Loop<'a> {
+    /// Of a witness whose signs are right, with Pi above diag(e_low, 0).
+    pub fn new(d: &'a Data<'a>, error_box: &'a ErrorBox, sigma: &Rational, proof: &'a Proof) -> Outcome<Loop<'a>> {
+        let pointer = proof.stored.pointer.as_str();
+        let norm = Norm::new(d, &proof.stored)?;
+        match &proof.of_x {
+            Some(both) => {
+                ["w", "l"].into_iter().zip(both).try_for_each(|(name, value)| positive(name, value, pointer))?
+            }
+            None => no_part_of_x(&error_box.k_x, pointer)?,
+        }
+        norm.lies_above()?;
+        let of_x = proof.of_x.as_ref().map(|both| both.each_ref().map(|value| d.number(value)));
+        Ok(Loop { d, error_box, sigma: d.number(sigma), norm, pointer, of_x })
+    }
+
+    fn corners(&self) -> Vec<Corner> {
+        let ErrorBox { k_e, most, .. } = self.error_box;
+        let slopes = [-k_e, most.clone()];
+        let ends = match &self.d.gain {
+            None => vec![(self.d.int(1), self.d.int(0))],
+            Some(gain) => [&gain.low, &gain.high].into_iter().cloned().zip(gain.shifts(&self.sigma)).collect(),
+        };
+        let at = |gain: &Interval, moved: &Interval, slope: &Interval| Corner {
+            gain: gain.clone(),
+            mu: gain * &self.d.mu,
+            slope: slope + moved,
+        };
+        ends.iter().flat_map(|(gain, moved)| slopes.each_ref().map(|slope| at(gain, moved, slope))).collect()
+    }
+
+    /// l w of the states of an oscillator.
+    fn turn(&self, state: usize) -> Interval {
+        &self.d.w * (state / 2) as i64
+    }
+
+    /// `(Pi A)_ij` with `delta e` as one more input: `(delta, mu b')` comes back through B, -sigma stands with e, and
+    /// `Phi = l w [0, 1; -1, 0]`.
+    fn moved(&self, i: usize, j: usize, Corner { mu, slope, .. }: &Corner) -> Interval {
+        let through = &self.norm.image[i] * &(if j == 0 { slope.clone() } else { mu * &self.norm.b[j] });
+        match j {
+            0 => through - self.norm.at(i, 0) * &self.sigma,
+            1 => through,
+            first if first % 2 == 0 => through - self.norm.at(i, j + 1) * self.turn(j),
+            _ => through + self.norm.at(i, j - 1) * self.turn(j),
+        }
+    }
+
+    /// `Pi B_v`: -Phi b has `l w sqrt(n_l)` at the second state of an oscillator.
+    fn image_of_noise(&self, Corner { gain, mu, .. }: &Corner) -> Vec<Interval> {
+        let b = &self.norm.b;
+        let total = b[1..].iter().fold(self.d.int(0), |sum, value| sum + value.sqr());
+        let along = mu * &total - (1 - gain) * &self.sigma;
+        let entry = |k: usize| match k {
+            0 => -(gain * &self.sigma + mu * &total),
+            second if second > 1 && second % 2 == 1 => self.turn(second) * &b[second - 1],
+            first => &along * &b[first],
+        };
+        self.norm.times(&(0..self.norm.order()).map(entry).collect::<Vec<_>>())
+    }
+
+    /// The lower triangle of the form in (y, u, xi, d, v): without u and xi where x has no part in it, and of d and v with those that have a weight.
+    fn form(&self, rate: &Interval, corner: &Corner, inputs: [Option<&Interval>; 2]) -> Vec<Vec<Interval>> {
+        let order = self.norm.order();
+        let entry =
+            |i: usize, j: usize| -(self.moved(i, j, corner) + self.moved(j, i, corner) + self.norm.at(i, j) * rate * 2);
+        let mut rows: Vec<Vec<Interval>> = (0..order).map(|i| (0..=i).map(|j| entry(i, j)).collect()).collect();
+        // The row of an input: `-2 y'Pi (its image) (it)`, its weight on the diagonal, and 0 between.
+        let add = |rows: &mut Vec<Vec<Interval>>, image: &[Interval], weight: &Interval| {
+            let mut row: Vec<Interval> = image.iter().map(|value| -value).collect();
+            row.resize(rows.len(), self.d.int(0));
+            row.push(weight.clone());
+            rows.push(row);
+        };
+        if let Some([w, l]) = &self.of_x {
+            let ErrorBox { k_x, k_f, rate: a_2, .. } = self.error_box;
+            add(&mut rows, &self.norm.image, l);
+            let mut last = vec![self.d.int(0); order + 1];
+            last[0] = -(w * self.d.p_up.sqrt() * k_f);
+            last.push(w * (a_2 - rate) * 2 - l * k_x.sqr());
+            rows.push(last);
+        }
+        let [g_d, g_v] = inputs;
+        if let Some(weight) = g_d {
+            add(&mut rows, &self.norm.image, weight);
+        }
+        if let Some(weight) = g_v {
+            add(&mut rows, &self.image_of_noise(corner), weight);
+        }
+        rows
+    }
+
+    fn decays(&self, rate: &Interval, inputs: [Option<&Interval>; 2], what: &str) -> Outcome<()> {
+        let at = format!("{}/Pi", self.pointer);
+        self.corners()
+            .iter()
+            .try_for_each(|corner| demand(positive_definite(self.form(rate, corner, inputs)), RULE, &at, what))
+    }
+}
+
+/// Proves (R) at a rate, and gives W at the start and e_low; `reach`: dX, dE and dZ.
+pub fn rate(
+    d: &Data<'_>,
+    (error_box, sigma): (&ErrorBox, &Rational),
+    (claimed, proof, ends): (&Rate<'_>, &Proof, &[Rational; 2]),
+    reach: &[Interval; 3],
+) -> Outcome<[Interval; 2]> {
+    let made = Loop::new(d, error_box, sigma, proof)?;
+    let what = format!("(R) for n_o = {}, rate {}", claimed.n_o, claimed.rate);
+    made.decays(&d.number(&claimed.rate), [None, None], &what)?;
+    let start = made.norm.start(d, made.of_x.as_ref().map(|[w, _]| w), ends, reach)?;
+    Ok([start, made.norm.e_low])
+}
+
+/// Proves (N), and gives S and kappa.
+pub fn noise(
+    d: &Data<'_>,
+    (error_box, sigma): (&ErrorBox, &Rational),
+    proof: &OfNoise,
+    n_o: u32,
+) -> Outcome<[Interval; 2]> {
+    let pointer = proof.proof.stored.pointer.as_str();
+    positive("lambda", &proof.lambda, pointer)?;
+    let made = Loop::new(d, error_box, sigma, &proof.proof)?;
+    let [d_bar, v_bar] = [d.spec.noise.d_bar(), d.spec.noise.v_bar()];
+    let g_d = weight(d, ("g_d", proof.g_d.as_ref()), d_bar > 0, pointer)?;
+    let g_v = weight(d, ("g_v", proof.g_v.as_ref()), v_bar > 0, pointer)?;
+    let lambda = d.number(&proof.lambda);
+    let what = format!("(N) for n_o = {n_o}, lambda {}", proof.lambda);
+    made.decays(&lambda, [g_d.as_ref(), g_v.as_ref()], &what)?;
+    let sum = added(d, g_d.as_ref(), &d.number(&d_bar)) + added(d, g_v.as_ref(), &d.number(&v_bar));
+    let s = (sum / (lambda * 2) / &made.norm.e_low).sqrt();
+    Ok([s, of_states(d, error_box, pointer)?])
+}

@@ -1,0 +1,87 @@
+//! What noise and a disturbance add to the error of one n_o, from what they do from rest (docs/mathematics.md, section 13.6, Propositions N
+//! and R_h).
+//!
+//! While a solution is in the error box, its difference to the periodic solution solves a linear system with slopes that are within the bounds
+//! of C5; from a first exit on take those of the periodic solution. It is the sum of part 1, with the start and without inputs, and part 2, with
+//! the inputs from rest. Of part 1 U does not exceed its start, at most L_0, and it tends to 0. Part 2 has |e_2| <= S and so
+//! `xi_2 <= kappa S`, `kappa = sqrt(P_up) k_f/a_2`, for `xi' <= -a_2 xi + sqrt(P_up) k_f |e|`.
+//!
+//! Guarantee of [`prove`]: the sum stays in the box, `limit >= S` and `peak >= sqrt(L_0) + S`. A regulator that sets z = M e at its first instant
+//! does so with the e that it measures: then zeta is M v there, within Nbar v_bar of 0.
+
+use super::claimed::{Limits, RULE};
+use super::norm::positive;
+use crate::actuator;
+use crate::data::Data;
+use crate::interval::Interval;
+use crate::rules::common::{Free, Sizes};
+use crate::rules::stability::{ErrorBox, distances, level};
+use crate::verdict::{Condition, Outcome, Verdict, finding, invalid};
+use rug::Rational;
+
+/// That a claim may say something of noise: the file has some, and no actuator, for the bound of what is put out does not know it.
+pub fn demand_noise(d: &Data<'_>, pointer: &str) -> Outcome<()> {
+    if d.spec.noise.is_none() {
+        return invalid(RULE, pointer, "the file states no noise and no disturbance");
+    }
+    if d.spec.actuator.is_some() {
+        let message = "with an actuator nothing is proved of noise: the bound of what is put out does not know it";
+        return Err(finding(Verdict::Undecided, actuator::RULE, pointer, message));
+    }
+    Ok(())
+}
+
+/// kappa, with a_2 > 0.
+pub fn of_states(d: &Data<'_>, error_box: &ErrorBox, pointer: &str) -> Outcome<Interval> {
+    let a_2 = &error_box.rate;
+    Condition::less("N", "0 < a_2", d.int(0), a_2.clone()).demand(RULE, pointer)?;
+    Ok(d.p_up.sqrt() * &error_box.k_f / a_2)
+}
+
+/// Proves what is claimed from S and kappa; `pointer` is the place of the witness.
+pub fn prove(
+    d: &Data<'_>,
+    (free, sizes): (&Free, &Sizes),
+    claimed: &Limits<'_>,
+    [s, kappa]: [&Interval; 2],
+    pointer: &str,
+    lines: &mut Vec<String>,
+) -> Outcome<()> {
+    let mut reach = distances(d, &free.set, [&sizes.x, &sizes.e, &sizes.zeta]);
+    if free.set.z0.is_none() {
+        reach[2] = &reach[2] + &d.n_bar * d.number(&d.spec.noise.v_bar());
+    }
+    let [d_x, d_e, w_x, h] = [&free.d_x, &free.d_e, &free.w_x, &free.h].map(|value| d.number(value));
+    let [start, _] = level(d, &reach, [&d_x, &d_e, &w_x, &d.by_gain(|gain| &gain.high, &h)]);
+    let largest = start.sqrt() + s;
+    let of_x = ((start / w_x).sqrt() + kappa * s) / d.p_low.sqrt();
+    let [limit, peak] = [&claimed.limit, &claimed.peak].map(|value| d.number(value));
+    let conditions = [
+        (Condition::at_most("N", "S <= limit", s.clone(), limit), format!("{}/limit", claimed.pointer)),
+        (Condition::at_most("N", "sqrt(L_0) + S <= peak", largest.clone(), peak), format!("{}/peak", claimed.pointer)),
+        (Condition::less("N", "sqrt(L_0) + S < D_e", largest, d_e), pointer.to_owned()),
+        (Condition::less("N", "(sqrt(L_0/w_x) + kappa S)/sqrt(P_low) < D_x", of_x, d_x), pointer.to_owned()),
+    ];
+    lines.extend(conditions.iter().map(|(condition, _)| condition.line()));
+    conditions.iter().try_for_each(|(condition, place)| condition.demand(RULE, place))
+}
+
+/// The multiplier of an input, above 0, exactly where there is such an input: none where there is not.
+pub fn weight(
+    d: &Data<'_>,
+    (name, multiplier): (&str, Option<&Rational>),
+    is_there: bool,
+    pointer: &str,
+) -> Outcome<Option<Interval>> {
+    match (multiplier, is_there) {
+        (None, false) => Ok(None),
+        (Some(value), true) => positive(name, value, pointer).map(|()| Some(d.number(value))),
+        (None, true) => invalid(RULE, pointer, format!("`{name}` is missing, and there is such an input")),
+        (Some(_), false) => invalid(RULE, &format!("{pointer}/{name}"), "there is no such input"),
+    }
+}
+
+/// What an input of this bound adds to W in a step, or per time.
+pub fn added(d: &Data<'_>, weight: Option<&Interval>, bound: &Interval) -> Interval {
+    weight.map_or_else(|| d.int(0), |weight| weight * bound.sqr())
+}
