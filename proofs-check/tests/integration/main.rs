@@ -34,6 +34,8 @@ mod matrix_inequality;
 mod mean_squares;
 mod monotone;
 mod mutations;
+mod noise;
+mod noise_at_samples;
 mod parameters;
 mod periods;
 mod periods_of_plants;

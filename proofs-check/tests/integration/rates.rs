@@ -14,7 +14,7 @@ fn stored(name: &str) -> Value {
 }
 
 /// The certificate with other values at JSON pointers; without a field where the value is null.
-fn edited(mut certificate: Value, changes: &[(&str, Value)]) -> Value {
+pub fn edited(mut certificate: Value, changes: &[(&str, Value)]) -> Value {
     for (pointer, value) in changes {
         let (parent, name) = pointer.rsplit_once('/').unwrap();
         match (certificate.pointer_mut(parent).unwrap_or_else(|| panic!("{parent} exists")), value) {
@@ -26,22 +26,46 @@ fn edited(mut certificate: Value, changes: &[(&str, Value)]) -> Value {
     certificate
 }
 
-/// The claim in words with what the rates of the claim read.
-fn reworded(mut certificate: Value) -> Value {
+/// The claim in words with what the part `for_n_o` of the claim says.
+pub fn reworded(mut certificate: Value) -> Value {
     let statement = certificate["claim"]["statement"].as_str().unwrap();
     let main = statement.split(" With n_o = ").next().unwrap().to_owned();
-    let sigma = certificate["claim"]["sigma_star"].as_str().unwrap();
-    let sentence = |rate: &Value| {
-        let text = |name: &str| {
-            let text = rate[name].as_str().map_or_else(|| rate[name].to_string(), str::to_owned);
-            if text.contains('/') { format!("({text})") } else { text }
-        };
+    let claim = &certificate["claim"];
+    let sigma = ["sigma_star", "sigma"].iter().find_map(|name| claim[*name].as_str()).unwrap();
+    let instants = if claim["regulator"].is_null() { "" } else { " at the sampling instants t" };
+    let starts = if claim["initial_set"]["kind"] == "aligned" { " (z = M e of the measured e)" } else { "" };
+    let text = |value: &Value| {
+        let text = value.as_str().map_or_else(|| value.to_string(), str::to_owned);
+        if text.contains('/') { format!("({text})") } else { text }
+    };
+    let document = &certificate[if certificate["plant"].is_null() { "specification" } else { "plant" }];
+    let parts = [
+        (&document["measurement"]["noise"], "noise of at most ", " on the measurement of e"),
+        (&document["measurement"]["quantum"], "a measurement of e in steps of ", ""),
+        (&document["disturbance"], "a disturbance of at most ", " added to q"),
+    ];
+    let given = |value: &Value| !value.is_null() && text(value) != "0";
+    let words =
+        |(value, before, after): &(&Value, &str, &str)| given(value).then(|| format!("{before}{}{after}", text(value)));
+    let noise: Vec<String> = parts.iter().filter_map(words).collect();
+    let sentence = |entry: &Value| {
+        let n_o = &entry["n_o"];
+        let rate = format!(
+            " With n_o = {n_o} and sigma = {sigma} exactly also |e(t) - e_per(t)| <= {} exp(-{} (t - t_0)){instants} for these solutions, e_per \
+             that of the periodic solution and t_0 the initial time.",
+            text(&entry["factor"]),
+            text(&entry["rate"])
+        );
+        let limits = &entry["noise"];
+        if limits.is_null() {
+            return rate;
+        }
         format!(
-            " With n_o = {} and sigma = {sigma} exactly also |e(t) - e_per(t)| <= {} exp(-{} (t - t_0)) for these solutions, e_per that of \
-             the periodic solution and t_0 the initial time.",
-            text("n_o"),
-            text("factor"),
-            text("rate")
+            "{rate} With n_o = {n_o} and sigma = {sigma} exactly, {}, also |e(t) - e_per(t)| <= {} for these starts{starts} and all t >= t_0, \
+             and its limit superior is at most {}.",
+            noise.join(", "),
+            text(&limits["peak"]),
+            text(&limits["limit"])
         )
     };
     let besides: String = certificate["claim"]["for_n_o"].as_array().into_iter().flatten().map(sentence).collect();
@@ -50,7 +74,7 @@ fn reworded(mut certificate: Value) -> Value {
 }
 
 /// A number of the certificate times a factor.
-fn times(certificate: &Value, pointer: &str, factor: f64) -> Value {
+pub fn times(certificate: &Value, pointer: &str, factor: f64) -> Value {
     let before = certificate.pointer(pointer).unwrap().as_str().unwrap();
     let (numerator, denominator) = before.split_once('/').unwrap_or((before, "1"));
     let number = |text| proofs_check::json::decimal(text).unwrap();
@@ -59,7 +83,7 @@ fn times(certificate: &Value, pointer: &str, factor: f64) -> Value {
 }
 
 #[track_caller]
-fn refused(certificate: Value, verdict: Verdict, rule: &str, pointer: &str) {
+pub fn refused(certificate: Value, verdict: Verdict, rule: &str, pointer: &str) {
     assert_refused(&judged(&reworded(certificate)), verdict, rule, pointer);
 }
 
@@ -238,6 +262,7 @@ fn what_cannot_be_read_is_named() {
         (count, json!(1), "/witness/for_n_o/0/Pi"),
         ("/claim/for_n_o/0/rate", json!("inf"), "/claim/for_n_o/0/rate"),
         ("/claim/for_n_o/0/noise", json!("1"), "/claim/for_n_o/0/noise"),
+        ("/claim/for_n_o/0/noise", json!({ "limit": "1", "peak": "2" }), "/witness/for_n_o/0"),
         ("/witness/for_n_o/0/k", json!("1"), "/witness/for_n_o/0/k"),
         ("/witness/for_n_o", json!([]), "/witness/for_n_o"),
         ("/witness/for_n_o/0/Pi/0", json!([]), "/witness/for_n_o/0/Pi/0"),
@@ -256,7 +281,8 @@ fn other_claims_have_no_rates() {
         |certificate: &Value| [certificate["claim"]["for_n_o"].clone(), certificate["witness"]["for_n_o"].clone()];
     let [claim, witness] = part(&stored(PAPER));
     for (folder, name, place) in [
-        ("sampled", "paper-example", "/claim/for_n_o"),
+        ("sampled", "paper-example", "/witness/for_n_o/0"),
+        ("sampled", "paper-example-delay", "/claim/for_n_o"),
         ("plants", "joint.certificate", "/claim/for_n_o"),
         ("plants", "splitting.certificate", "/claim/for_n_o"),
     ] {

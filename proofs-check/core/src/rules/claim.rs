@@ -3,6 +3,7 @@
 use super::common::Evaluated;
 use super::control::NAMES;
 use super::rates::claimed::Rate;
+use super::rates::demand_noise;
 use super::sampled::claim::{N_O, Regulator};
 use super::set::ClaimedSet;
 use crate::actuator;
@@ -205,6 +206,7 @@ impl<'a> Claim<'a> {
                 self.of_plant((spec, plant), family, start)?
             }
         };
+        demand_noise(d, &self.rates)?;
         let sigma = self.sampled.as_ref().map_or(self.sigma_text, Regulator::sigma_text);
         let kind = [self.sampled.is_some(), self.set.z0.is_none()];
         let besides: String = self.rates.iter().map(|rate| rate.in_words(sigma, kind, &spec.noise)).collect();

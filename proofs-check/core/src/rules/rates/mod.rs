@@ -18,6 +18,7 @@ use crate::data::Data;
 use crate::json::Field;
 use crate::verdict::{Condition, Outcome, bad};
 use claimed::{RULE, Rate, read_count};
+pub use noise::demand_noise;
 use rug::Rational;
 
 /// The most of them.
@@ -96,9 +97,6 @@ pub fn prove(
     let law = law.map(|terms| Law::new(d, terms));
     for (rate, witness) in claimed.iter().zip(witnesses) {
         let at = format!("{}/noise", witness.pointer);
-        if rate.noise.is_some() {
-            noise::demand_noise(d, &at)?;
-        }
         norm::positive("rate", &rate.rate, &rate.pointer)?;
         norm::positive("factor", &rate.factor, &rate.pointer)?;
         let ([start, e_low], of_noise) = match (&witness.proof, &law) {

@@ -9,7 +9,7 @@
 //! Guarantee of [`prove`]: the sum stays in the box, `limit >= S` and `peak >= sqrt(L_0) + S`. A regulator that sets z = M e at its first instant
 //! does so with the e that it measures: then zeta is M v there, within Nbar v_bar of 0.
 
-use super::claimed::{Limits, RULE};
+use super::claimed::{Limits, RULE, Rate};
 use super::norm::positive;
 use crate::actuator;
 use crate::data::Data;
@@ -19,8 +19,9 @@ use crate::rules::stability::{ErrorBox, distances, level};
 use crate::verdict::{Condition, Outcome, Verdict, finding, invalid};
 use rug::Rational;
 
-/// That a claim may say something of noise: the file has some, and no actuator, for the bound of what is put out does not know it.
-pub fn demand_noise(d: &Data<'_>, pointer: &str) -> Outcome<()> {
+/// Where a claim says something of noise, the file has some, and no actuator, for the bound of what is put out does not know it.
+pub fn demand_noise(d: &Data<'_>, claimed: &[Rate<'_>]) -> Outcome<()> {
+    let Some(Limits { pointer, .. }) = claimed.iter().find_map(|rate| rate.noise.as_ref()) else { return Ok(()) };
     if d.spec.noise.is_none() {
         return invalid(RULE, pointer, "the file states no noise and no disturbance");
     }

@@ -247,13 +247,13 @@ impl<'a> Loop<'a> {
         let own = (0..order).fold(d.int(0), |sum, k| sum + &norm.image[k] * norm.at_input(k));
         form.add_square(&(&after * law.h.sqr() * own), &y);
 
-        let mut between = |l: &Interval, of: &Linear, w: &Linear, [lo, hi]: &[Interval; 2]| {
+        let mut sector = |l: &Interval, of: &Linear, w: &Linear, [lo, hi]: &[Interval; 2]| {
             let [below, above] = [w.clone() + of.times(&-lo), of.times(hi) + w.times(&d.int(-1))];
             form.add(&-l, &above, &below);
         };
         let [of_e, of_y] = &step.slopes;
-        between(l_slope, &e, &w1, of_e);
-        between(l_hold, &y, &w2, of_y);
+        sector(l_slope, &e, &w1, of_e);
+        sector(l_hold, &y, &w2, of_y);
 
         if let Some([w, l_x, l_e, l_y]) = &self.of_x {
             let ErrorBox { k_x, rate: a_2, .. } = self.error_box;
@@ -318,7 +318,13 @@ pub fn noise(law: &Law<'_>, error_box: &ErrorBox, proof: &OfNoise, n_o: u32) -> 
     let sum = added(d, g_d, &((1 + &step.g) * &d_bar)) + added(d, g_v, &v_bar) + added(d, g_r, &(&step.c_d * &d_bar));
     let at_samples = (sum / c / &made.norm.e_low).sqrt();
     let (kappa, half) = (of_states(d, error_box, pointer)?, &law.h / 2);
-    let room = 1 - &half * (&step.k_e + &error_box.k_x * &kappa);
-    Condition::less("N", "0 < 1 - (h/2)(k_e + k_x kappa)", d.int(0), room.clone()).demand(RULE, pointer)?;
-    Ok([(at_samples + half * d_bar) / room, kappa])
+    Ok([between(&at_samples, [&half, &d_bar], &step.k_e + &error_box.k_x * &kappa, pointer)?, kappa])
+}
+
+/// A bound of |e| at all times, from one at samples: `sup|e| <= s + half (steepness sup|e| + d_bar)`, half = h/2.
+fn between(s: &Interval, [half, d_bar]: [&Interval; 2], steepness: Interval, pointer: &str) -> Outcome<Interval> {
+    let room = 1 - half * steepness;
+    let zero = Interval::int(0, s.precision());
+    Condition::less("N", "0 < 1 - (h/2)(k_e + k_x kappa)", zero, room.clone()).demand(RULE, pointer)?;
+    Ok((s + half * d_bar) / room)
 }
