@@ -36,7 +36,7 @@ pub struct Proof {
 
 /// What proves the limits with noise.
 pub struct OfNoise {
-    proof: Proof,
+    pub(super) proof: Proof,
     lambda: Rational,
     g_d: Option<Rational>,
     g_v: Option<Rational>,
@@ -66,7 +66,7 @@ impl OfNoise {
 }
 
 /// A corner: b_u, b_u mu and delta.
-struct Corner {
+pub(super) struct Corner {
     gain: Interval,
     mu: Interval,
     slope: Interval,
@@ -77,10 +77,10 @@ pub struct Loop<'a> {
     d: &'a Data<'a>,
     error_box: &'a ErrorBox,
     sigma: Interval,
-    norm: Norm,
+    pub(super) norm: Norm,
     pointer: &'a str,
     /// w and l.
-    of_x: Option<[Interval; 2]>,
+    pub(super) of_x: Option<[Interval; 2]>,
 }
 
 impl<'a> Loop<'a> {
@@ -99,7 +99,7 @@ impl<'a> Loop<'a> {
         Ok(Loop { d, error_box, sigma: d.number(sigma), norm, pointer, of_x })
     }
 
-    fn corners(&self) -> Vec<Corner> {
+    pub(super) fn corners(&self) -> Vec<Corner> {
         let ErrorBox { k_e, most, .. } = self.error_box;
         let slopes = [-k_e, most.clone()];
         let ends = match &self.d.gain {
@@ -145,7 +145,7 @@ impl<'a> Loop<'a> {
     }
 
     /// The lower triangle of the form in (y, u, xi, d, v): without u and xi where x has no part in it, and of d and v with those that have a weight.
-    fn form(&self, rate: &Interval, corner: &Corner, inputs: [Option<&Interval>; 2]) -> Vec<Vec<Interval>> {
+    pub(super) fn form(&self, rate: &Interval, corner: &Corner, inputs: [Option<&Interval>; 2]) -> Vec<Vec<Interval>> {
         let order = self.norm.order();
         let entry =
             |i: usize, j: usize| -(self.moved(i, j, corner) + self.moved(j, i, corner) + self.norm.at(i, j) * rate * 2);

@@ -10,6 +10,8 @@ mod form;
 mod noise;
 mod norm;
 mod sampled;
+#[cfg(test)]
+mod tests;
 
 use super::common::{Free, Sizes};
 use super::sampled::law::{Law, Terms};

@@ -51,7 +51,7 @@ pub struct Proof {
 
 /// What proves the limits with noise.
 pub struct OfNoise {
-    proof: Proof,
+    pub(super) proof: Proof,
     g_d: Option<Rational>,
     g_v: Option<Rational>,
     g_r: Option<Rational>,
@@ -125,23 +125,23 @@ impl Step {
 }
 
 /// The error system of one n_o from sample to sample, with Pi.
-struct Loop<'a> {
+pub(super) struct Loop<'a> {
     law: &'a Law<'a>,
     error_box: &'a ErrorBox,
     step: Step,
-    norm: Norm,
+    pub(super) norm: Norm,
     pointer: &'a str,
     /// cos and sin of l w h, w h = 2 pi/N_s.
     turns: Vec<[Interval; 2]>,
     /// c, l_slope and l_hold.
-    of_slopes: [Interval; 3],
+    pub(super) of_slopes: [Interval; 3],
     /// w, l_x, l_e and l_y.
-    of_x: Option<[Interval; 4]>,
+    pub(super) of_x: Option<[Interval; 4]>,
 }
 
 impl<'a> Loop<'a> {
     /// Of a witness whose signs are right, with Pi above diag(e_low, 0), for `2 n_o < N_s`.
-    fn new(law: &'a Law<'a>, error_box: &'a ErrorBox, proof: &'a Proof) -> Outcome<Loop<'a>> {
+    pub(super) fn new(law: &'a Law<'a>, error_box: &'a ErrorBox, proof: &'a Proof) -> Outcome<Loop<'a>> {
         let (d, pointer, n_o) = (law.d, proof.stored.pointer.as_str(), proof.stored.n_o);
         demand(Some(2 * n_o < law.samples), RULE, pointer, "n_o < samples/2")?;
         OF_SLOPES.into_iter().zip(&proof.of_slopes).try_for_each(|(name, value)| positive(name, value, pointer))?;
@@ -168,7 +168,7 @@ impl<'a> Loop<'a> {
     }
 
     /// The ends of b_u.
-    fn ends(&self) -> Vec<Interval> {
+    pub(super) fn ends(&self) -> Vec<Interval> {
         self.law
             .d
             .gain
@@ -204,7 +204,7 @@ impl<'a> Loop<'a> {
 
     /// The lower triangle of the form at an end of b_u, in (e, zs, w1, w2), then (X, p, rho_E, rho_Y) where x has a part in it, then D, v and rho_d
     /// as far as they have weights.
-    fn form(&self, b_u: &Interval, inputs: [Option<&Interval>; 3]) -> Vec<Vec<Interval>> {
+    pub(super) fn form(&self, b_u: &Interval, inputs: [Option<&Interval>; 3]) -> Vec<Vec<Interval>> {
         let (d, law, step, norm) = (self.law.d, self.law, &self.step, &self.norm);
         let order = norm.order();
         let one = || d.int(1);
@@ -322,7 +322,12 @@ pub fn noise(law: &Law<'_>, error_box: &ErrorBox, proof: &OfNoise, n_o: u32) -> 
 }
 
 /// A bound of |e| at all times, from one at samples: `sup|e| <= s + half (steepness sup|e| + d_bar)`, half = h/2.
-fn between(s: &Interval, [half, d_bar]: [&Interval; 2], steepness: Interval, pointer: &str) -> Outcome<Interval> {
+pub(super) fn between(
+    s: &Interval,
+    [half, d_bar]: [&Interval; 2],
+    steepness: Interval,
+    pointer: &str,
+) -> Outcome<Interval> {
     let room = 1 - half * steepness;
     let zero = Interval::int(0, s.precision());
     Condition::less("N", "0 < 1 - (h/2)(k_e + k_x kappa)", zero, room.clone()).demand(RULE, pointer)?;
