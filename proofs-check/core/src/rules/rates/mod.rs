@@ -37,8 +37,8 @@ pub struct Witness {
 
 /// The forms of the rate and, where it is claimed, of the limits with noise.
 enum Proof {
-    Continuous(continuous::Proof, Option<continuous::OfNoise>),
-    Sampled(sampled::Proof, Option<sampled::OfNoise>),
+    Continuous(Box<continuous::Proof>, Option<Box<continuous::OfNoise>>),
+    Sampled(Box<sampled::Proof>, Option<Box<sampled::OfNoise>>),
 }
 
 impl Witness {
@@ -70,10 +70,10 @@ impl Witness {
         let mut noise = fields.optional("noise").map(|field| field.fields()).transpose()?;
         let proof = if at_samples {
             let of_noise = noise.as_mut().map(|fields| sampled::OfNoise::read(fields, n_o)).transpose()?;
-            Proof::Sampled(sampled::Proof::read(&mut fields, n_o)?, of_noise)
+            Proof::Sampled(Box::new(sampled::Proof::read(&mut fields, n_o)?), of_noise.map(Box::new))
         } else {
             let of_noise = noise.as_mut().map(|fields| continuous::OfNoise::read(fields, n_o)).transpose()?;
-            Proof::Continuous(continuous::Proof::read(&mut fields, n_o)?, of_noise)
+            Proof::Continuous(Box::new(continuous::Proof::read(&mut fields, n_o)?), of_noise.map(Box::new))
         };
         let ends = [fields.required("e_up")?.rational()?, fields.required("z_up")?.rational()?];
         [noise, Some(fields)].into_iter().flatten().try_for_each(|fields| fields.finish())?;
