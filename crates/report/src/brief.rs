@@ -12,6 +12,7 @@ use sigmastar_exact::number::{Direction, write_exact};
 use sigmastar_lang::spec::Specification;
 use sigmastar_prove::certify::{Certification, SampledCertification, claimed_ball};
 use sigmastar_prove::rate::bound::RateForCount;
+use sigmastar_prove::rate::sampled::bound::{SampledRateBound, SampledRateForCount};
 use sigmastar_theory::derivation::control::Control;
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
 use sigmastar_theory::derivation::sampled::SampledEvaluation;
@@ -96,6 +97,18 @@ fn for_n_o(run: &Certification<'_>) -> Option<String> {
     (!all.is_empty()).then(|| format!("|e - e_per| at this gain alone, {}", all.join("; ")))
 }
 
+/// The same at the sampling instants.
+fn for_n_o_at_samples(run: &SampledCertification<'_>) -> Option<String> {
+    let one = |SampledRateForCount { n_o, bound }: &SampledRateForCount| match bound {
+        None => format!("n_o = {n_o}: not proved"),
+        Some(SampledRateBound { rate, factor, .. }) => {
+            format!("n_o = {n_o}: {} exp(-{} (t - t_0))", exact(factor, Direction::Up), exact(rate, Direction::Down))
+        }
+    };
+    let all: Vec<String> = run.for_n_o.iter().map(one).collect();
+    (!all.is_empty()).then(|| format!("|e - e_per| at the sampling instants, {}", all.join("; ")))
+}
+
 /// Of a claim about the regulator at samples; nothing without one.
 pub(super) fn of_samples(run: &SampledCertification<'_>, rechecked: bool) -> Vec<Block> {
     let (Some(proof), Some(periodic)) = (run.claim(), run.periodic_solution()) else { return Vec::new() };
@@ -125,6 +138,7 @@ pub(super) fn of_samples(run: &SampledCertification<'_>, rechecked: bool) -> Vec
     );
     let mut facts = vec![("gain", gain), ("from", from(run.spec, &witness.set, &when)), ("next", next.to_owned())];
     facts.extend(run.found.map(|(_, limit)| ("set by", format!("{} (an estimate)", limit.describe()))));
+    facts.extend(for_n_o_at_samples(run).map(|said| ("convergence", said)));
     let radii = [&witness.d_x, &witness.d_e].map(|radius| exact(radius, Direction::Up));
     facts.push(("to", to(run.spec, &periodic, radii, run.control().map(|bounds| (bounds, "")))));
     facts.extend(uncertain_gain(run.spec).map(|said| ("input gain", said)));

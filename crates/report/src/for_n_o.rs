@@ -4,8 +4,9 @@ use serde_json::{Value, json};
 use sigmastar_document::number::{estimate, exact};
 use sigmastar_document::{Block, Table};
 use sigmastar_exact::number::{Direction, write_exact};
-use sigmastar_prove::certify::Certification;
+use sigmastar_prove::certify::{Certification, SampledCertification};
 use sigmastar_prove::rate::bound::{RateBound, RateForCount};
+use sigmastar_prove::rate::sampled::bound::{SampledRateBound, SampledRateForCount};
 use sigmastar_prove::rate::small_gain::Limit;
 
 /// The section; nothing where no number was asked about.
@@ -49,6 +50,46 @@ pub(super) fn rates_json(run: &Certification<'_>) -> Option<Value> {
         None => json!({ "n_o": n_o, "rate": null, "factor": null, "limited_by": null }),
         Some(RateBound { witness, factor, limit, .. }) => json!({
             "n_o": n_o, "rate": write_exact(&witness.rate), "factor": write_exact(factor), "limited_by": limited_by(*limit),
+        }),
+    };
+    (!run.for_n_o.is_empty()).then(|| run.for_n_o.iter().map(one).collect())
+}
+
+/// The section of a claim at samples.
+pub(super) fn sampled_section(run: &SampledCertification<'_>) -> Vec<Block> {
+    if run.for_n_o.is_empty() {
+        return Vec::new();
+    }
+    let mut table = Table::new(&["n_o", "rate in 1/time", "factor in the unit of e", "limited by"]);
+    for SampledRateForCount { n_o, bound } in &run.for_n_o {
+        table.push(match bound {
+            None => [n_o.to_string(), "not proved".to_owned(), String::new(), String::new()],
+            Some(SampledRateBound { rate, factor, limit, .. }) => [
+                n_o.to_string(),
+                exact(rate, Direction::Down),
+                exact(factor, Direction::Up),
+                limited_by(*limit),
+            ],
+        });
+    }
+    vec![
+        Block::heading("For given numbers of oscillators"),
+        Block::says(
+            "For every start in the set at a sampling instant t_0, |e(t) - e_per(t)| <= factor exp(-rate (t - t_0)) at every sampling instant \
+             t from there on: a part of the claim, for this n_o, this gain and this sampling period alone, proved from the bounds on the \
+             error box. The factor is for the whole set at once, and far above what most starts need. What limits the rate is an \
+             estimate. `not proved` says nothing either way.",
+        ),
+        Block::Table(table),
+    ]
+}
+
+/// The same as JSON; none where no number was asked about.
+pub(super) fn sampled_json(run: &SampledCertification<'_>) -> Option<Value> {
+    let one = |SampledRateForCount { n_o, bound }: &SampledRateForCount| match bound {
+        None => json!({ "n_o": n_o, "rate": null, "factor": null, "limited_by": null }),
+        Some(SampledRateBound { rate, factor, limit, .. }) => json!({
+            "n_o": n_o, "rate": write_exact(rate), "factor": write_exact(factor), "limited_by": limited_by(*limit),
         }),
     };
     (!run.for_n_o.is_empty()).then(|| run.for_n_o.iter().map(one).collect())

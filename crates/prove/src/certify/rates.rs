@@ -1,19 +1,25 @@
-//! Rates for given numbers of oscillators, as a part of a claim in continuous time (derivation, 13.6).
+//! Rates for given numbers of oscillators, as a part of a claim (derivation, 13.6).
 
 use super::certification::Certification;
 use super::proof::Proof;
+use super::sampled::SampledCertification;
 use crate::rate::bound::{MAX_COUNTS, MAX_OSCILLATORS, Place, RateBound, RateForCount, bound};
+use crate::rate::sampled::bound::{self as at_samples, SampledRateBound, SampledRateForCount};
 use rayon::prelude::*;
 use sigmastar_exact::number::write_exact;
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::initial_set::claimed_distances;
-use sigmastar_theory::derivation::matrix_inequality;
+use sigmastar_theory::derivation::{matrix_inequality, sampled};
 
 /// Why a claim can have no rates for given numbers of oscillators.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoRatesOfClaim {
-    /// It is about the regulator at samples.
-    AtSamples,
+    /// It is about the regulator at samples with a delay.
+    WithDelay,
+    /// Its stability at samples is proved by (Ms).
+    BySampledMatrix,
+    /// This number is not below half of these samples.
+    NotBelowHalf(u32, u32),
     /// Its stability is proved by (M): it has no norms of the error system.
     ByMatrix,
     /// By (Jm).
@@ -34,10 +40,12 @@ impl NoRatesOfClaim {
             )
         };
         match self {
-            NoRatesOfClaim::AtSamples => {
-                format!(
-                    "{option}: not available for the regulator at samples: rates for given n_o are of continuous time"
-                )
+            NoRatesOfClaim::WithDelay => {
+                format!("{option}: not available with `delay_samples`: rates at samples are of the law without a delay")
+            }
+            NoRatesOfClaim::BySampledMatrix => by("(Ms)"),
+            NoRatesOfClaim::NotBelowHalf(n_o, samples) => {
+                format!("{option}: the claim is about n_o < {samples}/2, half of the samples in a period, and n_o is {n_o}")
             }
             NoRatesOfClaim::ByMatrix => by("(M)"),
             NoRatesOfClaim::ByJointMetrics => by("(Jm)"),
@@ -56,8 +64,9 @@ impl NoRatesOfClaim {
     #[must_use]
     pub fn help(self) -> &'static str {
         match self {
-            NoRatesOfClaim::AtSamples => "leave it or the sampling period out",
-            NoRatesOfClaim::ByMatrix | NoRatesOfClaim::ByJointMetrics => {
+            NoRatesOfClaim::WithDelay => "leave it or the delay out",
+            NoRatesOfClaim::NotBelowHalf(..) => "ask for smaller numbers, or take a shorter sampling period",
+            NoRatesOfClaim::ByMatrix | NoRatesOfClaim::BySampledMatrix | NoRatesOfClaim::ByJointMetrics => {
                 "leave it out; a bounding specification of the plant (`sigmastar bound`) has a claim by norms"
             }
             NoRatesOfClaim::TooMany(_) => "ask for fewer, or write several certificates",
@@ -129,6 +138,65 @@ impl Certification<'_> {
                  that of the periodic solution and t_0 the initial time.",
                 write_exact(factor),
                 write_exact(&witness.rate),
+            )
+        };
+        self.for_n_o.iter().filter_map(|found| found.bound.as_ref()).map(sentence).collect()
+    }
+}
+
+impl SampledCertification<'_> {
+    /// Proves rates for these numbers of oscillators, as [`Certification::prove_rates`]: at the gain and the sampling period of the claim.
+    ///
+    /// Guarantee: for each bound that is proved, with so many oscillators, every solution that is in the claimed set at a sampling instant
+    /// t_0 has `|e(t) - e_per(t)| <= factor exp(-rate (t - t_0))` at every sampling instant t >= t_0.
+    ///
+    /// # Errors
+    /// Those of [`rate_counts`], a number that is not below half of the samples, a delay, and a claim that does not rest on norms.
+    pub fn prove_rates(&mut self, asked: &[u32]) -> Result<(), NoRatesOfClaim> {
+        let counts = rate_counts(asked)?;
+        let Some(last) = counts.last() else {
+            self.for_n_o = Vec::new();
+            return Ok(());
+        };
+        if self.sampling.delayed {
+            return Err(NoRatesOfClaim::WithDelay);
+        }
+        if 2 * last >= self.sampling.samples {
+            return Err(NoRatesOfClaim::NotBelowHalf(*last, self.sampling.samples));
+        }
+        let found = match self.claim() {
+            Some(Proof { witness, evaluation, precision }) => {
+                let data = Data::new(self.spec, *precision);
+                if sampled::matrix_inequality::proved_for(&data, witness).is_some() {
+                    return Err(NoRatesOfClaim::BySampledMatrix);
+                }
+                let periodic = [&evaluation.size.x_per, &evaluation.size.e_per, &evaluation.z];
+                let distances = claimed_distances(&data, &witness.set, periodic);
+                let place =
+                    Place { sigma: &witness.sigma, error_box: &evaluation.error_box, distances: distances.each_ref() };
+                let of = |n_o: &u32| SampledRateForCount {
+                    n_o: *n_o,
+                    bound: at_samples::bound(&data, &evaluation.law, &place, *n_o),
+                };
+                counts.par_iter().map(of).collect()
+            }
+            None => Vec::new(),
+        };
+        self.for_n_o = found;
+        Ok(())
+    }
+
+    /// The sentences of the claim about them, each with a space before it.
+    #[must_use]
+    pub fn rates_in_words(&self) -> String {
+        let Some(proof) = self.claim() else { return String::new() };
+        let sigma = write_exact(&proof.witness.sigma);
+        let sentence = |SampledRateBound { n_o, rate, factor, .. }: &SampledRateBound| {
+            format!(
+                " With n_o = {n_o} and sigma = {sigma} exactly also |e(t) - e_per(t)| <= {} exp(-{} (t - t_0)) at the sampling instants t \
+                 for these solutions, e_per that of the periodic solution and t_0 the initial time.",
+                write_exact(factor),
+                write_exact(rate),
             )
         };
         self.for_n_o.iter().filter_map(|found| found.bound.as_ref()).map(sentence).collect()

@@ -215,7 +215,7 @@ impl SmallGain {
                 values[*i] <= 1.05 * least && neighbours.iter().all(|j| values[*i] <= values[*j])
             });
             let around = refined.map(|i| (omegas[i.saturating_sub(1)], omegas[(i + 1).min(omegas.len() - 1)]));
-            around.map(|(low, up)| golden(|omega| left(share, omega), low, up)).fold(least, f64::min)
+            around.map(|(low, up)| golden(|omega| left(share, omega), low, up).1).fold(least, f64::min)
         };
         if self.dynamics.moved.is_empty() {
             return [of(1.0), 1.0];
@@ -293,8 +293,8 @@ pub struct Multipliers {
     pub input: f64,
 }
 
-/// The least value that golden-section search meets between two arguments.
-fn golden(function: impl Fn(f64) -> f64, mut low: f64, mut up: f64) -> f64 {
+/// The least value that golden-section search meets between two arguments, after its place.
+pub(super) fn golden(function: impl Fn(f64) -> f64, mut low: f64, mut up: f64) -> (f64, f64) {
     let ratio = (5f64.sqrt() - 1.0) / 2.0;
     let mut inner = [up - ratio * (up - low), low + ratio * (up - low)];
     let mut values = inner.map(&function);
@@ -309,5 +309,5 @@ fn golden(function: impl Fn(f64) -> f64, mut low: f64, mut up: f64) -> f64 {
             values = [values[1], function(inner[1])];
         }
     }
-    values[0].min(values[1])
+    if values[1] < values[0] { (inner[1], values[1]) } else { (inner[0], values[0].min(values[1])) }
 }
