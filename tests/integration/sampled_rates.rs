@@ -1,12 +1,15 @@
 //! Rates for given n_o at samples as a part of claims (derivation, 13.6): against the loops that the data allow, and along solutions.
 
-use crate::support::{Shipped, certified};
+use crate::controller::{constant, example};
+use crate::support::{Shipped, certified, json, program};
 use faer::Mat;
 use rug::Rational;
-use sigmastar_lang::spec::Specification;
-use sigmastar_prove::certify::{Ladder, SampledCertification, certify_sampled};
+use serde_json::Value;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, round_rational};
+use sigmastar_lang::spec::Specification;
+use sigmastar_prove::certify::{Ladder, SampledCertification, certify_sampled};
+use sigmastar_regulator::{Design, Stepper};
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::stability::ErrorBox;
 
@@ -133,4 +136,113 @@ fn rates_at_samples_are_near_those_of_the_loops() {
     let median = shares[shares.len() / 2].0;
     println!("{shares:?}");
     assert!(median >= 0.3, "{median} {shares:?}");
+}
+
+/// The exported code, step by step, against the recursion of section 13.6 in (e, zeta): measurements that are off by v, any mean of q, any input gain.
+#[test]
+fn the_exported_law_has_the_recursion_of_the_proof() {
+    let sigma = constant("30");
+    let step = constant("1/40");
+    let (h, s) = (1.0 / 40.0, 30.0);
+    let model = example().internal_model;
+    let mut state = 7_u64;
+    let mut next = || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 11) as f64 / 2f64.powi(52) - 1.0
+    };
+    for n_o in [0, 1, 2, 5, 19] {
+        let design = Design::new(&model, &sigma, n_o);
+        let (regulator, discrete) = (design.regulator(), design.discretise(&step).expect("a law"));
+        let (m, weights) = (regulator.m(), regulator.n_diagonal());
+        let n = regulator.dimension();
+        let k = discrete.gain;
+        let turned = |zeta: &[f64]| -> Vec<f64> {
+            let turn = |i: usize| {
+                let (sin, cos) = (std::f64::consts::TAU * i.div_ceil(2) as f64 * h).sin_cos();
+                match i {
+                    0 => zeta[0],
+                    _ if i % 2 == 1 => cos * zeta[i] + sin * zeta[i + 1],
+                    _ => cos * zeta[i] - sin * zeta[i - 1],
+                }
+            };
+            (0..n).map(turn).collect()
+        };
+        let seen = |turned: &[f64]| -> f64 { (0..n).map(|i| m[i] * weights[i] * turned[i]).sum() };
+        let of_m = turned(&m);
+        let b_1 = seen(&of_m);
+        for _ in 0..50 {
+            let [e, v, q, b_u] = [next(), next(), 10.0 * next(), 1.0 + 0.5 * next()];
+            let zeta: Vec<f64> = (0..n).map(|_| next()).collect();
+            let z: Vec<f64> = zeta.iter().zip(&m).map(|(zeta, m)| zeta + m * e).collect();
+            let mut stepper = Stepper::starting(regulator.clone(), discrete.clone(), z).expect("of this size");
+            let after = e + h * (q + b_u * stepper.step(e + v));
+            let turned = turned(&zeta);
+            let y = q + (1.0 - b_u) * s * e + b_u * k * seen(&turned) - b_u * (s + k * b_1) * v;
+            let expected = (1.0 - h * s) * e + h * y;
+            let scale = 1.0 + y.abs();
+            assert!((after - expected).abs() < 1e-12 * scale, "{n_o}: {after} {expected}");
+            for i in 0..n {
+                let zeta = stepper.state()[i] - m[i] * after;
+                let expected = turned[i] - h * m[i] * y + ((1.0 - h * s) * m[i] - of_m[i]) * v;
+                assert!((zeta - expected).abs() < 1e-12 * scale, "{n_o} {i}: {zeta} {expected}");
+            }
+        }
+    }
+}
+
+/// What can have no rates at samples is refused with the reason.
+#[test]
+fn what_has_no_rates_at_samples_is_refused_with_the_reason() {
+    let spec = "specs/paper-example-rms-at-rest.json";
+    for (arguments, part) in [
+        (&[spec, "--sampling-period", "1/60", "--n-o", "1,30"][..], "n_o < 60/2"),
+        (&["specs/plants/converter.json", "--sampling-period", "1/20000", "--n-o", "1"], "not available for a claim by ("),
+    ] {
+        let output = program().arg("certify").args(arguments).args(["--format", "json"]).output().expect("it runs");
+        let report = json(&output.stdout);
+        assert_eq!((output.status.code(), &report["verdict"]), (Some(2), &Value::from("bad-input")), "{arguments:?}");
+        let message = report["errors"][0]["message"].as_str().expect("a message");
+        assert!(message.contains(part), "{arguments:?}: {message}");
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("delayed.json").display().to_string();
+    let mut document = json(&std::fs::read(spec).expect("shipped"));
+    document["internal_model"]["sampling_period"] = "1/400".into();
+    document["internal_model"]["delay_samples"] = 1.into();
+    std::fs::write(&path, document.to_string()).expect("written");
+    let output = program().args(["certify", &path, "--n-o", "1", "--format", "json"]).output().expect("it runs");
+    let report = json(&output.stdout);
+    assert_eq!(output.status.code(), Some(2), "{report}");
+    assert!(report["errors"][0]["message"].as_str().expect("a message").contains("delay_samples"), "{report}");
+}
+
+/// The certificate has claim, witness and sentence; a witness is read beside them; text and JSON reports have them.
+#[test]
+fn a_certificate_at_samples_has_its_rates() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let [first, again] = ["first.json", "again.json"].map(|name| folder.path().join(name).display().to_string());
+    let spec = "specs/paper-example-rms-at-rest.json";
+    let shared = ["certify", spec, "--sampling-period", "1/400", "--n-o", "0,2"];
+    let run = |rest: &[&str]| program().args(shared).args(rest).output().expect("it runs");
+    let report = run(&["--sigma", "22", "--format", "json", "-o", &first]);
+    assert_eq!(report.status.code(), Some(0));
+    let report = json(&report.stdout);
+    assert_eq!(run(&["--witness", &first, "-o", &again]).status.code(), Some(0));
+    let read = |path: &str| json(&std::fs::read(path).expect("written"));
+    let (first, again) = (read(&first), read(&again));
+    assert_eq!((&first["claim"], &first["witness"]), (&again["claim"], &again["witness"]));
+    for (at, n_o) in [(0, 0), (1, 2)] {
+        let [claim, witness, told] = [&first["claim"]["for_n_o"][at], &first["witness"]["for_n_o"][at], &report["for_n_o"][at]];
+        assert_eq!((&claim["n_o"], &witness["n_o"]), (&Value::from(n_o), &Value::from(n_o)));
+        assert_eq!((&claim["rate"], &claim["factor"]), (&told["rate"], &told["factor"]));
+        assert_eq!(witness["Pi"].as_array().expect("rows").len(), 2 * n_o + 2);
+        let [rate, factor] = [&claim["rate"], &claim["factor"]].map(|value| value.as_str().expect("a number"));
+        let sentence = format!(
+            " With n_o = {n_o} and sigma = 22 exactly also |e(t) - e_per(t)| <= {factor} exp(-{rate} (t - t_0)) at the sampling instants t for \
+             these solutions, e_per that of the periodic solution and t_0 the initial time."
+        );
+        assert!(first["claim"]["statement"].as_str().expect("words").contains(&sentence), "{sentence}");
+    }
+    let text = String::from_utf8(run(&["--sigma", "22"]).stdout).expect("UTF-8");
+    assert!(text.contains("at the sampling instants, n_o = 0"), "{text}");
 }
