@@ -168,6 +168,10 @@ fn claim(sampled: bool, of_plant: bool) -> Vec<Field> {
         let mut rate = vec![count()];
         rate.push(must("rate", "Rate", "In 1/time.", rational()));
         rate.push(must("factor", "Factor", "For every start in the set, in the unit of e.", rational()));
+        let noise = [("limit", "in the limit"), ("peak", "at all times from the start on")]
+            .map(|(name, when)| must(name, name, format!("Bounds |e - e_per| {when}, in the unit of e."), rational()));
+        let text = "With the noise and the disturbance of the document.";
+        rate.push(may("noise", "Noise", text, Shape::Object(noise.into())));
         fields.push(may("for_n_o", "For given n_o", text, list(Shape::Object(rate), MAX_COUNTS)));
     }
     if of_plant {
@@ -190,7 +194,17 @@ fn rate_witness() -> Shape {
     let text = "The lower triangle of a matrix for (e, N^(1/2) zeta), by rows.";
     fields.push(must("Pi", "Pi", text, any_list(any_list(rational()))));
     fields.extend(numbers(&["e_low", "e_up", "z_up"], "What Pi is between."));
-    fields.extend(["w", "l"].map(|name| may(name, name, "A weight, where x has a part in e.", rational())));
+    let of_x = || ["w", "l"].map(|name| may(name, name, "A weight, where x has a part in e.", rational()));
+    fields.extend(of_x());
+    let mut noise = vec![must("Pi", "Pi", text, any_list(any_list(rational())))];
+    noise.extend(numbers(&["lambda"], "Half of the rate at which W would decay, in 1/time."));
+    noise.extend(numbers(&["e_low"], "What Pi is above in e."));
+    noise.extend(of_x());
+    noise.extend(
+        [("g_d", "the disturbance"), ("g_v", "the noise")]
+            .map(|(name, of)| may(name, name, format!("The weight of {of}, where there is one."), rational())),
+    );
+    fields.push(may("noise", "Noise", "What proves the bounds under noise.", Shape::Object(noise)));
     Shape::Object(fields)
 }
 

@@ -6,6 +6,7 @@
 //! |xt| <= dX, |et| <= dE and |zt|_N <= dZ at t_0: so C^2 is that sum over e_low.
 
 use super::inequality::{ErrorDynamics, LoopBounds, RateWitness, is_definite};
+use super::noise::{NoNoiseBound, NoiseBound};
 use super::oscillators::OscillatorMatrix;
 use super::riccati::{Proposal, propose};
 use super::small_gain::{Limit, SmallGain};
@@ -27,7 +28,7 @@ pub const MAX_COUNTS: usize = 8;
 const SHARES: [f64; 4] = [0.95, 0.8, 0.5, 0.2];
 
 /// Digits of Pi that are tried.
-const DIGITS: [u32; 4] = [6, 9, 12, 16];
+pub(super) const DIGITS: [u32; 4] = [6, 9, 12, 16];
 
 /// By what share the diagonal bounds of Pi may differ from the best ones.
 const ROOM: f64 = 1e-3;
@@ -68,6 +69,8 @@ pub struct RateForCount {
     pub n_o: u32,
     /// The bound; `None` where none was proved, which says nothing either way.
     pub bound: Option<RateBound>,
+    /// Bounds of what noise and disturbances do; `None` where the document has none.
+    pub noise: Option<Result<NoiseBound, NoNoiseBound>>,
 }
 
 /// The best bound that is found; `None` where nothing is proved.
@@ -79,8 +82,7 @@ pub struct RateForCount {
 pub fn bound(data: &Data<'_>, place: &Place<'_>, n_o: u32) -> Option<RateBound> {
     let bounds = LoopBounds::of_error(data, place.error_box)?;
     let oscillators = OscillatorMatrix::new(data, n_o);
-    let input_gain = data.input_gain.as_ref().map(|gain| [gain.low.clone(), gain.high.clone()]);
-    let dynamics = ErrorDynamics { oscillators: &oscillators, sigma: place.sigma.clone(), bounds: &bounds, input_gain };
+    let dynamics = ErrorDynamics::new(data, &oscillators, place.sigma, &bounds);
     let condition = SmallGain::new(&dynamics)?;
     let largest = condition.largest_rate()?;
     SHARES.iter().find_map(|share| {
@@ -95,12 +97,11 @@ pub fn bound(data: &Data<'_>, place: &Place<'_>, n_o: u32) -> Option<RateBound> 
             let number = |value: &Rational| Enclosure::from_rational(value, precision);
             let pi = |i: usize, j: usize| number(&witness.pi[i][j]);
             let n = witness.pi.len();
-            let above = |i: usize, j: usize| if (i, j) == (0, 0) { pi(0, 0) - number(&e_low) } else { pi(i, j) };
             let below = |i: usize, j: usize| match i == j {
                 true => number(&upper[usize::from(i > 0)]) - pi(i, i),
                 false => pi(i, j).negate(),
             };
-            if !(is_definite(n, above) && is_definite(n, below)) {
+            if !(dynamics.is_above(&witness, &e_low) && is_definite(n, below)) {
                 return None;
             }
             let [of_x, of_e, of_zeta] = place.distances;
