@@ -86,11 +86,17 @@ pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences
 
 /// How fast the error decays for the numbers of oscillators that were asked about; nothing without any.
 fn for_n_o(run: &Certification<'_>) -> Option<String> {
-    let one = |RateForCount { n_o, bound }: &RateForCount| match bound {
+    let one = |RateForCount { n_o, bound, noise }: &RateForCount| match bound {
         None => format!("n_o = {n_o}: not proved"),
         Some(bound) => {
             let factor = exact(&bound.factor, Direction::Up);
-            format!("n_o = {n_o}: {factor} exp(-{} (t - t_0))", exact(&bound.witness.rate, Direction::Down))
+            let rate = exact(&bound.witness.rate, Direction::Down);
+            let disturbed = match noise {
+                None => String::new(),
+                Some(Ok(noise)) => format!(", disturbed + {}", exact(&noise.limit, Direction::Up)),
+                Some(Err(_)) => ", disturbed not proved".to_owned(),
+            };
+            format!("n_o = {n_o}: {factor} exp(-{rate} (t - t_0)){disturbed}")
         }
     };
     let all: Vec<String> = run.for_n_o.iter().map(one).collect();

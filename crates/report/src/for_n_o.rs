@@ -6,6 +6,7 @@ use sigmastar_document::{Block, Table};
 use sigmastar_exact::number::{Direction, write_exact};
 use sigmastar_prove::certify::{Certification, SampledCertification};
 use sigmastar_prove::rate::bound::{RateBound, RateForCount};
+use sigmastar_prove::rate::noise::{NoNoiseBound, NoiseBound};
 use sigmastar_prove::rate::sampled::bound::{SampledRateBound, SampledRateForCount};
 use sigmastar_prove::rate::small_gain::Limit;
 
@@ -15,7 +16,7 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
         return Vec::new();
     }
     let mut table = Table::new(&["n_o", "rate in 1/time", "factor in the unit of e", "limited by"]);
-    for RateForCount { n_o, bound } in &run.for_n_o {
+    for RateForCount { n_o, bound, .. } in &run.for_n_o {
         table.push(match bound {
             None => [n_o.to_string(), "not proved".to_owned(), String::new(), String::new()],
             Some(RateBound { witness, factor, limit, .. }) => [
@@ -35,6 +36,53 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
         ),
         Block::Table(table),
     ]
+    .into_iter()
+    .chain(noise_section(run))
+    .collect()
+}
+
+/// What noise and a disturbance do to the error, where the document has them.
+fn noise_section(run: &Certification<'_>) -> Vec<Block> {
+    let asked: Vec<_> =
+        run.for_n_o.iter().filter_map(|found| found.noise.as_ref().map(|noise| (found.n_o, noise))).collect();
+    if asked.is_empty() {
+        return Vec::new();
+    }
+    let mut table = Table::new(&["n_o", "in the limit", "at all times", "lambda in 1/time"]);
+    let mut reasons: Vec<(NoNoiseBound, Vec<String>)> = Vec::new();
+    for (n_o, noise) in asked {
+        table.push(match noise {
+            Ok(NoiseBound { witness, limit, peak, .. }) => [
+                n_o.to_string(),
+                exact(limit, Direction::Up),
+                exact(peak, Direction::Up),
+                exact(&witness.rate, Direction::Nearest),
+            ],
+            Err(reason) => {
+                match reasons.iter_mut().find(|(told, _)| told == reason) {
+                    Some((_, counts)) => counts.push(n_o.to_string()),
+                    None => reasons.push((*reason, vec![n_o.to_string()])),
+                }
+                [n_o.to_string(), "not proved".to_owned(), String::new(), String::new()]
+            }
+        });
+    }
+    let mut blocks = vec![
+        Block::heading("Noise and disturbances"),
+        Block::says(format!(
+            "With {}, any measurable signals, |e(t) - e_per(t)| is at most this in the limit and at all times from the start on, for every \
+             start in the set: a part of the claim, for this n_o and this gain alone. e_per is of the periodic solution without them; on \
+             the way |e(t) - e_per(t)| <= factor exp(-rate (t - t_0)) + the limit.",
+            run.spec.disturbances.in_words()
+        )),
+        Block::Table(table),
+    ];
+    blocks.extend(
+        reasons
+            .into_iter()
+            .map(|(reason, counts)| Block::says(format!("n_o = {}: {}.", counts.join(", "), reason.message()))),
+    );
+    blocks
 }
 
 fn limited_by(limit: Limit) -> String {
@@ -46,11 +94,21 @@ fn limited_by(limit: Limit) -> String {
 
 /// The same as JSON; none where no number was asked about.
 pub(super) fn rates_json(run: &Certification<'_>) -> Option<Value> {
-    let one = |RateForCount { n_o, bound }: &RateForCount| match bound {
-        None => json!({ "n_o": n_o, "rate": null, "factor": null, "limited_by": null }),
-        Some(RateBound { witness, factor, limit, .. }) => json!({
-            "n_o": n_o, "rate": write_exact(&witness.rate), "factor": write_exact(factor), "limited_by": limited_by(*limit),
-        }),
+    let one = |RateForCount { n_o, bound, noise }: &RateForCount| {
+        let mut value = match bound {
+            None => json!({ "n_o": n_o, "rate": null, "factor": null, "limited_by": null }),
+            Some(RateBound { witness, factor, limit, .. }) => json!({
+                "n_o": n_o, "rate": write_exact(&witness.rate), "factor": write_exact(factor), "limited_by": limited_by(*limit),
+            }),
+        };
+        match noise {
+            None => {}
+            Some(Ok(NoiseBound { limit, peak, .. })) => {
+                value["noise"] = json!({ "limit": write_exact(limit), "peak": write_exact(peak) });
+            }
+            Some(Err(reason)) => value["noise"] = json!({ "limit": null, "peak": null, "reason": reason.message() }),
+        }
+        value
     };
     (!run.for_n_o.is_empty()).then(|| run.for_n_o.iter().map(one).collect())
 }

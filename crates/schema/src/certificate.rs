@@ -170,6 +170,10 @@ fn claim(sampled: bool, of_plant: bool) -> Vec<Field> {
     let mut rate = vec![count()];
     rate.push(must("rate", "Rate", "In 1/time.", rational()));
     rate.push(must("factor", "Factor", "For every start in the set, in the unit of e.", rational()));
+    let noise = [("limit", "in the limit"), ("peak", "at all times from the start on")]
+        .map(|(name, when)| must(name, name, format!("Bounds |e - e_per| {when}, in the unit of e."), rational()));
+    let of_noise = "With the noise and the disturbance of the document.";
+    rate.push(may("noise", "Noise", of_noise, Shape::Object(noise.into())));
     fields.push(may("for_n_o", "For given n_o", text, list(Shape::Object(rate), MAX_COUNTS)));
     if of_plant {
         let ends = ["nominal", "low", "high"];
@@ -191,11 +195,31 @@ fn rate_witness(sampled: bool) -> Shape {
     let text = "The lower triangle of a matrix for (e, N^(1/2) zeta), by rows.";
     fields.push(must("Pi", "Pi", text, any_list(any_list(rational()))));
     fields.extend(numbers(&["e_low", "e_up", "z_up"], "What Pi is between."));
-    let of_x: &[&str] = if sampled { &["w", "l_x", "l_e", "l_y"] } else { &["w", "l"] };
+    let of_x = || {
+        let names: &[&str] = if sampled { &["w", "l_x", "l_e", "l_y"] } else { &["w", "l"] };
+        names.iter().map(|name| may(name, *name, "A weight, where x has a part in e.", rational()))
+    };
+    let multipliers = || numbers(&["c", "l_slope", "l_hold"], "What W loses in a sample, or a multiplier.");
     if sampled {
-        fields.extend(numbers(&["c", "l_slope", "l_hold"], "What W loses in a sample, or a multiplier."));
+        fields.extend(multipliers());
     }
-    fields.extend(of_x.iter().map(|name| may(name, *name, "A weight, where x has a part in e.", rational())));
+    fields.extend(of_x());
+    let mut noise = vec![must("Pi", "Pi", text, any_list(any_list(rational())))];
+    if sampled {
+        noise.extend(multipliers());
+    } else {
+        noise.extend(numbers(&["lambda"], "Half of the rate at which W would decay, in 1/time."));
+    }
+    noise.extend(numbers(&["e_low"], "What Pi is above in e."));
+    noise.extend(of_x());
+    let of_inputs = [("g_d", "the disturbance"), ("g_v", "the noise"), ("g_r", "the disturbance within a sample")];
+    noise.extend(
+        of_inputs
+            .into_iter()
+            .take(if sampled { 3 } else { 2 })
+            .map(|(name, of)| may(name, name, format!("The weight of {of}, where there is one."), rational())),
+    );
+    fields.push(may("noise", "Noise", "What proves the bounds under noise.", Shape::Object(noise)));
     Shape::Object(fields)
 }
 

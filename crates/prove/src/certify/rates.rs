@@ -1,14 +1,17 @@
 //! Rates for given numbers of oscillators, as a part of a claim (derivation, 13.6).
 
 use super::certification::Certification;
-use super::proof::Proof;
+use super::proof::{Proof, SharpProof};
 use super::sampled::SampledCertification;
-use crate::rate::bound::{MAX_COUNTS, MAX_OSCILLATORS, Place, RateBound, RateForCount, bound};
+use crate::rate::bound::{MAX_COUNTS, MAX_OSCILLATORS, Place, RateForCount, bound};
+use crate::rate::noise::{Confinement, NoNoiseBound, NoiseBound, noise_bound};
 use crate::rate::sampled::bound::{self as at_samples, SampledRateBound, SampledRateForCount};
 use rayon::prelude::*;
 use sigmastar_exact::number::write_exact;
+use sigmastar_lang::spec::Specification;
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::initial_set::claimed_distances;
+use sigmastar_theory::derivation::stability::level_condition;
 use sigmastar_theory::derivation::{matrix_inequality, sampled};
 
 /// Why a claim can have no rates for given numbers of oscillators.
@@ -96,7 +99,8 @@ impl Certification<'_> {
     /// Proves rates for these numbers of oscillators at the gain of the claim, and makes them a part of it; without a claim there are none.
     ///
     /// Guarantee: for each bound that is proved, with so many oscillators, at the claimed gain and no other, every solution from the
-    /// claimed set has `|e(t) - e_per(t)| <= factor exp(-rate (t - t_0))`.
+    /// claimed set has `|e(t) - e_per(t)| <= factor exp(-rate (t - t_0))`; where the document has noise or a disturbance and there are bounds
+    /// of them, what [`noise_bound`] says of it.
     ///
     /// # Errors
     /// Those of [`rate_counts`], and a claim that does not rest on norms.
@@ -106,41 +110,75 @@ impl Certification<'_> {
             self.for_n_o = Vec::new();
             return Ok(());
         }
-        let found = match (self.claim(), self.sharp.proved()) {
-            (Some(_), Some(Proof { witness, evaluation, precision })) => {
-                let data = Data::new(self.spec, *precision);
-                if self.spec.bounds.proved_values().joint_stability().is_some() {
-                    return Err(NoRatesOfClaim::ByJointMetrics);
-                }
-                if matrix_inequality::proved_for(&data, &witness.w_x, &witness.h).is_some() {
-                    return Err(NoRatesOfClaim::ByMatrix);
-                }
-                let periodic = [&evaluation.periodic.x_per, &evaluation.periodic.e_per, &evaluation.z];
-                let distances = claimed_distances(&data, &witness.set, periodic);
-                let place =
-                    Place { sigma: &witness.sigma, error_box: &evaluation.error_box, distances: distances.each_ref() };
-                let of = |n_o: &u32| RateForCount { n_o: *n_o, bound: bound(&data, &place, *n_o) };
-                counts.par_iter().map(of).collect()
-            }
-            _ => Vec::new(),
+        let Some(proof) = self.sharp.proved().filter(|_| self.claim().is_some()) else {
+            self.for_n_o = Vec::new();
+            return Ok(());
         };
-        self.for_n_o = found;
+        if self.spec.bounds.proved_values().joint_stability().is_some() {
+            return Err(NoRatesOfClaim::ByJointMetrics);
+        }
+        let data = Data::new(self.spec, proof.precision);
+        if matrix_inequality::proved_for(&data, &proof.witness.w_x, &proof.witness.h).is_some() {
+            return Err(NoRatesOfClaim::ByMatrix);
+        }
+        self.for_n_o = for_n_o(self.spec, proof, &counts);
+        self.make_room(&counts);
         Ok(())
     }
+}
 
+/// Rates, and bounds under noise and disturbances where the document has them, of a claim by norms.
+pub(super) fn for_n_o(spec: &Specification, proof: &SharpProof, counts: &[u32]) -> Vec<RateForCount> {
+    let Proof { witness, evaluation, precision } = proof;
+    let data = Data::new(spec, *precision);
+    let periodic = [&evaluation.periodic.x_per, &evaluation.periodic.e_per, &evaluation.z];
+    let distances = claimed_distances(&data, &witness.set, periodic);
+    let place = Place { sigma: &witness.sigma, error_box: &evaluation.error_box, distances: distances.each_ref() };
+    // An aligned regulator sets z = M (e + v).
+    let [of_x, of_e, of_zeta] = &distances;
+    let misaligned =
+        if spec.initial_set.is_aligned() { &data.n_bar * data.rational(&spec.v_bar()) } else { data.zero() };
+    let [d_x, d_e, w_x, h] = [&witness.d_x, &witness.d_e, &witness.w_x, &witness.h].map(|value| data.rational(value));
+    let (level, _) = level_condition(&data, [of_x, of_e, &(of_zeta + misaligned)], [&d_x, &d_e, &w_x, &h]);
+    let confinement = Confinement { level, w_x: &witness.w_x, radii: [&witness.d_x, &witness.d_e] };
+    let disturbed = spec.disturbances.any();
+    let of = |n_o: &u32| {
+        let bound = bound(&data, &place, *n_o);
+        let noise = disturbed.then(|| match bound {
+            Some(_) => noise_bound(&data, &place, &confinement, *n_o),
+            None => Err(NoNoiseBound::NoRate),
+        });
+        RateForCount { n_o: *n_o, bound, noise }
+    };
+    counts.par_iter().map(of).collect()
+}
+
+impl Certification<'_> {
     /// The sentences of the claim about them, each with a space before it.
     #[must_use]
     pub fn rates_in_words(&self) -> String {
         let Some(sigma) = self.sigma_star().map(write_exact) else { return String::new() };
-        let sentence = |RateBound { n_o, witness, factor, .. }: &RateBound| {
-            format!(
+        let sentences = |RateForCount { n_o, bound, noise }: &RateForCount| {
+            let bound = bound.as_ref()?;
+            let of_rate = format!(
                 " With n_o = {n_o} and sigma = {sigma} exactly also |e(t) - e_per(t)| <= {} exp(-{} (t - t_0)) for these solutions, e_per \
                  that of the periodic solution and t_0 the initial time.",
-                write_exact(factor),
-                write_exact(&witness.rate),
-            )
+                write_exact(&bound.factor),
+                write_exact(&bound.witness.rate),
+            );
+            let of_noise = noise.as_ref().and_then(|noise| noise.as_ref().ok()).map(|NoiseBound { limit, peak, .. }| {
+                format!(
+                    " With n_o = {n_o} and sigma = {sigma} exactly, {}, also |e(t) - e_per(t)| <= {} for these starts{} and all t >= t_0, and \
+                     its limit superior is at most {}.",
+                    self.spec.disturbances.in_words(),
+                    write_exact(peak),
+                    if self.spec.initial_set.is_aligned() { " (z = M e of the measured e)" } else { "" },
+                    write_exact(limit),
+                )
+            });
+            Some(of_rate + &of_noise.unwrap_or_default())
         };
-        self.for_n_o.iter().filter_map(|found| found.bound.as_ref()).map(sentence).collect()
+        self.for_n_o.iter().filter_map(sentences).collect()
     }
 }
 

@@ -5,7 +5,8 @@
 //! `et(t)^2 <= W(t)/e_low <= exp(-2 rate (t - t_0)) W(t_0)/e_low` and `W(t_0) <= w P_up dX^2 + e_up dE^2 + z_up dZ^2` where
 //! |xt| <= dX, |et| <= dE and |zt|_N <= dZ at t_0: so C^2 is that sum over e_low.
 
-use super::inequality::{ErrorDynamics, LoopBounds, RateWitness, is_definite};
+use super::inequality::{ErrorDynamics, LoopBounds, RateWitness, is_above, is_definite};
+use super::noise::{NoNoiseBound, NoiseBound};
 use super::oscillators::OscillatorMatrix;
 use super::riccati::propose;
 use super::small_gain::{Limit, SmallGain};
@@ -27,7 +28,7 @@ pub const MAX_COUNTS: usize = 8;
 const SHARES: [f64; 4] = [0.95, 0.8, 0.5, 0.2];
 
 /// Digits of Pi that are tried.
-const DIGITS: [u32; 4] = [6, 9, 12, 16];
+pub(super) const DIGITS: [u32; 4] = [6, 9, 12, 16];
 
 /// By what share the diagonal bounds of Pi may differ from the best ones.
 const ROOM: f64 = 1e-3;
@@ -68,6 +69,8 @@ pub struct RateForCount {
     pub n_o: u32,
     /// The bound; `None` where none was proved, which says nothing either way.
     pub bound: Option<RateBound>,
+    /// Bounds of what noise and disturbances do; `None` where the document has none.
+    pub noise: Option<Result<NoiseBound, NoNoiseBound>>,
 }
 
 /// The best bound that is found; `None` where nothing is proved.
@@ -79,8 +82,7 @@ pub struct RateForCount {
 pub fn bound(data: &Data<'_>, place: &Place<'_>, n_o: u32) -> Option<RateBound> {
     let bounds = LoopBounds::of_error(data, place.error_box)?;
     let oscillators = OscillatorMatrix::new(data, n_o);
-    let input_gain = data.input_gain.as_ref().map(|gain| [gain.low.clone(), gain.high.clone()]);
-    let dynamics = ErrorDynamics { oscillators: &oscillators, sigma: place.sigma.clone(), bounds: &bounds, input_gain };
+    let dynamics = ErrorDynamics::new(data, &oscillators, place.sigma, &bounds);
     let condition = SmallGain::new(&dynamics)?;
     let largest = condition.largest_rate()?;
     SHARES.iter().find_map(|share| {
@@ -106,12 +108,11 @@ pub fn bound(data: &Data<'_>, place: &Place<'_>, n_o: u32) -> Option<RateBound> 
 pub(super) fn are_bounds(rows: &[Vec<Rational>], [e_low, e_up, z_up]: &[Rational; 3], precision: u32) -> bool {
     let number = |value: &Rational| Enclosure::from_rational(value, precision);
     let pi = |i: usize, j: usize| number(&rows[i][j]);
-    let above = |i: usize, j: usize| if (i, j) == (0, 0) { pi(0, 0) - number(e_low) } else { pi(i, j) };
     let below = |i: usize, j: usize| match i == j {
         true => number(if i == 0 { e_up } else { z_up }) - pi(i, i),
         false => pi(i, j).negate(),
     };
-    is_definite(rows.len(), above) && is_definite(rows.len(), below)
+    is_above(rows, e_low, precision) && is_definite(rows.len(), below)
 }
 
 /// C, rounded up: `C^2 = (w P_up dX^2 + e_up dE^2 + z_up dZ^2)/e_low`; without w where x does not count.
