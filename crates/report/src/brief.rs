@@ -5,6 +5,7 @@ use super::limits::{self, Bounds};
 use super::sensitivity;
 use super::verdict::assumed;
 use super::words;
+use rug::Rational;
 use sigmastar_document::number::{estimate, exact, upper};
 use sigmastar_document::{Block, clean};
 use sigmastar_exact::enclosure::Enclosure;
@@ -91,11 +92,7 @@ fn for_n_o(run: &Certification<'_>) -> Option<String> {
         Some(bound) => {
             let factor = exact(&bound.factor, Direction::Up);
             let rate = exact(&bound.witness.rate, Direction::Down);
-            let disturbed = match noise {
-                None => String::new(),
-                Some(Ok(noise)) => format!(", disturbed + {}", exact(&noise.limit, Direction::Up)),
-                Some(Err(_)) => ", disturbed not proved".to_owned(),
-            };
+            let disturbed = disturbed(noise.as_ref().map(|noise| noise.as_ref().ok().map(|noise| &noise.limit)));
             format!("n_o = {n_o}: {factor} exp(-{rate} (t - t_0)){disturbed}")
         }
     };
@@ -103,12 +100,23 @@ fn for_n_o(run: &Certification<'_>) -> Option<String> {
     (!all.is_empty()).then(|| format!("|e - e_per| at this gain alone, {}", all.join("; ")))
 }
 
+/// What noise and a disturbance add, where there are some and it is proved.
+fn disturbed(noise: Option<Option<&Rational>>) -> String {
+    match noise {
+        None => String::new(),
+        Some(Some(limit)) => format!(", disturbed + {}", exact(limit, Direction::Up)),
+        Some(None) => ", disturbed not proved".to_owned(),
+    }
+}
+
 /// The same at the sampling instants.
 fn for_n_o_at_samples(run: &SampledCertification<'_>) -> Option<String> {
-    let one = |SampledRateForCount { n_o, bound }: &SampledRateForCount| match bound {
+    let one = |SampledRateForCount { n_o, bound, noise }: &SampledRateForCount| match bound {
         None => format!("n_o = {n_o}: not proved"),
         Some(SampledRateBound { rate, factor, .. }) => {
-            format!("n_o = {n_o}: {} exp(-{} (t - t_0))", exact(factor, Direction::Up), exact(rate, Direction::Down))
+            let disturbed = disturbed(noise.as_ref().map(|noise| noise.as_ref().ok().map(|noise| &noise.limit)));
+            let [factor, rate] = [exact(factor, Direction::Up), exact(rate, Direction::Down)];
+            format!("n_o = {n_o}: {factor} exp(-{rate} (t - t_0)){disturbed}")
         }
     };
     let all: Vec<String> = run.for_n_o.iter().map(one).collect();

@@ -64,7 +64,7 @@ fn far_above_its_samples(entries: &[ProvedValue]) -> Option<String> {
 pub fn sampled_remarks(run: &SampledCertification<'_>) -> Vec<String> {
     let mut remarks = of(run.no_plant.as_ref(), run.has_force_at_origin());
     remarks.extend(unused_parameters(run.spec));
-    remarks.extend(unused_disturbances(run.spec, true));
+    remarks.extend(unused_disturbances(run.spec, run.for_n_o.is_empty()));
     remarks
 }
 

@@ -4,8 +4,9 @@ use crate::certify::{Certification, SampledCertification};
 use crate::rate::bound::{RateBound, RateForCount};
 use crate::rate::inequality::RateWitness;
 use crate::rate::noise::NoiseBound;
-use crate::rate::sampled::bound::SampledRateBound;
-use crate::rate::sampled::form::OfX;
+use crate::rate::sampled::bound::{SampledRateBound, SampledRateForCount};
+use crate::rate::sampled::form::{Inputs, OfX, SampledRateWitness};
+use crate::rate::sampled::noise::SampledNoiseBound;
 use rug::Rational;
 use serde_json::{Value, json};
 use sigmastar_exact::number::write_exact;
@@ -29,13 +30,13 @@ pub(super) fn rate_witnesses(run: &Certification<'_>) -> Option<(&'static str, V
     part(run, |RateBound { n_o, witness, has_x, e_low, upper: [e_up, z_up], .. }, noise| {
         let mut value = json!({
             "n_o": n_o,
-            "Pi": rows(witness),
+            "Pi": rows(&witness.pi),
             "e_low": write_exact(e_low), "e_up": write_exact(e_up), "z_up": write_exact(z_up),
         });
         of_x(&mut value, witness, *has_x);
         if let Some(NoiseBound { witness, has_x, e_low, .. }) = noise {
             let mut part = json!({
-                "Pi": rows(witness), "lambda": write_exact(&witness.rate), "e_low": write_exact(e_low),
+                "Pi": rows(&witness.pi), "lambda": write_exact(&witness.rate), "e_low": write_exact(e_low),
             });
             of_x(&mut part, witness, *has_x);
             for (name, weight) in ["g_d", "g_v"].into_iter().zip(&witness.inputs) {
@@ -49,8 +50,8 @@ pub(super) fn rate_witnesses(run: &Certification<'_>) -> Option<(&'static str, V
     })
 }
 
-fn rows(witness: &RateWitness) -> Vec<Vec<String>> {
-    witness.pi.iter().map(|row| row.iter().map(write_exact).collect()).collect()
+fn rows(pi: &[Vec<Rational>]) -> Vec<Vec<String>> {
+    pi.iter().map(|row| row.iter().map(write_exact).collect()).collect()
 }
 
 fn of_x(value: &mut Value, witness: &RateWitness, has_x: bool) {
@@ -73,35 +74,49 @@ fn part(
 
 /// The same part of a claim at samples.
 pub(super) fn claimed_sampled_rates(run: &SampledCertification<'_>) -> Option<(&'static str, Value)> {
-    sampled_part(run, |SampledRateBound { n_o, rate, factor, .. }| {
-        json!({ "n_o": n_o, "rate": write_exact(rate), "factor": write_exact(factor) })
-    })
-}
-
-/// The same part of a witness at samples: Pi and its bounds, c and the multipliers, with w those of x where x counts.
-pub(super) fn sampled_rate_witnesses(run: &SampledCertification<'_>) -> Option<(&'static str, Value)> {
-    sampled_part(run, |SampledRateBound { n_o, witness, e_low, upper: [e_up, z_up], .. }| {
-        let row = |row: &Vec<Rational>| row.iter().map(write_exact).collect::<Vec<String>>();
-        let mut value = json!({
-            "n_o": n_o,
-            "Pi": witness.pi.iter().map(row).collect::<Vec<_>>(),
-            "e_low": write_exact(e_low), "e_up": write_exact(e_up), "z_up": write_exact(z_up),
-            "c": write_exact(&witness.c),
-            "l_slope": write_exact(&witness.l_slope), "l_hold": write_exact(&witness.l_hold),
-        });
-        if let Some(OfX { w, l_x, l_e, l_y }) = &witness.of_x {
-            for (name, number) in [("w", w), ("l_x", l_x), ("l_e", l_e), ("l_y", l_y)] {
-                value[name] = write_exact(number).into();
-            }
+    sampled_part(run, |SampledRateBound { n_o, rate, factor, .. }, noise| {
+        let mut value = json!({ "n_o": n_o, "rate": write_exact(rate), "factor": write_exact(factor) });
+        if let Some(SampledNoiseBound { limit, peak, .. }) = noise {
+            value["noise"] = json!({ "limit": write_exact(limit), "peak": write_exact(peak) });
         }
         value
     })
 }
 
+/// The same part of a witness at samples: Pi and its bounds, c and the multipliers, with w those of x where x counts.
+pub(super) fn sampled_rate_witnesses(run: &SampledCertification<'_>) -> Option<(&'static str, Value)> {
+    sampled_part(run, |SampledRateBound { n_o, witness, e_low, upper: [e_up, z_up], .. }, noise| {
+        let mut value = at_samples(witness, e_low);
+        value["n_o"] = (*n_o).into();
+        (value["e_up"], value["z_up"]) = (write_exact(e_up).into(), write_exact(z_up).into());
+        if let Some(SampledNoiseBound { witness, e_low, .. }) = noise {
+            value["noise"] = at_samples(witness, e_low);
+        }
+        value
+    })
+}
+
+fn at_samples(witness: &SampledRateWitness, e_low: &Rational) -> Value {
+    let SampledRateWitness { pi, c, l_slope, l_hold, of_x, inputs: Inputs { g_d, g_v, g_r } } = witness;
+    let mut value = json!({ "Pi": rows(pi) });
+    let of_x = of_x.as_ref().map(|OfX { w, l_x, l_e, l_y }| [("w", w), ("l_x", l_x), ("l_e", l_e), ("l_y", l_y)]);
+    let inputs = [("g_d", g_d), ("g_v", g_v), ("g_r", g_r)];
+    let numbers = [("e_low", e_low), ("c", c), ("l_slope", l_slope), ("l_hold", l_hold)].into_iter();
+    let numbers = numbers.chain(of_x.into_iter().flatten());
+    for (name, number) in numbers.chain(inputs.into_iter().filter_map(|(name, weight)| Some((name, weight.as_ref()?)))) {
+        value[name] = write_exact(number).into();
+    }
+    value
+}
+
 fn sampled_part(
     run: &SampledCertification<'_>,
-    of: impl Fn(&SampledRateBound) -> Value,
+    of: impl Fn(&SampledRateBound, Option<&SampledNoiseBound>) -> Value,
 ) -> Option<(&'static str, Value)> {
-    let all: Vec<Value> = run.for_n_o.iter().filter_map(|found| found.bound.as_ref()).map(of).collect();
+    let one = |found: &SampledRateForCount| {
+        let noise = found.noise.as_ref().and_then(|noise| noise.as_ref().ok());
+        found.bound.as_ref().map(|bound| of(bound, noise))
+    };
+    let all: Vec<Value> = run.for_n_o.iter().filter_map(one).collect();
     (!all.is_empty()).then_some((FOR_N_O, Value::Array(all)))
 }

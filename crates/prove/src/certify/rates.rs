@@ -1,12 +1,15 @@
 //! Rates for given numbers of oscillators, as a part of a claim (derivation, 13.6).
 
 use super::certification::Certification;
-use super::proof::{Proof, SharpProof};
+use super::proof::{Proof, SampledProof, SharpProof};
 use super::sampled::SampledCertification;
 use crate::rate::bound::{MAX_COUNTS, MAX_OSCILLATORS, Place, RateForCount, bound};
 use crate::rate::noise::{Confinement, NoNoiseBound, NoiseBound, noise_bound};
 use crate::rate::sampled::bound::{self as at_samples, SampledRateBound, SampledRateForCount};
+use crate::rate::sampled::noise::noise_bound as at_samples_with_noise;
 use rayon::prelude::*;
+use rug::Rational;
+use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::write_exact;
 use sigmastar_lang::spec::Specification;
 use sigmastar_theory::data::Data;
@@ -134,13 +137,11 @@ pub(super) fn for_n_o(spec: &Specification, proof: &SharpProof, counts: &[u32]) 
     let periodic = [&evaluation.periodic.x_per, &evaluation.periodic.e_per, &evaluation.z];
     let distances = claimed_distances(&data, &witness.set, periodic);
     let place = Place { sigma: &witness.sigma, error_box: &evaluation.error_box, distances: distances.each_ref() };
-    // An aligned regulator sets z = M (e + v).
-    let [of_x, of_e, of_zeta] = &distances;
-    let misaligned =
-        if spec.initial_set.is_aligned() { &data.n_bar * data.rational(&spec.v_bar()) } else { data.zero() };
-    let [d_x, d_e, w_x, h] = [&witness.d_x, &witness.d_e, &witness.w_x, &witness.h].map(|value| data.rational(value));
-    let (level, _) = level_condition(&data, [of_x, of_e, &(of_zeta + misaligned)], [&d_x, &d_e, &w_x, &h]);
-    let confinement = Confinement { level, w_x: &witness.w_x, radii: [&witness.d_x, &witness.d_e] };
+    let confinement = Confinement {
+        level: disturbed_level(&data, &distances, [&witness.d_x, &witness.d_e, &witness.w_x, &witness.h]),
+        w_x: &witness.w_x,
+        radii: [&witness.d_x, &witness.d_e],
+    };
     let disturbed = spec.disturbances.any();
     let of = |n_o: &u32| {
         let bound = bound(&data, &place, *n_o);
@@ -167,14 +168,7 @@ impl Certification<'_> {
                 write_exact(&bound.witness.rate),
             );
             let of_noise = noise.as_ref().and_then(|noise| noise.as_ref().ok()).map(|NoiseBound { limit, peak, .. }| {
-                format!(
-                    " With n_o = {n_o} and sigma = {sigma} exactly, {}, also |e(t) - e_per(t)| <= {} for these starts{} and all t >= t_0, and \
-                     its limit superior is at most {}.",
-                    self.spec.disturbances.in_words(),
-                    write_exact(peak),
-                    if self.spec.initial_set.is_aligned() { " (z = M e of the measured e)" } else { "" },
-                    write_exact(limit),
-                )
+                noise_in_words(self.spec, (*n_o, &sigma), [peak, limit])
             });
             Some(of_rate + &of_noise.unwrap_or_default())
         };
@@ -182,11 +176,61 @@ impl Certification<'_> {
     }
 }
 
+/// The sentence about noise and a disturbance, with a space before it.
+fn noise_in_words(spec: &Specification, (n_o, sigma): (u32, &str), [peak, limit]: [&Rational; 2]) -> String {
+    format!(
+        " With n_o = {n_o} and sigma = {sigma} exactly, {}, also |e(t) - e_per(t)| <= {} for these starts{} and all t >= t_0, and \
+         its limit superior is at most {}.",
+        spec.disturbances.in_words(),
+        write_exact(peak),
+        if spec.initial_set.is_aligned() { " (z = M e of the measured e)" } else { "" },
+        write_exact(limit),
+    )
+}
+
+/// Rates, and bounds under noise and disturbances where the document has them, of a claim by norms at samples.
+pub(super) fn for_n_o_at_samples(
+    spec: &Specification,
+    proof: &SampledProof,
+    counts: &[u32],
+) -> Vec<SampledRateForCount> {
+    let Proof { witness, evaluation, precision } = proof;
+    let (data, law) = (Data::new(spec, *precision), &evaluation.law);
+    let periodic = [&evaluation.size.x_per, &evaluation.size.e_per, &evaluation.z];
+    let distances = claimed_distances(&data, &witness.set, periodic);
+    let place = Place { sigma: &witness.sigma, error_box: &evaluation.error_box, distances: distances.each_ref() };
+    let confinement = Confinement {
+        level: disturbed_level(&data, &distances, [&witness.d_x, &witness.d_e, &witness.w_x, &witness.eta]),
+        w_x: &witness.w_x,
+        radii: [&witness.d_x, &witness.d_e],
+    };
+    let disturbed = spec.disturbances.any();
+    let of = |n_o: &u32| {
+        let bound = at_samples::bound(&data, law, &place, *n_o);
+        let noise = disturbed.then(|| match bound {
+            Some(_) => at_samples_with_noise(&data, law, &place, &confinement, *n_o),
+            None => Err(NoNoiseBound::NoRate),
+        });
+        SampledRateForCount { n_o: *n_o, bound, noise }
+    };
+    counts.par_iter().map(of).collect()
+}
+
+/// L_0, the left side of C4 at these distances; an aligned regulator sets z = M (e + v).
+fn disturbed_level(data: &Data<'_>, [of_x, of_e, of_zeta]: &[Enclosure; 3], numbers: [&Rational; 4]) -> Enclosure {
+    let spec = data.spec;
+    let misaligned =
+        if spec.initial_set.is_aligned() { &data.n_bar * data.rational(&spec.v_bar()) } else { data.zero() };
+    let numbers = numbers.map(|value| data.rational(value));
+    level_condition(data, [of_x, of_e, &(of_zeta + misaligned)], numbers.each_ref()).0
+}
+
 impl SampledCertification<'_> {
     /// Proves rates for these numbers of oscillators, as [`Certification::prove_rates`]: at the gain and the sampling period of the claim.
     ///
     /// Guarantee: for each bound that is proved, with so many oscillators, every solution that is in the claimed set at a sampling instant
-    /// t_0 has `|e(t) - e_per(t)| <= factor exp(-rate (t - t_0))` at every sampling instant t >= t_0.
+    /// t_0 has `|e(t) - e_per(t)| <= factor exp(-rate (t - t_0))` at every sampling instant t >= t_0; where the document has noise or a
+    /// disturbance and there are bounds of them, what [`at_samples_with_noise`] says of it.
     ///
     /// # Errors
     /// Those of [`rate_counts`], a number that is not below half of the samples, a delay, and a claim that does not rest on norms.
@@ -202,25 +246,16 @@ impl SampledCertification<'_> {
         if 2 * last >= self.sampling.samples {
             return Err(NoRatesOfClaim::NotBelowHalf(*last, self.sampling.samples));
         }
-        let found = match self.claim() {
-            Some(Proof { witness, evaluation, precision }) => {
-                let data = Data::new(self.spec, *precision);
-                if sampled::matrix_inequality::proved_for(&data, witness).is_some() {
-                    return Err(NoRatesOfClaim::BySampledMatrix);
-                }
-                let periodic = [&evaluation.size.x_per, &evaluation.size.e_per, &evaluation.z];
-                let distances = claimed_distances(&data, &witness.set, periodic);
-                let place =
-                    Place { sigma: &witness.sigma, error_box: &evaluation.error_box, distances: distances.each_ref() };
-                let of = |n_o: &u32| SampledRateForCount {
-                    n_o: *n_o,
-                    bound: at_samples::bound(&data, &evaluation.law, &place, *n_o),
-                };
-                counts.par_iter().map(of).collect()
-            }
-            None => Vec::new(),
+        let Some(proof) = self.claim() else {
+            self.for_n_o = Vec::new();
+            return Ok(());
         };
-        self.for_n_o = found;
+        let data = Data::new(self.spec, proof.precision);
+        if sampled::matrix_inequality::proved_for(&data, &proof.witness).is_some() {
+            return Err(NoRatesOfClaim::BySampledMatrix);
+        }
+        self.for_n_o = for_n_o_at_samples(self.spec, proof, &counts);
+        self.make_room(&counts);
         Ok(())
     }
 
@@ -229,15 +264,20 @@ impl SampledCertification<'_> {
     pub fn rates_in_words(&self) -> String {
         let Some(proof) = self.claim() else { return String::new() };
         let sigma = write_exact(&proof.witness.sigma);
-        let sentence = |SampledRateBound { n_o, rate, factor, .. }: &SampledRateBound| {
-            format!(
+        let sentences = |SampledRateForCount { n_o, bound, noise }: &SampledRateForCount| {
+            let SampledRateBound { rate, factor, .. } = bound.as_ref()?;
+            let of_rate = format!(
                 " With n_o = {n_o} and sigma = {sigma} exactly also |e(t) - e_per(t)| <= {} exp(-{} (t - t_0)) at the sampling instants t \
                  for these solutions, e_per that of the periodic solution and t_0 the initial time.",
                 write_exact(factor),
                 write_exact(rate),
-            )
+            );
+            let of_noise = noise.as_ref().and_then(|noise| noise.as_ref().ok());
+            let of_noise =
+                of_noise.map(|noise| noise_in_words(self.spec, (*n_o, &sigma), [&noise.peak, &noise.limit]));
+            Some(of_rate + &of_noise.unwrap_or_default())
         };
-        self.for_n_o.iter().filter_map(|found| found.bound.as_ref()).map(sentence).collect()
+        self.for_n_o.iter().filter_map(sentences).collect()
     }
 }
 

@@ -154,7 +154,7 @@ impl Search {
 }
 
 /// Where a function is about least, by golden sections; where it is infinite on both sides the lower end is nearer.
-fn least(mut low: f64, mut up: f64, steps: usize, mut function: impl FnMut(f64) -> f64) -> f64 {
+pub(super) fn least(mut low: f64, mut up: f64, steps: usize, mut function: impl FnMut(f64) -> f64) -> f64 {
     let ratio = (5f64.sqrt() - 1.0) / 2.0;
     let mut inner = [up - ratio * (up - low), low + ratio * (up - low)];
     let mut values = inner.map(&mut function);

@@ -2,9 +2,11 @@
 //! start in a set at the sampling instant t_0, at one n_o, one gain and one sampling period (derivation, 13.6).
 
 use super::condition::SampledCondition;
-use super::form::{OfX, SampledDynamics, SampledRateWitness};
+use super::form::{Inputs, OfX, SampledDynamics, SampledRateWitness};
+use super::noise::SampledNoiseBound;
 use crate::rate::bound::{Place, are_bounds, diagonal_bounds, factor};
 use crate::rate::inequality::LoopBounds;
+use crate::rate::noise::NoNoiseBound;
 use crate::rate::oscillators::OscillatorMatrix;
 use crate::rate::small_gain::Limit;
 use faer::Mat;
@@ -18,7 +20,7 @@ use sigmastar_theory::derivation::sampled::SampledLaw;
 const SHARES: [f64; 4] = [0.95, 0.8, 0.5, 0.2];
 
 /// Digits of Pi that are tried.
-const DIGITS: [u32; 4] = [6, 9, 12, 16];
+pub(super) const DIGITS: [u32; 4] = [6, 9, 12, 16];
 
 /// A proved bound `|e - e_per| <= factor exp(-rate (t - t_0))` at the sampling instants for one n_o.
 #[derive(Clone, Debug)]
@@ -46,6 +48,8 @@ pub struct SampledRateForCount {
     pub n_o: u32,
     /// The bound; `None` where none was proved, which says nothing either way.
     pub bound: Option<SampledRateBound>,
+    /// Bounds of what noise and disturbances do; `None` where the document has none.
+    pub noise: Option<Result<SampledNoiseBound, NoNoiseBound>>,
 }
 
 /// The best bound that is found; `None` where nothing is proved.
@@ -63,7 +67,8 @@ pub fn bound(data: &Data<'_>, law: &SampledLaw<Enclosure>, place: &Place<'_>, n_
     SHARES.iter().find_map(|share| {
         let proposal = Proposal::new(&condition, largest, *share)?;
         DIGITS.iter().find_map(|digits| {
-            let (rate, witness) = proposal.in_digits(*digits, &law.step)?;
+            let witness = proposal.in_digits(*digits)?;
+            let rate = rate_of(&witness.c, &law.step)?;
             if !dynamics.proves(&witness) {
                 return None;
             }
@@ -79,25 +84,25 @@ pub fn bound(data: &Data<'_>, law: &SampledLaw<Enclosure>, place: &Place<'_>, n_
 }
 
 /// The numbers of a proof in doubles.
-struct Proposal {
-    c: f64,
-    pi: Mat<f64>,
-    l_slope: f64,
-    l_hold: f64,
-    of_x: Option<OfX<f64>>,
+pub(super) struct Proposal {
+    pub(super) c: f64,
+    pub(super) pi: Mat<f64>,
+    pub(super) l_slope: f64,
+    pub(super) l_hold: f64,
+    pub(super) of_x: Option<OfX<f64>>,
 }
 
 impl Proposal {
     /// For a share of the largest rate; Pi and the multipliers are those of a rate between them.
     fn new(condition: &SampledCondition, largest: f64, share: f64) -> Option<Proposal> {
-        let multipliers = condition.multipliers(largest * f64::midpoint(1.0, share))?;
+        let multipliers = condition.multipliers(largest * f64::midpoint(1.0, share), 0.5)?;
         let pi = multipliers.system.least()?;
         let (l_slope, l_hold, of_x) = (multipliers.l_slope, multipliers.l_hold, multipliers.of_x);
         Some(Proposal { c: condition.c(largest * share), pi, l_slope, l_hold, of_x })
     }
 
-    /// The witness to so many digits, entries of Pi that are far beyond those of their diagonals as 0, and its rate.
-    fn in_digits(&self, digits: u32, step: &Enclosure) -> Option<(Rational, SampledRateWitness)> {
+    /// The witness to so many digits, entries of Pi that are far beyond those of their diagonals as 0; without inputs.
+    pub(super) fn in_digits(&self, digits: u32) -> Option<SampledRateWitness> {
         let round = |value: f64| round_f64(value, digits, Direction::Nearest);
         let least = 0.1f64.portable_powi(digits as i32 + 1);
         let entry = |i: usize, j: usize| {
@@ -114,11 +119,15 @@ impl Proposal {
             }
         };
         let c = round_f64(self.c, 9, Direction::Down)?;
-        let kept = Enclosure::from_rational(&c, step.precision()) + Enclosure::one(step.precision());
-        let rate = kept.log() / (step * 2);
-        let rate = round_f64(rate.lower_f64(), 6, Direction::Down)?;
-        let of_rate = (step * 2 * Enclosure::from_rational(&rate, step.precision())).exp();
-        let witness = SampledRateWitness { pi, c, l_slope: round(self.l_slope)?, l_hold: round(self.l_hold)?, of_x };
-        (rate > 0 && of_rate.le(&kept) == Truth::True).then_some((rate, witness))
+        let [l_slope, l_hold] = [round(self.l_slope)?, round(self.l_hold)?];
+        Some(SampledRateWitness { pi, c, l_slope, l_hold, of_x, inputs: Inputs::default() })
     }
+}
+
+/// A positive rate with exp(2 h rate) <= 1 + c, to six digits.
+fn rate_of(c: &Rational, step: &Enclosure) -> Option<Rational> {
+    let kept = Enclosure::from_rational(c, step.precision()) + Enclosure::one(step.precision());
+    let rate = round_f64((kept.log() / (step * 2)).lower_f64(), 6, Direction::Down)?;
+    let of_rate = (step * 2 * Enclosure::from_rational(&rate, step.precision())).exp();
+    (rate > 0 && of_rate.le(&kept) == Truth::True).then_some(rate)
 }

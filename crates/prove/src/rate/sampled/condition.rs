@@ -82,6 +82,9 @@ pub struct SampledCondition {
     through: f64,
     /// -sigma e + K b'R zs.
     moved: Vec<f64>,
+    /// sigma + K b'R b, and ((1 - h sigma) I - R) b on (e, zs).
+    pub(super) noise_gain: f64,
+    pushed: Vec<f64>,
     eigenvalues: Vec<c64>,
 }
 
@@ -112,6 +115,13 @@ pub(super) struct Multipliers {
     pub(super) l_slope: f64,
     pub(super) l_hold: f64,
     pub(super) of_x: Option<OfX<f64>>,
+    /// The least g_r; 0 without x.
+    pub(super) g_r: f64,
+    /// The sum of 1/l over what is uncertain, and what the condition leaves besides.
+    pub(super) input: f64,
+    pub(super) room: f64,
+    /// The roots of what e, y and what the input gain moves weigh.
+    weights: [f64; 3],
     pub(super) system: System,
 }
 
@@ -159,6 +169,9 @@ impl SampledCondition {
         });
         let eigenvalues = a.eigenvalues().ok()?.into_iter().filter(|value| value.im >= 0.0).collect();
         let input = direct.iter().map(|entry| entry * through).collect();
+        let decay = 1.0 - step * sigma;
+        let of_turned = |i: usize| -> f64 { (1..n).map(|j| turned[(i, j)] * b[j - 1]).sum() };
+        let pushed = (0..n).map(|i| if i == 0 { 0.0 } else { decay * b[i - 1] - of_turned(i) }).collect();
         Some(SampledCondition {
             step,
             sigma,
@@ -175,8 +188,15 @@ impl SampledCondition {
             row,
             through,
             moved,
+            noise_gain: of(&dynamics.noise_gain()),
+            pushed,
             eigenvalues,
         })
+    }
+
+    /// The order of Pi.
+    pub(super) fn order(&self) -> usize {
+        self.row.len()
     }
 
     /// The rates of the loop with the uncertain parts in the middle, and of x.
@@ -306,8 +326,8 @@ impl SampledCondition {
         Some(low)
     }
 
-    /// Multipliers at a rate, with what the condition leaves over shared out, so that every inequality of the module is strict.
-    pub(super) fn multipliers(&self, rate: f64) -> Option<Multipliers> {
+    /// Multipliers at a rate, with a share of what the condition leaves over given away, so that every inequality of the module is strict.
+    pub(super) fn multipliers(&self, rate: f64, share: f64) -> Option<Multipliers> {
         let c = self.c(rate);
         let along = self.along(rate);
         let sizes = self.sizes(c);
@@ -323,24 +343,28 @@ impl SampledCondition {
         for _ in 0..BISECTIONS {
             let middle = f64::midpoint(low, up);
             let left = floor(more(middle)).product(self.half_gain, &along);
-            if left < (1.0 + least) / 2.0 { low = middle } else { up = middle }
+            if left < least + share * (1.0 - least) { low = middle } else { up = middle }
         }
         let Choice { d_e, d_y, r, q } = floor(more(low));
         // Half of what is left for each of the two ways to an output.
         let extra = [(d_e - sizes[0]) / 2.0, (d_y - sizes[1]) / 2.0];
-        let (slope, hold, of_x) = match (self.states, self.of_x(c)) {
+        let (slope, hold, of_x, g_r) = match (self.states, self.of_x(c)) {
             (Some(States { by_x, c_e, c_y, .. }), Some([decay, cross, square])) => {
-                let k = self.coupling(c) + (extra[0] / c_e).min(extra[1] / c_y);
+                let tight = self.coupling(c);
+                let k = tight + (extra[0] / c_e).min(extra[1] / c_y);
                 let l_x = 1.0 / (k * (c_e + r * c_y));
                 // w A - l_x k_x^2 (1+g)^2, where it is best; for h kf = 0 any does.
                 let share = square * decay / (cross * cross).max(f64::MIN_POSITIVE);
                 let surplus = by_x * by_x / (1.0 + share).sqrt();
                 let w = l_x * (surplus + by_x * by_x) / decay;
                 let of_x = OfX { w, l_x, l_e: k / c_e, l_y: k / (r * c_y) };
-                (self.slope.half + extra[0], self.hold.half + extra[1], Some(of_x))
+                // 1/(1/l_e + 1/l_y + 1/g_r) is to exceed l_x tight^2.
+                let g_r = l_x / (1.0 / (tight * tight) - 1.0 / (k * k));
+                (self.slope.half + extra[0], self.hold.half + extra[1], Some(of_x), g_r)
             }
-            _ => (d_e, d_y, None),
+            _ => (d_e, d_y, None, 0.0),
         };
+        let left = Choice { d_e, d_y, r, q }.product(self.half_gain, &along);
         let n = self.row.len();
         let root = (d_e + r * d_y + q).sqrt();
         let rows = if self.half_gain > 0.0 { 3 } else { 2 };
@@ -360,6 +384,32 @@ impl SampledCondition {
             }),
             d: Mat::from_fn(rows, 1, |i, _| if i == 1 { weights[1] * root * self.through } else { 0.0 }),
         };
-        Some(Multipliers { l_slope: 1.0 / slope, l_hold: 1.0 / (r * hold), of_x, system })
+        let input = root * root;
+        let room = input * (1.0 / left - 1.0);
+        Some(Multipliers { l_slope: 1.0 / slope, l_hold: 1.0 / (r * hold), of_x, g_r, input, room, weights, system })
+    }
+
+    /// The system of the multipliers with `gam_d = 1/g_d` more for the disturbance and, where it is not 0, `gam_v = 1/g_v` for the noise.
+    pub(super) fn disturbed(&self, rate: f64, multipliers: &Multipliers, [gam_d, gam_v]: [f64; 2]) -> System {
+        let System { a, b, c, d } = &multipliers.system;
+        let faster = (self.step * rate).portable_exp();
+        let more = ((multipliers.input + gam_d) / multipliers.input).sqrt();
+        let root = gam_v.sqrt();
+        let columns = if gam_v > 0.0 { 2 } else { 1 };
+        // Noise is -b_c (sigma + K b_1) times an input at y, -(sigma + K b_1) in what the input gain moves, and what it pushes.
+        let at_y = -self.gain * self.noise_gain;
+        let direct = [0.0, self.through * at_y, -self.noise_gain];
+        System {
+            a: a.clone(),
+            b: Mat::from_fn(a.nrows(), columns, |i, j| match j {
+                0 => more * b[(i, 0)],
+                _ => root * faster * (at_y * self.input[i] + self.pushed[i]),
+            }),
+            c: c.clone(),
+            d: Mat::from_fn(c.nrows(), columns, |i, j| match j {
+                0 => more * d[(i, 0)],
+                _ => root * multipliers.weights[i] * direct[i],
+            }),
+        }
     }
 }

@@ -17,6 +17,10 @@
 //! `xi_{k+1}^2 - xi_k^2 <= -2 a_2 h X^2 + 2 h kf X rms(e)` and `xi_{k+1} <= X + h kf rms(e)` grow with rms(e), whose bound rho takes its
 //! place. What is subtracted is convex in b_u, since y is affine in it, Pi > 0 and lo2 <= 0 <= hi2: so both ends serve.
 //!
+//! With noise v of the measurement and a disturbance d of q the form has the variables D, v and rho_d besides: y is
+//! `D - b_u (sigma + K b_1) v` more, zs+ is `((1 - h sigma) I - R) b v` more, rho is rho_d more, and to the form is added
+//! `g_d D^2 + g_v v^2 + g_r rho_d^2`. Then `(1+c) W_{k+1} <= W_k + g_d D^2 + g_v v^2 + g_r rho_d^2`.
+//!
 //! Bounds of the plant's data enter as rationals in the harder direction, for which the relations stay true, as in
 //! [`super::super::inequality`]; where k_x is 0, X, p, rho_E and rho_Y are left out.
 
@@ -69,6 +73,19 @@ pub struct SampledRateWitness {
     pub l_hold: Rational,
     /// Those of x; none where k_x = 0.
     pub of_x: Option<OfX<Rational>>,
+    /// Those of the inputs that are there.
+    pub inputs: Inputs<Rational>,
+}
+
+/// The weights of the inputs; none of those that are not there.
+#[derive(Clone, Debug, Default)]
+pub struct Inputs<R> {
+    /// g_d, of the mean of the disturbance over a sample.
+    pub g_d: Option<R>,
+    /// g_v, of the noise.
+    pub g_v: Option<R>,
+    /// g_r, of what the disturbance moves e by within a sample; with x and a disturbance alone.
+    pub g_r: Option<R>,
 }
 
 impl<'a> SampledDynamics<'a> {
@@ -115,15 +132,19 @@ impl<'a> SampledDynamics<'a> {
 
     /// Whether the numbers prove their decay, as the module says.
     ///
-    /// Guarantee: if true, then for every solution that stays in the error box W is divided by at least 1 + c from sample to sample, with W
-    /// positive definite. If false, nothing is known.
+    /// Guarantee: if true, then for every solution that stays in the error box W, to which what the inputs weigh is added, is divided by at
+    /// least 1 + c from sample to sample, with W positive definite. If false, nothing is known.
     #[must_use]
     pub fn proves(&self, witness: &SampledRateWitness) -> bool {
         let n = self.oscillators.order() + 1;
         let triangle = witness.pi.len() == n && witness.pi.iter().enumerate().all(|(i, row)| row.len() == i + 1);
         let mut positive = vec![&witness.c, &witness.l_slope, &witness.l_hold];
         positive.extend(witness.of_x.iter().flat_map(|OfX { w, l_x, l_e, l_y }| [w, l_x, l_e, l_y]));
-        if !triangle || positive.iter().any(|number| **number <= 0) || witness.of_x.is_some() != self.bounds.has_x {
+        let Inputs { g_d, g_v, g_r } = &witness.inputs;
+        positive.extend([g_d, g_v, g_r].into_iter().flatten());
+        let fits = witness.of_x.is_some() == self.bounds.has_x
+            && g_r.is_some() == (self.bounds.has_x && g_d.is_some());
+        if !(triangle && fits) || positive.iter().any(|number| **number <= 0) {
             return false;
         }
         let weighted = Weighted::new(self, &witness.pi);
@@ -181,6 +202,8 @@ struct Weighted<'a> {
     image: Vec<Enclosure>,
     /// `B'Pi B`.
     square: Enclosure,
+    /// `T'Pi V`, `B'Pi V` and `V'Pi V`, V what noise moves (e, zs) by but for its part in y.
+    noise: (Vec<Enclosure>, [Enclosure; 2]),
 }
 
 impl<'a> Weighted<'a> {
@@ -197,16 +220,22 @@ impl<'a> Weighted<'a> {
             Some(state) => (&law.step * &oscillators.b[state]).negate(),
         };
         let inputs: Linear = (0..n).filter(|j| *j < 2 || j % 2 == 0).map(|j| (j, b(j))).collect();
-        let along = |row: usize| {
-            inputs.iter().fold(Enclosure::zero(precision), |sum, (j, input)| sum + &pi[row * n + j] * input)
+        let dot = |form: &Linear, with: &dyn Fn(usize) -> Enclosure| {
+            form.iter().fold(Enclosure::zero(precision), |sum, (j, entry)| sum + entry * with(*j))
         };
-        let direct: Vec<Enclosure> = (0..n).map(along).collect();
-        let square = inputs.iter().fold(Enclosure::zero(precision), |sum, (j, input)| sum + &direct[*j] * input);
+        let times = |form: &Linear| -> Vec<Enclosure> {
+            (0..n).map(|row| dot(form, &|j| pi[row * n + j].clone())).collect()
+        };
         let columns: Vec<Linear> = (0..n).map(|column| dynamics.column(column)).collect();
-        let image = columns
-            .iter()
-            .map(|column| column.iter().fold(Enclosure::zero(precision), |sum, (row, entry)| sum + entry * &direct[*row]))
-            .collect();
+        let turn = |vector: &[Enclosure]| -> Vec<Enclosure> {
+            columns.iter().map(|column| dot(column, &|row| vector[row].clone())).collect()
+        };
+        let direct = times(&inputs);
+        let square = dot(&inputs, &|j| direct[j].clone());
+        let image = turn(&direct);
+        let moved = dynamics.moved_by_noise();
+        let pushed = times(&moved);
+        let noise = (turn(&pushed), [&inputs, &moved].map(|form| dot(form, &|j| pushed[j].clone())));
         let right: Vec<Enclosure> = (0..n * n)
             .map(|at| {
                 let (i, j) = (at / n, at % n);
@@ -219,7 +248,7 @@ impl<'a> Weighted<'a> {
                 columns[i].iter().fold(Enclosure::zero(precision), |sum, (row, entry)| sum + entry * &right[row * n + j])
             })
             .collect();
-        Weighted { dynamics, pi, turned, image, square }
+        Weighted { dynamics, pi, turned, image, square, noise }
     }
 
     fn at(&self, i: usize, j: usize) -> &Enclosure {
@@ -234,10 +263,18 @@ impl<'a> Weighted<'a> {
         let number = |value: &Rational| Enclosure::from_rational(value, precision);
         let one = Enclosure::one(precision);
         let n = self.image.len();
-        // (X, e, zs, w1, w2, p, rho_E, rho_Y).
+        // (X, e, zs, w1, w2, p, rho_E, rho_Y), and the inputs.
         let first = usize::from(bounds.has_x);
         let [e, w1, w2, p, rho_e, rho_y] = [first, first + n, first + n + 1, first + n + 2, first + n + 3, first + n + 4];
-        let order = if bounds.has_x { n + 6 } else { n + 2 };
+        let mut order = if bounds.has_x { n + 6 } else { n + 2 };
+        let mut input = |weight: &Option<Rational>| {
+            weight.as_ref().map(|weight| {
+                order += 1;
+                (order - 1, number(weight))
+            })
+        };
+        let Inputs { g_d, g_v, g_r } = &witness.inputs;
+        let [d, v, rho_d] = [g_d, g_v, g_r].map(&mut input);
         let unit = |index: usize| -> Linear { vec![(index, one.clone())] };
         let plus = |mut left: Linear, right: Linear| {
             left.extend(right);
@@ -249,6 +286,8 @@ impl<'a> Weighted<'a> {
         let mut y = dynamics.feedback(gain, first);
         y.extend(plus(unit(w1), unit(w2)));
         y.extend(bounds.has_x.then(|| (p, one.clone())));
+        y.extend(d.iter().map(|(d, _)| (*d, one.clone())));
+        y.extend(v.iter().map(|(v, _)| (*v, (gain * dynamics.noise_gain()).negate())));
 
         let mut form = Quadratic::zero(order, precision);
         let kept = number(&witness.c) + &one;
@@ -262,6 +301,16 @@ impl<'a> Weighted<'a> {
         let image: Linear = self.image.iter().enumerate().map(|(i, value)| (first + i, value.clone())).collect();
         form.add(&(&kept * -2), &image, &y);
         form.add(&(&kept * &self.square).negate(), &y, &y);
+        if let Some((v, _)) = &v {
+            let (turned, [of_y, square]) = &self.noise;
+            let v = unit(*v);
+            let turned: Linear = turned.iter().enumerate().map(|(i, value)| (first + i, value.clone())).collect();
+            form.add(&(&kept * -2), &plus(turned, times(of_y, &y)), &v);
+            form.add(&(&kept * square).negate(), &v, &v);
+        }
+        for (index, weight) in [&d, &v, &rho_d].into_iter().flatten() {
+            form.add(weight, &unit(*index), &unit(*index));
+        }
 
         let sector = |form: &mut Quadratic, l: &Rational, [low, high]: &[Enclosure; 2], of: &Linear, w: usize| {
             let above = plus(times(high, of), vec![(w, one.negate())]);
@@ -275,7 +324,8 @@ impl<'a> Weighted<'a> {
             let [w, l_x, l_e, l_y] = [w, l_x, l_e, l_y].map(number);
             let kf = &law.step * number(&bounds.root_p_up) * number(&bounds.k_f);
             let x = unit(0);
-            let rho = plus(plus(times(&sample.held.c_x, &x), unit(rho_e)), unit(rho_y));
+            let mut rho = plus(plus(times(&sample.held.c_x, &x), unit(rho_e)), unit(rho_y));
+            rho.extend(rho_d.iter().map(|(index, _)| (*index, one.clone())));
             let next = plus(x.clone(), times(&kf, &rho));
             form.add(&(&w * number(&bounds.x_decay) * &law.step * 2), &x, &x);
             form.add(&(&w * &kf * -2), &x, &rho);
@@ -293,13 +343,17 @@ impl<'a> Weighted<'a> {
 }
 
 impl SampledDynamics<'_> {
+    /// 1 - h sigma.
+    fn decay(&self) -> Enclosure {
+        let precision = self.law.step.precision();
+        Enclosure::one(precision) - &self.law.step * Enclosure::from_rational(&self.sigma, precision)
+    }
+
     /// A column of T = blkdiag(1 - h sigma, R).
     fn column(&self, column: usize) -> Linear {
-        let one = Enclosure::one(self.law.step.precision());
-        let sigma = Enclosure::from_rational(&self.sigma, self.law.step.precision());
         match column {
-            0 => vec![(0, one - &self.law.step * sigma)],
-            1 => vec![(1, one)],
+            0 => vec![(0, self.decay())],
+            1 => vec![(1, Enclosure::one(self.law.step.precision()))],
             // R = [[cos, sin], [-sin, cos]] on the states 2l and 2l + 1 of (e, zs).
             first if first % 2 == 0 => {
                 let [cos, sin] = &self.turns[first / 2];
@@ -310,6 +364,28 @@ impl SampledDynamics<'_> {
                 vec![(second - 1, sin.clone()), (second, cos.clone())]
             }
         }
+    }
+
+    /// `((1 - h sigma) I - R) b` on zs: what noise moves the state of the regulator by, but for its part in y.
+    fn moved_by_noise(&self) -> Linear {
+        let decay = self.decay();
+        let b = &self.oscillators.b;
+        let mut form = Vec::new();
+        for (state, weight) in b.iter().enumerate().filter(|(state, _)| *state == 0 || state % 2 == 1) {
+            form.push((state + 1, &decay * weight));
+            form.extend(self.column(state + 1).into_iter().map(|(row, entry)| (row, (entry * weight).negate())));
+        }
+        form
+    }
+
+    /// `sigma + K b'R b`: what noise is in y, over -b_u.
+    pub(super) fn noise_gain(&self) -> Enclosure {
+        let precision = self.law.step.precision();
+        let seen = self.oscillators.b.iter().enumerate().filter(|(state, _)| *state == 0 || state % 2 == 1);
+        let sum = seen.fold(Enclosure::zero(precision), |sum, (state, weight)| {
+            sum + weight.sqr() * &self.turns[state.div_ceil(2)][0]
+        });
+        &self.law.gain * sum + Enclosure::from_rational(&self.sigma, precision)
     }
 
     /// `(1 - b_u) sigma e + b_u K b'R zs`, e being the variable `first`.

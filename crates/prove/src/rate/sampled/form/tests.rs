@@ -5,12 +5,12 @@ use crate::rate::bound::Place;
 use sigmastar_lang::spec::Specification;
 use sigmastar_theory::derivation::initial_set::claimed_distances;
 
-/// The paper's example at so many samples of a period of 1, with an input gain from 3/4 to 3/2.
-fn example(samples: u32) -> Specification {
+/// The paper's example at so many samples of a period of 1, with an input gain in an interval.
+fn example(samples: u32, [low, high]: [&str; 2]) -> Specification {
     let text = include_str!("../../../../../../specs/paper-example.json");
     let mut document: serde_json::Value = serde_json::from_str(text).expect("JSON");
     document["internal_model"]["sampling_period"] = format!("1/{samples}").into();
-    document["input_gain"] = serde_json::json!({ "nominal": "1", "low": "3/4", "high": "3/2" });
+    document["input_gain"] = serde_json::json!({ "nominal": "1", "low": low, "high": high });
     Specification::from_json("test", &document.to_string()).expect("a sound specification")
 }
 
@@ -52,7 +52,7 @@ fn double(value: f64) -> Rational {
 /// The entries against the words of Proposition R_h, written out with zeta itself, at both gains.
 #[test]
 fn the_matrix_is_that_of_the_quadratic_form() {
-    let spec = example(40);
+    let spec = example(40, ["3/4", "3/2"]);
     let data = Data::new(&spec, 128);
     let (law, bounds, sigma) = (law(&data), bounds(), rational(30, 1));
     let (h, k) = (1.0 / 40.0, law.gain.midpoint_f64());
@@ -82,45 +82,52 @@ fn the_matrix_is_that_of_the_quadratic_form() {
             l_slope: double(l_slope),
             l_hold: double(l_hold),
             of_x: Some(OfX { w: double(w), l_x: double(l_x), l_e: double(l_e), l_y: double(l_y) }),
+            inputs: Inputs { g_d: Some(double(0.5)), g_v: Some(double(0.75)), g_r: Some(double(0.25)) },
         };
-        let v: Vec<f64> = (0..n + 6).map(|_| next()).collect();
+        let v: Vec<f64> = (0..n + 9).map(|_| next()).collect();
         let weighted = Weighted::new(&dynamics, &witness.pi);
         for (b_u, gain) in [0.75, 1.5].into_iter().zip(dynamics.gains()) {
             let form = weighted.form(&witness, &gain);
-            assert_eq!(form.order, n + 6);
-            let pairs = (0..n + 6).flat_map(|i| (0..n + 6).map(move |j| (i, j)));
+            assert_eq!(form.order, n + 9);
+            let pairs = (0..n + 9).flat_map(|i| (0..n + 9).map(move |j| (i, j)));
             let value: f64 = pairs.map(|(i, j)| v[i] * v[j] * form.at(i, j).midpoint_f64()).sum();
 
             let (x, y) = (v[0], &v[1..=n]);
-            let [w1, w2, p, rho_e, rho_y] = [n + 1, n + 2, n + 3, n + 4, n + 5].map(|at| v[at]);
+            let [w1, w2, p, rho_e, rho_y, d, noise, rho_d] = std::array::from_fn(|at| v[n + 1 + at]);
             let weight = |l: usize| if l == 0 { 2.0 } else { (l as f64).powf(-1.5) };
             let oscillator = |state: usize| state.div_ceil(2);
             let first = |state: usize| state == 0 || state % 2 == 1;
             let zeta: Vec<f64> = (0..n - 1).map(|i| y[i + 1] / weight(oscillator(i)).sqrt()).collect();
             // R zeta by the angle of each oscillator.
-            let turned: Vec<f64> = (0..n - 1)
-                .map(|i| {
+            let turn = |zeta: &[f64]| -> Vec<f64> {
+                let of = |i: usize| {
                     let (sin, cos) = (std::f64::consts::TAU * oscillator(i) as f64 * h).sin_cos();
                     match (i, first(i)) {
                         (0, _) => zeta[0],
                         (_, true) => cos * zeta[i] + sin * zeta[i + 1],
                         (_, false) => -sin * zeta[i - 1] + cos * zeta[i],
                     }
-                })
-                .collect();
-            let seen: f64 = (0..n - 1).filter(|i| first(*i)).map(|i| weight(oscillator(i)) * turned[i]).sum();
+                };
+                (0..n - 1).map(of).collect()
+            };
+            let see = |turned: &[f64]| -> f64 {
+                (0..n - 1).filter(|i| first(*i)).map(|i| weight(oscillator(i)) * turned[i]).sum()
+            };
+            let m_vector: Vec<f64> = (0..n - 1).map(|i| f64::from(u8::from(first(i)))).collect();
+            let (turned, of_m) = (turn(&zeta), turn(&m_vector));
+            let seen = see(&turned);
             let e = y[0];
-            let y_u = (1.0 - b_u) * s * e + b_u * k * seen + w1 + w2 + p;
+            let y_u = (1.0 - b_u) * s * e + b_u * k * seen + w1 + w2 + p + d - b_u * (s + k * see(&of_m)) * noise;
             let mut after = vec![(1.0 - h * s) * e + h * y_u];
             after.extend((0..n - 1).map(|i| {
-                let moved = turned[i] - if first(i) { h * y_u } else { 0.0 };
+                let moved = turned[i] - m_vector[i] * h * y_u + ((1.0 - h * s) * m_vector[i] - of_m[i]) * noise;
                 moved * weight(oscillator(i)).sqrt()
             }));
             let norm = |z: &[f64]| -> f64 {
                 (0..n).flat_map(|i| (0..n).map(move |j| (i, j))).map(|(i, j)| z[i] * z[j] * pi[i.max(j)][i.min(j)]).sum()
             };
             let kf = h * 1.25 * 8.0 / 7.0;
-            let rho = c_x * x + rho_e + rho_y;
+            let rho = c_x * x + rho_e + rho_y + rho_d;
             let expected = -w * (-2.0 * 0.25 * h * x * x + 2.0 * kf * x * rho + c * (x + kf * rho).powi(2))
                 - (1.0 + c) * norm(&after)
                 + norm(y)
@@ -128,7 +135,10 @@ fn the_matrix_is_that_of_the_quadratic_form() {
                 - l_hold * (hi2 * y_u - w2) * (w2 - lo2 * y_u)
                 - l_x * ((k_x * (1.0 + g) * x).powi(2) - p * p)
                 - l_e * ((c_e * e).powi(2) - rho_e * rho_e)
-                - l_y * ((c_y * y_u).powi(2) - rho_y * rho_y);
+                - l_y * ((c_y * y_u).powi(2) - rho_y * rho_y)
+                + 0.5 * d * d
+                + 0.75 * noise * noise
+                + 0.25 * rho_d * rho_d;
             assert!((value - expected).abs() < 1e-9 * (1.0 + expected.abs()), "{n_o} {b_u}: {value} {expected}");
         }
     }
@@ -137,9 +147,9 @@ fn the_matrix_is_that_of_the_quadratic_form() {
 /// A proof stays one with numbers a little off, and none of those that make it false passes.
 #[test]
 fn what_is_not_positive_definite_is_not_proved() {
-    let spec = example(400);
+    let spec = example(2000, ["0.9", "1.1"]);
     let sampling = spec.internal_model.sampling.clone().expect("sampled");
-    let gain = rational(80, 1);
+    let gain = rational(75, 1);
     let run = certify_sampled(&spec, &sampling, Some(&gain), None, Ladder::default()).expect("not refuted");
     let proof = run.claim().expect("certified");
     let data = Data::new(&spec, 128);
