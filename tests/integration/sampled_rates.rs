@@ -33,9 +33,15 @@ fn exponential(matrix: &Mat<f64>) -> Mat<f64> {
     (0..halvings).fold(sum, |power, _| &power * &power)
 }
 
-/// How fast linear plants with one state converge at samples, at the periodic solution: `x' = -a x + g e`, `q = r x + d e` with P = p_up, u
-/// held by the law; all of |g| = k_f, |r| = b_qx and the ends and the middle of d are within the data. The slowest of all signs.
-fn slowest(data: &Data<'_>, error_box: &ErrorBox<Enclosure>, run: &SampledCertification<'_>, n_o: u32) -> f64 {
+/// A linear plant with the law: a sample of (x, e, zeta), and what v and d, constant in it, add.
+struct Member {
+    matrix: Mat<f64>,
+    inputs: [Vec<f64>; 2],
+}
+
+/// Linear plants with one state at samples, at the periodic solution: `x' = -a x + g e`, `q = r x + d e` with P = p_up, u held by the law; all of
+/// |g| = k_f, |r| = b_qx and the ends and the middle of d are within the data.
+fn members(data: &Data<'_>, error_box: &ErrorBox<Enclosure>, run: &SampledCertification<'_>, n_o: u32) -> Vec<Member> {
     let of = |value: &Enclosure| value.midpoint_f64();
     let proof = run.claim().expect("certified");
     let (law, sigma) = (&proof.evaluation.law, proof.witness.sigma.to_f64());
@@ -47,29 +53,30 @@ fn slowest(data: &Data<'_>, error_box: &ErrorBox<Enclosure>, run: &SampledCertif
     let weight = |l: usize| data.spec.internal_model.weights.weight(l as u64, 128).midpoint_f64();
     let angle = std::f64::consts::TAU / f64::from(law.samples);
     let order = 2 * n_o as usize + 1;
-    // M'N R: what the law sees of zeta.
-    let seen = |j: usize| match j {
-        0 => weight(0),
-        _ => {
-            let l = j.div_ceil(2);
-            let (sin, cos) = (angle * l as f64).sin_cos();
-            weight(l) * if j % 2 == 1 { cos } else { sin }
-        }
-    };
+    let in_m = |i: usize| f64::from(u8::from(i == 0 || i % 2 == 1));
     let turned = |i: usize, j: usize| {
         if i == 0 || j == 0 || i.div_ceil(2) != j.div_ceil(2) {
             return if i == j { 1.0 } else { 0.0 };
         }
         let (sin, cos) = (angle * i.div_ceil(2) as f64).sin_cos();
-        if i == j { cos } else if i < j { sin } else { -sin }
+        if i == j {
+            cos
+        } else if i < j {
+            sin
+        } else {
+            -sin
+        }
     };
-    let mut found = f64::INFINITY;
+    // M'N R: what the law sees of zeta; R M; and what it makes of v.
+    let seen = |j: usize| (0..order).map(|i| in_m(i) * weight(i.div_ceil(2)) * turned(i, j)).sum::<f64>();
+    let of_m = |i: usize| (0..order).map(|j| turned(i, j) * in_m(j)).sum::<f64>();
+    let of_v = -sigma - k * (0..order).map(|j| seen(j) * in_m(j)).sum::<f64>();
+    let mut found = Vec::new();
     for sign in [-1.0, 0.0, 1.0] {
         for d in [below, f64::midpoint(below, above), above] {
             // (x, e, u) within a sample.
-            let within = exponential(&Mat::from_fn(3, 3, |i, j| {
-                h * [[-a, sign * k_f, 0.0], [k_x, d, 1.0], [0.0; 3]][i][j]
-            }));
+            let within =
+                exponential(&Mat::from_fn(3, 3, |i, j| h * [[-a, sign * k_f, 0.0], [k_x, d, 1.0], [0.0; 3]][i][j]));
             // (x, e, zeta): e+ = (1 - h sigma) e + h y, zeta+ = R zeta - h M y.
             let control = |j: usize| match j {
                 0 => 0.0,
@@ -82,15 +89,50 @@ fn slowest(data: &Data<'_>, error_box: &ErrorBox<Enclosure>, run: &SampledCertif
                     return next(i, j);
                 }
                 let moved = next(1, j) - if j == 1 { 1.0 - h * sigma } else { 0.0 };
-                let in_m = i == 2 || (i - 2) % 2 == 1;
                 let own = if j >= 2 { turned(i - 2, j - 2) } else { 0.0 };
-                own - if in_m { moved } else { 0.0 }
+                own - in_m(i - 2) * moved
             });
-            let values = matrix.eigenvalues().expect("finite");
-            found = values.iter().map(|value| -value.norm().ln() / h).fold(found, f64::min);
+            let input = |control: f64, pushed: f64| -> Vec<f64> {
+                let of = |i: usize| match i {
+                    0 | 1 => within[(i, 2)] * control,
+                    _ => {
+                        let state = i - 2;
+                        pushed * ((1.0 - h * sigma) * in_m(state) - of_m(state))
+                            - in_m(state) * within[(1, 2)] * control
+                    }
+                };
+                (0..order + 2).map(of).collect()
+            };
+            found.push(Member { matrix, inputs: [input(of_v, 1.0), input(1.0, 0.0)] });
         }
     }
     found
+}
+
+/// How fast the slowest of them converges.
+fn slowest(data: &Data<'_>, error_box: &ErrorBox<Enclosure>, run: &SampledCertification<'_>, n_o: u32) -> f64 {
+    let h = run.claim().expect("certified").evaluation.law.step.midpoint_f64();
+    let of = |member: Member| {
+        let values = member.matrix.eigenvalues().expect("finite");
+        values.iter().map(|value| -value.norm().ln() / h).fold(f64::INFINITY, f64::min)
+    };
+    members(data, error_box, run, n_o).into_iter().map(of).fold(f64::INFINITY, f64::min)
+}
+
+/// How far e gets from 0 in the worst of them, by the worst signals that are constant over each sample: the sum of the moduli of the impulse response.
+fn farthest(members: Vec<Member>, sizes: [f64; 2], samples: usize) -> f64 {
+    let of = |Member { matrix, inputs }: Member| {
+        let mut total = 0.0;
+        for (input, size) in inputs.iter().zip(sizes).filter(|(_, size)| *size > 0.0) {
+            let mut state = Mat::from_fn(input.len(), 1, |i, _| input[i]);
+            for _ in 0..samples {
+                total += size * state[(1, 0)].abs();
+                state = &matrix * &state;
+            }
+        }
+        total
+    };
+    members.into_iter().map(of).fold(0.0, f64::max)
 }
 
 /// At 1.5 times the certified gain each rate is at least a share of that of the slowest of a few members, and never more: by the median 0.3.
@@ -100,7 +142,8 @@ fn rates_at_samples_are_near_those_of_the_loops() {
     for Shipped { name, spec, .. } in certified() {
         let found = SAMPLES.iter().find_map(|samples| {
             let mut document = spec.document.clone();
-            document["internal_model"]["sampling_period"] = format!("({})/{samples}", spec.period.nominal().text).into();
+            document["internal_model"]["sampling_period"] =
+                format!("({})/{samples}", spec.period.nominal().text).into();
             let sampling = Specification::from_json("sampled", &document.to_string()).ok()?.internal_model.sampling?;
             let least = certify_sampled(spec, &sampling, None, None, Ladder::default()).ok()?;
             let gain = Rational::from(&least.claim()?.witness.sigma * Rational::from((3, 2)));
@@ -126,7 +169,12 @@ fn rates_at_samples_are_near_those_of_the_loops() {
                 continue;
             };
             let share = bound.rate.to_f64() / true_rate;
-            println!("{name} N_s = {} n_o = {n_o}: rate {} of {true_rate} share {share} factor {}", run.sampling.samples, bound.rate.to_f64(), bound.factor.to_f64());
+            println!(
+                "{name} N_s = {} n_o = {n_o}: rate {} of {true_rate} share {share} factor {}",
+                run.sampling.samples,
+                bound.rate.to_f64(),
+                bound.factor.to_f64()
+            );
             assert!(share <= 1.0 + 1e-9, "{name} {n_o}: {share}");
             assert!(bound.factor.to_f64() >= proof.witness.set.e0.to_f64(), "{name} {n_o}");
             shares.push((share, format!("{name} {n_o}")));
@@ -196,7 +244,10 @@ fn what_has_no_rates_at_samples_is_refused_with_the_reason() {
     let spec = "specs/paper-example-rms-at-rest.json";
     for (arguments, part) in [
         (&[spec, "--sampling-period", "1/60", "--n-o", "1,30"][..], "n_o < 60/2"),
-        (&["specs/plants/converter.json", "--sampling-period", "1/20000", "--n-o", "1"], "not available for a claim by ("),
+        (
+            &["specs/plants/converter.json", "--sampling-period", "1/20000", "--n-o", "1"],
+            "not available for a claim by (",
+        ),
     ] {
         let output = program().arg("certify").args(arguments).args(["--format", "json"]).output().expect("it runs");
         let report = json(&output.stdout);
@@ -232,7 +283,8 @@ fn a_certificate_at_samples_has_its_rates() {
     let (first, again) = (read(&first), read(&again));
     assert_eq!((&first["claim"], &first["witness"]), (&again["claim"], &again["witness"]));
     for (at, n_o) in [(0, 0), (1, 2)] {
-        let [claim, witness, told] = [&first["claim"]["for_n_o"][at], &first["witness"]["for_n_o"][at], &report["for_n_o"][at]];
+        let [claim, witness, told] =
+            [&first["claim"]["for_n_o"][at], &first["witness"]["for_n_o"][at], &report["for_n_o"][at]];
         assert_eq!((&claim["n_o"], &witness["n_o"]), (&Value::from(n_o), &Value::from(n_o)));
         assert_eq!((&claim["rate"], &claim["factor"]), (&told["rate"], &told["factor"]));
         assert_eq!(witness["Pi"].as_array().expect("rows").len(), 2 * n_o + 2);
@@ -245,4 +297,46 @@ fn a_certificate_at_samples_has_its_rates() {
     }
     let text = String::from_utf8(run(&["--sigma", "22"]).stdout).expect("UTF-8");
     assert!(text.contains("at the sampling instants, n_o = 0"), "{text}");
+}
+
+/// Bounds under noise and a disturbance are never below what the worst such signals do in members, and not idle.
+#[test]
+fn bounds_under_noise_hold_in_the_loops() {
+    let text = std::fs::read_to_string("specs/paper-example-rms-at-rest.json").expect("shipped");
+    for (noise, disturbance) in [(Some("0.0005"), None), (None, Some("0.02")), (Some("0.0003"), Some("0.01"))] {
+        let mut document: Value = serde_json::from_str(&text).expect("JSON");
+        document["internal_model"]["sampling_period"] = "1/400".into();
+        if let Some(noise) = noise {
+            document["measurement"] = serde_json::json!({ "noise": noise });
+        }
+        if let Some(disturbance) = disturbance {
+            document["disturbance"] = disturbance.into();
+        }
+        let spec = Specification::from_json("disturbed", &document.to_string()).expect("sound");
+        let sampling = spec.internal_model.sampling.clone().expect("sampled");
+        let gain = Rational::from(25);
+        let mut run = certify_sampled(&spec, &sampling, Some(&gain), None, Ladder::default()).expect("not refuted");
+        run.prove_rates(&[0, 1, 4, 10]).expect("by norms");
+        let proof = run.claim().expect("certified");
+        let data = Data::new(&spec, 128);
+        let periodic = [&proof.evaluation.size.x_per, &proof.evaluation.size.e_per];
+        let there = ErrorBox::new(&data, proof.witness.paths, periodic, [&data.zero(), &data.zero()]);
+        let sizes = [noise, disturbance].map(|size| size.map_or(0.0, |size| size.parse::<f64>().expect("a number")));
+        for found in &run.for_n_o {
+            let bound = found.noise.as_ref().expect("asked for");
+            let worst = farthest(members(&data, &there, &run, found.n_o), sizes, 400_000 / (found.n_o as usize + 1));
+            let bound = match bound {
+                Ok(bound) => bound,
+                Err(reason) => panic!("{sizes:?} n_o = {}: {} ({worst})", found.n_o, reason.message()),
+            };
+            let [limit, peak] = [&bound.limit, &bound.peak].map(Rational::to_f64);
+            println!(
+                "{sizes:?} n_o = {}: limit {limit} peak {peak}, worst {worst}, ratio {}",
+                found.n_o,
+                limit / worst
+            );
+            assert!(limit >= worst && peak > limit, "{sizes:?} {}: {limit} {peak} {worst}", found.n_o);
+            assert!(found.n_o > 1 || limit < 5.0 * worst, "{sizes:?} {}: {limit} {worst}", found.n_o);
+        }
+    }
 }

@@ -46,7 +46,11 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
 
 /// What noise and a disturbance do to the error, where the document has them.
 fn noise_section(run: &Certification<'_>) -> Vec<Block> {
-    let of = |bound: &NoiseBound| Shown { limit: bound.limit.clone(), peak: bound.peak.clone(), decay: bound.witness.rate.clone() };
+    let of = |bound: &NoiseBound| Shown {
+        limit: bound.limit.clone(),
+        peak: bound.peak.clone(),
+        decay: bound.witness.rate.clone(),
+    };
     let asked = run.for_n_o.iter().filter_map(|found| {
         found.noise.as_ref().map(|noise| (found.n_o, noise.as_ref().map(of).map_err(|reason| *reason)))
     });
@@ -153,12 +157,9 @@ pub(super) fn sampled_section(run: &SampledCertification<'_>) -> Vec<Block> {
     for SampledRateForCount { n_o, bound, .. } in &run.for_n_o {
         table.push(match bound {
             None => [n_o.to_string(), "not proved".to_owned(), String::new(), String::new()],
-            Some(SampledRateBound { rate, factor, limit, .. }) => [
-                n_o.to_string(),
-                exact(rate, Direction::Down),
-                exact(factor, Direction::Up),
-                limited_by(*limit),
-            ],
+            Some(SampledRateBound { rate, factor, limit, .. }) => {
+                [n_o.to_string(), exact(rate, Direction::Down), exact(factor, Direction::Up), limited_by(*limit)]
+            }
         });
     }
     vec![
@@ -177,11 +178,19 @@ pub(super) fn sampled_section(run: &SampledCertification<'_>) -> Vec<Block> {
 }
 
 fn sampled_noise(run: &SampledCertification<'_>) -> Vec<Block> {
-    let of = |bound: &SampledNoiseBound| Shown { limit: bound.limit.clone(), peak: bound.peak.clone(), decay: bound.witness.c.clone() };
+    let of = |bound: &SampledNoiseBound| Shown {
+        limit: bound.limit.clone(),
+        peak: bound.peak.clone(),
+        decay: bound.witness.c.clone(),
+    };
     let asked = run.for_n_o.iter().filter_map(|found| {
         found.noise.as_ref().map(|noise| (found.n_o, noise.as_ref().map(of).map_err(|reason| *reason)))
     });
-    disturbed(run.spec, asked.collect(), ["c of a sample", " at the sampling instants, between samples too the bound at all times"])
+    disturbed(
+        run.spec,
+        asked.collect(),
+        ["c of a sample", " at the sampling instants, between samples too the bound at all times"],
+    )
 }
 
 /// The same as JSON; none where no number was asked about.

@@ -103,7 +103,8 @@ fn at_samples(witness: &SampledRateWitness, e_low: &Rational) -> Value {
     let inputs = [("g_d", g_d), ("g_v", g_v), ("g_r", g_r)];
     let numbers = [("e_low", e_low), ("c", c), ("l_slope", l_slope), ("l_hold", l_hold)].into_iter();
     let numbers = numbers.chain(of_x.into_iter().flatten());
-    for (name, number) in numbers.chain(inputs.into_iter().filter_map(|(name, weight)| Some((name, weight.as_ref()?)))) {
+    for (name, number) in numbers.chain(inputs.into_iter().filter_map(|(name, weight)| Some((name, weight.as_ref()?))))
+    {
         value[name] = write_exact(number).into();
     }
     value

@@ -51,7 +51,15 @@ pub fn sampled_certificate_json(run: &SampledCertification<'_>) -> Option<Value>
     let delay = witness.sampling.delayed.then(|| ("delay_samples", Value::from(1)));
     let claim = {
         let of_actuator = delay.into_iter().chain(input_gain_json(spec)).chain(actuator_json(spec));
-        object(heading.into_iter().chain(of_actuator).chain(parameters_json(spec)).chain(rest).chain(claimed_sampled_rates(run)).chain([said]))
+        object(
+            heading
+                .into_iter()
+                .chain(of_actuator)
+                .chain(parameters_json(spec))
+                .chain(rest)
+                .chain(claimed_sampled_rates(run))
+                .chain([said]),
+        )
     };
     let of_delay = witness.delay.as_ref().map_or_else(Vec::new, NumberFields::json);
     let further = [("weight_sum", exact(&witness.law.weight_sum)), ("transfer", object([("proof", text(SAMPLED))]))];

@@ -51,7 +51,9 @@ impl NoRatesOfClaim {
             }
             NoRatesOfClaim::BySampledMatrix => by("(Ms)"),
             NoRatesOfClaim::NotBelowHalf(n_o, samples) => {
-                format!("{option}: the claim is about n_o < {samples}/2, half of the samples in a period, and n_o is {n_o}")
+                format!(
+                    "{option}: the claim is about n_o < {samples}/2, half of the samples in a period, and n_o is {n_o}"
+                )
             }
             NoRatesOfClaim::ByMatrix => by("(M)"),
             NoRatesOfClaim::ByJointMetrics => by("(Jm)"),
@@ -167,9 +169,10 @@ impl Certification<'_> {
                 write_exact(&bound.factor),
                 write_exact(&bound.witness.rate),
             );
-            let of_noise = noise.as_ref().and_then(|noise| noise.as_ref().ok()).map(|NoiseBound { limit, peak, .. }| {
-                noise_in_words(self.spec, (*n_o, &sigma), [peak, limit])
-            });
+            let of_noise = noise
+                .as_ref()
+                .and_then(|noise| noise.as_ref().ok())
+                .map(|NoiseBound { limit, peak, .. }| noise_in_words(self.spec, (*n_o, &sigma), [peak, limit]));
             Some(of_rate + &of_noise.unwrap_or_default())
         };
         self.for_n_o.iter().filter_map(sentences).collect()
@@ -273,8 +276,7 @@ impl SampledCertification<'_> {
                 write_exact(rate),
             );
             let of_noise = noise.as_ref().and_then(|noise| noise.as_ref().ok());
-            let of_noise =
-                of_noise.map(|noise| noise_in_words(self.spec, (*n_o, &sigma), [&noise.peak, &noise.limit]));
+            let of_noise = of_noise.map(|noise| noise_in_words(self.spec, (*n_o, &sigma), [&noise.peak, &noise.limit]));
             Some(of_rate + &of_noise.unwrap_or_default())
         };
         self.for_n_o.iter().filter_map(sentences).collect()

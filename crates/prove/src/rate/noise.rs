@@ -169,7 +169,8 @@ fn proved(
     }
     let witness = RateWitness { inputs: inputs.map(Option::flatten), ..witness };
     let e_low = round_f64(proposal.e_low * (1.0 - ROOM), FIGURES, Direction::Down)?;
-    (dynamics.proves(&witness) && is_above(&witness.pi, &e_low, dynamics.oscillators.mu.precision())).then_some((witness, e_low))
+    (dynamics.proves(&witness) && is_above(&witness.pi, &e_low, dynamics.oscillators.mu.precision()))
+        .then_some((witness, e_low))
 }
 
 #[cfg(test)]

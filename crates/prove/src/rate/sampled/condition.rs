@@ -145,14 +145,19 @@ impl SampledCondition {
             _ if i < 2 || j < 2 || i / 2 != j / 2 => 0.0,
             _ => {
                 let [cos, sin] = turns[i / 2];
-                if i == j { cos } else if i < j { sin } else { -sin }
+                if i == j {
+                    cos
+                } else if i < j {
+                    sin
+                } else {
+                    -sin
+                }
             }
         });
         let seen: Vec<f64> = (0..n).map(|j| (1..n).map(|i| b[i - 1] * turned[(i, j)]).sum()).collect();
         let through = 1.0 / (1.0 - hold.middle);
         let at_e = (1.0 - gain) * sigma + slope.middle;
-        let row: Vec<f64> =
-            (0..n).map(|j| through * (gain * k * seen[j] + if j == 0 { at_e } else { 0.0 })).collect();
+        let row: Vec<f64> = (0..n).map(|j| through * (gain * k * seen[j] + if j == 0 { at_e } else { 0.0 })).collect();
         let moved = (0..n).map(|j| k * seen[j] - if j == 0 { sigma } else { 0.0 }).collect();
         let direct: Vec<f64> = (0..n).map(|i| step * if i == 0 { 1.0 } else { -b[i - 1] }).collect();
         let a = Mat::from_fn(n, n, |i, j| turned[(i, j)] + direct[i] * row[j]);
@@ -338,7 +343,10 @@ impl SampledCondition {
         let largest = |of: usize| along.iter().map(|all| all[of]).fold(0.0, f64::max).sqrt();
         let units = [1.0 / largest(0), 1.0 / largest(1)];
         let more = |share: f64| Choice { d_e: sizes[0] + share * units[0], d_y: sizes[1] + share * units[1], ..choice };
-        let floor = |choice: Choice| Choice { q: if self.half_gain > 0.0 { choice.q.max(1e-6 * units[0]) } else { 0.0 }, ..choice };
+        let floor = |choice: Choice| Choice {
+            q: if self.half_gain > 0.0 { choice.q.max(1e-6 * units[0]) } else { 0.0 },
+            ..choice
+        };
         let (mut low, mut up) = (0.0, 1.0);
         for _ in 0..BISECTIONS {
             let middle = f64::midpoint(low, up);
@@ -368,7 +376,8 @@ impl SampledCondition {
         let n = self.row.len();
         let root = (d_e + r * d_y + q).sqrt();
         let rows = if self.half_gain > 0.0 { 3 } else { 2 };
-        let weights = [d_e.sqrt(), (d_y / r).sqrt(), if self.half_gain > 0.0 { self.half_gain / q.sqrt() } else { 0.0 }];
+        let weights =
+            [d_e.sqrt(), (d_y / r).sqrt(), if self.half_gain > 0.0 { self.half_gain / q.sqrt() } else { 0.0 }];
         // Faster by the rate.
         let faster = (self.step * rate).portable_exp();
         let system = System {

@@ -142,8 +142,7 @@ impl<'a> SampledDynamics<'a> {
         positive.extend(witness.of_x.iter().flat_map(|OfX { w, l_x, l_e, l_y }| [w, l_x, l_e, l_y]));
         let Inputs { g_d, g_v, g_r } = &witness.inputs;
         positive.extend([g_d, g_v, g_r].into_iter().flatten());
-        let fits = witness.of_x.is_some() == self.bounds.has_x
-            && g_r.is_some() == (self.bounds.has_x && g_d.is_some());
+        let fits = witness.of_x.is_some() == self.bounds.has_x && g_r.is_some() == (self.bounds.has_x && g_d.is_some());
         if !(triangle && fits) || positive.iter().any(|number| **number <= 0) {
             return false;
         }
@@ -223,9 +222,8 @@ impl<'a> Weighted<'a> {
         let dot = |form: &Linear, with: &dyn Fn(usize) -> Enclosure| {
             form.iter().fold(Enclosure::zero(precision), |sum, (j, entry)| sum + entry * with(*j))
         };
-        let times = |form: &Linear| -> Vec<Enclosure> {
-            (0..n).map(|row| dot(form, &|j| pi[row * n + j].clone())).collect()
-        };
+        let times =
+            |form: &Linear| -> Vec<Enclosure> { (0..n).map(|row| dot(form, &|j| pi[row * n + j].clone())).collect() };
         let columns: Vec<Linear> = (0..n).map(|column| dynamics.column(column)).collect();
         let turn = |vector: &[Enclosure]| -> Vec<Enclosure> {
             columns.iter().map(|column| dot(column, &|row| vector[row].clone())).collect()
@@ -245,7 +243,9 @@ impl<'a> Weighted<'a> {
         let turned = (0..n * n)
             .map(|at| {
                 let (i, j) = (at / n, at % n);
-                columns[i].iter().fold(Enclosure::zero(precision), |sum, (row, entry)| sum + entry * &right[row * n + j])
+                columns[i]
+                    .iter()
+                    .fold(Enclosure::zero(precision), |sum, (row, entry)| sum + entry * &right[row * n + j])
             })
             .collect();
         Weighted { dynamics, pi, turned, image, square, noise }
@@ -265,7 +265,8 @@ impl<'a> Weighted<'a> {
         let n = self.image.len();
         // (X, e, zs, w1, w2, p, rho_E, rho_Y), and the inputs.
         let first = usize::from(bounds.has_x);
-        let [e, w1, w2, p, rho_e, rho_y] = [first, first + n, first + n + 1, first + n + 2, first + n + 3, first + n + 4];
+        let [e, w1, w2, p, rho_e, rho_y] =
+            [first, first + n, first + n + 1, first + n + 2, first + n + 3, first + n + 4];
         let mut order = if bounds.has_x { n + 6 } else { n + 2 };
         let mut input = |weight: &Option<Rational>| {
             weight.as_ref().map(|weight| {

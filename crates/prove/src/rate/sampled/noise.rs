@@ -125,8 +125,7 @@ fn proved(
     digits: u32,
 ) -> Option<(SampledRateWitness, Rational)> {
     let Proposal { c, pi, l_slope, l_hold, of_x } = &found.proposal;
-    let scaled =
-        Proposal { c: c * share, pi: pi.clone(), l_slope: *l_slope, l_hold: *l_hold, of_x: of_x.clone() };
+    let scaled = Proposal { c: c * share, pi: pi.clone(), l_slope: *l_slope, l_hold: *l_hold, of_x: of_x.clone() };
     let round = |weight: f64| round_f64(weight * (1.0 + ROOM), FIGURES, Direction::Up);
     let weight = |weight: Option<f64>| match weight {
         None => Some(None),
@@ -198,7 +197,11 @@ impl Search {
                 }
                 value
             });
-            at = Point { position, size: least(size - 3.0, size + 3.0, steps[1], |size| cost(Point { position, size, ..at })), ..at };
+            at = Point {
+                position,
+                size: least(size - 3.0, size + 3.0, steps[1], |size| cost(Point { position, size, ..at })),
+                ..at
+            };
             let best = SLACKS.into_iter().min_by(|one, other| {
                 let [one, other] = [one, other].map(|slack| cost(Point { slack: *slack, ..at }));
                 one.total_cmp(&other)
@@ -234,8 +237,7 @@ impl Search {
             g_r: (d_bar > 0.0 && multipliers.of_x.is_some()).then_some(multipliers.g_r),
         };
         let weighed = |weight: Option<f64>, size: f64| weight.map_or(0.0, |weight| weight * size * size);
-        let level =
-            weighed(inputs.g_d, self.of_d[0]) + weighed(inputs.g_v, v_bar) + weighed(inputs.g_r, self.of_d[1]);
+        let level = weighed(inputs.g_d, self.of_d[0]) + weighed(inputs.g_v, v_bar) + weighed(inputs.g_r, self.of_d[1]);
         let c = self.condition.c(rate);
         let square = level * first / c;
         let (l_slope, l_hold, of_x) = (multipliers.l_slope, multipliers.l_hold, multipliers.of_x);

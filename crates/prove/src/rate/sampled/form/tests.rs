@@ -124,7 +124,10 @@ fn the_matrix_is_that_of_the_quadratic_form() {
                 moved * weight(oscillator(i)).sqrt()
             }));
             let norm = |z: &[f64]| -> f64 {
-                (0..n).flat_map(|i| (0..n).map(move |j| (i, j))).map(|(i, j)| z[i] * z[j] * pi[i.max(j)][i.min(j)]).sum()
+                (0..n)
+                    .flat_map(|i| (0..n).map(move |j| (i, j)))
+                    .map(|(i, j)| z[i] * z[j] * pi[i.max(j)][i.min(j)])
+                    .sum()
             };
             let kf = h * 1.25 * 8.0 / 7.0;
             let rho = c_x * x + rho_e + rho_y + rho_d;
