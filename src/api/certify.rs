@@ -6,7 +6,6 @@ use super::error::Error;
 use super::options::{Asked, CertifyOptions};
 use super::report::Report;
 use super::subject::Subject;
-use sigmastar_prove::certify::NoRatesOfClaim;
 use sigmastar_prove::reduction::{Prepared, Run, Subject as Read, at_samples};
 use sigmastar_report::run_sentence;
 
@@ -46,9 +45,6 @@ fn run(subject: &Subject, options: &CertifyOptions) -> Result<Certificate, Error
     let sampled = asked.read.sampling().is_some();
     if let Some(misfit) = options.misfit(sampled) {
         return Err(Error::misfit(misfit));
-    }
-    if sampled && !counts.is_empty() {
-        return Err(Error::no_rates(NoRatesOfClaim::AtSamples));
     }
     let prepared = Prepared::new(asked.read.clone(), gain).map_err(|all| Error::documents(&all))?;
     let prepared = prepared.within(limits);

@@ -218,6 +218,21 @@ impl SpecificationBuilder {
         self.with("actuator", object([("max", text(max))]).into())
     }
 
+    /// Noise of at most `noise` on the measured e, and a measurement in steps of `quantum`, of which at least one is given: decimals or
+    /// fractions. They count in what is said of given numbers of oscillators.
+    #[must_use]
+    pub fn measurement(self, noise: Option<&str>, quantum: Option<&str>) -> SpecificationBuilder {
+        let given = [("noise", noise), ("quantum", quantum)];
+        let part = object(given.into_iter().filter_map(|(name, value)| Some((name, text(value?)))));
+        self.with("measurement", part.into())
+    }
+
+    /// A disturbance of at most `most` that is added to q, a decimal or a fraction. It counts in what is said of given numbers of oscillators.
+    #[must_use]
+    pub fn disturbance(self, most: &str) -> SpecificationBuilder {
+        self.with("disturbance", text(most))
+    }
+
     /// The weights n_0 and `n_l = l^-(1 + epsilon)` for l >= 1.
     #[must_use]
     pub fn power_weights(self, n0: &str, epsilon: &str) -> SpecificationBuilder {

@@ -47,7 +47,7 @@ fn attempt(args: &CertifyArgs) -> Result<u8, Failure> {
         );
         return Err(Failure::call(message, format!("leave {flag} or the sampling period out")));
     }
-    let counts = counts(args, sampled)?;
+    let counts = counts(args)?;
     let working = proving(&subject, args.quiet);
     let prepared = match &witness {
         None => Prepared::new(subject, gain).map(|prepared| prepared.within(limits)),
@@ -81,11 +81,8 @@ fn flag(kind: TargetKind) -> &'static str {
 }
 
 /// The numbers of oscillators whose rates are asked for.
-fn counts(args: &CertifyArgs, sampled: bool) -> Result<Vec<u32>, Failure> {
+fn counts(args: &CertifyArgs) -> Result<Vec<u32>, Failure> {
     let Some(text) = &args.n_o else { return Ok(Vec::new()) };
-    if sampled {
-        return Err(no_rates(NoRatesOfClaim::AtSamples));
-    }
     rate_counts(&finite_counts(text, MAX_OSCILLATORS)?).map_err(no_rates)
 }
 

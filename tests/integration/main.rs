@@ -61,6 +61,7 @@ mod sampled_c;
 mod sampled_cli;
 mod sampled_falsify;
 mod sampled_law;
+mod sampled_rates;
 mod sampled_simulation;
 mod schemas;
 mod search_scale;

@@ -69,7 +69,7 @@ fn rates_are_near_those_of_the_loops() {
         let data = Data::new(spec, 128);
         let periodic = [&proof.evaluation.periodic.x_per, &proof.evaluation.periodic.e_per];
         let there = ErrorBox::new(&data, proof.witness.paths, periodic, [&data.zero(), &data.zero()]);
-        for RateForCount { n_o, bound } in &run.for_n_o {
+        for RateForCount { n_o, bound, .. } in &run.for_n_o {
             let bound = bound.as_ref().unwrap_or_else(|| panic!("{name} {n_o}: no rate"));
             let share = bound.witness.rate.to_f64() / slowest(&data, &there, gain.to_f64(), *n_o);
             assert!(share <= 1.0 + 1e-9, "{name} {n_o}: {share}");
@@ -164,7 +164,6 @@ fn what_has_no_rates_is_refused_with_the_reason() {
         (&["specs/paper-example.json", "--n-o", "0..8"], "at most 8"),
         (&["specs/paper-example.json", "--n-o", "inf"], "inf"),
         (&["specs/paper-example.json", "--n-o", "-1"], "`-1`"),
-        (&["specs/paper-example.json", "--n-o", "1", "--sampling-period", "1/500"], "at samples"),
         (&["specs/plants/converter.json", "--n-o", "1"], "not available for a claim by ("),
     ] {
         let output = program().arg("certify").args(arguments).args(["--format", "json"]).output().expect("it runs");

@@ -5,6 +5,7 @@ use super::limits::{self, Bounds};
 use super::sensitivity;
 use super::verdict::assumed;
 use super::words;
+use rug::Rational;
 use sigmastar_document::number::{estimate, exact, upper};
 use sigmastar_document::{Block, clean};
 use sigmastar_exact::enclosure::Enclosure;
@@ -12,6 +13,7 @@ use sigmastar_exact::number::{Direction, write_exact};
 use sigmastar_lang::spec::Specification;
 use sigmastar_prove::certify::{Certification, SampledCertification, claimed_ball};
 use sigmastar_prove::rate::bound::RateForCount;
+use sigmastar_prove::rate::sampled::bound::{SampledRateBound, SampledRateForCount};
 use sigmastar_theory::derivation::control::Control;
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
 use sigmastar_theory::derivation::sampled::SampledEvaluation;
@@ -85,15 +87,40 @@ pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences
 
 /// How fast the error decays for the numbers of oscillators that were asked about; nothing without any.
 fn for_n_o(run: &Certification<'_>) -> Option<String> {
-    let one = |RateForCount { n_o, bound }: &RateForCount| match bound {
+    let one = |RateForCount { n_o, bound, noise }: &RateForCount| match bound {
         None => format!("n_o = {n_o}: not proved"),
         Some(bound) => {
             let factor = exact(&bound.factor, Direction::Up);
-            format!("n_o = {n_o}: {factor} exp(-{} (t - t_0))", exact(&bound.witness.rate, Direction::Down))
+            let rate = exact(&bound.witness.rate, Direction::Down);
+            let disturbed = disturbed(noise.as_ref().map(|noise| noise.as_ref().ok().map(|noise| &noise.limit)));
+            format!("n_o = {n_o}: {factor} exp(-{rate} (t - t_0)){disturbed}")
         }
     };
     let all: Vec<String> = run.for_n_o.iter().map(one).collect();
     (!all.is_empty()).then(|| format!("|e - e_per| at this gain alone, {}", all.join("; ")))
+}
+
+/// What noise and a disturbance add, where there are some and it is proved.
+fn disturbed(noise: Option<Option<&Rational>>) -> String {
+    match noise {
+        None => String::new(),
+        Some(Some(limit)) => format!(", disturbed + {}", exact(limit, Direction::Up)),
+        Some(None) => ", disturbed not proved".to_owned(),
+    }
+}
+
+/// The same at the sampling instants.
+fn for_n_o_at_samples(run: &SampledCertification<'_>) -> Option<String> {
+    let one = |SampledRateForCount { n_o, bound, noise }: &SampledRateForCount| match bound {
+        None => format!("n_o = {n_o}: not proved"),
+        Some(SampledRateBound { rate, factor, .. }) => {
+            let disturbed = disturbed(noise.as_ref().map(|noise| noise.as_ref().ok().map(|noise| &noise.limit)));
+            let [factor, rate] = [exact(factor, Direction::Up), exact(rate, Direction::Down)];
+            format!("n_o = {n_o}: {factor} exp(-{rate} (t - t_0)){disturbed}")
+        }
+    };
+    let all: Vec<String> = run.for_n_o.iter().map(one).collect();
+    (!all.is_empty()).then(|| format!("|e - e_per| at the sampling instants, {}", all.join("; ")))
 }
 
 /// Of a claim about the regulator at samples; nothing without one.
@@ -125,6 +152,7 @@ pub(super) fn of_samples(run: &SampledCertification<'_>, rechecked: bool) -> Vec
     );
     let mut facts = vec![("gain", gain), ("from", from(run.spec, &witness.set, &when)), ("next", next.to_owned())];
     facts.extend(run.found.map(|(_, limit)| ("set by", format!("{} (an estimate)", limit.describe()))));
+    facts.extend(for_n_o_at_samples(run).map(|said| ("convergence", said)));
     let radii = [&witness.d_x, &witness.d_e].map(|radius| exact(radius, Direction::Up));
     facts.push(("to", to(run.spec, &periodic, radii, run.control().map(|bounds| (bounds, "")))));
     facts.extend(uncertain_gain(run.spec).map(|said| ("input gain", said)));

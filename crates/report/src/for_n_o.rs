@@ -1,11 +1,16 @@
 //! What a claim says besides for given numbers of oscillators: how fast the error decays.
 
+use rug::Rational;
 use serde_json::{Value, json};
 use sigmastar_document::number::{estimate, exact};
 use sigmastar_document::{Block, Table};
 use sigmastar_exact::number::{Direction, write_exact};
-use sigmastar_prove::certify::Certification;
+use sigmastar_lang::spec::Specification;
+use sigmastar_prove::certify::{Certification, SampledCertification};
 use sigmastar_prove::rate::bound::{RateBound, RateForCount};
+use sigmastar_prove::rate::noise::{NoNoiseBound, NoiseBound};
+use sigmastar_prove::rate::sampled::bound::{SampledRateBound, SampledRateForCount};
+use sigmastar_prove::rate::sampled::noise::SampledNoiseBound;
 use sigmastar_prove::rate::small_gain::Limit;
 
 /// The section; nothing where no number was asked about.
@@ -14,7 +19,7 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
         return Vec::new();
     }
     let mut table = Table::new(&["n_o", "rate in 1/time", "factor in the unit of e", "limited by"]);
-    for RateForCount { n_o, bound } in &run.for_n_o {
+    for RateForCount { n_o, bound, .. } in &run.for_n_o {
         table.push(match bound {
             None => [n_o.to_string(), "not proved".to_owned(), String::new(), String::new()],
             Some(RateBound { witness, factor, limit, .. }) => [
@@ -34,6 +39,75 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
         ),
         Block::Table(table),
     ]
+    .into_iter()
+    .chain(noise_section(run))
+    .collect()
+}
+
+/// What noise and a disturbance do to the error, where the document has them.
+fn noise_section(run: &Certification<'_>) -> Vec<Block> {
+    let of = |bound: &NoiseBound| Shown {
+        limit: bound.limit.clone(),
+        peak: bound.peak.clone(),
+        decay: bound.witness.rate.clone(),
+    };
+    let asked = run.for_n_o.iter().filter_map(|found| {
+        found.noise.as_ref().map(|noise| (found.n_o, noise.as_ref().map(of).map_err(|reason| *reason)))
+    });
+    disturbed(run.spec, asked.collect(), ["lambda in 1/time", ""])
+}
+
+/// What is shown of such a bound.
+struct Shown {
+    limit: Rational,
+    peak: Rational,
+    decay: Rational,
+}
+
+/// The section on noise and a disturbance; `decay` and `place` are of the form of the claim.
+fn disturbed(
+    spec: &Specification,
+    asked: Vec<(u32, Result<Shown, NoNoiseBound>)>,
+    [decay, place]: [&str; 2],
+) -> Vec<Block> {
+    if asked.is_empty() {
+        return Vec::new();
+    }
+    let mut table = Table::new(&["n_o", "in the limit", "at all times", decay]);
+    let mut reasons: Vec<(NoNoiseBound, Vec<String>)> = Vec::new();
+    for (n_o, noise) in asked {
+        table.push(match noise {
+            Ok(Shown { limit, peak, decay }) => [
+                n_o.to_string(),
+                exact(&limit, Direction::Up),
+                exact(&peak, Direction::Up),
+                exact(&decay, Direction::Nearest),
+            ],
+            Err(reason) => {
+                match reasons.iter_mut().find(|(told, _)| *told == reason) {
+                    Some((_, counts)) => counts.push(n_o.to_string()),
+                    None => reasons.push((reason, vec![n_o.to_string()])),
+                }
+                [n_o.to_string(), "not proved".to_owned(), String::new(), String::new()]
+            }
+        });
+    }
+    let mut blocks = vec![
+        Block::heading("Noise and disturbances"),
+        Block::says(format!(
+            "With {}, any measurable signals, |e(t) - e_per(t)| is at most this in the limit and at all times from the start on, for every \
+             start in the set: a part of the claim, for this n_o and this gain alone. e_per is of the periodic solution without them; on \
+             the way |e(t) - e_per(t)| <= factor exp(-rate (t - t_0)) + the limit{place}.",
+            spec.disturbances.in_words()
+        )),
+        Block::Table(table),
+    ];
+    blocks.extend(
+        reasons
+            .into_iter()
+            .map(|(reason, counts)| Block::says(format!("n_o = {}: {}.", counts.join(", "), reason.message()))),
+    );
+    blocks
 }
 
 fn limited_by(limit: Limit) -> String {
@@ -45,11 +119,86 @@ fn limited_by(limit: Limit) -> String {
 
 /// The same as JSON; none where no number was asked about.
 pub(super) fn rates_json(run: &Certification<'_>) -> Option<Value> {
-    let one = |RateForCount { n_o, bound }: &RateForCount| match bound {
+    let one = |RateForCount { n_o, bound, noise }: &RateForCount| {
+        let bound = bound.as_ref().map(|bound| (&bound.witness.rate, &bound.factor, bound.limit));
+        let noise = noise.as_ref().map(|noise| noise.as_ref().map(|noise| [&noise.limit, &noise.peak]));
+        one_json(*n_o, bound, noise)
+    };
+    (!run.for_n_o.is_empty()).then(|| run.for_n_o.iter().map(one).collect())
+}
+
+fn one_json(
+    n_o: u32,
+    bound: Option<(&Rational, &Rational, Limit)>,
+    noise: Option<Result<[&Rational; 2], &NoNoiseBound>>,
+) -> Value {
+    let mut value = match bound {
         None => json!({ "n_o": n_o, "rate": null, "factor": null, "limited_by": null }),
-        Some(RateBound { witness, factor, limit, .. }) => json!({
-            "n_o": n_o, "rate": write_exact(&witness.rate), "factor": write_exact(factor), "limited_by": limited_by(*limit),
+        Some((rate, factor, limit)) => json!({
+            "n_o": n_o, "rate": write_exact(rate), "factor": write_exact(factor), "limited_by": limited_by(limit),
         }),
+    };
+    match noise {
+        None => {}
+        Some(Ok([limit, peak])) => {
+            value["noise"] = json!({ "limit": write_exact(limit), "peak": write_exact(peak) });
+        }
+        Some(Err(reason)) => value["noise"] = json!({ "limit": null, "peak": null, "reason": reason.message() }),
+    }
+    value
+}
+
+/// The section of a claim at samples.
+pub(super) fn sampled_section(run: &SampledCertification<'_>) -> Vec<Block> {
+    if run.for_n_o.is_empty() {
+        return Vec::new();
+    }
+    let mut table = Table::new(&["n_o", "rate in 1/time", "factor in the unit of e", "limited by"]);
+    for SampledRateForCount { n_o, bound, .. } in &run.for_n_o {
+        table.push(match bound {
+            None => [n_o.to_string(), "not proved".to_owned(), String::new(), String::new()],
+            Some(SampledRateBound { rate, factor, limit, .. }) => {
+                [n_o.to_string(), exact(rate, Direction::Down), exact(factor, Direction::Up), limited_by(*limit)]
+            }
+        });
+    }
+    vec![
+        Block::heading("For given numbers of oscillators"),
+        Block::says(
+            "For every start in the set at a sampling instant t_0, |e(t) - e_per(t)| <= factor exp(-rate (t - t_0)) at every sampling instant \
+             t from there on: a part of the claim, for this n_o, this gain and this sampling period alone, proved from the bounds on the \
+             error box. The factor is for the whole set at once, and far above what most starts need. What limits the rate is an \
+             estimate. `not proved` says nothing either way.",
+        ),
+        Block::Table(table),
+    ]
+    .into_iter()
+    .chain(sampled_noise(run))
+    .collect()
+}
+
+fn sampled_noise(run: &SampledCertification<'_>) -> Vec<Block> {
+    let of = |bound: &SampledNoiseBound| Shown {
+        limit: bound.limit.clone(),
+        peak: bound.peak.clone(),
+        decay: bound.witness.c.clone(),
+    };
+    let asked = run.for_n_o.iter().filter_map(|found| {
+        found.noise.as_ref().map(|noise| (found.n_o, noise.as_ref().map(of).map_err(|reason| *reason)))
+    });
+    disturbed(
+        run.spec,
+        asked.collect(),
+        ["c of a sample", " at the sampling instants, between samples too the bound at all times"],
+    )
+}
+
+/// The same as JSON; none where no number was asked about.
+pub(super) fn sampled_json(run: &SampledCertification<'_>) -> Option<Value> {
+    let one = |SampledRateForCount { n_o, bound, noise }: &SampledRateForCount| {
+        let bound = bound.as_ref().map(|bound| (&bound.rate, &bound.factor, bound.limit));
+        let noise = noise.as_ref().map(|noise| noise.as_ref().map(|noise| [&noise.limit, &noise.peak]));
+        one_json(*n_o, bound, noise)
     };
     (!run.for_n_o.is_empty()).then(|| run.for_n_o.iter().map(one).collect())
 }

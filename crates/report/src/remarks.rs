@@ -23,7 +23,17 @@ pub fn remarks(run: &Certification<'_>) -> Vec<String> {
         remarks.push(format!("Remark: sigma* is above 10^4 divided by the period.{cause}"));
     }
     remarks.extend(gains::remark(run));
+    remarks.extend(unused_disturbances(run.spec, run.for_n_o.is_empty()));
     remarks
+}
+
+/// That noise and a disturbance of the document count nowhere in the claim.
+fn unused_disturbances(spec: &Specification, unused: bool) -> Option<String> {
+    (unused && spec.disturbances.any()).then(|| {
+        "Remark: `measurement` and `disturbance` do not enter this claim, which is about the loop without noise. They count in what is said of \
+         given numbers of oscillators: ask with `--n-o LIST`."
+            .to_owned()
+    })
 }
 
 /// A gain times the period above which a remark names what asks for it.
@@ -54,6 +64,7 @@ fn far_above_its_samples(entries: &[ProvedValue]) -> Option<String> {
 pub fn sampled_remarks(run: &SampledCertification<'_>) -> Vec<String> {
     let mut remarks = of(run.no_plant.as_ref(), run.has_force_at_origin());
     remarks.extend(unused_parameters(run.spec));
+    remarks.extend(unused_disturbances(run.spec, run.for_n_o.is_empty()));
     remarks
 }
 

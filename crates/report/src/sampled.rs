@@ -1,6 +1,7 @@
 //! The report on a certification of the regulator at samples.
 
 use super::failures::{FORMAT, VERSION, errors_json};
+use super::for_n_o::{sampled_json, sampled_section};
 use super::json::{actuator, conditions_with_truth, control, input_gain, interval_costs};
 use super::limits::{self, Bounds, kept_json};
 use super::obstacles::{describe, first_of, rest_of, wider};
@@ -236,10 +237,14 @@ fn sets(run: &SampledCertification<'_>) -> Vec<Block> {
         Block::Table(sizes.table),
     ];
     blocks.extend(boxes.figure().map(Block::Drawing));
-    blocks.push(Block::says(
+    blocks.push(Block::says(format!(
         "Solutions from the initial set stay in the error box around the periodic solution, between samples too; zeta and z \
-         are those at samples. The rate of convergence depends on n_o and is not part of the claim.",
-    ));
+         are those at samples.{}",
+        match run.for_n_o.is_empty() {
+            true => " The rate of convergence depends on n_o and is not part of the claim.",
+            false => "",
+        }
+    )));
     blocks
 }
 
@@ -258,6 +263,7 @@ impl Readable for SampledReport<'_> {
         if run.claim().is_some() {
             blocks.extend(brief::of_samples(run, self.rechecked));
             blocks.push(Block::Detail);
+            blocks.extend(sampled_section(run));
             blocks.push(Block::heading("What the claim rests on"));
             blocks.push(Block::List(self.basis()));
         } else {
@@ -306,6 +312,9 @@ impl Readable for SampledReport<'_> {
             let [x, e, zeta, z] = periodic.each_ref().map(full);
             report["periodic_solution"] = json!({ "x": x, "e": e, "zeta": zeta, "z": z });
             report["control"] = control(run.control());
+            if let Some(rates) = sampled_json(run) {
+                report["for_n_o"] = rates;
+            }
             if !run.limits.is_empty() {
                 let SampledEvaluation { size, peak, control, .. } = &proof.evaluation;
                 report["limits"] = kept_json(&run.limits, &Bounds { steady: &size.e_per, peak, control });

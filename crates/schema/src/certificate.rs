@@ -163,13 +163,18 @@ fn claim(sampled: bool, of_plant: bool) -> Vec<Field> {
         may("control", "Control", "Bounds of |u| at the gain of the claim.", Shape::Object(control.into())),
         must("statement", "Statement", "The claim in words.", Shape::Text),
     ]);
-    if !sampled {
-        let text = "For each of these n_o, at the gain of the claim alone: |e - e_per| <= factor exp(-rate (t - t_0)).";
-        let mut rate = vec![count()];
-        rate.push(must("rate", "Rate", "In 1/time.", rational()));
-        rate.push(must("factor", "Factor", "For every start in the set, in the unit of e.", rational()));
-        fields.push(may("for_n_o", "For given n_o", text, list(Shape::Object(rate), MAX_COUNTS)));
-    }
+    let text = match sampled {
+        false => "For each of these n_o, at the gain of the claim alone: |e - e_per| <= factor exp(-rate (t - t_0)).",
+        true => "For each of these n_o: |e - e_per| <= factor exp(-rate (t - t_0)) at the sampling instants t.",
+    };
+    let mut rate = vec![count()];
+    rate.push(must("rate", "Rate", "In 1/time.", rational()));
+    rate.push(must("factor", "Factor", "For every start in the set, in the unit of e.", rational()));
+    let noise = [("limit", "in the limit"), ("peak", "at all times from the start on")]
+        .map(|(name, when)| must(name, name, format!("Bounds |e - e_per| {when}, in the unit of e."), rational()));
+    let of_noise = "With the noise and the disturbance of the document.";
+    rate.push(may("noise", "Noise", of_noise, Shape::Object(noise.into())));
+    fields.push(may("for_n_o", "For given n_o", text, list(Shape::Object(rate), MAX_COUNTS)));
     if of_plant {
         let ends = ["nominal", "low", "high"];
         let interval = ends.map(|name| must(name, name, "A value of the parameter.", rational()));
@@ -184,13 +189,37 @@ fn count() -> Field {
     must("n_o", "n_o", "The number of oscillators.", Shape::Whole(0, u64::from(MAX_OSCILLATORS)))
 }
 
-/// What proves the rate of one n_o (section 13.6).
-fn rate_witness() -> Shape {
+/// What proves the rate of one n_o (section 13.6), at samples or in continuous time.
+fn rate_witness(sampled: bool) -> Shape {
     let mut fields = vec![count()];
     let text = "The lower triangle of a matrix for (e, N^(1/2) zeta), by rows.";
     fields.push(must("Pi", "Pi", text, any_list(any_list(rational()))));
     fields.extend(numbers(&["e_low", "e_up", "z_up"], "What Pi is between."));
-    fields.extend(["w", "l"].map(|name| may(name, name, "A weight, where x has a part in e.", rational())));
+    let of_x = || {
+        let names: &[&str] = if sampled { &["w", "l_x", "l_e", "l_y"] } else { &["w", "l"] };
+        names.iter().map(|name| may(name, *name, "A weight, where x has a part in e.", rational()))
+    };
+    let multipliers = || numbers(&["c", "l_slope", "l_hold"], "What W loses in a sample, or a multiplier.");
+    if sampled {
+        fields.extend(multipliers());
+    }
+    fields.extend(of_x());
+    let mut noise = vec![must("Pi", "Pi", text, any_list(any_list(rational())))];
+    if sampled {
+        noise.extend(multipliers());
+    } else {
+        noise.extend(numbers(&["lambda"], "Half of the rate at which W would decay, in 1/time."));
+    }
+    noise.extend(numbers(&["e_low"], "What Pi is above in e."));
+    noise.extend(of_x());
+    let of_inputs = [("g_d", "the disturbance"), ("g_v", "the noise"), ("g_r", "the disturbance within a sample")];
+    noise.extend(
+        of_inputs
+            .into_iter()
+            .take(if sampled { 3 } else { 2 })
+            .map(|(name, of)| may(name, name, format!("The weight of {of}, where there is one."), rational())),
+    );
+    fields.push(may("noise", "Noise", "What proves the bounds under noise.", Shape::Object(noise)));
     Shape::Object(fields)
 }
 
@@ -252,11 +281,15 @@ fn witness(kind: Kind, main: bool) -> Vec<Field> {
         let refined = numbers(RefinedSquares::NAMES, "A root mean square of the periodic solution.");
         fields.push(may("refined", "Refined", "Smaller mean squares.", Shape::Object(refined)));
         let multipliers = numbers(&["l_x", "l_e", "l_f"], "A multiplier.");
-        if main {
-            let text = "What proves the rates of the claim for given n_o.";
-            fields.push(may("for_n_o", "For given n_o", text, list(named("rate_witness", rate_witness()), MAX_COUNTS)));
-        }
         fields.push(may("lmi", "Multipliers", "C5 as a matrix inequality; a figure.", Shape::Object(multipliers)));
+    }
+    if main && kind != Kind::Repaired {
+        let text = "What proves the rates of the claim for given n_o.";
+        let shape = match kind {
+            Kind::Sampled => named("sampled_rate_witness", rate_witness(true)),
+            _ => named("rate_witness", rate_witness(false)),
+        };
+        fields.push(may("for_n_o", "For given n_o", text, list(shape, MAX_COUNTS)));
     }
     if main {
         fields.extend(of_data());

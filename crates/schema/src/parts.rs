@@ -120,6 +120,32 @@ pub(super) fn actuator() -> Field {
     )
 }
 
+/// `measurement`.
+pub(super) fn measurement() -> Field {
+    let fields = vec![
+        may("noise", "Noise", "The greatest size of the noise on the measured e, in the unit of e.", NONNEGATIVE),
+        may("quantum", "Quantum", "The step of the converter that rounds the measured e to nearest.", NONNEGATIVE),
+    ];
+    may(
+        "measurement",
+        "Measurement",
+        "What is measured is e + v with |v| <= noise + quantum/2, of which at least one is given, as a decimal or a fraction. It counts in \
+         what is said of given numbers of oscillators.",
+        Shape::Object(fields),
+    )
+}
+
+/// `disturbance`.
+pub(super) fn disturbance() -> Field {
+    may(
+        "disturbance",
+        "Disturbance",
+        "The greatest size of what is added to q, in the unit of e', as a decimal or a fraction. It counts in what is said of given numbers \
+         of oscillators.",
+        NONNEGATIVE,
+    )
+}
+
 fn weights() -> Shape {
     let family = |name| must("family", "Family", "How the weights are given.", Shape::Word(vec![name]));
     let power = vec![

@@ -1,6 +1,8 @@
 //! The fields of a plant.
 
-use super::parts::{POSITIVE, actuator, header, initial_set, input_gain, internal_model, period};
+use super::parts::{
+    POSITIVE, actuator, disturbance, header, initial_set, input_gain, internal_model, measurement, period,
+};
 use super::shape::{Field, Shape, Sign, any_list, may, must};
 use sigmastar_lang::plant::{FORMAT, VERSIONS};
 
@@ -59,6 +61,8 @@ pub(super) fn fields(whole: bool) -> Vec<Field> {
         internal_model(),
         input_gain(),
         actuator(),
+        measurement(),
+        disturbance(),
     ]);
     fields
 }

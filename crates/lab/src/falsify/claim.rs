@@ -7,7 +7,7 @@ use super::sampled_claim::SampledClaim;
 use rug::Rational;
 use sigmastar_exact::enclosure::DEFAULT_PRECISION;
 use sigmastar_lang::spec::{Constant, Document, SpecErrors, Specification, StartSizes};
-use sigmastar_prove::certificate::{StatedClaim, read_claim};
+use sigmastar_prove::certificate::{StatedClaim, StatedNoise, read_claim};
 use sigmastar_prove::certify::GivenWitness;
 use sigmastar_prove::reduction::FreeNumbers;
 use sigmastar_theory::data::Data;
@@ -31,6 +31,8 @@ pub struct TriedClaim {
     pub periodic_z: f64,
     /// Bounds of |u| along it, and of what u differs by on the way, at the gain of the claim.
     pub control: Option<[f64; 2]>,
+    /// Bounds for given n_o under noise and disturbances, at the gain of the claim.
+    pub noise: Vec<StatedNoise>,
     /// D_x, D_e: the error box.
     pub error_box: [f64; 2],
     /// w_x P_low, w_x P_up and h of the Lyapunov function w_x x'P_x x + e^2 + h z'N z in error coordinates, where the
@@ -58,7 +60,8 @@ impl TriedClaim {
     /// # Errors
     /// Those of [`read_claim`].
     pub fn from_document(document: &Document) -> Result<TriedClaim, SpecErrors> {
-        let StatedClaim { spec, witness, periodic: [x, e, zeta, periodic_z], control, plant } = read_claim(document)?;
+        let StatedClaim { spec, witness, periodic: [x, e, zeta, periodic_z], control, noise, plant } =
+            read_claim(document)?;
         let own = plant.zip(spec.plant()).and_then(|(plant, proved)| OwnPlant::new(plant, proved));
         let data = Data::new(&spec, DEFAULT_PRECISION);
         let (p_low, p_up) = (data.p_low.lower_f64(), data.p_up.upper_f64());
@@ -99,6 +102,7 @@ impl TriedClaim {
             periodic,
             periodic_z,
             control,
+            noise,
             error_box,
             lyapunov,
             joint,
@@ -138,6 +142,14 @@ impl TriedClaim {
         self.control.filter(|_| sigma <= self.sigma * ABOVE)
     }
 
+    /// The numbers of oscillators of its trials: those of the bounds under noise, where there are any.
+    pub(super) fn tried_n_o(&self, otherwise: &[u32]) -> Vec<u32> {
+        match self.noise[..] {
+            [] => otherwise.to_vec(),
+            _ => self.noise.iter().map(|stated| stated.n_o).collect(),
+        }
+    }
+
     /// The gain of a trial over that of the claim: with an actuator the claim is about its gain alone.
     pub(super) fn gain_of(&self, share: f64) -> f64 {
         if self.spec.actuator.is_some() { 1.0 } else { share }
@@ -159,6 +171,7 @@ impl TriedClaim {
         TriedClaim {
             spec,
             sigma: 1.0,
+            noise: Vec::new(),
             initial,
             periodic,
             periodic_z,

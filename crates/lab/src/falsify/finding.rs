@@ -113,6 +113,10 @@ pub(super) const CONTROL: &str = "|u - u_p| on the way, against its bound";
 /// What is put out, where the actuator saturates.
 pub(super) const SATURATION: &str = "|u| on the way, against what the actuator takes";
 
+/// The error with noise and a disturbance, near the periodic solution and from the initial set.
+pub(super) const DISTURBED: [&str; 2] =
+    ["|e - e_p| with noise and disturbance, in the limit", "|e - e_p| with noise and disturbance, on the way"];
+
 /// The trial that came closest to a bound, of those in which every bound holds.
 #[derive(Clone, Copy, Debug)]
 pub struct Closest<'f> {

@@ -11,6 +11,7 @@ mod checks;
 mod claim;
 mod contraction;
 mod counterexample;
+mod disturbed;
 mod draw;
 mod family;
 mod finding;

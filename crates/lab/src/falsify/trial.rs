@@ -8,7 +8,7 @@ use super::finding::{
 use super::frame::{ABOVE, OwnPlant};
 use super::random::Random;
 use super::start::{boundary, drawn_plant, file, no_member, regulator};
-use super::{run, sampled_trial};
+use super::{disturbed, run, sampled_trial};
 use crate::simulate::{
     ClosedLoop, Disturbance, IntegrationFailure, Orbit, SteadyState, SteadyStateError, Tolerance, flow, rms,
     steady_state, sup, trajectory,
@@ -65,7 +65,7 @@ fn run_trial(claim: &TriedClaim, seed: u64, number: u64) -> Finding {
     let Some(plant) = drawn_plant(drawing.as_ref().unwrap_or(claim), number, &mut random) else {
         return Finding::Unfinished(no_member(claim).to_owned());
     };
-    let n_o = TRIED_N_O[random.whole(0, TRIED_N_O.len() as u32 - 1) as usize];
+    let n_o = draw_n_o(claim, &mut random);
     let sigma = claim.sigma * claim.gain_of(ABOVE);
     let regulator = regulator(claim, sigma, n_o);
     let start = boundary(claim, plant.family.states(), &regulator, &mut random);
@@ -82,7 +82,7 @@ fn run_trial(claim: &TriedClaim, seed: u64, number: u64) -> Finding {
 
 /// A trial of the plant that the claim is about, or of a member of its family.
 fn run_own(claim: &TriedClaim, own: &OwnPlant, mut random: Random, number: u64) -> Finding {
-    let n_o = TRIED_N_O[random.whole(0, TRIED_N_O.len() as u32 - 1) as usize];
+    let n_o = draw_n_o(claim, &mut random);
     let sigma = claim.sigma * claim.gain_of(OwnPlant::gain(number));
     let regulator = regulator(claim, sigma, n_o);
     let n = own.plant.states();
@@ -97,6 +97,11 @@ fn run_own(claim: &TriedClaim, own: &OwnPlant, mut random: Random, number: u64) 
     let closed_loop = with_gain(ClosedLoop::new(&own.plant, regulator), input_gain);
     let plant = TriedPlant::Own(Box::new(own.plant.clone()));
     check(&claim, Trial { number, plant, sigma, n_o, start, input_gain, period, parameters, phase: None }, &closed_loop)
+}
+
+fn draw_n_o(claim: &TriedClaim, random: &mut Random) -> u32 {
+    let all = claim.tried_n_o(&TRIED_N_O);
+    all[random.whole(0, all.len() as u32 - 1) as usize]
 }
 
 /// What is put out is told, not cut off: the first time that the actuator does not take it the claim is broken.
@@ -131,7 +136,10 @@ pub(super) fn check(claim: &TriedClaim, trial: Trial, closed_loop: &ClosedLoop) 
         }
     }
     match check_approach(claim, &trial, closed_loop, &orbit, &mut checks) {
-        Ok(()) => checks.finding(trial),
+        Ok(()) => {
+            disturbed::check(claim, &trial, closed_loop, &steady.start, &mut checks);
+            checks.finding(trial)
+        }
         Err(failure @ IntegrationFailure::Escaped { .. }) => run::alone(claim, trial, closed_loop, failure.to_string()),
         Err(failure) => unfinished(&failure),
     }

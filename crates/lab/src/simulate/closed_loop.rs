@@ -16,13 +16,15 @@ pub enum Noise {
     Everywhere,
 }
 
-/// The noise at one moment, as it enters.
+/// The noise and the disturbance at one moment, as they enter.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Disturbance {
     /// What is added to e in the internal model.
     pub model: f64,
     /// What is added to e in -sigma e.
     pub feedback: f64,
+    /// What is added to q.
+    pub q: f64,
 }
 
 impl Noise {
@@ -30,7 +32,7 @@ impl Noise {
     #[must_use]
     pub fn enters(self, regulator: &Regulator, v: f64) -> Disturbance {
         let fed_back = self == Noise::Everywhere || regulator.oscillators().is_none();
-        Disturbance { model: v, feedback: if fed_back { v } else { 0.0 } }
+        Disturbance { model: v, feedback: if fed_back { v } else { 0.0 }, q: 0.0 }
     }
 }
 
@@ -82,6 +84,13 @@ impl ClosedLoop {
     #[must_use]
     pub fn without_limit(self) -> ClosedLoop {
         ClosedLoop { limit: None, ..self }
+    }
+
+    /// The same with a regulator of this gain sigma.
+    #[must_use]
+    pub fn with_sigma(mut self, sigma: f64) -> ClosedLoop {
+        self.regulator.sigma = sigma;
+        self
     }
 
     /// The same with an actuator of this gain.
@@ -199,6 +208,7 @@ impl ClosedLoop {
     /// Adds u to e' and sets z'.
     #[inline]
     fn add_regulator(&self, y: &[f64], noise: Disturbance, de: &mut f64, dz: &mut [f64]) {
+        *de += noise.q;
         let plant = *de;
         self.add_unlimited(y, noise, de, dz);
         if self.saturates(y, noise) {
@@ -356,7 +366,7 @@ mod tests {
         let regulator = Regulator::new(3.0, 1.5, 2.0, vec![2.0, 1.0, 0.4]);
         let closed_loop = ClosedLoop::new(&plant, regulator.clone());
         let y = [0.3, -1.0, 0.5, 0.25, 2.0, -0.7];
-        let noise = Disturbance { model: 0.2, feedback: -0.1 };
+        let noise = Disturbance { model: 0.2, feedback: -0.1, q: 0.7 };
         let mut evaluator = closed_loop.evaluator();
         evaluator.set_time(0.25);
         let mut dy = vec![0.0; 6];
@@ -367,11 +377,11 @@ mod tests {
         let expected = (0..5).map(|i| (0..5).map(|j| phi[(i, j)] * z[j]).sum::<f64>() + measured * gamma[i]);
         let s: f64 = (0..5).map(|i| m[i] * n[i] * (z[i] - measured * m[i])).sum();
         let u = -3.0 * (0.3 - 0.1) + 1.5 * s;
-        assert!((dy[0] - (1.0 + 3.0_f64.tanh() + u)).abs() < 1e-14);
+        assert!((dy[0] - (1.0 + 3.0_f64.tanh() + 0.7 + u)).abs() < 1e-14);
         assert!((closed_loop.control(&y, noise) - u).abs() < 1e-14);
         dy[1..].iter().zip(expected).for_each(|(a, b)| assert!((a - b).abs() < 1e-14));
-        assert_eq!(Noise::Printed.enters(&regulator, 1.0), Disturbance { model: 1.0, feedback: 0.0 });
-        assert_eq!(Noise::Everywhere.enters(&regulator, 1.0), Disturbance { model: 1.0, feedback: 1.0 });
+        assert_eq!(Noise::Printed.enters(&regulator, 1.0), Disturbance { model: 1.0, feedback: 0.0, q: 0.0 });
+        assert_eq!(Noise::Everywhere.enters(&regulator, 1.0), Disturbance { model: 1.0, feedback: 1.0, q: 0.0 });
         assert_eq!(Noise::Printed.enters(&Regulator::high_gain(1.0), 1.0).feedback, 1.0);
     }
 }

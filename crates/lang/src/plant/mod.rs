@@ -8,8 +8,8 @@ pub use read::{FORMAT, VERSIONS};
 
 use crate::expr::{Formula, Formulas, PlantExpr, PlantNames, PlantVariable, Program};
 use crate::spec::{
-    Actuator, Constant, Document, Domain, ErrorKind, InitialSet, InputGain, InternalModel, Parameters, Period,
-    SpecErrors,
+    Actuator, Constant, Disturbances, Document, Domain, ErrorKind, InitialSet, InputGain, InternalModel, Parameters,
+    Period, SpecErrors,
 };
 use rug::Rational;
 use std::ops::Range;
@@ -45,6 +45,8 @@ pub struct Plant {
     pub input_gain: Option<InputGain>,
     /// What the actuator takes, where the claim is to keep to it.
     pub actuator: Option<Actuator>,
+    /// Noise of the measurement, and a disturbance: of what is said of given numbers of oscillators.
+    pub disturbances: Disturbances,
     /// The document as it was read.
     pub document: serde_json::Value,
     /// SHA-256, in hexadecimal, of the canonical form of the document.

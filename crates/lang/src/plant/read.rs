@@ -4,8 +4,8 @@ use super::{Initial, InitialRegulator, Plant, periodicity};
 use crate::expr::{Definitions, Expr, Phase, PlantExpr, PlantNames};
 use crate::spec::{
     Constant, Document, Domain, ErrorKind, Errors, InitialSet, Parameters, Period, Reported, SpecErrors, Value,
-    any_constant_in, positive_constant_in, read_actuator, read_input_gain, read_internal_model, read_parameters,
-    read_period, read_with_ball,
+    any_constant_in, positive_constant_in, read_actuator, read_disturbances, read_input_gain, read_internal_model,
+    read_parameters, read_period, read_with_ball,
 };
 use std::path::Path;
 
@@ -72,6 +72,7 @@ fn read(value: &Value<'_>, errors: &mut Errors) -> Result<Plant, Reported> {
     let input_gain =
         object.optional("input_gain").map(|value| read_input_gain(&value, &parameters, errors)).transpose();
     let actuator = object.optional("actuator").map(|value| read_actuator(&value, constants, errors)).transpose();
+    let disturbances = read_disturbances(&mut object, errors);
     object.finish(errors);
     // Without the names of the states the right sides have no meaning to check.
     let names = names?.with_parameters(constants.clone());
@@ -112,6 +113,7 @@ fn read(value: &Value<'_>, errors: &mut Errors) -> Result<Plant, Reported> {
         internal_model: internal_model?,
         input_gain: input_gain?,
         actuator: actuator?,
+        disturbances: disturbances?,
         document,
         sha256,
         source: value.document().clone(),

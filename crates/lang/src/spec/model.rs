@@ -3,6 +3,7 @@
 use super::actuator::Actuator;
 use super::bound::Bound;
 use super::bounding::Bounds;
+use super::disturbances::Disturbances;
 use super::document::Document;
 use super::input_gain::InputGain;
 use super::of_plant::OfPlant;
@@ -45,6 +46,8 @@ pub struct Specification {
     pub input_gain: Option<InputGain>,
     /// What the actuator takes, where the claim is to keep to it.
     pub actuator: Option<Actuator>,
+    /// Noise of the measurement, and a disturbance: of what is said of given numbers of oscillators.
+    pub disturbances: Disturbances,
     /// The relative-degree filter, when e is a combination of xi_1, ..., xi_r.
     pub relative_degree: Option<RelativeDegree>,
     /// The document as it was read, without `$schema`: key order and the text of numbers as written.
@@ -126,6 +129,18 @@ impl LyapunovSource {
 }
 
 impl Specification {
+    /// v_bar, in the unit of e: what is measured is e + v with |v| <= v_bar.
+    #[must_use]
+    pub fn v_bar(&self) -> Rational {
+        self.disturbances.v_bar()
+    }
+
+    /// d_bar, in the unit of e': |d| <= d_bar is added to q.
+    #[must_use]
+    pub fn d_bar(&self) -> Rational {
+        self.disturbances.d_bar()
+    }
+
     /// What was proved of the plant, where the data come from its formulas.
     #[must_use]
     pub fn plant(&self) -> Option<&OfPlant> {

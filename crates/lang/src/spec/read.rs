@@ -4,6 +4,7 @@ use super::actuator::read_actuator;
 use super::bound::Bound;
 use super::bounding::Bounds;
 use super::constant::{any_constant, expression, nonnegative_constant, positive_constant, positive_constant_in, whole};
+use super::disturbances::read_disturbances;
 use super::document::{Document, Value};
 use super::error::{ErrorKind, Errors, Reported, SpecErrors};
 use super::initial_set;
@@ -103,6 +104,7 @@ fn read(value: &Value<'_>, errors: &mut Errors) -> Result<Specification, Reporte
         object.optional("input_gain").map(|value| read_input_gain(&value, &Parameters::default(), errors)).transpose();
     let actuator =
         object.optional("actuator").map(|value| read_actuator(&value, Definitions::none(), errors)).transpose();
+    let disturbances = read_disturbances(&mut object, errors);
     let relative_degree =
         object.optional("relative_degree").map(|value| read_relative_degree(&value, errors)).transpose();
     object.finish(errors);
@@ -121,6 +123,7 @@ fn read(value: &Value<'_>, errors: &mut Errors) -> Result<Specification, Reporte
         initial_set: initial_set?,
         input_gain: input_gain?,
         actuator: actuator?,
+        disturbances: disturbances?,
         relative_degree: relative_degree?,
         document,
         sha256,

@@ -20,7 +20,7 @@ pub use read_plant::read_plant_witness;
 pub use read_sampled::{is_sampled, read_sampled_witness};
 pub use run::{certificate_of, read_for, read_numbers};
 pub use sampled::{sampled_certificate_json, sampled_statement};
-pub use stated::{StatedClaim, read_claim};
+pub use stated::{StatedClaim, StatedNoise, read_claim};
 pub use triple::{lyapunov_parts, matrix_json};
 pub use write::{
     FORMAT, VERSION, certificate_json, conditions_json, constants_json, members, no_plant_json, statement,

@@ -1,38 +1,123 @@
 //! Rates for given numbers of oscillators in a certificate: what is claimed, and what proves it (derivation, 13.6).
 
-use crate::certify::Certification;
-use crate::rate::bound::RateBound;
+use crate::certify::{Certification, SampledCertification};
+use crate::rate::bound::{RateBound, RateForCount};
+use crate::rate::inequality::RateWitness;
+use crate::rate::noise::NoiseBound;
+use crate::rate::sampled::bound::{SampledRateBound, SampledRateForCount};
+use crate::rate::sampled::form::{Inputs, OfX, SampledRateWitness};
+use crate::rate::sampled::noise::SampledNoiseBound;
+use rug::Rational;
 use serde_json::{Value, json};
 use sigmastar_exact::number::write_exact;
 
 /// The name of both parts.
 const FOR_N_O: &str = "for_n_o";
 
-/// The part of the claim: n_o, rate and factor; none where no rate is proved.
+/// The part of the claim: n_o, rate and factor, and bounds under noise; none where no rate is proved.
 pub(super) fn claimed_rates(run: &Certification<'_>) -> Option<(&'static str, Value)> {
-    part(
-        run,
-        |RateBound { n_o, witness, factor, .. }| json!({ "n_o": n_o, "rate": write_exact(&witness.rate), "factor": write_exact(factor) }),
-    )
-}
-
-/// The part of the witness: w and l where x counts, Pi by the rows of its lower triangle, and its bounds.
-pub(super) fn rate_witnesses(run: &Certification<'_>) -> Option<(&'static str, Value)> {
-    part(run, |RateBound { n_o, witness, has_x, e_low, upper: [e_up, z_up], .. }| {
-        let row = |row: &Vec<rug::Rational>| row.iter().map(write_exact).collect::<Vec<String>>();
-        let mut value = json!({
-            "n_o": n_o,
-            "Pi": witness.pi.iter().map(row).collect::<Vec<_>>(),
-            "e_low": write_exact(e_low), "e_up": write_exact(e_up), "z_up": write_exact(z_up),
-        });
-        if *has_x {
-            (value["w"], value["l"]) = (write_exact(&witness.w).into(), write_exact(&witness.l).into());
+    part(run, |RateBound { n_o, witness, factor, .. }, noise| {
+        let mut value = json!({ "n_o": n_o, "rate": write_exact(&witness.rate), "factor": write_exact(factor) });
+        if let Some(NoiseBound { limit, peak, .. }) = noise {
+            value["noise"] = json!({ "limit": write_exact(limit), "peak": write_exact(peak) });
         }
         value
     })
 }
 
-fn part(run: &Certification<'_>, of: impl Fn(&RateBound) -> Value) -> Option<(&'static str, Value)> {
-    let all: Vec<Value> = run.for_n_o.iter().filter_map(|found| found.bound.as_ref()).map(of).collect();
+/// The part of the witness: w and l where x counts, Pi by the rows of its lower triangle, and its bounds; the same for noise.
+pub(super) fn rate_witnesses(run: &Certification<'_>) -> Option<(&'static str, Value)> {
+    part(run, |RateBound { n_o, witness, has_x, e_low, upper: [e_up, z_up], .. }, noise| {
+        let mut value = json!({
+            "n_o": n_o,
+            "Pi": rows(&witness.pi),
+            "e_low": write_exact(e_low), "e_up": write_exact(e_up), "z_up": write_exact(z_up),
+        });
+        of_x(&mut value, witness, *has_x);
+        if let Some(NoiseBound { witness, has_x, e_low, .. }) = noise {
+            let mut part = json!({
+                "Pi": rows(&witness.pi), "lambda": write_exact(&witness.rate), "e_low": write_exact(e_low),
+            });
+            of_x(&mut part, witness, *has_x);
+            for (name, weight) in ["g_d", "g_v"].into_iter().zip(&witness.inputs) {
+                if let Some(weight) = weight {
+                    part[name] = write_exact(weight).into();
+                }
+            }
+            value["noise"] = part;
+        }
+        value
+    })
+}
+
+fn rows(pi: &[Vec<Rational>]) -> Vec<Vec<String>> {
+    pi.iter().map(|row| row.iter().map(write_exact).collect()).collect()
+}
+
+fn of_x(value: &mut Value, witness: &RateWitness, has_x: bool) {
+    if has_x {
+        (value["w"], value["l"]) = (write_exact(&witness.w).into(), write_exact(&witness.l).into());
+    }
+}
+
+fn part(
+    run: &Certification<'_>,
+    of: impl Fn(&RateBound, Option<&NoiseBound>) -> Value,
+) -> Option<(&'static str, Value)> {
+    let one = |found: &RateForCount| {
+        let noise = found.noise.as_ref().and_then(|noise| noise.as_ref().ok());
+        found.bound.as_ref().map(|bound| of(bound, noise))
+    };
+    let all: Vec<Value> = run.for_n_o.iter().filter_map(one).collect();
+    (!all.is_empty()).then_some((FOR_N_O, Value::Array(all)))
+}
+
+/// The same part of a claim at samples.
+pub(super) fn claimed_sampled_rates(run: &SampledCertification<'_>) -> Option<(&'static str, Value)> {
+    sampled_part(run, |SampledRateBound { n_o, rate, factor, .. }, noise| {
+        let mut value = json!({ "n_o": n_o, "rate": write_exact(rate), "factor": write_exact(factor) });
+        if let Some(SampledNoiseBound { limit, peak, .. }) = noise {
+            value["noise"] = json!({ "limit": write_exact(limit), "peak": write_exact(peak) });
+        }
+        value
+    })
+}
+
+/// The same part of a witness at samples: Pi and its bounds, c and the multipliers, with w those of x where x counts.
+pub(super) fn sampled_rate_witnesses(run: &SampledCertification<'_>) -> Option<(&'static str, Value)> {
+    sampled_part(run, |SampledRateBound { n_o, witness, e_low, upper: [e_up, z_up], .. }, noise| {
+        let mut value = at_samples(witness, e_low);
+        value["n_o"] = (*n_o).into();
+        (value["e_up"], value["z_up"]) = (write_exact(e_up).into(), write_exact(z_up).into());
+        if let Some(SampledNoiseBound { witness, e_low, .. }) = noise {
+            value["noise"] = at_samples(witness, e_low);
+        }
+        value
+    })
+}
+
+fn at_samples(witness: &SampledRateWitness, e_low: &Rational) -> Value {
+    let SampledRateWitness { pi, c, l_slope, l_hold, of_x, inputs: Inputs { g_d, g_v, g_r } } = witness;
+    let mut value = json!({ "Pi": rows(pi) });
+    let of_x = of_x.as_ref().map(|OfX { w, l_x, l_e, l_y }| [("w", w), ("l_x", l_x), ("l_e", l_e), ("l_y", l_y)]);
+    let inputs = [("g_d", g_d), ("g_v", g_v), ("g_r", g_r)];
+    let numbers = [("e_low", e_low), ("c", c), ("l_slope", l_slope), ("l_hold", l_hold)].into_iter();
+    let numbers = numbers.chain(of_x.into_iter().flatten());
+    for (name, number) in numbers.chain(inputs.into_iter().filter_map(|(name, weight)| Some((name, weight.as_ref()?))))
+    {
+        value[name] = write_exact(number).into();
+    }
+    value
+}
+
+fn sampled_part(
+    run: &SampledCertification<'_>,
+    of: impl Fn(&SampledRateBound, Option<&SampledNoiseBound>) -> Value,
+) -> Option<(&'static str, Value)> {
+    let one = |found: &SampledRateForCount| {
+        let noise = found.noise.as_ref().and_then(|noise| noise.as_ref().ok());
+        found.bound.as_ref().map(|bound| of(bound, noise))
+    };
+    let all: Vec<Value> = run.for_n_o.iter().filter_map(one).collect();
     (!all.is_empty()).then_some((FOR_N_O, Value::Array(all)))
 }

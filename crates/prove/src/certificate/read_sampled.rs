@@ -42,6 +42,8 @@ fn read(root: &Value<'_>, errors: &mut Errors) -> Result<SampledWitness, Reporte
     file.finish(errors);
     let (Claim { sigma, sampling, gain, set }, witness) = (claim?, witness?);
     let mut fields = witness.object(errors)?;
+    // Rates are proved again where they are asked for.
+    let _ = fields.optional("for_n_o");
     let of_plant: &[&'static str] = if root.member("plant").is_some() { &PLANT_FIELDS } else { &[] };
     for field in [STABILITY, EXISTENCE].iter().chain(of_plant) {
         if let Some(value) = fields.optional(field).filter(|_| sampling.delayed && BY_MATRIX.contains(field)) {
@@ -76,7 +78,7 @@ struct Claim {
 
 fn read_claim(value: &Value<'_>, subject: Option<&Value<'_>>, errors: &mut Errors) -> Result<Claim, Reported> {
     let mut claim = value.object(errors)?;
-    for unused in ["verdict", "n_o", "mu", "parameters", "periodic_solution", "control", "statement"] {
+    for unused in ["verdict", "n_o", "mu", "parameters", "periodic_solution", "control", "for_n_o", "statement"] {
         let _ = claim.optional(unused);
     }
     let regulator = word(&mut claim, "regulator", REGULATOR, errors);

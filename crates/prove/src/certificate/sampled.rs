@@ -2,6 +2,7 @@
 
 use super::fields::{NumberFields, paths_json};
 use super::of_plant::plant_parts;
+use super::rates::{claimed_sampled_rates, sampled_rate_witnesses};
 use super::triple::lyapunov_parts;
 use super::write::{
     FORMAT, VERSION, actuator_json, conclusion, conditions_json, control_json, every_input_gain, exact,
@@ -45,12 +46,20 @@ pub fn sampled_certificate_json(run: &SampledCertification<'_>) -> Option<Value>
             object([("x", upper_end(&x)), ("e", upper_end(&e)), ("zeta", upper_end(&zeta)), ("z", upper_end(&z))]),
         ),
         ("control", control_json(run.control()?)),
-        ("statement", text(sampled_statement(spec, witness))),
     ];
+    let said = ("statement", text(sampled_statement(spec, witness) + &run.rates_in_words()));
     let delay = witness.sampling.delayed.then(|| ("delay_samples", Value::from(1)));
     let claim = {
         let of_actuator = delay.into_iter().chain(input_gain_json(spec)).chain(actuator_json(spec));
-        object(heading.into_iter().chain(of_actuator).chain(parameters_json(spec)).chain(rest))
+        object(
+            heading
+                .into_iter()
+                .chain(of_actuator)
+                .chain(parameters_json(spec))
+                .chain(rest)
+                .chain(claimed_sampled_rates(run))
+                .chain([said]),
+        )
     };
     let of_delay = witness.delay.as_ref().map_or_else(Vec::new, NumberFields::json);
     let further = [("weight_sum", exact(&witness.law.weight_sum)), ("transfer", object([("proof", text(SAMPLED))]))];
@@ -68,7 +77,7 @@ pub fn sampled_certificate_json(run: &SampledCertification<'_>) -> Option<Value>
         (embedded, spec.document.clone()),
         (digest, text(spec.sha256.clone())),
         ("claim", claim),
-        ("witness", object(witness.json().into_iter().chain(of_delay).chain(parts))),
+        ("witness", object(witness.json().into_iter().chain(of_delay).chain(parts).chain(sampled_rate_witnesses(run)))),
         ("conditions", conditions_json(&proof.evaluation.conditions)),
     ]))
 }

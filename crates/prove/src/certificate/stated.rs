@@ -4,6 +4,7 @@ use super::read::read_lyapunov;
 use super::read_plant::read_plant_witness;
 use super::run::read_numbers;
 use crate::certify::resolve_with;
+use crate::rate::bound::{MAX_COUNTS, MAX_OSCILLATORS};
 use crate::reduction::{FreeNumbers, PlantRefusal, specification};
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{
@@ -22,8 +23,21 @@ pub struct StatedClaim {
     /// The stated bounds of |u| along it and of what it differs by from the initial set, at the gain of the claim; older certificates have
     /// none.
     pub control: Option<[f64; 2]>,
+    /// What is stated for given n_o under noise and disturbances.
+    pub noise: Vec<StatedNoise>,
     /// The plant, where the certificate is of one.
     pub plant: Option<Plant>,
+}
+
+/// Bounds of |e - e_per| for one n_o, at the gain of the claim, with the noise and the disturbance of the document.
+#[derive(Clone, Copy, Debug)]
+pub struct StatedNoise {
+    /// n_o.
+    pub n_o: u32,
+    /// In the limit.
+    pub limit: f64,
+    /// At all times from the start on.
+    pub peak: f64,
 }
 
 /// Reads the claim, the witness and the specification of a certificate about either regulator. What a falsified certificate says is
@@ -53,7 +67,8 @@ pub fn read_claim(document: &Document) -> Result<StatedClaim, SpecErrors> {
             }
         };
         let (periodic, control) = (stated_periodic(document)?, stated_control(document)?);
-        return Ok(StatedClaim { spec, witness, periodic, control, plant: Some(plant) });
+        let noise = stated_noise(document)?;
+        return Ok(StatedClaim { spec, witness, periodic, control, noise, plant: Some(plant) });
     }
     let Some(embedded) = document.at("/specification") else {
         return refused(root.error(ErrorKind::MissingField, "the field `specification` is missing"));
@@ -71,7 +86,7 @@ pub fn read_claim(document: &Document) -> Result<StatedClaim, SpecErrors> {
         }
     }
     let (periodic, control) = (stated_periodic(document)?, stated_control(document)?);
-    Ok(StatedClaim { spec, witness, periodic, control, plant: None })
+    Ok(StatedClaim { spec, witness, periodic, control, noise: stated_noise(document)?, plant: None })
 }
 
 /// The stated bounds of the periodic solution.
@@ -82,6 +97,19 @@ fn stated_periodic(document: &Document) -> Result<[f64; 4], SpecErrors> {
 /// Those of the control, where there are any.
 fn stated_control(document: &Document) -> Result<Option<[f64; 2]>, SpecErrors> {
     document.at("/claim/control").map(|_| stated(document, "control", ["steady", "transient"])).transpose()
+}
+
+/// Those for given n_o, where there are any.
+fn stated_noise(document: &Document) -> Result<Vec<StatedNoise>, SpecErrors> {
+    let parts = (0..MAX_COUNTS).map(|i| format!("for_n_o/{i}"));
+    let parts = parts.filter(|part| document.at(&format!("/claim/{part}/noise")).is_some());
+    parts
+        .map(|part| {
+            let [limit, peak] = stated(document, &format!("{part}/noise"), ["limit", "peak"])?;
+            let [n_o] = stated(document, &part, ["n_o"])?;
+            Ok(StatedNoise { n_o: n_o.clamp(0.0, f64::from(MAX_OSCILLATORS)) as u32, limit, peak })
+        })
+        .collect()
 }
 
 fn stated<const N: usize>(document: &Document, part: &str, names: [&str; N]) -> Result<[f64; N], SpecErrors> {

@@ -22,6 +22,7 @@ mod produce;
 mod proof;
 mod rates;
 mod refusal;
+mod room;
 mod round;
 mod sampled;
 mod sensitivity;

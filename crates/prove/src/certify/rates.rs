@@ -1,19 +1,31 @@
-//! Rates for given numbers of oscillators, as a part of a claim in continuous time (derivation, 13.6).
+//! Rates for given numbers of oscillators, as a part of a claim (derivation, 13.6).
 
 use super::certification::Certification;
-use super::proof::Proof;
-use crate::rate::bound::{MAX_COUNTS, MAX_OSCILLATORS, Place, RateBound, RateForCount, bound};
+use super::proof::{Proof, SampledProof, SharpProof};
+use super::sampled::SampledCertification;
+use crate::rate::bound::{MAX_COUNTS, MAX_OSCILLATORS, Place, RateForCount, bound};
+use crate::rate::noise::{Confinement, NoNoiseBound, NoiseBound, noise_bound};
+use crate::rate::sampled::bound::{self as at_samples, SampledRateBound, SampledRateForCount};
+use crate::rate::sampled::noise::noise_bound as at_samples_with_noise;
 use rayon::prelude::*;
+use rug::Rational;
+use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::write_exact;
+use sigmastar_lang::spec::Specification;
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::initial_set::claimed_distances;
-use sigmastar_theory::derivation::matrix_inequality;
+use sigmastar_theory::derivation::stability::level_condition;
+use sigmastar_theory::derivation::{matrix_inequality, sampled};
 
 /// Why a claim can have no rates for given numbers of oscillators.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoRatesOfClaim {
-    /// It is about the regulator at samples.
-    AtSamples,
+    /// It is about the regulator at samples with a delay.
+    WithDelay,
+    /// Its stability at samples is proved by (Ms).
+    BySampledMatrix,
+    /// This number is not below half of these samples.
+    NotBelowHalf(u32, u32),
     /// Its stability is proved by (M): it has no norms of the error system.
     ByMatrix,
     /// By (Jm).
@@ -34,9 +46,13 @@ impl NoRatesOfClaim {
             )
         };
         match self {
-            NoRatesOfClaim::AtSamples => {
+            NoRatesOfClaim::WithDelay => {
+                format!("{option}: not available with `delay_samples`: rates at samples are of the law without a delay")
+            }
+            NoRatesOfClaim::BySampledMatrix => by("(Ms)"),
+            NoRatesOfClaim::NotBelowHalf(n_o, samples) => {
                 format!(
-                    "{option}: not available for the regulator at samples: rates for given n_o are of continuous time"
+                    "{option}: the claim is about n_o < {samples}/2, half of the samples in a period, and n_o is {n_o}"
                 )
             }
             NoRatesOfClaim::ByMatrix => by("(M)"),
@@ -56,8 +72,9 @@ impl NoRatesOfClaim {
     #[must_use]
     pub fn help(self) -> &'static str {
         match self {
-            NoRatesOfClaim::AtSamples => "leave it or the sampling period out",
-            NoRatesOfClaim::ByMatrix | NoRatesOfClaim::ByJointMetrics => {
+            NoRatesOfClaim::WithDelay => "leave it or the delay out",
+            NoRatesOfClaim::NotBelowHalf(..) => "ask for smaller numbers, or take a shorter sampling period",
+            NoRatesOfClaim::ByMatrix | NoRatesOfClaim::BySampledMatrix | NoRatesOfClaim::ByJointMetrics => {
                 "leave it out; a bounding specification of the plant (`sigmastar bound`) has a claim by norms"
             }
             NoRatesOfClaim::TooMany(_) => "ask for fewer, or write several certificates",
@@ -87,7 +104,8 @@ impl Certification<'_> {
     /// Proves rates for these numbers of oscillators at the gain of the claim, and makes them a part of it; without a claim there are none.
     ///
     /// Guarantee: for each bound that is proved, with so many oscillators, at the claimed gain and no other, every solution from the
-    /// claimed set has `|e(t) - e_per(t)| <= factor exp(-rate (t - t_0))`.
+    /// claimed set has `|e(t) - e_per(t)| <= factor exp(-rate (t - t_0))`; where the document has noise or a disturbance and there are bounds
+    /// of them, what [`noise_bound`] says of it.
     ///
     /// # Errors
     /// Those of [`rate_counts`], and a claim that does not rest on norms.
@@ -97,41 +115,171 @@ impl Certification<'_> {
             self.for_n_o = Vec::new();
             return Ok(());
         }
-        let found = match (self.claim(), self.sharp.proved()) {
-            (Some(_), Some(Proof { witness, evaluation, precision })) => {
-                let data = Data::new(self.spec, *precision);
-                if self.spec.bounds.proved_values().joint_stability().is_some() {
-                    return Err(NoRatesOfClaim::ByJointMetrics);
-                }
-                if matrix_inequality::proved_for(&data, &witness.w_x, &witness.h).is_some() {
-                    return Err(NoRatesOfClaim::ByMatrix);
-                }
-                let periodic = [&evaluation.periodic.x_per, &evaluation.periodic.e_per, &evaluation.z];
-                let distances = claimed_distances(&data, &witness.set, periodic);
-                let place =
-                    Place { sigma: &witness.sigma, error_box: &evaluation.error_box, distances: distances.each_ref() };
-                let of = |n_o: &u32| RateForCount { n_o: *n_o, bound: bound(&data, &place, *n_o) };
-                counts.par_iter().map(of).collect()
-            }
-            _ => Vec::new(),
+        let Some(proof) = self.sharp.proved().filter(|_| self.claim().is_some()) else {
+            self.for_n_o = Vec::new();
+            return Ok(());
         };
-        self.for_n_o = found;
+        if self.spec.bounds.proved_values().joint_stability().is_some() {
+            return Err(NoRatesOfClaim::ByJointMetrics);
+        }
+        let data = Data::new(self.spec, proof.precision);
+        if matrix_inequality::proved_for(&data, &proof.witness.w_x, &proof.witness.h).is_some() {
+            return Err(NoRatesOfClaim::ByMatrix);
+        }
+        self.for_n_o = for_n_o(self.spec, proof, &counts);
+        self.make_room(&counts);
+        Ok(())
+    }
+}
+
+/// Rates, and bounds under noise and disturbances where the document has them, of a claim by norms.
+pub(super) fn for_n_o(spec: &Specification, proof: &SharpProof, counts: &[u32]) -> Vec<RateForCount> {
+    let Proof { witness, evaluation, precision } = proof;
+    let data = Data::new(spec, *precision);
+    let periodic = [&evaluation.periodic.x_per, &evaluation.periodic.e_per, &evaluation.z];
+    let distances = claimed_distances(&data, &witness.set, periodic);
+    let place = Place { sigma: &witness.sigma, error_box: &evaluation.error_box, distances: distances.each_ref() };
+    let confinement = Confinement {
+        level: disturbed_level(&data, &distances, [&witness.d_x, &witness.d_e, &witness.w_x, &witness.h]),
+        w_x: &witness.w_x,
+        radii: [&witness.d_x, &witness.d_e],
+    };
+    let disturbed = spec.disturbances.any();
+    let of = |n_o: &u32| {
+        let bound = bound(&data, &place, *n_o);
+        let noise = disturbed.then(|| match bound {
+            Some(_) => noise_bound(&data, &place, &confinement, *n_o),
+            None => Err(NoNoiseBound::NoRate),
+        });
+        RateForCount { n_o: *n_o, bound, noise }
+    };
+    counts.par_iter().map(of).collect()
+}
+
+impl Certification<'_> {
+    /// The sentences of the claim about them, each with a space before it.
+    #[must_use]
+    pub fn rates_in_words(&self) -> String {
+        let Some(sigma) = self.sigma_star().map(write_exact) else { return String::new() };
+        let sentences = |RateForCount { n_o, bound, noise }: &RateForCount| {
+            let bound = bound.as_ref()?;
+            let of_rate = format!(
+                " With n_o = {n_o} and sigma = {sigma} exactly also |e(t) - e_per(t)| <= {} exp(-{} (t - t_0)) for these solutions, e_per \
+                 that of the periodic solution and t_0 the initial time.",
+                write_exact(&bound.factor),
+                write_exact(&bound.witness.rate),
+            );
+            let of_noise = noise
+                .as_ref()
+                .and_then(|noise| noise.as_ref().ok())
+                .map(|NoiseBound { limit, peak, .. }| noise_in_words(self.spec, (*n_o, &sigma), [peak, limit]));
+            Some(of_rate + &of_noise.unwrap_or_default())
+        };
+        self.for_n_o.iter().filter_map(sentences).collect()
+    }
+}
+
+/// The sentence about noise and a disturbance, with a space before it.
+fn noise_in_words(spec: &Specification, (n_o, sigma): (u32, &str), [peak, limit]: [&Rational; 2]) -> String {
+    format!(
+        " With n_o = {n_o} and sigma = {sigma} exactly, {}, also |e(t) - e_per(t)| <= {} for these starts{} and all t >= t_0, and \
+         its limit superior is at most {}.",
+        spec.disturbances.in_words(),
+        write_exact(peak),
+        if spec.initial_set.is_aligned() { " (z = M e of the measured e)" } else { "" },
+        write_exact(limit),
+    )
+}
+
+/// Rates, and bounds under noise and disturbances where the document has them, of a claim by norms at samples.
+pub(super) fn for_n_o_at_samples(
+    spec: &Specification,
+    proof: &SampledProof,
+    counts: &[u32],
+) -> Vec<SampledRateForCount> {
+    let Proof { witness, evaluation, precision } = proof;
+    let (data, law) = (Data::new(spec, *precision), &evaluation.law);
+    let periodic = [&evaluation.size.x_per, &evaluation.size.e_per, &evaluation.z];
+    let distances = claimed_distances(&data, &witness.set, periodic);
+    let place = Place { sigma: &witness.sigma, error_box: &evaluation.error_box, distances: distances.each_ref() };
+    let confinement = Confinement {
+        level: disturbed_level(&data, &distances, [&witness.d_x, &witness.d_e, &witness.w_x, &witness.eta]),
+        w_x: &witness.w_x,
+        radii: [&witness.d_x, &witness.d_e],
+    };
+    let disturbed = spec.disturbances.any();
+    let of = |n_o: &u32| {
+        let bound = at_samples::bound(&data, law, &place, *n_o);
+        let noise = disturbed.then(|| match bound {
+            Some(_) => at_samples_with_noise(&data, law, &place, &confinement, *n_o),
+            None => Err(NoNoiseBound::NoRate),
+        });
+        SampledRateForCount { n_o: *n_o, bound, noise }
+    };
+    counts.par_iter().map(of).collect()
+}
+
+/// L_0, the left side of C4 at these distances; an aligned regulator sets z = M (e + v).
+fn disturbed_level(data: &Data<'_>, [of_x, of_e, of_zeta]: &[Enclosure; 3], numbers: [&Rational; 4]) -> Enclosure {
+    let spec = data.spec;
+    let misaligned =
+        if spec.initial_set.is_aligned() { &data.n_bar * data.rational(&spec.v_bar()) } else { data.zero() };
+    let numbers = numbers.map(|value| data.rational(value));
+    level_condition(data, [of_x, of_e, &(of_zeta + misaligned)], numbers.each_ref()).0
+}
+
+impl SampledCertification<'_> {
+    /// Proves rates for these numbers of oscillators, as [`Certification::prove_rates`]: at the gain and the sampling period of the claim.
+    ///
+    /// Guarantee: for each bound that is proved, with so many oscillators, every solution that is in the claimed set at a sampling instant
+    /// t_0 has `|e(t) - e_per(t)| <= factor exp(-rate (t - t_0))` at every sampling instant t >= t_0; where the document has noise or a
+    /// disturbance and there are bounds of them, what [`at_samples_with_noise`] says of it.
+    ///
+    /// # Errors
+    /// Those of [`rate_counts`], a number that is not below half of the samples, a delay, and a claim that does not rest on norms.
+    pub fn prove_rates(&mut self, asked: &[u32]) -> Result<(), NoRatesOfClaim> {
+        let counts = rate_counts(asked)?;
+        let Some(last) = counts.last() else {
+            self.for_n_o = Vec::new();
+            return Ok(());
+        };
+        if self.sampling.delayed {
+            return Err(NoRatesOfClaim::WithDelay);
+        }
+        if 2 * last >= self.sampling.samples {
+            return Err(NoRatesOfClaim::NotBelowHalf(*last, self.sampling.samples));
+        }
+        let Some(proof) = self.claim() else {
+            self.for_n_o = Vec::new();
+            return Ok(());
+        };
+        let data = Data::new(self.spec, proof.precision);
+        if sampled::matrix_inequality::proved_for(&data, &proof.witness).is_some() {
+            return Err(NoRatesOfClaim::BySampledMatrix);
+        }
+        self.for_n_o = for_n_o_at_samples(self.spec, proof, &counts);
+        self.make_room(&counts);
         Ok(())
     }
 
     /// The sentences of the claim about them, each with a space before it.
     #[must_use]
     pub fn rates_in_words(&self) -> String {
-        let Some(sigma) = self.sigma_star().map(write_exact) else { return String::new() };
-        let sentence = |RateBound { n_o, witness, factor, .. }: &RateBound| {
-            format!(
-                " With n_o = {n_o} and sigma = {sigma} exactly also |e(t) - e_per(t)| <= {} exp(-{} (t - t_0)) for these solutions, e_per \
-                 that of the periodic solution and t_0 the initial time.",
+        let Some(proof) = self.claim() else { return String::new() };
+        let sigma = write_exact(&proof.witness.sigma);
+        let sentences = |SampledRateForCount { n_o, bound, noise }: &SampledRateForCount| {
+            let SampledRateBound { rate, factor, .. } = bound.as_ref()?;
+            let of_rate = format!(
+                " With n_o = {n_o} and sigma = {sigma} exactly also |e(t) - e_per(t)| <= {} exp(-{} (t - t_0)) at the sampling instants t \
+                 for these solutions, e_per that of the periodic solution and t_0 the initial time.",
                 write_exact(factor),
-                write_exact(&witness.rate),
-            )
+                write_exact(rate),
+            );
+            let of_noise = noise.as_ref().and_then(|noise| noise.as_ref().ok());
+            let of_noise = of_noise.map(|noise| noise_in_words(self.spec, (*n_o, &sigma), [&noise.peak, &noise.limit]));
+            Some(of_rate + &of_noise.unwrap_or_default())
         };
-        self.for_n_o.iter().filter_map(|found| found.bound.as_ref()).map(sentence).collect()
+        self.for_n_o.iter().filter_map(sentences).collect()
     }
 }
 

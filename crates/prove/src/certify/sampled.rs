@@ -13,6 +13,7 @@ use super::round::{
     rounded_sigma,
 };
 use super::verdict::Verdict;
+use crate::rate::sampled::bound::SampledRateForCount;
 use crate::search::{
     Extreme, Failing, FloatModel, Goal, Obstacle, PastShare, SampledLimit, SampledProposal, SampledSearch, weight_h,
 };
@@ -54,6 +55,8 @@ pub struct SampledCertification<'s> {
     pub no_plant: Option<NoPlant>,
     /// What the gain would be with each interval closed to its nominal value, where it is compared: estimates.
     pub interval_costs: Vec<(String, Option<f64>)>,
+    /// Rates for the numbers of oscillators that were asked about.
+    pub for_n_o: Vec<SampledRateForCount>,
 }
 
 impl SampledCertification<'_> {
@@ -299,6 +302,7 @@ fn assemble<'s>(
         found,
         unproved_bounds: unproved,
         interval_costs: Vec::new(),
+        for_n_o: Vec::new(),
     })
 }
 

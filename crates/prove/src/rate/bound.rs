@@ -5,9 +5,10 @@
 //! `et(t)^2 <= W(t)/e_low <= exp(-2 rate (t - t_0)) W(t_0)/e_low` and `W(t_0) <= w P_up dX^2 + e_up dE^2 + z_up dZ^2` where
 //! |xt| <= dX, |et| <= dE and |zt|_N <= dZ at t_0: so C^2 is that sum over e_low.
 
-use super::inequality::{ErrorDynamics, LoopBounds, RateWitness, is_definite};
+use super::inequality::{ErrorDynamics, LoopBounds, RateWitness, is_above, is_definite};
+use super::noise::{NoNoiseBound, NoiseBound};
 use super::oscillators::OscillatorMatrix;
-use super::riccati::{Proposal, propose};
+use super::riccati::propose;
 use super::small_gain::{Limit, SmallGain};
 use faer::linalg::solvers::DenseSolveCore;
 use faer::{Mat, Side};
@@ -27,7 +28,7 @@ pub const MAX_COUNTS: usize = 8;
 const SHARES: [f64; 4] = [0.95, 0.8, 0.5, 0.2];
 
 /// Digits of Pi that are tried.
-const DIGITS: [u32; 4] = [6, 9, 12, 16];
+pub(super) const DIGITS: [u32; 4] = [6, 9, 12, 16];
 
 /// By what share the diagonal bounds of Pi may differ from the best ones.
 const ROOM: f64 = 1e-3;
@@ -68,6 +69,8 @@ pub struct RateForCount {
     pub n_o: u32,
     /// The bound; `None` where none was proved, which says nothing either way.
     pub bound: Option<RateBound>,
+    /// Bounds of what noise and disturbances do; `None` where the document has none.
+    pub noise: Option<Result<NoiseBound, NoNoiseBound>>,
 }
 
 /// The best bound that is found; `None` where nothing is proved.
@@ -79,8 +82,7 @@ pub struct RateForCount {
 pub fn bound(data: &Data<'_>, place: &Place<'_>, n_o: u32) -> Option<RateBound> {
     let bounds = LoopBounds::of_error(data, place.error_box)?;
     let oscillators = OscillatorMatrix::new(data, n_o);
-    let input_gain = data.input_gain.as_ref().map(|gain| [gain.low.clone(), gain.high.clone()]);
-    let dynamics = ErrorDynamics { oscillators: &oscillators, sigma: place.sigma.clone(), bounds: &bounds, input_gain };
+    let dynamics = ErrorDynamics::new(data, &oscillators, place.sigma, &bounds);
     let condition = SmallGain::new(&dynamics)?;
     let largest = condition.largest_rate()?;
     SHARES.iter().find_map(|share| {
@@ -90,34 +92,47 @@ pub fn bound(data: &Data<'_>, place: &Place<'_>, n_o: u32) -> Option<RateBound> 
             if !dynamics.proves(&witness) {
                 return None;
             }
-            let [e_low, upper @ ..] = diagonal_bounds(&proposal, place.distances)?;
-            let precision = data.precision;
-            let number = |value: &Rational| Enclosure::from_rational(value, precision);
-            let pi = |i: usize, j: usize| number(&witness.pi[i][j]);
-            let n = witness.pi.len();
-            let above = |i: usize, j: usize| if (i, j) == (0, 0) { pi(0, 0) - number(&e_low) } else { pi(i, j) };
-            let below = |i: usize, j: usize| match i == j {
-                true => number(&upper[usize::from(i > 0)]) - pi(i, i),
-                false => pi(i, j).negate(),
-            };
-            if !(is_definite(n, above) && is_definite(n, below)) {
+            let diagonal = diagonal_bounds(&proposal.pi, place.distances)?;
+            if !are_bounds(&witness.pi, &diagonal, data.precision) {
                 return None;
             }
-            let [of_x, of_e, of_zeta] = place.distances;
-            let w = if bounds.has_x { number(&witness.w) } else { data.zero() };
-            let start =
-                w * &data.p_up * of_x.sqr() + number(&upper[0]) * of_e.sqr() + number(&upper[1]) * of_zeta.sqr();
-            let factor = (start / number(&e_low)).sqrt().upper_rational()?;
-            let factor = round_rational(&factor, 6, Direction::Up);
+            let factor = factor(data, place, bounds.has_x.then_some(&witness.w), &diagonal)?;
+            let [e_low, upper @ ..] = diagonal;
             let (has_x, limit) = (bounds.has_x, condition.limit());
             Some(RateBound { n_o, witness, has_x, e_low, upper, factor, limit })
         })
     })
 }
 
+/// Whether `diag(e_low, 0) < Pi < diag(e_up, z_up I)` is proved.
+pub(super) fn are_bounds(rows: &[Vec<Rational>], [e_low, e_up, z_up]: &[Rational; 3], precision: u32) -> bool {
+    let number = |value: &Rational| Enclosure::from_rational(value, precision);
+    let pi = |i: usize, j: usize| number(&rows[i][j]);
+    let below = |i: usize, j: usize| match i == j {
+        true => number(if i == 0 { e_up } else { z_up }) - pi(i, i),
+        false => pi(i, j).negate(),
+    };
+    is_above(rows, e_low, precision) && is_definite(rows.len(), below)
+}
+
+/// C, rounded up: `C^2 = (w P_up dX^2 + e_up dE^2 + z_up dZ^2)/e_low`; without w where x does not count.
+pub(super) fn factor(
+    data: &Data<'_>,
+    place: &Place<'_>,
+    w: Option<&Rational>,
+    [e_low, e_up, z_up]: &[Rational; 3],
+) -> Option<Rational> {
+    let number = |value: &Rational| Enclosure::from_rational(value, data.precision);
+    let [of_x, of_e, of_zeta] = place.distances;
+    let w = w.map_or_else(|| data.zero(), number);
+    let start = w * &data.p_up * of_x.sqr() + number(e_up) * of_e.sqr() + number(z_up) * of_zeta.sqr();
+    let factor = (start / number(e_low)).sqrt().upper_rational()?;
+    Some(round_rational(&factor, 6, Direction::Up))
+}
+
 /// e_low, e_up, z_up in floating point, rounded to the safe side: of all `diag(e_up, z_up I) >= Pi` one for which
 /// `e_up dE^2 + z_up dZ^2` is about least.
-fn diagonal_bounds(Proposal { pi, .. }: &Proposal, [_, of_e, of_zeta]: [&Enclosure; 3]) -> Option<[Rational; 3]> {
+pub(super) fn diagonal_bounds(pi: &Mat<f64>, [_, of_e, of_zeta]: [&Enclosure; 3]) -> Option<[Rational; 3]> {
     let n = pi.nrows();
     let rest = Mat::from_fn(n - 1, n - 1, |i, j| pi[(i + 1, j + 1)]);
     let eigen = rest.self_adjoint_eigen(Side::Lower).ok()?;

@@ -16,6 +16,11 @@
 //! Proof: M is affine in delta, so it is positive definite for every delta between; where et < 0 take (xi, -y, -u_x) for v; then
 //! `-(W' + 2 rate W) >= v'M v + l (k_x^2 xi^2 - u_x^2) >= 0`. QED
 //!
+//! *With inputs.* A disturbance d of q enters by B, noise v of the measured e by
+//! `B_v = (0, -Phi b - sigma b) - b_u (sigma + mu b'b) B`, b_u being the input gain. Let M be that of the form with
+//! `- 2 y'Pi B d - 2 y'Pi B_v v + g_d d^2 + g_v v^2` besides, in (xi, y, u_x, d, v). If it is positive definite at the corners then
+//! `W' <= -2 rate W + g_d d^2 + g_v v^2`, by the same proof: d and v change their sign with y. The rate then is the lambda of (N).
+//!
 //! - *Input gain b* (13.1): the loop is that of gain 1 with b mu for mu and delta + (1-b) sigma for delta. M is affine in
 //!   (b, delta), so the four corners serve every b of the interval, with one W.
 //! - *Bounds in the harder direction.* The relations above stay true with a smaller a_2 and with larger sqrt(P_up) (as w > 0), k_x,
@@ -29,6 +34,8 @@
 //!   whole line satisfies unless n = 0. Then xi and u_x are left out, and with them the bound a_2 of the rate.
 
 use super::oscillators::OscillatorMatrix;
+use faer::linalg::solvers::Solve;
+use faer::{Mat, Side};
 use rug::Rational;
 use sigmastar_exact::enclosure::{Enclosure, Truth};
 use sigmastar_matrix::ScaledMatrix;
@@ -104,6 +111,8 @@ pub struct RateWitness {
     pub pi: Vec<Vec<Rational>>,
     /// l; of no account where u_x is left out.
     pub l: Rational,
+    /// g_d and g_v of the inputs that are there.
+    pub inputs: [Option<Rational>; 2],
 }
 
 /// The signals of the quadratic form.
@@ -113,6 +122,32 @@ enum Signal {
     /// An entry of y = (et, zs).
     Y(usize),
     Ux,
+    /// The disturbance d of q.
+    D,
+    /// The noise v of the measured e.
+    V,
+}
+
+/// A corner (b, delta) of what varies.
+pub(super) struct Corner {
+    /// `(delta, b mu b')`: what comes back to the input B.
+    row: Vec<Enclosure>,
+    /// Pi B_v.
+    noise: Vec<Enclosure>,
+}
+
+impl<'a> ErrorDynamics<'a> {
+    /// Those of the data.
+    #[must_use]
+    pub fn new(
+        data: &Data<'_>,
+        oscillators: &'a OscillatorMatrix,
+        sigma: &Rational,
+        bounds: &'a LoopBounds,
+    ) -> ErrorDynamics<'a> {
+        let input_gain = data.input_gain.as_ref().map(|gain| [gain.low.clone(), gain.high.clone()]);
+        ErrorDynamics { oscillators, sigma: sigma.clone(), bounds, input_gain }
+    }
 }
 
 impl ErrorDynamics<'_> {
@@ -136,16 +171,60 @@ impl ErrorDynamics<'_> {
     pub fn proves(&self, witness: &RateWitness) -> bool {
         let n = self.oscillators.order() + 1;
         let triangle = witness.pi.len() == n && witness.pi.iter().enumerate().all(|(i, row)| row.len() == i + 1);
-        if !triangle || (self.bounds.has_x && witness.w <= 0) {
+        let positive = witness.inputs.iter().flatten().all(|weight| *weight > 0);
+        if !triangle || !positive || (self.bounds.has_x && witness.w <= 0) {
             return false;
         }
         let form = Form::new(self, witness);
         is_definite(n, |i, j| form.at(i, j))
-            && self.corners().iter().all(|corner| {
-                let row = form.corner(corner);
-                is_definite(form.signals.len(), |i, j| form.entry(&row, form.signals[i], form.signals[j]))
-            })
+            && form.corners().iter().all(|corner| is_definite(form.order(), |i, j| form.entry(corner, i, j)))
     }
+
+    /// (g_d, g_v) with which the form of a witness without inputs is positive semidefinite with them, about least in
+    /// `g_d d^2 + g_v v^2` for these sizes d, v of the inputs; in doubles, and no claim. `None` where it is not even without them.
+    pub(super) fn input_weights(&self, witness: &RateWitness, sizes: [f64; 2]) -> Option<[f64; 2]> {
+        let form = Form::new(self, witness);
+        let order = form.order();
+        let mut found = [0.0_f64; 2];
+        for corner in form.corners() {
+            let entries = Mat::from_fn(order, order, |i, j| form.entry(&corner, i, j).midpoint_f64());
+            let coupling = |signal: Signal| -> Vec<f64> {
+                let of = |first: &Signal| form.coefficient(&corner, *first, signal).midpoint_f64();
+                form.signals.iter().map(of).collect()
+            };
+            let columns = [coupling(Signal::D), coupling(Signal::V)];
+            let columns = Mat::from_fn(order, 2, |i, j| columns[j][i]);
+            // A NaN would go through.
+            if !(0..order).all(|j| (0..order).all(|i| entries[(i, j)].is_finite())) {
+                return None;
+            }
+            // Of very different sizes: in units in which the diagonal is 1.
+            let unit = |i: usize| 1.0 / entries[(i, i)].sqrt();
+            let scaled = Mat::from_fn(order, order, |i, j| unit(i) * entries[(i, j)] * unit(j));
+            let scaled_columns = Mat::from_fn(order, 2, |i, j| unit(i) * columns[(i, j)]);
+            let solved = scaled.llt(Side::Lower).ok()?.solve(&scaled_columns);
+            let squares = scaled_columns.transpose() * &solved;
+            // diag(g_d, g_v) is to be at least these squares; of the two directions the larger input pays less for the product.
+            let product = squares[(0, 1)].abs();
+            let shared = match sizes {
+                [d, v] if d > 0.0 && v > 0.0 => [product * v / d, product * d / v],
+                _ => [0.0; 2],
+            };
+            for i in 0..2 {
+                found[i] = found[i].max(squares[(i, i)] + shared[i]);
+            }
+        }
+        found.iter().all(|weight| weight.is_finite()).then_some(found)
+    }
+}
+
+/// Whether Pi > diag(e_low, 0) is proved; Pi by the rows of its lower triangle.
+pub(super) fn is_above(pi: &[Vec<Rational>], e_low: &Rational, precision: u32) -> bool {
+    let number = |value: &Rational| Enclosure::from_rational(value, precision);
+    is_definite(pi.len(), |i, j| {
+        let entry = number(&pi[i.max(j)][i.min(j)]);
+        if (i, j) == (0, 0) { entry - number(e_low) } else { entry }
+    })
 }
 
 /// Whether a symmetric matrix is proved positive definite.
@@ -166,6 +245,8 @@ struct Form<'a> {
     twice_rate: Enclosure,
     w: Enclosure,
     l: Enclosure,
+    /// g_d and g_v, 0 where there is no such input.
+    inputs: [Enclosure; 2],
 }
 
 impl<'a> Form<'a> {
@@ -193,31 +274,70 @@ impl<'a> Form<'a> {
         signals.extend(dynamics.bounds.has_x.then_some(Signal::Xi));
         signals.extend((0..n).map(Signal::Y));
         signals.extend((dynamics.bounds.k_x != 0).then_some(Signal::Ux));
+        signals.extend(witness.inputs[0].as_ref().map(|_| Signal::D));
+        signals.extend(witness.inputs[1].as_ref().map(|_| Signal::V));
+        let inputs =
+            witness.inputs.each_ref().map(|weight| weight.as_ref().map_or_else(|| number(&Rational::new()), number));
         let (twice_rate, w, l) = (number(&witness.rate) * 2, number(&witness.w), number(&witness.l));
-        Form { signals, pi, image, columns, twice_rate, w, l, dynamics }
+        Form { signals, pi, image, columns, twice_rate, w, l, inputs, dynamics }
+    }
+
+    fn order(&self) -> usize {
+        self.signals.len()
     }
 
     fn at(&self, i: usize, j: usize) -> Enclosure {
         self.pi[i * self.image.len() + j].clone()
     }
 
-    /// The row `(delta, b mu b')` of a corner: what comes back to the input B.
-    fn corner(&self, [gain, slope]: &[Enclosure; 2]) -> Vec<Enclosure> {
-        let mu = gain * &self.dynamics.oscillators.mu;
-        std::iter::once(slope.clone()).chain(self.dynamics.oscillators.b.iter().map(|b| &mu * b)).collect()
+    fn corners(&self) -> Vec<Corner> {
+        self.dynamics.corners().iter().map(|corner| self.corner(corner)).collect()
     }
 
-    /// The entry of two signals, in either order, at a corner.
-    fn entry(&self, row: &[Enclosure], first: Signal, second: Signal) -> Enclosure {
-        use Signal::{Ux, Xi, Y};
+    fn corner(&self, [gain, slope]: &[Enclosure; 2]) -> Corner {
+        let OscillatorMatrix { mu, b, .. } = self.dynamics.oscillators;
+        let (n, precision) = (self.image.len(), mu.precision());
+        let through = gain * mu;
+        let row = std::iter::once(slope.clone()).chain(b.iter().map(|b| &through * b)).collect();
+        let sigma = Enclosure::from_rational(&self.dynamics.sigma, precision);
+        // (Phi + sigma) b by its states, and sigma + mu b'b.
+        let mut fed: Vec<Enclosure> = b.iter().map(|b| &sigma * b).collect();
+        for (column, b) in b.iter().enumerate() {
+            if let Some((row, entry)) = self.dynamics.oscillators.phi(column) {
+                fed[row] = &fed[row] + entry * b;
+            }
+        }
+        let total = b.iter().fold(sigma, |sum, b| sum + mu * b.sqr());
+        let control = gain * total;
+        let noise = (0..n).map(|i| {
+            let of_model = fed
+                .iter()
+                .enumerate()
+                .fold(&control * &self.image[i], |sum, (j, fed)| sum + &self.pi[i * n + j + 1] * fed);
+            of_model.negate()
+        });
+        Corner { row, noise: noise.collect() }
+    }
+
+    /// The entry of two of the signals at a corner.
+    fn entry(&self, corner: &Corner, i: usize, j: usize) -> Enclosure {
+        self.coefficient(corner, self.signals[i], self.signals[j])
+    }
+
+    /// The same of any two signals, in either order.
+    fn coefficient(&self, corner: &Corner, first: Signal, second: Signal) -> Enclosure {
+        use Signal::{D, Ux, V, Xi, Y};
         let LoopBounds { x_decay, root_p_up, k_x, k_f, .. } = self.dynamics.bounds;
         let number = |value: &Rational| Enclosure::from_rational(value, self.twice_rate.precision());
         match (first, second) {
             (Xi, Xi) => &self.w * (number(x_decay) * 2 - &self.twice_rate) - &self.l * number(k_x).sqr(),
             (Xi, Y(0)) | (Y(0), Xi) => (&self.w * number(root_p_up) * number(k_f)).negate(),
-            (Y(i), Y(j)) => self.linear(row, i, j),
-            (Y(i), Ux) | (Ux, Y(i)) => self.image[i].negate(),
+            (Y(i), Y(j)) => self.linear(&corner.row, i, j),
+            (Y(i), Ux | D) | (Ux | D, Y(i)) => self.image[i].negate(),
+            (Y(i), V) | (V, Y(i)) => corner.noise[i].negate(),
             (Ux, Ux) => self.l.clone(),
+            (D, D) => self.inputs[0].clone(),
+            (V, V) => self.inputs[1].clone(),
             _ => Enclosure::zero(self.twice_rate.precision()),
         }
     }

@@ -4,10 +4,15 @@
 //! - [`inequality`]: the matrix inequality that proves a rate of the closed loop, for any quadratic Lyapunov function;
 //! - [`small_gain`]: the largest rate that the inequality can prove, in floating point;
 //! - [`riccati`]: the Lyapunov function for it, by a Riccati equation;
+//! - [`noise`]: what noise of the measurement and a disturbance do to the error, by the same inequality with inputs;
+//! - [`sampled`]: the same for the law at samples;
 //! - [`bound`]: from a rate to `|e - e_per| <= C exp(-rate (t - t_0))` on a set of starts, as a certificate has it.
 
 pub mod bound;
 pub mod inequality;
+pub mod noise;
+mod noise_search;
 pub mod oscillators;
 pub mod riccati;
+pub mod sampled;
 pub mod small_gain;

@@ -7,6 +7,9 @@ use faer::{Mat, c64};
 use rug::Rational;
 use sigmastar_exact::number::{Direction, Portable, round_f64};
 
+/// What share of what the small-gain condition leaves over goes to each of its two sides.
+const SLACK: f64 = 1.0 / 3.0;
+
 /// Shares of the largest rate that are claimed, in this order.
 const SHARES: [f64; 5] = [0.9999, 0.999, 0.99, 0.9, 0.5];
 
@@ -60,7 +63,7 @@ impl Proposal {
     fn rounded(&self, round: impl Fn(f64) -> Option<Rational>) -> Option<RateWitness> {
         let entries = |i: usize| (0..=i).map(|j| round(self.pi[(i, j)])).collect::<Option<Vec<Rational>>>();
         let pi = (0..self.pi.nrows()).map(entries).collect::<Option<Vec<_>>>()?;
-        Some(RateWitness { rate: self.rate.clone(), w: round(self.w)?, pi, l: Rational::from(1) })
+        Some(RateWitness { rate: self.rate.clone(), w: round(self.w)?, pi, l: Rational::from(1), inputs: [None, None] })
     }
 }
 
@@ -68,44 +71,42 @@ impl Proposal {
 #[must_use]
 pub fn propose(condition: &SmallGain, largest: f64, share: f64) -> Option<Proposal> {
     let shifted = largest * (1.0 + share) / 2.0;
-    let multipliers = condition.multipliers(shifted)?;
-    let FloatDynamics { matrix, input, moved, .. } = &condition.dynamics;
+    let multipliers = condition.multipliers(shifted, SLACK)?;
+    let FloatDynamics { matrix, input, .. } = &condition.dynamics;
     let n = input.len();
     let a = Mat::from_fn(n, n, |i, j| matrix[(i, j)] + if i == j { shifted } else { 0.0 });
-    let output = Mat::from_fn(n, n, |i, j| {
-        let of_e = if i == 0 && j == 0 { multipliers.output } else { 0.0 };
-        of_e + if moved.is_empty() { 0.0 } else { multipliers.moved * moved[i] * moved[j] }
-    });
-    let equation = Equation { a: &a, input, output: &output, beta: multipliers.input };
-    let pi = equation.stabilising(multipliers.output)?;
+    let output = condition.output(&multipliers);
+    let quadratic = Mat::from_fn(n, n, |i, j| multipliers.input * input[i] * input[j]);
+    let equation = Equation { a: &a, quadratic: &quadratic, output: &output };
+    let pi = equation.stabilising((multipliers.output / multipliers.input).sqrt())?;
     // The subspace is less accurate where eigenvalues of the Hamiltonian matrix are close to the imaginary axis.
     let pi = equation.refined(&pi).unwrap_or(pi);
     let rate = round_f64(largest * share, 6, Direction::Down)?;
     Some(Proposal { rate, w: multipliers.w, pi })
 }
 
-/// `Pi A + A'Pi + C + beta Pi B B'Pi = 0`.
-struct Equation<'a> {
-    a: &'a Mat<f64>,
-    input: &'a [f64],
-    output: &'a Mat<f64>,
-    beta: f64,
+/// `X A + A'X + C + X R X = 0` with symmetric C and R that are not negative.
+pub(super) struct Equation<'a> {
+    /// A.
+    pub(super) a: &'a Mat<f64>,
+    /// R.
+    pub(super) quadratic: &'a Mat<f64>,
+    /// C.
+    pub(super) output: &'a Mat<f64>,
 }
 
 impl Equation<'_> {
-    /// The least symmetric solution, from the stable subspace of the Hamiltonian matrix `[[A, beta B B'], [-C, -A']]`: with [X; Y] a
-    /// basis of it, Pi = Y X^-1. `size` is that of C.
-    fn stabilising(&self, size: f64) -> Option<Mat<f64>> {
-        let Equation { a, input, output, beta } = self;
-        let n = input.len();
-        // Pi in the unit root(size/beta), in which both terms have the same size.
-        let unit = (size / beta).sqrt();
+    /// The least symmetric solution, from the stable subspace of the Hamiltonian matrix `[[A, R], [-C, -A']]`: with [U; V] a
+    /// basis of it, X = V U^-1. `unit` is one of X in which C and R have about the same size.
+    pub(super) fn stabilising(&self, unit: f64) -> Option<Mat<f64>> {
+        let Equation { a, quadratic, output } = self;
+        let n = a.nrows();
         if !(unit.is_finite() && unit > 0.0) {
             return None;
         }
         let hamiltonian = Mat::from_fn(2 * n, 2 * n, |i, j| match (i < n, j < n) {
             (true, true) => a[(i, j)],
-            (true, false) => beta * unit * input[i] * input[j - n],
+            (true, false) => unit * quadratic[(i, j - n)],
             (false, true) => -output[(i - n, j)] / unit,
             (false, false) => -a[(j - n, i - n)],
         });
@@ -127,15 +128,16 @@ impl Equation<'_> {
         (0..n).all(|j| (0..n).all(|i| pi[(i, j)].is_finite())).then_some(pi)
     }
 
-    /// One step of Newton's method: `Pi + D` with `D K + K'D = -R`, `K = A + beta B B'Pi` and R the left side of the equation at Pi.
-    fn refined(&self, pi: &Mat<f64>) -> Option<Mat<f64>> {
-        let Equation { a, input, output, beta } = self;
-        let n = input.len();
-        let image: Vec<f64> = (0..n).map(|i| (0..n).map(|j| pi[(i, j)] * input[j]).sum()).collect();
-        let product = pi * *a;
-        let residual =
-            Mat::from_fn(n, n, |i, j| product[(i, j)] + product[(j, i)] + output[(i, j)] + beta * image[i] * image[j]);
-        let closed = Mat::from_fn(n, n, |i, j| a[(i, j)] + beta * input[i] * image[j]);
+    /// One step of Newton's method: `X + D` with `D K + K'D` minus the left side of the equation at X, `K = A + R X`.
+    pub(super) fn refined(&self, pi: &Mat<f64>) -> Option<Mat<f64>> {
+        let Equation { a, quadratic, output } = self;
+        let n = a.nrows();
+        let fed = *quadratic * pi;
+        let (product, square) = (pi * *a, pi * &fed);
+        let residual = Mat::from_fn(n, n, |i, j| {
+            product[(i, j)] + product[(j, i)] + output[(i, j)] + f64::midpoint(square[(i, j)], square[(j, i)])
+        });
+        let closed = *a + &fed;
         if !(0..n).all(|j| (0..n).all(|i| closed[(i, j)].is_finite() && residual[(i, j)].is_finite())) {
             return None;
         }

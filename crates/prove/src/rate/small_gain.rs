@@ -18,6 +18,7 @@
 //! where to look for Pi.
 
 use super::inequality::ErrorDynamics;
+use super::oscillators::OscillatorMatrix;
 use faer::{Mat, c64};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::Portable;
@@ -99,6 +100,20 @@ impl FloatDynamics {
         finite.then_some(found)
     }
 
+    /// B_v of [`super::inequality`] in the middle, and sigma + mu b'b.
+    pub(super) fn noise(&self, oscillators: &OscillatorMatrix) -> (Vec<f64>, f64) {
+        // Those of the model are -b.
+        let total = self.sigma + self.mu * self.weights.iter().sum::<f64>();
+        let mut noise: Vec<f64> = self.input.iter().map(|input| -self.gain * total * input).collect();
+        for (column, input) in self.input.iter().skip(1).enumerate() {
+            noise[column + 1] += self.sigma * input;
+            if let Some((row, entry)) = oscillators.phi(column) {
+                noise[row + 1] += entry.midpoint_f64() * input;
+            }
+        }
+        (noise, total)
+    }
+
     /// 1/H and V/H at `s = -rate + i omega`.
     fn responses(&self, rate: f64, omega: f64) -> [c64; 2] {
         let s = c64::new(-rate, omega);
@@ -163,6 +178,11 @@ impl SmallGain {
         })
     }
 
+    /// That of Pi, 2 n_o + 2.
+    pub(super) fn order(&self) -> usize {
+        self.dynamics.input.len()
+    }
+
     /// Rates from here on are out of reach: an eigenvalue of A_c or the zero dynamics itself is slower.
     #[must_use]
     pub fn ceiling(&self) -> f64 {
@@ -215,7 +235,7 @@ impl SmallGain {
                 values[*i] <= 1.05 * least && neighbours.iter().all(|j| values[*i] <= values[*j])
             });
             let around = refined.map(|i| (omegas[i.saturating_sub(1)], omegas[(i + 1).min(omegas.len() - 1)]));
-            around.map(|(low, up)| golden(|omega| left(share, omega), low, up)).fold(least, f64::min)
+            around.map(|(low, up)| golden(|omega| left(share, omega), low, up).1).fold(least, f64::min)
         };
         if self.dynamics.moved.is_empty() {
             return [of(1.0), 1.0];
@@ -251,16 +271,16 @@ impl SmallGain {
         Some(low)
     }
 
-    /// w and l at a rate, with c, c_v and beta of `Pi A + A'Pi + c e e' + c_v v v' + beta Pi B B'Pi = 0`; what the condition leaves over
-    /// is shared out, so that every inequality of the module is strict.
+    /// w and l at a rate, with c, c_v and beta of `Pi A + A'Pi + c e e' + c_v v v' + beta Pi B B'Pi = 0`; a share, once for each side, of what
+    /// the condition leaves over is given away, so that every inequality of the module is strict.
     #[must_use]
-    pub fn multipliers(&self, rate: f64) -> Option<Multipliers> {
+    pub fn multipliers(&self, rate: f64, share: f64) -> Option<Multipliers> {
         let budget = self.budget(rate);
         if !budget.suffices() {
             return None;
         }
         // Without coupling the budget may be as large as it likes.
-        let slack = (budget.available - budget.from_e - budget.from_x) / 3.0;
+        let slack = share * (budget.available - budget.from_e - budget.from_x);
         let (from_e, from_x) = (budget.from_e + slack, budget.from_x + slack);
         let distance = self.x_decay - rate;
         // c_x over the square of k_f is (kappa')^2 with l = 1.
@@ -280,6 +300,17 @@ impl SmallGain {
     }
 }
 
+impl SmallGain {
+    /// `c e e' + c_v v v'`.
+    pub(super) fn output(&self, multipliers: &Multipliers) -> Mat<f64> {
+        let FloatDynamics { input, moved, .. } = &self.dynamics;
+        Mat::from_fn(input.len(), input.len(), |i, j| {
+            let of_e = if i == 0 && j == 0 { multipliers.output } else { 0.0 };
+            of_e + if moved.is_empty() { 0.0 } else { multipliers.moved * moved[i] * moved[j] }
+        })
+    }
+}
+
 /// What is left to find Pi with, for l = 1.
 #[derive(Clone, Copy, Debug)]
 pub struct Multipliers {
@@ -293,8 +324,8 @@ pub struct Multipliers {
     pub input: f64,
 }
 
-/// The least value that golden-section search meets between two arguments.
-fn golden(function: impl Fn(f64) -> f64, mut low: f64, mut up: f64) -> f64 {
+/// The least value that golden-section search meets between two arguments, after its place.
+pub(super) fn golden(function: impl Fn(f64) -> f64, mut low: f64, mut up: f64) -> (f64, f64) {
     let ratio = (5f64.sqrt() - 1.0) / 2.0;
     let mut inner = [up - ratio * (up - low), low + ratio * (up - low)];
     let mut values = inner.map(&function);
@@ -309,5 +340,5 @@ fn golden(function: impl Fn(f64) -> f64, mut low: f64, mut up: f64) -> f64 {
             values = [values[1], function(inner[1])];
         }
     }
-    values[0].min(values[1])
+    if values[1] < values[0] { (inner[1], values[1]) } else { (inner[0], values[0].min(values[1])) }
 }

@@ -199,15 +199,15 @@ fn better<'s>(first: Certification<'s>, second: Certification<'s>) -> Result<Cer
 }
 
 impl Run<'_> {
-    /// Proves rates for these numbers of oscillators at the gain of the claim ([`Certification::prove_rates`]).
+    /// Proves rates for these numbers of oscillators at the gain of the claim ([`Certification::prove_rates`],
+    /// [`SampledCertification::prove_rates`]).
     ///
     /// # Errors
-    /// Those of [`Certification::prove_rates`], and numbers for the regulator at samples.
+    /// Theirs.
     pub fn prove_rates(&mut self, counts: &[u32]) -> Result<(), NoRatesOfClaim> {
         match self {
             Run::Continuous(run) => run.prove_rates(counts),
-            Run::Sampled(_) if counts.is_empty() => Ok(()),
-            Run::Sampled(_) => Err(NoRatesOfClaim::AtSamples),
+            Run::Sampled(run) => run.prove_rates(counts),
         }
     }
 

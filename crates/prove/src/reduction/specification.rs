@@ -47,6 +47,7 @@ pub fn specification(plant: &Plant, of_plant: OfPlant, values: ProvedValues) -> 
         initial_set,
         input_gain: plant.input_gain.clone(),
         actuator: plant.actuator.clone(),
+        disturbances: plant.disturbances.clone(),
         relative_degree: None,
         document: plant.document.clone(),
         sha256: plant.sha256.clone(),

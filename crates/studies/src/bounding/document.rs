@@ -116,7 +116,10 @@ fn write(
         [("domain", ends), ("internal_model", internal_model(plant)), ("initial_set", initial_set(&spec.initial_set))];
     let input_gain = spec.input_gain.as_ref().map(|gain| ("input_gain", input_gain(gain)));
     let actuator = plant.actuator.as_ref().map(|actuator| ("actuator", object([("max", stated(&actuator.max))])));
-    object(all.into_iter().chain(forcing).chain(rest).chain(input_gain).chain(actuator))
+    // They have no names of parameters.
+    let disturbed = ["measurement", "disturbance"].map(|name| Some((name, plant.document.get(name)?.clone())));
+    let disturbed = disturbed.into_iter().flatten();
+    object(all.into_iter().chain(forcing).chain(rest).chain(input_gain).chain(actuator).chain(disturbed))
 }
 
 /// The numbers of that of a plant.

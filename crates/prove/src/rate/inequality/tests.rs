@@ -1,7 +1,6 @@
 use super::super::riccati::{self, Proposal};
 use super::super::small_gain::SmallGain;
 use super::*;
-use faer::Mat;
 use sigmastar_lang::spec::Specification;
 use sigmastar_matrix::AffineMatrix;
 use sigmastar_matrix::semidefinite::propose;
@@ -82,18 +81,19 @@ fn the_matrix_is_that_of_the_quadratic_form() {
             w: double(next()),
             pi: (0..n).map(|i| (0..=i).map(|_| double(next())).collect()).collect(),
             l: double(next()),
+            inputs: [double(next()), double(next())].map(Some),
         };
         let form = Form::new(&dynamics, &witness);
-        let v: Vec<f64> = (0..n + 2).map(|_| next()).collect();
+        let v: Vec<f64> = (0..n + 4).map(|_| next()).collect();
         let corners = [[0.75, -7.0 / 6.0], [0.75, 2.0 / 3.0], [1.5, -7.0 / 6.0], [1.5, 2.0 / 3.0]];
         for ([b, delta], corner) in corners.into_iter().zip(dynamics.corners()) {
-            let row = form.corner(&corner);
-            let value: f64 = (0..n + 2)
-                .flat_map(|i| (0..n + 2).map(move |j| (i, j)))
-                .map(|(i, j)| v[i] * v[j] * form.entry(&row, form.signals[i], form.signals[j]).midpoint_f64())
+            let corner = form.corner(&corner);
+            let value: f64 = (0..n + 4)
+                .flat_map(|i| (0..n + 4).map(move |j| (i, j)))
+                .map(|(i, j)| v[i] * v[j] * form.entry(&corner, i, j).midpoint_f64())
                 .sum();
 
-            let (xi, y, u_x) = (v[0], &v[1..=n], v[n + 1]);
+            let (xi, y, u_x, disturbance, noise) = (v[0], &v[1..=n], v[n + 1], v[n + 2], v[n + 3]);
             let (mu, w) = (1.0, 2.0 * std::f64::consts::PI);
             let weight = |l: usize| if l == 0 { 2.0 } else { (l as f64).powf(-1.5) };
             // zeta = N^(-1/2) zs, state by state; M'N z has the first state of every oscillator, z = zeta + M e.
@@ -101,9 +101,10 @@ fn the_matrix_is_that_of_the_quadratic_form() {
             let first = |state: usize| state == 0 || state % 2 == 1;
             let zeta: Vec<f64> = (0..n - 1).map(|i| y[i + 1] / weight(oscillator(i)).sqrt()).collect();
             let s: f64 = (0..n - 1).filter(|i| first(*i)).map(|i| weight(oscillator(i)) * zeta[i]).sum();
-            // u = -sigma e + mu s, z' = Phi z + Gamma e, e' = q + b u.
-            let u = -48.0 * y[0] + mu * s;
-            let e_rate = delta * y[0] + u_x + b * u;
+            // u = -sigma (e + v) + mu M'N(z - M (e + v)), z' = Phi z + Gamma (e + v), e' = q + d + b u, Gamma = -(Phi + sigma) M.
+            let total: f64 = (0..=n_o as usize).map(weight).sum();
+            let u = -48.0 * (y[0] + noise) + mu * (s - total * noise);
+            let e_rate = delta * y[0] + u_x + disturbance + b * u;
             let mut derivative = vec![e_rate];
             for i in 0..n - 1 {
                 let turn = oscillator(i) as f64 * w;
@@ -112,8 +113,8 @@ fn the_matrix_is_that_of_the_quadratic_form() {
                     (_, true) => turn * zeta[i + 1],
                     (_, false) => -turn * zeta[i - 1],
                 };
-                // zeta' = Phi zeta - sigma M e - M e'.
-                let rest = if first(i) { -48.0 * y[0] - e_rate } else { 0.0 };
+                // zeta' = Phi zeta - sigma M e - (Phi + sigma) M v - M e'.
+                let rest = if first(i) { -48.0 * (y[0] + noise) - e_rate } else { turn * noise };
                 derivative.push((own + rest) * weight(oscillator(i)).sqrt());
             }
             let pi = |a: &[f64], b: &[f64]| -> f64 {
@@ -125,7 +126,9 @@ fn the_matrix_is_that_of_the_quadratic_form() {
             let phi = 8.0 / 7.0 * y[0];
             let change = weight_of_x * (-2.0 * 0.25 * xi * xi + 2.0 * 1.25 * xi * phi) + 2.0 * pi(y, &derivative);
             let sector = witness.l.to_f64() * (u_x * u_x - 9.0 * xi * xi);
-            let expected = -change - 2.0 * rate * energy + sector;
+            let weights = witness.inputs.each_ref().map(|weight| weight.as_ref().expect("given").to_f64());
+            let inputs = weights[0] * disturbance * disturbance + weights[1] * noise * noise;
+            let expected = -change - 2.0 * rate * energy + sector + inputs;
             assert!((value - expected).abs() <= 1e-9 * (1.0 + expected.abs()), "{n_o} {b}: {value} {expected}");
         }
     }
@@ -171,7 +174,8 @@ fn a_semidefinite_program_finds_the_same_largest_rate() {
             for ((i, j), value) in pairs.iter().zip(unknowns) {
                 pi[*i][*j] = double(value * unit_of(*i) * unit_of(*j));
             }
-            RateWitness { rate: double(rate), w: double(unknowns[pairs.len()]) * &found.w, pi, l: double(l) }
+            let w = double(unknowns[pairs.len()]) * &found.w;
+            RateWitness { rate: double(rate), w, pi, l: double(l), inputs: [None, None] }
         };
         let variables = pairs.len() + 1;
         let unit = |k: usize| (0..variables).map(|i| if i == k { 1.0 } else { 0.0 }).collect::<Vec<f64>>();
@@ -183,9 +187,8 @@ fn a_semidefinite_program_finds_the_same_largest_rate() {
             for corner in dynamics.corners() {
                 let form = |witness: &RateWitness| {
                     let form = Form::new(&dynamics, witness);
-                    let (signals, row) = (form.signals.clone(), form.corner(&corner));
-                    let entry = |i: usize, j: usize| form.entry(&row, signals[i], signals[j]).midpoint_f64();
-                    Mat::from_fn(signals.len(), signals.len(), entry)
+                    let corner = form.corner(&corner);
+                    Mat::from_fn(form.order(), form.order(), |i, j| form.entry(&corner, i, j).midpoint_f64())
                 };
                 let (constant, forms) = (form(&constant), terms.iter().map(form).collect::<Vec<_>>());
                 let order = constant.nrows();

@@ -9,14 +9,16 @@ pub mod energy;
 #[cfg(test)]
 pub(super) mod examples;
 mod gains;
+mod hold;
 mod law;
-mod matrix_inequality;
+pub mod matrix_inequality;
 mod pair;
 mod stability;
 mod witness;
 
 pub use energy::SampledEnergyNumbers;
 pub use gains::SampledGains;
+pub use hold::{SampleBounds, SampleNumbers};
 pub use law::SampledLaw;
 pub use pair::{SampledPair, sampled_trade_off};
 pub use stability::{DecayForms, DecayNumbers, Form, Part, Past};

@@ -1,5 +1,6 @@
 //! (C5h): the quadratic forms of the decay from sample to sample (derivation, 12.3); with a delay (C5d), forms in one variable more (13.4).
 
+use super::hold::Held;
 use super::law::SampledLaw;
 use crate::data::{Numbers, Problem};
 use crate::derivation::stability::ErrorBox;
@@ -141,11 +142,8 @@ where
             let (hold, motion) = (t(Part::Hold), t(Part::Motion));
             let theta = if part == Some(Part::Theta) { R::int(0) } else { &share * law.lost() };
             let ts = &hold * sigma;
-            let within_t = &motion * &k_e / &within;
-            let g = (within_t.sqr() / R::int(12)).sqrt();
-            let c_x = &motion * k_x / (&law.pi * &within);
-            let c_e = (&one - &ts + ts.sqr() / R::int(3)).sqrt() + &within_t / &law.pi;
-            let c_y = (motion.sqr() / R::int(3)).sqrt() / &within;
+            let Held { motion: within_t, g, c_x, c_e, c_y } =
+                Held::new([&ts, &motion], [k_x, &k_e], [&within, &law.pi]);
             // |1 - ts + (eta/K) ((1 - ts/2) delta + (1-b) sigma)| at the ends of the sector: delta and 1 - b grow together.
             let mean = &one - &ts / &two;
             let at = |slope: R, b: Option<&R>| {

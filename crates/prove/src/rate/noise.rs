@@ -1,0 +1,177 @@
+//! Bounds of what noise and a disturbance do to the error, for one n_o and one gain (derivation, section 13.6, Proposition N).
+//!
+//! What is measured is e + v, and d is added to q: any measurable signals with |v| <= v_bar, |d| <= d_bar. (N) is the form of
+//! [`super::inequality`] with these inputs and lam > 0 for the rate, positive definite at the corners, with Pi >= diag(e_low, 0). With
+//! `S^2 = (g_d d_bar^2 + g_v v_bar^2)/(2 lam e_low)` and L_0 the left side of C4,
+//!
+//! - the limit superior of |e - e_per| is at most S, and |e - e_per| <= sqrt(L_0) + S at all times from the start on,
+//! - if `sqrt(L_0) + S < D_e` and `(sqrt(L_0/w_x) + kappa S)/sqrt(P_low) < D_x`, `kappa = sqrt(P_up) k_f/a_2`, `a_2 > 0`.
+//!
+//! Why: while it is in the error box the solution solves a linear system whose slopes are averages of derivatives, of which C5 and (N) speak.
+//! (Where the regulator starts with z = M (e + v), zeta is M v then, and L_0 is with `dZ + Nbar v_bar` in the place of dZ.)
+//! One part of it has the start and no inputs: U stays below L_0, and W tends to 0. The other starts at 0 and has the inputs: W stays below
+//! e_low S^2, and xi below kappa S. Their sum is strictly inside of the box, so the solution never leaves it.
+
+use super::bound::{DIGITS, Place};
+use super::inequality::{ErrorDynamics, LoopBounds, RateWitness, is_above};
+use super::noise_search::{Proposal, propose};
+use super::oscillators::OscillatorMatrix;
+use rug::Rational;
+use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_exact::number::{Direction, round_f64, round_rational, write_exact};
+use sigmastar_theory::data::Data;
+
+/// Shares of the searched lambda that are claimed, in this order: what is left makes the form definite.
+const SHARES: [f64; 3] = [0.99, 0.9, 0.6];
+
+/// By what share g_d and g_v may be above, and e_low below what is best.
+const ROOM: f64 = 1e-3;
+
+/// Digits of the numbers beside Pi.
+const FIGURES: u32 = 6;
+
+/// What keeps the undisturbed solutions in the error box: C4 with its numbers.
+pub struct Confinement<'a> {
+    /// L_0, the left side of C4; of an aligned start that where the e that is measured has noise.
+    pub level: Enclosure,
+    /// w_x.
+    pub w_x: &'a Rational,
+    /// D_x, D_e.
+    pub radii: [&'a Rational; 2],
+}
+
+/// Proved bounds for one n_o.
+#[derive(Clone, Debug)]
+pub struct NoiseBound {
+    /// lambda as the rate, and what proves (N).
+    pub witness: RateWitness,
+    /// Whether x counts in W.
+    pub has_x: bool,
+    /// e_low: `Pi > diag(e_low, 0)`.
+    pub e_low: Rational,
+    /// S, rounded up, in the unit of e.
+    pub limit: Rational,
+    /// `sqrt(L_0) + S`, rounded up, in the unit of e.
+    pub peak: Rational,
+}
+
+/// Why there are no such bounds. It says nothing about the loop.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum NoNoiseBound {
+    /// The document has an `actuator`: the bound of the control that keeps to it knows no noise.
+    Actuator,
+    /// No rate was proved, which a claim has beside.
+    NoRate,
+    /// No Pi was found for (N).
+    NotFound,
+    /// With the least S that was found the error box is too small; estimates.
+    LeavesBox {
+        /// S.
+        limit: f64,
+        /// How many times as large the box would have to be.
+        needed: f64,
+    },
+}
+
+impl NoNoiseBound {
+    /// The reason in words.
+    #[must_use]
+    pub fn message(self) -> String {
+        match self {
+            NoNoiseBound::Actuator => {
+                "not with an `actuator`: its bound of the control does not know the noise".to_owned()
+            }
+            NoNoiseBound::NoRate => "not proved, as no rate is".to_owned(),
+            NoNoiseBound::NotFound => "not proved: no Pi was found".to_owned(),
+            NoNoiseBound::LeavesBox { limit, .. } => format!(
+                "not proved: e may deviate by about {}, for which the error box has no room; a larger gain makes room, as a rule",
+                shown(limit)
+            ),
+        }
+    }
+}
+
+/// A number for words, to four digits.
+fn shown(value: f64) -> String {
+    round_f64(value, 4, Direction::Up).as_ref().map_or_else(|| value.to_string(), write_exact)
+}
+
+/// The best bounds that are found.
+///
+/// Guarantee: with n_o oscillators at the gain of `place`, every input gain of the data, and any measurable inputs within the bounds of the
+/// specification, every solution from a start within the distances of `place` has `|e(t) - e_per(t)| <= peak` at all times from the start on and
+/// a limit superior of that of at most `limit`, e_per being of the periodic solution without inputs; whoever the plant is of which the bounds of
+/// the error box hold.
+///
+/// # Errors
+/// What was not found or not proved.
+pub fn noise_bound(
+    data: &Data<'_>,
+    place: &Place<'_>,
+    confinement: &Confinement<'_>,
+    n_o: u32,
+) -> Result<NoiseBound, NoNoiseBound> {
+    if data.spec.actuator.is_some() {
+        return Err(NoNoiseBound::Actuator);
+    }
+    let bounds = LoopBounds::of_error(data, place.error_box).ok_or(NoNoiseBound::NotFound)?;
+    let oscillators = OscillatorMatrix::new(data, n_o);
+    let dynamics = ErrorDynamics::new(data, &oscillators, place.sigma, &bounds);
+    let sizes = [data.spec.d_bar(), data.spec.v_bar()];
+    let proposal = propose(&dynamics, sizes.each_ref().map(Rational::to_f64)).ok_or(NoNoiseBound::NotFound)?;
+    let of = |share: &f64| DIGITS.iter().find_map(|digits| proved(&dynamics, &proposal, *share, *digits, &sizes));
+    let (witness, e_low) = SHARES.iter().find_map(of).ok_or(NoNoiseBound::NotFound)?;
+    let number = |value: &Rational| data.rational(value);
+    let s = (number(&level(&witness, &sizes)) / number(&e_low)).sqrt();
+    let peak = confinement.level.sqrt() + &s;
+    let [d_x, d_e] = confinement.radii.map(number);
+    let error_box = place.error_box;
+    let kappa = data.p_up.sqrt() * &error_box.k_f / &error_box.rate;
+    let of_x = ((&confinement.level / number(confinement.w_x)).sqrt() + kappa * &s) / data.p_low.sqrt();
+    let decays = data.zero().lt(&error_box.rate).is_true();
+    if !(decays && peak.lt(&d_e).is_true() && of_x.lt(&d_x).is_true()) {
+        let needed = (&peak / d_e).max(&(of_x / d_x)).upper_f64();
+        return Err(NoNoiseBound::LeavesBox { limit: s.upper_f64(), needed });
+    }
+    let up = |value: &Enclosure| {
+        value.upper_rational().map(|upper| round_rational(&upper, FIGURES, Direction::Up)).ok_or(NoNoiseBound::NotFound)
+    };
+    Ok(NoiseBound { has_x: bounds.has_x, e_low, limit: up(&s)?, peak: up(&peak)?, witness })
+}
+
+/// e_low S^2, which W of the part with the inputs does not exceed.
+fn level(witness: &RateWitness, sizes: &[Rational; 2]) -> Rational {
+    let terms = witness.inputs.iter().zip(sizes).filter_map(|(weight, size)| {
+        let square = Rational::from(size * size);
+        weight.as_ref().map(|weight| square * weight)
+    });
+    terms.fold(Rational::new(), |sum, term| sum + term) / (Rational::from(&witness.rate * 2))
+}
+
+/// A witness of (N) with a share of the proposed lambda and Pi in so many digits, and e_low; proved.
+fn proved(
+    dynamics: &ErrorDynamics<'_>,
+    proposal: &Proposal,
+    share: f64,
+    digits: u32,
+    sizes: &[Rational; 2],
+) -> Option<(RateWitness, Rational)> {
+    let rate = round_f64(proposal.rate * share, FIGURES, Direction::Down)?;
+    let found = super::riccati::Proposal { rate, w: proposal.w, pi: proposal.pi.clone() };
+    let witness = found.in_digits(digits)?;
+    let weights = dynamics.input_weights(&witness, sizes.each_ref().map(Rational::to_f64))?;
+    let inputs = [0, 1].map(|i| {
+        let weight = || round_f64(weights[i] * (1.0 + ROOM), FIGURES, Direction::Up);
+        (sizes[i] > 0).then(weight)
+    });
+    if inputs.iter().any(|weight| *weight == Some(None)) {
+        return None;
+    }
+    let witness = RateWitness { inputs: inputs.map(Option::flatten), ..witness };
+    let e_low = round_f64(proposal.e_low * (1.0 - ROOM), FIGURES, Direction::Down)?;
+    (dynamics.proves(&witness) && is_above(&witness.pi, &e_low, dynamics.oscillators.mu.precision()))
+        .then_some((witness, e_low))
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,247 @@
+//! Bounds of what noise and a disturbance do to the error of the law at samples, for one n_o (derivation, section 13.6).
+//!
+//! What is measured is e + v, and d is added to q: any measurable signals with |v| <= v_bar, |d| <= d_bar. By the form of [`super::form`] with these
+//! inputs W of what they add from 0 on stays below `e_low s^2`,
+//! `s^2 = (g_d (1+g)^2 d_bar^2 + g_v v_bar^2 + g_r c_d^2 d_bar^2)/(c e_low)`, so that it moves e by at most s at the samples. Between them e is a straight
+//! line and at most `(h/2) sup|q + d|` more, |q| <= k_x xi + k_e |e|, xi <= kappa sup|e|, kappa = sqrt(P_up) k_f/a_2: with
+//!
+//!   `S := (s + (h/2) d_bar)/(1 - (h/2)(k_e + k_x kappa))`,  the denominator being positive,
+//!
+//! it moves e by at most S at all times. The rest is as in [`crate::rate::noise`], L_0 being the left side of C4 at samples.
+
+use super::bound::{DIGITS, Proposal};
+use super::condition::SampledCondition;
+use super::form::{Inputs, SampledDynamics, SampledRateWitness};
+use crate::rate::bound::Place;
+use crate::rate::inequality::{LoopBounds, is_above};
+use crate::rate::noise::{Confinement, NoNoiseBound};
+use crate::rate::noise_search::least;
+use crate::rate::oscillators::OscillatorMatrix;
+use faer::linalg::solvers::DenseSolveCore;
+use rug::Rational;
+use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_exact::number::{Direction, Portable, round_f64, round_rational};
+use sigmastar_theory::data::Data;
+use sigmastar_theory::derivation::sampled::SampledLaw;
+
+/// Shares of the c of the search that are claimed, in this order: what is left makes the form definite.
+const SHARES: [f64; 3] = [0.99, 0.9, 0.6];
+
+/// By what share the weights of the inputs may be above, and e_low below what is best.
+const ROOM: f64 = 1e-3;
+
+/// Digits of the numbers beside Pi.
+const FIGURES: u32 = 6;
+
+/// What is given away of what the scalar condition leaves over, tried in turn: g_r falls with it.
+const SLACKS: [f64; 3] = [0.003, 0.05, 0.3];
+
+/// Steps of a search in the rate, in the size of the inputs, and in their ratio.
+const STEPS: [usize; 3] = [12, 8, 8];
+
+/// Orders of Pi from which on fewer steps are made.
+const LARGE: usize = 50;
+
+/// Proved bounds for one n_o.
+#[derive(Clone, Debug)]
+pub struct SampledNoiseBound {
+    /// What proves the form with inputs.
+    pub witness: SampledRateWitness,
+    /// e_low: `Pi > diag(e_low, 0)`.
+    pub e_low: Rational,
+    /// S, rounded up, in the unit of e.
+    pub limit: Rational,
+    /// `sqrt(L_0) + S`, rounded up, in the unit of e.
+    pub peak: Rational,
+}
+
+/// The best bounds that are found.
+///
+/// Guarantee: with n_o oscillators at the gain of `place`, the law and every input gain of the data, and any measurable inputs within the bounds
+/// of the specification, every solution that is within the distances of `place` at a sampling instant t_0 has `|e(t) - e_per(t)| <= peak` at all times
+/// t >= t_0, between samples too, and a limit superior of that of at most `limit`, e_per being of the periodic solution without inputs; whoever the
+/// plant is of which the bounds of the error box hold.
+///
+/// # Errors
+/// What was not found or not proved.
+pub fn noise_bound(
+    data: &Data<'_>,
+    law: &SampledLaw<Enclosure>,
+    place: &Place<'_>,
+    confinement: &Confinement<'_>,
+    n_o: u32,
+) -> Result<SampledNoiseBound, NoNoiseBound> {
+    if data.spec.actuator.is_some() {
+        return Err(NoNoiseBound::Actuator);
+    }
+    let not_found = NoNoiseBound::NotFound;
+    let bounds = LoopBounds::of_error(data, place.error_box).ok_or(not_found)?;
+    let oscillators = OscillatorMatrix::new(data, n_o);
+    let dynamics = SampledDynamics::new(data, (&oscillators, law), place.sigma, &bounds).ok_or(not_found)?;
+    let sizes = [data.spec.d_bar(), data.spec.v_bar()];
+    let search = Search::new(&dynamics, sizes.each_ref().map(Rational::to_f64)).ok_or(not_found)?;
+    let found = search.best().ok_or(not_found)?;
+    let of = |share: &f64| DIGITS.iter().find_map(|digits| proved(&dynamics, &found, *share, *digits));
+    let (witness, e_low) = SHARES.iter().find_map(of).ok_or(not_found)?;
+
+    let number = |value: &Rational| data.rational(value);
+    let [d_bar, v_bar] = sizes.each_ref().map(number);
+    let sample = &dynamics.sample;
+    let Inputs { g_d, g_v, g_r } = &witness.inputs;
+    let weighed = |weight: &Option<Rational>, size: Enclosure| {
+        weight.as_ref().map_or_else(|| data.zero(), |weight| number(weight) * size.sqr())
+    };
+    let level = weighed(g_d, &sample.enlarged * &d_bar) + weighed(g_v, v_bar) + weighed(g_r, &sample.c_d * &d_bar);
+    let at_samples = (level / (number(&witness.c) * number(&e_low))).sqrt();
+    let error_box = place.error_box;
+    let kappa = data.p_up.sqrt() * &error_box.k_f / &error_box.rate;
+    let two = data.rational(&Rational::from(2));
+    let half = &law.step / &two;
+    let k_e = error_box.sector.below.max(&error_box.sector.above);
+    let coupling = if bounds.has_x { &error_box.k_x * &kappa } else { data.zero() };
+    let bracket = Enclosure::one(data.precision) - &half * (k_e + coupling);
+    let s = (at_samples + half * d_bar) / &bracket;
+    let peak = confinement.level.sqrt() + &s;
+    let [d_x, d_e] = confinement.radii.map(number);
+    let of_x = ((&confinement.level / number(confinement.w_x)).sqrt() + kappa * &s) / data.p_low.sqrt();
+    if !(data.zero().lt(&error_box.rate).is_true() && data.zero().lt(&bracket).is_true()) {
+        return Err(not_found);
+    }
+    if !(peak.lt(&d_e).is_true() && of_x.lt(&d_x).is_true()) {
+        let needed = (&peak / d_e).max(&(of_x / d_x)).upper_f64();
+        return Err(NoNoiseBound::LeavesBox { limit: s.upper_f64(), needed });
+    }
+    let up = |value: &Enclosure| {
+        value.upper_rational().map(|upper| round_rational(&upper, FIGURES, Direction::Up)).ok_or(not_found)
+    };
+    Ok(SampledNoiseBound { e_low, limit: up(&s)?, peak: up(&peak)?, witness })
+}
+
+/// A witness with a share of the proposed c and Pi in so many digits, and e_low; proved.
+fn proved(
+    dynamics: &SampledDynamics<'_>,
+    found: &Found,
+    share: f64,
+    digits: u32,
+) -> Option<(SampledRateWitness, Rational)> {
+    let Proposal { c, pi, l_slope, l_hold, of_x } = &found.proposal;
+    let scaled = Proposal { c: c * share, pi: pi.clone(), l_slope: *l_slope, l_hold: *l_hold, of_x: of_x.clone() };
+    let round = |weight: f64| round_f64(weight * (1.0 + ROOM), FIGURES, Direction::Up);
+    let weight = |weight: Option<f64>| match weight {
+        None => Some(None),
+        Some(weight) => round(weight).map(Some),
+    };
+    let Inputs { g_d, g_v, g_r } = found.inputs;
+    let inputs = Inputs { g_d: weight(g_d)?, g_v: weight(g_v)?, g_r: weight(g_r)? };
+    let witness = SampledRateWitness { inputs, ..scaled.in_digits(digits)? };
+    let e_low = round_f64(found.e_low * (1.0 - ROOM), FIGURES, Direction::Down).filter(|e_low| *e_low > 0)?;
+    let precision = dynamics.law.step.precision();
+    (dynamics.proves(&witness) && is_above(&witness.pi, &e_low, precision)).then_some((witness, e_low))
+}
+
+/// The numbers of a proof in doubles.
+struct Found {
+    proposal: Proposal,
+    inputs: Inputs<f64>,
+    /// 1 over the first entry of the inverse of Pi.
+    e_low: f64,
+    /// s^2.
+    square: f64,
+}
+
+/// Where the search is, as in continuous time.
+#[derive(Clone, Copy)]
+struct Point {
+    /// The rate over the largest one, as log(x/(1-x)).
+    position: f64,
+    /// log of gam_d + gam_v k^2 over what the condition leaves, k = sigma + K b_1.
+    size: f64,
+    /// log of gam_v k v_bar over gam_d d_bar.
+    ratio: f64,
+    slack: f64,
+}
+
+struct Search {
+    condition: SampledCondition,
+    largest: f64,
+    /// d_bar, v_bar.
+    sizes: [f64; 2],
+    /// (1+g) d_bar and c_d d_bar.
+    of_d: [f64; 2],
+}
+
+impl Search {
+    fn new(dynamics: &SampledDynamics<'_>, sizes: [f64; 2]) -> Option<Search> {
+        let condition = SampledCondition::new(dynamics)?;
+        let largest = condition.largest_rate()?;
+        let of_d = [&dynamics.sample.enlarged, &dynamics.sample.c_d].map(|factor| factor.upper_f64() * sizes[0]);
+        Some(Search { condition, largest, sizes, of_d })
+    }
+
+    /// About the least s: over the rate, the size of the inputs, with both over their ratio, and what is given away.
+    fn best(&self) -> Option<Found> {
+        let large = self.condition.order() > LARGE;
+        let steps = if large { STEPS.map(|steps| steps / 2) } else { STEPS };
+        let cost = |point: Point| self.solve(point).map_or(f64::INFINITY, |found| found.square);
+        let both = self.sizes.iter().all(|size| *size > 0.0);
+        let mut at = Point { position: 0.0, size: -1.0, ratio: 0.0, slack: SLACKS[0] };
+        for round in 0..if both { 2 } else { 1 } {
+            // The size that was best for one rate is near that for the next.
+            let mut size = at.size;
+            let position = least(-5.0, 6.0, steps[0], |position| {
+                let of = |size: f64| cost(Point { position, size, ..at });
+                let found = least(size - 3.0, size + 3.0, steps[1], of);
+                let value = of(found);
+                if value.is_finite() {
+                    size = found;
+                }
+                value
+            });
+            at = Point {
+                position,
+                size: least(size - 3.0, size + 3.0, steps[1], |size| cost(Point { position, size, ..at })),
+                ..at
+            };
+            let best = SLACKS.into_iter().min_by(|one, other| {
+                let [one, other] = [one, other].map(|slack| cost(Point { slack: *slack, ..at }));
+                one.total_cmp(&other)
+            });
+            at.slack = best.unwrap_or(at.slack);
+            if both && round == 0 {
+                at.ratio = least(-3.0, 3.0, steps[2], |ratio| cost(Point { ratio, ..at }));
+            }
+        }
+        self.solve(at)
+    }
+
+    fn solve(&self, Point { position, size, ratio, slack }: Point) -> Option<Found> {
+        let rate = self.largest / (1.0 + (-position).portable_exp());
+        let multipliers = self.condition.multipliers(rate, slack)?;
+        let total = multipliers.room * size.portable_exp();
+        let [d_bar, v_bar] = self.sizes;
+        let worth = self.condition.noise_gain;
+        let [of_d, of_v] = match (d_bar > 0.0, v_bar > 0.0) {
+            (true, true) => {
+                let v = ratio.portable_exp() * v_bar * worth;
+                [d_bar / (d_bar + v), v / (d_bar + v)]
+            }
+            (d, v) => [f64::from(u8::from(d)), f64::from(u8::from(v))],
+        };
+        let (gam_d, gam_v) = (total * of_d, total * of_v / worth.portable_powi(2));
+        let system = self.condition.disturbed(rate, &multipliers, [gam_d, gam_v]);
+        let pi = system.largest()?;
+        let first = pi.partial_piv_lu().inverse()[(0, 0)];
+        let inputs = Inputs {
+            g_d: (d_bar > 0.0).then_some(1.0 / gam_d),
+            g_v: (v_bar > 0.0).then_some(1.0 / gam_v),
+            g_r: (d_bar > 0.0 && multipliers.of_x.is_some()).then_some(multipliers.g_r),
+        };
+        let weighed = |weight: Option<f64>, size: f64| weight.map_or(0.0, |weight| weight * size * size);
+        let level = weighed(inputs.g_d, self.of_d[0]) + weighed(inputs.g_v, v_bar) + weighed(inputs.g_r, self.of_d[1]);
+        let c = self.condition.c(rate);
+        let square = level * first / c;
+        let (l_slope, l_hold, of_x) = (multipliers.l_slope, multipliers.l_hold, multipliers.of_x);
+        let proposal = Proposal { c, pi, l_slope, l_hold, of_x };
+        (square.is_finite() && square > 0.0).then_some(Found { proposal, inputs, e_low: 1.0 / first, square })
+    }
+}
