@@ -3,11 +3,12 @@
 use crate::subject::{Subject, same_data};
 use proofs_core::data::Data;
 use proofs_core::effort;
-use proofs_core::json::{Field, Json};
+use proofs_core::json::{Field, Fields, Json};
 use proofs_core::rules::bounding;
 use proofs_core::rules::claim::{Claim, reads};
-use proofs_core::rules::derivation::Derivation;
-use proofs_core::rules::rates::{self, Witness};
+use proofs_core::rules::derivation::{Derivation, Inequalities};
+use proofs_core::rules::rates;
+use proofs_core::rules::slopes;
 use proofs_core::sha256;
 use proofs_core::spec::{Specification, header};
 use proofs_core::verdict::{Finding, Outcome, Verdict, bad};
@@ -25,6 +26,40 @@ pub struct Proved {
     pub subject: Subject,
     /// The answer about the figures.
     pub figures: proofs_figures::Figures,
+}
+
+/// What proves the rates of a claim, if it has some, as the claim itself is proved.
+enum Rates {
+    Norms(Vec<rates::Witness>),
+    /// Of a matrix inequality, or of joint metrics.
+    Slopes(Vec<slopes::Witness>),
+}
+
+impl Rates {
+    fn read(witness: &mut Fields<'_>, derivation: &Derivation, states: usize) -> Outcome<Rates> {
+        let field = witness.optional("for_n_o");
+        let field = field.as_ref();
+        if derivation.region().is_some() {
+            let read = field.map(|field| slopes::Witness::read_all(field, states));
+            return Ok(Rates::Slopes(read.transpose()?.unwrap_or_default()));
+        }
+        Ok(Rates::Norms(field.map(rates::Witness::read_all).transpose()?.unwrap_or_default()))
+    }
+
+    fn len(&self) -> usize {
+        match self {
+            Rates::Norms(witnesses) => witnesses.len(),
+            Rates::Slopes(witnesses) => witnesses.len(),
+        }
+    }
+
+    /// What is to be proved of the derivatives of a plant for them.
+    fn over_derivatives<'w>(&'w self, derivation: &'w Derivation) -> Option<slopes::Asked<'w>> {
+        match self {
+            Rates::Norms(_) => None,
+            Rates::Slopes(witnesses) => derivation.region().map(|at| slopes::Asked { witnesses, at }),
+        }
+    }
 }
 
 /// Applies every rule; `lines` receives the argument, line by line. `other` is a specification that the certificate has
@@ -76,7 +111,8 @@ pub fn check(json: &Json, other: Option<&Json>, figures_limit: u64, lines: &mut 
         control: claim.control.clone(),
         no_plant: if continuous { file.optional("no_plant") } else { None },
     };
-    let rates = witness.optional("for_n_o").map(|field| Witness::read_all(&field)).transpose()?.unwrap_or_default();
+    let states = spec.plant.as_ref().map_or(0, |plant| plant.states);
+    let rates = Rates::read(&mut witness, &derivation, states)?;
     if rates.len() != claim.rates.len() {
         return bad("/witness/for_n_o", "expected one for each rate of the claim");
     }
@@ -100,7 +136,8 @@ pub fn check(json: &Json, other: Option<&Json>, figures_limit: u64, lines: &mut 
     let shown = arguments.each_ref().map(Float::to_f64);
     // Last, because it may take the longest.
     if let Some(cells) = &cells {
-        proofs_plants::prove(&spec, cells, arguments.each_ref(), derivation.inequalities(), lines)?;
+        let inequalities = Inequalities { slopes: rates.over_derivatives(&derivation), ..derivation.inequalities() };
+        proofs_plants::prove(&spec, cells, arguments.each_ref(), inequalities, lines)?;
     }
     if let Some((jacobian, witness)) = &spec.jacobian {
         for witness in [witness].into_iter().chain(spec.existence.iter().map(|(witness, _)| witness)) {
@@ -121,7 +158,7 @@ pub fn check(json: &Json, other: Option<&Json>, figures_limit: u64, lines: &mut 
 fn prove(
     d: &Data<'_>,
     claim: &Claim<'_>,
-    (derivation, rates): (&Derivation, &[Witness]),
+    (derivation, rates): (&Derivation, &Rates),
     lines: &mut Vec<String>,
 ) -> Outcome<[Float; 2]> {
     lines.push(format!("working precision: {} bits", d.precision));
@@ -132,11 +169,10 @@ fn prove(
     let proved = derivation.prove(d, lines)?;
     let free = derivation.free();
     claim.check(d, &proved, [&free.x_p, &free.e_p], derivation.prediction())?;
-    if !rates.is_empty() {
-        if !derivation.rests_on_norms() {
-            return bad("/claim/for_n_o", "rates are proved with a claim by norms, not with a matrix inequality");
-        }
-        rates::prove(d, (free, &proved.sizes, &claim.sigma), (&claim.rates, rates), lines)?;
+    let place = (free, &proved.sizes, &claim.sigma);
+    match rates {
+        Rates::Norms(witnesses) => rates::prove(d, place, (&claim.rates, witnesses), lines)?,
+        Rates::Slopes(witnesses) => slopes::prove(d, place, (&claim.rates, witnesses), lines)?,
     }
     lines.push(
         "claim: verdict, n_o, mu, set, periodic solution, control and statement follow from what is proved".to_owned(),

@@ -17,5 +17,6 @@ pub mod regulation;
 pub mod sampled;
 pub mod set;
 pub mod sharp;
+pub mod slopes;
 pub mod stability;
 pub mod transfer;

@@ -16,6 +16,7 @@ use super::common::{Free, Sizes};
 use super::stability::{ErrorBox, distances};
 use crate::data::Data;
 use crate::interval::Interval;
+use crate::jacobian::Matrix;
 use crate::json::{Field, Fields};
 use crate::matrix::positive_definite;
 use crate::verdict::{Condition, Outcome, bad, demand, invalid};
@@ -83,7 +84,7 @@ pub struct Witness {
     /// w and l; none where x has no part in it.
     of_x: Option<[Rational; 2]>,
     /// The lower triangle of Pi, by rows.
-    pi: Vec<Vec<Rational>>,
+    pi: Matrix,
     e_low: Rational,
     e_up: Rational,
     z_up: Rational,
@@ -92,27 +93,13 @@ pub struct Witness {
 impl Witness {
     /// Reads the part `for_n_o` of a witness.
     pub fn read_all(field: &Field<'_>) -> Outcome<Vec<Witness>> {
-        let list = field.elements()?;
-        if list.is_empty() || list.len() > MOST {
-            return bad(&field.pointer, format!("expected 1 to {MOST} rates"));
-        }
-        list.iter().map(Witness::read).collect()
+        read_list(field, Witness::read)
     }
 
     fn read(field: &Field<'_>) -> Outcome<Witness> {
         let mut fields = field.fields()?;
         let n_o = read_count(&mut fields)?;
-        let rows = fields.required("Pi")?;
-        let row = |row: &Field<'_>| row.elements()?.iter().map(Field::rational).collect::<Outcome<Vec<_>>>();
-        let list = rows.elements()?;
-        let order = 2 * n_o as usize + 2;
-        if list.len() != order {
-            return bad(&rows.pointer, format!("expected {order} rows, one for e and for each state of zeta"));
-        }
-        let pi = list.iter().map(row).collect::<Outcome<Vec<_>>>()?;
-        if let Some(i) = pi.iter().enumerate().position(|(i, row)| row.len() != i + 1) {
-            return bad(&list[i].pointer, format!("expected {} numbers, up to the diagonal", i + 1));
-        }
+        let pi = triangle(&fields.required("Pi")?, 2 * n_o as usize + 2, "one for e and one for each state of zeta")?;
         let of_x = match (fields.optional("w"), fields.optional("l")) {
             (None, None) => None,
             (Some(w), Some(l)) => Some([w.rational()?, l.rational()?]),
@@ -125,8 +112,35 @@ impl Witness {
     }
 }
 
+/// What proves the rates of a claim, each by itself.
+pub(super) fn read_list<T>(field: &Field<'_>, read: impl Fn(&Field<'_>) -> Outcome<T>) -> Outcome<Vec<T>> {
+    let list = field.elements()?;
+    if list.is_empty() || list.len() > MOST {
+        return bad(&field.pointer, format!("expected 1 to {MOST} rates"));
+    }
+    list.iter().map(read).collect()
+}
+
+/// The numbers of a row.
+pub(super) fn numbers(row: &Field<'_>) -> Outcome<Vec<Rational>> {
+    row.elements()?.iter().map(Field::rational).collect()
+}
+
+/// The lower triangle of a matrix of so many rows; `what` they are.
+pub(super) fn triangle(rows: &Field<'_>, order: usize, what: &str) -> Outcome<Matrix> {
+    let list = rows.elements()?;
+    if list.len() != order {
+        return bad(&rows.pointer, format!("expected {order} rows, {what}"));
+    }
+    let matrix = list.iter().map(numbers).collect::<Outcome<Matrix>>()?;
+    if let Some(i) = matrix.iter().enumerate().position(|(i, row)| row.len() != i + 1) {
+        return bad(&list[i].pointer, format!("expected {} numbers, up to the diagonal", i + 1));
+    }
+    Ok(matrix)
+}
+
 /// An n_o that is not too large.
-fn read_count(fields: &mut Fields<'_>) -> Outcome<u32> {
+pub(super) fn read_count(fields: &mut Fields<'_>) -> Outcome<u32> {
     let field = fields.required("n_o")?;
     let n_o = field.whole()?;
     if n_o > LARGEST { bad(&field.pointer, format!("expected at most {LARGEST}")) } else { Ok(n_o) }
