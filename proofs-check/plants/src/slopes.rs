@@ -1,7 +1,5 @@
 //! The questions of the rates of a claim by a matrix inequality or by joint metrics, (D) of docs/mathematics.md, section 13.6: that
 //! `Q - G D - D'G' - D'H D` is positive semidefinite, `D = [J, g; r, d]` the derivatives of (f, q) in (x, e), in the coordinates of the claim.
-//!
-//! It is asked as `[H, H D; D'H, Q - G D - D'G'] >= 0`, which is the same for H >= 0 and affine in the derivatives.
 
 use super::form::{numbers, of_output};
 use super::formula::{Axis, Id};
@@ -10,24 +8,23 @@ use super::model::Model;
 use super::question::Question;
 use proofs_core::rules::rates::RULE;
 use proofs_core::rules::slopes::{Asked, Slopes, Witness};
-use proofs_core::verdict::Outcome;
 
 /// One for each n_o whose Q, G and H are not those of one before.
-pub fn questions<'i>(model: &mut Model, asked: Asked<'i>) -> Outcome<Vec<Said<'i>>> {
+pub fn questions<'i>(model: &mut Model, asked: Asked<'i>) -> Vec<Said<'i>> {
     let mut all = Vec::new();
     for (place, witness) in asked.witnesses.iter().enumerate() {
-        let Witness { pointer, n_o, slopes, .. } = witness;
-        if asked.witnesses[..place].iter().any(|before| before.slopes == *slopes) {
+        let Witness { n_o, slopes, .. } = witness;
+        if asked.witnesses[..place].iter().any(|before| before.slopes.are(slopes)) {
             continue;
         }
         let question = of_slopes(model, slopes);
         let what = format!("(D), Q - G D - D'G' - D'H D >= 0 for n_o = {n_o}");
-        all.push(Said { rule: RULE, pointer, what, at: asked.at, question });
+        all.push(Said { rule: RULE, pointer: &slopes.pointer, what, at: asked.at, question });
     }
-    Ok(all)
+    all
 }
 
-fn of_slopes(model: &mut Model, Slopes { q, g, h }: &Slopes) -> Question {
+fn of_slopes(model: &mut Model, Slopes { q, g, h, .. }: &Slopes) -> Question {
     let states = model.states();
     // D, its last row that of q and its last column that of e.
     let column = of_output(model);
@@ -42,14 +39,19 @@ fn of_slopes(model: &mut Model, Slopes { q, g, h }: &Slopes) -> Question {
     let of_h: Vec<Vec<Id>> =
         (0..order).map(|i| (0..order).map(|j| image(&|k| h[i.max(k)][i.min(k)], j)).collect()).collect();
     let of_g: Vec<Vec<Id>> = g.iter().map(|row| (0..order).map(|j| image(&|k| row[k], j)).collect()).collect();
-    let mut rows = h;
+    let mut rows = Vec::new();
     for (i, line) in q.into_iter().enumerate() {
-        let beside = (0..order).map(|k| of_h[k][i]);
-        let own = line.into_iter().enumerate().map(|(j, entry)| {
-            let taken = formulas.add(of_g[i][j], of_g[j][i]);
-            formulas.sub(entry, taken)
-        });
-        rows.push(beside.chain(own).collect());
+        let own: Vec<Id> = line
+            .into_iter()
+            .enumerate()
+            .map(|(j, entry)| {
+                let taken = formulas.add(of_g[i][j], of_g[j][i]);
+                let left = formulas.sub(entry, taken);
+                let square = formulas.dot((0..order).map(|k| (derivatives[k][i], of_h[k][j])));
+                formulas.sub(left, square)
+            })
+            .collect();
+        rows.push(own);
     }
     Question::new(formulas, rows, states)
 }

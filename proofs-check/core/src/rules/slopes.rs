@@ -26,8 +26,10 @@ use crate::verdict::{Condition, Outcome, bad, demand, invalid};
 use rug::Rational;
 
 /// Q and H by their lower triangles, G by its rows: what is said of the slopes of (f, q) in (x, e).
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Slopes {
+    /// Where they stand in the file.
+    pub pointer: String,
     pub q: Matrix,
     pub g: Matrix,
     pub h: Matrix,
@@ -45,7 +47,20 @@ impl Slopes {
         }
         let h = triangle(&fields.required("H")?, order, what)?;
         fields.finish()?;
-        Ok(Slopes { q, g, h })
+        Ok(Slopes { pointer: field.pointer.clone(), q, g, h })
+    }
+
+    /// Whether they are the same three matrices.
+    pub fn are(&self, other: &Slopes) -> bool {
+        [(&self.q, &other.q), (&self.g, &other.g), (&self.h, &other.h)].into_iter().all(|(own, other)| own == other)
+    }
+
+    /// H >= 0, in exact arithmetic, so that (D) is concave. (K) has H as its part in omega: it is definite too.
+    fn demand_concave(&self) -> Outcome<()> {
+        let h = &self.h;
+        let row = |i: usize| (0..h.len()).map(|j| h[i.max(j)][i.min(j)].clone()).collect();
+        let truth = semidefinite((0..h.len()).map(row).collect());
+        demand(Some(truth), RULE, &format!("{}/H", self.pointer), "H >= 0")
     }
 }
 
@@ -93,14 +108,6 @@ impl Witness {
         let [e_low, e_up, z_up] = [number("e_low")?, number("e_up")?, number("z_up")?];
         fields.finish()?;
         Ok(Witness { pointer: field.pointer.clone(), n_o, slopes, pi, x_up, e_low, e_up, z_up })
-    }
-
-    /// H >= 0, in exact arithmetic, so that (D) is concave. (K) has H as its part in omega: it is definite too.
-    fn demand_concave(&self) -> Outcome<()> {
-        let h = &self.slopes.h;
-        let row = |i: usize| (0..h.len()).map(|j| h[i.max(j)][i.min(j)].clone()).collect();
-        let truth = semidefinite((0..h.len()).map(row).collect());
-        demand(Some(truth), RULE, &format!("{}/slopes/H", self.pointer), format!("H >= 0, n_o = {}", self.n_o))
     }
 }
 
@@ -215,7 +222,7 @@ impl<'a> Loop<'a> {
                 return invalid(RULE, &format!("{at}/{name}"), format!("0 < {name} fails: {name} = {value}"));
             }
         }
-        witness.demand_concave()?;
+        witness.slopes.demand_concave()?;
         let [e_low, e_up, z_up, rate, factor] =
             [&witness.e_low, &witness.e_up, &witness.z_up, &claimed.rate, &claimed.factor].map(|value| d.number(value));
         // Without states there is no place that it stands in.
