@@ -6,8 +6,8 @@ use proofs_core::effort;
 use proofs_core::json::{Field, Json};
 use proofs_core::rules::bounding;
 use proofs_core::rules::claim::{Claim, reads};
-use proofs_core::rules::derivation::Derivation;
-use proofs_core::rules::rates::{self, Witness};
+use proofs_core::rules::derivation::{Derivation, Inequalities};
+use proofs_core::rules::rates::{self, Asked, Kind, Witness};
 use proofs_core::sha256;
 use proofs_core::spec::{Specification, header};
 use proofs_core::verdict::{Finding, Outcome, Verdict, bad};
@@ -76,7 +76,14 @@ pub fn check(json: &Json, other: Option<&Json>, figures_limit: u64, lines: &mut 
         control: claim.control.clone(),
         no_plant: if continuous { file.optional("no_plant") } else { None },
     };
-    let rates = Witness::read_all(witness.optional("for_n_o").as_ref(), &claim.rates, !continuous)?;
+    let states = spec.plant.as_ref().map_or(0, |plant| plant.states);
+    let region = derivation.region();
+    let kind = match region {
+        None if continuous => Kind::Continuous,
+        None => Kind::Sampled,
+        Some(_) => Kind::Slopes(states),
+    };
+    let rates = Witness::read_all(witness.optional("for_n_o").as_ref(), &claim.rates, kind)?;
     witness.finish()?;
     file.finish()?;
 
@@ -97,7 +104,9 @@ pub fn check(json: &Json, other: Option<&Json>, figures_limit: u64, lines: &mut 
     let shown = arguments.each_ref().map(Float::to_f64);
     // Last, because it may take the longest.
     if let Some(cells) = &cells {
-        proofs_plants::prove(&spec, cells, arguments.each_ref(), derivation.inequalities(), lines)?;
+        let inequalities =
+            Inequalities { slopes: region.map(|at| Asked { witnesses: &rates, at }), ..derivation.inequalities() };
+        proofs_plants::prove(&spec, cells, arguments.each_ref(), inequalities, lines)?;
     }
     if let Some((jacobian, witness)) = &spec.jacobian {
         for witness in [witness].into_iter().chain(spec.existence.iter().map(|(witness, _)| witness)) {
@@ -130,8 +139,11 @@ fn prove(
     let free = derivation.free();
     claim.check(d, &proved, [&free.x_p, &free.e_p], derivation.prediction())?;
     if !rates.is_empty() {
-        if !derivation.rests_on_norms() {
-            return bad("/claim/for_n_o", "rates are proved with a claim by norms, not with a matrix inequality");
+        if !derivation.rests_on_norms() && derivation.region().is_none() {
+            return bad(
+                "/claim/for_n_o",
+                "rates at samples are proved with a claim by norms, of a law without a delay",
+            );
         }
         let about = (free, &proved.sizes, &claim.sigma, derivation.law());
         rates::prove(d, about, (&claim.rates, rates), lines)?;

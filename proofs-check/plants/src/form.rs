@@ -80,7 +80,7 @@ pub fn of_states(model: &mut Model, p: &[Vec<Id>], weight: &Rational, value: &Ra
 }
 
 /// g = df/de.
-fn of_output(model: &mut Model) -> Vec<Id> {
+pub fn of_output(model: &mut Model) -> Vec<Id> {
     let Model { f, formulas, .. } = model;
     f.iter().map(|f| formulas.derivative(*f, Axis::Output)).collect()
 }

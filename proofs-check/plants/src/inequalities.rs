@@ -3,6 +3,7 @@
 use super::at_samples;
 use super::inequality::{self, Said};
 use super::model::Model;
+use super::slopes;
 use proofs_core::rules::derivation::Inequalities;
 use proofs_core::spec::Specification;
 use proofs_core::verdict::Outcome;
@@ -24,6 +25,9 @@ pub fn questions<'i>(
     if let Some(part) = inequalities.existence {
         all.extend(inequality::of_existence(model, part, spec)?);
     }
+    if let Some(asked) = inequalities.slopes {
+        all.extend(slopes::questions(model, asked));
+    }
     if let Some(parts) = inequalities.at_samples {
         all.extend(at_samples::questions(model, parts, spec)?);
     }
@@ -39,5 +43,6 @@ pub fn arguments<'i>(inequalities: Inequalities<'i>) -> impl Iterator<Item = [&'
         let existence = parts.existence.map(|part| [&part.x, &part.e]);
         parts.stability.map(|part| [&part.x, &part.e]).into_iter().chain(existence)
     });
-    of_stability.chain(of_joint).chain(of_existence).chain(at_samples)
+    let of_slopes = inequalities.slopes.map(|asked| asked.at);
+    of_stability.chain(of_joint).chain(of_existence).chain(of_slopes).chain(at_samples)
 }

@@ -27,6 +27,7 @@ pub mod periodic;
 pub mod question;
 pub mod read;
 pub mod region;
+mod slopes;
 pub mod smooth;
 mod still;
 pub mod taylor;

@@ -55,6 +55,8 @@ mod sampled_gain;
 mod sampled_plants;
 mod sampled_rules;
 mod sampled_support;
+mod slopes;
+mod slopes_formulas;
 mod specification;
 mod splitting;
 mod transfer;

@@ -10,9 +10,10 @@ use proofs_check::rules::existence::Existence;
 use proofs_check::rules::inequality::Inequality;
 use proofs_check::rules::joint::Joint;
 use proofs_check::rules::sampled::{inequality as at_samples, law::Terms};
+use proofs_check::rules::slopes::{Asked, Witness};
 use proofs_check::spec::Specification;
 use proofs_check::verdict::{Outcome, Verdict};
-use rug::Float;
+use rug::{Float, Rational};
 use serde_json::{Value, json};
 
 /// A file of `tests/plants`: a plant, and parts of a witness.
@@ -79,6 +80,22 @@ impl AtSamples {
     }
 }
 
+/// Rates as the witness of a claim by a matrix inequality has them, and where (D) is to hold.
+struct Slopes {
+    list: Vec<Witness>,
+    at: [Rational; 2],
+}
+
+impl Slopes {
+    fn read(part: &Value) -> Outcome<Slopes> {
+        let states = part["list"][0]["slopes"]["H"].as_array().unwrap().len() - 1;
+        let json = parse(part["list"].to_string().as_bytes()).unwrap();
+        let field = Field { json: &json, pointer: "/witness/for_n_o".to_owned() };
+        let at = ["X", "E"].map(|name| decimal(part[name].as_str().unwrap()).unwrap());
+        Witness::read_all(&field, states).map(|list| Slopes { list, at })
+    }
+}
+
 /// Applies the rules of section 11; the lines of the argument.
 pub fn judged(parts: &Value) -> Outcome<Vec<String>> {
     let (spec, plant) = read(parts)?;
@@ -91,10 +108,13 @@ pub fn judged(parts: &Value) -> Outcome<Vec<String>> {
         stability: parts.stability.as_ref(),
         existence: parts.existence.as_ref(),
     });
+    let slopes = parts.get("slopes").map(Slopes::read).transpose()?;
+    let slopes = slopes.as_ref().map(|parts| Asked { witnesses: &parts.list, at: parts.at.each_ref() });
     let inequalities = Inequalities {
         stability: inequality.as_ref(),
         joint: joint.as_ref(),
         existence: existence.as_ref(),
+        slopes,
         at_samples,
     };
     let none = Float::new(128);

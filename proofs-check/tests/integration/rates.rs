@@ -274,17 +274,17 @@ fn what_cannot_be_read_is_named() {
     }
 }
 
-/// Certificates of other kinds have none.
+/// Certificates with a delay have none, those at samples none of continuous time, and those of a matrix inequality or of joint metrics none by norms.
 #[test]
-fn other_claims_have_no_rates() {
+fn other_claims_have_no_rates_by_norms() {
     let part =
         |certificate: &Value| [certificate["claim"]["for_n_o"].clone(), certificate["witness"]["for_n_o"].clone()];
     let [claim, witness] = part(&stored(PAPER));
     for (folder, name, place) in [
         ("sampled", "paper-example", "/witness/for_n_o/0"),
         ("sampled", "paper-example-delay", "/claim/for_n_o"),
-        ("plants", "joint.certificate", "/claim/for_n_o"),
-        ("plants", "splitting.certificate", "/claim/for_n_o"),
+        ("plants", "joint.certificate", "/witness/for_n_o/0/w"),
+        ("plants", "splitting.certificate", "/witness/for_n_o/0/w"),
     ] {
         let other: Value = serde_json::from_str(&text(folder, name)).unwrap();
         let mut made = edited(other, &[("/claim/for_n_o", claim.clone()), ("/witness/for_n_o", witness.clone())]);

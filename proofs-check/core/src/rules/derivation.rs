@@ -9,7 +9,7 @@ use super::inequality::Inequality;
 use super::joint::Joint;
 use super::sampled::{self, claim::Regulator};
 use super::set::ClaimedSet;
-use super::{bounding, regulation, sharp};
+use super::{bounding, rates, regulation, sharp};
 use crate::actuator;
 use crate::data::Data;
 use crate::interval::Interval;
@@ -31,6 +31,8 @@ pub struct Inequalities<'w> {
     pub stability: Option<&'w Inequality>,
     pub joint: Option<&'w Joint>,
     pub existence: Option<&'w Existence>,
+    /// (D), of the rates that a claim by one of the first two has.
+    pub slopes: Option<rates::Asked<'w>>,
     /// Those of a sampled regulator, with its law.
     pub at_samples: Option<sampled::inequality::Inequalities<'w>>,
 }
@@ -68,7 +70,7 @@ impl Derivation {
                 stability: w.stability.matrix(),
                 joint: w.stability.joint(),
                 existence: w.existence.inequality.as_ref(),
-                at_samples: None,
+                ..Inequalities::default()
             },
             Witness::Sampled(w) => Inequalities { at_samples: Some(w.inequalities()), ..Inequalities::default() },
         }
@@ -88,6 +90,12 @@ impl Derivation {
             Witness::Sharp(_) => None,
             Witness::Sampled(w) => Some(&w.terms),
         }
+    }
+
+    /// X and E of the inequality by which the error decays, in continuous time; none where it does by norms.
+    pub fn region(&self) -> Option<[&Rational; 2]> {
+        let Inequalities { stability, joint, .. } = self.inequalities();
+        stability.map(|part| [&part.x, &part.e]).or_else(|| joint.map(|part| [&part.x, &part.e]))
     }
 
     /// Y_0 as it is written, of a law with a delay.

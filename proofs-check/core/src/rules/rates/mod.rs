@@ -1,5 +1,6 @@
 //! Rule: what a claim says of given numbers of oscillators, at its gain and no other (docs/mathematics.md, section 13.6): rates without noise, and
-//! limits with it. Of a claim by norms alone, in continuous time ([`continuous`]) or at samples ([`sampled`]).
+//! limits with it. Of a claim by norms, in continuous time ([`continuous`]) or at samples ([`sampled`]), and without noise of one by a matrix inequality
+//! or joint metrics in continuous time ([`slopes`]).
 //!
 //! Guarantee of [`prove`], for each n_o: every solution from the claimed set has `|e - e_per| <= factor exp(-rate (t - t_0))`, at samples for the sampling
 //! instants t, and with the noise of the file, where that is claimed ([`noise`]), `|e - e_per| <= peak` at all times and at most `limit` in the end.
@@ -10,6 +11,8 @@ mod form;
 mod noise;
 mod norm;
 mod sampled;
+pub mod slopes;
+mod stored;
 #[cfg(test)]
 mod tests;
 
@@ -39,17 +42,45 @@ pub struct Witness {
 enum Proof {
     Continuous(Box<continuous::Proof>, Option<Box<continuous::OfNoise>>),
     Sampled(Box<sampled::Proof>, Option<Box<sampled::OfNoise>>),
+    Slopes(Box<slopes::Proof>),
+}
+
+/// What the rates of a claim are proved by, as its stability is.
+#[derive(Clone, Copy)]
+pub enum Kind {
+    /// By norms.
+    Continuous,
+    /// By norms, at samples.
+    Sampled,
+    /// By a matrix inequality or joint metrics, of a plant with so many states.
+    Slopes(usize),
+}
+
+/// What proves the rates of a claim by slopes, and X and E of the inequality that it rests on: (D) is to hold there.
+#[derive(Clone, Copy)]
+pub struct Asked<'w> {
+    pub witnesses: &'w [Witness],
+    pub at: [&'w Rational; 2],
+}
+
+impl<'w> Asked<'w> {
+    /// The slopes, each with its n_o.
+    pub fn slopes(self) -> impl Iterator<Item = (u32, &'w slopes::Slopes)> {
+        self.witnesses.iter().filter_map(|witness| match &witness.proof {
+            Proof::Slopes(proof) => Some((witness.n_o, &proof.slopes)),
+            Proof::Continuous(..) | Proof::Sampled(..) => None,
+        })
+    }
 }
 
 impl Witness {
     /// Reads the part `for_n_o` of a witness, beside the claim.
-    pub fn read_all(field: Option<&Field<'_>>, claimed: &[Rate<'_>], at_samples: bool) -> Outcome<Vec<Witness>> {
+    pub fn read_all(field: Option<&Field<'_>>, claimed: &[Rate<'_>], kind: Kind) -> Outcome<Vec<Witness>> {
         let list = field.map_or_else(|| Ok(Vec::new()), Field::elements)?;
         if let Some(field) = field.filter(|_| list.is_empty() || list.len() > MOST) {
             return bad(&field.pointer, format!("expected 1 to {MOST} rates"));
         }
-        let witnesses: Vec<Witness> =
-            list.iter().map(|field| Witness::read(field, at_samples)).collect::<Outcome<_>>()?;
+        let witnesses: Vec<Witness> = list.iter().map(|field| Witness::read(field, kind)).collect::<Outcome<_>>()?;
         if witnesses.len() != claimed.len() {
             return bad("/witness/for_n_o", "expected one for each rate of the claim");
         }
@@ -64,16 +95,22 @@ impl Witness {
         Ok(witnesses)
     }
 
-    fn read(field: &Field<'_>, at_samples: bool) -> Outcome<Witness> {
+    fn read(field: &Field<'_>, kind: Kind) -> Outcome<Witness> {
         let mut fields = field.fields()?;
         let n_o = read_count(&mut fields)?;
-        let mut noise = fields.optional("noise").map(|field| field.fields()).transpose()?;
-        let proof = if at_samples {
-            let of_noise = noise.as_mut().map(|fields| sampled::OfNoise::read(fields, n_o)).transpose()?;
-            Proof::Sampled(Box::new(sampled::Proof::read(&mut fields, n_o)?), of_noise.map(Box::new))
-        } else {
-            let of_noise = noise.as_mut().map(|fields| continuous::OfNoise::read(fields, n_o)).transpose()?;
-            Proof::Continuous(Box::new(continuous::Proof::read(&mut fields, n_o)?), of_noise.map(Box::new))
+        // With slopes nothing is proved of noise: there the field is one that is not known.
+        let noise = if matches!(kind, Kind::Slopes(_)) { None } else { fields.optional("noise") };
+        let mut noise = noise.map(|field| field.fields()).transpose()?;
+        let proof = match kind {
+            Kind::Continuous => {
+                let of_noise = noise.as_mut().map(|fields| continuous::OfNoise::read(fields, n_o)).transpose()?;
+                Proof::Continuous(Box::new(continuous::Proof::read(&mut fields, n_o)?), of_noise.map(Box::new))
+            }
+            Kind::Sampled => {
+                let of_noise = noise.as_mut().map(|fields| sampled::OfNoise::read(fields, n_o)).transpose()?;
+                Proof::Sampled(Box::new(sampled::Proof::read(&mut fields, n_o)?), of_noise.map(Box::new))
+            }
+            Kind::Slopes(states) => Proof::Slopes(Box::new(slopes::Proof::read(&mut fields, n_o, states)?)),
         };
         let ends = [fields.required("e_up")?.rational()?, fields.required("z_up")?.rational()?];
         [noise, Some(fields)].into_iter().flatten().try_for_each(|fields| fields.finish())?;
@@ -85,8 +122,7 @@ impl Witness {
     }
 }
 
-/// Proves all that a claim says of given n_o, around a periodic solution of these sizes: of a claim that rests on norms. `law`: that of a claim at
-/// samples.
+/// Proves all that a claim says of given n_o, around a periodic solution of these sizes, but for (D) of slopes. `law`: that of a claim at samples.
 pub fn prove(
     d: &Data<'_>,
     (free, sizes, sigma, law): (&Free, &Sizes, &Rational, Option<&Terms>),
@@ -110,9 +146,11 @@ pub fn prove(
                 sampled::rate(law, &error_box, (rate, proof, &witness.ends), &reach)?,
                 of_noise.as_ref().map(|proof| sampled::noise(law, &error_box, proof, rate.n_o)),
             ),
+            (Proof::Slopes(proof), None) => (slopes::rate(d, sigma, (rate, proof, &witness.ends), &reach)?, None),
             _ => return bad(&witness.pointer, "this is not what proves a rate of such a regulator"),
         };
-        let what = format!("w P_up dX^2 + e_up dE^2 + z_up dZ^2 <= factor^2 e_low, n_o = {}", rate.n_o);
+        let of_x = if matches!(witness.proof, Proof::Slopes(_)) { "x_up" } else { "w P_up" };
+        let what = format!("{of_x} dX^2 + e_up dE^2 + z_up dZ^2 <= factor^2 e_low, n_o = {}", rate.n_o);
         let condition = Condition::at_most("R", what, start, d.number(&rate.factor).sqr() * e_low);
         lines.push(condition.line());
         condition.demand(RULE, &format!("{}/factor", rate.pointer))?;

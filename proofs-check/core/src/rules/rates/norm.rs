@@ -3,11 +3,13 @@
 //! Guarantee: with [`Norm::lies_above`] and [`Norm::start`] `e_low e^2 <= y'Pi y <= e_up e^2 + z_up |zeta|_N^2` for y not 0.
 
 use super::claimed::RULE;
+use super::stored::triangle;
 use crate::data::Data;
 use crate::interval::Interval;
+use crate::jacobian::Matrix;
 use crate::json::Fields;
 use crate::matrix::positive_definite;
-use crate::verdict::{Outcome, bad, demand, invalid};
+use crate::verdict::{Outcome, demand, invalid};
 use rug::Rational;
 
 /// Pi as a witness has it.
@@ -16,29 +18,17 @@ pub struct Stored {
     pub pointer: String,
     pub n_o: u32,
     /// The lower triangle of Pi, by rows.
-    rows: Vec<Vec<Rational>>,
+    rows: Matrix,
     e_low: Rational,
 }
 
 impl Stored {
     /// Takes `Pi` and `e_low` out of the part for this n_o.
     pub fn read(fields: &mut Fields<'_>, n_o: u32) -> Outcome<Stored> {
-        let rows = fields.required("Pi")?;
-        let list = rows.elements()?;
         let order = 2 * n_o as usize + 2;
-        if list.len() != order {
-            return bad(&rows.pointer, format!("expected {order} rows, one for e and for each state of zeta"));
-        }
-        let mut read = Vec::with_capacity(order);
-        for (i, row) in list.iter().enumerate() {
-            let entries = row.elements()?;
-            if entries.len() != i + 1 {
-                return bad(&row.pointer, format!("expected {} numbers, up to the diagonal", i + 1));
-            }
-            read.push(entries.iter().map(|entry| entry.rational()).collect::<Outcome<Vec<_>>>()?);
-        }
+        let rows = triangle(&fields.required("Pi")?, order, "one for e and one for each state of zeta")?;
         let e_low = fields.required("e_low")?.rational()?;
-        Ok(Stored { pointer: fields.pointer.clone(), n_o, rows: read, e_low })
+        Ok(Stored { pointer: fields.pointer.clone(), n_o, rows, e_low })
     }
 }
 

@@ -1,6 +1,6 @@
 //! The forms against the laws themselves, in doubles: z and e as the regulator has them, from which `zs = N^(1/2) (z - M e)` follows.
 
-use super::{Proof, Witness, claimed::Rate, continuous, sampled};
+use super::{Kind, Proof, Witness, claimed::Rate, continuous, sampled};
 use crate::data::Data;
 use crate::interval::Interval;
 use crate::json::{Field, Json, parse};
@@ -55,8 +55,9 @@ fn with_stored(name: &str, use_it: impl Fn(&Data<'_>, (&Derivation, &Rational), 
     };
     let derivation = derivation.unwrap();
     let rates = Rate::read_all(&fields.required("for_n_o").unwrap()).unwrap();
+    let kind = if derivation.law().is_some() { Kind::Sampled } else { Kind::Continuous };
     let proofs = witness.optional("for_n_o");
-    let proofs = Witness::read_all(proofs.as_ref(), &rates, derivation.law().is_some()).unwrap();
+    let proofs = Witness::read_all(proofs.as_ref(), &rates, kind).unwrap();
     let d = Data::new(&spec, 128);
     let free = derivation.free();
     let sizes = ["x", "e"].map(|size| d.number(&rational(part(claim.json, "periodic_solution").json, size)));

@@ -1,0 +1,487 @@
+//! Rates of claims by a matrix inequality or by joint metrics (docs/mathematics.md, section 13.6): stored parts of certificates that are stored
+//! elsewhere, and what is refused where anything of them is not what it is.
+
+use crate::common::{accepted, assert_refused, certificate, judged, text};
+use crate::rates::{edited, refused, reworded, times};
+use proofs_check::verdict::Verdict;
+use proofs_check::{json::decimal, sha256};
+use serde_json::{Value, json};
+use std::f64::consts::PI;
+
+/// The part, the certificate that it is of, the least and the largest b, and how many times (D) is asked: in both cells of a family.
+const STORED: [(&str, &str, &str, [f64; 2], usize); 6] = [
+    ("pendulum", "plants", "pendulum.certificate", [1.0, 1.0], 2),
+    ("splitting", "plants", "splitting.certificate", [1.0, 1.0], 1),
+    ("joint", "plants", "joint.certificate", [1.0, 1.0], 2),
+    ("gain-converter", "gain", "converter", [0.9, 1.1], 2),
+    ("family-gain", "plants", "family-gain.certificate", [0.9 / 1.3, 1.1 / 0.7], 4),
+    ("periods-motor-axis", "periods", "motor-axis", [1.0, 1.0], 2),
+];
+
+fn parsed(folder: &str, name: &str) -> Value {
+    serde_json::from_str(&text(folder, name)).unwrap()
+}
+
+/// A certificate with a part of `tests/slopes`.
+fn with(part: &str, [folder, name]: [&str; 2]) -> Value {
+    let part = parsed("slopes", part);
+    let places = [("/claim/for_n_o", part["claim"].clone()), ("/witness/for_n_o", part["witness"].clone())];
+    reworded(edited(parsed(folder, name), &places))
+}
+
+fn stored(name: &str) -> Value {
+    let (part, folder, of, ..) = STORED.into_iter().find(|stored| stored.0 == name).unwrap();
+    with(part, [folder, of])
+}
+
+fn number(value: &Value) -> f64 {
+    let (numerator, denominator) = value.as_str().unwrap().split_once('/').unwrap_or((value.as_str().unwrap(), "1"));
+    (decimal(numerator).unwrap() / decimal(denominator).unwrap()).to_f64()
+}
+
+#[test]
+fn stored_ones_are_accepted() {
+    for (name, .., asked) in STORED {
+        let certificate = stored(name);
+        let report = accepted(&certificate);
+        let statement = &report.proved.as_ref().unwrap().subject.statement;
+        for rate in certificate["claim"]["for_n_o"].as_array().unwrap() {
+            assert!(statement.contains(&format!(" With n_o = {} and ", rate["n_o"])), "{name}: {statement}");
+        }
+        let lines = report.lines.iter().filter(|line| line.starts_with("rates: (D), "));
+        assert_eq!(lines.count(), asked, "{name}: {:?}", report.lines);
+    }
+}
+
+/// The smallest pivot of the form of (K), by other means: from the matrices of the loop at the gain b.
+fn pivot(certificate: &Value, which: usize, b: f64, rate: f64) -> f64 {
+    let witness = &certificate["witness"]["for_n_o"][which];
+    let symmetric = |rows: &Value| -> Vec<Vec<f64>> {
+        let order = rows.as_array().unwrap().len();
+        (0..order).map(|i| (0..order).map(|j| number(&rows[i.max(j)][i.min(j)])).collect()).collect()
+    };
+    let slopes = &witness["slopes"];
+    let (pi, q, h) = (symmetric(&witness["Pi"]), symmetric(&slopes["Q"]), symmetric(&slopes["H"]));
+    let (order, inputs) = (pi.len(), h.len());
+    let (e, n_o) = (inputs - 1, witness["n_o"].as_u64().unwrap() as usize);
+    let sigma = number(&certificate["claim"]["sigma_star"]);
+    let model = &certificate["plant"]["internal_model"];
+    let mu = number(&model["mu"]);
+    let w = match model["base_frequency"].as_str().unwrap() {
+        "2*pi" => 2.0 * PI,
+        "100*pi" => 100.0 * PI,
+        other => panic!("{other}"),
+    };
+    assert_eq!((number(&model["weights"]["n0"]), number(&model["weights"]["epsilon"])), (2.0, 0.5));
+    let mut column = vec![0.0; order];
+    column[e] = 1.0;
+    let mut measured = vec![0.0; order];
+    for l in 0..=n_o {
+        let place = if l == 0 { e + 1 } else { e + 2 * l };
+        let root = if l == 0 { 2.0_f64.sqrt() } else { (l as f64).powf(-0.75) };
+        column[place] = -root;
+        measured[place] = b * mu * root;
+    }
+    measured[e] = (1.0 - b) * sigma;
+    // eta' = A eta + B omega.
+    let mut a: Vec<Vec<f64>> = (0..order).map(|i| (0..order).map(|j| column[i] * measured[j]).collect()).collect();
+    a[e][e] -= sigma;
+    for l in 1..=n_o {
+        a[e + 2 * l][e + 2 * l + 1] += l as f64 * w;
+        a[e + 2 * l + 1][e + 2 * l] -= l as f64 * w;
+    }
+    let inward = |i: usize, k: usize| if k < e { f64::from(u8::from(i == k)) } else { column[i] };
+    let moved = |i: usize, j: usize| (0..order).map(|k| pi[i][k] * a[k][j]).sum::<f64>();
+    let driven = |i: usize, k: usize| (0..order).map(|j| pi[i][j] * inward(j, k)).sum::<f64>();
+    let of_a = |i: usize| i < inputs;
+    let mut form = vec![vec![0.0; order + inputs]; order + inputs];
+    for (i, row) in form.iter_mut().enumerate() {
+        for (j, entry) in row.iter_mut().enumerate() {
+            *entry = match (i.checked_sub(order), j.checked_sub(order)) {
+                (None, None) => {
+                    let own = -moved(i, j) - moved(j, i) - 2.0 * rate * pi[i][j];
+                    own - if of_a(i) && of_a(j) { q[i][j] } else { 0.0 }
+                }
+                (Some(k), Some(l)) => h[k][l],
+                (place, other) => {
+                    let (i, k) = (if place.is_none() { i } else { j }, place.or(other).unwrap());
+                    -driven(i, k) + if of_a(i) { number(&slopes["G"][i][k]) } else { 0.0 }
+                }
+            };
+        }
+    }
+    let mut least = f64::MAX;
+    for k in 0..form.len() {
+        let pivot = form[k][k];
+        least = least.min(pivot);
+        for i in k + 1..form.len() {
+            let factor = form[i][k] / pivot;
+            for j in k + 1..form.len() {
+                form[i][j] -= factor * form[k][j];
+            }
+        }
+        if pivot <= 0.0 {
+            return pivot;
+        }
+    }
+    least
+}
+
+/// (K) holds up to the rate up to which the loop written down in another way says so, at the worse end of an input gain.
+#[test]
+fn up_to_the_rate_that_the_loop_has() {
+    for (name, _, _, ends, _) in STORED {
+        let certificate = stored(name);
+        for which in 0..certificate["claim"]["for_n_o"].as_array().unwrap().len() {
+            let place = format!("/claim/for_n_o/{which}/rate");
+            let before = number(certificate.pointer(&place).unwrap());
+            let holds = |rate: f64| ends.into_iter().all(|b| pivot(&certificate, which, b, rate) > 0.0);
+            let (mut low, mut high) = (before, 4.0 * before);
+            assert!(holds(low) && !holds(high), "{name} {which}");
+            for _ in 0..40 {
+                let middle = f64::midpoint(low, high);
+                if holds(middle) { low = middle } else { high = middle }
+            }
+            let at = |factor: f64| edited(certificate.clone(), &[(&place, json!(format!("{:.12}", low * factor)))]);
+            // The range of an input gain of parameters is a little wider in the checker.
+            accepted(&reworded(at(1.0 - 1e-5)));
+            refused(at(1.0 + 1e-5), Verdict::Invalid, "rates", &format!("/witness/for_n_o/{which}/Pi"));
+        }
+    }
+}
+
+#[test]
+fn each_number_matters() {
+    for (name, ..) in STORED {
+        let certificate = stored(name);
+        let count = certificate["claim"]["for_n_o"].as_array().unwrap().len();
+        for i in 0..count {
+            let (claim, witness) = (format!("/claim/for_n_o/{i}"), format!("/witness/for_n_o/{i}"));
+            let mut changes = vec![
+                (format!("{claim}/factor"), 1.0 - 1e-2, format!("{claim}/factor")),
+                (format!("{witness}/e_low"), 1.0 - 2e-2, format!("{claim}/factor")),
+                (format!("{witness}/e_low"), 3.0, format!("{witness}/e_low")),
+                (format!("{witness}/x_up"), 0.3, format!("{witness}/z_up")),
+                (format!("{witness}/e_up"), 0.3, format!("{witness}/z_up")),
+                (format!("{witness}/z_up"), 0.3, format!("{witness}/z_up")),
+                (format!("{witness}/Pi/0/0"), 9.0, witness.clone()),
+                (format!("{witness}/Pi/0/0"), -1.0, format!("{witness}/e_low")),
+                (format!("{witness}/Pi/1/1"), 9.0, witness.clone()),
+                (format!("{witness}/Pi/2/2"), 9.0, witness.clone()),
+            ];
+            // What is larger costs a larger factor.
+            changes
+                .extend(["x_up", "e_up", "z_up"].map(|up| (format!("{witness}/{up}"), 3.0, format!("{claim}/factor"))));
+            for (pointer, factor, place) in changes {
+                let value = times(&certificate, &pointer, factor);
+                refused(edited(certificate.clone(), &[(&pointer, value)]), Verdict::Invalid, "rates", &place);
+            }
+        }
+    }
+}
+
+/// The pointers of the numbers of a matrix of the slopes.
+fn entries(certificate: &Value, witness: &str, matrix: &str) -> Vec<String> {
+    let rows = certificate.pointer(&format!("{witness}/slopes/{matrix}")).unwrap().as_array().unwrap();
+    let row = |(i, row): (usize, &Value)| (0..row.as_array().unwrap().len()).map(move |j| (i, j)).collect::<Vec<_>>();
+    let places = rows.iter().enumerate().flat_map(row);
+    places.map(|(i, j)| format!("{witness}/slopes/{matrix}/{i}/{j}")).collect()
+}
+
+/// Every entry of Q, G and H by much, in both directions: (K) or (D) fails. Of those on the diagonal of Q and H one says which.
+#[test]
+fn each_number_of_the_slopes_matters() {
+    for (name, ..) in STORED {
+        let certificate = stored(name);
+        let witness = "/witness/for_n_o/0";
+        for matrix in ["Q", "G", "H"] {
+            let places = entries(&certificate, witness, matrix);
+            let value = |place: &String| certificate.pointer(place).unwrap().clone();
+            let size = places.iter().map(|place| number(&value(place)).abs()).fold(0.0, f64::max);
+            for place in &places {
+                for sign in [1.0, -1.0] {
+                    let moved = json!(format!("{:.12}", number(&value(place)) + sign * 3.0 * size));
+                    let made = edited(certificate.clone(), &[(place, moved)]);
+                    let diagonal = place.ends_with("/0/0") || place.ends_with("/1/1");
+                    let expected = match (matrix, diagonal, sign > 0.0) {
+                        ("Q", true, true) => format!("{witness}/Pi"),
+                        ("Q", true, false) | ("H", true, true) => format!("{witness}/slopes"),
+                        ("H", true, false) => format!("{witness}/slopes/H"),
+                        _ => witness.to_owned(),
+                    };
+                    refused(made, Verdict::Invalid, "rates", &expected);
+                }
+            }
+        }
+    }
+}
+
+/// H has to be definite: (K) says so of one that is semidefinite.
+#[test]
+fn h_is_definite() {
+    let certificate = stored("pendulum");
+    let witness = "/witness/for_n_o/0";
+    let (h, zero) = (format!("{witness}/slopes/H"), json!([["0"], ["0", "0"], ["0", "0", "0"]]));
+    let report = judged(&edited(certificate.clone(), &[(&h, zero)]));
+    assert!(report.verdict == Verdict::Undecided || report.verdict == Verdict::Invalid);
+    assert!(report.finding.unwrap().pointer.starts_with(&format!("{witness}/Pi")));
+    for (i, value) in [(0, "-1e-30"), (1, "-1"), (2, "-1e-9")] {
+        let made = edited(certificate.clone(), &[(&format!("{h}/{i}/{i}"), json!(value))]);
+        refused(made, Verdict::Invalid, "rates", &h);
+    }
+}
+
+#[test]
+fn signs_are_demanded() {
+    let certificate = stored("pendulum");
+    for (pointer, names) in [("/claim/for_n_o/0", &["rate", "factor"][..]), ("/witness/for_n_o/0", &["e_low"])] {
+        for name in names {
+            let pointer = format!("{pointer}/{name}");
+            for value in [json!("0"), times(&certificate, &pointer, -1.0)] {
+                refused(edited(certificate.clone(), &[(&pointer, value)]), Verdict::Invalid, "rates", &pointer);
+            }
+        }
+    }
+    for name in ["x_up", "e_up", "z_up"] {
+        let pointer = format!("/witness/for_n_o/0/{name}");
+        for value in ["0", "-1"] {
+            let made = edited(certificate.clone(), &[(&pointer, json!(value))]);
+            refused(made, Verdict::Invalid, "rates", "/witness/for_n_o/0/z_up");
+        }
+    }
+}
+
+/// Slopes that hold at thousands of drawn points, and not near e = 0, where friction is steep: everything but (D) is right.
+#[test]
+fn what_holds_at_points_alone_is_refused() {
+    let sampled = with("family-gain.sampled", ["plants", "family-gain.certificate"]);
+    let slopes = &sampled["witness"]["for_n_o"][0]["slopes"];
+    let entry = |name: &str, i: usize, j: usize| number(&slopes[name][i][j]);
+    let (q, h) =
+        (|i: usize, j: usize| entry("Q", i.max(j), i.min(j)), |i: usize, j: usize| entry("H", i.max(j), i.min(j)));
+    let holds = |j: f64, b: f64, e: f64| {
+        let d = [[-200.0, 150.0], [100.0 / j, -(b + 40.0 / e.cosh().powi(2)) / j]];
+        let sum = |value: &dyn Fn(usize, usize) -> f64| (0..4).map(|place| value(place / 2, place % 2)).sum::<f64>();
+        let g_d = |i: usize, j: usize| (0..2).map(|k| entry("G", i, k) * d[k][j]).sum::<f64>();
+        let left = |i: usize, j: usize| q(i, j) - g_d(i, j) - g_d(j, i) - sum(&|k, l| d[k][i] * h(k, l) * d[l][j]);
+        left(0, 0) > 0.0 && left(0, 0) * left(1, 1) > left(0, 1).powi(2)
+    };
+    for k in 0..1000_u32 {
+        let share = |of: u32| f64::from(k % of) / f64::from(of - 1);
+        let e = 6_116_565.8 * (2.0 * f64::from(k) / 999.0 - 1.0);
+        assert!(holds(0.7 + 0.6 * share(7), 30.0 + 60.0 * share(11), e), "{k}");
+    }
+    assert!(!holds(0.7, 90.0, 0.0));
+    let report = judged(&sampled);
+    assert!(
+        report.lines.iter().filter(|line| line.trim_start().starts_with("R holds")).count() == 2,
+        "{:?}",
+        report.lines
+    );
+    assert_refused(&report, Verdict::Invalid, "rates", "/witness/for_n_o/0/slopes");
+}
+
+/// Both ends of an input gain are asked for: each of these is right at one end and at 1.
+#[test]
+fn both_ends_of_an_input_gain() {
+    for (part, fails, ends) in
+        [("gain-converter.low", ", at b_hi", [0.9, 1.0]), ("gain-converter.high", ", at b_lo", [1.0, 1.1])]
+    {
+        let made = with(part, ["gain", "converter"]);
+        let rate = number(&made["claim"]["for_n_o"][0]["rate"]);
+        assert!(ends.into_iter().all(|b| pivot(&made, 0, b, rate) > 0.0), "{part}");
+        let report = judged(&made);
+        assert_refused(&report, Verdict::Invalid, "rates", "/witness/for_n_o/0/Pi");
+        let message = report.finding.unwrap().message;
+        assert!(message.contains("(K) for n_o = 0") && message.ends_with(fails), "{message}");
+    }
+}
+
+/// What proves one n_o proves no other.
+#[test]
+fn a_rate_is_that_of_its_own_number() {
+    let certificate = stored("joint");
+    let [claim, witness] = ["claim", "witness"].map(|part| certificate[part]["for_n_o"].clone());
+    let with = |changes: &[(&str, Value)]| edited(certificate.clone(), changes);
+    let other = with(&[("/claim/for_n_o/1/n_o", json!(3)), ("/witness/for_n_o/1/n_o", json!(3))]);
+    refused(other, Verdict::BadInput, "format", "/witness/for_n_o/1/Pi");
+    refused(with(&[("/claim/for_n_o/1/n_o", json!(3))]), Verdict::BadInput, "format", "/witness/for_n_o/1/n_o");
+    let both = |claim: Value, witness: Value| with(&[("/claim/for_n_o", claim), ("/witness/for_n_o", witness)]);
+    refused(both(claim.clone(), json!([witness[0]])), Verdict::BadInput, "format", "/witness/for_n_o");
+    refused(both(json!([claim[0]]), witness.clone()), Verdict::BadInput, "format", "/witness/for_n_o");
+    refused(with(&[("/witness/for_n_o", Value::Null)]), Verdict::BadInput, "format", "/witness/for_n_o");
+    refused(with(&[("/claim/for_n_o", Value::Null)]), Verdict::BadInput, "format", "/witness/for_n_o");
+    accepted(&reworded(both(json!([claim[1]]), json!([witness[1]]))));
+    let lent = with(&[("/claim/for_n_o/1/rate", claim[0]["rate"].clone())]);
+    refused(lent, Verdict::Invalid, "rates", "/witness/for_n_o/1/Pi");
+    // The Pi of n_o = 2 with what stands in the last oscillator left out is none of n_o = 1.
+    let mut shorter = both(json!([claim[1]]), json!([witness[1]]));
+    let pi = witness[1]["Pi"].as_array().unwrap();
+    shorter["claim"]["for_n_o"][0]["n_o"] = json!(1);
+    shorter["witness"]["for_n_o"][0]["n_o"] = json!(1);
+    shorter["witness"]["for_n_o"][0]["Pi"] = json!(pi[..6]);
+    shorter["claim"]["for_n_o"][0]["rate"] = claim[0]["rate"].clone();
+    refused(shorter, Verdict::Invalid, "rates", "/witness/for_n_o/0/Pi");
+}
+
+/// A rate is proved at the gain of the claim, and for its set.
+#[test]
+fn a_rate_is_that_of_the_gain_and_of_the_set() {
+    let certificate = stored("pendulum");
+    let sigma = certificate["claim"]["sigma_star"].as_str().unwrap();
+    let larger = times(&certificate, "/claim/sigma_star", 8.0);
+    let statement = certificate["claim"]["statement"].as_str().unwrap();
+    let statement =
+        statement.replace(&format!("sigma >= {sigma},"), &format!("sigma >= {},", larger.as_str().unwrap()));
+    let moved = edited(certificate, &[("/claim/sigma_star", larger), ("/claim/statement", json!(statement))]);
+    let alone = edited(moved.clone(), &[("/claim/for_n_o", Value::Null), ("/witness/for_n_o", Value::Null)]);
+    accepted(&reworded(alone));
+    refused(moved, Verdict::Invalid, "rates", "/witness/for_n_o/0/Pi");
+    // A larger set, of a claim that has room for it.
+    let certificate = stored("joint");
+    let statement = certificate["claim"]["statement"].as_str().unwrap();
+    let statement = statement.replace("|e| <= 0.1,", "|e| <= 0.11,");
+    let larger =
+        edited(certificate, &[("/claim/initial_set/E0", json!("0.11")), ("/claim/statement", json!(statement))]);
+    let alone = edited(larger.clone(), &[("/claim/for_n_o", Value::Null), ("/witness/for_n_o", Value::Null)]);
+    accepted(&reworded(alone));
+    refused(larger, Verdict::Invalid, "rates", "/claim/for_n_o/0/factor");
+}
+
+/// (D) is about the formulas: other ones, under their own digest, whose claim holds all the same.
+#[test]
+fn other_formulas_have_other_slopes() {
+    for (name, pointer, value) in [
+        ("pendulum", "/plant/q", "theta + e/4 - e/2 + cos(2*pi*t) + cos(4*pi*t)/3"),
+        ("joint", "/plant/q", "-4*a + 2*b - e - 7*tanh(e) - e + sin(2*pi*t)"),
+    ] {
+        let with = |certificate: Value| {
+            let mut made = edited(certificate, &[(pointer, json!(value))]);
+            rehash(&mut made);
+            made
+        };
+        let report = judged(&with(stored(name)));
+        // Either the claim itself does not hold, or its rates do not.
+        assert_eq!(report.verdict, Verdict::Invalid, "{name}: {}", report.text(false));
+    }
+}
+
+fn rehash(certificate: &mut Value) {
+    let mut canonical = String::new();
+    proofs_check::json::parse(certificate["plant"].to_string().as_bytes()).unwrap().canonical(&mut canonical);
+    certificate["plant_sha256"] = sha256::hex_digest(canonical.as_bytes()).into();
+}
+
+#[test]
+fn what_cannot_be_read_is_named() {
+    let certificate = stored("pendulum");
+    let witness = "/witness/for_n_o/0";
+    let at = |place: &str| format!("{witness}/{place}");
+    for (place, value, refused_at) in [
+        ("w", json!("1"), "w"),
+        ("l", json!("1"), "l"),
+        ("k", json!("1"), "k"),
+        ("noise", json!({}), "noise"),
+        ("n_o", json!(1), "Pi"),
+        ("n_o", json!(51), "n_o"),
+        ("Pi", json!([]), "Pi"),
+        ("Pi/0", json!([]), "Pi/0"),
+        ("Pi/0", json!(["1", "1"]), "Pi/0"),
+        ("slopes", json!([]), "slopes"),
+        ("slopes/P", json!("1"), "slopes/P"),
+        ("slopes/Q", json!([["1"], ["0", "1"]]), "slopes/Q"),
+        ("slopes/Q/2", json!(["1", "0"]), "slopes/Q/2"),
+        ("slopes/G", json!([["1"], ["0", "1"], ["0", "0", "1"]]), "slopes/G"),
+        ("slopes/G/1", json!(["0", "1", "0", "0"]), "slopes/G"),
+        ("slopes/H", json!([["1"], ["0", "1"], ["0", "0", "1"], ["0", "0", "0", "1"]]), "slopes/H"),
+        ("slopes/H/0", json!("1"), "slopes/H/0"),
+        ("slopes/H/1/0", json!("sqrt(2)"), "slopes/H/1/0"),
+        ("slopes", Value::Null, "slopes"),
+        ("slopes/Q", Value::Null, "slopes/Q"),
+        ("slopes/G", Value::Null, "slopes/G"),
+        ("slopes/H", Value::Null, "slopes/H"),
+        ("x_up", Value::Null, "x_up"),
+        ("e_low", Value::Null, "e_low"),
+        ("e_up", Value::Null, "e_up"),
+        ("z_up", Value::Null, "z_up"),
+        ("x_up", json!("inf"), "x_up"),
+    ] {
+        // What is missing is named as a field of the part that it is missing in.
+        let expected =
+            if value.is_null() { refused_at.rsplit_once('/').map_or("", |(part, _)| part) } else { refused_at };
+        let report = judged(&edited(certificate.clone(), &[(&at(place), value)]));
+        assert_refused(&report, Verdict::BadInput, "format", at(expected).trim_end_matches('/'));
+    }
+    let report = judged(&edited(certificate, &[("/witness/for_n_o", json!([]))]));
+    assert_refused(&report, Verdict::BadInput, "format", "/witness/for_n_o");
+}
+
+/// Slopes have no place in a claim by norms, w and l none in one by a matrix inequality.
+#[test]
+fn each_kind_of_claim_has_its_own() {
+    let pendulum = stored("pendulum");
+    let by_norms = parsed("rates", "paper-example-at-rest");
+    let slopes = pendulum["witness"]["for_n_o"][0]["slopes"].clone();
+    let made = edited(by_norms.clone(), &[("/witness/for_n_o/0/slopes", slopes)]);
+    refused(made, Verdict::BadInput, "format", "/witness/for_n_o/0/slopes");
+    let made = edited(by_norms, &[("/witness/for_n_o/0/x_up", json!("1"))]);
+    refused(made, Verdict::BadInput, "format", "/witness/for_n_o/0/x_up");
+    // The inequality taken away, what is left is a claim by norms, if it is one.
+    let made = edited(pendulum.clone(), &[("/witness/matrix_inequality", Value::Null)]);
+    refused(made, Verdict::BadInput, "format", "/witness/for_n_o/0");
+    // A specification has no formulas.
+    let inequality = pendulum["witness"]["matrix_inequality"].clone();
+    let mut made = certificate("paper-example.sharp");
+    made["witness"]["matrix_inequality"] = inequality;
+    made["claim"]["for_n_o"] = pendulum["claim"]["for_n_o"].clone();
+    made["witness"]["for_n_o"] = pendulum["witness"]["for_n_o"].clone();
+    assert_refused(&judged(&reworded(made)), Verdict::BadInput, "format", "/witness");
+    // At samples there are none.
+    let mut made = parsed("sampled", "plant-motor-axis");
+    made["claim"]["for_n_o"] = pendulum["claim"]["for_n_o"].clone();
+    made["witness"]["for_n_o"] = pendulum["witness"]["for_n_o"].clone();
+    assert_refused(&judged(&made), Verdict::BadInput, "format", "/claim/for_n_o");
+}
+
+/// `e' = u + q(t)`: Q, G and H are numbers, and there is no x_up.
+#[test]
+fn without_states() {
+    let mut made = parsed("plants", "no-states.certificate");
+    made["witness"].as_object_mut().unwrap().remove("exact_regulation");
+    let metric = json!({
+        "P": [], "w": "1", "k_p": "1", "c_x": "1", "c_e": "1/10", "c_y": "1/10", "P_up": "1/1000000", "x_low": "1", "e_low": "1",
+    });
+    let mut near = metric.clone();
+    near["p"] = json!([]);
+    let sigma = made["claim"]["sigma_star"].clone();
+    made["witness"]["joint_inequality"] =
+        json!({ "X": "1000", "E": "1000", "sigma": sigma, "near": near, "far": metric });
+    for radius in ["D_x", "D_e"] {
+        made["witness"][radius] = "100".into();
+    }
+    made["claim"]["for_n_o"] = json!([{ "n_o": 0, "rate": "1.9", "factor": "2.2" }]);
+    made["witness"]["for_n_o"] = json!([{
+        "n_o": 0, "Pi": [["1"], ["0", "1"]], "slopes": { "Q": [["0"]], "G": [["0"]], "H": [["100"]] },
+        "e_low": "0.99", "e_up": "1.01", "z_up": "1.01",
+    }]);
+    let made = reworded(made);
+    accepted(&made);
+    let witness = "/witness/for_n_o/0";
+    for (at, value, verdict, place) in [
+        ("x_up", json!("1"), Verdict::BadInput, "x_up"),
+        ("Pi", json!([["1"], ["0", "1"], ["0", "0", "1"]]), Verdict::BadInput, "Pi"),
+        ("slopes/Q", json!([]), Verdict::BadInput, "slopes/Q"),
+        ("slopes/Q/0/0", json!("-1e-9"), Verdict::Invalid, "slopes"),
+        ("slopes/Q/0/0", json!("37"), Verdict::Invalid, "Pi"),
+        ("slopes/H/0/0", json!("0.1"), Verdict::Invalid, "Pi"),
+        ("slopes/H/0/0", json!("-1"), Verdict::Invalid, "slopes/H"),
+        ("slopes/G/0/0", json!("-80"), Verdict::Invalid, "Pi"),
+    ] {
+        let rule = if verdict == Verdict::BadInput { "format" } else { "rates" };
+        let forged = edited(made.clone(), &[(&format!("{witness}/{at}"), value)]);
+        refused(forged, verdict, rule, &format!("{witness}/{place}"));
+    }
+    // zs falls at the rate 2, for b'b mu = 2.
+    let faster = edited(made, &[("/claim/for_n_o/0/rate", json!("2.01"))]);
+    refused(faster, Verdict::Invalid, "rates", &format!("{witness}/Pi"));
+}

@@ -1,0 +1,196 @@
+//! (D) of the rates of claims by a matrix inequality: its question about formulas against matrices by hand.
+
+use super::common::drawn;
+use super::matrix_inequality::at_rest;
+use super::plant_support::Parts;
+use proofs_check::verdict::Verdict;
+use serde_json::{Value, json};
+
+const PLACE: &str = "/witness/for_n_o/0/slopes";
+/// How far from the border of what holds.
+const STEP: f64 = 1e-9;
+
+type Matrix = Vec<Vec<f64>>;
+
+/// `G D + D'G' + D'H D`.
+fn taken(g: &Matrix, h: &Matrix, d: &Matrix) -> Matrix {
+    let all = 0..d.len();
+    let dot = |value: &dyn Fn(usize) -> f64| all.clone().map(value).sum::<f64>();
+    let g_d = |i: usize, j: usize| dot(&|k| g[i][k] * d[k][j]);
+    let h_d = |i: usize, j: usize| dot(&|k| h[i.max(k)][i.min(k)] * d[k][j]);
+    let entry = |i: usize, j: usize| g_d(i, j) + g_d(j, i) + dot(&|k| d[k][i] * h_d(k, j));
+    all.clone().map(|i| all.clone().map(|j| entry(i, j)).collect()).collect()
+}
+
+/// The part for n_o = 0 with `Q + shift I`; of Pi and the rest of it (D) has nothing.
+fn part(q: &Matrix, shift: f64, g: &Matrix, h: &Matrix, [x, e]: [&str; 2]) -> Value {
+    let text = |value: f64| json!(format!("{value:.15}"));
+    let own = |i: usize, j: usize| q[i][j] + if i == j { shift } else { 0.0 };
+    let triangle = |value: &dyn Fn(usize, usize) -> f64, order: usize| -> Value {
+        (0..order).map(|i| (0..=i).map(|j| text(value(i, j))).collect::<Value>()).collect()
+    };
+    let order = h.len();
+    let slopes = json!({
+        "Q": triangle(&own, order),
+        "G": g.iter().map(|row| row.iter().map(|value| text(*value)).collect::<Value>()).collect::<Value>(),
+        "H": triangle(&|i, j| h[i][j], order),
+    });
+    let pi = triangle(&|i, j| f64::from(u8::from(i == j)), order + 1);
+    let witness = json!({ "n_o": 0, "Pi": pi, "slopes": slopes, "x_up": "1", "e_low": "1", "e_up": "1", "z_up": "1" });
+    json!({ "X": x, "E": e, "list": [witness] })
+}
+
+#[track_caller]
+fn decided(parts: &Parts, q: &Matrix, g: &Matrix, h: &Matrix, at: [&str; 2], shifts: [f64; 2]) {
+    parts.clone().with("/slopes", part(q, shifts[0], g, h, at)).accepted();
+    parts.clone().with("/slopes", part(q, shifts[1], g, h, at)).refused(Verdict::Invalid, "rates", PLACE);
+}
+
+fn matrix(rows: &[&[f64]]) -> Matrix {
+    rows.iter().map(|row| row.to_vec()).collect()
+}
+
+/// Every number of Q, G, H, of the derivatives and of the coordinates is where it belongs.
+#[test]
+fn against_what_is_left_by_hand() {
+    let mut draw = drawn(29);
+    for _ in 0..20 {
+        let mut number = || (draw() * 256.0).round() / 128.0 - 1.0;
+        // f = A (x, z) + v e, q = r (x, z) + d e, and L.
+        let numbers: Vec<f64> = (0..9).map(|_| number()).collect();
+        let [a, b, c, m, v, u, r, s, d] = numbers.try_into().unwrap();
+        let l = [[2.0, 0.0], [number(), 0.5]];
+        let (slope, other) = (a - 40.0, m - 40.0);
+        // L^-1 = [1/2, 0; -l_10, 2].
+        let inverse = |[p, q]: [f64; 2]| [p / 2.0, 2.0 * q - l[1][0] * p];
+        let columns =
+            [[slope * l[0][0] + b * l[1][0], c * l[0][0] + other * l[1][0]], [b * l[1][1], other * l[1][1]], [v, u]];
+        let columns = columns.map(inverse);
+        let last = [r * l[0][0] + s * l[1][0], s * l[1][1], d];
+        let derivatives: Matrix =
+            vec![columns.map(|column| column[0]).to_vec(), columns.map(|column| column[1]).to_vec(), last.to_vec()];
+        let g: Matrix = (0..3).map(|_| (0..3).map(|_| number()).collect()).collect();
+        let mut h: Matrix = (0..3).map(|i| (0..=i).map(|_| number()).collect()).collect();
+        (0..3).for_each(|i| h[i][i] = 4.0 + number());
+        let parts = at_rest("x", "x").with("/plant/states", json!(["x", "z"]));
+        let parts = parts
+            .with("/plant/f", json!([format!("{slope}*x + {b}*z + {v}*e"), format!("{c}*x + {other}*z + {u}*e")]))
+            .with("/plant/q", json!(format!("{r}*x + {s}*z + {d}*e")))
+            .with("/witness/coordinates", json!([["2", "0"], [l[1][0].to_string(), "1/2"]]))
+            .with("/witness/orbit/mean", json!(["0", "0"]))
+            .with("/witness/lyapunov/P", json!([["1", "0"], ["0", "1"]]));
+        decided(&parts, &taken(&g, &h, &derivatives), &g, &h, ["1", "1"], [STEP, -STEP]);
+    }
+}
+
+/// The border is that of the worst derivatives on the whole region, of x and of e.
+#[test]
+fn over_the_region() {
+    let (g, h) = (matrix(&[&[0.3, -0.2], &[0.1, 0.4]]), matrix(&[&[0.5], &[0.1, 0.7]]));
+    let at = |j: f64, r: f64, d: f64| taken(&g, &h, &matrix(&[&[j, 0.3], &[r, d]]));
+    // A number that nothing but the ends of the region asks for.
+    let largest = |one: &Matrix, other: &Matrix| -> Matrix {
+        // The larger of two matrices that differ in one entry of the diagonal alone.
+        (0..2).map(|i| (0..2).map(|j| one[i][j].max(other[i][j])).collect()).collect()
+    };
+    for (f, q, worst) in [
+        // d = e/2 within E.
+        ("-2*x + 3*e/10", "x/2 + e^2/4", [(-2.0, 0.5, 0.25), (-2.0, 0.5, -0.25)]),
+    ] {
+        let parts = at_rest(f, q);
+        let [one, other] = worst.map(|(j, r, d)| at(j, r, d));
+        // In e alone, with what stands beside it left out by a large entry of x.
+        let mut both = largest(&one, &other);
+        both[0][0] += 1e6;
+        let beside = (one[0][1] - other[0][1]).powi(2) / 1e6;
+        both[0][1] = f64::midpoint(one[0][1], other[0][1]);
+        both[1][0] = both[0][1];
+        both[1][1] += beside;
+        let below = |drop: f64| {
+            let mut q = both.clone();
+            q[1][1] -= drop;
+            q
+        };
+        parts.clone().with("/slopes", part(&both, 0.0, &g, &h, ["1", "0.5"])).accepted();
+        for (drop, at) in [(0.01, ["1", "0.5"]), (0.0, ["1", "0.6"])] {
+            let made = parts.clone().with("/slopes", part(&below(drop), 0.0, &g, &h, at));
+            made.refused(Verdict::Invalid, "rates", PLACE);
+        }
+        // In a smaller region the same number does.
+        parts.with("/slopes", part(&below(0.01), 0.0, &g, &h, ["1", "0.4"])).accepted();
+    }
+    // j = -2 - 3 x^2: at the end of the ball.
+    let steep = at_rest("-2*x - x^3 + 3*e/10", "x/2");
+    let mut worst = at(-2.75, 0.5, 0.0);
+    let (middle, beside) = (at(-2.0, 0.5, 0.0), worst[0][1]);
+    assert!(worst[0][0] > middle[0][0]);
+    worst[1][1] += 1e6;
+    worst[0][1] = f64::midpoint(beside, middle[0][1]);
+    worst[1][0] = worst[0][1];
+    decided(&steep, &worst, &g, &h, ["0.5", "1"], [1e-4, -0.01]);
+    let mut small = worst.clone();
+    small[0][0] -= 0.01;
+    steep.with("/slopes", part(&small, 0.0, &g, &h, ["0.49", "1"])).accepted();
+}
+
+/// dq/de is -1/4 at e = 0, half way and at both ends, where samples look, and larger between.
+#[test]
+fn what_holds_at_samples_alone_is_refused() {
+    let wave = at_rest("-2*x + 3*e/10", "x/2 - e/4 + (1 - cos(2*pi*e))/(4*pi)");
+    let (g, h) = (matrix(&[&[0.0, 0.0], &[0.0, 1.0]]), matrix(&[&[0.1], &[0.0, 0.1]]));
+    let at = |d: f64| {
+        let mut q = taken(&g, &h, &matrix(&[&[-2.0, 0.3], &[0.5, d]]));
+        q[0][0] += 1e3;
+        q
+    };
+    let (sampled, true_) = (at(-0.25), at(0.25));
+    assert!(sampled[1][1] < true_[1][1]);
+    decided(&wave, &true_, &g, &h, ["1", "1"], [0.001, -0.001]);
+    let made = wave.with("/slopes", part(&sampled, 0.01, &g, &h, ["1", "1"]));
+    made.refused(Verdict::Invalid, "rates", PLACE);
+}
+
+/// Every member of a family, not the nominal one.
+#[test]
+fn of_every_member() {
+    let (g, h) = (matrix(&[&[0.0, 0.0], &[0.0, 1.0]]), matrix(&[&[0.1], &[0.0, 0.1]]));
+    let at = |d: f64| {
+        let mut q = taken(&g, &h, &matrix(&[&[-2.0, 0.3], &[0.5, d]]));
+        q[0][0] += 1e3;
+        q
+    };
+    let family = |low: &str, high: &str| {
+        let range = json!({ "nominal": "1/4", "low": low, "high": high });
+        at_rest("-2*x + 3*e/10", "x/2 + k*e")
+            .with("/plant/parameters", json!({ "k": range }))
+            .with("/witness/orbit/sensitivities", json!([{ "mean": ["0"] }]))
+            .with("/witness/forcing/sensitivities", json!([{ "mean": "0" }]))
+    };
+    decided(&family("0", "1/2"), &at(0.5), &g, &h, ["1", "1"], [1e-3, -1e-3]);
+    let nominal = part(&at(0.25), 1e-3, &g, &h, ["1", "1"]);
+    family("0", "1/4").with("/slopes", nominal.clone()).accepted();
+    family("0", "1/2").with("/slopes", nominal).refused(Verdict::Invalid, "rates", PLACE);
+}
+
+/// The same three matrices are asked about once.
+#[test]
+fn equal_ones_are_proved_once() {
+    let (g, h) = (matrix(&[&[0.3, -0.2], &[0.1, 0.4]]), matrix(&[&[0.5], &[0.1, 0.7]]));
+    let q = taken(&g, &h, &matrix(&[&[-2.0, 0.3], &[0.5, -0.25]]));
+    let linear = at_rest("-2*x + 3*e/10", "x/2 - e/4");
+    let mut both = part(&q, STEP, &g, &h, ["1", "1"]);
+    let first = both["list"][0].clone();
+    both["list"] = json!([first, first]);
+    let lines = |part: &Value| {
+        let lines = super::plant_support::judged(&linear.clone().with("/slopes", part.clone()).0).unwrap();
+        lines.iter().filter(|line| line.contains("(D)")).count()
+    };
+    assert_eq!(lines(&both), 1);
+    both["list"][1]["slopes"]["G"][0][1] = json!("-0.2000001");
+    both["list"][1]["slopes"]["Q"][0][0] = json!("9");
+    both["list"][1]["slopes"]["Q"][1][1] = json!("9");
+    assert_eq!(lines(&both), 2);
+    both["list"][1] = part(&q, -STEP, &g, &h, ["1", "1"])["list"][0].clone();
+    let made = linear.with("/slopes", both);
+    made.refused(Verdict::Invalid, "rates", "/witness/for_n_o/1/slopes");
+}
