@@ -9,8 +9,8 @@ use proofs_check::rules::derivation::Inequalities;
 use proofs_check::rules::existence::Existence;
 use proofs_check::rules::inequality::Inequality;
 use proofs_check::rules::joint::Joint;
+use proofs_check::rules::rates::{Asked, Kind, Witness};
 use proofs_check::rules::sampled::{inequality as at_samples, law::Terms};
-use proofs_check::rules::slopes::{Asked, Witness};
 use proofs_check::spec::Specification;
 use proofs_check::verdict::{Outcome, Verdict};
 use rug::{Float, Rational};
@@ -92,7 +92,7 @@ impl Slopes {
         let json = parse(part["list"].to_string().as_bytes()).unwrap();
         let field = Field { json: &json, pointer: "/witness/for_n_o".to_owned() };
         let at = ["X", "E"].map(|name| decimal(part[name].as_str().unwrap()).unwrap());
-        Witness::read_all(&field, states).map(|list| Slopes { list, at })
+        Witness::read_list(Some(&field), Kind::Slopes(states)).map(|list| Slopes { list, at })
     }
 }
 

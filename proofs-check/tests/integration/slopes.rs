@@ -436,11 +436,11 @@ fn each_kind_of_claim_has_its_own() {
     made["claim"]["for_n_o"] = pendulum["claim"]["for_n_o"].clone();
     made["witness"]["for_n_o"] = pendulum["witness"]["for_n_o"].clone();
     assert_refused(&judged(&reworded(made)), Verdict::BadInput, "format", "/witness");
-    // At samples there are none.
+    // At samples there are none by slopes.
     let mut made = parsed("sampled", "plant-motor-axis");
     made["claim"]["for_n_o"] = pendulum["claim"]["for_n_o"].clone();
     made["witness"]["for_n_o"] = pendulum["witness"]["for_n_o"].clone();
-    assert_refused(&judged(&made), Verdict::BadInput, "format", "/claim/for_n_o");
+    assert_refused(&judged(&made), Verdict::BadInput, "format", "/witness/for_n_o");
 }
 
 /// `e' = u + q(t)`: Q, G and H are numbers, and there is no x_up.

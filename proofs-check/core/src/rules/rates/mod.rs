@@ -74,13 +74,18 @@ impl<'w> Asked<'w> {
 }
 
 impl Witness {
-    /// Reads the part `for_n_o` of a witness, beside the claim.
-    pub fn read_all(field: Option<&Field<'_>>, claimed: &[Rate<'_>], kind: Kind) -> Outcome<Vec<Witness>> {
+    /// Reads the part `for_n_o` of a witness.
+    pub fn read_list(field: Option<&Field<'_>>, kind: Kind) -> Outcome<Vec<Witness>> {
         let list = field.map_or_else(|| Ok(Vec::new()), Field::elements)?;
         if let Some(field) = field.filter(|_| list.is_empty() || list.len() > MOST) {
             return bad(&field.pointer, format!("expected 1 to {MOST} rates"));
         }
-        let witnesses: Vec<Witness> = list.iter().map(|field| Witness::read(field, kind)).collect::<Outcome<_>>()?;
+        list.iter().map(|field| Witness::read(field, kind)).collect()
+    }
+
+    /// The same beside the claim.
+    pub fn read_all(field: Option<&Field<'_>>, claimed: &[Rate<'_>], kind: Kind) -> Outcome<Vec<Witness>> {
+        let witnesses = Witness::read_list(field, kind)?;
         if witnesses.len() != claimed.len() {
             return bad("/witness/for_n_o", "expected one for each rate of the claim");
         }
