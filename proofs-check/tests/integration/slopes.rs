@@ -111,17 +111,16 @@ fn pivot(certificate: &Value, which: usize, b: f64, rate: f64) -> f64 {
         }
     }
     let mut least = f64::MAX;
-    for k in 0..form.len() {
-        let pivot = form[k][k];
-        least = least.min(pivot);
-        for i in k + 1..form.len() {
-            let factor = form[i][k] / pivot;
-            for j in k + 1..form.len() {
-                form[i][j] -= factor * form[k][j];
-            }
+    while let Some(row) = form.pop() {
+        // By elimination from the last row on.
+        let Some((pivot, rest)) = row.split_last() else { break };
+        least = least.min(*pivot);
+        if *pivot <= 0.0 {
+            break;
         }
-        if pivot <= 0.0 {
-            return pivot;
+        for (above, factor) in form.iter_mut().zip(rest) {
+            above.pop();
+            above.iter_mut().zip(rest).for_each(|(entry, other)| *entry -= factor / pivot * other);
         }
     }
     least
