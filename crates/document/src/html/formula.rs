@@ -31,7 +31,7 @@ const FUNCTIONS: [&str; 13] =
     ["sqrt", "min", "max", "exp", "sup", "rms", "Nbar", "sin", "cos", "tan", "atan", "tanh", "log"];
 
 /// Names that are one symbol although they have more than one letter.
-const NAMES: [&str; 14] = ["X0", "E0", "Z0", "K2", "dX", "dE", "dZ", "df", "dq", "dx", "de", "sg", "Om", "Nz"];
+const NAMES: [&str; 15] = ["xb", "X0", "E0", "Z0", "K2", "dX", "dE", "dZ", "df", "dq", "dx", "de", "sg", "Om", "Nz"];
 
 /// Letters that are symbols when they stand alone; no word of English is among them.
 const ALONE: &str = "xeuzyqfth";
@@ -43,7 +43,7 @@ const INDICES: [&str; 7] = ["up", "low", "per", "oo", "fe", "inf", "tx"];
 const DEEPEST: usize = 20;
 
 /// The longest formula that is not broken into pieces, in tokens: browsers do not break formulas.
-const UNBROKEN: usize = 16;
+const UNBROKEN: usize = 20;
 
 #[derive(Clone, Debug, PartialEq)]
 enum Token {
@@ -77,7 +77,9 @@ pub(super) fn typeset(text: &str) -> Markup {
             last.0.push_str(&before);
             last.1 = Some(html! { @for part in parts(&tokens) { (part) } });
         }
-        pieces.push((after, None));
+        // No line starts with what ends a clause.
+        let joined = if after.is_empty() { after } else { format!("\u{2060}{after}") };
+        pieces.push((joined, None));
     }
     html! { @for (text, formula) in &pieces { (kept(text)) @if let Some(formula) = formula { (formula) } } }
 }
@@ -378,7 +380,7 @@ mod tests {
                 _ => {}
             }
         }
-        shown.replace("&lt;", "<").replace('\u{2062}', "")
+        shown.replace("&lt;", "<").replace(['\u{2062}', '\u{2060}'], "")
     }
 
     #[test]
@@ -398,7 +400,7 @@ mod tests {
             ("(with e and z alone)", "(with [e] and [z] alone)"),
             ("at most 0.1667 with 0 oscillators - none", "at most 0.1667 with 0 oscillators - none"),
             ("<b> & x_", "&lt;b> &amp; x_"),
-            ("of |length| <= 1, width = b", "of |length|\u{2060}\u{a0}<=\u{a0}1, width\u{a0}=\u{a0}b"),
+            ("of |length| <= 1, width = b", "of |length|\u{a0}<=\u{a0}1, width\u{a0}=\u{a0}b"),
             ("", ""),
         ] {
             assert_eq!(seen(text).replace("&gt;", ">").replace("<b>", "&lt;b>"), expected, "{text}");
