@@ -75,11 +75,9 @@ pub(super) fn typeset(text: &str) -> Markup {
         if let Some(last) = pieces.last_mut() {
             last.0.push_str(space);
             last.0.push_str(&before);
-            last.1 = Some(html! { @for part in parts(&tokens) { (part) } });
+            last.1 = Some(followed(&parts(&tokens), &after));
         }
-        // No line starts with what ends a clause.
-        let joined = if after.is_empty() { after } else { format!("\u{2060}{after}") };
-        pieces.push((joined, None));
+        pieces.push((String::new(), None));
     }
     html! { @for (text, formula) in &pieces { (kept(text)) @if let Some(formula) = formula { (formula) } } }
 }
@@ -91,6 +89,17 @@ fn kept(text: &str) -> String {
         let text = text.replace(&format!("| {relation} "), &format!("|\u{2060} {relation} "));
         text.replace(&format!(" {relation} "), &format!("\u{a0}{relation}\u{a0}"))
     })
+}
+
+/// A formula with the punctuation behind it, at which no line ends.
+fn followed(parts: &[Markup], after: &str) -> Markup {
+    match parts.split_last() {
+        Some((last, parts)) if !after.is_empty() => html! {
+            @for part in parts { (part) }
+            span .whole { (last) (after) }
+        },
+        _ => html! { @for part in parts { (part) } },
+    }
 }
 
 /// A formula, in pieces between which a line may end where it is long.

@@ -20,7 +20,7 @@ const EFFORT: u64 = 1_000_000_000;
 
 /// The periods of a run, at least, and at most: with many oscillators it takes long to settle. The control is shown over the first of
 /// them alone.
-const PERIODS: [usize; 2] = [5, 40];
+const PERIODS: [usize; 2] = [5, 80];
 
 /// Points of a period.
 const POINTS: usize = 80;
@@ -32,7 +32,7 @@ const SETTLED: [f64; 2] = [0.8, 0.01];
 /// How far below the smallest bound the axis of |e| goes, as a share; how much larger than what happens a bound may be to be drawn
 /// on a linear axis.
 const BELOW: f64 = 0.03;
-const FAR: f64 = 12.0;
+const FAR: f64 = 25.0;
 
 /// (t, e) and (t, u) of a run.
 #[derive(Clone, Debug, Default)]
@@ -320,7 +320,7 @@ mod tests {
     fn runs_start_at_the_edge_and_come_below_what_is_proved() {
         for text in [
             include_str!("../../../../proofs-check/tests/certificates/paper-example.sharp.json"),
-            include_str!("../../../../proofs-check/tests/certificates/plant-paper-example.json"),
+            include_str!("../../../../proofs-check/tests/plants/paper-example.certificate.json"),
         ] {
             let claim = claim(text);
             let edge = from_the_edge(&claim).unwrap();

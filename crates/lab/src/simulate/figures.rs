@@ -49,9 +49,9 @@ pub const FIGURE_FILES: [&str; 6] =
     ["response.svg", "transient.svg", "states.svg", "control.svg", "spectrum.svg", "bode.svg"];
 
 /// A start that takes no more than this share of a run is drawn by itself too.
-const SHORT: f64 = 1.0 / 3.0;
+const SHORT: f64 = 0.4;
 /// |e| is settled below so many times what it is at the end, or this share of its largest value.
-const SETTLED: [f64; 2] = [1.2, 0.01];
+const SETTLED: [f64; 2] = [1.2, 0.03];
 /// How much longer than it takes to settle the start is drawn.
 const LONGER: f64 = 1.3;
 
@@ -191,5 +191,25 @@ pub fn bode(regulator: &Regulator) -> Figure {
         scale: Scale::LogLog,
         floor: libm::pow(10.0, libm::log10(least).floor() - 2.0),
         curves,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_start_that_is_short_is_drawn_by_itself() {
+        let run = |decay: f64| {
+            let points = (0..=1000).map(|k| (0.01 * f64::from(k), libm::exp(-0.01 * decay * f64::from(k)))).collect();
+            let curves = vec![Curve { label: String::new(), points, style: Style::Line }];
+            transient(&over_time(1.0, "e", "e", curves), 0.0)
+        };
+        let start = run(5.0).unwrap();
+        let last = start.curves[0].points.last().unwrap().0;
+        // exp(-5 t) is 0.03 at t = 0.7.
+        assert!((0.85..0.95).contains(&last), "{last}");
+        assert_eq!(start.title, "e: the start");
+        assert!(run(0.5).is_none() && run(0.0).is_none());
     }
 }
