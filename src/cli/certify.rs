@@ -2,6 +2,7 @@
 
 use super::args::CertifyArgs;
 use super::counts::finite_counts;
+use super::edge::{Drawn, FIGURE_FILES};
 use super::failure::Failure;
 use super::files::{Input, OutputFile};
 use super::format::Format;
@@ -24,6 +25,9 @@ pub fn run(args: &CertifyArgs) -> u8 {
 fn attempt(args: &CertifyArgs) -> Result<u8, Failure> {
     // What is wrong with the call is said before any work is done.
     let output = args.replace.asked(args.output.as_deref(), Input::Specification(&args.spec), "the certificate")?;
+    if let Some(folder) = &args.plots {
+        args.replace.folder(folder, &FIGURE_FILES)?;
+    }
     let (targets, limits) = (targets(args)?, limits(args)?);
     if args.spec == args.witness.clone().unwrap_or_default() {
         let message = "the specification and the witness cannot be the same file";
@@ -70,7 +74,22 @@ fn attempt(args: &CertifyArgs) -> Result<u8, Failure> {
     run.prove_rates(&counts).map_err(no_rates)?;
     drop(working);
     let report = RunReport::new(&run, &targets, witness.is_some());
-    tell(args, &run, &Shortened::new(&report, args.format, args.full), output.as_ref())
+    let page = args.format == Format::Html;
+    let drawn = (page || args.plots.is_some()).then(|| Drawn::of(&run)).flatten();
+    if let Some(folder) = &args.plots {
+        match drawn.as_ref().map(Drawn::named) {
+            None => output::remark(&format!("no figures were written: the verdict is {}", run.verdict())),
+            Some(Err(why)) => output::remark(&why),
+            Some(Ok(figures)) => {
+                args.replace.figures(folder, &figures, Input::Specification(&args.spec), "leave --plots out")?;
+            }
+        }
+    }
+    let shown = match drawn.filter(|_| page) {
+        Some(drawn) => Shortened::new(&drawn.in_front_of_the_rest(&report), args.format, args.full),
+        None => Shortened::new(&report, args.format, args.full),
+    };
+    tell(args, &run, &shown, output.as_ref())
 }
 
 fn flag(kind: TargetKind) -> &'static str {

@@ -8,6 +8,7 @@ mod colour;
 mod controller;
 mod controller_source;
 mod counts;
+mod edge;
 mod errata;
 mod failure;
 mod falsify;

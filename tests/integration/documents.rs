@@ -13,10 +13,13 @@ const OUTSIDE: [&str; 3] = ["README.md", "CONTRIBUTING.md", "CHANGELOG.md"];
 type Texts = BTreeMap<String, String>;
 
 fn shipped() -> Texts {
-    let folder = std::fs::read_dir(Path::new(ROOT).join("docs")).expect("the folder is part of the repository");
-    let chapters = folder
-        .map(|entry| format!("docs/{}", entry.expect("an entry").file_name().to_str().expect("plain names")))
-        .filter(|path| path.ends_with(".md"));
+    let pages = |folder: &'static str| {
+        let entries = std::fs::read_dir(Path::new(ROOT).join(folder)).into_iter().flatten();
+        entries
+            .map(move |entry| format!("{folder}/{}", entry.expect("an entry").file_name().to_str().expect("plain names")))
+            .filter(|path| path.ends_with(".md"))
+    };
+    let chapters = pages("docs").chain(pages("docs/guide"));
     let text = |path: String| {
         let text =
             std::fs::read_to_string(Path::new(ROOT).join(&path)).unwrap_or_else(|error| panic!("{path}: {error}"));

@@ -1,6 +1,6 @@
 //! The gallery of plants: its tables say what the program certifies, its figures are what the program draws.
 
-use crate::support::{ROOT, every, json, program, utf8};
+use crate::support::{ROOT, every, guide, json, program, utf8};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -79,9 +79,9 @@ pub fn compare(name: &str, report: &Value) {
     let cells = rows.get(name).unwrap_or_else(|| panic!("docs/gallery.md: {name} is missing"));
     let columns = wrong(cells, states, report);
     assert!(columns.is_empty(), "docs/gallery.md, {name}: {} in\n{cells:?}\n{report:#}", columns.join(", "));
-    let guide = table(&page("guide.md"), "| plant | what it is | sigma* |");
-    let cells = guide.get(name).unwrap_or_else(|| panic!("docs/guide.md: {name} is missing"));
-    assert_eq!(report["sigma_star"], *cells[2], "docs/guide.md, {name}");
+    let guide = table(&guide(), "| plant | what it is | sigma* |");
+    let cells = guide.get(name).unwrap_or_else(|| panic!("the guide: {name} is missing"));
+    assert_eq!(report["sigma_star"], *cells[2], "the guide, {name}");
 }
 
 #[test]
@@ -160,11 +160,34 @@ fn drawings_are_compared_to_a_pixel() {
     assert!(!same_drawing(drawing, &drawing.replace("sigma", "mu")));
 }
 
+/// A figure of the documents against the one that the program drew into a folder.
+fn compare_figure(name: &str, drawn: &Path) {
+    let drawn = std::fs::read_to_string(drawn).unwrap();
+    let shipped: PathBuf = Path::new(ROOT).join(format!("docs/figures/{name}.svg"));
+    if std::env::var_os("SIGMASTAR_FIGURES").is_some_and(|value| value == "write") {
+        std::fs::write(&shipped, &drawn).unwrap();
+    }
+    let there = std::fs::read_to_string(&shipped).unwrap_or_else(|error| panic!("{name}: {error}"));
+    assert!(same_drawing(&there, &drawn), "docs/figures/{name}.svg: make it again with SIGMASTAR_FIGURES=write");
+}
+
+/// The figure of the README, and what it says of the gain. `SIGMASTAR_FIGURES=write` draws it again.
+#[test]
+fn the_figure_of_the_readme_is_what_the_program_draws() {
+    let folder = TempDir::new().unwrap();
+    let call = ["certify", "specs/plants/paper-example.json", "-q", "--plots"];
+    let output = program().args(call).arg(folder.path()).output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", utf8(output.stderr));
+    compare_figure("error", &folder.path().join("error.svg"));
+    let readme = std::fs::read_to_string(Path::new(ROOT).join("README.md")).unwrap();
+    assert!(readme.contains("(docs/figures/error.svg)"));
+    assert!(utf8(output.stdout).contains("sigma* = 6.06033 in") && readme.contains("sigma\\* = 6.06033,"));
+}
+
 /// The figures of the gallery. `SIGMASTAR_FIGURES=write` draws them again.
 #[test]
 fn the_figures_of_the_gallery_are_what_the_program_draws() {
     let folder = TempDir::new().unwrap();
-    let write = std::env::var_os("SIGMASTAR_FIGURES").is_some_and(|value| value == "write");
     let text = page("gallery.md");
     for (name, cells) in plants() {
         let plant = format!("specs/plants/{name}.json");
@@ -172,13 +195,7 @@ fn the_figures_of_the_gallery_are_what_the_program_draws() {
             ["simulate", &plant, "--sigma", &cells[2], "--n-o", "3", "--periods", "6", "--samples", "50", "--force"];
         let output = program().args(call).arg("--plots").arg(folder.path()).output().unwrap();
         assert_eq!(output.status.code(), Some(0), "{name}: {}", utf8(output.stderr));
-        let drawn = std::fs::read_to_string(folder.path().join("response.svg")).unwrap();
-        let shipped: PathBuf = Path::new(ROOT).join(format!("docs/figures/{name}.svg"));
-        if write {
-            std::fs::write(&shipped, &drawn).unwrap();
-        }
-        let there = std::fs::read_to_string(&shipped).unwrap_or_else(|error| panic!("{name}: {error}"));
-        assert!(same_drawing(&there, &drawn), "docs/figures/{name}.svg: make it again with SIGMASTAR_FIGURES=write");
+        compare_figure(&name, &folder.path().join("response.svg"));
         assert!(text.contains(&format!("(figures/{name}.svg)")), "docs/gallery.md does not show {name}");
     }
 }

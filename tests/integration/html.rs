@@ -138,7 +138,7 @@ type Case = (Vec<&'static str>, i32, [usize; 2]);
 fn every(cases: &[Case]) {
     for (arguments, code, expected) in cases {
         let found = sound(&page(arguments, *code));
-        assert_eq!(["svg", "details"].map(|name| count(&found, name)), *expected, "{arguments:?}");
+        assert_eq!(["figure", "details"].map(|name| count(&found, name)), *expected, "{arguments:?}");
         // A page is whole.
         let full = if ["certify", "transfer", "lyapunov"].contains(&arguments[0]) { &["--full"][..] } else { &[] };
         let output = answer(&[arguments, &["--format", "markdown"][..], full].concat());
@@ -156,8 +156,8 @@ fn reports_on_claims_are_pages() {
     every(&[
         (vec!["certify", EXAMPLE, "--target-sup", "1e-3"], 0, [4, 2]),
         (vec!["certify", EXAMPLE, "--witness", refuted_witness()], 1, [0, 1]),
-        (vec!["certify", PLANT, "-q"], 0, [2, 1]),
-        (vec!["certify", AT_REST, "-q", "--sampling-period", "1/1000"], 0, [1, 0]),
+        (vec!["certify", PLANT, "-q"], 0, [4, 1]),
+        (vec!["certify", AT_REST, "-q", "--sampling-period", "1/1000"], 0, [3, 0]),
         (vec!["sampling", AT_REST, "-q", "--sampling-period", "1/1000", "--sigma", "1,25"], 0, [1, 0]),
         (vec!["transfer", EXAMPLE, "-q", "--n-o", "0,1,inf"], 0, [1, 1]),
         (vec!["rate", EXAMPLE, "--n-o", "0,1"], 0, [1, 0]),
@@ -183,7 +183,9 @@ fn reports_on_certificates_are_pages() {
     let certificate = certificate.to_str().expect("a plain name");
     program().args(["certify", AT_REST, "-q", "-o", certificate]).assert().success();
     let falsified = sound(&page(&["falsify", certificate, "-q", "--trials", "2"], 0));
-    assert_eq!(["h1", "table", "svg"].map(|name| count(&falsified, name)), [1, 1, 1]);
+    assert_eq!(["h1", "table", "figure"].map(|name| count(&falsified, name)), [1, 1, 0]);
+    // A bar behind each row.
+    assert_eq!(count(&falsified, "svg") + 1, count(&falsified, "tr"));
     let checked = page(&["check", certificate], 0);
     let found = sound(&checked);
     assert_eq!([count(&found, "h1"), count(&found, "pre")], [0, 1]);
@@ -231,7 +233,7 @@ fn a_page_has_the_words_of_the_text() {
         shown.push_str(piece.split_once('>').expect("the end of a tag").1);
         shown.push(' ');
     }
-    let shown = [("&lt;", "<"), ("&gt;", ">"), ("&quot;", "\""), ("&amp;", "&")]
+    let shown = [("&lt;", "<"), ("&gt;", ">"), ("&quot;", "\""), ("&amp;", "&"), ("σ", "sigma"), ("μ", "mu")]
         .iter()
         .fold(shown, |text, (reference, character)| text.replace(reference, character));
     let text = utf8(program().args(arguments).assert().success().get_output().stdout.clone());

@@ -1,6 +1,6 @@
 //! JSON, JSON with comments and TOML are the same documents: what is read is what is written, exactly, whatever the notation.
 
-use crate::support::{EXAMPLE, ROOT, files, json, program, stem, utf8};
+use crate::support::{EXAMPLE, ROOT, files, guide, json, program, stem, utf8};
 use predicates::prelude::*;
 use predicates::str::{contains, is_empty};
 use proptest::prelude::*;
@@ -491,7 +491,7 @@ fn templates_certify_as_they_stand() {
 /// The example of the guide is read, and is the specification that it says.
 #[test]
 fn the_example_of_the_guide_is_read() {
-    let guide = fs::read_to_string(Path::new(ROOT).join("docs/guide.md")).expect("the guide");
+    let guide = guide();
     let block = guide.split("```toml\n").nth(1).and_then(|rest| rest.split("```").next()).expect("a block of TOML");
     let spec = Specification::from_value(&read(block, Notation::Toml).root());
     let spec = spec.unwrap_or_else(|errors| panic!("{}", errors.render(false)));

@@ -1,6 +1,6 @@
 //! The short forms of reports, and how to see the rest.
 
-use crate::support::{EXAMPLE, PLANT, ROOT, answer, every, files, refuted_witness, stem, utf8};
+use crate::support::{EXAMPLE, PLANT, ROOT, answer, every, files, guide, refuted_witness, stem, utf8};
 
 const AT_REST: &str = "specs/paper-example-at-rest.json";
 const JACOBIAN: &str = "specs/paper-example-jacobian.json";
@@ -134,6 +134,5 @@ fn the_example_of_the_readme_is_the_report() {
     let readme = std::fs::read_to_string(std::path::Path::new(ROOT).join("README.md")).unwrap();
     let shown = readme.split_once("```text\n").and_then(|(_, rest)| rest.split_once("```")).expect("an example").0;
     assert_eq!(shown, run(&["certify", EXAMPLE, "-q"]).0);
-    let guide = std::fs::read_to_string(std::path::Path::new(ROOT).join("docs/guide.md")).unwrap();
-    assert!(guide.contains(&format!("```text\n{shown}```")), "{shown}");
+    assert!(guide().contains(&format!("```text\n{shown}```")), "{shown}");
 }

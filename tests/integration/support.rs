@@ -171,3 +171,13 @@ pub fn certified() -> &'static [Shipped] {
     });
     &CERTIFIED
 }
+
+/// The guide, its pages one after another.
+pub fn guide() -> String {
+    let docs = Path::new(ROOT).join("docs");
+    let folder = std::fs::read_dir(docs.join("guide"));
+    let mut pages: Vec<_> = folder.into_iter().flatten().map(|entry| entry.expect("an entry").path()).collect();
+    pages.sort();
+    let text = |path| std::fs::read_to_string(path).expect("a page of the guide");
+    std::iter::once(docs.join("guide.md")).chain(pages).map(text).collect()
+}

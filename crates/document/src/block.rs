@@ -1,7 +1,7 @@
 //! The parts of a document, without any format.
 
 use super::notation::one_notation;
-use crate::plot::{Bars, Figure};
+use crate::plot::Figure;
 
 /// How the cells of a column are placed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,6 +28,8 @@ pub struct Table {
     pub columns: Vec<Column>,
     /// The rows.
     pub rows: Vec<Vec<String>>,
+    /// For each row the length of a bar behind it, in formats that can draw one; none without bars.
+    pub bars: Vec<f64>,
 }
 
 impl Table {
@@ -41,7 +43,7 @@ impl Table {
                 None => Column { title: (*title).to_owned(), align: Align::Right },
             })
             .collect();
-        Table { columns, rows: Vec::new() }
+        Table { columns, rows: Vec::new(), bars: Vec::new() }
     }
 
     /// Appends a row; cells that are missing are empty, and surplus ones are dropped.
@@ -49,6 +51,12 @@ impl Table {
         let mut row: Vec<String> = cells.into_iter().take(self.columns.len()).collect();
         row.resize(self.columns.len(), String::new());
         self.rows.push(row);
+    }
+
+    /// The same with bars of these lengths behind its rows.
+    #[must_use]
+    pub fn with_bars(self, bars: Vec<f64>) -> Table {
+        Table { bars, ..self }
     }
 
     /// The rows as they are shown: where one number of a column has an exponent, every number of that column has one.
@@ -88,8 +96,6 @@ pub enum Block {
     Table(Table),
     /// A figure, in formats that can hold one; it says nothing that the text does not.
     Drawing(Figure),
-    /// The same for a few numbers side by side.
-    Bars(Bars),
     /// The names of the files with the figures of the report.
     Figures(Vec<String>),
     /// Lines that are shown as they are.

@@ -17,7 +17,7 @@ pub fn render(blocks: &[Block]) -> String {
                     block.items().iter().map(|item| format!("- {}\n", escape_line(item))).collect()
                 }
                 Block::Table(table) => render_table(table),
-                Block::Drawing(_) | Block::Bars(_) | Block::Detail => return None,
+                Block::Drawing(_) | Block::Detail => return None,
                 Block::Code(lines) => fenced(lines),
             })
         })

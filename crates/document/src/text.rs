@@ -9,7 +9,7 @@ const WIDTH: usize = 100;
 #[must_use]
 pub fn render(blocks: &[Block]) -> String {
     let mut output = String::new();
-    for block in blocks.iter().filter(|block| !matches!(block, Block::Drawing(_) | Block::Bars(_) | Block::Detail)) {
+    for block in blocks.iter().filter(|block| !matches!(block, Block::Drawing(_) | Block::Detail)) {
         if !output.is_empty() && !matches!(block, Block::Table(_) if output.ends_with("-\n")) {
             output.push('\n');
         }
@@ -22,7 +22,7 @@ pub fn render(blocks: &[Block]) -> String {
                 block.items().iter().for_each(|item| wrap(&mut output, item, "  - ", "    "));
             }
             Block::Table(table) => render_table(&mut output, table),
-            Block::Drawing(_) | Block::Bars(_) | Block::Detail => {}
+            Block::Drawing(_) | Block::Detail => {}
             Block::Code(lines) => output.push_str(lines),
         }
     }

@@ -2,7 +2,6 @@
 
 use rug::Rational;
 use sigmastar_document::number::{estimate, exact};
-use sigmastar_document::plot::Bars;
 use sigmastar_document::{Block, Table};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::Direction;
@@ -44,7 +43,7 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
         }
         blocks.push(Block::Table(table));
     }
-    blocks.extend(ingredients(run).map(Block::Bars));
+    blocks.extend(ingredients(run).map(Block::Table));
     if !run.without_optional.is_empty() {
         blocks.push(Block::says("What the optional data bring: sigma* without each."));
         let mut table = Table::new(&["<without", "sigma*"]);
@@ -65,14 +64,10 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
             compared(run)
         )));
         let mut table = Table::new(&["<1 % better", "lowers sigma* by"]);
-        let mut bars = Bars { title: "By how much one per cent better lowers sigma*".to_owned(), entries: Vec::new() };
-        for (datum, gain) in shown {
-            let lowers = format!("{} %", estimate(100.0 * gain));
-            bars.entries.push((name(run.spec, *datum), *gain, lowers.clone()));
-            table.push([name(run.spec, *datum), lowers]);
+        for (datum, gain) in &shown {
+            table.push([name(run.spec, *datum), format!("{} %", estimate(100.0 * gain))]);
         }
-        blocks.push(Block::Table(table));
-        blocks.push(Block::Bars(bars));
+        blocks.push(Block::Table(table.with_bars(shown.iter().map(|(_, gain)| *gain).collect())));
     }
     blocks
 }
@@ -127,8 +122,8 @@ fn compared(run: &Certification<'_>) -> String {
     }
 }
 
-/// The two terms of the threshold of C5 by norms beside sigma*. They are drawn from doubles and claim nothing.
-fn ingredients(run: &Certification<'_>) -> Option<Bars> {
+/// The two terms of the threshold of C5 by norms beside sigma*. They are made from doubles and claim nothing.
+fn ingredients(run: &Certification<'_>) -> Option<Table> {
     // A matrix inequality has no such terms.
     let proof = run.sharp.proved().filter(|proof| proof.evaluation.by_matrix.is_none())?;
     let decay = &proof.evaluation.decay;
@@ -141,5 +136,9 @@ fn ingredients(run: &Certification<'_>) -> Option<Bars> {
         gain("sigma*", &proof.witness.sigma),
     ];
     entries.extend(run.exact.as_ref().map(|claim| gain("sigma*_oo (n_o infinite)", &claim.witness.sigma)));
-    Some(Bars { title: "sigma* and the two terms of C5 that it exceeds, in 1/time".to_owned(), entries })
+    let mut table = Table::new(&["<sigma* and the two terms of C5 that it exceeds", "1/time"]);
+    for (name, _, text) in &entries {
+        table.push([name.clone(), text.clone()]);
+    }
+    Some(table.with_bars(entries.into_iter().map(|(_, value, _)| value).collect()))
 }

@@ -107,12 +107,27 @@ impl Boxes {
     /// Points of a quarter of an ellipse.
     const QUARTER: u32 = 60;
 
+    /// Sizes that are further apart than this are not seen beside each other on a linear axis.
+    const APART: f64 = 50.0;
+
+    /// The smaller and the larger end of one coordinate, of what is not 0.
+    fn ends(&self, coordinate: usize) -> [f64; 2] {
+        let sizes = [self.initial, self.periodic, self.error].into_iter().chain(self.used).map(|ends| ends[coordinate]);
+        let sizes = sizes.filter(|size| *size > 0.0);
+        sizes.fold([f64::INFINITY, 0.0], |[low, high], size| [low.min(size), high.max(size)])
+    }
+
     /// The quarter of each set in which both coordinates are positive. It is drawn from doubles and claims nothing.
     /// Nothing without a state: the sets are intervals of |e| then.
     pub(super) fn figure(&self) -> Option<Figure> {
         let state = format!("|{}|", self.state?);
         let curve = |label: &str, points, style| Curve { label: label.to_owned(), points, style };
-        let edge = |[x, e]: [f64; 2]| vec![(0.0, e), (x, e), (x, 0.0)];
+        let ends = [self.ends(0), self.ends(1)];
+        let logarithmic = ends.iter().any(|[low, high]| *high > Self::APART * low);
+        // A logarithmic axis has no 0: sets go on beyond its lower edge.
+        let decade = |low: f64| libm::pow(10.0, libm::log10(0.5 * low).floor());
+        let [x_0, e_0] = ends.map(|[low, _]| if logarithmic { decade(low) } else { 0.0 });
+        let edge = |[x, e]: [f64; 2]| vec![(x_0, e.max(e_0)), (x.max(x_0), e.max(e_0)), (x.max(x_0), e_0)];
         let mut curves = Vec::new();
         curves.extend(self.used.map(|used| curve("bounding functions used up to", edge(used), Style::Bound)));
         curves.push(curve("initial set", edge(self.initial), Style::Line));
@@ -122,7 +137,7 @@ impl Boxes {
             let [x, e] = self.error;
             let point = |k| {
                 let (sin, cos) = libm::sincos(f64::from(k) / f64::from(Self::QUARTER) * FRAC_PI_2);
-                (x * sin, e * cos)
+                (x_0.max(x * sin), e_0.max(e * cos))
             };
             let points = (0..=Self::QUARTER).map(point).collect();
             curves.push(curve("solutions stay within, from the periodic solution", points, Style::Line));
@@ -131,8 +146,8 @@ impl Boxes {
             title: format!("The sets in the plane of {state} and |e|"),
             x: format!("{state} [unit of the norm]"),
             y: "|e| [unit of e]".to_owned(),
-            scale: Scale::Linear,
-            floor: 0.0,
+            scale: if logarithmic { Scale::LogLog } else { Scale::Linear },
+            floor: e_0,
             curves,
         })
     }

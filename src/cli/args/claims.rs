@@ -55,6 +55,10 @@ pub struct CertifyArgs {
     #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub output: Option<PathBuf>,
 
+    /// Write figures (SVG) into this folder, if certified: |e| and u of a simulation, beside what is proved of them
+    #[arg(long, value_name = "FOLDER", value_hint = ValueHint::DirPath)]
+    pub plots: Option<PathBuf>,
+
     #[command(flatten)]
     pub replace: Replace,
 

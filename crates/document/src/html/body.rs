@@ -1,9 +1,9 @@
 //! Blocks as HTML. Whatever is text is escaped by the template library; only figures are markup already.
 
+use super::formula::typeset;
 use super::parts::Anchors;
 use crate::block::{Align, Block, Column, Table};
-use crate::plot::PlotError;
-use crate::text::RELATIONS;
+use crate::plot::{Figure, PlotError, Size};
 use maud::{Markup, PreEscaped, Render, html};
 
 /// The end of a line, so that the file can be read as text too.
@@ -29,8 +29,7 @@ fn one(block: &Block, anchors: &mut Anchors) -> Markup {
             dl { @for (name, said) in facts { (LINE) dt { (Inline(name)) } dd { (Inline(said)) } } }
         },
         Block::Table(table) => grid(table),
-        Block::Drawing(figure) => drawing(&figure.title, figure.svg()),
-        Block::Bars(bars) => drawing(&bars.title, bars.svg()),
+        Block::Drawing(figure) => drawing(figure),
         Block::Detail => html! {},
         Block::Code(lines) => html! { pre tabindex="0" { (lines.trim_end()) } },
     }
@@ -47,34 +46,51 @@ fn grid(table: &Table) -> Markup {
         Align::Left => None,
         Align::Right => Some("number"),
     };
+    let longest = table.bars.iter().copied().filter(|length| length.is_finite()).fold(0.0, f64::max);
+    let share = |row: usize| table.bars.get(row).map(|length| 100.0 * (length / longest).clamp(0.0, 1.0));
     html! {
         div .scroll tabindex="0" role="group" aria-label="Table" { table {
             thead { tr { @for column in &table.columns {
                 @if column.title.is_empty() { td {} }
                 @else { th scope="col" class=[place(column)] { (Inline(&column.title)) } }
-            } } }
-            tbody { @for row in &table.shown() { (LINE) tr {
+            } @if !table.bars.is_empty() { td {} } } }
+            tbody { @for (index, row) in table.shown().iter().enumerate() { (LINE) tr {
                 @for (at, (cell, column)) in row.iter().zip(&table.columns).enumerate() {
                     // A first column of words says what its row is.
                     @if at == 0 && column.align == Align::Left && !cell.is_empty() { th scope="row" { (Inline(cell)) } }
                     @else { td class=[place(column)] { (Inline(cell)) } }
                 }
+                @if let Some(share) = share(index) { td .bar { (bar(share)) } }
             } } }
         } }
     }
 }
 
-/// A figure within the page, or why there is none.
-fn drawing(title: &str, svg: Result<String, PlotError>) -> Markup {
-    match svg {
-        Ok(svg) => html! { figure tabindex="0" role="img" aria-label=(title) { (PreEscaped(inline(&svg))) } },
+/// A bar of a length in per cent, drawn like text: the number beside it says the same.
+fn bar(share: f64) -> Markup {
+    let share = if share.is_finite() { format!("{share:.1}") } else { "0".to_owned() };
+    html! {
+        svg viewBox="0 0 100 10" preserveAspectRatio="none" aria-hidden="true" { rect width=(share) height="10" {} }
+    }
+}
+
+/// A figure within the page, or why there is none: for a wide window and for a narrow one, of which one is seen.
+fn drawing(figure: &Figure) -> Markup {
+    let both: Result<Vec<(&str, String)>, PlotError> = [("wide", Size::Wide), ("narrow", Size::Narrow)]
+        .into_iter()
+        .map(|(class, size)| Ok((class, inline(&figure.drawn(size)?, class))))
+        .collect();
+    match both {
+        Ok(both) => html! {
+            figure role="img" aria-label=(figure.title) { @for (_, svg) in &both { (PreEscaped(svg)) } }
+        },
         Err(error) => html! { p { "No figure: " (error.to_string()) "." } },
     }
 }
 
-/// A file of SVG as a part of a page: there its name space is known.
-fn inline(svg: &str) -> String {
-    svg.trim().replacen(" xmlns=\"http://www.w3.org/2000/svg\"", "", 1)
+/// SVG as a part of a page: there its name space is known.
+fn inline(svg: &str, class: &str) -> String {
+    svg.trim().replacen(" xmlns=\"http://www.w3.org/2000/svg\"", &format!(" class=\"{class}\""), 1)
 }
 
 /// A text in which what stands between backticks is code (strangers' texts have no backticks, see `clean`).
@@ -88,17 +104,8 @@ impl Render for Inline<'_> {
             pieces.push((text, code));
             rest = after;
         }
-        html! { @for (text, code) in pieces { (kept(text)) code { (code) } } (kept(rest)) }
+        html! { @for (text, code) in pieces { (typeset(text)) code { (code) } } (typeset(rest)) }
     }
-}
-
-/// A text whose relations are not parted from their sides at the end of a line.
-fn kept(text: &str) -> String {
-    RELATIONS.iter().fold(text.to_owned(), |text, relation| {
-        // A line may end behind a bar even before such a space.
-        let text = text.replace(&format!("| {relation} "), &format!("|\u{2060} {relation} "));
-        text.replace(&format!(" {relation} "), &format!("\u{a0}{relation}\u{a0}"))
-    })
 }
 
 /// The text before the first code, that code, and the text after it.
@@ -148,18 +155,22 @@ mod tests {
     }
 
     #[test]
-    fn relations_stay_with_their_sides() {
-        let text = written(&[Block::says("from |x| <= 1, a = b `c = d`")]);
-        assert_eq!(text, "<p>from |x|\u{2060}\u{a0}&lt;=\u{a0}1, a\u{a0}=\u{a0}b <code>c = d</code></p>\n");
-    }
-
-    #[test]
     fn tables_know_their_edges() {
         let mut table = Table::new(&["<name", "value"]);
         table.push(["a", "1"].map(str::to_owned));
         let text = written(&[Block::Table(table)]);
         assert!(text.contains("<th scope=\"col\">name</th><th scope=\"col\" class=\"number\">value</th>"), "{text}");
         assert!(text.contains("<tr><th scope=\"row\">a</th><td class=\"number\">1</td></tr>"), "{text}");
+    }
+
+    #[test]
+    fn bars_are_shares_of_the_longest() {
+        let mut table = Table::new(&["<name", "value"]);
+        [["a", "2"], ["b", "1"], ["c", "?"]].into_iter().for_each(|row| table.push(row.map(str::to_owned)));
+        let text = written(&[Block::Table(table.with_bars(vec![2.0, 1.0, f64::NAN]))]);
+        let widths: Vec<&str> =
+            text.split("<rect width=\"").skip(1).filter_map(|rest| Some(rest.split_once('"')?.0)).collect();
+        assert_eq!(widths, ["100.0", "50.0", "0"], "{text}");
     }
 
     #[test]
@@ -181,6 +192,7 @@ mod tests {
             text.contains("aria-label=\"&lt;i&gt;\"><svg width=\"820\"") && text.ends_with("</svg></figure>\n"),
             "{text}"
         );
+        assert_eq!(["wide", "narrow"].map(|name| text.matches(&format!("class=\"{name}\"")).count()), [1, 1]);
         assert!(text.contains("&lt;b&gt;") && !text.contains("<b>") && !text.contains("http"), "{text}");
         assert_eq!(written(&[figure(f64::NAN)]), "<p>No figure: the figure `&lt;i&gt;` has no finite points.</p>\n");
     }

@@ -1,9 +1,11 @@
 //! Reports as one HTML page that needs nothing else: no network, no script, figures inside.
 
 mod body;
+mod formula;
 mod parts;
 
 use super::block::Block;
+use super::plot::dark_style;
 use body::{LINE, body, link};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use parts::{Anchors, Part, Start, parts};
@@ -32,7 +34,7 @@ pub fn render(blocks: &[Block]) -> String {
                 meta name="viewport" content="width=device-width, initial-scale=1"; (LINE)
                 meta name="generator" content="sigmastar"; (LINE)
                 title { (title.unwrap_or("sigmastar")) } (LINE)
-                style { (LINE) (PreEscaped(STYLE)) } (LINE)
+                style { (LINE) (PreEscaped(STYLE)) (PreEscaped(figures())) } (LINE)
             } (LINE)
             body { main { (LINE)
                 @for (index, part) in parts.iter().enumerate() {
@@ -43,6 +45,11 @@ pub fn render(blocks: &[Block]) -> String {
         } (LINE)
     };
     page.into_string()
+}
+
+/// The colours of figures on a dark screen; paper is white.
+fn figures() -> String {
+    format!("@media screen and (prefers-color-scheme: dark) {{\n{}}}\n", dark_style("figure "))
 }
 
 fn section(part: &Part<'_>, anchors: &mut Anchors) -> Markup {

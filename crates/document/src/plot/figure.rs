@@ -1,16 +1,13 @@
 //! Figures as SVG.
 
-use super::canvas::{DETAIL, at_size, canvas};
-use super::curve::{Curve, Style};
+use super::canvas::{DETAIL, Size, alone, at_size, canvas};
+use super::curve::Curve;
 use super::legend::{Entry, heading};
-use super::palette::look;
+use super::palette::{GRID, look};
 use plotters::coord::ranged1d::{AsRangedCoord, Ranged, ValueFormatter};
 use plotters::prelude::*;
 use std::ops::Range;
 use thiserror::Error;
-
-/// The size of a figure in pixels.
-const SIZE: (u32, u32) = (820, 500);
 
 /// Which axes are logarithmic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -72,24 +69,33 @@ pub enum PlotError {
 }
 
 impl Figure {
-    /// The figure as SVG. The same figure gives the same bytes.
+    /// The figure as a file of SVG, for light and for dark pages. The same figure gives the same bytes.
     ///
     /// # Errors
     /// [`PlotError`].
     pub fn svg(&self) -> Result<String, PlotError> {
+        self.drawn(Size::Wide).map(|svg| alone(&svg))
+    }
+
+    /// The figure as SVG for a page that has [`dark_style`](super::dark_style).
+    ///
+    /// # Errors
+    /// [`PlotError`].
+    pub fn drawn(&self, size: Size) -> Result<String, PlotError> {
         let curves: Vec<Curve> = self.curves.iter().map(|curve| self.drawable(curve)).collect();
         let all = || curves.iter().flat_map(|curve| curve.points.iter());
         if all().next().is_none() {
             return Err(PlotError::Empty { title: self.title.clone() });
         }
-        let marked = curves.iter().any(|curve| curve.style == Style::Marked);
+        let counts = counts(&curves);
         let x = match self.scale {
             Scale::LogX | Scale::LogLog => decades(all().map(|point| point.0)),
             // Marks keep off the frame.
-            _ if marked => {
+            _ if counts => {
                 let (first, last) = ends(all().map(|point| point.0));
                 first - 0.5..last + 0.5
             }
+            _ if curves.iter().any(Curve::has_marks) => range(all().map(|point| point.0), 0.03),
             _ => range(all().map(|point| point.0), 0.0),
         };
         let y = match self.scale {
@@ -101,13 +107,13 @@ impl Figure {
         let spans = [span(&x, !self.scale.is_log_x()), span(&y, !self.scale.is_log_y())];
         let mut text = String::new();
         let drawn = match self.scale {
-            Scale::Linear => self.draw(&mut text, x, y, spans, &curves),
-            Scale::LogX => self.draw(&mut text, x.log_scale(), y, spans, &curves),
-            Scale::LogY => self.draw(&mut text, x, y.log_scale(), spans, &curves),
-            Scale::LogLog => self.draw(&mut text, x.log_scale(), y.log_scale(), spans, &curves),
+            Scale::Linear => self.draw(&mut text, size, x, y, spans, &curves),
+            Scale::LogX => self.draw(&mut text, size, x.log_scale(), y, spans, &curves),
+            Scale::LogY => self.draw(&mut text, size, x, y.log_scale(), spans, &curves),
+            Scale::LogLog => self.draw(&mut text, size, x.log_scale(), y.log_scale(), spans, &curves),
         };
         drawn.map_err(|reason| PlotError::Drawing { title: self.title.clone(), reason })?;
-        Ok(at_size(text, SIZE))
+        Ok(at_size(text, size.pixels()))
     }
 
     fn drawable(&self, curve: &Curve) -> Curve {
@@ -123,6 +129,7 @@ impl Figure {
     fn draw<X, Y>(
         &self,
         text: &mut String,
+        size: Size,
         x: X,
         y: Y,
         [x_span, y_span]: [f64; 2],
@@ -135,35 +142,37 @@ impl Figure {
         Y::CoordDescType: Ranged<ValueType = f64> + ValueFormatter<f64>,
     {
         let words = |error: &dyn std::fmt::Display| error.to_string();
-        let area = canvas(text, SIZE).map_err(|error| words(&error))?;
-        let mut looks = (0..).map(look);
+        let area = canvas(text, size.pixels()).map_err(|error| words(&error))?;
+        let mut looks = (0..).map(look).peekable();
         let entries: Vec<Entry> = curves.iter().map(|curve| Entry::new(curve, &mut looks)).collect();
-        let marked = curves.iter().any(|curve| curve.style == Style::Marked);
-        let area = heading(&area, &self.title, &entries).map_err(|error| words(&error))?;
+        let counts = counts(curves);
+        let area = heading(&area, &self.title, &entries, size).map_err(|error| words(&error))?;
         let mut chart = ChartBuilder::on(&area)
-            .margin(12 * DETAIL)
+            .margin(size.choose(12, 4) * DETAIL)
             .margin_top(4 * DETAIL)
-            .margin_right(24 * DETAIL)
-            .x_label_area_size(46 * DETAIL)
-            .y_label_area_size(82 * DETAIL)
+            .margin_right(size.choose(24, 16) * DETAIL)
+            .x_label_area_size(size.choose(46, 42) * DETAIL)
+            .y_label_area_size(size.choose(82, 68) * DETAIL)
             .build_cartesian_2d(x, y)
             .map_err(|error| words(&error))?;
         chart
             .configure_mesh()
             .x_desc(&self.x)
             .y_desc(&self.y)
-            // Between separate places of a linear axis there is nothing to name.
-            .x_label_formatter(&|value| match marked && x_span > 0.0 && (value - value.round()).abs() > 1e-9 {
+            .x_labels(size.choose(11, 5))
+            .max_light_lines(if x_span > 0.0 && y_span > 0.0 { size.choose(4, 1) } else { 10 })
+            // Between counts there is nothing to name.
+            .x_label_formatter(&|value| match counts && x_span > 0.0 && (value - value.round()).abs() > 1e-9 {
                 true => String::new(),
                 false => tick(*value, x_span),
             })
             .y_label_formatter(&|value| tick(*value, y_span))
             .label_style(("sans-serif", 13 * DETAIL))
-            .axis_desc_style(("sans-serif", 15 * DETAIL))
+            .axis_desc_style(("sans-serif", size.choose(15, 13) * DETAIL))
             .axis_style(BLACK.stroke_width(DETAIL))
             .set_all_tick_mark_size(5 * DETAIL)
-            .light_line_style(RGBColor(242, 242, 242).stroke_width(DETAIL))
-            .bold_line_style(RGBColor(220, 220, 220).stroke_width(DETAIL))
+            .light_line_style(GRID[1][0].stroke_width(DETAIL))
+            .bold_line_style(GRID[0][0].stroke_width(DETAIL))
             .draw()
             .map_err(|error| words(&error))?;
         for (curve, entry) in curves.iter().zip(&entries) {
@@ -171,6 +180,12 @@ impl Figure {
         }
         area.present().map_err(|error| words(&error))
     }
+}
+
+/// Whether curves have marks at whole numbers alone, which count something.
+fn counts(curves: &[Curve]) -> bool {
+    let mut marked = curves.iter().filter(|curve| curve.has_marks()).flat_map(|curve| &curve.points).peekable();
+    marked.peek().is_some() && marked.all(|(x, _)| x.fract() == 0.0)
 }
 
 /// The range of some values, with a margin; never empty.
@@ -223,6 +238,7 @@ fn tick(value: f64, span: f64) -> String {
 
 #[cfg(test)]
 mod tests {
+    use super::super::Style;
     use super::*;
 
     fn figure(scale: Scale, points: &[(f64, f64)]) -> Figure {

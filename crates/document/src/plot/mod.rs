@@ -1,13 +1,12 @@
-//! Figures as SVG: the canvas, its axes, bars, and how curves are told apart.
+//! Figures as SVG: the canvas, its axes, and how curves are told apart.
 
-mod bars;
 mod canvas;
 mod curve;
 mod figure;
 mod legend;
 mod palette;
 
-pub use bars::Bars;
+pub use canvas::Size;
 pub use curve::{Curve, Style};
 pub use figure::{Figure, PlotError, Scale};
-pub use palette::COLOURS;
+pub use palette::{COLOURS, dark_style};

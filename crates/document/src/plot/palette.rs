@@ -1,6 +1,7 @@
-//! How curves are told apart in every figure: by a colour, and without colour by dashes and marks.
+//! How curves are told apart in every figure: by a colour, and without colour by dashes and marks; and what colours become on a
+//! dark ground.
 
-use plotters::style::RGBColor;
+use plotters::style::{BLACK, RGBColor, WHITE};
 
 /// Colours that stay apart for most eyes (the first four are Okabe's and Ito's), each with a contrast of 3 against white.
 pub const COLOURS: [RGBColor; 6] = [
@@ -11,6 +12,37 @@ pub const COLOURS: [RGBColor; 6] = [
     RGBColor(90, 45, 0),
     RGBColor(120, 30, 225),
 ];
+
+/// The same on a dark ground.
+const DARK: [RGBColor; COLOURS.len()] = [
+    RGBColor(50, 157, 230),
+    RGBColor(241, 140, 55),
+    RGBColor(53, 228, 168),
+    RGBColor(222, 136, 193),
+    RGBColor(157, 128, 73),
+    RGBColor(143, 105, 248),
+];
+
+/// The ground, what is written on it, and the lines of the grid: strong, faint, each in the light and in the dark.
+const GROUND: [RGBColor; 2] = [WHITE, RGBColor(20, 23, 27)];
+const INK: [RGBColor; 2] = [BLACK, RGBColor(228, 231, 235)];
+pub(super) const GRID: [[RGBColor; 2]; 2] =
+    [[RGBColor(220, 220, 220), RGBColor(62, 70, 81)], [RGBColor(242, 242, 242), RGBColor(34, 40, 48)]];
+
+/// CSS that gives the figures within a selector their colours on a dark ground. They are drawn for a light one, so that programs
+/// that know no CSS show them as well.
+#[must_use]
+pub fn dark_style(within: &str) -> String {
+    let pairs = COLOURS.into_iter().zip(DARK).map(|(light, dark)| [light, dark]);
+    let all = [GROUND, INK].into_iter().chain(GRID).chain(pairs);
+    let rule = |property: &str, [light, dark]: [RGBColor; 2]| {
+        let [RGBColor(r, g, b), RGBColor(dark_r, dark_g, dark_b)] = [light, dark];
+        format!(
+            "{within}[{property}=\"#{r:02X}{g:02X}{b:02X}\"] {{ {property}: #{dark_r:02x}{dark_g:02x}{dark_b:02x}; }}\n"
+        )
+    };
+    all.flat_map(|pair| ["fill", "stroke"].map(|property| rule(property, pair))).collect()
+}
 
 /// A line: without gaps, or the lengths of a dash and of the gap behind it, in pixels.
 pub(super) type Dash = Option<(u32, u32)>;
@@ -115,22 +147,35 @@ mod tests {
     /// 2.3 is just noticeable; red and green of traffic lights fail for those whom this is for.
     #[test]
     fn colours_stay_apart_for_every_eye() {
-        let all: Vec<RGBColor> = COLOURS.into_iter().chain([plotters::style::BLACK]).collect();
-        for (name, eye) in &EYES {
-            let difference = smallest_difference(&all, eye);
-            assert!(difference >= 15.0, "{name}: {difference}");
+        for (colours, ink) in [(COLOURS, INK[0]), (DARK, INK[1])] {
+            let all: Vec<RGBColor> = colours.into_iter().chain([ink]).collect();
+            for (name, eye) in &EYES {
+                let difference = smallest_difference(&all, eye);
+                assert!(difference >= 15.0, "{name}: {difference}");
+            }
         }
         let lights = [RGBColor(200, 60, 0), RGBColor(110, 130, 0)];
         assert!(smallest_difference(&lights, &EYES[0].1) > 50.0 && smallest_difference(&lights, &EYES[1].1) < 15.0);
     }
 
     #[test]
-    fn every_line_is_seen_on_white() {
-        for colour in COLOURS {
-            let [_, luminance, _] = times(&XYZ, light(colour));
-            let contrast = 1.05 / (luminance + 0.05);
-            assert!(contrast >= 3.0, "{colour:?}: {contrast}");
+    fn every_line_is_seen_on_its_ground() {
+        let luminance = |colour| times(&XYZ, light(colour))[1] + 0.05;
+        for (colours, ground) in [(COLOURS, GROUND[0]), (DARK, GROUND[1])] {
+            for colour in colours {
+                let (a, b) = (luminance(colour), luminance(ground));
+                let contrast = a.max(b) / a.min(b);
+                assert!(contrast >= 3.0, "{colour:?}: {contrast}");
+            }
         }
+    }
+
+    #[test]
+    fn every_colour_has_one_for_the_dark() {
+        let style = dark_style("a ");
+        assert!(style.contains("a [fill=\"#FFFFFF\"] { fill: #14171b; }\n"), "{style}");
+        assert!(style.contains("a [stroke=\"#0072B2\"] { stroke: #329de6; }\n"), "{style}");
+        assert_eq!(style.lines().count(), 2 * (COLOURS.len() + 4));
     }
 
     #[test]

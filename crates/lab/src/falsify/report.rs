@@ -4,7 +4,6 @@ use super::claim::TriedClaim;
 use super::counterexample::counterexample_plant;
 use super::finding::{Closest, Falsification, Finding, Trial};
 use serde_json::{Value, json};
-use sigmastar_document::plot::Bars;
 use sigmastar_document::{Block, Readable, Table, clean};
 use sigmastar_exact::number::{Direction, round_f64, told_apart, write_exact};
 
@@ -86,13 +85,14 @@ fn blocks(claim: &TriedClaim, outcome: &Falsification) -> Vec<Block> {
         blocks.push(Block::heading("How much of each bound was used, at most"));
         let number = worst.trial.number;
         let mut table = Table::new(&["<quantity", "found/bound", "in trial", &format!("trial {number}")]);
-        for Closest { quantity, share, trial, .. } in shown(claim, outcome) {
+        let shown = shown(claim, outcome);
+        let bars = shown.iter().map(|closest| closest.share).collect();
+        for Closest { quantity, share, trial, .. } in shown {
             let of_worst = worst.shares.iter().find(|(name, _)| *name == quantity);
             let of_worst = of_worst.map_or_else(String::new, |(_, share)| format!("{share:.3}"));
             table.push([quantity.to_owned(), format!("{share:.3}"), trial.number.to_string(), of_worst]);
         }
-        blocks.push(Block::Table(table));
-        blocks.push(Block::Bars(used(claim, outcome)));
+        blocks.push(Block::Table(table.with_bars(bars)));
     }
     unfinished.sort_unstable();
     unfinished.dedup();
@@ -110,15 +110,6 @@ fn blocks(claim: &TriedClaim, outcome: &Falsification) -> Vec<Block> {
 fn shown<'o>(claim: &TriedClaim, outcome: &'o Falsification) -> Vec<Closest<'o>> {
     let stateless = claim.spec.state_name().is_none();
     outcome.closest().into_iter().filter(|closest| !(stateless && closest.quantity.contains("|x"))).collect()
-}
-
-/// How much of each bound was used.
-fn used(claim: &TriedClaim, outcome: &Falsification) -> Bars {
-    let entry = |closest: Closest<'_>| (closest.quantity.to_owned(), closest.share, format!("{:.3}", closest.share));
-    Bars {
-        title: "Found, as a share of the bound".to_owned(),
-        entries: shown(claim, outcome).into_iter().map(entry).collect(),
-    }
 }
 
 /// The worst plant, and how to simulate it and the others again.

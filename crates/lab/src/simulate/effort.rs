@@ -20,6 +20,11 @@ impl ClosedLoop {
         self.effort.0.store(0, Ordering::Relaxed);
     }
 
+    /// The same with only so many operations.
+    pub(crate) fn leave(&self, operations: u64) {
+        self.effort.0.store(MAX_OPERATIONS.saturating_sub(operations), Ordering::Relaxed);
+    }
+
     /// The operations that the part of a simulation begun last has taken, of [`MAX_OPERATIONS`].
     #[must_use]
     pub fn spent(&self) -> u64 {

@@ -45,15 +45,26 @@ pub(super) fn regulator_columns(dimension: usize) -> impl Iterator<Item = String
 }
 
 /// The names of the files of a simulation's figures.
-pub const FIGURE_FILES: [&str; 5] = ["response.svg", "states.svg", "control.svg", "spectrum.svg", "bode.svg"];
+pub const FIGURE_FILES: [&str; 6] =
+    ["response.svg", "transient.svg", "states.svg", "control.svg", "spectrum.svg", "bode.svg"];
 
-/// The figures of a simulation, each with the name of its file: the time response, the states of the plant and the control
+/// A start that takes no more than this share of a run is drawn by itself too.
+const SHORT: f64 = 0.4;
+/// |e| is settled below so many times what it is at the end, or this share of its largest value.
+const SETTLED: [f64; 2] = [1.2, 0.03];
+/// How much longer than it takes to settle the start is drawn.
+const LONGER: f64 = 1.3;
+
+/// The figures of a simulation, each with the name of its file: the time response, its start where that is short, the states of the plant and the control
 /// beside it, the spectrum of the steady state and, of the linear example e' = u + q with this regulator and without its internal model, the Bode magnitude.
 #[must_use]
 pub fn figures(plant: &Plant, closed_loop: &ClosedLoop, simulation: &Simulation) -> Vec<(&'static str, Figure)> {
     let mut figures = Vec::new();
     if let Ok(run) = &simulation.long {
-        figures.push(("response.svg", response(closed_loop, run)));
+        let response = response(closed_loop, run);
+        let start = transient(&response, run.sup);
+        figures.push(("response.svg", response));
+        figures.extend(start.map(|start| ("transient.svg", start)));
         // A plant without states has no curve to draw.
         if closed_loop.states() > 0 {
             figures.push(("states.svg", states(plant, closed_loop, run)));
@@ -72,6 +83,22 @@ fn response(closed_loop: &ClosedLoop, run: &LongRun) -> Figure {
     let points = run.times.iter().zip(&run.states).map(|(t, y)| (*t, y[closed_loop.states()])).collect();
     let curves = vec![Curve { label: regulator_words(&closed_loop.regulator), points, style: Style::Line }];
     over_time(closed_loop.period, "Regulated error", "e [unit of e]", curves)
+}
+
+/// The start of a response by itself, where it is short beside the whole; `sup` is the largest |e| of the last period.
+pub(super) fn transient(response: &Figure, sup: f64) -> Option<Figure> {
+    let points = &response.curves.first()?.points;
+    let largest = points.iter().fold(0.0_f64, |most, (_, e)| most.max(e.abs()));
+    let level = (SETTLED[0] * sup).max(SETTLED[1] * largest);
+    let (first, last) = (points.first()?.0, points.last()?.0);
+    let settled = points.iter().rev().find(|(_, e)| e.abs() > level)?.0;
+    let end = first + LONGER * (settled - first);
+    (settled > first && end - first <= SHORT * (last - first)).then(|| {
+        let mut start = response.clone();
+        start.title = format!("{}: the start", response.title);
+        start.curves.iter_mut().for_each(|curve| curve.points.retain(|(t, _)| *t <= end));
+        start
+    })
 }
 
 fn states(plant: &Plant, closed_loop: &ClosedLoop, run: &LongRun) -> Figure {
@@ -164,5 +191,25 @@ pub fn bode(regulator: &Regulator) -> Figure {
         scale: Scale::LogLog,
         floor: libm::pow(10.0, libm::log10(least).floor() - 2.0),
         curves,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_start_that_is_short_is_drawn_by_itself() {
+        let run = |decay: f64| {
+            let points = (0..=1000).map(|k| (0.01 * f64::from(k), libm::exp(-0.01 * decay * f64::from(k)))).collect();
+            let curves = vec![Curve { label: String::new(), points, style: Style::Line }];
+            transient(&over_time(1.0, "e", "e", curves), 0.0)
+        };
+        let start = run(5.0).unwrap();
+        let last = start.curves[0].points.last().unwrap().0;
+        // exp(-5 t) is 0.03 at t = 0.7.
+        assert!((0.85..0.95).contains(&last), "{last}");
+        assert_eq!(start.title, "e: the start");
+        assert!(run(0.5).is_none() && run(0.0).is_none());
     }
 }

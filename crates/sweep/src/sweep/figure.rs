@@ -66,7 +66,7 @@ pub fn sweep_figure(sweep: &Sweep, results: &Results) -> Result<Figure, FigureEr
         // On a grid the last parameter changes fastest.
         let points = abscissae.iter().enumerate().map(|(k, x)| Some((*x, gain(k * labels.len() + at)?)));
         let points: Vec<Option<(f64, f64)>> = points.collect();
-        let style = if points.iter().all(Option::is_some) { Style::Line } else { Style::Points };
+        let style = if points.iter().all(Option::is_some) { Style::Marked } else { Style::Points };
         let mut points: Vec<(f64, f64)> = points.into_iter().flatten().collect();
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
         Curve { label: label.clone(), points, style }

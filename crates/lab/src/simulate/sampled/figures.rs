@@ -3,7 +3,7 @@
 use super::run::{SampledLongRun, SampledSimulation};
 use super::sampled_loop::{Piece, SampledLoop};
 use super::words::loop_words;
-use crate::simulate::figures::{over_time, regulator_columns, spectrum, spectrum_curve};
+use crate::simulate::figures::{over_time, regulator_columns, spectrum, spectrum_curve, transient};
 use sigmastar_document::plot::{Curve, Figure, Style};
 use sigmastar_lang::plant::Plant;
 
@@ -57,7 +57,10 @@ pub fn sampled_figures(
         };
         let period = sampled.period();
         let error = vec![curve(sampled.states(), loop_words(sampled))];
-        figures.push(("response.svg", over_time(period, "Regulated error", "e [unit of e]", error)));
+        let response = over_time(period, "Regulated error", "e [unit of e]", error);
+        let start = transient(&response, run.last_period.sup);
+        figures.push(("response.svg", response));
+        figures.extend(start.map(|start| ("transient.svg", start)));
         if sampled.states() > 0 {
             let names = plant.names.states().iter().enumerate();
             let curves = names.map(|(index, name)| curve(index, name.clone())).collect();

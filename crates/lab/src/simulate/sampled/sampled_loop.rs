@@ -140,7 +140,7 @@ impl SampledLoop {
     }
 
     /// The plant alone.
-    pub(super) fn plant(&self) -> &ClosedLoop {
+    pub(crate) fn plant(&self) -> &ClosedLoop {
         &self.plant
     }
 }

@@ -1,0 +1,78 @@
+//! The first figures of a claim: a simulation from the edge of its set, and what is proved.
+//!
+//! The laboratory draws them from the certificate; the verdict, the exit code and every text do not know of them.
+
+use super::output;
+use serde_json::Value;
+use sigmastar_document::plot::Figure;
+use sigmastar_document::{Block, Made, Readable};
+use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_lab::falsify::{Edge, ProvedBounds, TriedClaim, from_the_edge};
+use sigmastar_lang::spec::Document;
+use sigmastar_prove::certificate::certificate_of;
+use sigmastar_prove::reduction::Run;
+use sigmastar_theory::derivation::control::Control;
+
+/// The names of the files of the figures.
+pub const FIGURE_FILES: [&str; 2] = ["error.svg", "control.svg"];
+
+/// |e| and u, and what they are of; why there are none, where there is a claim.
+pub struct Drawn {
+    words: String,
+    figures: Option<[Figure; 2]>,
+}
+
+impl Drawn {
+    /// The figures of a run; nothing without a claim.
+    pub fn of(run: &Run<'_>) -> Option<Drawn> {
+        let (certificate, proved) = (certificate_of(run)?, proved(run)?);
+        Some(match edge(&certificate) {
+            Ok(edge) => {
+                let words = format!(
+                    "Black and shaded: proved, of every solution from the set. Coloured lines: a simulation {}, floating point, which proves \
+                     nothing.",
+                    edge.words
+                );
+                Drawn { words, figures: Some(edge.figures(&proved)) }
+            }
+            Err(why) => Drawn { words: format!("No simulation is drawn: {why}."), figures: None },
+        })
+    }
+
+    /// A report with the figures behind what it says first.
+    pub fn in_front_of_the_rest(self, report: &impl Readable) -> Made {
+        let mut blocks = report.blocks();
+        let place = blocks.iter().position(|block| matches!(block, Block::Detail)).unwrap_or(blocks.len());
+        let figures = self.figures.into_iter().flatten().map(Block::Drawing);
+        blocks.splice(place..place, std::iter::once(Block::says(self.words)).chain(figures));
+        Made::new(blocks, Value::Null)
+    }
+
+    /// The figures with the names of their files.
+    ///
+    /// # Errors
+    /// In words: why there are none.
+    pub fn named(&self) -> Result<Vec<(&'static str, Figure)>, String> {
+        let figures = self.figures.clone().ok_or_else(|| self.words.clone())?;
+        Ok(FIGURE_FILES.into_iter().zip(figures).collect())
+    }
+}
+
+fn edge(certificate: &Value) -> Result<Edge, String> {
+    let claim = Document::parse("certificate", &output::json_text(certificate));
+    let claim = claim.and_then(|document| TriedClaim::from_document(&document));
+    from_the_edge(&claim.map_err(|errors| errors.to_string())?)
+}
+
+fn proved(run: &Run<'_>) -> Option<ProvedBounds> {
+    let (steady, peak, control) = match run {
+        Run::Continuous(run) => run.bounds()?,
+        Run::Sampled(run) => {
+            let evaluation = &run.claim()?.evaluation;
+            (&evaluation.size.e_per, &evaluation.peak, &evaluation.control)
+        }
+    };
+    let Control { steady: along, transient } = control;
+    let [steady, error, along, largest] = [steady, peak, along, &(along + transient)].map(Enclosure::upper_f64);
+    Some(ProvedBounds { error, control: [along, largest], steady })
+}
