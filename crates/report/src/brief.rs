@@ -11,7 +11,7 @@ use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, write_exact};
 use sigmastar_lang::spec::Specification;
 use sigmastar_prove::certify::{Certification, SampledCertification, claimed_ball};
-use sigmastar_prove::rate::bound::RateForCount;
+use sigmastar_prove::rate::found::RateForCount;
 use sigmastar_theory::derivation::control::Control;
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
 use sigmastar_theory::derivation::sampled::SampledEvaluation;

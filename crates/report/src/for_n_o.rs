@@ -5,7 +5,8 @@ use sigmastar_document::number::{estimate, exact};
 use sigmastar_document::{Block, Table};
 use sigmastar_exact::number::{Direction, write_exact};
 use sigmastar_prove::certify::Certification;
-use sigmastar_prove::rate::bound::{RateBound, RateForCount};
+use sigmastar_prove::rate::bound::RateBound;
+use sigmastar_prove::rate::found::RateForCount;
 use sigmastar_prove::rate::noise::{NoNoiseBound, NoiseBound};
 use sigmastar_prove::rate::small_gain::Limit;
 
@@ -70,9 +71,13 @@ fn noise_section(run: &Certification<'_>) -> Vec<Block> {
         Block::heading("Noise and disturbances"),
         Block::says(format!(
             "With {}, any measurable signals, |e(t) - e_per(t)| is at most this in the limit and at all times from the start on, for every \
-             start in the set: a part of the claim, for this n_o and this gain alone. e_per is of the periodic solution without them; on \
-             the way |e(t) - e_per(t)| <= factor exp(-rate (t - t_0)) + the limit.",
-            run.spec.disturbances.in_words()
+             start in the set: a part of the claim, for this n_o and this gain alone. e_per is of the periodic solution without them{}.",
+            run.spec.disturbances.in_words(),
+            // The factor is of a start without noise.
+            match run.spec.initial_set.is_aligned() {
+                true => "; the start is z = M e of the measured e",
+                false => "; on the way |e(t) - e_per(t)| <= factor exp(-rate (t - t_0)) + the limit",
+            },
         )),
         Block::Table(table),
     ];

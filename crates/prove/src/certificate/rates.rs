@@ -1,7 +1,8 @@
 //! Rates for given numbers of oscillators in a certificate: what is claimed, and what proves it (derivation, 13.6).
 
 use crate::certify::Certification;
-use crate::rate::bound::{RateBound, RateForCount};
+use crate::rate::bound::RateBound;
+use crate::rate::found::RateForCount;
 use crate::rate::inequality::RateWitness;
 use crate::rate::noise::NoiseBound;
 use serde_json::{Value, json};

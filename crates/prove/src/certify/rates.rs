@@ -2,7 +2,8 @@
 
 use super::certification::Certification;
 use super::proof::{Proof, SharpProof};
-use crate::rate::bound::{MAX_COUNTS, MAX_OSCILLATORS, Place, RateForCount, bound};
+use crate::rate::bound::{MAX_COUNTS, MAX_OSCILLATORS, Place, bound};
+use crate::rate::found::RateForCount;
 use crate::rate::noise::{Confinement, NoNoiseBound, NoiseBound, noise_bound};
 use rayon::prelude::*;
 use sigmastar_exact::number::write_exact;
