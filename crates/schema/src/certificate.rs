@@ -170,8 +170,8 @@ fn claim(sampled: bool, of_plant: bool) -> Vec<Field> {
         rate.push(must("factor", "Factor", "For every start in the set, in the unit of e.", rational()));
         let noise = [("limit", "in the limit"), ("peak", "at all times from the start on")]
             .map(|(name, when)| must(name, name, format!("Bounds |e - e_per| {when}, in the unit of e."), rational()));
-        let text = "With the noise and the disturbance of the document.";
-        rate.push(may("noise", "Noise", text, Shape::Object(noise.into())));
+        let said = "With the noise and the disturbance of the document.";
+        rate.push(may("noise", "Noise", said, Shape::Object(noise.into())));
         fields.push(may("for_n_o", "For given n_o", text, list(Shape::Object(rate), MAX_COUNTS)));
     }
     if of_plant {

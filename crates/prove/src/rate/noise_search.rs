@@ -39,7 +39,7 @@ pub(super) struct Proposal {
 /// A Pi with about the least S that (N) can prove for inputs of these sizes, d_bar and v_bar; `None` where none is found.
 pub(super) fn propose(dynamics: &ErrorDynamics<'_>, sizes: [f64; 2]) -> Option<Proposal> {
     let search = Search::new(dynamics, sizes)?;
-    let steps = if search.condition.order() > LARGE { STEPS.map(|steps| steps * 2 / 3) } else { STEPS };
+    let steps = if search.condition.order() > LARGE { STEPS.map(|steps| steps / 2) } else { STEPS };
     let mut at = Point { position: 0.0, size: -1.0, ratio: 0.0 };
     let both = sizes.iter().all(|size| *size > 0.0);
     for round in 0..if both { 2 } else { 1 } {
