@@ -42,6 +42,7 @@ mod messages;
 mod mutants;
 mod mutated_specifications;
 mod no_plant;
+mod noise;
 mod notations;
 mod obstacles;
 mod parameters;

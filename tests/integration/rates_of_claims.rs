@@ -6,7 +6,7 @@ use rug::Rational;
 use serde_json::Value;
 use sigmastar_prove::certificate::certificate_json;
 use sigmastar_prove::certify::{Options, certify_at};
-use sigmastar_prove::rate::bound::RateForCount;
+use sigmastar_prove::rate::found::RateForCount;
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::stability::ErrorBox;
 

@@ -324,7 +324,7 @@ fn bounds_under_noise_hold_in_the_loops() {
         let sizes = [noise, disturbance].map(|size| size.map_or(0.0, |size| size.parse::<f64>().expect("a number")));
         for found in &run.for_n_o {
             let bound = found.noise.as_ref().expect("asked for");
-            let worst = farthest(members(&data, &there, &run, found.n_o), sizes, 400_000 / (found.n_o as usize + 1));
+            let worst = farthest(members(&data, &there, &run, found.n_o), sizes, 60_000 / (found.n_o as usize + 1));
             let bound = match bound {
                 Ok(bound) => bound,
                 Err(reason) => panic!("{sizes:?} n_o = {}: {} ({worst})", found.n_o, reason.message()),
@@ -336,7 +336,7 @@ fn bounds_under_noise_hold_in_the_loops() {
                 limit / worst
             );
             assert!(limit >= worst && peak > limit, "{sizes:?} {}: {limit} {peak} {worst}", found.n_o);
-            assert!(found.n_o > 1 || limit < 5.0 * worst, "{sizes:?} {}: {limit} {worst}", found.n_o);
+            assert!(found.n_o > 1 || limit < 10.0 * worst, "{sizes:?} {}: {limit} {worst}", found.n_o);
         }
     }
 }

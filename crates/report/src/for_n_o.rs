@@ -7,9 +7,11 @@ use sigmastar_document::{Block, Table};
 use sigmastar_exact::number::{Direction, write_exact};
 use sigmastar_lang::spec::Specification;
 use sigmastar_prove::certify::{Certification, SampledCertification};
-use sigmastar_prove::rate::bound::{RateBound, RateForCount};
+use sigmastar_prove::rate::bound::RateBound;
+use sigmastar_prove::rate::found::RateForCount;
 use sigmastar_prove::rate::noise::{NoNoiseBound, NoiseBound};
-use sigmastar_prove::rate::sampled::bound::{SampledRateBound, SampledRateForCount};
+use sigmastar_prove::rate::sampled::bound::SampledRateBound;
+use sigmastar_prove::rate::sampled::found::SampledRateForCount;
 use sigmastar_prove::rate::sampled::noise::SampledNoiseBound;
 use sigmastar_prove::rate::small_gain::Limit;
 
@@ -96,9 +98,13 @@ fn disturbed(
         Block::heading("Noise and disturbances"),
         Block::says(format!(
             "With {}, any measurable signals, |e(t) - e_per(t)| is at most this in the limit and at all times from the start on, for every \
-             start in the set: a part of the claim, for this n_o and this gain alone. e_per is of the periodic solution without them; on \
-             the way |e(t) - e_per(t)| <= factor exp(-rate (t - t_0)) + the limit{place}.",
-            spec.disturbances.in_words()
+             start in the set: a part of the claim, for this n_o and this gain alone. e_per is of the periodic solution without them{}.",
+            spec.disturbances.in_words(),
+            // The factor is of a start without noise.
+            match spec.initial_set.is_aligned() {
+                true => "; the start is z = M e of the measured e".to_owned(),
+                false => format!("; on the way |e(t) - e_per(t)| <= factor exp(-rate (t - t_0)) + the limit{place}"),
+            },
         )),
         Block::Table(table),
     ];

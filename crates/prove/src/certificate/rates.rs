@@ -1,11 +1,13 @@
 //! Rates for given numbers of oscillators in a certificate: what is claimed, and what proves it (derivation, 13.6).
 
 use crate::certify::{Certification, SampledCertification};
-use crate::rate::bound::{RateBound, RateForCount};
+use crate::rate::bound::RateBound;
+use crate::rate::found::RateForCount;
 use crate::rate::inequality::RateWitness;
 use crate::rate::noise::NoiseBound;
-use crate::rate::sampled::bound::{SampledRateBound, SampledRateForCount};
+use crate::rate::sampled::bound::SampledRateBound;
 use crate::rate::sampled::form::{Inputs, OfX, SampledRateWitness};
+use crate::rate::sampled::found::SampledRateForCount;
 use crate::rate::sampled::noise::SampledNoiseBound;
 use rug::Rational;
 use serde_json::{Value, json};

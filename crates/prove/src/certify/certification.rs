@@ -6,7 +6,7 @@ use super::no_plant::NoPlant;
 use super::options::{Limits, Options};
 use super::proof::{Decided, Outcome, Proof, RepairedProof, SharpProof};
 use super::verdict::Verdict;
-use crate::rate::bound::RateForCount;
+use crate::rate::found::RateForCount;
 use crate::search::{Binding, Datum, Failing, Obstacle, OptionalDatum};
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;

@@ -3,9 +3,11 @@
 use super::certification::Certification;
 use super::proof::{Proof, SampledProof, SharpProof};
 use super::sampled::SampledCertification;
-use crate::rate::bound::{MAX_COUNTS, MAX_OSCILLATORS, Place, RateForCount, bound};
+use crate::rate::bound::{MAX_COUNTS, MAX_OSCILLATORS, Place, bound};
+use crate::rate::found::RateForCount;
 use crate::rate::noise::{Confinement, NoNoiseBound, NoiseBound, noise_bound};
-use crate::rate::sampled::bound::{self as at_samples, SampledRateBound, SampledRateForCount};
+use crate::rate::sampled::bound::{self as at_samples, SampledRateBound};
+use crate::rate::sampled::found::SampledRateForCount;
 use crate::rate::sampled::noise::noise_bound as at_samples_with_noise;
 use rayon::prelude::*;
 use rug::Rational;

@@ -1,7 +1,7 @@
 //! Room in the error box for what noise and a disturbance add to the error (derivation, 13.6).
 //!
-//! The box of a search is as small as C4 allows, and its bounds are best. With the same weights C4 holds in every larger box, where C5 has
-//! worse bounds.
+//! The box of a search is as small as C4 allows, and its weights are best for C5. With a smaller weight of zeta the level is lower in the same
+//! box, and with the same weights C4 holds in every larger box; of either C5 asks for a larger gain.
 
 use super::bounding::prove_up_to;
 use super::certification::Certification;
@@ -14,45 +14,70 @@ use super::proof::{Outcome, SharpProof};
 use super::rates::{for_n_o, for_n_o_at_samples};
 use super::round::LONG_DIGITS;
 use super::sampled::{SampledCertification, recheck_sampled};
-use crate::rate::bound::RateForCount;
+use crate::rate::found::RateForCount;
 use crate::rate::noise::NoNoiseBound;
-use crate::rate::sampled::bound::SampledRateForCount;
+use crate::rate::sampled::found::SampledRateForCount;
 use rug::Rational;
 use sigmastar_exact::number::{Direction, round_f64};
 use sigmastar_theory::data::Data;
-use sigmastar_theory::derivation::sampled::SampledWitness;
-use sigmastar_theory::derivation::sharp::SharpWitness;
+use sigmastar_theory::derivation::initial_set::claimed_distances;
+use sigmastar_theory::derivation::sampled::{SampledEvaluation, SampledWitness};
+use sigmastar_theory::derivation::sharp::{SharpEvaluation, SharpWitness};
+use sigmastar_theory::derivation::stability::level_condition;
 
-/// Larger boxes that are tried one after the other.
-const WIDENINGS: usize = 4;
+/// Proofs with more room that are tried one after the other.
+const TRIES: usize = 4;
 
-/// By so much a box is larger than the bounds of a smaller one ask for: its own are worse.
-const WIDER: f64 = 1.05;
+/// By so much the room is larger than what was found in a smaller one asks for.
+const MORE: f64 = 1.05;
 
 impl Certification<'_> {
-    /// Where the error box has no room for what noise and a disturbance add, a larger one is taken if the claim is proved with it, and more
-    /// of the bounds under noise are.
+    /// Where the error box has no room for what noise and a disturbance add, another proof of the claim is taken that has, if more of the bounds
+    /// under noise are proved with it.
     pub(super) fn make_room(&mut self, counts: &[u32]) {
         let bounds = |proof: &SharpProof| for_n_o(self.spec, proof, counts);
         let noise = |found: &RateForCount| found.noise.as_ref().map(|noise| noise.as_ref().err().copied());
-        if let Some((proof, found)) = with_room(&self.for_n_o, |factor| self.widened(factor), bounds, noise) {
+        if let Some((proof, found)) = more_proved(&self.for_n_o, |factor| self.with_room(factor), bounds, noise) {
             self.rest_on(proof);
             self.for_n_o = found;
         }
     }
 
-    /// The claim with an error box so many times as large; `None` where it is not proved.
-    fn widened(&self, factor: f64) -> Option<SharpProof> {
-        let witness = &self.sharp.proved()?.witness;
-        let [d_x, d_e] = wider([&witness.d_x, &witness.d_e], factor)?;
-        let witness = SharpWitness { d_x, d_e, ..witness.clone() };
-        let proof = decide(self.spec, witness, self.options.ladder);
-        let proved = |proof: &SharpProof| {
-            let [x, e] = proof.decided().reach()?;
-            let known = self.spec.domain.is_some() || prove_up_to(self.spec, &x, &e).is_ok();
-            Some(known && !MatrixChecks::new(self.spec, Some(proof), None).disagree())
+    /// The claim with a box that is so many times as large against its level as the least one; `None` where it is not proved.
+    fn with_room(&self, factor: f64) -> Option<SharpProof> {
+        let SharpProof { witness, evaluation, precision } = self.sharp.proved()?;
+        let data = Data::new(self.spec, *precision);
+        let periodic = [&evaluation.periodic.x_per, &evaluation.periodic.e_per, &evaluation.z];
+        let distances = claimed_distances(&data, &witness.set, periodic);
+        let level = |h: &Rational| {
+            let numbers = [&witness.d_x, &witness.d_e, &witness.w_x, h].map(|value| data.rational(value));
+            level_condition(&data, distances.each_ref(), numbers.each_ref()).0.upper_f64()
         };
-        (proof.truth().is_true() && proved(&proof) == Some(true)).then_some(proof)
+        let (all, without) = (level(&witness.h), level(&Rational::new()));
+        let share = (all / (factor * factor) - without) / (all - without);
+        let scaled = |value: &Rational, by: f64| round_f64(value.to_f64() * by, LONG_DIGITS, Direction::Up);
+        let lower = || {
+            let h = scaled(&witness.h, share).filter(|h| *h > 0)?;
+            self.proved_with(SharpWitness { h, ..witness.clone() })
+        };
+        let wider = || {
+            let [d_x, d_e] = [&witness.d_x, &witness.d_e].map(|radius| scaled(radius, factor));
+            self.proved_with(SharpWitness { d_x: d_x?, d_e: d_e?, ..witness.clone() })
+        };
+        lower().or_else(wider)
+    }
+
+    /// The claim with another witness, where it is proved and keeps to what was asked for.
+    fn proved_with(&self, witness: SharpWitness) -> Option<SharpProof> {
+        let proof = decide(self.spec, witness, self.options.ladder);
+        if !proof.truth().is_true() {
+            return None;
+        }
+        let SharpEvaluation { periodic, peak, control, .. } = &proof.evaluation;
+        let [x, e] = proof.decided().reach()?;
+        let bounded = self.spec.domain.is_some() || prove_up_to(self.spec, &x, &e).is_ok();
+        let kept = self.limits.kept([&periodic.e_per, peak], control);
+        (bounded && kept && !MatrixChecks::new(self.spec, Some(&proof), None).disagree()).then_some(proof)
     }
 
     /// Puts another proof of the same claim in the place of its own, with the figures that depend on it.
@@ -70,38 +95,35 @@ impl Certification<'_> {
 }
 
 impl SampledCertification<'_> {
-    /// The same of a claim at samples.
+    /// The same of a claim at samples, whose box alone is made larger.
     pub(super) fn make_room(&mut self, counts: &[u32]) {
         let bounds = |run: &SampledCertification<'_>| {
             run.claim().map_or_else(Vec::new, |proof| for_n_o_at_samples(self.spec, proof, counts))
         };
         let noise = |found: &SampledRateForCount| found.noise.as_ref().map(|noise| noise.as_ref().err().copied());
-        if let Some((run, found)) = with_room(&self.for_n_o, |factor| self.widened(factor), bounds, noise) {
-            let (outcome, no_plant) = (run.outcome, run.no_plant);
-            (self.outcome, self.no_plant, self.for_n_o) = (outcome, no_plant, found);
+        if let Some((run, found)) = more_proved(&self.for_n_o, |factor| self.widened(factor), bounds, noise) {
+            (self.outcome, self.no_plant, self.for_n_o) = (run.outcome, run.no_plant, found);
         }
     }
 
+    /// The claim with an error box so many times as large, where it is proved and keeps to what was asked for.
     fn widened(&self, factor: f64) -> Option<SampledCertification<'_>> {
         let proof = self.claim()?;
-        let [d_x, d_e] = wider([&proof.witness.d_x, &proof.witness.d_e], factor)?;
-        let witness = SampledWitness { d_x, d_e, ..proof.witness.clone() };
+        let wider = |radius: &Rational| round_f64(radius.to_f64() * factor, LONG_DIGITS, Direction::Up);
+        let [d_x, d_e] = [&proof.witness.d_x, &proof.witness.d_e].map(wider);
+        let witness = SampledWitness { d_x: d_x?, d_e: d_e?, ..proof.witness.clone() };
         let ladder = Ladder { start: proof.precision, limit: proof.precision };
-        recheck_sampled(self.spec, &witness, ladder).ok().filter(|run| run.claim().is_some())
+        let run = recheck_sampled(self.spec, &witness, ladder).ok()?;
+        let SampledEvaluation { size, peak, control, .. } = &run.claim()?.evaluation;
+        self.limits.kept([&size.e_per, peak], control).then_some(run)
     }
 }
 
-/// Radii so many times as large.
-fn wider(radii: [&Rational; 2], factor: f64) -> Option<[Rational; 2]> {
-    let [d_x, d_e] = radii.map(|radius| round_f64(radius.to_f64() * factor, LONG_DIGITS, Direction::Up));
-    Some([d_x?, d_e?])
-}
-
-/// A claim with a larger error box with which more bounds under noise are proved than in `first`, and what is proved with it; `noise` says of an
-/// entry whether it is about noise, and why there are no bounds where there are none.
-fn with_room<P, F>(
+/// A proof with more room with which more bounds under noise are proved than are in `first`, and what is proved with it; `noise` says of an entry
+/// whether it is about noise, and why there are no bounds where there are none.
+fn more_proved<P, F>(
     first: &[F],
-    widened: impl Fn(f64) -> Option<P>,
+    with_room: impl Fn(f64) -> Option<P>,
     bounds: impl Fn(&P) -> Vec<F>,
     noise: impl Fn(&F) -> Option<Option<NoNoiseBound>>,
 ) -> Option<(P, Vec<F>)> {
@@ -118,11 +140,11 @@ fn with_room<P, F>(
     let proved = |found: &[F]| found.iter().filter(|found| matches!(noise(found), Some(None))).count();
     let (mut factor, mut missing) = (1.0, needed(first));
     let mut best: Option<(P, Vec<F>)> = None;
-    for _ in 0..WIDENINGS {
+    for _ in 0..TRIES {
         // For all that are missing if that can be had, for some of them else.
         let found = missing.iter().rev().find_map(|needed| {
-            let factor = factor * needed * WIDER;
-            Some((factor, widened(factor)?))
+            let factor = factor * needed * MORE;
+            Some((factor, with_room(factor)?))
         });
         let Some((larger, claim)) = found else { break };
         let found = bounds(&claim);

@@ -13,7 +13,7 @@ use super::round::{
     rounded_sigma,
 };
 use super::verdict::Verdict;
-use crate::rate::sampled::bound::SampledRateForCount;
+use crate::rate::sampled::found::SampledRateForCount;
 use crate::search::{
     Extreme, Failing, FloatModel, Goal, Obstacle, PastShare, SampledLimit, SampledProposal, SampledSearch, weight_h,
 };

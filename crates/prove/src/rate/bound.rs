@@ -6,7 +6,6 @@
 //! |xt| <= dX, |et| <= dE and |zt|_N <= dZ at t_0: so C^2 is that sum over e_low.
 
 use super::inequality::{ErrorDynamics, LoopBounds, RateWitness, is_above, is_definite};
-use super::noise::{NoNoiseBound, NoiseBound};
 use super::oscillators::OscillatorMatrix;
 use super::riccati::propose;
 use super::small_gain::{Limit, SmallGain};
@@ -60,17 +59,6 @@ pub struct RateBound {
     pub factor: Rational,
     /// What limits the rate.
     pub limit: Limit,
-}
-
-/// What was found for one n_o that was asked about.
-#[derive(Clone, Debug)]
-pub struct RateForCount {
-    /// n_o.
-    pub n_o: u32,
-    /// The bound; `None` where none was proved, which says nothing either way.
-    pub bound: Option<RateBound>,
-    /// Bounds of what noise and disturbances do; `None` where the document has none.
-    pub noise: Option<Result<NoiseBound, NoNoiseBound>>,
 }
 
 /// The best bound that is found; `None` where nothing is proved.

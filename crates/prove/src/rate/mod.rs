@@ -5,10 +5,12 @@
 //! - [`small_gain`]: the largest rate that the inequality can prove, in floating point;
 //! - [`riccati`]: the Lyapunov function for it, by a Riccati equation;
 //! - [`noise`]: what noise of the measurement and a disturbance do to the error, by the same inequality with inputs;
-//! - [`sampled`]: the same for the law at samples;
-//! - [`bound`]: from a rate to `|e - e_per| <= C exp(-rate (t - t_0))` on a set of starts, as a certificate has it.
+//! - [`sampled`]: all of this for the law at samples;
+//! - [`bound`]: from a rate to `|e - e_per| <= C exp(-rate (t - t_0))` on a set of starts, as a certificate has it;
+//! - [`found`]: all of it for one n_o.
 
 pub mod bound;
+pub mod found;
 pub mod inequality;
 pub mod noise;
 mod noise_search;

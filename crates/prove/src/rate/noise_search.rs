@@ -15,8 +15,8 @@ use faer::Mat;
 use faer::linalg::solvers::DenseSolveCore;
 use sigmastar_exact::number::Portable;
 
-/// What share of the room in the small-gain condition is given away: c and beta grow with it, the room for inputs shrinks.
-const SLACK: f64 = 1e-3;
+/// One of so many parts of the room in the small-gain condition is given away: c and beta grow with it, the room for inputs shrinks.
+const PARTS: f64 = 1e3;
 
 /// Steps of a search in lambda, in the size of the inputs, and in their ratio.
 const STEPS: [usize; 3] = [14, 10, 8];
@@ -39,7 +39,7 @@ pub(super) struct Proposal {
 /// A Pi with about the least S that (N) can prove for inputs of these sizes, d_bar and v_bar; `None` where none is found.
 pub(super) fn propose(dynamics: &ErrorDynamics<'_>, sizes: [f64; 2]) -> Option<Proposal> {
     let search = Search::new(dynamics, sizes)?;
-    let steps = if search.condition.order() > LARGE { STEPS.map(|steps| steps * 2 / 3) } else { STEPS };
+    let steps = if search.condition.order() > LARGE { STEPS.map(|steps| steps / 2) } else { STEPS };
     let mut at = Point { position: 0.0, size: -1.0, ratio: 0.0 };
     let both = sizes.iter().all(|size| *size > 0.0);
     for round in 0..if both { 2 } else { 1 } {
@@ -121,9 +121,9 @@ impl Search {
 
     fn solve(&self, Point { position, size, ratio }: Point) -> Option<Solution> {
         let rate = self.largest / (1.0 + (-position).portable_exp());
-        let multipliers = self.condition.multipliers(rate, SLACK)?;
+        let multipliers = self.condition.multipliers(rate, PARTS)?;
         let Budget { available, from_e, from_x, .. } = self.condition.budget(rate);
-        let used = from_e + from_x + 2.0 * SLACK * (available - from_e - from_x);
+        let used = from_e + from_x + 2.0 / PARTS * (available - from_e - from_x);
         let room = multipliers.input * ((available / used).portable_powi(2) - 1.0);
         let total = room * size.portable_exp();
         let [d_bar, v_bar] = self.sizes;
@@ -143,8 +143,11 @@ impl Search {
         let driven = Mat::from_fn(n, n, |i, j| {
             (multipliers.input + gam_d) * input[i] * input[j] + gam_v * self.noise[i] * self.noise[j]
         });
-        let fed = self.condition.output(&multipliers);
-        let equation = Equation { a: &a, quadratic: &fed, output: &driven };
+        let of_e: Vec<f64> = (0..n).map(|i| f64::from(u8::from(i == 0))).collect();
+        let all = [(multipliers.output, &of_e[..]), (multipliers.moved, &self.condition.dynamics.moved)];
+        // Without an input gain there is no v.
+        let squares = if self.condition.dynamics.moved.is_empty() { &all[..1] } else { &all[..] };
+        let equation = Equation { a: &a, squares, output: &driven };
         let q = equation.stabilising(((multipliers.input + total) / multipliers.output).sqrt())?;
         let q = equation.refined(&q).unwrap_or(q);
         let of = |size: f64, weight: f64| if size > 0.0 { size * size / weight } else { 0.0 };

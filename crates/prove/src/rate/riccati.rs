@@ -7,8 +7,8 @@ use faer::{Mat, c64};
 use rug::Rational;
 use sigmastar_exact::number::{Direction, Portable, round_f64};
 
-/// What share of what the small-gain condition leaves over goes to each of its two sides.
-const SLACK: f64 = 1.0 / 3.0;
+/// One of so many parts of what the small-gain condition leaves over goes to each of its two sides.
+const PARTS: f64 = 3.0;
 
 /// Shares of the largest rate that are claimed, in this order.
 const SHARES: [f64; 5] = [0.9999, 0.999, 0.99, 0.9, 0.5];
@@ -71,13 +71,15 @@ impl Proposal {
 #[must_use]
 pub fn propose(condition: &SmallGain, largest: f64, share: f64) -> Option<Proposal> {
     let shifted = largest * (1.0 + share) / 2.0;
-    let multipliers = condition.multipliers(shifted, SLACK)?;
-    let FloatDynamics { matrix, input, .. } = &condition.dynamics;
+    let multipliers = condition.multipliers(shifted, PARTS)?;
+    let FloatDynamics { matrix, input, moved, .. } = &condition.dynamics;
     let n = input.len();
     let a = Mat::from_fn(n, n, |i, j| matrix[(i, j)] + if i == j { shifted } else { 0.0 });
-    let output = condition.output(&multipliers);
-    let quadratic = Mat::from_fn(n, n, |i, j| multipliers.input * input[i] * input[j]);
-    let equation = Equation { a: &a, quadratic: &quadratic, output: &output };
+    let output = Mat::from_fn(n, n, |i, j| {
+        let of_e = if i == 0 && j == 0 { multipliers.output } else { 0.0 };
+        of_e + if moved.is_empty() { 0.0 } else { multipliers.moved * moved[i] * moved[j] }
+    });
+    let equation = Equation { a: &a, squares: &[(multipliers.input, input)], output: &output };
     let pi = equation.stabilising((multipliers.output / multipliers.input).sqrt())?;
     // The subspace is less accurate where eigenvalues of the Hamiltonian matrix are close to the imaginary axis.
     let pi = equation.refined(&pi).unwrap_or(pi);
@@ -85,12 +87,12 @@ pub fn propose(condition: &SmallGain, largest: f64, share: f64) -> Option<Propos
     Some(Proposal { rate, w: multipliers.w, pi })
 }
 
-/// `X A + A'X + C + X R X = 0` with symmetric C and R that are not negative.
+/// `X A + A'X + C + X R X = 0` with a symmetric C and a sum R of squares `beta b b'`.
 pub(super) struct Equation<'a> {
     /// A.
     pub(super) a: &'a Mat<f64>,
-    /// R.
-    pub(super) quadratic: &'a Mat<f64>,
+    /// beta and b of each.
+    pub(super) squares: &'a [(f64, &'a [f64])],
     /// C.
     pub(super) output: &'a Mat<f64>,
 }
@@ -99,14 +101,14 @@ impl Equation<'_> {
     /// The least symmetric solution, from the stable subspace of the Hamiltonian matrix `[[A, R], [-C, -A']]`: with [U; V] a
     /// basis of it, X = V U^-1. `unit` is one of X in which C and R have about the same size.
     pub(super) fn stabilising(&self, unit: f64) -> Option<Mat<f64>> {
-        let Equation { a, quadratic, output } = self;
+        let Equation { a, squares, output } = self;
         let n = a.nrows();
         if !(unit.is_finite() && unit > 0.0) {
             return None;
         }
         let hamiltonian = Mat::from_fn(2 * n, 2 * n, |i, j| match (i < n, j < n) {
             (true, true) => a[(i, j)],
-            (true, false) => unit * quadratic[(i, j - n)],
+            (true, false) => squares.iter().map(|(beta, b)| beta * unit * b[i] * b[j - n]).sum(),
             (false, true) => -output[(i - n, j)] / unit,
             (false, false) => -a[(j - n, i - n)],
         });
@@ -130,14 +132,20 @@ impl Equation<'_> {
 
     /// One step of Newton's method: `X + D` with `D K + K'D` minus the left side of the equation at X, `K = A + R X`.
     pub(super) fn refined(&self, pi: &Mat<f64>) -> Option<Mat<f64>> {
-        let Equation { a, quadratic, output } = self;
+        let Equation { a, squares, output } = self;
         let n = a.nrows();
-        let fed = *quadratic * pi;
-        let (product, square) = (pi * *a, pi * &fed);
-        let residual = Mat::from_fn(n, n, |i, j| {
-            product[(i, j)] + product[(j, i)] + output[(i, j)] + f64::midpoint(square[(i, j)], square[(j, i)])
-        });
-        let closed = *a + &fed;
+        let product = pi * *a;
+        let mut residual = Mat::from_fn(n, n, |i, j| product[(i, j)] + product[(j, i)] + output[(i, j)]);
+        let mut closed = (*a).clone();
+        for (beta, b) in squares.iter() {
+            let image: Vec<f64> = (0..n).map(|i| (0..n).map(|j| pi[(i, j)] * b[j]).sum()).collect();
+            for i in 0..n {
+                for j in 0..n {
+                    residual[(i, j)] += beta * image[i] * image[j];
+                    closed[(i, j)] += beta * b[i] * image[j];
+                }
+            }
+        }
         if !(0..n).all(|j| (0..n).all(|i| closed[(i, j)].is_finite() && residual[(i, j)].is_finite())) {
             return None;
         }

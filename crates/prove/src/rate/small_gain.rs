@@ -271,16 +271,16 @@ impl SmallGain {
         Some(low)
     }
 
-    /// w and l at a rate, with c, c_v and beta of `Pi A + A'Pi + c e e' + c_v v v' + beta Pi B B'Pi = 0`; a share, once for each side, of what
-    /// the condition leaves over is given away, so that every inequality of the module is strict.
+    /// w and l at a rate, with c, c_v and beta of `Pi A + A'Pi + c e e' + c_v v v' + beta Pi B B'Pi = 0`; one of so many
+    /// parts of what the condition leaves over is given to each side, so that every inequality of the module is strict.
     #[must_use]
-    pub fn multipliers(&self, rate: f64, share: f64) -> Option<Multipliers> {
+    pub fn multipliers(&self, rate: f64, parts: f64) -> Option<Multipliers> {
         let budget = self.budget(rate);
         if !budget.suffices() {
             return None;
         }
         // Without coupling the budget may be as large as it likes.
-        let slack = share * (budget.available - budget.from_e - budget.from_x);
+        let slack = (budget.available - budget.from_e - budget.from_x) / parts;
         let (from_e, from_x) = (budget.from_e + slack, budget.from_x + slack);
         let distance = self.x_decay - rate;
         // c_x over the square of k_f is (kappa')^2 with l = 1.
@@ -297,17 +297,6 @@ impl SmallGain {
         let moved = budget.share * self.dynamics.half_gain.portable_powi(2) / from_inputs;
         let with_gain = if self.dynamics.moved.is_empty() { 0.0 } else { from_inputs / budget.share };
         Some(Multipliers { w, output, moved, input: from_inputs + with_gain })
-    }
-}
-
-impl SmallGain {
-    /// `c e e' + c_v v v'`.
-    pub(super) fn output(&self, multipliers: &Multipliers) -> Mat<f64> {
-        let FloatDynamics { input, moved, .. } = &self.dynamics;
-        Mat::from_fn(input.len(), input.len(), |i, j| {
-            let of_e = if i == 0 && j == 0 { multipliers.output } else { 0.0 };
-            of_e + if moved.is_empty() { 0.0 } else { multipliers.moved * moved[i] * moved[j] }
-        })
     }
 }
 

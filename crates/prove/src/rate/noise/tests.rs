@@ -1,6 +1,6 @@
 use super::*;
 use crate::certify::{Certification, Options, certify_at};
-use crate::rate::bound::RateForCount;
+use crate::rate::found::RateForCount;
 use faer::linalg::solvers::DenseSolveCore;
 use faer::{Mat, c64};
 use sigmastar_lang::spec::Specification;
@@ -69,19 +69,27 @@ fn worst(data: &Data<'_>, there: &ErrorBox<Enclosure>, sigma: f64, n_o: u32, [d_
                 let slowest = values.iter().map(|value| -value.re).fold(f64::INFINITY, f64::min);
                 let largest = values.iter().fold(0.0_f64, |size, value| size.max(value.norm()));
                 assert!(slowest > 0.0);
-                // First as fast as the fastest mode, then as the fastest that is left.
+                // First as fast as the fastest mode, then as the fastest that is left, in runs of equal steps.
                 let (mut sum, mut t) = (0.0, 0.0);
-                while t < 10.0 / slowest {
-                    let left = values.iter().filter(|value| -value.re * t < 30.0);
+                while t < 8.0 / slowest {
+                    let left = values.iter().filter(|value| -value.re * t < 20.0);
                     let fastest = left.fold(0.0_f64, |size, value| size.max(value.norm())).min(largest);
-                    let h = 0.05 / fastest;
-                    let at = t + 0.5 * h;
-                    let response = residues.iter().zip(&values).map(|(residue, value)| {
-                        let size = (value.re * at).exp();
-                        size * (residue.re * (value.im * at).cos() - residue.im * (value.im * at).sin())
-                    });
-                    sum += response.sum::<f64>().abs() * h;
-                    t += h;
+                    let h = 0.1 / fastest;
+                    let at = |value: c64, time: f64| {
+                        let size = (value.re * time).exp();
+                        c64::new(size * (value.im * time).cos(), size * (value.im * time).sin())
+                    };
+                    let mut modes: Vec<c64> = residues
+                        .iter()
+                        .zip(&values)
+                        .map(|(residue, value)| residue * at(*value, t + 0.5 * h))
+                        .collect();
+                    let turns: Vec<c64> = values.iter().map(|value| at(*value, h)).collect();
+                    for _ in 0..1000 {
+                        sum += modes.iter().map(|mode| mode.re).sum::<f64>().abs() * h;
+                        modes.iter_mut().zip(&turns).for_each(|(mode, turn)| *mode *= turn);
+                    }
+                    t += 1000.0 * h;
                 }
                 sum
             };

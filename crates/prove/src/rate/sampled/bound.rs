@@ -3,10 +3,8 @@
 
 use super::condition::SampledCondition;
 use super::form::{Inputs, OfX, SampledDynamics, SampledRateWitness};
-use super::noise::SampledNoiseBound;
 use crate::rate::bound::{Place, are_bounds, diagonal_bounds, factor};
 use crate::rate::inequality::LoopBounds;
-use crate::rate::noise::NoNoiseBound;
 use crate::rate::oscillators::OscillatorMatrix;
 use crate::rate::small_gain::Limit;
 use faer::Mat;
@@ -39,17 +37,6 @@ pub struct SampledRateBound {
     pub factor: Rational,
     /// What limits the rate.
     pub limit: Limit,
-}
-
-/// What was found for one n_o that was asked about.
-#[derive(Clone, Debug)]
-pub struct SampledRateForCount {
-    /// n_o.
-    pub n_o: u32,
-    /// The bound; `None` where none was proved, which says nothing either way.
-    pub bound: Option<SampledRateBound>,
-    /// Bounds of what noise and disturbances do; `None` where the document has none.
-    pub noise: Option<Result<SampledNoiseBound, NoNoiseBound>>,
 }
 
 /// The best bound that is found; `None` where nothing is proved.

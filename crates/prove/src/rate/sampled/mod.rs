@@ -4,10 +4,12 @@
 //! - [`condition`]: the largest decay that it can prove, in floating point, and multipliers for it;
 //! - [`riccati`]: the quadratic function for them, by a discrete Riccati equation;
 //! - [`noise`]: what noise of the measurement and a disturbance do to the error, by the same inequality with inputs;
-//! - [`bound`]: from a decay to `|e - e_per| <= C exp(-rate (t - t_0))` at the sampling instants, as a certificate has it.
+//! - [`bound`]: from a decay to `|e - e_per| <= C exp(-rate (t - t_0))` at the sampling instants, as a certificate has it;
+//! - [`found`]: all of it for one n_o.
 
 pub mod bound;
 pub mod condition;
 pub mod form;
+pub mod found;
 pub mod noise;
 mod riccati;

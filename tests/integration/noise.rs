@@ -1,0 +1,170 @@
+//! Noise of the measurement and disturbances in claims for given n_o (docs/mathematics.md, 13.6, Proposition N): what a certificate says, that the
+//! checker decides it, and that trials hold it and break a forged one.
+
+use crate::support::{json, program, specification_text, utf8};
+use serde_json::{Value, json as object};
+use sigmastar_document::progress::Silent;
+use sigmastar_lab::falsify::{Falsification, Finding, TrialSettings, TriedClaim, falsify};
+use sigmastar_lang::spec::Document;
+use std::path::Path;
+
+/// A shipped specification with other members.
+fn with(name: &str, members: &[(&str, Value)]) -> String {
+    let mut document: Value = serde_json::from_str(&specification_text(name)).unwrap();
+    for (member, value) in members {
+        document[*member] = value.clone();
+    }
+    document.to_string()
+}
+
+/// Certifies a document in a folder.
+fn certify(folder: &Path, text: &str, arguments: &[&str]) -> (Value, Option<Value>) {
+    let [file, certificate] = ["spec.json", "certificate.json"].map(|name| folder.join(name));
+    std::fs::write(&file, text).unwrap();
+    let mut call = program();
+    call.arg("certify").arg(&file).args(arguments).args(["--no-compare", "--format", "json", "--force", "-o"]);
+    let output = call.arg(&certificate).output().unwrap();
+    let report = json(&output.stdout);
+    let written = std::fs::read(&certificate).ok().filter(|_| output.status.code() == Some(0));
+    (report, written.map(|bytes| json(&bytes)))
+}
+
+fn inputs() -> [(&'static str, Value); 2] {
+    [("measurement", object!({ "noise": "0.0001", "quantum": "1/10000" })), ("disturbance", object!("0.002"))]
+}
+
+const AT: [&str; 4] = ["--sigma", "60", "--n-o", "0,2"];
+
+/// The certificate of the paper's example under noise, at more than twice its least gain.
+fn example(folder: &Path) -> (Value, Value) {
+    let (report, certificate) = certify(folder, &with("paper-example-at-rest", &inputs()), &AT);
+    (report, certificate.expect("certified"))
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_str().expect("a number").parse().expect("a decimal")
+}
+
+#[test]
+fn a_certificate_bounds_the_error_under_noise() {
+    let folder = tempfile::tempdir().unwrap();
+    let (report, certificate) = example(folder.path());
+    let claim = &certificate["claim"];
+    assert_eq!(claim["for_n_o"].as_array().map(Vec::len), Some(2));
+    for (i, claimed) in claim["for_n_o"].as_array().unwrap().iter().enumerate() {
+        assert_eq!(claimed["noise"], report["for_n_o"][i]["noise"]);
+        let [limit, peak] = ["limit", "peak"].map(|name| number(&claimed["noise"][name]));
+        assert!(0.0 < limit && limit < peak && limit < 0.1, "{limit} {peak}");
+        let witness = &certificate["witness"]["for_n_o"][i]["noise"];
+        assert!(["Pi", "lambda", "e_low", "w", "l", "g_d", "g_v"].iter().all(|name| !witness[*name].is_null()));
+        let statement = claim["statement"].as_str().unwrap();
+        let said = format!(
+            " With n_o = {} and sigma = 60 exactly, noise of at most 0.0001 on the measurement of e, a measurement of e in steps of (1/10000), a \
+             disturbance of at most 0.002 added to q, also |e(t) - e_per(t)| <= {} for these starts and all t >= t_0, and its limit \
+             superior is at most {}.",
+            claimed["n_o"],
+            claimed["noise"]["peak"].as_str().unwrap(),
+            claimed["noise"]["limit"].as_str().unwrap()
+        );
+        assert!(statement.contains(&said), "{said}\n{statement}");
+    }
+    // The box has room, so that it can be decided again.
+    let path = folder.path().join("certificate.json");
+    let again = ["--n-o", "0,2", "--witness", path.to_str().unwrap()];
+    let folder = tempfile::tempdir().unwrap();
+    let (_, second) = certify(folder.path(), &with("paper-example-at-rest", &inputs()), &again);
+    assert_eq!(second.expect("certified")["claim"], *claim);
+}
+
+/// Needs a checker that knows the fields.
+#[test]
+fn the_checker_decides_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let check = |certificate: &Value| proofs_check::check(certificate.to_string().as_bytes());
+    let (_, certificate) = example(folder.path());
+    let report = check(&certificate);
+    let text = report.text(false);
+    assert!(report.verdict == proofs_check::verdict::Verdict::Valid && report.is_flawless(), "{text}");
+    for (name, share) in [("limit", 0.99), ("peak", 0.9)] {
+        let mut forged = certificate.clone();
+        let value = &mut forged["claim"]["for_n_o"][1]["noise"][name];
+        let written = value.as_str().unwrap().to_owned();
+        let smaller = format!("{:.9}", share * number(value));
+        *value = smaller.as_str().into();
+        let statement = certificate["claim"]["statement"].as_str().unwrap().replace(&written, &smaller);
+        forged["claim"]["statement"] = statement.into();
+        assert_ne!(check(&forged).verdict, proofs_check::verdict::Verdict::Valid, "{name}");
+    }
+    for (kind, gain) in [("aligned", "60"), ("paper", "80")] {
+        let mut members = inputs().to_vec();
+        members.push(("initial_set", object!({ "kind": kind })));
+        let (_, certificate) =
+            certify(folder.path(), &with("paper-example", &members), &["--sigma", gain, "--n-o", "1"]);
+        let certificate = certificate.expect("certified");
+        assert!(!certificate["claim"]["for_n_o"][0]["noise"].is_null(), "{kind}");
+        let report = check(&certificate);
+        assert!(report.is_flawless(), "{kind} {}", report.text(false));
+    }
+    let gain = object!({ "nominal": "2", "low": "1.9", "high": "2.1" });
+    let members = [inputs().to_vec(), vec![("input_gain", gain)]].concat();
+    let (_, certificate) = certify(folder.path(), &with("paper-example-at-rest", &members), &AT);
+    let certificate = certificate.expect("certified");
+    assert!(!certificate["claim"]["for_n_o"][0]["noise"].is_null());
+    assert!(check(&certificate).is_flawless(), "{}", check(&certificate).text(false));
+}
+
+#[test]
+fn where_there_is_none_the_reason_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let reason = |text: &str, arguments: &[&str]| {
+        let (report, certificate) = certify(folder.path(), text, arguments);
+        let certificate = certificate.expect("certified");
+        assert!(certificate["claim"]["for_n_o"][0]["noise"].is_null());
+        assert!(certificate["witness"]["for_n_o"][0]["noise"].is_null());
+        report["for_n_o"][0]["noise"]["reason"].as_str().expect("a reason").to_owned()
+    };
+    let members = [inputs().to_vec(), vec![("actuator", object!({ "max": "1000" }))]].concat();
+    let said = reason(&with("paper-example-rms-at-rest", &members), &["--n-o", "1"]);
+    assert!(said.contains("`actuator`"), "{said}");
+    let loud = [("disturbance", object!("1000"))];
+    let said = reason(&with("paper-example-at-rest", &loud), &AT);
+    assert!(said.contains("no room"), "{said}");
+    // Without a list a remark says what they are for; and the claim has nothing of them.
+    let (report, certificate) = certify(folder.path(), &with("paper-example-at-rest", &inputs()), &["--sigma", "60"]);
+    assert!(report["remarks"].to_string().contains("--n-o LIST"), "{}", report["remarks"]);
+    let (_, without) = certify(folder.path(), &specification_text("paper-example-at-rest"), &["--sigma", "60"]);
+    assert_eq!(certificate.expect("certified")["claim"], without.expect("certified")["claim"]);
+    // All of them 0: nothing is said.
+    let none = [("measurement", object!({ "noise": "0" })), ("disturbance", object!("0"))];
+    let (report, _) = certify(folder.path(), &with("paper-example-at-rest", &none), &AT);
+    assert!(report["for_n_o"][0].get("noise").is_none() && !report["remarks"].to_string().contains("--n-o"));
+}
+
+fn trials(certificate: &Value, trials: u64) -> Falsification {
+    let document = Document::parse("certificate", &certificate.to_string()).unwrap();
+    let claim = TriedClaim::from_document(&document).unwrap();
+    falsify(&claim, TrialSettings { trials, seed: 1, only: None }, &Silent)
+}
+
+#[test]
+fn trials_hold_the_bounds_and_break_smaller_ones() {
+    let folder = tempfile::tempdir().unwrap();
+    let (_, certificate) = example(folder.path());
+    let outcome = trials(&certificate, 12);
+    assert!(outcome.counterexample().is_none(), "{:?}", outcome.counterexample());
+    let closest = outcome.closest();
+    let share = |part: &str| closest.iter().find(|closest| closest.quantity.contains(part)).expect("tried").share;
+    let [limit, way] = ["in the limit", "disturbance, on the way"].map(share);
+    assert!((0.02..1.0).contains(&limit) && (0.02..1.0).contains(&way), "{limit} {way}");
+    let mut forged = certificate.clone();
+    for i in 0..2 {
+        let value = &mut forged["claim"]["for_n_o"][i]["noise"]["limit"];
+        *value = format!("{:e}", 0.5 * limit * number(value)).into();
+    }
+    let outcome = trials(&forged, 12);
+    let broken = |finding: &Finding| matches!(finding, Finding::Violated(_, violation) if violation.quantity.contains("in the limit"));
+    assert!(outcome.findings.iter().any(broken));
+    let path = folder.path().join("certificate.json");
+    let call = program().arg("falsify").arg(path).args(["--trials", "3", "--full"]).output().unwrap();
+    assert!(utf8(call.stdout).contains("with noise and disturbance, in the limit"));
+}
