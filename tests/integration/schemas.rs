@@ -218,6 +218,8 @@ fn specifications() -> Vec<Value> {
                 ("initial_set", at_rest),
                 ("input_gain", json!({ "nominal": 1, "low": "4/5", "high": 1.25 })),
                 ("actuator", json!({ "max": "3*pi" })),
+                ("measurement", json!({ "noise": 0.01, "quantum": "1/300" })),
+                ("disturbance", json!("0")),
             ],
         ),
         with(
@@ -245,6 +247,8 @@ fn plants() -> Vec<Value> {
                 ("internal_model", explicit),
                 ("input_gain", json!({ "nominal": 2, "low": 1, "high": 3 })),
                 ("actuator", json!({ "max": 30 })),
+                ("measurement", json!({ "noise": "0.01", "quantum": 0 })),
+                ("disturbance", json!(2)),
             ],
         ),
         set(json!({ "kind": "paper" })),
@@ -353,12 +357,20 @@ fn the_schema_of_certificates_is_that_of_what_is_written() {
     let (spec, of_gain) = (folder.path().join("gain.json"), folder.path().join("gain.certificate.json"));
     std::fs::write(&spec, uncertain.to_string()).expect("a file");
     program().args(["certify", "-q"]).arg(&spec).arg("-o").arg(&of_gain).assert().code(0);
+    // Noise and a disturbance, for given n_o.
+    let inputs = [("measurement", json!({ "noise": "1e-6", "quantum": "1e-6" })), ("disturbance", json!("1e-6"))];
+    let (spec, of_noise) = (folder.path().join("noise.json"), folder.path().join("noise.certificate.json"));
+    std::fs::write(&spec, with("specs/no-x.json", &inputs).to_string()).expect("a file");
+    let asked = ["certify", "-q", "--sigma", "6", "--n-o", "1"];
+    program().args(asked).arg(&spec).arg("-o").arg(&of_noise).assert().code(0);
     // A family whose parameters are cut into cells.
     let (plant, of_family) = (folder.path().join("family.json"), folder.path().join("family.certificate.json"));
     std::fs::write(&plant, super::cells::family(["1.4", "2.6"]).to_string()).expect("a file");
     program().args(["certify", "-q"]).arg(&plant).arg("-o").arg(&of_family).assert().code(0);
     let mut used = BTreeSet::new();
-    for certificate in [contradicted, parsed(&file), parsed(&sampled), parsed(&of_gain), parsed(&of_family)] {
+    for certificate in
+        [contradicted, parsed(&file), parsed(&sampled), parsed(&of_gain), parsed(&of_noise), parsed(&of_family)]
+    {
         assert_eq!(validator.complaints(&certificate), None);
         names(&certificate, &mut used);
     }

@@ -95,7 +95,8 @@ fn read_measurement(value: &Value<'_>, errors: &mut Errors) -> Result<(Option<Co
 fn bound(value: &Value<'_>, errors: &mut Errors) -> Result<Constant, Reported> {
     let constant = nonnegative_constant(value, errors)?;
     let mut parts = constant.text.splitn(2, '/');
-    if parts.all(|part| parse_decimal(part).is_ok()) && constant.as_rational().is_some() {
+    // A sign in front is no part of a number that is not negative.
+    if parts.all(|part| !part.starts_with('+') && parse_decimal(part).is_ok()) && constant.as_rational().is_some() {
         return Ok(constant);
     }
     let error = whole(value, ErrorKind::Range, format!("{} is not written as a rational number", value.name()));
@@ -149,6 +150,8 @@ mod tests {
             (r#"{ "disturbance": "-1/7" }"#, ErrorKind::Range, "/disturbance"),
             (r#"{ "disturbance": "sqrt(4)" }"#, ErrorKind::Range, "/disturbance"),
             (r#"{ "disturbance": "2*3" }"#, ErrorKind::Range, "/disturbance"),
+            (r#"{ "disturbance": "+1" }"#, ErrorKind::Range, "/disturbance"),
+            (r#"{ "disturbance": "1/2/3" }"#, ErrorKind::Range, "/disturbance"),
             (r#"{ "disturbance": "pi" }"#, ErrorKind::Range, "/disturbance"),
             (r#"{ "disturbance": "x" }"#, ErrorKind::Expression, "/disturbance"),
             (r#"{ "disturbance": null }"#, ErrorKind::Type, "/disturbance"),
