@@ -29,7 +29,7 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
         Block::heading("For given numbers of oscillators"),
         Block::says(
             "For every start in the set |e(t) - e_per(t)| <= factor exp(-rate (t - t_0)): a part of the claim, for this n_o and this gain \
-             alone, proved from the bounds on the error box. The factor is for the whole set at once, and far above what most \
+             alone, proved from the bounds on the error box, or from the derivatives there. The factor is for the whole set at once, and far above what most \
              starts need. What limits the rate is an estimate. `not proved` says nothing either way.",
         ),
         Block::Table(table),
@@ -40,6 +40,12 @@ fn limited_by(limit: Limit) -> String {
     match limit {
         Limit::Plant(rate) => format!("the plant: x decays at a_2 = {} in the error box", estimate(rate)),
         Limit::Oscillators(rate) => format!("the slowest mode of the loop, {}", estimate(rate)),
+        Limit::Middle(rate) => {
+            format!(
+                "the slowest mode of the loop, {} in the middle of the derivatives, and how they vary",
+                estimate(rate)
+            )
+        }
     }
 }
 

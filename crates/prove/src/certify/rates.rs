@@ -3,21 +3,21 @@
 use super::certification::Certification;
 use super::proof::Proof;
 use crate::rate::bound::{MAX_COUNTS, MAX_OSCILLATORS, Place, RateBound, RateForCount, bound};
+use crate::rate::by_matrices::{Tube, bounds};
 use rayon::prelude::*;
+use rug::Rational;
 use sigmastar_exact::number::write_exact;
+use sigmastar_plants::bounds::{Engine, FloatSuprema};
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::initial_set::claimed_distances;
-use sigmastar_theory::derivation::matrix_inequality;
 
 /// Why a claim can have no rates for given numbers of oscillators.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoRatesOfClaim {
     /// It is about the regulator at samples.
     AtSamples,
-    /// Its stability is proved by (M): it has no norms of the error system.
-    ByMatrix,
-    /// By (Jm).
-    ByJointMetrics,
+    /// It rests on the derivatives of a plant, which could not be had again from its formulas.
+    OfFormulas,
     /// So many numbers were asked for.
     TooMany(usize),
     /// This number is beyond the largest one.
@@ -28,19 +28,17 @@ impl NoRatesOfClaim {
     /// What is wrong; `option` is the list of numbers as the user writes it.
     #[must_use]
     pub fn message(self, option: &str) -> String {
-        let by = |form: &str| {
-            format!(
-                "{option}: not available for a claim by {form}: rates are proved from norms of the error system, which it does not have"
-            )
-        };
         match self {
             NoRatesOfClaim::AtSamples => {
                 format!(
                     "{option}: not available for the regulator at samples: rates for given n_o are of continuous time"
                 )
             }
-            NoRatesOfClaim::ByMatrix => by("(M)"),
-            NoRatesOfClaim::ByJointMetrics => by("(Jm)"),
+            NoRatesOfClaim::OfFormulas => {
+                format!(
+                    "{option}: the claim rests on the derivatives of a plant, and they could not be had again from its formulas"
+                )
+            }
             NoRatesOfClaim::TooMany(count) => {
                 format!("{option}: {count} numbers of oscillators; at most {MAX_COUNTS} go into one certificate")
             }
@@ -57,7 +55,7 @@ impl NoRatesOfClaim {
     pub fn help(self) -> &'static str {
         match self {
             NoRatesOfClaim::AtSamples => "leave it or the sampling period out",
-            NoRatesOfClaim::ByMatrix | NoRatesOfClaim::ByJointMetrics => {
+            NoRatesOfClaim::OfFormulas => {
                 "leave it out; a bounding specification of the plant (`sigmastar bound`) has a claim by norms"
             }
             NoRatesOfClaim::TooMany(_) => "ask for fewer, or write several certificates",
@@ -84,39 +82,76 @@ pub fn rate_counts(asked: &[u32]) -> Result<Vec<u32>, NoRatesOfClaim> {
 }
 
 impl Certification<'_> {
+    /// X and E of the inequality by which stability is proved, (M) or (Jm): the error box lies inside, and the first derivatives are known
+    /// there together. None where the claim rests on norms, and without one.
+    #[must_use]
+    pub fn matrix_arguments(&self) -> Option<[&Rational; 2]> {
+        let Proof { witness, .. } = self.sharp.proved().filter(|_| self.claim().is_some())?;
+        let values = self.spec.bounds.proved_values();
+        if let Some(joint) = values.joint_stability() {
+            return Some([&joint.inequality.x, &joint.inequality.e]);
+        }
+        let inequality = values.inequality().filter(|known| known.w_x == witness.w_x && known.h == witness.h)?;
+        Some([&inequality.x, &inequality.e])
+    }
+
     /// Proves rates for these numbers of oscillators at the gain of the claim, and makes them a part of it; without a claim there are none.
     ///
     /// Guarantee: for each bound that is proved, with so many oscillators, at the claimed gain and no other, every solution from the
     /// claimed set has `|e(t) - e_per(t)| <= factor exp(-rate (t - t_0))`.
     ///
     /// # Errors
-    /// Those of [`rate_counts`], and a claim that does not rest on norms.
+    /// Those of [`rate_counts`], and a claim that does not rest on norms, of which [`Certification::prove_rates_around`] has rates.
     pub fn prove_rates(&mut self, asked: &[u32]) -> Result<(), NoRatesOfClaim> {
         let counts = rate_counts(asked)?;
-        if counts.is_empty() {
-            self.for_n_o = Vec::new();
-            return Ok(());
+        if !counts.is_empty() && self.matrix_arguments().is_some() {
+            return Err(NoRatesOfClaim::OfFormulas);
         }
-        let found = match (self.claim(), self.sharp.proved()) {
-            (Some(_), Some(Proof { witness, evaluation, precision })) => {
-                let data = Data::new(self.spec, *precision);
-                if self.spec.bounds.proved_values().joint_stability().is_some() {
-                    return Err(NoRatesOfClaim::ByJointMetrics);
-                }
-                if matrix_inequality::proved_for(&data, &witness.w_x, &witness.h).is_some() {
-                    return Err(NoRatesOfClaim::ByMatrix);
-                }
-                let periodic = [&evaluation.periodic.x_per, &evaluation.periodic.e_per, &evaluation.z];
-                let distances = claimed_distances(&data, &witness.set, periodic);
-                let place =
-                    Place { sigma: &witness.sigma, error_box: &evaluation.error_box, distances: distances.each_ref() };
-                let of = |n_o: &u32| RateForCount { n_o: *n_o, bound: bound(&data, &place, *n_o) };
-                counts.par_iter().map(of).collect()
-            }
-            _ => Vec::new(),
-        };
+        self.for_n_o = self.rates_of(&counts, |data, place| {
+            let of = |n_o: &u32| bound(data, place, *n_o);
+            counts.par_iter().map(of).collect()
+        });
+        Ok(())
+    }
+
+    /// The same of a claim that rests on the derivatives of a plant, by what decides and samples them around its orbit.
+    ///
+    /// Guarantee: that of [`Certification::prove_rates`], where the engine is one of the plant and the orbit of the claim.
+    ///
+    /// # Errors
+    /// Those of [`rate_counts`].
+    pub fn prove_rates_around(
+        &mut self,
+        asked: &[u32],
+        (engine, samples): (&Engine, &FloatSuprema),
+    ) -> Result<(), NoRatesOfClaim> {
+        let counts = rate_counts(asked)?;
+        let Some(at) = self.matrix_arguments() else { return self.prove_rates(asked) };
+        let found = self.rates_of(&counts, |data, Place { sigma, distances, .. }| {
+            bounds(data, &Tube { engine, samples, at, sigma, distances: *distances }, &counts)
+        });
         self.for_n_o = found;
         Ok(())
+    }
+
+    /// What is found for each number; nothing without a claim.
+    fn rates_of(
+        &self,
+        counts: &[u32],
+        find: impl FnOnce(&Data<'_>, &Place<'_>) -> Vec<Option<RateBound>>,
+    ) -> Vec<RateForCount> {
+        let (Some(_), Some(Proof { witness, evaluation, precision })) = (self.claim(), self.sharp.proved()) else {
+            return Vec::new();
+        };
+        if counts.is_empty() {
+            return Vec::new();
+        }
+        let data = Data::new(self.spec, *precision);
+        let periodic = [&evaluation.periodic.x_per, &evaluation.periodic.e_per, &evaluation.z];
+        let distances = claimed_distances(&data, &witness.set, periodic);
+        let place = Place { sigma: &witness.sigma, error_box: &evaluation.error_box, distances: distances.each_ref() };
+        let found = find(&data, &place);
+        counts.iter().zip(found).map(|(n_o, bound)| RateForCount { n_o: *n_o, bound }).collect()
     }
 
     /// The sentences of the claim about them, each with a space before it.

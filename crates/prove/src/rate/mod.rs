@@ -4,10 +4,16 @@
 //! - [`inequality`]: the matrix inequality that proves a rate of the closed loop, for any quadratic Lyapunov function;
 //! - [`small_gain`]: the largest rate that the inequality can prove, in floating point;
 //! - [`riccati`]: the Lyapunov function for it, by a Riccati equation;
-//! - [`bound`]: from a rate to `|e - e_per| <= C exp(-rate (t - t_0))` on a set of starts, as a certificate has it.
+//! - [`bound`]: from a rate to `|e - e_per| <= C exp(-rate (t - t_0))` on a set of starts, as a certificate has it;
+//! - [`by_matrices`]: the same from what is proved of all first derivatives together, where a claim has no norms; within, `matrix_loop` is
+//!   the inequality, `slopes_program` proposes what is to be known of the derivatives, `bounded_real` the Lyapunov function.
 
 pub mod bound;
+mod bounded_real;
+pub mod by_matrices;
 pub mod inequality;
+mod matrix_loop;
 pub mod oscillators;
 pub mod riccati;
+mod slopes_program;
 pub mod small_gain;

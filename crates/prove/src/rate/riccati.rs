@@ -76,36 +76,39 @@ pub fn propose(condition: &SmallGain, largest: f64, share: f64) -> Option<Propos
         let of_e = if i == 0 && j == 0 { multipliers.output } else { 0.0 };
         of_e + if moved.is_empty() { 0.0 } else { multipliers.moved * moved[i] * moved[j] }
     });
-    let equation = Equation { a: &a, input, output: &output, beta: multipliers.input };
-    let pi = equation.stabilising(multipliers.output)?;
+    let gain = Mat::from_fn(n, n, |i, j| multipliers.input * input[i] * input[j]);
+    let equation = Equation { a: &a, gain: &gain, output: &output };
+    let pi = equation.stabilising([multipliers.output, multipliers.input])?;
     // The subspace is less accurate where eigenvalues of the Hamiltonian matrix are close to the imaginary axis.
     let pi = equation.refined(&pi).unwrap_or(pi);
     let rate = round_f64(largest * share, 6, Direction::Down)?;
     Some(Proposal { rate, w: multipliers.w, pi })
 }
 
-/// `Pi A + A'Pi + C + beta Pi B B'Pi = 0`.
-struct Equation<'a> {
-    a: &'a Mat<f64>,
-    input: &'a [f64],
-    output: &'a Mat<f64>,
-    beta: f64,
+/// `Pi A + A'Pi + C + Pi R Pi = 0`.
+pub(super) struct Equation<'a> {
+    /// A.
+    pub(super) a: &'a Mat<f64>,
+    /// R.
+    pub(super) gain: &'a Mat<f64>,
+    /// C.
+    pub(super) output: &'a Mat<f64>,
 }
 
 impl Equation<'_> {
-    /// The least symmetric solution, from the stable subspace of the Hamiltonian matrix `[[A, beta B B'], [-C, -A']]`: with [X; Y] a
-    /// basis of it, Pi = Y X^-1. `size` is that of C.
-    fn stabilising(&self, size: f64) -> Option<Mat<f64>> {
-        let Equation { a, input, output, beta } = self;
-        let n = input.len();
-        // Pi in the unit root(size/beta), in which both terms have the same size.
-        let unit = (size / beta).sqrt();
+    /// The least symmetric solution, from the stable subspace of the Hamiltonian matrix `[[A, R], [-C, -A']]`: with [X; Y] a
+    /// basis of it, Pi = Y X^-1. The sizes are those of C and of R.
+    pub(super) fn stabilising(&self, [of_output, of_gain]: [f64; 2]) -> Option<Mat<f64>> {
+        let Equation { a, gain, output } = self;
+        let n = a.nrows();
+        // Pi in the unit root(size of C/size of R), in which both terms have the same size.
+        let unit = (of_output / of_gain).sqrt();
         if !(unit.is_finite() && unit > 0.0) {
             return None;
         }
         let hamiltonian = Mat::from_fn(2 * n, 2 * n, |i, j| match (i < n, j < n) {
             (true, true) => a[(i, j)],
-            (true, false) => beta * unit * input[i] * input[j - n],
+            (true, false) => unit * gain[(i, j - n)],
             (false, true) => -output[(i - n, j)] / unit,
             (false, false) => -a[(j - n, i - n)],
         });
@@ -127,15 +130,16 @@ impl Equation<'_> {
         (0..n).all(|j| (0..n).all(|i| pi[(i, j)].is_finite())).then_some(pi)
     }
 
-    /// One step of Newton's method: `Pi + D` with `D K + K'D = -R`, `K = A + beta B B'Pi` and R the left side of the equation at Pi.
-    fn refined(&self, pi: &Mat<f64>) -> Option<Mat<f64>> {
-        let Equation { a, input, output, beta } = self;
-        let n = input.len();
-        let image: Vec<f64> = (0..n).map(|i| (0..n).map(|j| pi[(i, j)] * input[j]).sum()).collect();
-        let product = pi * *a;
-        let residual =
-            Mat::from_fn(n, n, |i, j| product[(i, j)] + product[(j, i)] + output[(i, j)] + beta * image[i] * image[j]);
-        let closed = Mat::from_fn(n, n, |i, j| a[(i, j)] + beta * input[i] * image[j]);
+    /// One step of Newton's method: `Pi + D` with `D K + K'D` the negative of the left side of the equation at Pi, `K = A + R Pi`.
+    pub(super) fn refined(&self, pi: &Mat<f64>) -> Option<Mat<f64>> {
+        let Equation { a, gain, output } = self;
+        let n = a.nrows();
+        let moved = *gain * pi;
+        let (product, square) = (pi * *a, pi * &moved);
+        let residual = Mat::from_fn(n, n, |i, j| {
+            product[(i, j)] + product[(j, i)] + output[(i, j)] + f64::midpoint(square[(i, j)], square[(j, i)])
+        });
+        let closed = *a + &moved;
         if !(0..n).all(|j| (0..n).all(|i| closed[(i, j)].is_finite() && residual[(i, j)].is_finite())) {
             return None;
         }
