@@ -185,13 +185,24 @@ fn count() -> Field {
 }
 
 /// What proves the rate of one n_o (section 13.6).
+/// By norms, and from the first derivatives of a plant.
 fn rate_witness() -> Shape {
-    let mut fields = vec![count()];
-    let text = "The lower triangle of a matrix for (e, N^(1/2) zeta), by rows.";
-    fields.push(must("Pi", "Pi", text, any_list(any_list(rational()))));
-    fields.extend(numbers(&["e_low", "e_up", "z_up"], "What Pi is between."));
-    fields.extend(["w", "l"].map(|name| may(name, name, "A weight, where x has a part in e.", rational())));
-    Shape::Object(fields)
+    let with = |text: &str| {
+        let mut fields = vec![count()];
+        fields.push(must("Pi", "Pi", text, any_list(any_list(rational()))));
+        fields.extend(numbers(&["e_low", "e_up", "z_up"], "What Pi is between."));
+        fields
+    };
+    let mut by_norms = with("The lower triangle of a matrix for (e, N^(1/2) zeta), by rows.");
+    by_norms.extend(["w", "l"].map(|name| may(name, name, "A weight, where x has a part in e.", rational())));
+    let mut by_matrices = with("The lower triangle of a matrix for (x, e, N^(1/2) zeta), by rows.");
+    by_matrices.push(may("x_up", "x_up", "What Pi is below, where there are states.", rational()));
+    let rows =
+        [("Q", "The lower triangle of Q, by rows."), ("G", "G, by rows."), ("H", "The lower triangle of H, by rows.")]
+            .map(|(name, text)| must(name, name, text, any_list(any_list(rational()))));
+    let text = "What is proved of the first derivatives D of the plant: Q - G D - D'G' - D'H D >= 0.";
+    by_matrices.push(must("slopes", "Slopes", text, Shape::Object(rows.into())));
+    Shape::OneOf(vec![Shape::Object(by_norms), Shape::Object(by_matrices)])
 }
 
 fn sizes() -> [Field; 3] {

@@ -204,7 +204,7 @@ impl FloatSuprema {
 }
 
 /// D by rows.
-fn matrix_of(Derivatives { j, g, r, d }: &Derivatives<'_>) -> Vec<Vec<f64>> {
+pub(super) fn matrix_of(Derivatives { j, g, r, d }: &Derivatives<'_>) -> Vec<Vec<f64>> {
     let n = g.len();
     let row = |i: usize| j[i * n..(i + 1) * n].iter().copied().chain([g[i]]).collect();
     (0..n).map(row).chain([r.iter().copied().chain([*d]).collect()]).collect()

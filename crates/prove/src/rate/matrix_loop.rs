@@ -167,3 +167,67 @@ where
         rows
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn random(seed: &mut u64) -> f64 {
+        *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (*seed >> 11) as f64 / (1_u64 << 53) as f64 * 2.0 - 1.0
+    }
+
+    fn square(n: usize, seed: &mut u64, symmetric: bool) -> Vec<Vec<f64>> {
+        let all: Vec<Vec<f64>> = (0..n).map(|_| (0..n).map(|_| random(seed)).collect()).collect();
+        let entry = |i: usize, j: usize| if symmetric { all[i.max(j)][i.min(j)] } else { all[i][j] };
+        (0..n).map(|i| (0..n).map(|j| entry(i, j)).collect()).collect()
+    }
+
+    fn form_of(matrix: &[Vec<f64>], a: &[f64], b: &[f64]) -> f64 {
+        a.iter().zip(matrix).map(|(a, row)| a * row.iter().zip(b).map(|(entry, b)| entry * b).sum::<f64>()).sum()
+    }
+
+    /// K at random vectors is `-2 eta'Pi eta' - 2 rate eta'Pi eta` less the bracket, eta' from the equations of the loop.
+    #[test]
+    fn k_is_the_fall_of_w_less_the_bracket() {
+        let mut seed = 7;
+        for (states, turns, gain) in
+            [(0, vec![], 1.0), (2, vec![3.0, 5.0], 1.0), (1, vec![2.5], 0.8), (3, vec![2.0], 1.3)]
+        {
+            let (sigma, mu, rate) = (4.0, 0.7, 0.3);
+            let b: Vec<f64> = (0..=turns.len()).map(|l| 1.4 / (1.0 + l as f64)).collect();
+            let of = MatrixLoop { states, sigma, mu, turns: turns.clone(), b: b.clone(), gains: vec![gain] };
+            let order = of.order();
+            let pi = square(order, &mut seed, true);
+            let [q, g, h] = [true, false, true].map(|symmetric| square(states + 1, &mut seed, symmetric));
+            let form = of.form(&gain, &Multipliers { rate: &rate, pi: &pi, slopes: [&q, &g, &h] });
+            for _ in 0..20 {
+                let eta: Vec<f64> = (0..order).map(|_| random(&mut seed)).collect();
+                let omega: Vec<f64> = (0..=states).map(|_| random(&mut seed)).collect();
+                let (a, zeta) = eta.split_at(states + 1);
+                let e = a[states];
+                // b'zs: the second states of the oscillators do not count.
+                let s: f64 = b.iter().enumerate().map(|(l, b)| b * zeta[if l == 0 { 0 } else { 2 * l - 1 }]).sum();
+                let push = -gain * sigma * e + gain * mu * s + omega[states];
+                let mut slope = omega.clone();
+                slope[states] = push;
+                let into = gain * mu * s + (1.0 - gain) * sigma * e + omega[states];
+                slope.push(-b[0] * into);
+                for (l, turn) in turns.iter().enumerate() {
+                    slope.push(turn * zeta[2 * l + 2] - b[l + 1] * into);
+                    slope.push(-turn * zeta[2 * l + 1]);
+                }
+                let bracket = form_of(&q, a, a) - 2.0 * form_of(&g, a, &omega) - form_of(&h, &omega, &omega);
+                let expected = -2.0 * form_of(&pi, &eta, &slope) - 2.0 * rate * form_of(&pi, &eta, &eta) - bracket;
+                let vector = [&eta[..], &omega].concat();
+                let full: Vec<Vec<f64>> =
+                    (0..form.len()).map(|i| (0..form.len()).map(|j| form[i.max(j)][i.min(j)]).collect()).collect();
+                let found = form_of(&full, &vector, &vector);
+                assert!(
+                    (found - expected).abs() < 1e-10 * (1.0 + expected.abs()),
+                    "{states} {gain}: {found} {expected}"
+                );
+            }
+        }
+    }
+}
