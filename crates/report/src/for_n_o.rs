@@ -25,7 +25,7 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
             ],
         });
     }
-    vec![
+    let mut blocks = vec![
         Block::heading("For given numbers of oscillators"),
         Block::says(
             "For every start in the set |e(t) - e_per(t)| <= factor exp(-rate (t - t_0)): a part of the claim, for this n_o and this gain \
@@ -33,7 +33,14 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
              starts need. What limits the rate is an estimate. `not proved` says nothing either way.",
         ),
         Block::Table(table),
-    ]
+    ];
+    if run.matrix_arguments().is_some() && run.for_n_o.iter().any(|found| found.bound.is_none()) {
+        blocks.push(Block::says(
+            "The claim rests on a matrix inequality, and its rates on the first derivatives on the whole error box: where the loop would grow with \
+             some of them that stay as they are, no rate is proved, although a solution does not stay there.",
+        ));
+    }
+    blocks
 }
 
 fn limited_by(limit: Limit) -> String {

@@ -42,7 +42,7 @@ pub struct Tube<'a> {
 #[must_use]
 pub fn bounds(data: &Data<'_>, tube: &Tube<'_>, counts: &[u32]) -> Vec<Option<RateBound>> {
     let at = tube.engine.float_arguments(tube.at);
-    let mut sampled = SampledSlopes::new(tube.samples, at, tube.sigma.to_f64());
+    let mut sampled = SampledSlopes::new(tube.samples, at);
     counts.iter().map(|n_o| bound(data, tube, &mut sampled, *n_o)).collect()
 }
 

@@ -7,7 +7,7 @@ use faer::{Mat, Side};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_matrix::AffineMatrix;
 use sigmastar_matrix::semidefinite::propose;
-use sigmastar_plants::bounds::{FloatSlopes, FloatSuprema, Place};
+use sigmastar_plants::bounds::{FloatSlopes, FloatSuprema};
 
 /// Points that are added where what was found does not hold, and how often.
 const POINTS: usize = 6;
@@ -27,15 +27,16 @@ const HALVED: usize = 5;
 /// The share of the largest rate at which the ball is taken.
 const ROOM: f64 = 0.95;
 
-/// Sampled derivatives on one box, in units in which they are of one size, and those that programs needed.
+/// Sampled derivatives on one box: extreme ones, and those that programs needed.
 pub struct SampledSlopes<'s> {
     samples: &'s FloatSuprema,
     at: [f64; 2],
-    places: Vec<Place>,
     points: Vec<Vec<Vec<f64>>>,
-    /// 1/sigma, and the unit of x in that of e.
-    time: f64,
+    /// The unit of x in that of e, and the largest norm of the derivatives with it, in 1/time.
     length: f64,
+    norm: f64,
+    /// The unit of time of a program.
+    time: f64,
 }
 
 /// What a program finds: Q, G, H by rows and the margin.
@@ -45,19 +46,22 @@ struct Solution {
 }
 
 impl<'s> SampledSlopes<'s> {
-    /// Derivatives for X + r, E at a gain.
+    /// Derivatives for X + r, E.
     #[must_use]
-    pub fn new(samples: &'s FloatSuprema, at: [f64; 2], sigma: f64) -> SampledSlopes<'s> {
-        let places = samples.extreme_places(at);
-        let mut found = SampledSlopes { samples, at, places, points: Vec::new(), time: sigma.recip(), length: 1.0 };
-        let plain = samples.derivatives_at(at, &found.places);
+    pub fn new(samples: &'s FloatSuprema, at: [f64; 2]) -> SampledSlopes<'s> {
+        let plain = samples.derivatives_at(at, &samples.extreme_places(at));
         let n = plain.first().map_or(0, Vec::len).saturating_sub(1);
         let norm = |values: &mut dyn Iterator<Item = f64>| values.map(|value| value * value).sum::<f64>().sqrt();
         let g = plain.iter().map(|d| norm(&mut d[..n].iter().map(|row| row[n]))).fold(0.0, f64::max);
         let r = plain.iter().map(|d| norm(&mut d[n][..n].iter().copied())).fold(0.0, f64::max);
-        found.length = if g > 0.0 && r > 0.0 { (g / r).sqrt() } else { 1.0 };
-        found.points = plain.iter().map(|d| found.scaled(d)).collect();
+        let length = if g > 0.0 && r > 0.0 { (g / r).sqrt() } else { 1.0 };
+        let mut found = SampledSlopes { samples, at, points: plain, length, norm: 0.0, time: 1.0 };
+        found.norm = found.scaled_points().iter().map(|d| norm(&mut d.iter().flatten().copied())).fold(0.0, f64::max);
         found
+    }
+
+    fn scaled_points(&self) -> Vec<Vec<Vec<f64>>> {
+        self.points.iter().map(|d| self.scaled(d)).collect()
     }
 
     /// D in the units.
@@ -70,11 +74,14 @@ impl<'s> SampledSlopes<'s> {
     /// The ball of Q, G and H that lets this loop decay at a large rate; `None` where none is found.
     #[must_use]
     pub fn propose(&mut self, of: &MatrixLoop<Enclosure>) -> Option<FloatSlopes> {
-        let of = of.doubles(self.time);
-        let slowest = self.points.iter().filter_map(|d| of.decay(d)).fold(f64::INFINITY, f64::min);
+        let plain = of.doubles(1.0);
+        let slowest = self.points.iter().filter_map(|d| plain.decay(d)).fold(f64::INFINITY, f64::min);
         if !(slowest > 0.0 && slowest.is_finite()) {
             return None;
         }
+        // Between the slowest mode and the derivatives: the margins of a program are the larger so.
+        self.time = (slowest * self.norm.max(slowest)).sqrt().recip();
+        let (of, slowest) = (of.doubles(self.time), slowest * self.time);
         let [mut low, mut high] = SHARES.map(|share| share * slowest);
         if let Some(found) = self.solve(&of, high) {
             return self.ball(&found);
@@ -96,17 +103,15 @@ impl<'s> SampledSlopes<'s> {
 
     /// A solution at a rate, once the points are added where it does not hold.
     fn solve(&mut self, of: &MatrixLoop<f64>, rate: f64) -> Option<Solution> {
-        let mut found = program(of, &self.points, rate)?;
+        let mut found = program(of, &self.scaled_points(), rate)?;
         for _ in 0..ROUNDS {
             let lack = |d: &[Vec<f64>]| lack(&self.scaled(d), &found);
             let worst = self.samples.places_beyond(self.at, POINTS, lack);
             if worst.is_empty() {
                 break;
             }
-            let plain = self.samples.derivatives_at(self.at, &worst);
-            self.points.extend(plain.iter().map(|d| self.scaled(d)).collect::<Vec<_>>());
-            self.places.extend(worst);
-            found = program(of, &self.points, rate)?;
+            self.points.extend(self.samples.derivatives_at(self.at, &worst));
+            found = program(of, &self.scaled_points(), rate)?;
         }
         Some(found)
     }
