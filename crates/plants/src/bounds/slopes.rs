@@ -19,7 +19,7 @@ use sigmastar_lang::spec::Bound;
 use sigmastar_matrix::is_positive_definite;
 use std::sync::Arc;
 
-/// What a ball at samples is enlarged by until it is proved, the boxes that each attempt may take, and the digits of its numbers; the
+/// What a ball is enlarged by until it is proved, the boxes that each attempt may take, and the digits of its numbers; the
 /// first is for derivatives that do not vary.
 const ATTEMPTS: [(f64, usize, u32); 6] =
     [(1e-5, 8, 9), (0.01, 1500, 9), (0.03, 3000, 9), (0.1, 6000, 9), (0.3, 12_000, 9), (0.3, 12_000, 15)];
@@ -69,16 +69,13 @@ impl Engine {
         self.decide_part(Part::All, [x, e], effort, |values| slopes.form(values))
     }
 
-    /// (D) for a ball little larger than the samples ask for, which is proved with [`Engine::smooth`]; `None` if none is. `samples` must be of the same plant
-    /// and region.
+    /// (D) for a ball little larger than this one, which is proved with [`Engine::smooth`]; `None` if none is.
     #[must_use]
-    pub fn prove_slopes(&self, samples: &FloatSuprema, slopes: &FloatSlopes, at: [&Rational; 2]) -> Option<Slopes> {
+    pub fn prove_slopes(&self, slopes: &FloatSlopes, at: [&Rational; 2]) -> Option<Slopes> {
         let [x, e] = at;
         self.smooth(x, e).ok()?;
-        let need = samples.largest_share(slopes, [self.reach(x), e.to_f64()])?;
         ATTEMPTS.into_iter().find_map(|(slack, effort, digits)| {
-            let ball = slopes.of_share((need * (1.0 + slack)).max(LEAST));
-            let rounded = ball.rounded(digits)?;
+            let rounded = slopes.of_share(1.0 + slack).rounded(digits)?;
             self.decide_slopes(&rounded, at, effort).truth.is_true().then_some(rounded)
         })
     }
@@ -131,7 +128,8 @@ impl FloatSlopes {
     }
 
     /// Q, G and H, with so many digits; `None` where one is not finite.
-    fn rounded(&self, digits: u32) -> Option<Slopes> {
+    #[must_use]
+    pub fn rounded(&self, digits: u32) -> Option<Slopes> {
         let FloatSlopes { centre, size, h } = self;
         let short = |value: f64| round_f64(value, digits, Direction::Nearest);
         let symmetric = |of: &Vec<Vec<f64>>| {
@@ -164,6 +162,12 @@ impl FloatSuprema {
             largest(product(&transposed(&moved), &product(&slopes.h, &moved)))
         });
         found.is_finite().then_some(found.max(0.0))
+    }
+
+    /// The ball with the S that samples ask for; `None` where they do not.
+    #[must_use]
+    pub fn fitted(&self, slopes: &FloatSlopes, at: [f64; 2]) -> Option<FloatSlopes> {
+        self.largest_share(slopes, at).map(|need| slopes.of_share(need.max(LEAST)))
     }
 
     /// Places where derivatives are extreme, which a search may begin with.

@@ -15,7 +15,7 @@ use faer::{Mat, Side};
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, Portable, round_f64, round_rational};
-use sigmastar_plants::bounds::{Engine, FloatSuprema, Slopes};
+use sigmastar_plants::bounds::{Engine, FloatSlopes, FloatSuprema, Slopes};
 use sigmastar_theory::data::Data;
 
 /// By what share the diagonal bounds of Pi may differ from the best ones.
@@ -51,14 +51,22 @@ fn bound(data: &Data<'_>, tube: &Tube<'_>, sampled: &mut SampledSlopes<'_>, n_o:
     let with = |oscillators: &[u32]| MatrixLoop::new(data, states, tube.sigma, oscillators);
     // The mode of the fastest oscillator is the slowest of the loop.
     let few: Vec<u32> = if n_o > 2 { vec![1, n_o] } else { (1..=n_o).collect() };
-    let ball = sampled.propose(&with(&few))?;
-    let slopes = tube.engine.prove_slopes(tube.samples, &ball, tube.at)?;
     let all: Vec<u32> = (1..=n_o).collect();
     let of = with(&all);
-    let doubles = |of: &[Vec<Rational>]| of.iter().map(|row| row.iter().map(Rational::to_f64).collect()).collect();
-    let plain: [Vec<Vec<f64>>; 3] = [&slopes.q, &slopes.g, &slopes.h].map(|of| doubles(of));
-    let equation = BoundedReal::new(of.doubles(1.0), plain)?;
-    let [largest, of_gain] = equation.largest_rate()?;
+    let equation = |slopes: &Slopes| {
+        let doubles = |of: &[Vec<Rational>]| of.iter().map(|row| row.iter().map(Rational::to_f64).collect()).collect();
+        let plain: [Vec<Vec<f64>>; 3] = [&slopes.q, &slopes.g, &slopes.h].map(|of| doubles(of));
+        let equation = BoundedReal::new(of.doubles(1.0), plain)?;
+        let largest = equation.largest_rate()?;
+        Some((equation, largest))
+    };
+    let at = tube.engine.float_arguments(tube.at);
+    let fitted = sampled.propose(&with(&few)).into_iter().filter_map(|ball| tube.samples.fitted(&ball, at));
+    // As all oscillators see them.
+    let seen = |ball: FloatSlopes| Some((equation(&ball.rounded(DIGITS[1])?)?.1[0], ball));
+    let (_, ball) = fitted.filter_map(seen).max_by(|a, b| a.0.total_cmp(&b.0))?;
+    let slopes = tube.engine.prove_slopes(&ball, tube.at)?;
+    let (equation, [largest, of_gain]) = equation(&slopes)?;
     SHARES.iter().find_map(|share| {
         let pi = equation.pi([largest * (1.0 + share) / 2.0, of_gain])?;
         let rate = round_f64(largest * share, 6, Direction::Down)?;

@@ -24,8 +24,8 @@ const LEFT: f64 = 0.1;
 const SHARES: [f64; 2] = [0.01, 0.95];
 const HALVED: usize = 5;
 
-/// The share of the largest rate at which the ball is taken.
-const ROOM: f64 = 0.95;
+/// The shares of the largest rate at which balls are taken: the program at that rate itself has no room.
+const TAKEN: [f64; 4] = [0.95, 0.8, 0.5, 0.2];
 
 /// Sampled derivatives on one box: extreme ones, and those that programs needed.
 pub struct SampledSlopes<'s> {
@@ -71,34 +71,30 @@ impl<'s> SampledSlopes<'s> {
         (0..=n).map(|i| (0..=n).map(|j| d[i][j] * self.time * unit(j) / unit(i)).collect()).collect()
     }
 
-    /// The ball of Q, G and H that lets this loop decay at a large rate; `None` where none is found.
+    /// Balls of Q, G and H that let this loop decay at a large rate, and at smaller ones.
     #[must_use]
-    pub fn propose(&mut self, of: &MatrixLoop<Enclosure>) -> Option<FloatSlopes> {
+    pub fn propose(&mut self, of: &MatrixLoop<Enclosure>) -> Vec<FloatSlopes> {
         let plain = of.doubles(1.0);
         let slowest = self.points.iter().filter_map(|d| plain.decay(d)).fold(f64::INFINITY, f64::min);
         if !(slowest > 0.0 && slowest.is_finite()) {
-            return None;
+            return Vec::new();
         }
         // Between the slowest mode and the derivatives: the margins of a program are the larger so.
         self.time = (slowest * self.norm.max(slowest)).sqrt().recip();
         let (of, slowest) = (of.doubles(self.time), slowest * self.time);
         let [mut low, mut high] = SHARES.map(|share| share * slowest);
-        if let Some(found) = self.solve(&of, high) {
-            return self.ball(&found);
-        }
-        let mut best = self.solve(&of, low)?;
-        for _ in 0..HALVED {
-            let middle = (low * high).sqrt();
-            match self.solve(&of, middle) {
-                Some(found) => (best, low) = (found, middle),
-                None => high = middle,
+        if self.solve(&of, high).is_some() {
+            low = high;
+        } else if self.solve(&of, low).is_some() {
+            for _ in 0..HALVED {
+                let middle = (low * high).sqrt();
+                if self.solve(&of, middle).is_some() { low = middle } else { high = middle }
             }
+        } else {
+            return Vec::new();
         }
-        // The program at the largest rate has no room.
-        if let Some(found) = self.solve(&of, ROOM * low) {
-            best = found;
-        }
-        self.ball(&best)
+        let found: Vec<Solution> = TAKEN.iter().filter_map(|share| self.solve(&of, share * low)).collect();
+        found.iter().filter_map(|found| self.ball(found)).collect()
     }
 
     /// A solution at a rate, once the points are added where it does not hold.
