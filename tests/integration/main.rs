@@ -54,6 +54,7 @@ mod plants_linear;
 mod plants_random;
 mod positive_part;
 mod rate;
+mod rates_by_matrices;
 mod rates_of_claims;
 mod rejected;
 mod report_words;

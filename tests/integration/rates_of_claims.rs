@@ -164,7 +164,6 @@ fn what_has_no_rates_is_refused_with_the_reason() {
         (&["specs/paper-example.json", "--n-o", "0..8"], "at most 8"),
         (&["specs/paper-example.json", "--n-o", "inf"], "inf"),
         (&["specs/paper-example.json", "--n-o", "-1"], "`-1`"),
-        (&["specs/plants/converter.json", "--n-o", "1"], "not available for a claim by ("),
     ] {
         let output = program().arg("certify").args(arguments).args(["--format", "json"]).output().expect("it runs");
         let report = json(&output.stdout);

@@ -32,18 +32,23 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
             ],
         });
     }
-    vec![
+    let mut blocks = vec![
         Block::heading("For given numbers of oscillators"),
         Block::says(
             "For every start in the set |e(t) - e_per(t)| <= factor exp(-rate (t - t_0)): a part of the claim, for this n_o and this gain \
-             alone, proved from the bounds on the error box. The factor is for the whole set at once, and far above what most \
+             alone, proved from the bounds on the error box, or from the derivatives there. The factor is for the whole set at once, and far above what most \
              starts need. What limits the rate is an estimate. `not proved` says nothing either way.",
         ),
         Block::Table(table),
-    ]
-    .into_iter()
-    .chain(noise_section(run))
-    .collect()
+    ];
+    if run.matrix_arguments().is_some() && run.for_n_o.iter().any(|found| found.bound.is_none()) {
+        blocks.push(Block::says(
+            "The claim rests on a matrix inequality, and its rates on the first derivatives on the whole error box: where the loop would grow with \
+             some of them that stay as they are, no rate is proved, although a solution does not stay there.",
+        ));
+    }
+    blocks.extend(noise_section(run));
+    blocks
 }
 
 /// What noise and a disturbance do to the error, where the document has them.
@@ -120,6 +125,12 @@ fn limited_by(limit: Limit) -> String {
     match limit {
         Limit::Plant(rate) => format!("the plant: x decays at a_2 = {} in the error box", estimate(rate)),
         Limit::Oscillators(rate) => format!("the slowest mode of the loop, {}", estimate(rate)),
+        Limit::Middle(rate) => {
+            format!(
+                "the slowest mode of the loop, {} in the middle of the derivatives, and how they vary",
+                estimate(rate)
+            )
+        }
     }
 }
 

@@ -189,8 +189,28 @@ fn count() -> Field {
     must("n_o", "n_o", "The number of oscillators.", Shape::Whole(0, u64::from(MAX_OSCILLATORS)))
 }
 
-/// What proves the rate of one n_o (section 13.6), at samples or in continuous time.
+/// What proves the rate of one n_o (section 13.6): by norms, in continuous time or at samples, or in continuous time from the first derivatives of a
+/// plant.
 fn rate_witness(sampled: bool) -> Shape {
+    if sampled { by_norms(true) } else { Shape::OneOf(vec![by_norms(false), by_matrices()]) }
+}
+
+/// From the first derivatives.
+fn by_matrices() -> Shape {
+    let text = "The lower triangle of a matrix for (x, e, N^(1/2) zeta), by rows.";
+    let mut fields = vec![count(), must("Pi", "Pi", text, any_list(any_list(rational())))];
+    fields.extend(numbers(&["e_low", "e_up", "z_up"], "What Pi is between."));
+    fields.push(may("x_up", "x_up", "What Pi is below, where there are states.", rational()));
+    let rows =
+        [("Q", "The lower triangle of Q, by rows."), ("G", "G, by rows."), ("H", "The lower triangle of H, by rows.")]
+            .map(|(name, text)| must(name, name, text, any_list(any_list(rational()))));
+    let text = "What is proved of the first derivatives D of the plant: Q - G D - D'G' - D'H D >= 0.";
+    fields.push(must("slopes", "Slopes", text, Shape::Object(rows.into())));
+    Shape::Object(fields)
+}
+
+/// By norms, at samples or in continuous time.
+fn by_norms(sampled: bool) -> Shape {
     let mut fields = vec![count()];
     let text = "The lower triangle of a matrix for (e, N^(1/2) zeta), by rows.";
     fields.push(must("Pi", "Pi", text, any_list(any_list(rational()))));

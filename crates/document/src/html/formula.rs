@@ -133,7 +133,8 @@ type Run = (Vec<Token>, usize, String, String);
 
 /// The longest formula that starts with a word; `next` are those that follow, the next one last.
 fn run(word: &str, next: &[&str]) -> Option<Run> {
-    let open: String = word.chars().take_while(|c| *c == '(' && word.matches('(').count() > word.matches(')').count()).collect();
+    let open: String =
+        word.chars().take_while(|c| *c == '(' && word.matches('(').count() > word.matches(')').count()).collect();
     let mut best: Option<Run> = None;
     let mut tokens: Vec<Token> = Vec::new();
     let words = std::iter::once(&word[open.len()..]).chain(next.iter().rev().copied());
@@ -324,7 +325,11 @@ fn scripted(tokens: &[Token], at: &mut usize) -> Markup {
             _ => {
                 *at += 1;
                 let script = script(tokens, at);
-                piece = if sign == '_' { html! { msub { (piece) (script) } } } else { html! { msup { (piece) (script) } } };
+                piece = if sign == '_' {
+                    html! { msub { (piece) (script) } }
+                } else {
+                    html! { msup { (piece) (script) } }
+                };
             }
         }
     }

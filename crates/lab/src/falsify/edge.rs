@@ -92,7 +92,11 @@ pub fn from_the_edge(claim: &TriedClaim) -> Result<Edge, String> {
     }
     runs.reverse();
     let period = plant.period.nominal().to_f64();
-    if runs.is_empty() { Err(why) } else { Ok(Edge { runs, period, words: format!("{words}, from the edge of the set") }) }
+    if runs.is_empty() {
+        Err(why)
+    } else {
+        Ok(Edge { runs, period, words: format!("{words}, from the edge of the set") })
+    }
 }
 
 /// A plant that the data of a claim describe.
@@ -135,7 +139,9 @@ fn one(
     let bound = limit.unwrap_or(claim.periodic[1]);
     if let Some(law) = &claim.sampled {
         let small = 2 * n_o < law.samples;
-        let Some((regulator, discrete)) = small.then(|| law.regulator(&claim.spec, n_o)).flatten() else { return Ok(None) };
+        let Some((regulator, discrete)) = small.then(|| law.regulator(&claim.spec, n_o)).flatten() else {
+            return Ok(None);
+        };
         let begins = start(claim, plant.states(), &regulator);
         let sampled = SampledLoop::new(plant, regulator, discrete);
         sampled.plant().leave(EFFORT);
@@ -252,7 +258,8 @@ impl Edge {
             curves.push(Curve { label, points: run.largest(), style: Style::Line });
         }
         Figure {
-            title: "The largest error within a period from t on: proved, and simulated from the edge of the set".to_owned(),
+            title: "The largest error within a period from t on: proved, and simulated from the edge of the set"
+                .to_owned(),
             x: format!("time t [unit of time; period {}]", up(self.period)),
             y: "|e| [unit of e]".to_owned(),
             scale: Scale::LogY,

@@ -6,6 +6,7 @@
 //! - [`Engine::decide_majorant`]: the same of a [`Majorant`], a polynomial in X and E;
 //! - [`FloatSuprema`]: the same bounds by sampling, for searches;
 //! - [`Engine::decide_inequality`]: the matrix inequality of stability;
+//! - [`Engine::decide_slopes`]: what rates for given n_o know of all derivatives together;
 //! - [`Engine::decide_sampled`], [`Engine::decide_sampled_existence`]: those of the regulator at samples;
 //! - [`Engine::prove_value`]: from a sampled supremum, and what boxes show beyond it, to a decided bound a little above.
 //!
@@ -44,6 +45,7 @@ mod sampled_point;
 mod sampled_program;
 mod sampled_threshold;
 mod side;
+mod slopes;
 mod smooth;
 mod splitting;
 mod suprema;
@@ -66,6 +68,7 @@ pub use sampled_form::LoopNumbers;
 pub use sampled_pairs::{Corners, MatrixArguments};
 pub use sampled_point::{SampledEnergy, SampledRadius, SampledWeights};
 pub use sampled_threshold::Focus;
+pub use slopes::{FloatSlopes, Slopes};
 pub use smooth::SmoothnessFailure;
 pub use suprema::{FloatSuprema, Place, Places};
 pub use weights::{EnergyAt, EnergyWeights, FloatWeights};

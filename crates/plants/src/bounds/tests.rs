@@ -11,6 +11,7 @@ mod narrow;
 mod outside;
 mod random_points;
 mod sampled;
+mod slopes;
 mod splitting;
 
 use super::*;

@@ -2,6 +2,7 @@
 
 use crate::certify::{Certification, SampledCertification};
 use crate::rate::bound::RateBound;
+use crate::rate::by_matrices::ByMatrices;
 use crate::rate::found::RateForCount;
 use crate::rate::inequality::RateWitness;
 use crate::rate::noise::NoiseBound;
@@ -12,6 +13,7 @@ use crate::rate::sampled::noise::SampledNoiseBound;
 use rug::Rational;
 use serde_json::{Value, json};
 use sigmastar_exact::number::write_exact;
+use sigmastar_plants::bounds::Slopes;
 
 /// The name of both parts.
 const FOR_N_O: &str = "for_n_o";
@@ -27,14 +29,20 @@ pub(super) fn claimed_rates(run: &Certification<'_>) -> Option<(&'static str, Va
     })
 }
 
-/// The part of the witness: w and l where x counts, Pi by the rows of its lower triangle, and its bounds; the same for noise.
+/// The part of the witness: w and l where x counts, Pi by the rows of its lower triangle, and its bounds; by matrices Q, G and H; the same for noise.
 pub(super) fn rate_witnesses(run: &Certification<'_>) -> Option<(&'static str, Value)> {
-    part(run, |RateBound { n_o, witness, has_x, e_low, upper: [e_up, z_up], .. }, noise| {
+    part(run, |RateBound { n_o, witness, has_x, by, e_low, upper: [e_up, z_up], .. }, noise| {
         let mut value = json!({
             "n_o": n_o,
             "Pi": rows(&witness.pi),
             "e_low": write_exact(e_low), "e_up": write_exact(e_up), "z_up": write_exact(z_up),
         });
+        if let Some(ByMatrices { slopes: Slopes { q, g, h }, x_up }) = by {
+            value["slopes"] = json!({ "Q": lower(q), "G": rows(g), "H": lower(h) });
+            if let Some(x_up) = x_up {
+                value["x_up"] = write_exact(x_up).into();
+            }
+        }
         of_x(&mut value, witness, *has_x);
         if let Some(NoiseBound { witness, has_x, e_low, .. }) = noise {
             let mut part = json!({
@@ -54,6 +62,11 @@ pub(super) fn rate_witnesses(run: &Certification<'_>) -> Option<(&'static str, V
 
 fn rows(pi: &[Vec<Rational>]) -> Vec<Vec<String>> {
     pi.iter().map(|row| row.iter().map(write_exact).collect()).collect()
+}
+
+/// The lower triangle of a matrix.
+fn lower(matrix: &[Vec<Rational>]) -> Vec<Vec<String>> {
+    matrix.iter().enumerate().map(|(i, row)| row[..=i].iter().map(write_exact).collect()).collect()
 }
 
 fn of_x(value: &mut Value, witness: &RateWitness, has_x: bool) {

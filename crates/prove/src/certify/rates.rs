@@ -4,6 +4,7 @@ use super::certification::Certification;
 use super::proof::{Proof, SampledProof, SharpProof};
 use super::sampled::SampledCertification;
 use crate::rate::bound::{MAX_COUNTS, MAX_OSCILLATORS, Place, bound};
+use crate::rate::by_matrices::{Tube, bounds};
 use crate::rate::found::RateForCount;
 use crate::rate::noise::{Confinement, NoNoiseBound, NoiseBound, noise_bound};
 use crate::rate::sampled::bound::{self as at_samples, SampledRateBound};
@@ -14,10 +15,11 @@ use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::write_exact;
 use sigmastar_lang::spec::Specification;
+use sigmastar_plants::bounds::{Engine, FloatSuprema};
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::initial_set::claimed_distances;
+use sigmastar_theory::derivation::sampled;
 use sigmastar_theory::derivation::stability::level_condition;
-use sigmastar_theory::derivation::{matrix_inequality, sampled};
 
 /// Why a claim can have no rates for given numbers of oscillators.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,10 +30,8 @@ pub enum NoRatesOfClaim {
     BySampledMatrix,
     /// This number is not below half of these samples.
     NotBelowHalf(u32, u32),
-    /// Its stability is proved by (M): it has no norms of the error system.
-    ByMatrix,
-    /// By (Jm).
-    ByJointMetrics,
+    /// It rests on the derivatives of a plant, which could not be had again from its formulas.
+    OfFormulas,
     /// So many numbers were asked for.
     TooMany(usize),
     /// This number is beyond the largest one.
@@ -42,23 +42,25 @@ impl NoRatesOfClaim {
     /// What is wrong; `option` is the list of numbers as the user writes it.
     #[must_use]
     pub fn message(self, option: &str) -> String {
-        let by = |form: &str| {
-            format!(
-                "{option}: not available for a claim by {form}: rates are proved from norms of the error system, which it does not have"
-            )
-        };
         match self {
             NoRatesOfClaim::WithDelay => {
                 format!("{option}: not available with `delay_samples`: rates at samples are of the law without a delay")
             }
-            NoRatesOfClaim::BySampledMatrix => by("(Ms)"),
+            NoRatesOfClaim::BySampledMatrix => {
+                format!(
+                    "{option}: not available for a claim by (Ms): rates at samples are proved from norms of the error system, which it does not have"
+                )
+            }
             NoRatesOfClaim::NotBelowHalf(n_o, samples) => {
                 format!(
                     "{option}: the claim is about n_o < {samples}/2, half of the samples in a period, and n_o is {n_o}"
                 )
             }
-            NoRatesOfClaim::ByMatrix => by("(M)"),
-            NoRatesOfClaim::ByJointMetrics => by("(Jm)"),
+            NoRatesOfClaim::OfFormulas => {
+                format!(
+                    "{option}: the claim rests on the derivatives of a plant, and they could not be had again from its formulas"
+                )
+            }
             NoRatesOfClaim::TooMany(count) => {
                 format!("{option}: {count} numbers of oscillators; at most {MAX_COUNTS} go into one certificate")
             }
@@ -76,7 +78,7 @@ impl NoRatesOfClaim {
         match self {
             NoRatesOfClaim::WithDelay => "leave it or the delay out",
             NoRatesOfClaim::NotBelowHalf(..) => "ask for smaller numbers, or take a shorter sampling period",
-            NoRatesOfClaim::ByMatrix | NoRatesOfClaim::BySampledMatrix | NoRatesOfClaim::ByJointMetrics => {
+            NoRatesOfClaim::BySampledMatrix | NoRatesOfClaim::OfFormulas => {
                 "leave it out; a bounding specification of the plant (`sigmastar bound`) has a claim by norms"
             }
             NoRatesOfClaim::TooMany(_) => "ask for fewer, or write several certificates",
@@ -103,6 +105,19 @@ pub fn rate_counts(asked: &[u32]) -> Result<Vec<u32>, NoRatesOfClaim> {
 }
 
 impl Certification<'_> {
+    /// X and E of the inequality by which stability is proved, (M) or (Jm): the error box lies inside, and the first derivatives are known
+    /// there together. None where the claim rests on norms, and without one.
+    #[must_use]
+    pub fn matrix_arguments(&self) -> Option<[&Rational; 2]> {
+        let Proof { witness, .. } = self.sharp.proved().filter(|_| self.claim().is_some())?;
+        let values = self.spec.bounds.proved_values();
+        if let Some(joint) = values.joint_stability() {
+            return Some([&joint.inequality.x, &joint.inequality.e]);
+        }
+        let inequality = values.inequality().filter(|known| known.w_x == witness.w_x && known.h == witness.h)?;
+        Some([&inequality.x, &inequality.e])
+    }
+
     /// Proves rates for these numbers of oscillators at the gain of the claim, and makes them a part of it; without a claim there are none.
     ///
     /// Guarantee: for each bound that is proved, with so many oscillators, at the claimed gain and no other, every solution from the
@@ -110,26 +125,45 @@ impl Certification<'_> {
     /// of them, what [`noise_bound`] says of it.
     ///
     /// # Errors
-    /// Those of [`rate_counts`], and a claim that does not rest on norms.
+    /// Those of [`rate_counts`], and a claim that does not rest on norms, of which [`Certification::prove_rates_around`] has rates.
     pub fn prove_rates(&mut self, asked: &[u32]) -> Result<(), NoRatesOfClaim> {
         let counts = rate_counts(asked)?;
-        if counts.is_empty() {
-            self.for_n_o = Vec::new();
-            return Ok(());
+        if !counts.is_empty() && self.matrix_arguments().is_some() {
+            return Err(NoRatesOfClaim::OfFormulas);
         }
         let Some(proof) = self.sharp.proved().filter(|_| self.claim().is_some()) else {
             self.for_n_o = Vec::new();
             return Ok(());
         };
-        if self.spec.bounds.proved_values().joint_stability().is_some() {
-            return Err(NoRatesOfClaim::ByJointMetrics);
-        }
-        let data = Data::new(self.spec, proof.precision);
-        if matrix_inequality::proved_for(&data, &proof.witness.w_x, &proof.witness.h).is_some() {
-            return Err(NoRatesOfClaim::ByMatrix);
-        }
         self.for_n_o = for_n_o(self.spec, proof, &counts);
         self.make_room(&counts);
+        Ok(())
+    }
+
+    /// The same of a claim that rests on the derivatives of a plant, by what decides and samples them around its orbit; of noise nothing is
+    /// proved there.
+    ///
+    /// Guarantee: that of [`Certification::prove_rates`], where the engine is one of the plant and the orbit of the claim.
+    ///
+    /// # Errors
+    /// Those of [`rate_counts`].
+    pub fn prove_rates_around(
+        &mut self,
+        asked: &[u32],
+        (engine, samples): (&Engine, &FloatSuprema),
+    ) -> Result<(), NoRatesOfClaim> {
+        let counts = rate_counts(asked)?;
+        let (Some(at), Some(proof)) = (self.matrix_arguments(), self.sharp.proved()) else {
+            return self.prove_rates(asked);
+        };
+        let Proof { witness, evaluation, precision } = proof;
+        let data = Data::new(self.spec, *precision);
+        let periodic = [&evaluation.periodic.x_per, &evaluation.periodic.e_per, &evaluation.z];
+        let distances = claimed_distances(&data, &witness.set, periodic);
+        let tube = Tube { engine, samples, at, sigma: &witness.sigma, distances: distances.each_ref() };
+        let noise = || self.spec.disturbances.any().then_some(Err(NoNoiseBound::ByMatrices));
+        let of = |(n_o, bound): (&u32, _)| RateForCount { n_o: *n_o, bound, noise: noise() };
+        self.for_n_o = counts.iter().zip(bounds(&data, &tube, &counts)).map(of).collect();
         Ok(())
     }
 }

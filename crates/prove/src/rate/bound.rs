@@ -5,6 +5,7 @@
 //! `et(t)^2 <= W(t)/e_low <= exp(-2 rate (t - t_0)) W(t_0)/e_low` and `W(t_0) <= w P_up dX^2 + e_up dE^2 + z_up dZ^2` where
 //! |xt| <= dX, |et| <= dE and |zt|_N <= dZ at t_0: so C^2 is that sum over e_low.
 
+use super::by_matrices::ByMatrices;
 use super::inequality::{ErrorDynamics, LoopBounds, RateWitness, is_above, is_definite};
 use super::oscillators::OscillatorMatrix;
 use super::riccati::propose;
@@ -24,7 +25,7 @@ pub const MAX_OSCILLATORS: u32 = 50;
 pub const MAX_COUNTS: usize = 8;
 
 /// Shares of the largest rate that are claimed, in this order; nearer to it C would be large and the numbers long.
-const SHARES: [f64; 4] = [0.95, 0.8, 0.5, 0.2];
+pub(super) const SHARES: [f64; 4] = [0.95, 0.8, 0.5, 0.2];
 
 /// Digits of Pi that are tried.
 pub(super) const DIGITS: [u32; 4] = [6, 9, 12, 16];
@@ -51,6 +52,8 @@ pub struct RateBound {
     pub witness: RateWitness,
     /// Whether x counts in W.
     pub has_x: bool,
+    /// What it has besides, where it is proved by matrices; Pi is one of (x, e, zs) then, and so are its bounds.
+    pub by: Option<ByMatrices>,
     /// e_low: `Pi >= diag(e_low, 0)`.
     pub e_low: Rational,
     /// e_up and z_up: `Pi <= diag(e_up, z_up I)`.
@@ -87,7 +90,7 @@ pub fn bound(data: &Data<'_>, place: &Place<'_>, n_o: u32) -> Option<RateBound> 
             let factor = factor(data, place, bounds.has_x.then_some(&witness.w), &diagonal)?;
             let [e_low, upper @ ..] = diagonal;
             let (has_x, limit) = (bounds.has_x, condition.limit());
-            Some(RateBound { n_o, witness, has_x, e_low, upper, factor, limit })
+            Some(RateBound { n_o, witness, has_x, by: None, e_low, upper, factor, limit })
         })
     })
 }

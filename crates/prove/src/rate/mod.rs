@@ -7,14 +7,20 @@
 //! - [`noise`]: what noise of the measurement and a disturbance do to the error, by the same inequality with inputs;
 //! - [`sampled`]: all of this for the law at samples;
 //! - [`bound`]: from a rate to `|e - e_per| <= C exp(-rate (t - t_0))` on a set of starts, as a certificate has it;
+//! - [`by_matrices`]: the same from what is proved of all first derivatives together, where a claim has no norms; within, `matrix_loop` is
+//!   the inequality, `slopes_program` proposes what is to be known of the derivatives, `bounded_real` the Lyapunov function;
 //! - [`found`]: all of it for one n_o.
 
 pub mod bound;
+mod bounded_real;
+pub mod by_matrices;
 pub mod found;
 pub mod inequality;
+mod matrix_loop;
 pub mod noise;
 mod noise_search;
 pub mod oscillators;
 pub mod riccati;
 pub mod sampled;
+mod slopes_program;
 pub mod small_gain;

@@ -62,6 +62,8 @@ pub enum NoNoiseBound {
     Actuator,
     /// No rate was proved, which a claim has beside.
     NoRate,
+    /// The claim rests on the derivatives of a plant, and has no norms of the error system.
+    ByMatrices,
     /// No Pi was found for (N).
     NotFound,
     /// With the least S that was found the error box is too small; estimates.
@@ -82,6 +84,11 @@ impl NoNoiseBound {
                 "not with an `actuator`: its bound of the control does not know the noise".to_owned()
             }
             NoNoiseBound::NoRate => "not proved, as no rate is".to_owned(),
+            NoNoiseBound::ByMatrices => {
+                "not for a claim by a matrix inequality: it is proved from norms of the error system; a bounding specification of the plant \
+                 (`sigmastar bound`) has them"
+                    .to_owned()
+            }
             NoNoiseBound::NotFound => "not proved: no Pi was found".to_owned(),
             NoNoiseBound::LeavesBox { limit, .. } => format!(
                 "not proved: e may deviate by about {}, for which the error box has no room; a larger gain makes room, as a rule",

@@ -147,7 +147,8 @@ impl Search {
         let all = [(multipliers.output, &of_e[..]), (multipliers.moved, &self.condition.dynamics.moved)];
         // Without an input gain there is no v.
         let squares = if self.condition.dynamics.moved.is_empty() { &all[..1] } else { &all[..] };
-        let equation = Equation { a: &a, squares, output: &driven };
+        let gain = Mat::from_fn(n, n, |i, j| squares.iter().map(|(weight, of)| weight * of[i] * of[j]).sum());
+        let equation = Equation { a: &a, gain: &gain, output: &driven };
         let q = equation.stabilising(((multipliers.input + total) / multipliers.output).sqrt())?;
         let q = equation.refined(&q).unwrap_or(q);
         let of = |size: f64, weight: f64| if size > 0.0 { size * size / weight } else { 0.0 };

@@ -79,7 +79,8 @@ pub fn propose(condition: &SmallGain, largest: f64, share: f64) -> Option<Propos
         let of_e = if i == 0 && j == 0 { multipliers.output } else { 0.0 };
         of_e + if moved.is_empty() { 0.0 } else { multipliers.moved * moved[i] * moved[j] }
     });
-    let equation = Equation { a: &a, squares: &[(multipliers.input, input)], output: &output };
+    let gain = Mat::from_fn(n, n, |i, j| multipliers.input * input[i] * input[j]);
+    let equation = Equation { a: &a, gain: &gain, output: &output };
     let pi = equation.stabilising((multipliers.output / multipliers.input).sqrt())?;
     // The subspace is less accurate where eigenvalues of the Hamiltonian matrix are close to the imaginary axis.
     let pi = equation.refined(&pi).unwrap_or(pi);
@@ -87,12 +88,12 @@ pub fn propose(condition: &SmallGain, largest: f64, share: f64) -> Option<Propos
     Some(Proposal { rate, w: multipliers.w, pi })
 }
 
-/// `X A + A'X + C + X R X = 0` with a symmetric C and a sum R of squares `beta b b'`.
+/// `X A + A'X + C + X R X = 0` with symmetric C and R.
 pub(super) struct Equation<'a> {
     /// A.
     pub(super) a: &'a Mat<f64>,
-    /// beta and b of each.
-    pub(super) squares: &'a [(f64, &'a [f64])],
+    /// R.
+    pub(super) gain: &'a Mat<f64>,
     /// C.
     pub(super) output: &'a Mat<f64>,
 }
@@ -101,14 +102,14 @@ impl Equation<'_> {
     /// The least symmetric solution, from the stable subspace of the Hamiltonian matrix `[[A, R], [-C, -A']]`: with [U; V] a
     /// basis of it, X = V U^-1. `unit` is one of X in which C and R have about the same size.
     pub(super) fn stabilising(&self, unit: f64) -> Option<Mat<f64>> {
-        let Equation { a, squares, output } = self;
+        let Equation { a, gain, output } = self;
         let n = a.nrows();
         if !(unit.is_finite() && unit > 0.0) {
             return None;
         }
         let hamiltonian = Mat::from_fn(2 * n, 2 * n, |i, j| match (i < n, j < n) {
             (true, true) => a[(i, j)],
-            (true, false) => squares.iter().map(|(beta, b)| beta * unit * b[i] * b[j - n]).sum(),
+            (true, false) => unit * gain[(i, j - n)],
             (false, true) => -output[(i - n, j)] / unit,
             (false, false) => -a[(j - n, i - n)],
         });
@@ -130,22 +131,16 @@ impl Equation<'_> {
         (0..n).all(|j| (0..n).all(|i| pi[(i, j)].is_finite())).then_some(pi)
     }
 
-    /// One step of Newton's method: `X + D` with `D K + K'D` minus the left side of the equation at X, `K = A + R X`.
+    /// One step of Newton's method: `Pi + D` with `D K + K'D` the negative of the left side of the equation at Pi, `K = A + R Pi`.
     pub(super) fn refined(&self, pi: &Mat<f64>) -> Option<Mat<f64>> {
-        let Equation { a, squares, output } = self;
+        let Equation { a, gain, output } = self;
         let n = a.nrows();
-        let product = pi * *a;
-        let mut residual = Mat::from_fn(n, n, |i, j| product[(i, j)] + product[(j, i)] + output[(i, j)]);
-        let mut closed = (*a).clone();
-        for (beta, b) in squares.iter() {
-            let image: Vec<f64> = (0..n).map(|i| (0..n).map(|j| pi[(i, j)] * b[j]).sum()).collect();
-            for i in 0..n {
-                for j in 0..n {
-                    residual[(i, j)] += beta * image[i] * image[j];
-                    closed[(i, j)] += beta * b[i] * image[j];
-                }
-            }
-        }
+        let moved = *gain * pi;
+        let (product, square) = (pi * *a, pi * &moved);
+        let residual = Mat::from_fn(n, n, |i, j| {
+            product[(i, j)] + product[(j, i)] + output[(i, j)] + f64::midpoint(square[(i, j)], square[(j, i)])
+        });
+        let closed = *a + &moved;
         if !(0..n).all(|j| (0..n).all(|i| closed[(i, j)].is_finite() && residual[(i, j)].is_finite())) {
             return None;
         }

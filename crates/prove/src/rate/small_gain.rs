@@ -137,6 +137,8 @@ pub enum Limit {
     Plant(f64),
     /// The slowest eigenvalue of the loop with dq/de in the middle of its bounds, and without x.
     Oscillators(f64),
+    /// The slowest eigenvalue of the loop with the first derivatives in the middle of what is known of them together.
+    Middle(f64),
 }
 
 /// What the condition at one rate leaves to choose from.

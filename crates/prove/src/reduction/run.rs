@@ -1,7 +1,7 @@
 //! The whole way from a subject to a decided claim, of either regulator.
 
 use super::interval_costs::{costs_at_samples, interval_costs};
-use super::proofs::WithoutJoint;
+use super::proofs::{WithoutJoint, bounds_around};
 use super::reduce::{reduce, reduce_by_norms};
 use super::subject::Sought;
 use super::{FreeNumbers, Subject, Witness};
@@ -13,7 +13,9 @@ use crate::search::SampledProposal;
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_lang::plant::Plant;
-use sigmastar_lang::spec::{Sampling, SpecErrors, Specification};
+use sigmastar_lang::spec::model::LyapunovSource;
+use sigmastar_lang::spec::{Document, Sampling, SpecErrors, Specification};
+use sigmastar_plants::bounds::{Engine, FloatSuprema};
 use sigmastar_theory::derivation::condition::Condition;
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
 use sigmastar_theory::derivation::sampled::SampledWitness;
@@ -198,14 +200,26 @@ fn better<'s>(first: Certification<'s>, second: Certification<'s>) -> Result<Cer
     Ok(Certification { smallest_gain, ..taken })
 }
 
+/// What decides and samples bounds of the plant behind a specification, read from the copy of it that a certificate has.
+fn around_again(spec: &Specification) -> Option<(Engine, FloatSuprema)> {
+    let LyapunovSource::Plant(of_plant) = &spec.lyapunov else { return None };
+    let document = Document::parse("the plant", &spec.document.to_string()).ok()?;
+    let plant = Plant::from_value(&document.root()).ok()?;
+    bounds_around(&plant, of_plant).ok()
+}
+
 impl Run<'_> {
-    /// Proves rates for these numbers of oscillators at the gain of the claim ([`Certification::prove_rates`],
-    /// [`SampledCertification::prove_rates`]).
+    /// Proves rates for these numbers of oscillators at the gain of the claim, by norms or from the derivatives of the plant
+    /// ([`Certification::prove_rates`], [`Certification::prove_rates_around`], [`SampledCertification::prove_rates`]).
     ///
     /// # Errors
     /// Theirs.
     pub fn prove_rates(&mut self, counts: &[u32]) -> Result<(), NoRatesOfClaim> {
         match self {
+            Run::Continuous(run) if !counts.is_empty() && run.matrix_arguments().is_some() => {
+                let (engine, samples) = around_again(run.spec).ok_or(NoRatesOfClaim::OfFormulas)?;
+                run.prove_rates_around(counts, (&engine, &samples))
+            }
             Run::Continuous(run) => run.prove_rates(counts),
             Run::Sampled(run) => run.prove_rates(counts),
         }

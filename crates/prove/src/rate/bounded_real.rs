@@ -1,0 +1,136 @@
+//! Pi for the loop in which the first derivatives lie in a ball (derivation, 13.6, (K) and (D)), proposed by a Riccati equation in floating
+//! point.
+//!
+//! With `D = C + D'`, `D''H D' <= S`, K is definite for some multipliers with this ball if and only if
+//! `Pi (A + B C E + rate) + (.)' + E'S E + Pi B H^-1 B'Pi < 0`, E taking a = (x, e) of eta: a bounded real inequality, which has a Pi > 0 if and only
+//! if the loop with D = C decays faster than the rate and its gain from D' to a is small on the line Re s = -rate. With an input gain there
+//! is one more signal at B_q, `(b_u - b_c) (-sigma e + mu b'zs)`, with a multiplier of its own.
+
+use super::matrix_loop::{MatrixLoop, Multipliers};
+use super::riccati::Equation;
+use faer::linalg::solvers::{DenseSolveCore, Llt};
+use faer::{Mat, Side};
+
+/// Steps of the bisection in the rate, and the shares of the fastest one between which it goes.
+const BISECTIONS: u32 = 12;
+const SHARES: [f64; 2] = [1e-4, 0.999];
+
+/// The multipliers of an input gain that are tried, in units of its signal.
+const OF_GAIN: [f64; 7] = [0.01, 0.05, 0.2, 1.0, 5.0, 20.0, 100.0];
+
+/// By what share of the rate a Pi may miss its own.
+const NEARLY: f64 = 1e-3;
+
+/// The equation of one loop and one ball.
+pub struct BoundedReal {
+    of: MatrixLoop<f64>,
+    /// A + B C E.
+    matrix: Mat<f64>,
+    /// E'S E.
+    output: Mat<f64>,
+    /// B H^-1 B'.
+    input: Mat<f64>,
+    /// The signal of the input gain, and B_q, where it is not known.
+    moved: Option<[Vec<f64>; 2]>,
+    /// Q, G, H.
+    slopes: [Vec<Vec<f64>>; 3],
+    /// The rate of decay with D = C.
+    fastest: f64,
+}
+
+impl BoundedReal {
+    /// The equation; `slopes` are Q, G, H of the ball, rounded. `None` where the loop with D = C does not decay, or a number is not finite.
+    #[must_use]
+    pub fn new(of: MatrixLoop<f64>, slopes: [Vec<Vec<f64>>; 3]) -> Option<BoundedReal> {
+        let (order, signals) = (of.order(), of.states + 1);
+        let [q, g, h] = slopes.each_ref().map(|of| Mat::from_fn(signals, signals, |i, j| of[i][j]));
+        let inverse = Llt::new(h.as_ref(), Side::Lower).ok()?.inverse();
+        let centre = &inverse * g.transpose();
+        let size = &q + &g * &centre;
+        let rows: Vec<Vec<f64>> = (0..signals).map(|i| (0..signals).map(|j| -centre[(i, j)]).collect()).collect();
+        let (matrix, fastest) = (of.closed(&rows), of.decay(&rows)?);
+        let [_, b] = of.matrices();
+        let input = &b * &inverse * b.transpose();
+        let within = |i: usize, j: usize| i < signals && j < signals;
+        let output = Mat::from_fn(order, order, |i, j| if within(i, j) { size[(i, j)] } else { 0.0 });
+        let moved = of.moved();
+        (fastest > 0.0 && fastest.is_finite()).then_some(BoundedReal {
+            of,
+            matrix,
+            output,
+            input,
+            moved,
+            slopes,
+            fastest,
+        })
+    }
+
+    /// The rate of decay with D = C.
+    #[must_use]
+    pub fn fastest(&self) -> f64 {
+        self.fastest
+    }
+
+    /// The largest rate that some Pi has, with the multiplier of the input gain; `None` where there is none.
+    #[must_use]
+    pub fn largest_rate(&self) -> Option<[f64; 2]> {
+        let multipliers: &[f64] = if self.moved.is_some() { &OF_GAIN } else { &[1.0] };
+        let largest = |of_gain: f64| {
+            let holds = |rate: f64| self.holds(rate, of_gain);
+            let [mut low, mut high] = SHARES.map(|share| share * self.fastest);
+            if holds(high) {
+                return Some([high, of_gain]);
+            }
+            if !holds(low) {
+                return None;
+            }
+            for _ in 0..BISECTIONS {
+                let middle = (low * high).sqrt();
+                if holds(middle) { low = middle } else { high = middle }
+            }
+            Some([low, of_gain])
+        };
+        multipliers.iter().filter_map(|of_gain| largest(*of_gain)).max_by(|a, b| a[0].total_cmp(&b[0]))
+    }
+
+    fn holds(&self, rate: f64, of_gain: f64) -> bool {
+        self.pi([rate, of_gain]).is_some_and(|pi| self.proves(&pi, rate * (1.0 - NEARLY)))
+    }
+
+    /// Pi of the equation at a rate, for a multiplier of the input gain.
+    #[must_use]
+    pub fn pi(&self, [rate, of_gain]: [f64; 2]) -> Option<Mat<f64>> {
+        let n = self.of.order();
+        let a = Mat::from_fn(n, n, |i, j| self.matrix[(i, j)] + if i == j { rate } else { 0.0 });
+        let (mut output, mut input) = (self.output.clone(), self.input.clone());
+        if let Some([signal, at]) = &self.moved {
+            // In the size that H gives to the last of omega.
+            let weight = of_gain * self.slopes[2].last().and_then(|row| row.last()).copied().unwrap_or(1.0);
+            output += Mat::from_fn(n, n, |i, j| weight * signal[i] * signal[j]);
+            input += Mat::from_fn(n, n, |i, j| at[i] * at[j] / weight);
+        }
+        let equation = Equation { a: &a, gain: &input, output: &output };
+        let pi = equation.stabilising((trace(&output) / trace(&input)).sqrt())?;
+        let pi = equation.refined(&pi).unwrap_or(pi);
+        Llt::new(pi.as_ref(), Side::Lower).is_ok().then_some(pi)
+    }
+
+    /// Whether K is definite in doubles.
+    fn proves(&self, pi: &Mat<f64>, rate: f64) -> bool {
+        let n = pi.nrows();
+        let rows: Vec<Vec<f64>> = (0..n).map(|i| (0..n).map(|j| pi[(i, j)]).collect()).collect();
+        let slopes = self.slopes.each_ref().map(Vec::as_slice);
+        self.of.ends().iter().all(|gain| {
+            let form = self.of.form(gain, &Multipliers { rate: &rate, pi: &rows, slopes });
+            let order = form.len();
+            // In units of the diagonal.
+            let unit = |i: usize| form[i][i].max(f64::MIN_POSITIVE).sqrt();
+            let matrix = Mat::from_fn(order, order, |i, j| form[i.max(j)][i.min(j)] / (unit(i) * unit(j)));
+            (0..order).all(|i| form[i][i] > 0.0) && Llt::new(matrix.as_ref(), Side::Lower).is_ok()
+        })
+    }
+}
+
+fn trace(of: &Mat<f64>) -> f64 {
+    (0..of.nrows()).map(|i| of[(i, i)]).sum()
+}

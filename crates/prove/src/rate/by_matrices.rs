@@ -1,0 +1,207 @@
+//! From a ball of the first derivatives to a bound of the error for one n_o: Proposition R_D of derivation, 13.6, for claims by (M) and
+//! (Jm), which have no norms of the error system.
+//!
+//! With `Pi > diag(0, e_low, 0)` and `Pi < diag(x_up I, e_up, z_up I)` the start has `W <= x_up dX^2 + e_up dE^2 + z_up dZ^2`, and
+//! `et^2 <= W/e_low`: the factor is as in [`super::bound`].
+
+use super::bound::{DIGITS, RateBound, SHARES};
+use super::bounded_real::BoundedReal;
+use super::inequality::{RateWitness, is_definite};
+use super::matrix_loop::{MatrixLoop, Multipliers};
+use super::slopes_program::SampledSlopes;
+use super::small_gain::Limit;
+use faer::linalg::solvers::DenseSolveCore;
+use faer::{Mat, Side};
+use rug::Rational;
+use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_exact::number::{Direction, Portable, round_f64, round_rational};
+use sigmastar_plants::bounds::{Engine, FloatSlopes, FloatSuprema, Slopes};
+use sigmastar_theory::data::Data;
+
+/// By what share the diagonal bounds of Pi may differ from the best ones.
+const ROOM: f64 = 1e-3;
+
+/// What is proved of a plant's derivatives, and where.
+pub struct Tube<'a> {
+    /// What decides about them.
+    pub engine: &'a Engine,
+    /// What samples them.
+    pub samples: &'a FloatSuprema,
+    /// X and E of the matrix inequality, or of the joint one, of the claim: the error box lies inside.
+    pub at: [&'a Rational; 2],
+    /// The gain of the claim, in 1/time.
+    pub sigma: &'a Rational,
+    /// dX, dE, dZ.
+    pub distances: [&'a Enclosure; 3],
+}
+
+/// Bounds for these numbers of oscillators, in order; `None` where nothing is proved.
+///
+/// Guarantee: for every solution that stays in the error box from a start within the distances, at the gain, with so many oscillators,
+/// every input gain of the data and every member of a family, `|e(t) - e_per(t)| <= factor exp(-rate (t - t_0))`.
+#[must_use]
+pub fn bounds(data: &Data<'_>, tube: &Tube<'_>, counts: &[u32]) -> Vec<Option<RateBound>> {
+    let at = tube.engine.float_arguments(tube.at);
+    let mut sampled = SampledSlopes::new(tube.samples, at);
+    counts.iter().map(|n_o| bound(data, tube, &mut sampled, *n_o)).collect()
+}
+
+fn bound(data: &Data<'_>, tube: &Tube<'_>, sampled: &mut SampledSlopes<'_>, n_o: u32) -> Option<RateBound> {
+    let states = tube.engine.states();
+    let with = |oscillators: &[u32]| MatrixLoop::new(data, states, tube.sigma, oscillators);
+    // The mode of the fastest oscillator is the slowest of the loop.
+    let few: Vec<u32> = if n_o > 2 { vec![1, n_o] } else { (1..=n_o).collect() };
+    let all: Vec<u32> = (1..=n_o).collect();
+    let of = with(&all);
+    let equation = |slopes: &Slopes| {
+        let doubles = |of: &[Vec<Rational>]| of.iter().map(|row| row.iter().map(Rational::to_f64).collect()).collect();
+        let plain: [Vec<Vec<f64>>; 3] = [&slopes.q, &slopes.g, &slopes.h].map(|of| doubles(of));
+        let equation = BoundedReal::new(of.doubles(1.0), plain)?;
+        let largest = equation.largest_rate()?;
+        Some((equation, largest))
+    };
+    let at = tube.engine.float_arguments(tube.at);
+    let fitted = sampled.propose(&with(&few)).into_iter().filter_map(|ball| tube.samples.fitted(&ball, at));
+    // As all oscillators see them.
+    let seen = |ball: FloatSlopes| Some((equation(&ball.rounded(DIGITS[1])?)?.1[0], ball));
+    let (_, ball) = fitted.filter_map(seen).max_by(|a, b| a.0.total_cmp(&b.0))?;
+    let slopes = tube.engine.prove_slopes(&ball, tube.at)?;
+    let (equation, [largest, of_gain]) = equation(&slopes)?;
+    SHARES.iter().find_map(|share| {
+        let pi = equation.pi([largest * (1.0 + share) / 2.0, of_gain])?;
+        let rate = round_f64(largest * share, 6, Direction::Down)?;
+        let (upper, e_low) = diagonal_bounds(&pi, states, tube.distances)?;
+        DIGITS.iter().find_map(|digits| {
+            let witness =
+                RateWitness { rate: rate.clone(), w: Rational::new(), pi: rounded(&pi, *digits)?, l: Rational::new() };
+            let known = Known { data, of: &of, slopes: &slopes };
+            let lies = known.proves(&witness) && known.lies_between(&witness.pi, &upper, &e_low);
+            let factor = lies.then(|| factor(data, tube.distances, &upper, &e_low)).flatten()?;
+            let [x_up, e_up, z_up] = upper.clone();
+            let x_up = (states > 0).then_some(x_up);
+            let by = Some(ByMatrices { slopes: slopes.clone(), x_up });
+            let limit = Limit::Middle(equation.fastest());
+            let (has_x, upper, e_low) = (false, [e_up, z_up], e_low.clone());
+            Some(RateBound { n_o, witness, has_x, by, e_low, upper, factor, limit })
+        })
+    })
+}
+
+/// What a bound has besides where it is proved from the derivatives themselves; it has no w and l then.
+#[derive(Clone, Debug)]
+pub struct ByMatrices {
+    /// Q, G and H, of which (D) is proved.
+    pub slopes: Slopes,
+    /// `Pi < diag(x_up I, e_up, z_up I)`; none without states.
+    pub x_up: Option<Rational>,
+}
+
+/// What is known of the loop.
+struct Known<'k> {
+    data: &'k Data<'k>,
+    of: &'k MatrixLoop<Enclosure>,
+    slopes: &'k Slopes,
+}
+
+impl Known<'_> {
+    fn enclosed(&self, of: &[Vec<Rational>]) -> Vec<Vec<Enclosure>> {
+        of.iter().map(|row| row.iter().map(|value| self.data.rational(value)).collect()).collect()
+    }
+
+    /// Pi by rows from its lower triangle.
+    fn full(&self, pi: &[Vec<Rational>]) -> Vec<Vec<Enclosure>> {
+        let lower = self.enclosed(pi);
+        (0..lower.len()).map(|i| (0..lower.len()).map(|j| lower[i.max(j)][i.min(j)].clone()).collect()).collect()
+    }
+
+    /// Whether K is proved positive definite at every end of the input gain.
+    fn proves(&self, RateWitness { rate, pi, .. }: &RateWitness) -> bool {
+        let Slopes { q, g, h } = self.slopes;
+        let [q, g, h] = [q, g, h].map(|of| self.enclosed(of));
+        let (pi, rate) = (self.full(pi), self.data.rational(rate));
+        self.of.ends().iter().all(|gain| {
+            let form = self.of.form(gain, &Multipliers { rate: &rate, pi: &pi, slopes: [&q, &g, &h] });
+            is_definite(form.len(), |i, j| form[i][j].clone())
+        })
+    }
+
+    /// Whether `diag(0, e_low, 0) < Pi < diag(x_up I, e_up, z_up I)` is proved.
+    fn lies_between(&self, pi: &[Vec<Rational>], upper: &[Rational; 3], e_low: &Rational) -> bool {
+        let pi = self.full(pi);
+        let states = self.of.states;
+        let [e_low, x_up, e_up, z_up] = [e_low, &upper[0], &upper[1], &upper[2]].map(|value| self.data.rational(value));
+        let above = |i: usize, j: usize| if (i, j) == (states, states) { &pi[i][j] - &e_low } else { pi[i][j].clone() };
+        let below = |i: usize, j: usize| match i == j {
+            true if i < states => &x_up - &pi[i][j],
+            true if i == states => &e_up - &pi[i][j],
+            true => &z_up - &pi[i][j],
+            false => pi[i][j].negate(),
+        };
+        is_definite(pi.len(), above) && is_definite(pi.len(), below)
+    }
+}
+
+/// The factor, rounded up.
+fn factor(data: &Data<'_>, distances: [&Enclosure; 3], upper: &[Rational; 3], e_low: &Rational) -> Option<Rational> {
+    let terms = upper.iter().zip(distances).map(|(upper, distance)| data.rational(upper) * distance.sqr());
+    let start = terms.fold(data.zero(), |sum, term| sum + term);
+    let factor = (start / data.rational(e_low)).sqrt().upper_rational()?;
+    Some(round_rational(&factor, 6, Direction::Up))
+}
+
+/// The lower triangle of Pi to so many digits, 0 where an entry is beyond those of its diagonal.
+fn rounded(pi: &Mat<f64>, digits: u32) -> Option<Vec<Vec<Rational>>> {
+    let least = 0.1f64.portable_powi(digits as i32 + 1);
+    let entry = |i: usize, j: usize| {
+        let counts = pi[(i, j)].abs() >= least * (pi[(i, i)] * pi[(j, j)]).sqrt();
+        if counts { round_f64(pi[(i, j)], digits, Direction::Nearest) } else { Some(Rational::new()) }
+    };
+    (0..pi.nrows()).map(|i| (0..=i).map(|j| entry(i, j)).collect()).collect()
+}
+
+/// x_up, e_up, z_up and e_low in floating point, rounded to the safe side: of all upper bounds some for which
+/// `x_up dX^2 + e_up dE^2 + z_up dZ^2` is about least. Without states x_up is 0.
+fn diagonal_bounds(pi: &Mat<f64>, states: usize, distances: [&Enclosure; 3]) -> Option<([Rational; 3], Rational)> {
+    let (n, signals) = (pi.nrows(), states + 1);
+    let squares = distances.map(|distance| distance.upper_f64().portable_powi(2));
+    let block = |from: usize, to: usize| Mat::from_fn(to - from, to - from, |i, j| pi[(from + i, from + j)]);
+    let eigen = block(signals, n).self_adjoint_eigen(Side::Lower).ok()?;
+    let values: Vec<f64> = eigen.S().column_vector().iter().copied().collect();
+    let across = Mat::from_fn(signals, n - signals, |i, j| pi[(i, signals + j)]) * eigen.U();
+    let largest = values.iter().copied().fold(0.0, f64::max);
+    let steps = (0..40).map(|k| 1.0 + ROOM * 1.4f64.portable_powi(k));
+    let mut best: Option<(f64, [f64; 3])> = None;
+    for z_up in steps.clone().map(|step| largest * step) {
+        // The Schur complement, for z_up above the largest eigenvalue; and once more for x_up.
+        let rest = Mat::from_fn(signals, signals, |i, j| {
+            let taken = values.iter().enumerate().map(|(k, value)| across[(i, k)] * across[(j, k)] / (z_up - value));
+            pi[(i, j)] + taken.sum::<f64>()
+        });
+        let corner = rest[(states, states)];
+        if states == 0 {
+            take(&mut best, squares, [0.0, corner, z_up]);
+            continue;
+        }
+        let eigen = Mat::from_fn(states, states, |i, j| rest[(i, j)]).self_adjoint_eigen(Side::Lower).ok()?;
+        let own: Vec<f64> = eigen.S().column_vector().iter().copied().collect();
+        let column = Mat::from_fn(1, states, |_, j| rest[(states, j)]) * eigen.U();
+        let most = own.iter().copied().fold(0.0, f64::max);
+        for x_up in steps.clone().map(|step| most * step) {
+            let taken = own.iter().enumerate().map(|(k, value)| column[(0, k)].portable_powi(2) / (x_up - value));
+            take(&mut best, squares, [x_up, corner + taken.sum::<f64>(), z_up]);
+        }
+    }
+    let (_, upper) = best?;
+    let inverse = pi.partial_piv_lu().inverse();
+    let low = round_f64((1.0 - ROOM) / inverse[(states, states)], 6, Direction::Down).filter(|low| *low > 0)?;
+    let [x_up, e_up, z_up] = upper.map(|value| round_f64(value * (1.0 + ROOM), 6, Direction::Up));
+    Some(([x_up?, e_up?, z_up?], low))
+}
+
+/// Keeps the bounds for which the sum at the start is less.
+fn take(best: &mut Option<(f64, [f64; 3])>, squares: [f64; 3], upper: [f64; 3]) {
+    let cost: f64 = squares.iter().zip(upper).map(|(square, upper)| square * upper).sum();
+    if best.is_none_or(|(least, _)| cost < least) && cost.is_finite() {
+        *best = Some((cost, upper));
+    }
+}

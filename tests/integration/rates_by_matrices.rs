@@ -1,0 +1,135 @@
+//! Rates for given n_o of plants whose stability is proved by (M) or (Jm) (derivation, 13.6, Proposition R_D): against the loops themselves.
+
+use crate::support::{json, program};
+use serde_json::Value;
+
+/// A plant, 1.5 sigma*, and its period in floating point.
+const PLANTS: [(&str, &str, f64); 5] = [
+    ("pendulum", "0.673", 1.0),
+    ("duffing", "0.4921", 2.0),
+    ("relative-degree-2", "1.5108", 1.0),
+    ("paper-example", "9.0905", 1.0),
+    ("chain", "3.5013", 1.0),
+];
+
+fn answer(arguments: &[&str]) -> Value {
+    json(&program().args(arguments).args(["--format", "json"]).output().expect("it runs").stdout)
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_str().expect("a number").parse().expect("a decimal")
+}
+
+/// By the median at least 0.3 of the rate at which the loop returns to its periodic solution, and never more than it.
+#[test]
+fn rates_are_near_those_of_the_linearised_loops() {
+    let mut shares: Vec<(f64, String)> = Vec::new();
+    for (name, sigma, period) in PLANTS {
+        let file = format!("specs/plants/{name}.json");
+        let report = answer(&["certify", &file, "--sigma", sigma, "--no-compare", "--n-o", "0,1,4"]);
+        assert_eq!(report["verdict"], "certified", "{name}");
+        let e_0 = number(&report["initial_set"]["E0"]);
+        for rate in report["for_n_o"].as_array().expect("asked for") {
+            let n_o = rate["n_o"].to_string();
+            let simulated = answer(&["simulate", &file, "--sigma", sigma, "--n-o", &n_o]);
+            let multiplier = simulated["steady_state"]["multipliers"][0].as_f64().expect("a multiplier");
+            let share = number(&rate["rate"]) / (-multiplier.ln() / period);
+            assert!(share <= 1.0 + 1e-6, "{name} {n_o}: {share}");
+            assert!(number(&rate["factor"]) >= e_0, "{name} {n_o}");
+            shares.push((share, format!("{name} {n_o}")));
+        }
+    }
+    shares.sort_by(|a, b| a.0.total_cmp(&b.0));
+    assert!(shares[shares.len() / 2].0 >= 0.3, "{shares:?}");
+}
+
+/// `(theta, omega, e, z)'` of `specs/plants/pendulum.json` with n_o = 1.
+fn pendulum(sigma: f64, time: f64, [theta, omega, e, z0, z1, z2]: [f64; 6]) -> [f64; 6] {
+    let turn = std::f64::consts::TAU;
+    let q = theta + e / 4.0 + (turn * time).cos() + (2.0 * turn * time).cos() / 3.0;
+    let s = 2.0 * (z0 - e) + (z1 - e);
+    // Gamma = -(Phi + sigma) M.
+    [
+        omega,
+        -9.0 * theta.sin() - 2.0 * omega + e + (turn * time).sin() / 2.0,
+        q - sigma * e + s,
+        -sigma * e,
+        turn * z2 - sigma * e,
+        -turn * z1 + turn * e,
+    ]
+}
+
+fn step(sigma: f64, time: f64, h: f64, state: [f64; 6]) -> [f64; 6] {
+    let add = |a: [f64; 6], b: [f64; 6], c: f64| std::array::from_fn(|i| a[i] + c * b[i]);
+    let k1 = pendulum(sigma, time, state);
+    let k2 = pendulum(sigma, time + h / 2.0, add(state, k1, h / 2.0));
+    let k3 = pendulum(sigma, time + h / 2.0, add(state, k2, h / 2.0));
+    let k4 = pendulum(sigma, time + h, add(state, k3, h));
+    std::array::from_fn(|i| state[i] + h / 6.0 * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i]))
+}
+
+/// Solutions from e on the edge of the set stay below factor exp(-rate t), for 40 periods.
+#[test]
+fn solutions_decay_as_it_is_claimed() {
+    const STEPS: usize = 500;
+    let (sigma, h) = (0.8, 1.0 / STEPS as f64);
+    let report = answer(&["certify", "specs/plants/pendulum.json", "--sigma", "0.8", "--n-o", "1", "--no-compare"]);
+    let rate = &report["for_n_o"][0];
+    let (rate, factor) = (number(&rate["rate"]), number(&rate["factor"]));
+    let e_0 = number(&report["initial_set"]["E0"]);
+    let run = |mut state: [f64; 6], periods: usize, mut see: Box<dyn FnMut(usize, [f64; 6]) + '_>| {
+        for i in 0..periods * STEPS {
+            see(i, state);
+            state = step(sigma, (i % STEPS) as f64 * h, h, state);
+        }
+        state
+    };
+    // The orbit without a regulator and an error, where the set is, and the periodic solution, after a long time.
+    let mut orbit = [0.0; 6];
+    for i in 0..60 * STEPS {
+        orbit = step(sigma, (i % STEPS) as f64 * h, h, [orbit[0], orbit[1], 0.0, 0.0, 0.0, 0.0]);
+    }
+    let settled = run([0.0; 6], 200, Box::new(|_, _| {}));
+    let mut periodic = Vec::new();
+    run(settled, 1, Box::new(|_, state| periodic.push(state[2])));
+    for e in [e_0, -e_0] {
+        let mut worst = 0.0_f64;
+        let start = [orbit[0], orbit[1], 0.999 * e, 0.0, 0.0, 0.0];
+        run(
+            start,
+            40,
+            Box::new(|i, state| {
+                let error = (state[2] - periodic[i % STEPS]).abs();
+                // What is left of the transient in the periodic solution, and of rounding.
+                if error > 1e-8 {
+                    worst = worst.max(error / (factor * (-rate * i as f64 * h).exp()));
+                }
+            }),
+        );
+        assert!(worst <= 1.0 && worst > 1e-4, "{e}: {worst}");
+    }
+}
+
+/// What proves it is in the certificate, in its shape; a witness that is decided again has rates as well.
+#[test]
+fn the_certificate_has_the_slopes() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let [first, again] = ["first.json", "again.json"].map(|name| folder.path().join(name).display().to_string());
+    let plant = "specs/plants/motor-axis.json";
+    let run = |arguments: &[&str]| program().args(arguments).output().expect("it runs").status.code();
+    assert_eq!(run(&["certify", plant, "--sigma", "23", "--n-o", "2,0", "-o", &first, "--no-compare"]), Some(0));
+    assert_eq!(run(&["certify", plant, "--witness", &first, "--n-o", "0,2", "-o", &again, "--no-compare"]), Some(0));
+    let read = |path: &str| json(&std::fs::read(path).expect("written"));
+    let (first, again) = (read(&first), read(&again));
+    assert_eq!(first["claim"], again["claim"]);
+    assert_eq!(first["witness"], again["witness"]);
+    let witness = &first["witness"]["for_n_o"][1];
+    // n = 1, n_o = 2.
+    let length = |value: &Value| value.as_array().map(Vec::len);
+    assert_eq!((length(&witness["Pi"]), length(&witness["Pi"][6])), (Some(7), Some(7)));
+    let slopes = ["Q", "G", "H"].map(|name| [0, 1].map(|row| length(&witness["slopes"][name][row])));
+    assert_eq!(slopes, [[Some(1), Some(2)], [Some(2), Some(2)], [Some(1), Some(2)]]);
+    assert!(witness["x_up"].is_string() && witness.get("w").is_none() && witness.get("l").is_none());
+    let statement = first["claim"]["statement"].as_str().expect("words");
+    assert!(statement.contains("With n_o = 2 and sigma = 23 exactly also |e(t) - e_per(t)| <= "), "{statement}");
+}
