@@ -72,8 +72,13 @@ fn bound(data: &Data<'_>, tube: &Tube<'_>, sampled: &mut SampledSlopes<'_>, n_o:
         let rate = round_f64(largest * share, 6, Direction::Down)?;
         let (upper, e_low) = diagonal_bounds(&pi, states, tube.distances)?;
         DIGITS.iter().find_map(|digits| {
-            let witness =
-                RateWitness { rate: rate.clone(), w: Rational::new(), pi: rounded(&pi, *digits)?, l: Rational::new() };
+            let witness = RateWitness {
+                rate: rate.clone(),
+                w: Rational::new(),
+                pi: rounded(&pi, *digits)?,
+                l: Rational::new(),
+                inputs: [None, None],
+            };
             let known = Known { data, of: &of, slopes: &slopes };
             let lies = known.proves(&witness) && known.lies_between(&witness.pi, &upper, &e_low);
             let factor = lies.then(|| factor(data, tube.distances, &upper, &e_low)).flatten()?;
