@@ -1,9 +1,9 @@
 //! Rule: what a claim says of given numbers of oscillators, at its gain and no other (docs/mathematics.md, section 13.6): rates without noise, and
-//! limits with it. Of a claim by norms, in continuous time ([`continuous`]) or at samples ([`sampled`]), and without noise of one by a matrix inequality
+//! limits with it. Of a claim by norms, in continuous time (`continuous`) or at samples (`sampled`), and without noise of one by a matrix inequality
 //! or joint metrics in continuous time ([`slopes`]).
 //!
 //! Guarantee of [`prove`], for each n_o: every solution from the claimed set has `|e - e_per| <= factor exp(-rate (t - t_0))`, at samples for the sampling
-//! instants t, and with the noise of the file, where that is claimed ([`noise`]), `|e - e_per| <= peak` at all times and at most `limit` in the end.
+//! instants t, and with the noise of the file, where that is claimed (`noise`), `|e - e_per| <= peak` at all times and at most `limit` in the end.
 
 pub mod claimed;
 mod continuous;
