@@ -30,8 +30,11 @@ use rug::Rational;
 pub struct Slopes {
     /// Where they stand in the file.
     pub pointer: String,
+    /// Q, its lower triangle.
     pub q: Matrix,
+    /// G, all of it.
     pub g: Matrix,
+    /// H, its lower triangle.
     pub h: Matrix,
 }
 
@@ -66,8 +69,10 @@ impl Slopes {
 
 /// What proves the rate of one n_o.
 pub struct Witness {
-    pub pointer: String,
+    pointer: String,
+    /// The number of oscillators.
     pub n_o: u32,
+    /// What (D) says.
     pub slopes: Slopes,
     /// The lower triangle of Pi, by rows.
     pi: Matrix,
@@ -78,10 +83,12 @@ pub struct Witness {
     z_up: Rational,
 }
 
-/// Those of a claim, and X and E of the inequality that it rests on: (D) is to hold there.
+/// What has to be proved of a plant's derivatives for the rates of a claim: (D) up to X and E of the inequality that it rests on.
 #[derive(Clone, Copy)]
 pub struct Asked<'w> {
+    /// The witnesses.
     pub witnesses: &'w [Witness],
+    /// X and E.
     pub at: [&'w Rational; 2],
 }
 
