@@ -30,8 +30,11 @@ use rug::Rational;
 pub struct Slopes {
     /// Where they stand in the file.
     pub pointer: String,
+    /// Q, its lower triangle.
     pub q: Matrix,
+    /// G, all of it.
     pub g: Matrix,
+    /// H, its lower triangle.
     pub h: Matrix,
 }
 
