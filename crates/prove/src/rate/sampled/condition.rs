@@ -337,7 +337,7 @@ impl SampledCondition {
         let along = self.along(rate);
         let sizes = self.sizes(c);
         let (choice, least) = self.best(sizes, &along);
-        if !(least < 1.0) {
+        if least.is_nan() || least >= 1.0 {
             return None;
         }
         let largest = |of: usize| along.iter().map(|all| all[of]).fold(0.0, f64::max).sqrt();
@@ -367,7 +367,7 @@ impl SampledCondition {
                 let w = l_x * (surplus + by_x * by_x) / decay;
                 let of_x = OfX { w, l_x, l_e: k / c_e, l_y: k / (r * c_y) };
                 // 1/(1/l_e + 1/l_y + 1/g_r) is to exceed l_x tight^2.
-                let g_r = l_x / (1.0 / (tight * tight) - 1.0 / (k * k));
+                let g_r = (l_x / (1.0 / (tight * tight) - 1.0 / (k * k))).max(1e-6 * l_x * k * k);
                 (self.slope.half + extra[0], self.hold.half + extra[1], Some(of_x), g_r)
             }
             _ => (d_e, d_y, None, 0.0),

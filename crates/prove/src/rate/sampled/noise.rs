@@ -181,7 +181,7 @@ impl Search {
     /// About the least s: over the rate, the size of the inputs, with both over their ratio, and what is given away.
     fn best(&self) -> Option<Found> {
         let large = self.condition.order() > LARGE;
-        let steps = if large { STEPS.map(|steps| steps / 2) } else { STEPS };
+        let steps = if large { STEPS.map(|steps| steps / 3) } else { STEPS };
         let cost = |point: Point| self.solve(point).map_or(f64::INFINITY, |found| found.square);
         let both = self.sizes.iter().all(|size| *size > 0.0);
         let mut at = Point { position: 0.0, size: -1.0, ratio: 0.0, slack: SLACKS[0] };
