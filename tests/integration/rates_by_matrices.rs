@@ -4,12 +4,11 @@ use crate::support::{json, program};
 use serde_json::Value;
 
 /// A plant, 1.5 sigma*, and its period in floating point.
-const PLANTS: [(&str, &str, f64); 5] = [
+const PLANTS: [(&str, &str, f64); 4] = [
+    ("motor-axis", "22.5852", 0.02),
     ("pendulum", "0.673", 1.0),
-    ("duffing", "0.4921", 2.0),
-    ("relative-degree-2", "1.5108", 1.0),
-    ("paper-example", "9.0905", 1.0),
-    ("chain", "3.5013", 1.0),
+    ("relative-degree-2", "1.5109", 1.0),
+    ("relative-degree-2-domain", "3.9105", 1.0),
 ];
 
 fn answer(arguments: &[&str]) -> Value {
@@ -33,9 +32,10 @@ fn rates_are_near_those_of_the_linearised_loops() {
             let n_o = rate["n_o"].to_string();
             let simulated = answer(&["simulate", &file, "--sigma", sigma, "--n-o", &n_o]);
             let multiplier = simulated["steady_state"]["multipliers"][0].as_f64().expect("a multiplier");
-            let share = number(&rate["rate"]) / (-multiplier.ln() / period);
+            // What is not proved counts as 0.
+            let share = if rate["rate"].is_null() { 0.0 } else { number(&rate["rate"]) / (-multiplier.ln() / period) };
             assert!(share <= 1.0 + 1e-6, "{name} {n_o}: {share}");
-            assert!(number(&rate["factor"]) >= e_0, "{name} {n_o}");
+            assert!(share == 0.0 || number(&rate["factor"]) >= e_0, "{name} {n_o}");
             shares.push((share, format!("{name} {n_o}")));
         }
     }

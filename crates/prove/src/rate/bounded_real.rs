@@ -28,8 +28,8 @@ pub struct BoundedReal {
     matrix: Mat<f64>,
     /// E'S E.
     output: Mat<f64>,
-    /// B H^-1 B'.
-    input: Mat<f64>,
+    /// B H^-1 B' as inputs: one over each eigenvalue of H, and B times its eigenvector.
+    inputs: Vec<(f64, Vec<f64>)>,
     /// The signal of the input gain, and B_q, where it is not known.
     moved: Option<[Vec<f64>; 2]>,
     /// Q, G, H.
@@ -50,7 +50,10 @@ impl BoundedReal {
         let rows: Vec<Vec<f64>> = (0..signals).map(|i| (0..signals).map(|j| -centre[(i, j)]).collect()).collect();
         let (matrix, fastest) = (of.closed(&rows), of.decay(&rows)?);
         let [_, b] = of.matrices();
-        let input = &b * &inverse * b.transpose();
+        let eigen = h.self_adjoint_eigen(Side::Lower).ok()?;
+        let turned = &b * eigen.U();
+        let of_value = |(k, value): (usize, &f64)| (value.recip(), (0..order).map(|i| turned[(i, k)]).collect());
+        let inputs = eigen.S().column_vector().iter().enumerate().map(of_value).collect();
         let within = |i: usize, j: usize| i < signals && j < signals;
         let output = Mat::from_fn(order, order, |i, j| if within(i, j) { size[(i, j)] } else { 0.0 });
         let moved = of.moved();
@@ -58,7 +61,7 @@ impl BoundedReal {
             of,
             matrix,
             output,
-            input,
+            inputs,
             moved,
             slopes,
             fastest,
@@ -102,15 +105,17 @@ impl BoundedReal {
     pub fn pi(&self, [rate, of_gain]: [f64; 2]) -> Option<Mat<f64>> {
         let n = self.of.order();
         let a = Mat::from_fn(n, n, |i, j| self.matrix[(i, j)] + if i == j { rate } else { 0.0 });
-        let (mut output, mut input) = (self.output.clone(), self.input.clone());
+        let (mut output, mut inputs) = (self.output.clone(), self.inputs.clone());
         if let Some([signal, at]) = &self.moved {
             // In the size that H gives to the last of omega.
             let weight = of_gain * self.slopes[2].last().and_then(|row| row.last()).copied().unwrap_or(1.0);
             output += Mat::from_fn(n, n, |i, j| weight * signal[i] * signal[j]);
-            input += Mat::from_fn(n, n, |i, j| at[i] * at[j] / weight);
+            inputs.push((weight.recip(), at.clone()));
         }
-        let equation = Equation { a: &a, gain: &input, output: &output };
-        let pi = equation.stabilising((trace(&output) / trace(&input)).sqrt())?;
+        let equation = Equation { a: &a, inputs: &inputs, output: &output };
+        let of_inputs =
+            inputs.iter().map(|(beta, input)| beta * input.iter().map(|entry| entry * entry).sum::<f64>()).sum();
+        let pi = equation.stabilising([trace(&output), of_inputs])?;
         let pi = equation.refined(&pi).unwrap_or(pi);
         Llt::new(pi.as_ref(), Side::Lower).is_ok().then_some(pi)
     }

@@ -144,12 +144,12 @@ impl Search {
             (multipliers.input + gam_d) * input[i] * input[j] + gam_v * self.noise[i] * self.noise[j]
         });
         let of_e: Vec<f64> = (0..n).map(|i| f64::from(u8::from(i == 0))).collect();
-        let all = [(multipliers.output, &of_e[..]), (multipliers.moved, &self.condition.dynamics.moved)];
-        // Without an input gain there is no v.
-        let squares = if self.condition.dynamics.moved.is_empty() { &all[..1] } else { &all[..] };
-        let gain = Mat::from_fn(n, n, |i, j| squares.iter().map(|(weight, of)| weight * of[i] * of[j]).sum());
-        let equation = Equation { a: &a, gain: &gain, output: &driven };
-        let q = equation.stabilising(((multipliers.input + total) / multipliers.output).sqrt())?;
+        let mut inputs = vec![(multipliers.output, of_e)];
+        if !self.condition.dynamics.moved.is_empty() {
+            inputs.push((multipliers.moved, self.condition.dynamics.moved.clone()));
+        }
+        let equation = Equation { a: &a, inputs: &inputs, output: &driven };
+        let q = equation.stabilising([multipliers.input + total, multipliers.output])?;
         let q = equation.refined(&q).unwrap_or(q);
         let of = |size: f64, weight: f64| if size > 0.0 { size * size / weight } else { 0.0 };
         let square = q[(0, 0)] * (of(d_bar, gam_d) + of(v_bar, gam_v)) / (2.0 * rate);

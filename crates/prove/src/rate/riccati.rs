@@ -79,37 +79,39 @@ pub fn propose(condition: &SmallGain, largest: f64, share: f64) -> Option<Propos
         let of_e = if i == 0 && j == 0 { multipliers.output } else { 0.0 };
         of_e + if moved.is_empty() { 0.0 } else { multipliers.moved * moved[i] * moved[j] }
     });
-    let gain = Mat::from_fn(n, n, |i, j| multipliers.input * input[i] * input[j]);
-    let equation = Equation { a: &a, gain: &gain, output: &output };
-    let pi = equation.stabilising((multipliers.output / multipliers.input).sqrt())?;
+    let inputs = [(multipliers.input, input.clone())];
+    let equation = Equation { a: &a, inputs: &inputs, output: &output };
+    let pi = equation.stabilising([multipliers.output, multipliers.input])?;
     // The subspace is less accurate where eigenvalues of the Hamiltonian matrix are close to the imaginary axis.
     let pi = equation.refined(&pi).unwrap_or(pi);
     let rate = round_f64(largest * share, 6, Direction::Down)?;
     Some(Proposal { rate, w: multipliers.w, pi })
 }
 
-/// `X A + A'X + C + X R X = 0` with symmetric C and R.
+/// `Pi A + A'Pi + C + Pi R Pi = 0`, R the sum of the beta B B' of some inputs.
 pub(super) struct Equation<'a> {
     /// A.
     pub(super) a: &'a Mat<f64>,
-    /// R.
-    pub(super) gain: &'a Mat<f64>,
+    /// beta and B of each input.
+    pub(super) inputs: &'a [(f64, Vec<f64>)],
     /// C.
     pub(super) output: &'a Mat<f64>,
 }
 
 impl Equation<'_> {
-    /// The least symmetric solution, from the stable subspace of the Hamiltonian matrix `[[A, R], [-C, -A']]`: with [U; V] a
-    /// basis of it, X = V U^-1. `unit` is one of X in which C and R have about the same size.
-    pub(super) fn stabilising(&self, unit: f64) -> Option<Mat<f64>> {
-        let Equation { a, gain, output } = self;
+    /// The least symmetric solution, from the stable subspace of the Hamiltonian matrix `[[A, R], [-C, -A']]`: with [X; Y] a
+    /// basis of it, Pi = Y X^-1. The sizes are those of C and of R.
+    pub(super) fn stabilising(&self, [of_output, of_gain]: [f64; 2]) -> Option<Mat<f64>> {
+        let Equation { a, inputs, output } = self;
         let n = a.nrows();
+        // Pi in the unit root(size of C/size of R), in which both terms have the same size.
+        let unit = (of_output / of_gain).sqrt();
         if !(unit.is_finite() && unit > 0.0) {
             return None;
         }
         let hamiltonian = Mat::from_fn(2 * n, 2 * n, |i, j| match (i < n, j < n) {
             (true, true) => a[(i, j)],
-            (true, false) => unit * gain[(i, j - n)],
+            (true, false) => inputs.iter().map(|(beta, input)| beta * unit * input[i] * input[j - n]).sum(),
             (false, true) => -output[(i - n, j)] / unit,
             (false, false) => -a[(j - n, i - n)],
         });
@@ -133,14 +135,19 @@ impl Equation<'_> {
 
     /// One step of Newton's method: `Pi + D` with `D K + K'D` the negative of the left side of the equation at Pi, `K = A + R Pi`.
     pub(super) fn refined(&self, pi: &Mat<f64>) -> Option<Mat<f64>> {
-        let Equation { a, gain, output } = self;
+        let Equation { a, inputs, output } = self;
         let n = a.nrows();
-        let moved = *gain * pi;
-        let (product, square) = (pi * *a, pi * &moved);
+        let image = |input: &[f64]| (0..n).map(|i| (0..n).map(|j| pi[(i, j)] * input[j]).sum()).collect::<Vec<f64>>();
+        let images: Vec<Vec<f64>> = inputs.iter().map(|(_, input)| image(input)).collect();
+        let product = pi * *a;
         let residual = Mat::from_fn(n, n, |i, j| {
-            product[(i, j)] + product[(j, i)] + output[(i, j)] + f64::midpoint(square[(i, j)], square[(j, i)])
+            let square = inputs.iter().zip(&images).map(|((beta, _), image)| beta * image[i] * image[j]);
+            product[(i, j)] + product[(j, i)] + output[(i, j)] + square.sum::<f64>()
         });
-        let closed = *a + &moved;
+        let closed = Mat::from_fn(n, n, |i, j| {
+            let moved = inputs.iter().zip(&images).map(|((beta, input), image)| beta * input[i] * image[j]);
+            a[(i, j)] + moved.sum::<f64>()
+        });
         if !(0..n).all(|j| (0..n).all(|i| closed[(i, j)].is_finite() && residual[(i, j)].is_finite())) {
             return None;
         }
