@@ -16,7 +16,9 @@ fn shipped() -> Texts {
     let pages = |folder: &'static str| {
         let entries = std::fs::read_dir(Path::new(ROOT).join(folder)).into_iter().flatten();
         entries
-            .map(move |entry| format!("{folder}/{}", entry.expect("an entry").file_name().to_str().expect("plain names")))
+            .map(move |entry| {
+                format!("{folder}/{}", entry.expect("an entry").file_name().to_str().expect("plain names"))
+            })
             .filter(|path| path.ends_with(".md"))
     };
     let chapters = pages("docs").chain(pages("docs/guide"));

@@ -133,7 +133,8 @@ type Run = (Vec<Token>, usize, String, String);
 
 /// The longest formula that starts with a word; `next` are those that follow, the next one last.
 fn run(word: &str, next: &[&str]) -> Option<Run> {
-    let open: String = word.chars().take_while(|c| *c == '(' && word.matches('(').count() > word.matches(')').count()).collect();
+    let open: String =
+        word.chars().take_while(|c| *c == '(' && word.matches('(').count() > word.matches(')').count()).collect();
     let mut best: Option<Run> = None;
     let mut tokens: Vec<Token> = Vec::new();
     let words = std::iter::once(&word[open.len()..]).chain(next.iter().rev().copied());
@@ -266,10 +267,7 @@ fn number(text: &str) -> usize {
 }
 
 fn math(tokens: &[Token]) -> Markup {
-    let mut at = 0;
-    let row = row(tokens, &mut at, None);
-    // What is too much of a closing sign is written as it is.
-    html! { math { (row) @if at < tokens.len() { (math(&tokens[at..])) } } }
+    html! { math { (row(tokens, &mut 0, None)) } }
 }
 
 /// What stands as far as a closing sign.
@@ -324,7 +322,11 @@ fn scripted(tokens: &[Token], at: &mut usize) -> Markup {
             _ => {
                 *at += 1;
                 let script = script(tokens, at);
-                piece = if sign == '_' { html! { msub { (piece) (script) } } } else { html! { msup { (piece) (script) } } };
+                piece = if sign == '_' {
+                    html! { msub { (piece) (script) } }
+                } else {
+                    html! { msup { (piece) (script) } }
+                };
             }
         }
     }

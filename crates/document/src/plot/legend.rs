@@ -79,12 +79,7 @@ impl Entry {
 
 /// Draws the title and, below it, which curve is which; returns the area that is left, so that no legend lies on a curve. No label
 /// is cut: one that is wider than the figure is in lines.
-pub(super) fn heading<'a>(
-    area: &Area<'a>,
-    words: &str,
-    entries: &[Entry],
-    size: Size,
-) -> Result<Area<'a>, AreaError> {
+pub(super) fn heading<'a>(area: &Area<'a>, words: &str, entries: &[Entry], size: Size) -> Result<Area<'a>, AreaError> {
     let unit = DETAIL as i32;
     let below = title(area, words, size)? + size.choose(8, 4) * unit;
     let width = area.dim_in_pixel().0 as i32;
