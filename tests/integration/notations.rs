@@ -492,7 +492,12 @@ fn templates_certify_as_they_stand() {
 #[test]
 fn the_example_of_the_guide_is_read() {
     let guide = guide();
-    let block = guide.split("```toml\n").nth(1).and_then(|rest| rest.split("```").next()).expect("a block of TOML");
+    let block = guide
+        .split("```toml\n")
+        .skip(1)
+        .filter_map(|rest| rest.split("```").next())
+        .find(|text| text.contains("lyapunov = "));
+    let block = block.expect("a block of TOML");
     let spec = Specification::from_value(&read(block, Notation::Toml).root());
     let spec = spec.unwrap_or_else(|errors| panic!("{}", errors.render(false)));
     assert_eq!(spec.document["lyapunov"]["alpha"].to_string(), "0.58");

@@ -267,10 +267,7 @@ fn number(text: &str) -> usize {
 }
 
 fn math(tokens: &[Token]) -> Markup {
-    let mut at = 0;
-    let row = row(tokens, &mut at, None);
-    // What is too much of a closing sign is written as it is.
-    html! { math { (row) @if at < tokens.len() { (math(&tokens[at..])) } } }
+    html! { math { (row(tokens, &mut 0, None)) } }
 }
 
 /// What stands as far as a closing sign.

@@ -6,6 +6,7 @@ use super::claim::TriedClaim;
 use super::finding::{Trial, TriedPlant};
 use super::random::Random;
 use super::start::{boundary, drawn_plant, file, no_member, regulator};
+use crate::simulate::figures::number_short;
 use crate::simulate::{ClosedLoop, Disturbance, IntegrationFailure, SampledLoop, SampledRun, Tolerance, trajectory};
 use sigmastar_document::plot::{Curve, Figure, Scale, Style};
 use sigmastar_exact::number::{Direction, round_f64, write_exact};
@@ -24,6 +25,9 @@ const PERIODS: [usize; 2] = [5, 80];
 
 /// Points of a period.
 const POINTS: usize = 80;
+
+/// Points of a curve of the largest |e|, about.
+const DRAWN: usize = 400;
 
 /// A run is settled where the largest |e| of a period is below its bound by this share, or falls by less than this from one period to
 /// the next.
@@ -255,12 +259,15 @@ impl Edge {
                 });
             }
             let label = format!("simulated, n_o = {}", run.n_o);
-            curves.push(Curve { label, points: run.largest(), style: Style::Line });
+            let points = run.largest();
+            let stride = (points.len() / DRAWN).max(1);
+            let points = points.into_iter().step_by(stride).collect();
+            curves.push(Curve { label, points, style: Style::Line });
         }
         Figure {
             title: "The largest error within a period from t on: proved, and simulated from the edge of the set"
                 .to_owned(),
-            x: format!("time t [unit of time; period {}]", up(self.period)),
+            x: format!("time t [unit of time; period {}]", number_short(self.period)),
             y: "|e| [unit of e]".to_owned(),
             scale: Scale::LogY,
             floor,
@@ -296,7 +303,7 @@ impl Edge {
         }
         Figure {
             title: "The control: proved, and simulated".to_owned(),
-            x: format!("time t [unit of time; period {}]", up(self.period)),
+            x: format!("time t [unit of time; period {}]", number_short(self.period)),
             y: format!("{} [unit of e per unit of time]", if far { "|u|" } else { "u" }),
             scale: if far { Scale::LogY } else { Scale::Linear },
             floor,

@@ -131,7 +131,7 @@ pub(super) fn over_time(period: f64, title: &str, y: &str, curves: Vec<Curve>) -
 }
 
 /// A number in as few digits as it has, six at most.
-fn number_short(value: f64) -> String {
+pub(crate) fn number_short(value: f64) -> String {
     let text = format!("{value:.5e}");
     text.parse().map_or(text, |value: f64| format!("{value:?}").trim_end_matches(".0").to_owned())
 }

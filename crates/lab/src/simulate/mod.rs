@@ -8,7 +8,7 @@ mod bode;
 mod closed_loop;
 mod collocation;
 mod effort;
-mod figures;
+pub(crate) mod figures;
 mod fixed;
 mod implicit;
 mod integration;
