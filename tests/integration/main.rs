@@ -44,6 +44,7 @@ mod mutated_specifications;
 mod no_plant;
 mod notations;
 mod obstacles;
+mod packages;
 mod parameters;
 mod periodic_bounds;
 mod periods;
