@@ -30,6 +30,7 @@ mod expr_prove;
 mod families_random;
 mod formats;
 mod front_door;
+mod front_door_beside;
 mod fuzz;
 mod gallery;
 mod html;
