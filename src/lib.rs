@@ -3,8 +3,9 @@
 //! A [`Specification`] says what is known of a plant, and a [`Subject`] is one or a plant by its formulas; [`certify`] finds a
 //! small gain and proves that it works, and [`check`] decides the [`Certificate`] again with code of its own.
 //! [`transfer_bound`] proves the transfer bound by itself, [`rates`] what rate of convergence is proved,
-//! [`regulator_matrices`] and [`sampled_regulator`] give the regulator, a [`Study`] is many cases. What goes wrong is an
-//! [`Error`] with a [`kind`](Error::kind).
+//! [`regulator_matrices`] and [`sampled_regulator`] give the regulator, a [`Study`] is many cases. [`reread`] decides a stored certificate
+//! again, [`bounding_specification`] bounds a plant, [`sampling`] finds pairs of a gain and a sampling period, [`lyapunov`] a
+//! triple. What goes wrong is an [`Error`] with a [`kind`](Error::kind).
 //!
 //! From the text of a file to a claim that others can check:
 //!
@@ -67,7 +68,7 @@
 //! with them. Nothing here reads files, prints or exits. What is not on this page is not part of the interface.
 //!
 //! The feature `cli`, on by default, is for the program alone: a library user turns it off with
-//! `default-features = false`.
+//! `default-features = false`. With the feature `lab` there are `simulate` and `falsify`, which are floating point and claim nothing.
 
 #![deny(missing_docs)]
 // What tests compare with need not be the same on every machine.
@@ -76,9 +77,12 @@
 mod api;
 
 pub use api::{
-    BoundingFunction, Certificate, CertifyOptions, CheckReport, CheckVerdict, Claim, Condition, Diagnostic, Error,
-    ErrorKind, InitialSet, JacobianEntry, OscillatorShare, PeriodicSolution, Rate, RateMethod, Rates,
-    RegulatorMatrices, Report, ReportFormat, SampledRegulator, Samples, Specification, SpecificationBuilder, Study,
-    StudyCase, Subject, TransferBound, TransferChoice, TransferOptions, TransferStudy, VERSION, Verdict, certify,
-    check, check_against, rates, regulator_matrices, sampled_regulator, transfer_bound, transfer_study,
+    BoundedPlant, BoundingFunction, Certificate, CertifyOptions, CheckReport, CheckVerdict, Claim, Condition,
+    Diagnostic, Error, ErrorKind, InitialSet, JacobianEntry, OscillatorShare, PeriodicSolution, Rate, RateMethod,
+    Rates, RegulatorMatrices, Report, ReportFormat, SampledRegulator, Samples, SamplingPairs, Specification,
+    SpecificationBuilder, Study, StudyCase, Subject, TransferBound, TransferChoice, TransferOptions, TransferStudy,
+    VERSION, Verdict, bounding_specification, certify, check, check_against, lyapunov, rates, regulator_matrices,
+    reread, sampled_regulator, sampling, transfer_bound, transfer_study,
 };
+#[cfg(feature = "lab")]
+pub use api::{Falsification, FalsificationOutcome, Simulation, SimulationOptions, falsify, simulate};

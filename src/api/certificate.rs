@@ -26,11 +26,11 @@ pub struct Certificate {
 }
 
 impl Certificate {
-    /// `None` where nothing was certified.
-    pub(super) fn new(run: &Run<'_>, subject: &Subject) -> Option<Certificate> {
+    /// `None` where nothing was certified; `again` where a witness was decided again.
+    pub(super) fn new(run: &Run<'_>, subject: &Subject, again: bool) -> Option<Certificate> {
         let claim = Claim::new(run)?;
         let (json, subject) = (json_text(&certificate_of(run)?), subject.clone());
-        let (remarks, report) = (run_remarks(run), Report::of_run(run));
+        let (remarks, report) = (run_remarks(run), Report::of_run(run, again));
         Some(Certificate { claim, conditions: Condition::of_run(run), remarks, json, report, subject })
     }
 

@@ -50,11 +50,11 @@ fn run(subject: &Subject, options: &CertifyOptions) -> Result<Certificate, Error
     let prepared = prepared.within(limits);
     let mut run = prepared.certify(options).map_err(|all| Error::documents(&all))?;
     run.prove_rates(&counts).map_err(Error::no_rates)?;
-    Certificate::new(&run, &asked).ok_or_else(|| not_certified(&run))
+    Certificate::new(&run, &asked, false).ok_or_else(|| not_certified(&run))
 }
 
 /// Why a run has no certificate: the bounding functions that are not proved, or what the report says in one sentence.
 pub(super) fn not_certified(run: &Run<'_>) -> Error {
     let (verdict, sentence) = (run.verdict().without_claim(), run_sentence(run));
-    Error::not_certified(verdict, sentence, &run.unproved(), Condition::of_run(run), Report::of_run(run))
+    Error::not_certified(verdict, sentence, &run.unproved(), Condition::of_run(run), Report::of_run(run, false))
 }

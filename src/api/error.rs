@@ -25,6 +25,8 @@ pub enum ErrorKind {
     Options,
     /// Lines of results that are not of this study, or not all of them.
     Results,
+    /// A certificate states another claim than the one that its witness proves.
+    Claim,
     /// What was asked for is proved not to hold.
     Refuted,
     /// Nothing was found to be wrong, and something could not be decided: nothing is claimed either way.

@@ -3,31 +3,47 @@
 //! No type of another crate appears in it. Exact numbers are text, in the notation of specifications; doubles are
 //! rounded to the safe side, which is stated with each.
 
+mod bound;
 mod certificate;
 mod certify;
 mod check;
 mod condition;
 mod error;
+#[cfg(feature = "lab")]
+mod falsify;
+mod lyapunov;
 mod options;
 mod rate;
 mod regulator;
 mod report;
+mod reread;
+mod sampling;
+#[cfg(feature = "lab")]
+mod simulate;
 mod specification;
 mod study;
 mod subject;
 mod transfer;
 
+pub use bound::{BoundedPlant, bounding_specification};
 pub use certificate::{Certificate, Claim, InitialSet, PeriodicSolution, Samples};
 pub use certify::certify;
 pub use check::{CheckReport, CheckVerdict, check, check_against};
 pub use condition::Condition;
 pub use error::{Diagnostic, Error, ErrorKind};
+#[cfg(feature = "lab")]
+pub use falsify::{Falsification, FalsificationOutcome, falsify};
+pub use lyapunov::lyapunov;
 pub use options::CertifyOptions;
 pub use rate::{Rate, RateMethod, Rates, rates};
 pub use regulator::{RegulatorMatrices, SampledRegulator, regulator_matrices, sampled_regulator};
 pub use report::{Report, ReportFormat};
+pub use reread::reread;
+pub use sampling::{SamplingPairs, sampling};
 pub use sigmastar_lang::spec::Bound as BoundingFunction;
 pub use sigmastar_prove::certify::{TransferChoice, Verdict};
+#[cfg(feature = "lab")]
+pub use simulate::{Simulation, SimulationOptions, simulate};
 pub use specification::{JacobianEntry, Specification, SpecificationBuilder};
 pub use study::{Study, StudyCase};
 pub use subject::Subject;

@@ -30,9 +30,9 @@ impl Report {
         Report { made: Box::new(Made::of(report)) }
     }
 
-    /// That of `sigmastar certify`.
-    pub(super) fn of_run(run: &Run<'_>) -> Report {
-        Report::of(&RunReport::new(run, &[], false))
+    /// That of `sigmastar certify`; `again` where a witness was decided again.
+    pub(super) fn of_run(run: &Run<'_>, again: bool) -> Report {
+        Report::of(&RunReport::new(run, &[], again))
     }
 
     pub(super) fn new(made: Made) -> Report {

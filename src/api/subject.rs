@@ -3,6 +3,7 @@
 use super::error::Error;
 use super::json_text;
 use super::specification::Specification;
+use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{Document, MAX_BYTES};
 use sigmastar_prove::reduction::Subject as Read;
 
@@ -53,6 +54,11 @@ impl Subject {
 
     pub(super) fn new(source: Document) -> Result<Subject, Error> {
         Ok(Subject { read: Read::read(&source)?, source })
+    }
+
+    /// The plant; what is none is told as such.
+    pub(super) fn plant(&self) -> Result<Plant, Error> {
+        Ok(Plant::from_value(&self.source.root())?)
     }
 
     /// Whether it is a plant by its formulas.

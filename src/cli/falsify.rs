@@ -7,8 +7,8 @@ use super::output::Shortened;
 use super::progress::Bar;
 use super::{input, output, parameters};
 use sigmastar_lab::falsify::{
-    Falsification, FalsificationReport, Finding, FrequencyError, TrialSettings, TriedClaim, counterexample_plant,
-    falsify, flags, with_base_frequency,
+    Falsification, FalsificationReport, FrequencyError, TrialSettings, TriedClaim, counterexample_plant, falsify,
+    flags, with_base_frequency,
 };
 use sigmastar_prove::certify::Verdict;
 
@@ -73,12 +73,9 @@ fn attempt(args: &FalsifyArgs) -> Result<u8, Failure> {
     if let Err(code) = Shortened::new(&report, args.format, args.full).show(args.quiet) {
         return Ok(code);
     }
-    let held = |(_, outcome): &(TriedClaim, Falsification)| {
-        outcome.findings.iter().any(|finding| matches!(finding, Finding::Holds { .. }))
-    };
     Ok(match broken {
         Some(_) => Verdict::Refuted.exit_code(),
-        None if outcomes.iter().all(held) => 0,
+        None if outcomes.iter().all(|(_, outcome)| outcome.has_held()) => 0,
         None => Verdict::Undecided.exit_code(),
     })
 }

@@ -7,7 +7,11 @@ use super::format::Format;
 use super::output;
 use super::progress::Bar;
 use sigmastar_document::{Extent, Readable};
+use sigmastar_lang::plant::Plant;
 use sigmastar_paper::reproduce::{FIGURE_FILES, Parts, ReproductionReport, ReproductionSettings, figures, reproduce};
+
+/// The plant of the paper's numerical example.
+const PAPER_PLANT: &str = include_str!("../../specs/plants/paper-example.json");
 
 /// Runs the command and returns the exit code.
 pub fn run(args: &ReproduceArgs) -> u8 {
@@ -27,9 +31,10 @@ fn attempt(args: &ReproduceArgs) -> Result<u8, Failure> {
     files.extend(FIGURE_FILES.iter().filter(|_| parts.figures));
     args.replace.folder(&args.output, &files)?;
     let bar = Bar::new(settings.work(), args.quiet);
-    let reproduction = reproduce(settings, &bar)?;
+    let plant = Plant::from_json("specs/plants/paper-example.json", PAPER_PLANT)?;
+    let reproduction = reproduce(&plant, settings, &bar);
     bar.finish();
-    let figures = if parts.figures { figures()? } else { Vec::new() };
+    let figures = if parts.figures { figures(&plant) } else { Vec::new() };
     args.replace.figures(&args.output, &figures, Input::None, "leave the figures out with --only")?;
     let report = ReproductionReport { reproduction: &reproduction, figures: &figures };
     let markdown = report.markdown(Extent::Full);

@@ -8,11 +8,11 @@ use super::subject::{Subject, proved};
 use super::transfer::svg_file;
 use super::{input, output};
 use rug::Rational;
-use sigmastar_lang::spec::{Constant, MAX_SAMPLES, Sampling};
+use sigmastar_lang::spec::{Constant, Sampling};
 use sigmastar_prove::certify::Verdict;
 use sigmastar_prove::reduction::with_sampled_pairs;
 use sigmastar_report::{SamplingReport, sampling_figure};
-use sigmastar_studies::sampling::{OfPlant, OfSpecification, SamplingStudy};
+use sigmastar_studies::sampling::{OfPlant, OfSpecification, SamplingStudy, Unfit};
 
 /// Runs the command and returns the exit code.
 pub fn run(args: &SamplingArgs) -> u8 {
@@ -25,8 +25,7 @@ fn attempt(args: &SamplingArgs) -> Result<u8, Failure> {
     let (name, sha256, period) =
         (subject.name().to_owned(), subject.sha256().to_owned(), subject.period().nominal().clone());
     if !subject.is_matched() {
-        let message = "the regulator at samples needs a base frequency of 2 pi / period";
-        return Err(Failure::call(message, "set `\"matched\": true` in the internal model, with that base frequency"));
+        return Err(unfit(&Unfit::NotMatched));
     }
     let steps = args.sampling_period.as_deref().map(|list| steps(list, &period)).transpose()?;
     let gains = args.sigma.as_deref().map(gains).transpose()?;
@@ -71,17 +70,14 @@ fn steps(list: &str, period: &Constant) -> Result<Vec<Sampling>, Failure> {
     list.split(',')
         .map(|text| {
             let step = input::positive("--sampling-period", text.trim())?;
-            Sampling::new(period, step).ok_or_else(|| {
-                let message = format!(
-                    "the period {} is no whole multiple, from 2 to {MAX_SAMPLES}, of the sampling period {}",
-                    period.text,
-                    text.trim()
-                );
-                let share = period.divided_by(100).map_or_else(String::new, |share| share.text);
-                Failure::call(message, format!("write fractions of the period, such as `{share}`"))
-            })
+            let wrong = || Unfit::NoWholeMultiple { period: period.clone(), step: text.trim().to_owned() };
+            Sampling::new(period, step).ok_or_else(|| unfit(&wrong()))
         })
         .collect()
+}
+
+fn unfit(unfit: &Unfit) -> Failure {
+    Failure::call(unfit.to_string(), unfit.help())
 }
 
 fn gains(list: &str) -> Result<Vec<Rational>, Failure> {

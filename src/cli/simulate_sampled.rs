@@ -12,7 +12,7 @@ use sigmastar_lab::simulate::{
     Converters, FIGURE_FILES, SampledLoop, SampledSettings, SampledSimulationReport, sampled_csv, sampled_figures,
     simulate_sampled,
 };
-use sigmastar_lang::plant::{Initial, InitialRegulator, Plant};
+use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::Constant;
 use sigmastar_prove::certify::Verdict;
 use sigmastar_regulator::{Design, Discrete, Regulator, WrongDimension, read_discrete, read_regulator};
@@ -74,7 +74,7 @@ pub fn attempt(args: &SimulateArgs, step: &str) -> Result<u8, Failure> {
     if let Some(folder) = &args.plots {
         args.replace.folder(folder, &FIGURE_FILES)?;
     }
-    let start = start(&sampled, &plant.initial)?;
+    let start = sampled.start_of(&plant.initial).map_err(wrong_dimension)?;
     let settings = SampledSettings {
         periods: args.periods as usize,
         samples: args.samples as usize,
@@ -146,13 +146,6 @@ fn from_file(args: &SimulateArgs, step: &Constant) -> Result<(Regulator, Discret
         return Err(Failure::call(message, "export the regulator again"));
     }
     Ok((regulator, discrete))
-}
-
-/// The initial condition of the plant file.
-fn start(sampled: &SampledLoop, initial: &Initial) -> Result<Vec<f64>, Failure> {
-    let z = sampled.regulator.start(&initial.z, initial.e).map_err(wrong_dimension)?;
-    let start: Vec<f64> = initial.x.iter().copied().chain([initial.e]).chain(z).collect();
-    Ok(sampled.starting(start, matches!(initial.z, InitialRegulator::Aligned)))
 }
 
 /// The refusal of an initial z that is for another number of oscillators.

@@ -4,12 +4,16 @@
 //! was found, or with the error; `python/sigmastar` makes objects and exceptions of them.
 
 mod told;
+mod told_beside;
 mod work;
 
 use pyo3::prelude::*;
-use sigmastar::{Certificate, CertifyOptions, Error, Study, Subject, TransferChoice, TransferOptions};
+use sigmastar::{
+    Certificate, CertifyOptions, Error, SimulationOptions, Study, Subject, TransferChoice, TransferOptions,
+};
 use std::cell::RefCell;
 use told::{Told, ToldCase, ToldCertificate, ToldCheck, ToldRates, ToldRegulator, ToldSampled, ToldTransfer};
+use told_beside::{ToldBounded, ToldFalsification, ToldPairs, ToldReport, ToldSimulation};
 use work::outside;
 
 /// A document: what errors call it, and its bytes.
@@ -34,6 +38,10 @@ struct Options {
     compare: bool,
     sigma: Option<String>,
     sampling_period: Option<String>,
+    n_o: Vec<u32>,
+    steady_error: Option<String>,
+    peak_error: Option<String>,
+    max_control: Option<String>,
 }
 
 impl Options {
@@ -50,7 +58,10 @@ impl Options {
         let options = CertifyOptions::new().transfer(transfer).compare(self.compare);
         let options = options.precision_limit(self.precision_limit);
         let options = self.sigma.into_iter().fold(options, CertifyOptions::sigma);
-        Ok(self.sampling_period.into_iter().fold(options, CertifyOptions::sampling_period))
+        let options = self.sampling_period.into_iter().fold(options, CertifyOptions::sampling_period);
+        let options = self.steady_error.into_iter().fold(options, CertifyOptions::steady_error);
+        let options = self.peak_error.into_iter().fold(options, CertifyOptions::peak_error);
+        Ok(self.max_control.into_iter().fold(options, CertifyOptions::max_control).n_o(self.n_o))
     }
 }
 
@@ -61,6 +72,84 @@ fn certify(py: Python<'_>, file: File, options: Options) -> PyResult<Told<ToldCe
         let certificate: Result<Certificate, Error> =
             subject(&file).and_then(|subject| sigmastar::certify(subject, &options));
         certificate.map(|certificate| ToldCertificate::from(&certificate)).into()
+    })
+}
+
+#[pyfunction]
+fn reread(py: Python<'_>, file: File) -> PyResult<Told<ToldCertificate>> {
+    outside(py, move || {
+        let certificate = sigmastar::reread(&file.0, &file.1);
+        certificate.map(|certificate| ToldCertificate::from(&certificate)).into()
+    })
+}
+
+#[pyfunction]
+fn bound(py: Python<'_>, file: File, domain: Option<(String, String)>) -> PyResult<Told<ToldBounded>> {
+    outside(py, move || {
+        let domain = domain.as_ref().map(|(x, e)| [x.as_str(), e.as_str()]);
+        let bounded = subject(&file).and_then(|subject| sigmastar::bounding_specification(subject, domain));
+        bounded.map(|bounded| ToldBounded::from(&bounded)).into()
+    })
+}
+
+#[pyfunction]
+fn lyapunov(py: Python<'_>, file: File) -> PyResult<Told<ToldReport>> {
+    outside(py, move || {
+        let report = subject(&file).and_then(sigmastar::lyapunov);
+        report.map(|report| ToldReport::from(&report)).into()
+    })
+}
+
+#[pyfunction]
+fn sampling(
+    py: Python<'_>,
+    file: File,
+    periods: Option<Vec<String>>,
+    sigmas: Option<Vec<String>>,
+) -> PyResult<Told<ToldPairs>> {
+    outside(py, move || {
+        let periods: Option<Vec<&str>> = periods.as_ref().map(|all| all.iter().map(String::as_str).collect());
+        let sigmas: Option<Vec<&str>> = sigmas.as_ref().map(|all| all.iter().map(String::as_str).collect());
+        let pairs =
+            subject(&file).and_then(|subject| sigmastar::sampling(subject, periods.as_deref(), sigmas.as_deref()));
+        pairs.map(|pairs| ToldPairs::from(&pairs)).into()
+    })
+}
+
+/// The options of `simulate`.
+#[derive(FromPyObject)]
+struct Run {
+    sigma: String,
+    n_o: Option<u32>,
+    periods: u32,
+    samples: u32,
+    harmonics: u32,
+    sampling_period: Option<String>,
+    input_gain: Option<String>,
+}
+
+impl From<Run> for SimulationOptions {
+    fn from(run: Run) -> SimulationOptions {
+        let options = SimulationOptions::new(run.sigma).periods(run.periods).samples(run.samples);
+        let options = run.n_o.into_iter().fold(options.harmonics(run.harmonics), SimulationOptions::n_o);
+        let options = run.sampling_period.into_iter().fold(options, SimulationOptions::sampling_period);
+        run.input_gain.into_iter().fold(options, SimulationOptions::input_gain)
+    }
+}
+
+#[pyfunction]
+fn simulate(py: Python<'_>, file: File, run: Run) -> PyResult<Told<ToldSimulation>> {
+    outside(py, move || {
+        let simulation = subject(&file).and_then(|plant| sigmastar::simulate(plant, &run.into()));
+        simulation.map(|simulation| ToldSimulation::from(&simulation)).into()
+    })
+}
+
+#[pyfunction]
+fn falsify(py: Python<'_>, file: File, trials: u32, seed: u64) -> PyResult<Told<ToldFalsification>> {
+    outside(py, move || {
+        let found = sigmastar::falsify(&file.0, &file.1, trials, seed);
+        found.map(|found| ToldFalsification::from(&found)).into()
     })
 }
 
@@ -160,6 +249,12 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("MAX_BYTES", Subject::MAX_BYTES)?;
     module.add("LARGEST_PRECISION_LIMIT", CertifyOptions::LARGEST_PRECISION_LIMIT)?;
     module.add_function(wrap_pyfunction!(certify, module)?)?;
+    module.add_function(wrap_pyfunction!(reread, module)?)?;
+    module.add_function(wrap_pyfunction!(bound, module)?)?;
+    module.add_function(wrap_pyfunction!(lyapunov, module)?)?;
+    module.add_function(wrap_pyfunction!(sampling, module)?)?;
+    module.add_function(wrap_pyfunction!(simulate, module)?)?;
+    module.add_function(wrap_pyfunction!(falsify, module)?)?;
     module.add_function(wrap_pyfunction!(check, module)?)?;
     module.add_function(wrap_pyfunction!(rates, module)?)?;
     module.add_function(wrap_pyfunction!(transfer, module)?)?;

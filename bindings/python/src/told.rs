@@ -111,10 +111,12 @@ fn kind(kind: ErrorKind) -> &'static str {
         ErrorKind::Range => "range",
         ErrorKind::Options => "options",
         ErrorKind::Results => "results",
+        ErrorKind::Claim => "claim",
         ErrorKind::Refuted => "refuted",
         ErrorKind::Undecided => "undecided",
         ErrorKind::NotCertified => "not-certified",
         ErrorKind::Overflow => "overflow",
+        ErrorKind::NotAvailable => "not-available",
         _ => "other",
     }
 }

@@ -14,44 +14,74 @@ A claim is proved: no floating-point number decides it. What is not certified is
 `InputError`), never a certificate.
 """
 
-from ._calls import certify, check, controller, rate, transfer
+from ._beside import BoundedPlant, Lyapunov, Pair, SamplingPairs
+from ._calls import bound, certify, check, controller, falsify, load, lyapunov, rate, sampling, simulate, transfer
 from ._condition import Condition
 from ._errors import Diagnostic, InputError, RefutedError, SigmastarError, UndecidedError
 from ._exact import Exact
+from ._laboratory import Falsification, Simulation
 from ._native import VERSION as __version__
 from ._regulator import Regulator, SampledRegulator
-from ._results import Certificate, Check, InitialSet, PeriodicSolution, Rate, Rates, Samples, Share, TransferBound
+from ._results import (
+    Certificate,
+    Check,
+    ClaimedRate,
+    ErrorBound,
+    InitialSet,
+    PeriodicSolution,
+    Rate,
+    Rates,
+    SampledCertificate,
+    Samples,
+    Share,
+    TransferBound,
+)
 from ._study import Case, Study, load_study, results, run_case, study_cases, write_results
 
 __all__ = [
+    "BoundedPlant",
     "Case",
     "Certificate",
     "Check",
+    "ClaimedRate",
     "Condition",
     "Diagnostic",
+    "ErrorBound",
     "Exact",
+    "Falsification",
     "InitialSet",
     "InputError",
+    "Lyapunov",
+    "Pair",
     "PeriodicSolution",
     "Rate",
     "Rates",
     "RefutedError",
     "Regulator",
+    "SampledCertificate",
     "SampledRegulator",
     "Samples",
+    "SamplingPairs",
     "Share",
     "SigmastarError",
+    "Simulation",
     "Study",
     "TransferBound",
     "UndecidedError",
     "__version__",
+    "bound",
     "certify",
     "check",
     "controller",
+    "falsify",
+    "load",
     "load_study",
+    "lyapunov",
     "rate",
     "results",
     "run_case",
+    "sampling",
+    "simulate",
     "study_cases",
     "transfer",
     "write_results",

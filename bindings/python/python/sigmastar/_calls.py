@@ -2,20 +2,27 @@
 
 from __future__ import annotations
 
-from typing import Iterable, NamedTuple, Optional, Tuple, Union
+import os
+from typing import Iterable, List, Literal, NamedTuple, Optional, Tuple, Union, overload
 
 from . import _native
-from ._document import Document, File, file
+from ._beside import BoundedPlant, Lyapunov, SamplingPairs
+from ._document import Document, File, file, read
 from ._errors import found
-from ._exact import Number, text
+from ._exact import Number, stated, text
+from ._laboratory import Falsification, Simulation
 from ._regulator import Regulator, SampledRegulator
 from ._regulator import regulator as _regulator
 from ._regulator import sampled as _sampled
-from ._results import Certificate, Check, Rates, TransferBound
+from ._results import Certificate, Check, Rates, SampledCertificate, TransferBound
 from ._results import certificate as _certificate
 from ._results import check as _check
 from ._results import rates as _rates
 from ._results import transfer as _transfer
+
+
+Transfer = Literal["best", "boxes", "closed-form"]
+"""A proof of the transfer bound."""
 
 
 class _Options(NamedTuple):
@@ -24,14 +31,60 @@ class _Options(NamedTuple):
     compare: bool
     sigma: Optional[str]
     sampling_period: Optional[str]
+    n_o: List[int]
+    steady_error: Optional[str]
+    peak_error: Optional[str]
+    max_control: Optional[str]
 
 
+class _Run(NamedTuple):
+    sigma: str
+    n_o: Optional[int]
+    periods: int
+    samples: int
+    harmonics: int
+    sampling_period: Optional[str]
+    input_gain: Optional[str]
+
+
+@overload
+def certify(
+    document: Document,
+    *,
+    sigma: Optional[Number] = ...,
+    sampling_period: None = ...,
+    n_o: Iterable[int] = ...,
+    steady_error: Optional[Number] = ...,
+    peak_error: Optional[Number] = ...,
+    max_control: Optional[Number] = ...,
+    transfer: Transfer = ...,
+    precision_limit: int = ...,
+    compare: bool = ...,
+) -> Certificate: ...
+@overload
+def certify(
+    document: Document,
+    *,
+    sigma: Optional[Number] = ...,
+    sampling_period: Number,
+    n_o: Iterable[int] = ...,
+    steady_error: Optional[Number] = ...,
+    peak_error: Optional[Number] = ...,
+    max_control: Optional[Number] = ...,
+    transfer: Transfer = ...,
+    precision_limit: int = ...,
+    compare: bool = ...,
+) -> SampledCertificate: ...
 def certify(
     document: Document,
     *,
     sigma: Optional[Number] = None,
     sampling_period: Optional[Number] = None,
-    transfer: str = "best",
+    n_o: Iterable[int] = (),
+    steady_error: Optional[Number] = None,
+    peak_error: Optional[Number] = None,
+    max_control: Optional[Number] = None,
+    transfer: Transfer = "best",
     precision_limit: int = _native.LARGEST_PRECISION_LIMIT,
     compare: bool = True,
 ) -> Certificate:
@@ -41,6 +94,9 @@ def certify(
 
     - `sigma`: certify this gain instead of the smallest one that is found;
     - `sampling_period`: certify the regulator that a computer runs at samples this far apart;
+    - `n_o`: numbers of oscillators (at most 8, up to 50) for each of which a rate and a factor are proved and claimed, at this gain;
+    - `steady_error`, `peak_error`, `max_control`: certify the smallest gain that is found with which |e| along the periodic solution, |e|
+      on the way, or what is put out stays within this;
     - `transfer`: the proof of the transfer bound, `best`, `boxes` or `closed-form`;
     - `precision_limit`: the precision in bits at which an undecided condition is given up;
     - `compare`: whether the repaired derivation is worked out too, for the report and the certificate.
@@ -48,8 +104,18 @@ def certify(
     Raises InputError where the document or an option is wrong, UndecidedError where nothing is claimed either way, RefutedError
     where what was asked for is proved not to hold, and OSError for a file that cannot be read.
     """
-    options = _Options(transfer, precision_limit, compare, _maybe(sigma), _maybe(sampling_period))
+    limits = (_maybe(steady_error), _maybe(peak_error), _maybe(max_control))
+    options = _Options(transfer, precision_limit, compare, _maybe(sigma), _maybe(sampling_period), _counts(n_o), *limits)
     return _certificate(found(_native.certify(file(document, "document"), options)))
+
+
+def load(path: Union[str, "os.PathLike[str]"]) -> Certificate:
+    """Reads a certificate that was saved, and decides it again from its witness: what comes back is proved as by `certify`, and made anew.
+
+    Raises InputError for what is no certificate, and for one whose claim is not what its witness proves (`kind` is `claim`), as of one
+    that was altered or that another version made; UndecidedError where a condition is not proved; OSError as `certify`.
+    """
+    return _certificate(found(_native.reread(read(os.fspath(path)))))
 
 
 def check(certificate: Union[Certificate, Document], specification: Optional[Document] = None) -> Check:
@@ -60,7 +126,7 @@ def check(certificate: Union[Certificate, Document], specification: Optional[Doc
 
     Raises InputError and OSError for the specification alone; a bad certificate is told in the answer.
     """
-    content = certificate.to_json().encode("utf-8") if isinstance(certificate, Certificate) else file(certificate, "")[1]
+    content = _stored(certificate)[1]
     against = None if specification is None else file(specification, "document")
     return _check(found(_native.check(content, against)))
 
@@ -72,6 +138,79 @@ def rate(document: Document, n_o: Iterable[int] = (0, 1, 2, 4, 8, 16), *, sigma:
     Raises what `certify` raises; InputError for a smaller gain, and for more than 200 oscillators.
     """
     return _rates(found(_native.rates(file(document, "document"), _maybe(sigma), _counts(n_o))))
+
+
+def bound(plant: Document, domain: Optional[Tuple[Number, Number]] = None) -> BoundedPlant:
+    """The bounding specification of a plant, every number of it proved, on the domain (X, E), or on one a quarter larger than what the
+    certificate of the plant needs.
+
+    Raises what `certify` raises.
+    """
+    wanted = None if domain is None else (text(domain[0]), text(domain[1]))
+    told = found(_native.bound(file(plant, "document"), wanted))
+    x, e = told["domain"]
+    return BoundedPlant((stated(x, "down"), stated(e, "down")), told["limited"], told["json"])
+
+
+def lyapunov(document: Document) -> Lyapunov:
+    """Finds and proves the Lyapunov triple of a specification with a Jacobian, or the orbit of a plant.
+
+    Raises InputError for a specification that gives its triple, otherwise what `certify` raises.
+    """
+    return Lyapunov(found(_native.lyapunov(file(document, "document")))["reports"])
+
+
+def sampling(
+    document: Document,
+    sampling_periods: Optional[Iterable[Number]] = None,
+    *,
+    sigmas: Optional[Iterable[Number]] = None,
+) -> SamplingPairs:
+    """The smallest certified gain for sampling periods, and the longest certified sampling period for gains; without either list, of
+    some that fit the gain in continuous time.
+
+    Raises what `certify` raises; where nothing is certified the answer is false.
+    """
+    told = found(_native.sampling(file(document, "document"), _texts(sampling_periods), _texts(sigmas)))
+    return SamplingPairs(told["has_pair"], told["reports"])
+
+
+def simulate(
+    plant: Document,
+    *,
+    sigma: Number,
+    n_o: Optional[int] = None,
+    periods: int = 30,
+    samples: int = 200,
+    harmonics: int = 12,
+    sampling_period: Optional[Number] = None,
+    input_gain: Optional[Number] = None,
+) -> Simulation:
+    """Simulates a plant with its regulator of gain `sigma` and `n_o` oscillators, or without them with `u = -sigma e`. Floating point:
+    it claims nothing.
+
+    - `periods`, `samples`: the run from the initial condition of the plant, and its samples per period;
+    - `harmonics`: Fourier coefficients of the steady error;
+    - `sampling_period`: the regulator at samples this far apart;
+    - `input_gain`: the true gain of the actuator.
+
+    Raises InputError and OSError as `certify`.
+    """
+    count = None if n_o is None else _count(n_o)
+    periods, samples, harmonics = _count(periods, "periods"), _count(samples, "samples"), _count(harmonics, "harmonics")
+    run = _Run(text(sigma), count, periods, samples, harmonics, _maybe(sampling_period), _maybe(input_gain))
+    told = found(_native.simulate(file(plant, "document"), run))
+    return Simulation(told["complete"], told["csv"], told["reports"])
+
+
+def falsify(certificate: Union[Certificate, Document], *, trials: int = 50, seed: int = 1) -> Falsification:
+    """Simulates random plants that satisfy the data of a certificate and holds what they do against its bounds: a Certificate, a path or
+    a dictionary. The same seed gives the same trials. Floating point: what is not found is no proof.
+
+    Raises InputError and OSError as `certify`.
+    """
+    told = found(_native.falsify(_stored(certificate), _count(trials, "trials"), seed))
+    return Falsification(told["outcome"], told["counterexample"], told["reports"])
 
 
 def transfer(
@@ -96,6 +235,27 @@ def transfer(
     return _transfer(found(_native.transfer(file(document, "document"), _maybe(k0), weights, counts)))
 
 
+@overload
+def controller(  # type: ignore[overload-overlap]
+    source: SampledCertificate,
+    n_o: int = ...,
+) -> SampledRegulator: ...
+@overload
+def controller(
+    source: Union[Certificate, Document],
+    n_o: int = ...,
+    *,
+    sigma: Optional[Number] = ...,
+    step: None = ...,
+) -> Regulator: ...
+@overload
+def controller(
+    source: Union[Certificate, Document],
+    n_o: int = ...,
+    *,
+    sigma: Optional[Number] = ...,
+    step: Number,
+) -> SampledRegulator: ...
 def controller(
     source: Union[Certificate, Document],
     n_o: int = 4,
@@ -135,11 +295,22 @@ def _maybe(number: Optional[Number]) -> Optional[str]:
     return None if number is None else text(number)
 
 
+def _texts(numbers: Optional[Iterable[Number]]) -> Optional[List[str]]:
+    return None if numbers is None else [text(number) for number in numbers]
+
+
+def _stored(certificate: Union[Certificate, Document]) -> File:
+    """What errors call a certificate, and its bytes."""
+    if isinstance(certificate, Certificate):
+        return ("certificate", certificate.to_json().encode("utf-8"))
+    return file(certificate, "certificate")
+
+
 def _counts(n_o: Iterable[int]) -> list[int]:
     return [_count(count) for count in n_o]
 
 
-def _count(n_o: int) -> int:
-    if isinstance(n_o, bool) or int(n_o) != n_o or not 0 <= n_o < 1 << 32:
-        raise ValueError(f"{n_o!r} is no number of oscillators")
-    return int(n_o)
+def _count(count: int, of: str = "oscillators") -> int:
+    if isinstance(count, bool) or int(count) != count or not 0 <= count < 1 << 32:
+        raise ValueError(f"{count!r} is no number of {of}")
+    return int(count)

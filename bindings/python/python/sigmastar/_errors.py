@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Dict, List, Optional, Tuple
+from typing import Any, Dict, List, Literal, Optional, Tuple
 
 from ._condition import Condition, conditions
+from ._report import Format
 
 
 @dataclass(frozen=True)
@@ -40,16 +41,16 @@ class SigmastarError(Exception):
         super().__init__(told["text"])
         self._told = told
         self.kind: str = told["kind"]
-        """What kind of error it is: `document`, `format`, `field`, `expression`, `range`, `options`, `results`, `refuted`,
-        `undecided`, `not-certified` or `overflow`. Others may follow."""
-        self.verdict: str = told["verdict"]
+        """What kind of error it is: `document`, `format`, `field`, `expression`, `range`, `options`, `results`, `claim`,
+        `refuted`, `undecided`, `not-certified`, `overflow` or `not-available`. Others may follow."""
+        self.verdict: Literal["bad-input", "undecided", "refuted"] = told["verdict"]
         """The verdict of the program: `bad-input`, `undecided` or `refuted`."""
         self.diagnostics: List[Diagnostic] = [Diagnostic(**one) for one in told["diagnostics"]]
         """Everything that was found, in order, with its place."""
         self.conditions: List[Condition] = conditions(told["conditions"])
         """The conditions of the attempt that came nearest, where one was evaluated."""
 
-    def report(self, format: str = "text") -> Optional[str]:
+    def report(self, format: Format = "text") -> Optional[str]:
         """The report of a run that certified nothing: what failed and what to try. None where no run was made."""
         reports: Optional[Dict[str, str]] = self._told["reports"]
         return None if reports is None else reports[format]

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from decimal import Decimal
+import math
+from decimal import ROUND_CEILING, ROUND_FLOOR, ROUND_HALF_EVEN, Context, Decimal
 from fractions import Fraction
 from numbers import Integral
-from typing import Tuple, Union
+from typing import Literal, Tuple, Union
 
 Number = Union[str, int, float, Fraction, Decimal]
 """An exact constant: a text in the notation of specifications (`"1/3"`, `"2*pi"`), or a number. A float is the decimal that
@@ -36,6 +37,34 @@ class Exact(float):
 
     def __getnewargs__(self) -> Tuple[float, str]:  # type: ignore[override]
         return (float(self), self.exact)
+
+
+Side = Literal["nearest", "up", "down"]
+"""Where a number is rounded to."""
+
+_ROUNDING = {"nearest": ROUND_HALF_EVEN, "up": ROUND_CEILING, "down": ROUND_FLOOR}
+
+
+def stated(text: str, side: Side = "nearest") -> Exact:
+    """A number that a report states, with the double on this side of it."""
+    if text == "inf":
+        return Exact(math.inf, text)
+    exact = Fraction(text)
+    double = float(exact)
+    if side == "up" and Fraction(double) < exact:
+        double = math.nextafter(double, math.inf)
+    elif side == "down" and Fraction(double) > exact:
+        double = math.nextafter(double, -math.inf)
+    return Exact(double, text)
+
+
+def digits(value: Union[float, str], side: Side = "nearest") -> str:
+    """Four digits of a number, as people are shown it."""
+    if value in (math.inf, -math.inf) or value != value:
+        return str(value)
+    exact = Fraction(value.exact if isinstance(value, Exact) else str(value))
+    context = Context(prec=4, rounding=_ROUNDING[side])
+    return format(context.divide(Decimal(exact.numerator), Decimal(exact.denominator)), "g")
 
 
 def text(value: Number) -> str:

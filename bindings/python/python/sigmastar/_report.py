@@ -3,7 +3,12 @@
 from __future__ import annotations
 
 import html
-from typing import Dict
+import json
+from functools import cached_property
+from typing import Any, Dict, Literal, cast
+
+Format = Literal["text", "markdown", "html", "json"]
+"""A form of a report."""
 
 FORMATS = ("text", "markdown", "html", "json")
 
@@ -13,11 +18,16 @@ class Reported:
 
     _reports: Dict[str, str]
 
-    def report(self, format: str = "text") -> str:
+    def report(self, format: Format = "text") -> str:
         """The report as `text`, `markdown`, `html` or `json`: the bytes of the program with `--format`."""
         if format not in FORMATS:
             raise ValueError(f"there is no format {format!r}: give one of {', '.join(FORMATS)}")
         return self._reports[format]
+
+    @cached_property
+    def data(self) -> Dict[str, Any]:
+        """The report in JSON as a dictionary: every figure by name (docs/formats.md), numbers as text where they are exact."""
+        return cast(Dict[str, Any], json.loads(self._reports["json"]))
 
     def _repr_html_(self) -> str:
         return framed(self._reports["html"])

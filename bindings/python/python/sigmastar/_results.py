@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+import json
 import os
 import tempfile
 from dataclasses import dataclass, field
-from typing import Any, Dict, List, Optional, Tuple, Union
+from typing import TYPE_CHECKING, Any, Dict, List, Literal, Optional, Tuple, Union
 
 from ._condition import Condition, conditions
-from ._exact import Exact
+from ._exact import Exact, digits, stated
 from ._report import Reported
+from ._table import axes
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 
 @dataclass(frozen=True)
@@ -52,6 +57,31 @@ class Samples:
 
 
 @dataclass(frozen=True)
+class ErrorBound:
+    """Upper bounds of the error along the periodic solution with a number of oscillators. They follow from the claim; no independent
+    program checks them."""
+
+    n_o: int
+    """The number of oscillators."""
+    sup: Exact
+    """Of sup|e|, rounded up."""
+    rms: Exact
+    """Of the root mean square of e, rounded up."""
+
+
+@dataclass(frozen=True)
+class ClaimedRate:
+    """What the claim says of one number of oscillators, at its gain alone: `|e - e_per| <= factor exp(-rate (t - t_0))`."""
+
+    n_o: int
+    """The number of oscillators."""
+    rate: Exact
+    """The rate, in 1/time, rounded down."""
+    factor: Exact
+    """The factor, for every start in the initial set, rounded up."""
+
+
+@dataclass(frozen=True, repr=False)
 class Certificate(Reported):
     """A certified claim, the conditions that prove it, and the file from which both can be checked again.
 
@@ -84,7 +114,7 @@ class Certificate(Reported):
     _reports: Dict[str, str] = field(repr=False)
 
     @property
-    def verdict(self) -> str:
+    def verdict(self) -> Literal["certified"]:
         """`certified`: what is not certified is an exception and no certificate."""
         return "certified"
 
@@ -92,6 +122,35 @@ class Certificate(Reported):
     def sigma_star_exact(self) -> str:
         """The gain exactly: a decimal or a fraction."""
         return self.sigma_star.exact
+
+    @property
+    def error_bounds(self) -> List[ErrorBound]:
+        """Bounds of the error by the number of oscillators, at the gain and at every larger one that is certified; none of the regulator at
+        samples."""
+        rows = (self.data.get("consequences") or {}).get("error_bounds", [])
+        return [ErrorBound(row["n_o"], stated(row["sup"], "up"), stated(row["rms"], "up")) for row in rows]
+
+    @property
+    def rates(self) -> List[ClaimedRate]:
+        """What `certify` was asked with `n_o`."""
+        rows = self.data.get("for_n_o") or []
+        return [ClaimedRate(row["n_o"], stated(row["rate"], "down"), stated(row["factor"], "up")) for row in rows]
+
+    def plot(self, ax: Optional[Axes] = None) -> Axes:
+        """The bounds of the error against the number of oscillators, with matplotlib, which has to be installed."""
+        bounds = self.error_bounds
+        ax = axes(ax, "n_o + 1", "bound of e")
+        for label, values in (("sup|e|", [one.sup for one in bounds]), ("rms(e)", [one.rms for one in bounds])):
+            ax.loglog([one.n_o + 1 for one in bounds], values, "o-", label=label)
+        ax.legend()
+        return ax
+
+    def __repr__(self) -> str:
+        # A claim about one gain is about all its digits.
+        exactly = self.samples is not None or "actuator" in json.loads(self._subject)
+        sigma = self.sigma_star_exact if exactly else digits(self.sigma_star, "up")
+        at = "" if self.samples is None else f", sampling_period={self.samples.period}"
+        return f"<{type(self).__name__} of {self.name!r}: sigma_star={sigma}{at}>"
 
     def to_json(self) -> str:
         """The certificate file, self-contained; the bytes are those of `sigmastar certify -o`."""
@@ -102,11 +161,18 @@ class Certificate(Reported):
         write(path, self._json)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
+class SampledCertificate(Certificate):
+    """A certified claim about the regulator at samples, for exactly its gain and sampling period."""
+
+    samples: Samples
+
+
+@dataclass(frozen=True, repr=False)
 class Check(Reported):
     """The answer of the independent checker. It is true only where the claim is proved again."""
 
-    verdict: str
+    verdict: Literal["valid", "invalid", "bad-input", "undecided"]
     """`valid`, `invalid`, `bad-input` or `undecided`."""
     is_flawless: bool
     """Whether the claim is proved and every figure beside it, on which no claim rests, agrees too."""
@@ -126,6 +192,9 @@ class Check(Reported):
     def __bool__(self) -> bool:
         return self.is_valid
 
+    def __repr__(self) -> str:
+        return f"<Check: {self.verdict}{'' if self.is_flawless or not self.is_valid else ', a figure differs'}>"
+
     def __str__(self) -> str:
         return self._reports["text"]
 
@@ -140,7 +209,7 @@ class Share:
     """The largest T_N(x)/(k0 + k1 x^2) lies between these, rounded outward."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class TransferBound(Reported):
     """A proved bound T_N(x) <= k0 + k1 x^2, for every number of oscillators and every x >= 0. No certificate carries it."""
 
@@ -154,6 +223,9 @@ class TransferBound(Reported):
     """How much of the bound some numbers of oscillators use."""
     _reports: Dict[str, str] = field(repr=False)
 
+    def __repr__(self) -> str:
+        return f"<TransferBound: k0={digits(self.k0, 'up')}, k1={digits(self.k1, 'up')}>"
+
 
 @dataclass(frozen=True)
 class Rate:
@@ -163,7 +235,7 @@ class Rate:
     """The number of oscillators."""
     closed_loop: Optional[Exact]
     """A rate at which every solution from the certified initial set approaches the periodic solution, rounded down."""
-    method: Optional[str]
+    method: Optional[Literal["riccati", "kappa", "other"]]
     """How that was proved: `riccati` or `kappa`."""
     oscillators: Optional[Exact]
     """A decay rate of the oscillators by themselves, rounded down."""
@@ -171,7 +243,7 @@ class Rate:
     """Minus the spectral abscissa of the oscillators: floating point, no claim."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Rates(Reported):
     """Rates of convergence at one gain. No certificate carries them, and no independent program checks them."""
 
@@ -183,6 +255,13 @@ class Rates(Reported):
     """One for each number of oscillators that was asked for."""
     _reports: Dict[str, str] = field(repr=False)
 
+    def __repr__(self) -> str:
+        def shown(rate: Rate) -> str:
+            found = "none" if rate.closed_loop is None else digits(rate.closed_loop, "down")
+            return f"{found} with n_o={rate.n_o}"
+
+        return f"<Rates at sigma={digits(self.sigma)}: {', '.join(map(shown, self.rates))}>"
+
 
 def exact(told: Optional[Tuple[float, str]]) -> Any:
     """A number with its text."""
@@ -192,9 +271,8 @@ def exact(told: Optional[Tuple[float, str]]) -> Any:
 def certificate(told: Dict[str, Any]) -> Certificate:
     """A certificate from the library's answer."""
     x0, e0, z0 = map(exact, told["initial_set"])
-    return Certificate(
+    fields: Dict[str, Any] = dict(
         sigma_star=exact(told["sigma_star"]),
-        samples=None if told["samples"] is None else Samples(*told["samples"]),
         statement=told["statement"],
         initial_set=InitialSet(x0, e0, z0, told["ball"]),
         periodic_solution=PeriodicSolution(*told["periodic_solution"]),
@@ -207,6 +285,9 @@ def certificate(told: Dict[str, Any]) -> Certificate:
         _subject=told["subject"],
         _reports=told["reports"],
     )
+    if told["samples"] is None:
+        return Certificate(samples=None, **fields)
+    return SampledCertificate(samples=Samples(*told["samples"]), **fields)
 
 
 def check(told: Dict[str, Any]) -> Check:

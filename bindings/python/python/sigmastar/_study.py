@@ -2,14 +2,21 @@
 
 from __future__ import annotations
 
+import json
 import os
 from dataclasses import dataclass, field
-from typing import Dict, Iterable, List, Optional, Union
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any, Dict, Iterable, List, Optional, Union
 
 from . import _native
 from ._document import Document, File, file, read
 from ._errors import found
 from ._results import write
+from ._table import axes, dataframe
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from pandas import DataFrame  # type: ignore[import-untyped,unused-ignore]
 
 
 @dataclass(frozen=True)
@@ -39,6 +46,43 @@ class Study:
 
     def __len__(self) -> int:
         return self.cases
+
+    def to_dataframe(self, lines: Iterable[str]) -> DataFrame:
+        """Lines of `run_case` as a table of pandas, which has to be installed: the values of the parameters, the verdict, and sigma_star
+        with the nearest double, not a number where nothing is certified."""
+        return dataframe(self._columns(lines))
+
+    def plot(self, lines: Iterable[str], parameter: Optional[str] = None, ax: Optional[Axes] = None) -> Axes:
+        """The gain of the lines of `run_case` against a parameter, the first one by default, with matplotlib, which has to be
+        installed."""
+        columns = self._columns(lines)
+        names = self._parameters()
+        name = names[0] if parameter is None else parameter
+        if name not in names:
+            raise ValueError(f"the study has no parameter {name!r}")
+        ax = axes(ax, name, "sigma_star")
+        ax.plot(columns[name], columns["sigma_star"], "o")
+        return ax
+
+    def _parameters(self) -> List[str]:
+        return [name for name, _ in found(_native.study_case((self._file, self._subject), 0))["values"]]
+
+    def _columns(self, lines: Iterable[str]) -> Dict[str, List[Any]]:
+        rows = sorted((json.loads(line) for line in lines), key=lambda row: row["index"])
+        columns: Dict[str, List[Any]] = {"index": [row["index"] for row in rows]}
+        for at, name in enumerate(self._parameters()):
+            columns[name] = [_number(row["values"][at]) for row in rows]
+        columns["verdict"] = [row["verdict"] for row in rows]
+        columns["sigma_star"] = [float(Fraction(row["sigma_star"])) if "sigma_star" in row else float("nan") for row in rows]
+        return columns
+
+
+def _number(value: str) -> Union[float, str]:
+    """A value of a parameter as a double, or its text where it is no rational number."""
+    try:
+        return float(Fraction(value))
+    except ValueError:
+        return value
 
 
 StudyLike = Union[Study, Document]

@@ -166,6 +166,12 @@ impl Falsification {
         sizes.reduce(|a, b| if a.share < b.share { b } else { a })
     }
 
+    /// Whether in some trial every bound held.
+    #[must_use]
+    pub fn has_held(&self) -> bool {
+        self.findings.iter().any(|finding| matches!(finding, Finding::Holds { .. }))
+    }
+
     /// The first violation.
     #[must_use]
     pub fn counterexample(&self) -> Option<(&Trial, &Violation)> {

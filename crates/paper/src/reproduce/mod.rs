@@ -10,6 +10,6 @@ mod report;
 mod run;
 
 pub use figures::{FIGURE_FILES, figures};
-pub use printed::{PAPER_PLANT, PrintedRow, PrintedTable, ROWS, last_place};
+pub use printed::{PrintedRow, PrintedTable, ROWS, last_place};
 pub use report::ReproductionReport;
 pub use run::{Cell, ComputedRow, NoiseRange, Parts, Reproduction, ReproductionSettings, reproduce, units};

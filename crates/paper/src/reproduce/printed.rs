@@ -1,10 +1,7 @@
-//! What the paper prints (its two tables), and the plant that it prints it for.
+//! What the paper prints: its two tables.
 
 use sigmastar_exact::number::Portable;
 use std::f64::consts::TAU;
-
-/// The plant of the paper's numerical example.
-pub const PAPER_PLANT: &str = include_str!("../../../../specs/plants/paper-example.json");
 
 /// One of the two tables.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

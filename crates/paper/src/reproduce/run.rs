@@ -1,6 +1,6 @@
 //! Computing the cells.
 
-use super::printed::{PAPER_PLANT, PrintedRow, PrintedTable, ROWS, last_place};
+use super::printed::{PrintedRow, PrintedTable, ROWS, last_place};
 use rayon::prelude::*;
 use sigmastar_document::progress::{Progress, Silent};
 use sigmastar_exact::number::Portable;
@@ -8,7 +8,6 @@ use sigmastar_lab::simulate::{
     BandLimitedNoise, ClosedLoop, Noise, NoiseSettings, SteadyFigures, SteadyStateError, noisy_run, steady_state,
 };
 use sigmastar_lang::plant::Plant;
-use sigmastar_lang::spec::SpecErrors;
 use sigmastar_regulator::Regulator;
 
 /// mu of the paper's simulations.
@@ -164,12 +163,10 @@ fn jobs(seeds: u64) -> Vec<Job> {
     jobs
 }
 
-/// Computes the parts that are asked for; rows run in parallel, and the figures do not depend on how many at a time.
-///
-/// # Errors
-/// None is known: the plant is part of the program.
-pub fn reproduce(settings: ReproductionSettings, progress: &dyn Progress) -> Result<Reproduction, SpecErrors> {
-    let plant = Plant::from_json("specs/plants/paper-example.json", PAPER_PLANT)?;
+/// Computes the parts that are asked for of the plant of the paper's numerical example; rows run in parallel, and the figures do
+/// not depend on how many at a time.
+#[must_use]
+pub fn reproduce(plant: &Plant, settings: ReproductionSettings, progress: &dyn Progress) -> Reproduction {
     let parts = settings.parts;
     let mut variants: Vec<(usize, Option<f64>)> = Vec::new();
     for (index, row) in ROWS.iter().enumerate() {
@@ -183,7 +180,7 @@ pub fn reproduce(settings: ReproductionSettings, progress: &dyn Progress) -> Res
         true => jobs(settings.seeds)
             .into_par_iter()
             .map(|job| {
-                let range = noise_range(&plant, job, settings.noise_steps);
+                let range = noise_range(plant, job, settings.noise_steps);
                 (0..20).for_each(|_| progress.advance());
                 (job, range)
             })
@@ -197,7 +194,7 @@ pub fn reproduce(settings: ReproductionSettings, progress: &dyn Progress) -> Res
                 PrintedTable::HighGain => parts.table_1,
                 PrintedTable::InternalModel => parts.table_2,
             };
-            let steady = wanted.then(|| figures_of(&plant, regulator(row, n_0.unwrap_or(N_0[0]))));
+            let steady = wanted.then(|| figures_of(plant, regulator(row, n_0.unwrap_or(N_0[0]))));
             progress.advance();
             let (quiet, multiplier) = match steady {
                 None => (None, None),
@@ -231,7 +228,7 @@ pub fn reproduce(settings: ReproductionSettings, progress: &dyn Progress) -> Res
             })
             .collect(),
     };
-    Ok(Reproduction { settings, rows, largest_noise })
+    Reproduction { settings, rows, largest_noise }
 }
 
 /// The steady figures of the paper's plant with a regulator, and the largest Floquet multiplier.

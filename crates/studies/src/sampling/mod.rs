@@ -4,6 +4,8 @@
 
 mod certifier;
 mod study;
+mod unfit;
 
 pub use certifier::{Certifier, OfPlant, OfSpecification, Pair};
 pub use study::{Asked, Row, SamplingStudy};
+pub use unfit::Unfit;

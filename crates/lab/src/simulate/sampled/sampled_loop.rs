@@ -3,8 +3,8 @@
 use crate::simulate::ClosedLoop;
 use crate::simulate::adaptive::trajectory;
 use crate::simulate::integration::{IntegrationFailure, Tolerance, is_bounded};
-use sigmastar_lang::plant::Plant;
-use sigmastar_regulator::{Discrete, Regulator, Stepper};
+use sigmastar_lang::plant::{Initial, InitialRegulator, Plant};
+use sigmastar_regulator::{Discrete, Regulator, Stepper, WrongDimension};
 
 /// How near to a whole number the samples of a period are for their number to count as one.
 const WHOLE: f64 = 1e-9;
@@ -137,6 +137,16 @@ impl SampledLoop {
             *last = acting;
         }
         state
+    }
+
+    /// The state at the first sample of a plant's initial condition.
+    ///
+    /// # Errors
+    /// A z of another dimension than the regulator.
+    pub fn start_of(&self, initial: &Initial) -> Result<Vec<f64>, WrongDimension> {
+        let z = self.regulator.start(&initial.z, initial.e)?;
+        let start: Vec<f64> = initial.x.iter().copied().chain([initial.e]).chain(z).collect();
+        Ok(self.starting(start, matches!(initial.z, InitialRegulator::Aligned)))
     }
 
     /// The plant alone.

@@ -1,0 +1,119 @@
+"""What is asked beside one claim: a bounding specification, a Lyapunov triple, pairs of a gain and a sampling period."""
+
+from __future__ import annotations
+
+import json
+import os
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, Dict, List, Optional, Tuple, Union
+
+from ._exact import Exact, digits, stated
+from ._report import Reported
+from ._results import write
+from ._table import axes, dataframe
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from pandas import DataFrame  # type: ignore[import-untyped,unused-ignore]
+
+
+@dataclass(frozen=True)
+class BoundedPlant:
+    """A bounding specification whose every number is proved of a plant. `certify` takes its `document`."""
+
+    domain: Tuple[Exact, Exact]
+    """X and E: the bounds hold for `|y| <= X`, `|e| <= E`, in coordinates y relative to the orbit. Rounded down."""
+    is_limited: bool
+    """Whether the domain ends with that of the plant."""
+    _json: str = field(repr=False)
+
+    @property
+    def document(self) -> Dict[str, Any]:
+        """The specification as a dictionary."""
+        found: Dict[str, Any] = json.loads(self._json)
+        return found
+
+    def to_json(self) -> str:
+        """The specification; the bytes are those of `sigmastar bound`."""
+        return self._json
+
+    def save(self, path: Union[str, "os.PathLike[str]"]) -> None:
+        """Writes the specification; it appears whole or not at all."""
+        write(path, self._json)
+
+
+@dataclass(frozen=True, repr=False)
+class Lyapunov(Reported):
+    """The proved Lyapunov triple of a Jacobian, or the proved orbit of a plant with the coordinates in which it contracts. Every number
+    is in `data`, as in the JSON of the report."""
+
+    _reports: Dict[str, str] = field(repr=False)
+
+    @property
+    def triple(self) -> Tuple[Exact, Exact, Exact]:
+        """p_low, p_up and alpha, rounded down, up and down; of a plant in the coordinates that `data` has."""
+        return (stated(self.data["p_low"], "down"), stated(self.data["p_up"], "up"), stated(self.data["alpha"], "down"))
+
+    def __repr__(self) -> str:
+        low, up, alpha = self.triple
+        return f"<Lyapunov: p_low={digits(low, 'down')}, p_up={digits(up, 'up')}, alpha={digits(alpha, 'down')}>"
+
+
+@dataclass(frozen=True)
+class Pair:
+    """A certified pair of a gain and a sampling period."""
+
+    sigma: Exact
+    """The gain."""
+    sampling_period: Exact
+    """The sampling period."""
+    samples: int
+    """How many of them are in a period of the disturbance."""
+    limit: str
+    """What keeps the gain from being smaller or the sampling period from being longer, in a sentence."""
+
+
+@dataclass(frozen=True, repr=False)
+class SamplingPairs(Reported):
+    """Certified pairs of a gain and a sampling period. Each is certified by itself; between them nothing is said. It is true where
+    there is one."""
+
+    has_pair: bool
+    """Whether any pair is certified."""
+    _reports: Dict[str, str] = field(repr=False)
+
+    @property
+    def by_sampling_period(self) -> List[Pair]:
+        """For each sampling period with a certified gain the smallest one that was found."""
+        return self._pairs("by_sampling_period")
+
+    @property
+    def by_sigma(self) -> List[Pair]:
+        """For each gain with a certified sampling period the longest one that was found."""
+        return self._pairs("by_sigma")
+
+    def _pairs(self, part: str) -> List[Pair]:
+        rows = [row for row in self.data[part] if row["outcome"] == "certified"]
+        return [
+            Pair(stated(row["sigma"]), stated(row["sampling_period"]), row["samples"], row["limit"]["sentence"]) for row in rows
+        ]
+
+    def to_dataframe(self) -> DataFrame:
+        """All pairs as a table of pandas, which has to be installed."""
+        pairs = self.by_sampling_period + self.by_sigma
+        names = ("sigma", "sampling_period", "samples")
+        return dataframe({name: [getattr(pair, name) for pair in pairs] for name in names})
+
+    def plot(self, ax: Optional[Axes] = None) -> Axes:
+        """The pairs, with matplotlib, which has to be installed."""
+        ax = axes(ax, "sampling period", "sigma")
+        for pairs, label in ((self.by_sampling_period, "smallest sigma"), (self.by_sigma, "longest sampling period")):
+            ax.plot([pair.sampling_period for pair in pairs], [pair.sigma for pair in pairs], "o", label=label)
+        ax.legend()
+        return ax
+
+    def __bool__(self) -> bool:
+        return self.has_pair
+
+    def __repr__(self) -> str:
+        return f"<SamplingPairs: {len(self.by_sampling_period) + len(self.by_sigma)} certified>"

@@ -1,0 +1,51 @@
+//! A stored certificate, decided again.
+
+use super::certificate::Certificate;
+use super::certify::not_certified;
+use super::error::{Error, ErrorKind};
+use super::json_text;
+use super::subject::Subject;
+use sigmastar_lang::spec::{self, Document};
+use sigmastar_prove::certificate::{certificate_of, read_for};
+use sigmastar_prove::certify::{Options, rate_counts};
+use sigmastar_prove::reduction::Prepared;
+
+/// Reads a stored certificate and decides it again from its witness: nothing is searched for. `name` is what errors call it.
+///
+/// Guarantee: that of [`certify`](crate::certify), and the claim is the one that is stored. It is this library's word again;
+/// [`check`](crate::check) has that of the independent checker. What comes back is made anew, without the comparison with the
+/// repaired derivation, which a witness does not have.
+///
+/// # Errors
+/// What is wrong with the certificate, at its place; [`NotCertified`](ErrorKind::NotCertified) where a condition is not proved;
+/// [`Claim`](ErrorKind::Claim) where what is proved is not what is stored, as of a certificate that was altered, or that another
+/// version made.
+pub fn reread(name: &str, bytes: &[u8]) -> Result<Certificate, Error> {
+    let document = Document::from_bytes(name, bytes)?;
+    let Some((field, copy)) =
+        ["plant", "specification"].into_iter().find_map(|field| Some((field, document.at(&format!("/{field}"))?)))
+    else {
+        let (kind, message) = (spec::ErrorKind::MissingField, "there is neither a `specification` nor a `plant` in it");
+        let help = Some("name a certificate that `certify` wrote".to_owned());
+        return Err(document.errors_at("", &(0..0), kind, message, help).into());
+    };
+    // A document of its own, so that it can be asked for whatever a file can be asked for.
+    let subject = Subject::new(Document::parse(&format!("{field} of {name}"), &json_text(&copy.to_json()))?)?;
+    let witness = read_for(&document, &subject.read)?;
+    let stored = document.at("/claim").map(|claim| claim.to_json()).unwrap_or_default();
+    let of_another = witness.of_another;
+    let prepared = Prepared::again(&subject.read, witness).map_err(|all| Error::documents(&all))?;
+    let options = Options { compare: false, ..Options::default() };
+    let mut run = prepared.certify(options).map_err(|all| Error::documents(&all))?;
+    let counts = stored["for_n_o"].as_array().into_iter().flatten();
+    let counts = counts.filter_map(|one| one["n_o"].as_u64().and_then(|n_o| u32::try_from(n_o).ok()));
+    let counts = rate_counts(&counts.collect::<Vec<u32>>()).map_err(Error::no_rates)?;
+    run.prove_rates(&counts).map_err(Error::no_rates)?;
+    let certificate = Certificate::new(&run, &subject, true).ok_or_else(|| not_certified(&run))?;
+    if of_another || certificate_of(&run).is_none_or(|made| made["claim"] != stored) {
+        let message = format!("{name}: the claim that is stored is not the one that its witness proves");
+        let help = "`check` says what is wrong with it; `certify` makes a new certificate";
+        return Err(Error::new(ErrorKind::Claim, message, help));
+    }
+    Ok(certificate)
+}

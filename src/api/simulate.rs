@@ -1,0 +1,243 @@
+//! Simulations: floating point, no claim.
+
+use super::error::{Error, ErrorKind};
+use super::positive;
+use super::report::Report;
+use super::subject::Subject;
+use sigmastar_document::progress::Silent;
+use sigmastar_lab::simulate::{
+    ClosedLoop, Integrator, SampledLoop, SampledSettings, SampledSimulationReport, SimulationReport,
+    SimulationSettings, csv, sampled_csv, simulate_sampled,
+};
+use sigmastar_lang::plant::Plant;
+use sigmastar_lang::spec::Constant;
+use sigmastar_regulator::{Design, Regulator, WrongDimension};
+use std::ops::RangeInclusive;
+
+/// The most oscillators of a simulation.
+const MAX_OSCILLATORS: u32 = 200;
+
+/// What is simulated. The defaults are those of `sigmastar simulate`.
+///
+/// ```
+/// use sigmastar::SimulationOptions;
+/// let options = SimulationOptions::new("2").n_o(4).periods(50);
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct SimulationOptions {
+    sigma: String,
+    n_o: Option<u32>,
+    periods: u32,
+    samples: u32,
+    harmonics: u32,
+    sampling_period: Option<String>,
+    input_gain: Option<String>,
+}
+
+impl SimulationOptions {
+    /// With the gain sigma, an exact positive constant, and without an internal model: `u = -sigma e`.
+    #[must_use]
+    pub fn new(sigma: impl Into<String>) -> SimulationOptions {
+        SimulationOptions {
+            sigma: sigma.into(),
+            n_o: None,
+            periods: 30,
+            samples: 200,
+            harmonics: 12,
+            sampling_period: None,
+            input_gain: None,
+        }
+    }
+
+    /// The internal model of the plant file with this many oscillators, at most 200.
+    #[must_use]
+    pub fn n_o(mut self, n_o: u32) -> SimulationOptions {
+        self.n_o = Some(n_o);
+        self
+    }
+
+    /// The length of the run from the initial condition, in periods (default 30, at most 100000).
+    #[must_use]
+    pub fn periods(mut self, periods: u32) -> SimulationOptions {
+        self.periods = periods;
+        self
+    }
+
+    /// Samples per period of the run (default 200, at most 100000).
+    #[must_use]
+    pub fn samples(mut self, samples: u32) -> SimulationOptions {
+        self.samples = samples;
+        self
+    }
+
+    /// Fourier coefficients of the error in the report (default 12, at most 1000).
+    #[must_use]
+    pub fn harmonics(mut self, harmonics: u32) -> SimulationOptions {
+        self.harmonics = harmonics;
+        self
+    }
+
+    /// The regulator at samples this far apart, an exact positive constant; with the delay that the plant file states.
+    #[must_use]
+    pub fn sampling_period(mut self, period: impl Into<String>) -> SimulationOptions {
+        self.sampling_period = Some(period.into());
+        self
+    }
+
+    /// The true gain of the actuator, an exact positive constant; the nominal one of the plant file without it.
+    #[must_use]
+    pub fn input_gain(mut self, gain: impl Into<String>) -> SimulationOptions {
+        self.input_gain = Some(gain.into());
+        self
+    }
+
+    /// # Errors
+    /// A number that is out of range.
+    fn in_range(&self) -> Result<(), Error> {
+        let many = 1..=100_000;
+        let numbers: [(&str, u32, RangeInclusive<u32>); 4] = [
+            ("n_o", self.n_o.unwrap_or(0), 0..=MAX_OSCILLATORS),
+            ("periods", self.periods, many.clone()),
+            ("samples", self.samples, many),
+            ("harmonics", self.harmonics, 1..=1000),
+        ];
+        let wrong = numbers.iter().find(|(_, number, range)| !range.contains(number));
+        wrong.map_or(Ok(()), |(name, number, range)| {
+            let help = format!("choose {} to {}", range.start(), range.end());
+            Err(Error::new(ErrorKind::Range, format!("{name}: {number} is out of range"), &help))
+        })
+    }
+}
+
+/// A simulation: the steady state with its figures, and a run from the initial condition. It claims nothing.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct Simulation {
+    complete: bool,
+    csv: Option<String>,
+    report: Report,
+}
+
+impl Simulation {
+    /// Whether the steady state was found and the run reached its end.
+    #[must_use]
+    pub fn is_complete(&self) -> bool {
+        self.complete
+    }
+
+    /// The run, as the file that `sigmastar simulate --csv` writes: t, the states, e, u, z; `None` where it ended early.
+    #[must_use]
+    pub fn csv(&self) -> Option<&str> {
+        self.csv.as_deref()
+    }
+
+    /// The report of `sigmastar simulate`.
+    #[must_use]
+    pub fn report(&self) -> &Report {
+        &self.report
+    }
+}
+
+/// Simulates a plant with a regulator, from the initial condition of its file.
+///
+/// # Errors
+/// A document that is no plant; numbers out of range; [`Options`](ErrorKind::Options) for samples without a number of oscillators;
+/// [`Overflow`](ErrorKind::Overflow) where a number is beyond double precision.
+pub fn simulate(plant: impl Into<Subject>, options: &SimulationOptions) -> Result<Simulation, Error> {
+    options.in_range()?;
+    let sigma = positive("sigma", &options.sigma)?;
+    let optional = |name, text: &Option<String>| text.as_ref().map(|text| positive(name, text)).transpose();
+    let step = optional("sampling_period", &options.sampling_period)?;
+    let gain = match optional("input_gain", &options.input_gain)?.map(|gain| gain.to_f64()) {
+        Some(gain) if !(gain > 0.0 && gain.is_finite()) => return Err(beyond()),
+        gain => gain,
+    };
+    let plant = plant.into().plant()?;
+    if !plant.period.nominal().to_f64().is_normal() {
+        return Err(beyond());
+    }
+    match (options.n_o, step) {
+        (Some(n_o), Some(step)) => at_samples(&plant, options, &design(&plant, &sigma, n_o), &step, gain),
+        (Some(n_o), None) => in_continuous_time(&plant, options, design(&plant, &sigma, n_o).regulator(), gain),
+        (None, None) => {
+            let nominal = plant.input_gain.as_ref().map(|gain| gain.nominal.to_f64());
+            in_continuous_time(&plant, options, Regulator::high_gain(sigma.to_f64()).for_actuator(nominal), gain)
+        }
+        (None, Some(_)) => {
+            let message = "`sampling_period` is for a regulator with an internal model";
+            Err(Error::new(ErrorKind::Options, message, "give `n_o`, or leave `sampling_period` out"))
+        }
+    }
+}
+
+fn design<'p>(plant: &'p Plant, sigma: &'p Constant, n_o: u32) -> Design<'p> {
+    Design::new(&plant.internal_model, sigma, n_o).for_actuator(plant.input_gain.as_ref())
+}
+
+fn in_continuous_time(
+    plant: &Plant,
+    options: &SimulationOptions,
+    regulator: Regulator,
+    gain: Option<f64>,
+) -> Result<Simulation, Error> {
+    if !regulator.is_representable() {
+        return Err(beyond());
+    }
+    let closed_loop = ClosedLoop::new(plant, regulator);
+    let closed_loop = gain.into_iter().fold(closed_loop, ClosedLoop::with_input_gain);
+    let start = closed_loop.start_of(&plant.initial).map_err(wrong_dimension)?;
+    let settings = SimulationSettings {
+        periods: options.periods as usize,
+        integrator: Integrator::Adaptive,
+        samples: options.samples as usize,
+        noise: None,
+        noise_steps: 1,
+        harmonics: options.harmonics as usize,
+    };
+    let simulation = sigmastar_lab::simulate::simulate(&closed_loop, &start, &settings, &Silent);
+    Ok(Simulation {
+        complete: simulation.steady.is_ok() && simulation.long.is_ok(),
+        csv: simulation.long.as_ref().ok().map(|run| csv(plant, &closed_loop, run)),
+        report: Report::of(&SimulationReport { plant, closed_loop: &closed_loop, simulation: &simulation }),
+    })
+}
+
+fn at_samples(
+    plant: &Plant,
+    options: &SimulationOptions,
+    design: &Design<'_>,
+    step: &Constant,
+    gain: Option<f64>,
+) -> Result<Simulation, Error> {
+    let (regulator, discrete) = (design.regulator(), design.discretise(step).ok_or_else(beyond)?);
+    // What is cut off by the actuator the law is told, as its export is.
+    let limit = plant.actuator.as_ref().map(|actuator| actuator.max.to_f64()).or(discrete.saturation);
+    let sampled = SampledLoop::new(plant, regulator, discrete.saturated(limit));
+    let sampled = gain.into_iter().fold(sampled, SampledLoop::with_input_gain);
+    if !sampled.regulator.is_representable() || !sampled.discrete.is_representable() {
+        return Err(beyond());
+    }
+    let start = sampled.start_of(&plant.initial).map_err(wrong_dimension)?;
+    let settings = SampledSettings {
+        periods: options.periods as usize,
+        samples: options.samples as usize,
+        harmonics: options.harmonics as usize,
+    };
+    let simulation = simulate_sampled(&sampled, &start, &settings, &Silent);
+    Ok(Simulation {
+        complete: simulation.steady.is_ok() && simulation.long.is_ok() && !simulation.is_unstable(),
+        csv: simulation.long.as_ref().ok().map(|run| sampled_csv(plant, &sampled, run)),
+        report: Report::of(&SampledSimulationReport { plant, sampled: &sampled, simulation: &simulation }),
+    })
+}
+
+fn beyond() -> Error {
+    let help = "use units of time in which the gains, frequencies and the period have ordinary magnitudes";
+    Error::new(ErrorKind::Overflow, "a number of this simulation is beyond double precision", help)
+}
+
+fn wrong_dimension(error: WrongDimension) -> Error {
+    let help = "give the number of oscillators that it is for, or remove z for a start at rest";
+    Error::new(ErrorKind::Range, error.to_string(), help)
+}
