@@ -12,6 +12,11 @@ pub const MAX_EXPORTED_OSCILLATORS: u32 = 1000;
 /// many bits as l w dt has leading zeros, and none of that may show in 53.
 pub(super) const PRECISION: u32 = 512;
 
+/// The double next to the exact number. What is not told from 0 at so many bits is 0, as the cosine of a quarter of a turn.
+fn entry(value: &Enclosure) -> f64 {
+    if value.contains_zero() { 0.0 } else { value.midpoint_f64() }
+}
+
 /// A regulator with its numbers exact: an internal model, a gain, a number of oscillators.
 #[derive(Clone, Debug)]
 pub struct Design<'m> {
@@ -93,7 +98,7 @@ impl<'m> Design<'m> {
         // What is put out is over the nominal gain of the actuator.
         let nominal = self.nominal.map(|nominal| nominal.enclose(PRECISION));
         let put_out = |value: Enclosure| {
-            nominal.as_ref().map_or_else(|| value.clone(), |nominal| &value / nominal).midpoint_f64()
+            entry(&nominal.as_ref().map_or_else(|| value.clone(), |nominal| &value / nominal))
         };
         let mut output = vec![put_out(&exact_gain * &weights[0])];
         let mut direct = weights[0].clone();
@@ -102,7 +107,7 @@ impl<'m> Design<'m> {
             let (sine, cosine) = (angle.sin(), angle.cos());
             // 1 - cos a = 2 sin^2(a/2), which cancels nothing.
             let versine = 2 * (angle / 2).sin().sqr();
-            input.extend([(&versine - &kept).midpoint_f64(), sine.midpoint_f64()]);
+            input.extend([entry(&(&versine - &kept)), entry(&sine)]);
             let scaled = &exact_gain * weight;
             let [turned_cosine, turned_sine] = match self.delayed {
                 true => [1 - 2 * sine.sqr(), 2 * &sine * &cosine],
@@ -110,7 +115,7 @@ impl<'m> Design<'m> {
             };
             output.extend([put_out(&scaled * &turned_cosine), put_out(&scaled * &turned_sine)]);
             direct = &direct + &(weight * &turned_cosine);
-            rotations.push([cosine.midpoint_f64(), sine.midpoint_f64()]);
+            rotations.push([entry(&cosine), entry(&sine)]);
         }
         if self.delayed {
             input.push((-&product).midpoint_f64());
@@ -121,7 +126,7 @@ impl<'m> Design<'m> {
             gain,
             weight_sum,
             prediction: self.delayed.then(|| product.midpoint_f64()),
-            decay: (Enclosure::one(PRECISION) - product).midpoint_f64(),
+            decay: entry(&(Enclosure::one(PRECISION) - product)),
             rotations,
             input,
             output,
@@ -137,5 +142,24 @@ impl<'m> Design<'m> {
     pub(super) fn frequencies(&self) -> Vec<Enclosure> {
         let base = self.model.base_frequency.enclose(PRECISION);
         (1..=i64::from(self.n_o)).map(|l| l * &base).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use sigmastar_lang::spec::Specification;
+
+    #[test]
+    fn a_quarter_and_a_half_turn_have_exact_zeros() {
+        let spec = Specification::from_json("example", include_str!("../../../specs/paper-example.json")).unwrap();
+        let constant = |numerator: i64, denominator: i64| Constant::rational(&Rational::from((numerator, denominator)));
+        let sigma = constant(8, 1);
+        let law = Design::new(&spec.internal_model, &sigma, 3).discretise(&constant(1, 8)).unwrap();
+        assert_eq!(law.rotations[1], [0.0, 1.0]);
+        assert_eq!(law.rotations[0], [0.5f64.sqrt(); 2]);
+        assert_eq!(law.rotations[2], [-(0.5f64.sqrt()), 0.5f64.sqrt()]);
+        // 1 - h sigma.
+        assert_eq!(law.decay, 0.0);
     }
 }
