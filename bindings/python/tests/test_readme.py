@@ -56,4 +56,4 @@ def test_their_types_are_right(tmp_path):
     for name, text in [("readme.py", lines()), ("used.py", USED)]:
         assert (done := found(name, text)).returncode == 0, done.stdout + done.stderr
     done = found("misused.py", MISUSED)
-    assert done.returncode == 1 and done.stdout.count("error:") == 3, done.stdout
+    assert done.returncode == 1 and done.stdout.count(": error:") == 3, done.stdout
