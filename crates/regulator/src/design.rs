@@ -97,9 +97,8 @@ impl<'m> Design<'m> {
         let (mut rotations, mut input) = (Vec::new(), vec![(-&kept).midpoint_f64() + 0.0]);
         // What is put out is over the nominal gain of the actuator.
         let nominal = self.nominal.map(|nominal| nominal.enclose(PRECISION));
-        let put_out = |value: Enclosure| {
-            entry(&nominal.as_ref().map_or_else(|| value.clone(), |nominal| &value / nominal))
-        };
+        let put_out =
+            |value: Enclosure| entry(&nominal.as_ref().map_or_else(|| value.clone(), |nominal| &value / nominal));
         let mut output = vec![put_out(&exact_gain * &weights[0])];
         let mut direct = weights[0].clone();
         for (frequency, weight) in self.frequencies().iter().zip(&weights[1..]) {
