@@ -128,8 +128,8 @@ fn the_picture_is_written_whole() {
     for label in ["N = 0", "N = 1", "N = infinity", "k0 + k1 x^2, every N", "x = omega / base frequency", "T_N(x)"] {
         assert!(svg.contains(label), "{label}");
     }
-    // A curve and its line in the legend; those after the first are dashed, and so in pieces.
-    let pieces = |colour: &str| svg.matches(&format!("stroke=\"{colour}\"")).count();
+    // A curve and its line in the legend; those after the first are dashed, and so in pieces. The style names each colour once more.
+    let pieces = |colour: &str| svg.matches(&format!(" stroke=\"{colour}\"")).count();
     assert_eq!(pieces("#0072B2"), 2);
     assert!(pieces("#D55E00") > 20 && pieces("#009E73") > 20, "{} {}", pieces("#D55E00"), pieces("#009E73"));
 }

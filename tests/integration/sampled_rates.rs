@@ -146,7 +146,7 @@ fn rates_at_samples_are_near_those_of_the_loops() {
                 format!("({})/{samples}", spec.period.nominal().text).into();
             let sampling = Specification::from_json("sampled", &document.to_string()).ok()?.internal_model.sampling?;
             let least = certify_sampled(spec, &sampling, None, None, Ladder::default()).ok()?;
-            let gain = Rational::from(&least.claim()?.witness.sigma * Rational::from((3, 2)));
+            let gain = &least.claim()?.witness.sigma * Rational::from((3, 2));
             let gain = round_rational(&gain, 6, Direction::Up);
             let run = certify_sampled(spec, &sampling, Some(&gain), None, Ladder::default()).ok()?;
             run.claim().is_some().then_some(run)

@@ -1,8 +1,7 @@
 //! Rates for given numbers of oscillators in a certificate: what is claimed, and what proves it (derivation, 13.6).
 
 use crate::certify::{Certification, SampledCertification};
-use crate::rate::bound::RateBound;
-use crate::rate::by_matrices::ByMatrices;
+use crate::rate::bound::{ByMatrices, RateBound};
 use crate::rate::found::RateForCount;
 use crate::rate::inequality::RateWitness;
 use crate::rate::noise::NoiseBound;

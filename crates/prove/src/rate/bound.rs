@@ -5,7 +5,6 @@
 //! `et(t)^2 <= W(t)/e_low <= exp(-2 rate (t - t_0)) W(t_0)/e_low` and `W(t_0) <= w P_up dX^2 + e_up dE^2 + z_up dZ^2` where
 //! |xt| <= dX, |et| <= dE and |zt|_N <= dZ at t_0: so C^2 is that sum over e_low.
 
-use super::by_matrices::ByMatrices;
 use super::inequality::{ErrorDynamics, LoopBounds, RateWitness, is_above, is_definite};
 use super::oscillators::OscillatorMatrix;
 use super::riccati::propose;
@@ -15,6 +14,7 @@ use faer::{Mat, Side};
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, Portable, round_f64, round_rational};
+use sigmastar_plants::bounds::Slopes;
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::stability::ErrorBox;
 
@@ -41,6 +41,15 @@ pub struct Place<'a> {
     pub error_box: &'a ErrorBox<Enclosure>,
     /// dX, dE, dZ.
     pub distances: [&'a Enclosure; 3],
+}
+
+/// What a bound has besides where it is proved from the derivatives themselves; it has no w and l then.
+#[derive(Clone, Debug)]
+pub struct ByMatrices {
+    /// Q, G and H, of which (D) is proved.
+    pub slopes: Slopes,
+    /// `Pi < diag(x_up I, e_up, z_up I)`; none without states.
+    pub x_up: Option<Rational>,
 }
 
 /// A proved bound `|e - e_per| <= factor exp(-rate (t - t_0))` for one n_o.

@@ -4,7 +4,7 @@
 //! With `Pi > diag(0, e_low, 0)` and `Pi < diag(x_up I, e_up, z_up I)` the start has `W <= x_up dX^2 + e_up dE^2 + z_up dZ^2`, and
 //! `et^2 <= W/e_low`: the factor is as in [`super::bound`].
 
-use super::bound::{DIGITS, RateBound, SHARES};
+use super::bound::{ByMatrices, DIGITS, RateBound, SHARES};
 use super::bounded_real::BoundedReal;
 use super::inequality::{RateWitness, is_definite};
 use super::matrix_loop::{MatrixLoop, Multipliers};
@@ -90,15 +90,6 @@ fn bound(data: &Data<'_>, tube: &Tube<'_>, sampled: &mut SampledSlopes<'_>, n_o:
             Some(RateBound { n_o, witness, has_x, by, e_low, upper, factor, limit })
         })
     })
-}
-
-/// What a bound has besides where it is proved from the derivatives themselves; it has no w and l then.
-#[derive(Clone, Debug)]
-pub struct ByMatrices {
-    /// Q, G and H, of which (D) is proved.
-    pub slopes: Slopes,
-    /// `Pi < diag(x_up I, e_up, z_up I)`; none without states.
-    pub x_up: Option<Rational>,
 }
 
 /// What is known of the loop.

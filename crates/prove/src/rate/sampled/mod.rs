@@ -2,7 +2,7 @@
 //!
 //! - [`form`]: the matrix inequality that proves a decay from sample to sample;
 //! - [`condition`]: the largest decay that it can prove, in floating point, and multipliers for it;
-//! - [`riccati`]: the quadratic function for them, by a discrete Riccati equation;
+//! - `riccati`: the quadratic function for them, by a discrete Riccati equation;
 //! - [`noise`]: what noise of the measurement and a disturbance do to the error, by the same inequality with inputs;
 //! - [`bound`]: from a decay to `|e - e_per| <= C exp(-rate (t - t_0))` at the sampling instants, as a certificate has it;
 //! - [`found`]: all of it for one n_o.
