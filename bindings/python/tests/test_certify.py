@@ -1,6 +1,7 @@
 """Certifying: what goes in exactly, what comes back, and what is refused."""
 
 import json
+import os
 import pickle
 import threading
 import time
@@ -40,8 +41,13 @@ def test_certificate_and_reports_are_those_of_the_program(example, program, tmp_
     example.save(saved)
     assert saved.read_bytes() == written.read_bytes() == example.to_json().encode()
     assert sorted(path.name for path in tmp_path.iterdir()) == ["program.json", "python.json"]
-    for form in ("text", "markdown", "html", "json"):
+    for form in ("text", "markdown", "json"):
         assert program("certify", EXAMPLE, "--format", form, "--full")[1] == example.report(form).encode()
+    # The page of the program has a simulation besides, which is of no report.
+    page, own = program("certify", EXAMPLE, "--format", "html", "--full")[1], example.report("html").encode()
+    before = len(os.path.commonprefix([own, page]))
+    added = page[before : before + len(page) - len(own)]
+    assert own == page[:before] + page[before + len(added) :] and b"a simulation" in added
     with pytest.raises(ValueError):
         example.report("pdf")
 
