@@ -45,7 +45,7 @@ pub struct OfNoise {
 impl Proof {
     /// Takes it out of a part for this n_o.
     pub fn read(fields: &mut Fields<'_>, n_o: u32) -> Outcome<Proof> {
-        let stored = Stored::read(fields, n_o)?;
+        let stored = Stored::read(fields, n_o, 0)?;
         let of_x = match (fields.optional("w"), fields.optional("l")) {
             (None, None) => None,
             (Some(w), Some(l)) => Some([w.rational()?, l.rational()?]),
@@ -114,21 +114,9 @@ impl<'a> Loop<'a> {
         ends.iter().flat_map(|(gain, moved)| slopes.each_ref().map(|slope| at(gain, moved, slope))).collect()
     }
 
-    /// l w of the states of an oscillator.
-    fn turn(&self, state: usize) -> Interval {
-        &self.d.w * (state / 2) as i64
-    }
-
-    /// `(Pi A)_ij` with `delta e` as one more input: `(delta, mu b')` comes back through B, -sigma stands with e, and
-    /// `Phi = l w [0, 1; -1, 0]`.
+    /// `(Pi A)_ij` with `delta e` as one more input: `(delta, mu b')` comes back through B.
     fn moved(&self, i: usize, j: usize, Corner { mu, slope, .. }: &Corner) -> Interval {
-        let through = &self.norm.image[i] * &(if j == 0 { slope.clone() } else { mu * &self.norm.b[j] });
-        match j {
-            0 => through - self.norm.at(i, 0) * &self.sigma,
-            1 => through,
-            first if first % 2 == 0 => through - self.norm.at(i, j + 1) * self.turn(j),
-            _ => through + self.norm.at(i, j - 1) * self.turn(j),
-        }
+        self.norm.moved(i, j, &self.sigma, [mu, slope])
     }
 
     /// `Pi B_v`: -Phi b has `l w sqrt(n_l)` at the second state of an oscillator.
@@ -138,7 +126,7 @@ impl<'a> Loop<'a> {
         let along = mu * &total - (1 - gain) * &self.sigma;
         let entry = |k: usize| match k {
             0 => -(gain * &self.sigma + mu * &total),
-            second if second > 1 && second % 2 == 1 => self.turn(second) * &b[second - 1],
+            second if second > 1 && second % 2 == 1 => self.norm.turn(second) * &b[second - 1],
             first => &along * &b[first],
         };
         self.norm.times(&(0..self.norm.order()).map(entry).collect::<Vec<_>>())
@@ -193,7 +181,7 @@ pub fn rate(
     let made = Loop::new(d, error_box, sigma, proof)?;
     let what = format!("(R) for n_o = {}, rate {}", claimed.n_o, claimed.rate);
     made.decays(&d.number(&claimed.rate), [None, None], &what)?;
-    let start = made.norm.start(d, made.of_x.as_ref().map(|[w, _]| w), ends, reach)?;
+    let start = made.norm.start(d, made.of_x.as_ref().map(|[w, _]| w * &d.p_up).as_ref(), ends, reach)?;
     Ok([start, made.norm.e_low])
 }
 

@@ -1,6 +1,7 @@
-//! The norm `y'Pi y` of a witness for one n_o, in `y = (e, zs)`, `zs = N^(1/2) zeta` (docs/mathematics.md, section 13.6).
+//! The norm `y'Pi y` of a witness for one n_o, in `y = (e, zs)`, `zs = N^(1/2) zeta`, or in `y = (x, e, zs)` (docs/mathematics.md, section 13.6),
+//! and the part of the loop that is in all of its forms.
 //!
-//! Guarantee: with [`Norm::lies_above`] and [`Norm::start`] `e_low e^2 <= y'Pi y <= e_up e^2 + z_up |zeta|_N^2` for y not 0.
+//! Guarantee: with [`Norm::lies_above`] and [`Norm::start`] `e_low e^2 <= y'Pi y <= x_up |x|^2 + e_up e^2 + z_up |zeta|_N^2`.
 
 use super::claimed::RULE;
 use super::stored::triangle;
@@ -17,30 +18,39 @@ pub struct Stored {
     /// Where it stands in the file.
     pub pointer: String,
     pub n_o: u32,
+    /// How many states of the plant are in y.
+    states: usize,
     /// The lower triangle of Pi, by rows.
     rows: Matrix,
     e_low: Rational,
 }
 
 impl Stored {
-    /// Takes `Pi` and `e_low` out of the part for this n_o.
-    pub fn read(fields: &mut Fields<'_>, n_o: u32) -> Outcome<Stored> {
-        let order = 2 * n_o as usize + 2;
-        let rows = triangle(&fields.required("Pi")?, order, "one for e and one for each state of zeta")?;
+    /// Takes `Pi` and `e_low` out of the part for this n_o, with so many states of the plant.
+    pub fn read(fields: &mut Fields<'_>, n_o: u32, states: usize) -> Outcome<Stored> {
+        let what = match states {
+            0 => "one for e and one for each state of zeta",
+            _ => "one for each state, one for e and one for each state of zeta",
+        };
+        let rows = triangle(&fields.required("Pi")?, states + 2 * n_o as usize + 2, what)?;
         let e_low = fields.required("e_low")?.rational()?;
-        Ok(Stored { pointer: fields.pointer.clone(), n_o, rows, e_low })
+        Ok(Stored { pointer: fields.pointer.clone(), n_o, states, rows, e_low })
     }
 }
 
-/// The same, enclosed, with `B = (1, -b)`, `b = N^(1/2) M`.
+/// The same, enclosed, with `B = (1, -b)` for (e, zs), `b = N^(1/2) M`.
 pub struct Norm {
     pointer: String,
+    /// The place of e, after the states of the plant.
+    pub of_e: usize,
     pub e_low: Interval,
     rows: Vec<Vec<Interval>>,
-    /// 1 at e, and sqrt(n_l) at the states of zs, 0 at the second one of an oscillator.
+    /// From the place of e on: 1, and sqrt(n_l) at the states of zs, 0 at the second one of an oscillator.
     pub b: Vec<Interval>,
     /// Pi B.
     pub image: Vec<Interval>,
+    /// Phi turns the states of oscillator l by l times this.
+    frequency: Interval,
 }
 
 impl Norm {
@@ -50,17 +60,17 @@ impl Norm {
         let root = |l: u32| d.spec.weights.weight(u64::from(l), d.precision).sqrt();
         let mut b = vec![d.int(1), root(0)];
         (1..=stored.n_o).for_each(|l| b.extend([root(l), d.int(0)]));
-        let rows = stored.rows.iter().map(|row| row.iter().map(|value| d.number(value)).collect()).collect();
+        let rows = enclosed(d, &stored.rows);
         let (pointer, e_low) = (stored.pointer.clone(), d.number(&stored.e_low));
-        let mut norm = Norm { pointer, e_low, rows, b, image: Vec::new() };
+        let mut norm = Norm { pointer, of_e: stored.states, e_low, rows, b, image: Vec::new(), frequency: d.w.clone() };
         let direction: Vec<Interval> = (0..norm.order()).map(|k| norm.at_input(k)).collect();
         norm.image = norm.times(&direction);
         Ok(norm)
     }
 
-    /// The number of states.
+    /// The order of Pi.
     pub fn order(&self) -> usize {
-        self.b.len()
+        self.rows.len()
     }
 
     /// An entry of Pi.
@@ -70,7 +80,11 @@ impl Norm {
 
     /// An entry of B.
     pub fn at_input(&self, k: usize) -> Interval {
-        if k == 0 { self.b[0].clone() } else { -&self.b[k] }
+        match k.checked_sub(self.of_e) {
+            None => Interval::int(0, self.e_low.precision()),
+            Some(0) => self.b[0].clone(),
+            Some(state) => -&self.b[state],
+        }
     }
 
     /// `Pi` times a vector.
@@ -83,34 +97,72 @@ impl Norm {
         (0..self.order()).map(row).collect()
     }
 
+    /// l w of a state of zs, counted from 1.
+    pub fn turn(&self, state: usize) -> Interval {
+        &self.frequency * (state / 2) as i64
+    }
+
+    /// `(Pi A)_ij` with `A y = (0, -sigma e, Phi zs) + B (slope e + mu b'zs)`, `Phi = l w [0, 1; -1, 0]`.
+    pub fn moved(&self, i: usize, j: usize, sigma: &Interval, [mu, slope]: [&Interval; 2]) -> Interval {
+        match j.checked_sub(self.of_e) {
+            None => Interval::int(0, self.e_low.precision()),
+            Some(0) => &self.image[i] * slope - self.at(i, j) * sigma,
+            Some(state) => {
+                let through = &self.image[i] * &(mu * &self.b[state]);
+                match state {
+                    1 => through,
+                    first if first % 2 == 0 => through - self.at(i, j + 1) * self.turn(state),
+                    _ => through + self.at(i, j - 1) * self.turn(state),
+                }
+            }
+        }
+    }
+
     fn triangle(&self, entry: &dyn Fn(usize, usize) -> Interval) -> Vec<Vec<Interval>> {
         (0..self.order()).map(|i| (0..=i).map(|j| entry(i, j)).collect()).collect()
     }
 
-    /// `Pi > diag(e_low, 0)`.
+    /// `Pi > diag(0, e_low, 0)`.
     pub fn lies_above(&self) -> Outcome<()> {
-        let rest = self.triangle(&|i, j| if i == 0 { self.at(0, 0) - &self.e_low } else { self.at(i, j).clone() });
-        demand(positive_definite(rest), RULE, &format!("{}/e_low", self.pointer), "Pi > diag(e_low, 0)")
+        let rest = self.triangle(&|i, j| {
+            let own = self.at(i, j);
+            if [i, j] == [self.of_e; 2] { own - &self.e_low } else { own.clone() }
+        });
+        demand(positive_definite(rest), RULE, &format!("{}/e_low", self.pointer), "Pi > diag(0, e_low, 0)")
     }
 
-    /// Demands `Pi < diag(e_up, z_up I)`, and bounds `w xi^2 + y'Pi y` from above at a start within dX, dE and dZ.
+    /// Demands `Pi < diag(x_up I, e_up, z_up I)`, and bounds y'Pi y from above at a start within dX, dE and dZ. `of_x`: x_up; where Pi has no x, what
+    /// stands before |x|^2 besides, none where x has no part in it.
     pub fn start(
         &self,
         d: &Data<'_>,
-        w: Option<&Interval>,
+        of_x: Option<&Interval>,
         ends: &[Rational; 2],
-        [of_x, of_e, of_zeta]: &[Interval; 3],
+        reach: &[Interval; 3],
     ) -> Outcome<Interval> {
+        let zero = d.int(0);
+        let x_up = of_x.unwrap_or(&zero);
         let [e_up, z_up] = ends.each_ref().map(|value| d.number(value));
-        let rest = self.triangle(&|i, j| match (i == j, i) {
-            (true, 0) => &e_up - self.at(0, 0),
-            (true, _) => &z_up - self.at(i, i),
-            (false, _) => -self.at(i, j),
-        });
-        demand(positive_definite(rest), RULE, &format!("{}/z_up", self.pointer), "Pi < diag(e_up, z_up I)")?;
-        let of_x = w.map_or_else(|| d.int(0), |w| w * &d.p_up * of_x.sqr());
-        Ok(of_x + e_up * of_e.sqr() + z_up * of_zeta.sqr())
+        let end = |i: usize| {
+            if i < self.of_e {
+                x_up
+            } else if i == self.of_e {
+                &e_up
+            } else {
+                &z_up
+            }
+        };
+        let rest = self.triangle(&|i, j| if i == j { end(i) - self.at(i, i) } else { -self.at(i, j) });
+        let what = "Pi < diag(x_up I, e_up, z_up I)";
+        demand(positive_definite(rest), RULE, &format!("{}/z_up", self.pointer), what)?;
+        let terms = [x_up, &e_up, &z_up].into_iter().zip(reach).map(|(end, distance)| end * distance.sqr());
+        Ok(terms.fold(d.int(0), |sum, term| sum + term))
     }
+}
+
+/// The rows of a matrix, enclosed.
+pub fn enclosed(d: &Data<'_>, rows: &Matrix) -> Vec<Vec<Interval>> {
+    rows.iter().map(|row| row.iter().map(|value| d.number(value)).collect()).collect()
 }
 
 /// That a number of a witness or a claim is above 0.

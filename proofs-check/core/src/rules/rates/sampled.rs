@@ -60,7 +60,7 @@ pub struct OfNoise {
 impl Proof {
     /// Takes it out of a part for this n_o.
     pub fn read(fields: &mut Fields<'_>, n_o: u32) -> Outcome<Proof> {
-        let stored = Stored::read(fields, n_o)?;
+        let stored = Stored::read(fields, n_o, 0)?;
         let mut number = |name: &str| fields.required(name)?.rational();
         let [c, l_slope, l_hold] = OF_SLOPES.map(&mut number);
         let of_slopes = [c?, l_slope?, l_hold?];
@@ -298,7 +298,7 @@ pub fn rate(
     let condition = Condition::at_most("R", "exp(2 h rate) <= 1 + c", growth, c + 1);
     condition.demand(RULE, &format!("{}/rate", claimed.pointer))?;
     made.decays([None; 3], &format!("(R_h) for n_o = {}", claimed.n_o))?;
-    let start = made.norm.start(d, made.of_x.as_ref().map(|[w, ..]| w), ends, reach)?;
+    let start = made.norm.start(d, made.of_x.as_ref().map(|[w, ..]| w * &d.p_up).as_ref(), ends, reach)?;
     Ok([start, made.norm.e_low])
 }
 

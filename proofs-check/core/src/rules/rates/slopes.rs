@@ -14,7 +14,7 @@
 //! W of a start is at most `x_up dX^2 + e_up dE^2 + z_up dZ^2`, which `factor^2 e_low` is not below.
 
 use super::claimed::{RULE, Rate};
-use super::norm::positive;
+use super::norm::{Norm, Stored, enclosed};
 use super::stored::{numbers, triangle};
 use crate::data::Data;
 use crate::interval::Interval;
@@ -69,14 +69,10 @@ impl Slopes {
 
 /// What proves the rate of one n_o, but for e_up and z_up.
 pub struct Proof {
-    pointer: String,
-    n_o: u32,
+    stored: Stored,
     pub slopes: Slopes,
-    /// The lower triangle of Pi, by rows.
-    pi: Matrix,
     /// None without states.
     x_up: Option<Rational>,
-    e_low: Rational,
 }
 
 impl Proof {
@@ -88,98 +84,46 @@ impl Proof {
                 "it is of a claim by norms: this one rests on a matrix inequality, and has `slopes`",
             );
         }
-        let what = "one for each state, one for e and one for each state of zeta";
-        let pi = triangle(&fields.required("Pi")?, states + 2 * n_o as usize + 2, what)?;
+        let stored = Stored::read(fields, n_o, states)?;
         let slopes = Slopes::read(&fields.required("slopes")?, states + 1)?;
-        let mut number = |name| fields.required(name)?.rational();
-        let x_up = if states > 0 { Some(number("x_up")?) } else { None };
-        let e_low = number("e_low")?;
-        Ok(Proof { pointer: fields.pointer.clone(), n_o, slopes, pi, x_up, e_low })
+        let x_up = if states > 0 { Some(fields.required("x_up")?.rational()?) } else { None };
+        Ok(Proof { stored, slopes, x_up })
     }
 }
 
-fn enclosed(d: &Data<'_>, rows: &Matrix) -> Vec<Vec<Interval>> {
-    rows.iter().map(|row| row.iter().map(|value| d.number(value)).collect()).collect()
-}
-
-/// The error system of one n_o, with Pi.
-struct Loop<'a> {
-    d: &'a Data<'a>,
-    witness: &'a Proof,
+/// The error system of one n_o, with Pi and Q, G and H.
+struct Loop {
     sigma: Interval,
-    /// The place of e, after the states.
-    of_e: usize,
-    /// `b = sqrt(n_l)`, from the place after e on; 0 at the second state of an oscillator.
-    b: Vec<Interval>,
-    pi: Vec<Vec<Interval>>,
-    /// Pi B.
-    image: Vec<Interval>,
+    norm: Norm,
+    /// Q, G, H.
+    slopes: [Vec<Vec<Interval>>; 3],
 }
 
-impl<'a> Loop<'a> {
-    fn new(d: &'a Data<'a>, sigma: &Rational, witness: &'a Proof) -> Loop<'a> {
-        let root = |l: u32| d.spec.weights.weight(u64::from(l), d.precision).sqrt();
-        let oscillators = (1..=witness.n_o).flat_map(|l| [root(l), d.int(0)]);
-        let b: Vec<Interval> = [root(0)].into_iter().chain(oscillators).collect();
-        let of_e = witness.slopes.h.len() - 1;
-        let pi = enclosed(d, &witness.pi);
-        let mut made = Loop { d, witness, sigma: d.number(sigma), of_e, b, pi, image: Vec::new() };
-        let image = |i: usize| {
-            let rest = (of_e + 1..).zip(&made.b).filter(|(_, b)| !b.is_zero());
-            rest.fold(made.at(i, of_e).clone(), |sum, (k, b)| sum - made.at(i, k) * b)
-        };
-        made.image = (0..made.order()).map(image).collect();
-        made
-    }
-
-    fn order(&self) -> usize {
-        self.pi.len()
-    }
-
-    fn at(&self, i: usize, j: usize) -> &Interval {
-        &self.pi[i.max(j)][i.min(j)]
-    }
-
+impl Loop {
     /// `b_u mu` and `(1 - b_u) sigma` at both ends of an input gain.
-    fn ends(&self) -> Vec<(&'static str, [Interval; 2])> {
-        let Some(gain) = &self.d.gain else { return vec![("", [self.d.mu.clone(), self.d.int(0)])] };
+    fn ends(&self, d: &Data<'_>) -> Vec<(&'static str, [Interval; 2])> {
+        let Some(gain) = &d.gain else { return vec![("", [d.mu.clone(), d.int(0)])] };
         let [low, high] = gain.shifts(&self.sigma);
-        let end = |of: &Interval, shift| [of * &self.d.mu, shift];
+        let end = |of: &Interval, shift| [of * &d.mu, shift];
         vec![(", at b_lo", end(&gain.low, low)), (", at b_hi", end(&gain.high, high))]
     }
 
-    /// `(Pi A)_ij`, A the part of the loop that has no slopes: `B (shift, b_u mu b')`, -sigma for e, and `Phi = l w [0, 1; -1, 0]`.
-    fn moved(&self, i: usize, j: usize, [mu, shift]: &[Interval; 2]) -> Interval {
-        let Some(place) = j.checked_sub(self.of_e) else { return self.d.int(0) };
-        let turn = &self.d.w * (place / 2) as i64;
-        match place {
-            0 => &self.image[i] * shift - self.at(i, j) * &self.sigma,
-            _ => {
-                let through = &self.image[i] * &(mu * &self.b[place - 1]);
-                match place {
-                    1 => through,
-                    first if first % 2 == 0 => through - self.at(i, j + 1) * turn,
-                    _ => through + self.at(i, j - 1) * turn,
-                }
-            }
-        }
-    }
-
-    /// The lower triangle of the form of (K) in (x, e, zs, omega).
+    /// The lower triangle of the form of (K) in (x, e, zs, omega); what comes back through B beside omega is `(1 - b_u) sigma e + b_u mu b'zs`.
     fn form(&self, rate: &Interval, end: &[Interval; 2]) -> Vec<Vec<Interval>> {
-        let [q, g, h] =
-            [&self.witness.slopes.q, &self.witness.slopes.g, &self.witness.slopes.h].map(|m| enclosed(self.d, m));
+        let Loop { sigma, norm, slopes: [q, g, h] } = self;
+        let (order, of_e) = (norm.order(), norm.of_e);
+        let moved = |i: usize, j: usize| norm.moved(i, j, sigma, end.each_ref());
         let entry = |i: usize, j: usize| {
-            let falls = -(self.moved(i, j, end) + self.moved(j, i, end) + self.at(i, j) * rate * 2);
-            if i <= self.of_e { falls - &q[i][j] } else { falls }
+            let falls = -(moved(i, j) + moved(j, i) + norm.at(i, j) * rate * 2);
+            if i <= of_e { falls - &q[i][j] } else { falls }
         };
-        let mut rows: Vec<Vec<Interval>> = (0..self.order()).map(|i| (0..=i).map(|j| entry(i, j)).collect()).collect();
-        for (i, own) in h.into_iter().enumerate() {
+        let mut rows: Vec<Vec<Interval>> = (0..order).map(|i| (0..=i).map(|j| entry(i, j)).collect()).collect();
+        for (i, own) in h.iter().enumerate() {
             let beside = |j: usize| {
-                let driven = -if i < self.of_e { self.at(j, i) } else { &self.image[j] };
-                if j <= self.of_e { driven + &g[j][i] } else { driven }
+                let driven = -if i < of_e { norm.at(j, i) } else { &norm.image[j] };
+                if j <= of_e { driven + &g[j][i] } else { driven }
             };
-            rows.push((0..self.order()).map(beside).chain(own).collect());
+            rows.push((0..order).map(beside).chain(own.iter().cloned()).collect());
         }
         rows
     }
@@ -190,34 +134,18 @@ pub fn rate(
     d: &Data<'_>,
     sigma: &Rational,
     (claimed, proof, ends): (&Rate<'_>, &Proof, &[Rational; 2]),
-    [of_x, of_e, of_zeta]: &[Interval; 3],
+    reach: &[Interval; 3],
 ) -> Outcome<[Interval; 2]> {
-    let pointer = &proof.pointer;
-    positive("e_low", &proof.e_low, pointer)?;
-    proof.slopes.demand_concave()?;
-    let made = Loop::new(d, sigma, proof);
-    let [e_low, rate] = [&proof.e_low, &claimed.rate].map(|value| d.number(value));
-    let [e_up, z_up] = ends.each_ref().map(|value| d.number(value));
-    // Without states there is no place that it stands in.
-    let x_up = proof.x_up.as_ref().map_or_else(|| d.int(0), |value| d.number(value));
-    let triangle = |entry: &dyn Fn(usize, usize) -> Interval| -> Vec<Vec<Interval>> {
-        (0..made.order()).map(|i| (0..=i).map(|j| entry(i, j)).collect()).collect()
-    };
-    let above = triangle(&|i, j| {
-        let own = made.at(i, j);
-        if i == made.of_e && j == i { own - &e_low } else { own.clone() }
-    });
-    demand(positive_definite(above), RULE, &format!("{pointer}/e_low"), "Pi > diag(0, e_low, 0)")?;
-    let below = triangle(&|i, j| match (i == j, i) {
-        (true, i) if i < made.of_e => &x_up - made.at(i, i),
-        (true, i) if i == made.of_e => &e_up - made.at(i, i),
-        (true, i) => &z_up - made.at(i, i),
-        (false, i) => -made.at(i, j),
-    });
-    demand(positive_definite(below), RULE, &format!("{pointer}/z_up"), "Pi < diag(x_up I, e_up, z_up I)")?;
-    for (at, end) in made.ends() {
-        let what = format!("(K) for n_o = {}, rate {}{at}", proof.n_o, claimed.rate);
-        demand(positive_definite(made.form(&rate, &end)), RULE, &format!("{pointer}/Pi"), what)?;
+    let Proof { stored, slopes, x_up } = proof;
+    slopes.demand_concave()?;
+    let of_slopes = [&slopes.q, &slopes.g, &slopes.h].map(|rows| enclosed(d, rows));
+    let made = Loop { sigma: d.number(sigma), norm: Norm::new(d, stored)?, slopes: of_slopes };
+    made.norm.lies_above()?;
+    let rate = d.number(&claimed.rate);
+    for (at, end) in made.ends(d) {
+        let what = format!("(K) for n_o = {}, rate {}{at}", stored.n_o, claimed.rate);
+        demand(positive_definite(made.form(&rate, &end)), RULE, &format!("{}/Pi", stored.pointer), what)?;
     }
-    Ok([x_up * of_x.sqr() + e_up * of_e.sqr() + z_up * of_zeta.sqr(), e_low])
+    let x_up = x_up.as_ref().map(|value| d.number(value));
+    Ok([made.norm.start(d, x_up.as_ref(), ends, reach)?, made.norm.e_low])
 }
