@@ -14,6 +14,7 @@
 pub mod bound;
 mod bounded_real;
 pub mod by_matrices;
+mod descent;
 pub mod found;
 pub mod inequality;
 mod matrix_loop;

@@ -8,6 +8,7 @@
 //! `S^2 = Q_ee (d_bar^2/gam_d + v_bar^2/gam_v)/(2 lam)`: to be made small over lam, over `gam_d + gam_v k^2`, k = sigma + mu b'b being about what
 //! noise is worth as a disturbance, and, with both inputs, over their ratio. Nothing here is a claim.
 
+use super::descent::{Point, Thoroughness, descend};
 use super::inequality::ErrorDynamics;
 use super::riccati::Equation;
 use super::small_gain::{Budget, SmallGain};
@@ -40,41 +41,9 @@ pub(super) struct Proposal {
 pub(super) fn propose(dynamics: &ErrorDynamics<'_>, sizes: [f64; 2]) -> Option<Proposal> {
     let search = Search::new(dynamics, sizes)?;
     let steps = if search.condition.order() > LARGE { STEPS.map(|steps| steps / 2) } else { STEPS };
-    let mut at = Point { position: 0.0, size: -1.0, ratio: 0.0 };
-    let both = sizes.iter().all(|size| *size > 0.0);
-    for round in 0..if both { 2 } else { 1 } {
-        // The size that was best for one lambda is near that for the next.
-        let mut size = at.size;
-        let position = least(-5.0, 7.0, steps[0], |position| {
-            let of = |size: f64| search.cost(Point { position, size, ..at });
-            let found = least(size - 3.0, size + 3.0, steps[1], of);
-            let value = of(found);
-            if value.is_finite() {
-                size = found;
-            }
-            value
-        });
-        at = Point {
-            position,
-            size: least(size - 3.0, size + 3.0, steps[1], |size| search.cost(Point { position, size, ..at })),
-            ..at
-        };
-        if both && round == 0 {
-            at.ratio = least(-3.0, 3.0, steps[2], |ratio| search.cost(Point { ratio, ..at }));
-        }
-    }
+    let cost = |point: Point| search.solve(point).map_or(f64::INFINITY, |solution| solution.square);
+    let at = descend(Thoroughness { steps, last: 7.0 }, sizes, cost, |_| ());
     search.proposal(at)
-}
-
-/// Where the search is.
-#[derive(Clone, Copy)]
-struct Point {
-    /// lambda over the largest one, as log(x/(1-x)).
-    position: f64,
-    /// log of gam_d + gam_v k^2 over what the small-gain condition would leave to a disturbance.
-    size: f64,
-    /// log of gam_v k v_bar over gam_d d_bar.
-    ratio: f64,
 }
 
 struct Search {
@@ -107,10 +76,6 @@ impl Search {
         Some(Search { condition, largest, sizes, noise, noise_gain })
     }
 
-    fn cost(&self, point: Point) -> f64 {
-        self.solve(point).map_or(f64::INFINITY, |solution| solution.square)
-    }
-
     fn proposal(&self, point: Point) -> Option<Proposal> {
         let Solution { q, rate, w, .. } = self.solve(point)?;
         let inverse = q.partial_piv_lu().inverse();
@@ -119,24 +84,13 @@ impl Search {
         Some(Proposal { rate, w, pi, e_low: 1.0 / q[(0, 0)] })
     }
 
-    fn solve(&self, Point { position, size, ratio }: Point) -> Option<Solution> {
-        let rate = self.largest / (1.0 + (-position).portable_exp());
+    fn solve(&self, point: Point) -> Option<Solution> {
+        let rate = point.rate(self.largest);
         let multipliers = self.condition.multipliers(rate, PARTS)?;
         let Budget { available, from_e, from_x, .. } = self.condition.budget(rate);
         let used = from_e + from_x + 2.0 / PARTS * (available - from_e - from_x);
         let room = multipliers.input * ((available / used).portable_powi(2) - 1.0);
-        let total = room * size.portable_exp();
-        let [d_bar, v_bar] = self.sizes;
-        let worth = self.noise_gain;
-        // Shares of d and v in the total.
-        let [of_d, of_v] = match (d_bar > 0.0, v_bar > 0.0) {
-            (true, true) => {
-                let v = ratio.portable_exp() * v_bar * worth;
-                [d_bar / (d_bar + v), v / (d_bar + v)]
-            }
-            (d, v) => [f64::from(u8::from(d)), f64::from(u8::from(v))],
-        };
-        let (gam_d, gam_v) = (total * of_d, total * of_v / worth.portable_powi(2));
+        let [gam_d, gam_v] = point.weights(room, self.sizes, self.noise_gain);
         let input = &self.condition.dynamics.input;
         let n = input.len();
         let a = Mat::from_fn(n, n, |i, j| self.condition.dynamics.matrix[(j, i)] + if i == j { rate } else { 0.0 });
@@ -149,29 +103,11 @@ impl Search {
             inputs.push((multipliers.moved, self.condition.dynamics.moved.clone()));
         }
         let equation = Equation { a: &a, inputs: &inputs, output: &driven };
-        let q = equation.stabilising([multipliers.input + total, multipliers.output])?;
+        let q = equation.stabilising([multipliers.input + point.total(room), multipliers.output])?;
         let q = equation.refined(&q).unwrap_or(q);
         let of = |size: f64, weight: f64| if size > 0.0 { size * size / weight } else { 0.0 };
+        let [d_bar, v_bar] = self.sizes;
         let square = q[(0, 0)] * (of(d_bar, gam_d) + of(v_bar, gam_v)) / (2.0 * rate);
         (square.is_finite() && square > 0.0).then_some(Solution { square, q, rate, w: multipliers.w })
     }
-}
-
-/// Where a function is about least, by golden sections; where it is infinite on both sides the lower end is nearer.
-pub(super) fn least(mut low: f64, mut up: f64, steps: usize, mut function: impl FnMut(f64) -> f64) -> f64 {
-    let ratio = (5f64.sqrt() - 1.0) / 2.0;
-    let mut inner = [up - ratio * (up - low), low + ratio * (up - low)];
-    let mut values = inner.map(&mut function);
-    for _ in 0..steps {
-        if values[0] < values[1] || values[1].is_infinite() {
-            up = inner[1];
-            inner = [up - ratio * (up - low), inner[0]];
-            values = [function(inner[0]), values[0]];
-        } else {
-            low = inner[0];
-            inner = [inner[1], low + ratio * (up - low)];
-            values = [values[1], function(inner[1])];
-        }
-    }
-    if values[0] < values[1] { inner[0] } else { inner[1] }
 }

@@ -13,16 +13,17 @@ use super::bound::{DIGITS, Proposal};
 use super::condition::SampledCondition;
 use super::form::{Inputs, SampledDynamics, SampledRateWitness};
 use crate::rate::bound::Place;
+use crate::rate::descent::{Point, Thoroughness, descend};
 use crate::rate::inequality::{LoopBounds, is_above};
 use crate::rate::noise::{Confinement, NoNoiseBound};
-use crate::rate::noise_search::least;
 use crate::rate::oscillators::OscillatorMatrix;
 use faer::linalg::solvers::DenseSolveCore;
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
-use sigmastar_exact::number::{Direction, Portable, round_f64, round_rational};
+use sigmastar_exact::number::{Direction, round_f64, round_rational};
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::sampled::SampledLaw;
+use std::cell::Cell;
 
 /// Shares of the c of the search that are claimed, in this order: what is left makes the form definite.
 const SHARES: [f64; 3] = [0.99, 0.9, 0.6];
@@ -149,18 +150,6 @@ struct Found {
     square: f64,
 }
 
-/// Where the search is, as in continuous time.
-#[derive(Clone, Copy)]
-struct Point {
-    /// The rate over the largest one, as log(x/(1-x)).
-    position: f64,
-    /// log of gam_d + gam_v k^2 over what the condition leaves, k = sigma + K b_1.
-    size: f64,
-    /// log of gam_v k v_bar over gam_d d_bar.
-    ratio: f64,
-    slack: f64,
-}
-
 struct Search {
     condition: SampledCondition,
     largest: f64,
@@ -182,52 +171,22 @@ impl Search {
     fn best(&self) -> Option<Found> {
         let large = self.condition.order() > LARGE;
         let steps = if large { STEPS.map(|steps| steps / 3) } else { STEPS };
-        let cost = |point: Point| self.solve(point).map_or(f64::INFINITY, |found| found.square);
-        let both = self.sizes.iter().all(|size| *size > 0.0);
-        let mut at = Point { position: 0.0, size: -1.0, ratio: 0.0, slack: SLACKS[0] };
-        for round in 0..if both { 2 } else { 1 } {
-            // The size that was best for one rate is near that for the next.
-            let mut size = at.size;
-            let position = least(-5.0, 6.0, steps[0], |position| {
-                let of = |size: f64| cost(Point { position, size, ..at });
-                let found = least(size - 3.0, size + 3.0, steps[1], of);
-                let value = of(found);
-                if value.is_finite() {
-                    size = found;
-                }
-                value
-            });
-            at = Point {
-                position,
-                size: least(size - 3.0, size + 3.0, steps[1], |size| cost(Point { position, size, ..at })),
-                ..at
-            };
-            let best = SLACKS.into_iter().min_by(|one, other| {
-                let [one, other] = [one, other].map(|slack| cost(Point { slack: *slack, ..at }));
-                one.total_cmp(&other)
-            });
-            at.slack = best.unwrap_or(at.slack);
-            if both && round == 0 {
-                at.ratio = least(-3.0, 3.0, steps[2], |ratio| cost(Point { ratio, ..at }));
-            }
-        }
-        self.solve(at)
+        let slack = Cell::new(SLACKS[0]);
+        let cost = |point: Point, slack: f64| self.solve(point, slack).map_or(f64::INFINITY, |found| found.square);
+        let settle = |at: Point| {
+            let best = SLACKS.into_iter().min_by(|one, other| cost(at, *one).total_cmp(&cost(at, *other)));
+            slack.set(best.unwrap_or_else(|| slack.get()));
+        };
+        let thoroughness = Thoroughness { steps, last: 6.0 };
+        let at = descend(thoroughness, self.sizes, |point| cost(point, slack.get()), settle);
+        self.solve(at, slack.get())
     }
 
-    fn solve(&self, Point { position, size, ratio, slack }: Point) -> Option<Found> {
-        let rate = self.largest / (1.0 + (-position).portable_exp());
+    fn solve(&self, point: Point, slack: f64) -> Option<Found> {
+        let rate = point.rate(self.largest);
         let multipliers = self.condition.multipliers(rate, slack)?;
-        let total = multipliers.room * size.portable_exp();
         let [d_bar, v_bar] = self.sizes;
-        let worth = self.condition.noise_gain;
-        let [of_d, of_v] = match (d_bar > 0.0, v_bar > 0.0) {
-            (true, true) => {
-                let v = ratio.portable_exp() * v_bar * worth;
-                [d_bar / (d_bar + v), v / (d_bar + v)]
-            }
-            (d, v) => [f64::from(u8::from(d)), f64::from(u8::from(v))],
-        };
-        let (gam_d, gam_v) = (total * of_d, total * of_v / worth.portable_powi(2));
+        let [gam_d, gam_v] = point.weights(multipliers.room, self.sizes, self.condition.noise_gain);
         let system = self.condition.disturbed(rate, &multipliers, [gam_d, gam_v]);
         let pi = system.largest()?;
         let first = pi.partial_piv_lu().inverse()[(0, 0)];
