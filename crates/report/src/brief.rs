@@ -163,7 +163,8 @@ pub(super) fn of_samples(run: &SampledCertification<'_>, rechecked: bool) -> Vec
         Some(_) => format!("{late} rounding or quantisation"),
         None => format!("{late} rounding, quantisation or saturation"),
     };
-    facts.push(("assumed", format!("{}; {of_the_computer}", assumed(run.spec, run.largest_arguments(), None))));
+    let beside = if run.spec.v_bar() > 0 { ", but what noise adds with given n_o counts `measurement`" } else { "" };
+    facts.push(("assumed", format!("{}; {of_the_computer}{beside}", assumed(run.spec, run.largest_arguments(), None))));
     vec![Block::facts(facts), Block::says(norms(run.spec, "law"))]
 }
 

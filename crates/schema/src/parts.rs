@@ -123,14 +123,14 @@ pub(super) fn actuator() -> Field {
 /// `measurement`.
 pub(super) fn measurement() -> Field {
     let fields = vec![
-        may("noise", "Noise", "The greatest size of the noise on the measured e, in the unit of e.", NONNEGATIVE),
-        may("quantum", "Quantum", "The step of the converter that rounds the measured e to nearest.", NONNEGATIVE),
+        may("noise", "Noise", "The greatest size of the noise on the measured e, in the unit of e.", Shape::Ratio),
+        may("quantum", "Quantum", "The step of the converter that rounds the measured e to nearest.", Shape::Ratio),
     ];
     may(
         "measurement",
         "Measurement",
-        "What is measured is e + v with |v| <= noise + quantum/2, of which at least one is given, as a decimal or a fraction. It counts in \
-         what is said of given numbers of oscillators.",
+        "What is measured is e + v with |v| <= noise + quantum/2, of which at least one is given. It counts in what is said of given \
+         numbers of oscillators.",
         Shape::Object(fields),
     )
 }
@@ -140,9 +140,8 @@ pub(super) fn disturbance() -> Field {
     may(
         "disturbance",
         "Disturbance",
-        "The greatest size of what is added to q, in the unit of e', as a decimal or a fraction. It counts in what is said of given numbers \
-         of oscillators.",
-        NONNEGATIVE,
+        "The greatest size of what is added to q, in the unit of e'. It counts in what is said of given numbers of oscillators.",
+        Shape::Ratio,
     )
 }
 

@@ -17,6 +17,8 @@ pub(super) enum Shape {
     Text,
     /// A text or a number: an exact constant. What is negative and written as a number can be told.
     Constant(Sign),
+    /// The same of one that is not negative, without operations but a fraction's.
+    Ratio,
     /// A text or a number: an expression in these variables.
     Expression(&'static str),
     /// true or false.
@@ -44,6 +46,9 @@ pub(super) enum Shape {
     /// A shape that stands in several places: it is written once, under this name.
     Named(&'static str, Box<Shape>),
 }
+
+/// A decimal numeral without a sign.
+const UNSIGNED: &str = r"([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+-]?[0-9]+)?";
 
 /// What is known of the sign of a constant.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -97,6 +102,7 @@ impl Shape {
                 };
                 Some(format!(" An exact number{range}: 0.1 is 1/10; in quotes \"1/3\", \"2*pi\", \"sqrt(3)/2\"."))
             }
+            Shape::Ratio => Some(" An exact number, not negative: 0.1 is 1/10; in quotes \"1/300\".".to_owned()),
             Shape::Expression(variables) => Some(format!(" An expression in {variables}, in quotes, or a number.")),
             _ => None,
         }
@@ -111,6 +117,9 @@ impl Shape {
             }
             // Not `exclusiveMinimum` for a positive one: an editor may round 1e-400 to 0.
             Shape::Constant(_) => json!({ "type": ["string", "number"], "minLength": 1, "minimum": 0 }),
+            Shape::Ratio => {
+                json!({ "type": ["string", "number"], "pattern": format!("^{UNSIGNED}(/{UNSIGNED})?$"), "minimum": 0 })
+            }
             Shape::Boolean => json!({ "type": "boolean" }),
             Shape::Whole(least, most) => json!({ "type": "integer", "minimum": least, "maximum": most }),
             Shape::Word(words) => match words.as_slice() {
