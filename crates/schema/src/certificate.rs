@@ -201,11 +201,21 @@ fn by_matrices() -> Shape {
     let mut fields = vec![count(), must("Pi", "Pi", text, any_list(any_list(rational())))];
     fields.extend(numbers(&["e_low", "e_up", "z_up"], "What Pi is between."));
     fields.push(may("x_up", "x_up", "What Pi is below, where there are states.", rational()));
-    let rows =
-        [("Q", "The lower triangle of Q, by rows."), ("G", "G, by rows."), ("H", "The lower triangle of H, by rows.")]
-            .map(|(name, text)| must(name, name, text, any_list(any_list(rational()))));
-    let text = "What is proved of the first derivatives D of the plant: Q - G D - D'G' - D'H D >= 0.";
-    fields.push(must("slopes", "Slopes", text, Shape::Object(rows.into())));
+    let known = || {
+        let rows = [
+            ("Q", "The lower triangle of Q, by rows."),
+            ("G", "G, by rows."),
+            ("H", "The lower triangle of H, by rows."),
+        ];
+        Shape::Object(rows.map(|(name, text)| must(name, name, text, any_list(any_list(rational())))).into())
+    };
+    let apart = Shape::Object(vec![
+        must("states", "By x", "The derivatives by x, where the matrix inequality has them.", known()),
+        must("error", "By e", "The derivatives by e, where the matrix inequality has them.", known()),
+    ]);
+    let text = "What is proved of the first derivatives D of the plant: Q - G D - D'G' - D'H D >= 0, of all of them or of those by x and by e \
+                apart.";
+    fields.push(must("slopes", "Slopes", text, Shape::OneOf(vec![known(), apart])));
     Shape::Object(fields)
 }
 

@@ -63,6 +63,7 @@ pub use joint_program::{FloatLevel, FloatMetric, LevelAsked};
 pub use majorant::{Majorant, Term};
 pub use pointwise::Asked;
 pub use prove_value::ProvedValue;
+pub use quantity::Part;
 pub use region::{Region, RegionError};
 pub use sampled_form::LoopNumbers;
 pub use sampled_pairs::{Corners, MatrixArguments};

@@ -4,6 +4,7 @@ use super::chart::{Active, parameters_in};
 use sigmastar_lang::expr::{Formula, Formulas, PlantVariable, Walk};
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::Bound;
+use std::ops::Range;
 
 /// The matrix `A (plain + sum_l along_l x_0'_l) B` of which a bound speaks; A is the inverse of L or 1, B is L or 1.
 #[derive(Clone, Debug)]
@@ -23,7 +24,7 @@ pub(super) struct Quantity {
 
 /// Which of the first derivatives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Part {
+pub enum Part {
     /// `[[f_x, f_e], [q_x, q_e]]`.
     All,
     /// `[[f_x], [q_x]]`.
@@ -35,6 +36,16 @@ pub(super) enum Part {
 impl Part {
     /// Each of them, in order.
     pub(super) const EACH: [Part; 3] = [Part::All, Part::States, Part::Error];
+
+    /// The columns of `[[f_x, f_e], [q_x, q_e]]` that it has, of a plant with n states.
+    #[must_use]
+    pub fn columns(self, n: usize) -> Range<usize> {
+        match self {
+            Part::All => 0..n + 1,
+            Part::States => 0..n,
+            Part::Error => n..n + 1,
+        }
+    }
 }
 
 /// The factor on the right.

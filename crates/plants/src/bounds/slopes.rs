@@ -1,12 +1,12 @@
 //! What is known of all first derivatives together: (D) of derivation, 13.6, decided with enclosures by subdivision.
 //!
-//! With `D = [[J, g], [r, d]]` at a point, `Q - G D - D'G' - D'H D >= 0` says that D lies in the matrix ball
-//! `(D - C)'H (D - C) <= S` about `C = -H^-1 G'`, where `S = Q + G H^-1 G'`. Searches know C, S and H, proofs Q, G and H.
+//! With `D = [[J, g], [r, d]]` at a point, or the columns of x or that of e alone, `Q - G D - D'G' - D'H D >= 0` says that D lies in the matrix
+//! ball `(D - C)'H (D - C) <= S` about `C = -H^-1 G'`, where `S = Q + G H^-1 G'`. Searches know C, S and H, proofs Q, G and H.
 
 use super::PRECISION;
 use super::centred::{Centred, negated};
 use super::decide::{Decision, Values};
-use super::definite::SymmetricValues;
+use super::definite::{SymmetricValues, leaves_out};
 use super::eigen::largest;
 use super::engine::{Engine, is_symmetric};
 use super::pointwise::{Derivatives, product, roots};
@@ -21,26 +21,39 @@ use std::sync::Arc;
 
 /// What a ball is enlarged by until it is proved, the boxes that each attempt may take, and the digits of its numbers; the
 /// first is for derivatives that do not vary.
-const ATTEMPTS: [(f64, usize, u32); 6] =
-    [(1e-5, 8, 9), (0.01, 1500, 9), (0.03, 3000, 9), (0.1, 6000, 9), (0.3, 12_000, 9), (0.3, 12_000, 15)];
+const ATTEMPTS: [(f64, usize, u32); 9] = [
+    (1e-5, 8, 9),
+    (3e-4, 500, 9),
+    (0.001, 1000, 9),
+    (0.003, 1500, 9),
+    (0.01, 1500, 9),
+    (0.03, 3000, 9),
+    (0.1, 6000, 9),
+    (0.3, 12_000, 9),
+    (0.3, 12_000, 15),
+];
 
 /// The least share of S that a ball may have.
 const LEAST: f64 = 1e-3;
 
-/// Q, G and H by rows, of the order n + 1 of (x, e).
+/// Q, G and H by rows, of a part of D with k columns.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Slopes {
-    /// Q: symmetric.
+    /// The part.
+    pub part: Part,
+    /// Q: symmetric, of order k.
     pub q: Vec<Vec<Rational>>,
-    /// G.
+    /// G: k rows of n + 1.
     pub g: Vec<Vec<Rational>>,
-    /// H: symmetric, positive definite.
+    /// H: symmetric, positive definite, of order n + 1.
     pub h: Vec<Vec<Rational>>,
 }
 
 /// The ball of them in doubles, by rows.
 #[derive(Clone, Debug)]
 pub struct FloatSlopes {
+    /// The part of D.
+    pub part: Part,
     /// C.
     pub centre: Vec<Vec<f64>>,
     /// S.
@@ -53,20 +66,20 @@ impl Engine {
     /// Decides (D), with so many boxes at most.
     ///
     /// Guarantee: `True` only if H is positive definite, and for every t, every point of `|y| <= X`, `|e| <= E` around any x_0 within r of
-    /// xb, and the derivatives D of (f, q) by (x, e) there in the coordinates y, `Q - G D - D'G' - D'H D` is positive definite. `False` only
-    /// if it is not so at a point, or a matrix is not of its shape. For the caller to prove: what [`Engine::decide`] leaves to him.
+    /// xb, and this part D of the derivatives of (f, q) by (x, e) there in the coordinates y, `Q - G D - D'G' - D'H D` is positive definite.
+    /// `False` only if it is not so at a point, or a matrix is not of its shape. For the caller to prove: what [`Engine::decide`] leaves to him.
     #[must_use]
     pub fn decide_slopes(&self, slopes: &Slopes, [x, e]: [&Rational; 2], effort: usize) -> Decision {
-        let Slopes { q, g, h } = slopes;
-        let order = self.states() + 1;
-        let is_square = g.len() == order && g.iter().all(|row| row.len() == order);
-        if !is_symmetric(q, order) || !is_symmetric(h, order) || !is_square || !is_positive_definite(h) {
+        let Slopes { part, q, g, h } = slopes;
+        let (order, columns) = (self.states() + 1, part.columns(self.states()).len());
+        let fits = g.len() == columns && g.iter().all(|row| row.len() == order);
+        if !is_symmetric(q, columns) || !is_symmetric(h, order) || !fits || !is_positive_definite(h) {
             return Decision { truth: Truth::False, boxes: 0 };
         }
         if *x < 0 || *e < 0 {
             return Decision { truth: Truth::Undecided, boxes: 0 };
         }
-        self.decide_part(Part::All, [x, e], effort, |values| slopes.form(values))
+        self.decide_part(*part, [x, e], effort, |values| slopes.form(values))
     }
 
     /// (D) for a ball little larger than this one, which is proved with [`Engine::smooth`]; `None` if none is.
@@ -93,28 +106,38 @@ impl Slopes {
         let frame = values.frame;
         let region = values.engine.region();
         let n = region.states();
-        // [[f_x, f_e], [q_x, q_e]] in the coordinates x.
-        let mut of_f = values.matrix();
-        let mut of_q = of_f.pop()?;
-        let slope = of_q.pop()?;
-        let columns: Vec<Vec<Centred>> = of_f.iter_mut().map(|row| row.split_off(n)).collect();
-        let mut d = values.product(region.matrix(), &values.product(region.inverse(), &of_f, false), true);
-        for (row, own) in d.iter_mut().zip(values.product(region.inverse(), &columns, false)) {
-            row.extend(own);
+        let columns = self.part.columns(n);
+        // The columns of x, if it has them, and that of e, in the coordinates x.
+        let mut d = values.matrix();
+        let of_x = columns.len().min(n) * usize::from(columns.start == 0);
+        let of_e: Vec<Vec<Centred>> = d.iter_mut().map(|row| row.split_off(of_x)).collect();
+        if of_x > 0 {
+            d = values.product(region.matrix(), &d, true);
         }
-        let mut last = values.product(region.matrix(), &[of_q], true).concat();
-        last.push(slope);
-        d.push(last);
-        let turned = values.product(&self.g, &d, false);
-        let weighed = values.product(&self.h, &d, false);
-        let order = n + 1;
+        d.iter_mut().zip(of_e).for_each(|(row, own)| row.extend(own));
+        let of_q = d.pop()?;
+        d = values.product(region.inverse(), &d, false);
+        d.push(of_q);
         let zero = || frame.constant(Enclosure::zero(PRECISION));
+        let times = |row: &[Rational], j: usize| {
+            row.iter().zip(&d).filter(|(factor, row)| !leaves_out(factor, &row[j])).fold(
+                zero(),
+                |sum, (factor, row)| {
+                    frame.add(&sum, &frame.scale(&row[j], &Enclosure::from_rational(factor, PRECISION)))
+                },
+            )
+        };
+        let image = |of: &[Vec<Rational>]| -> Vec<Vec<Centred>> {
+            of.iter().map(|row| (0..columns.len()).map(|j| times(row, j)).collect()).collect()
+        };
+        let (turned, weighed) = (image(&self.g), image(&self.h));
         let entry = |i: usize, j: usize| {
-            let square = (0..order).filter(|k| !d[*k][i].is_zero() && !weighed[*k][j].is_zero());
-            let square = square.fold(zero(), |sum, k| frame.add(&sum, &frame.mul(&d[k][i], &weighed[k][j])));
+            let square = d.iter().zip(&weighed).filter(|(d, weighed)| !d[i].is_zero() && !weighed[j].is_zero());
+            let square = square.fold(zero(), |sum, (d, weighed)| frame.add(&sum, &frame.mul(&d[i], &weighed[j])));
             let taken = frame.add(&frame.add(&turned[i][j], &turned[j][i]), &square);
             frame.add(&frame.rational(&self.q[i][j]), &negated(&taken))
         };
+        let order = columns.len();
         let upper = (0..order).flat_map(|i| (i..order).map(move |j| (i, j)));
         Some(SymmetricValues { order, entries: upper.map(|(i, j)| (i, j, entry(i, j))).collect() })
     }
@@ -122,7 +145,8 @@ impl Slopes {
 
 impl FloatSlopes {
     /// The ball with S times a number.
-    fn of_share(&self, share: f64) -> FloatSlopes {
+    #[must_use]
+    pub fn of_share(&self, share: f64) -> FloatSlopes {
         let size = self.size.iter().map(|row| row.iter().map(|entry| entry * share).collect()).collect();
         FloatSlopes { size, ..self.clone() }
     }
@@ -130,7 +154,7 @@ impl FloatSlopes {
     /// Q, G and H, with so many digits; `None` where one is not finite.
     #[must_use]
     pub fn rounded(&self, digits: u32) -> Option<Slopes> {
-        let FloatSlopes { centre, size, h } = self;
+        let FloatSlopes { part, centre, size, h } = self;
         let short = |value: f64| round_f64(value, digits, Direction::Nearest);
         let symmetric = |of: &Vec<Vec<f64>>| {
             let entry = |i: usize, j: usize| short(of[i.max(j)][i.min(j)]);
@@ -141,12 +165,12 @@ impl FloatSlopes {
         let q = size.iter().zip(&square).map(|(a, b)| a.iter().zip(b).map(|(a, b)| a - b).collect()).collect();
         let g: Option<Vec<Vec<Rational>>> =
             transposed(&weighed).iter().map(|row| row.iter().map(|entry| short(-entry)).collect()).collect();
-        Some(Slopes { q: symmetric(&q)?, g: g?, h: symmetric(h)? })
+        Some(Slopes { part: *part, q: symmetric(&q)?, g: g?, h: symmetric(h)? })
     }
 }
 
 fn transposed(of: &[Vec<f64>]) -> Vec<Vec<f64>> {
-    (0..of.len()).map(|i| of.iter().map(|row| row[i]).collect()).collect()
+    (0..of.first().map_or(0, Vec::len)).map(|i| of.iter().map(|row| row[i]).collect()).collect()
 }
 
 impl FloatSuprema {
@@ -154,7 +178,7 @@ impl FloatSuprema {
     fn largest_share(&self, slopes: &FloatSlopes, at: [f64; 2]) -> Option<f64> {
         let [_, root] = roots(&slopes.size);
         let found = self.refined_of_derivatives(at, |derivatives, _| {
-            let mut moved = matrix_of(derivatives);
+            let mut moved = matrix_of(derivatives, slopes.part);
             for (row, centre) in moved.iter_mut().zip(&slopes.centre) {
                 row.iter_mut().zip(centre).for_each(|(entry, centre)| *entry -= centre);
             }
@@ -180,25 +204,31 @@ impl FloatSuprema {
         )
     }
 
-    /// D at these places, each once.
+    /// This part of D at these places, each once.
     #[must_use]
-    pub fn derivatives_at(&self, at: [f64; 2], places: &[Place]) -> Vec<Vec<Vec<f64>>> {
+    pub fn derivatives_at(&self, part: Part, at: [f64; 2], places: &[Place]) -> Vec<Vec<Vec<f64>>> {
         let mut places = places.to_vec();
         places.sort_unstable();
         places.dedup();
         let mut found = Vec::new();
         self.derivatives_at_points(at, &Places::Listed(Arc::new(places)), |_, derivatives, _| {
-            found.push(matrix_of(derivatives));
+            found.push(matrix_of(derivatives, part));
         });
         found
     }
 
-    /// The places, so many at most, where a value of D is largest of those where it is positive.
+    /// The places, so many at most, where a value of this part of D is largest of those where it is positive.
     #[must_use]
-    pub fn places_beyond(&self, at: [f64; 2], count: usize, value: impl Fn(&[Vec<f64>]) -> f64) -> Vec<Place> {
+    pub fn places_beyond(
+        &self,
+        part: Part,
+        at: [f64; 2],
+        count: usize,
+        value: impl Fn(&[Vec<f64>]) -> f64,
+    ) -> Vec<Place> {
         let mut worst = Vec::new();
         self.derivatives_at_points(at, &Places::Stride(1), |place, derivatives, _| {
-            let value = value(&matrix_of(derivatives));
+            let value = value(&matrix_of(derivatives, part));
             if value > 0.0 {
                 keep(&mut worst, count, value, place);
             }
@@ -207,9 +237,11 @@ impl FloatSuprema {
     }
 }
 
-/// D by rows.
-pub(super) fn matrix_of(Derivatives { j, g, r, d }: &Derivatives<'_>) -> Vec<Vec<f64>> {
+/// A part of D by rows.
+pub(super) fn matrix_of(Derivatives { j, g, r, d }: &Derivatives<'_>, part: Part) -> Vec<Vec<f64>> {
     let n = g.len();
-    let row = |i: usize| j[i * n..(i + 1) * n].iter().copied().chain([g[i]]).collect();
-    (0..n).map(row).chain([r.iter().copied().chain([*d]).collect()]).collect()
+    let columns = part.columns(n);
+    let row =
+        |of_x: &[f64], of_e: f64| of_x.iter().copied().chain([of_e]).collect::<Vec<f64>>()[columns.clone()].to_vec();
+    (0..n).map(|i| row(&j[i * n..(i + 1) * n], g[i])).chain([row(r, *d)]).collect()
 }

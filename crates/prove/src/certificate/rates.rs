@@ -12,7 +12,7 @@ use crate::rate::sampled::noise::SampledNoiseBound;
 use rug::Rational;
 use serde_json::{Value, json};
 use sigmastar_exact::number::write_exact;
-use sigmastar_plants::bounds::Slopes;
+use sigmastar_plants::bounds::{Part, Slopes};
 
 /// The name of both parts.
 const FOR_N_O: &str = "for_n_o";
@@ -36,8 +36,8 @@ pub(super) fn rate_witnesses(run: &Certification<'_>) -> Option<(&'static str, V
             "Pi": rows(&witness.pi),
             "e_low": write_exact(e_low), "e_up": write_exact(e_up), "z_up": write_exact(z_up),
         });
-        if let Some(ByMatrices { slopes: Slopes { q, g, h }, x_up }) = by {
-            value["slopes"] = json!({ "Q": lower(q), "G": rows(g), "H": lower(h) });
+        if let Some(ByMatrices { slopes, x_up }) = by {
+            value["slopes"] = of_slopes(slopes);
             if let Some(x_up) = x_up {
                 value["x_up"] = write_exact(x_up).into();
             }
@@ -57,6 +57,20 @@ pub(super) fn rate_witnesses(run: &Certification<'_>) -> Option<(&'static str, V
         }
         value
     })
+}
+
+/// Q, G and H of all first derivatives, or of those by x and by e apart.
+fn of_slopes(slopes: &[Slopes]) -> Value {
+    let mut parts = Value::Null;
+    for Slopes { part, q, g, h } in slopes {
+        let known = json!({ "Q": lower(q), "G": rows(g), "H": lower(h) });
+        match part {
+            Part::All => parts = known,
+            Part::States => parts["states"] = known,
+            Part::Error => parts["error"] = known,
+        }
+    }
+    parts
 }
 
 fn rows(pi: &[Vec<Rational>]) -> Vec<Vec<String>> {

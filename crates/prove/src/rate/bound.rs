@@ -46,8 +46,8 @@ pub struct Place<'a> {
 /// What a bound has besides where it is proved from the derivatives themselves; it has no w and l then.
 #[derive(Clone, Debug)]
 pub struct ByMatrices {
-    /// Q, G and H, of which (D) is proved.
-    pub slopes: Slopes,
+    /// Q, G and H, of which (D) is proved: of all derivatives, or of those by x and by e apart.
+    pub slopes: Vec<Slopes>,
     /// `Pi < diag(x_up I, e_up, z_up I)`; none without states.
     pub x_up: Option<Rational>,
 }

@@ -4,9 +4,10 @@
 //! With `D = C + D'`, `D''H D' <= S`, K is definite for some multipliers with this ball if and only if
 //! `Pi (A + B C E + rate) + (.)' + E'S E + Pi B H^-1 B'Pi < 0`, E taking a = (x, e) of eta: a bounded real inequality, which has a Pi > 0 if and only
 //! if the loop with D = C decays faster than the rate and its gain from D' to a is small on the line Re s = -rate. With an input gain there
-//! is one more signal at B_q, `(b_u - b_c) (-sigma e + mu b'zs)`, with a multiplier of its own.
+//! is one more signal at B_q, `(b_u - b_c) (-sigma e + mu b'zs)`, with a multiplier of its own. Of balls of the columns of x and of e apart S is block
+//! diagonal, and H^-1 the sum of theirs.
 
-use super::matrix_loop::{MatrixLoop, Multipliers};
+use super::matrix_loop::{KnownSlopes, MatrixLoop, Multipliers};
 use super::riccati::Equation;
 use faer::linalg::solvers::{DenseSolveCore, Llt};
 use faer::{Mat, Side};
@@ -28,34 +29,40 @@ pub struct BoundedReal {
     matrix: Mat<f64>,
     /// E'S E.
     output: Mat<f64>,
-    /// B H^-1 B' as inputs: one over each eigenvalue of H, and B times its eigenvector.
+    /// B H^-1 B' as inputs: each eigenvalue of H^-1, and B times its eigenvector.
     inputs: Vec<(f64, Vec<f64>)>,
     /// The signal of the input gain, and B_q, where it is not known.
     moved: Option<[Vec<f64>; 2]>,
-    /// Q, G, H.
-    slopes: [Vec<Vec<f64>>; 3],
+    /// Each part of D.
+    slopes: Vec<KnownSlopes<f64>>,
     /// The rate of decay with D = C.
     fastest: f64,
 }
 
 impl BoundedReal {
-    /// The equation; `slopes` are Q, G, H of the ball, rounded. `None` where the loop with D = C does not decay, or a number is not finite.
+    /// The equation; `slopes` are of the ball, rounded. `None` where the loop with D = C does not decay, or a number is not finite.
     #[must_use]
-    pub fn new(of: MatrixLoop<f64>, slopes: [Vec<Vec<f64>>; 3]) -> Option<BoundedReal> {
+    pub fn new(of: MatrixLoop<f64>, slopes: Vec<KnownSlopes<f64>>) -> Option<BoundedReal> {
         let (order, signals) = (of.order(), of.states + 1);
-        let [q, g, h] = slopes.each_ref().map(|of| Mat::from_fn(signals, signals, |i, j| of[i][j]));
-        let inverse = Llt::new(h.as_ref(), Side::Lower).ok()?.inverse();
-        let centre = &inverse * g.transpose();
-        let size = &q + &g * &centre;
-        let rows: Vec<Vec<f64>> = (0..signals).map(|i| (0..signals).map(|j| -centre[(i, j)]).collect()).collect();
+        let mut centre = Mat::<f64>::zeros(signals, signals);
+        let (mut output, mut inverse) = (Mat::<f64>::zeros(order, order), Mat::<f64>::zeros(signals, signals));
+        for KnownSlopes { columns, q, g, h } in &slopes {
+            let count = columns.len();
+            let g = Mat::from_fn(count, signals, |i, j| g[i][j]);
+            let own = Llt::new(Mat::from_fn(signals, signals, |i, j| h[i][j]).as_ref(), Side::Lower).ok()?.inverse();
+            let middle = &own * g.transpose();
+            let size = Mat::from_fn(count, count, |i, j| q[i][j]) + &g * &middle;
+            centre.as_mut().subcols_mut(columns.start, count).copy_from(-middle);
+            output.as_mut().submatrix_mut(columns.start, columns.start, count, count).copy_from(size);
+            inverse += own;
+        }
+        let rows: Vec<Vec<f64>> = (0..signals).map(|i| (0..signals).map(|j| centre[(i, j)]).collect()).collect();
         let (matrix, fastest) = (of.closed(&rows), of.decay(&rows)?);
         let [_, b] = of.matrices();
-        let eigen = h.self_adjoint_eigen(Side::Lower).ok()?;
+        let eigen = inverse.self_adjoint_eigen(Side::Lower).ok()?;
         let turned = &b * eigen.U();
-        let of_value = |(k, value): (usize, &f64)| (value.recip(), (0..order).map(|i| turned[(i, k)]).collect());
+        let of_value = |(k, value): (usize, &f64)| (*value, (0..order).map(|i| turned[(i, k)]).collect());
         let inputs = eigen.S().column_vector().iter().enumerate().map(of_value).collect();
-        let within = |i: usize, j: usize| i < signals && j < signals;
-        let output = Mat::from_fn(order, order, |i, j| if within(i, j) { size[(i, j)] } else { 0.0 });
         let moved = of.moved();
         (fastest > 0.0 && fastest.is_finite()).then_some(BoundedReal {
             of,
@@ -108,7 +115,8 @@ impl BoundedReal {
         let (mut output, mut inputs) = (self.output.clone(), self.inputs.clone());
         if let Some([signal, at]) = &self.moved {
             // In the size that H gives to the last of omega.
-            let weight = of_gain * self.slopes[2].last().and_then(|row| row.last()).copied().unwrap_or(1.0);
+            let of_q = self.slopes.last().and_then(|part| part.h.last()?.last());
+            let weight = of_gain * of_q.copied().unwrap_or(1.0);
             output += Mat::from_fn(n, n, |i, j| weight * signal[i] * signal[j]);
             inputs.push((weight.recip(), at.clone()));
         }
@@ -124,9 +132,8 @@ impl BoundedReal {
     fn proves(&self, pi: &Mat<f64>, rate: f64) -> bool {
         let n = pi.nrows();
         let rows: Vec<Vec<f64>> = (0..n).map(|i| (0..n).map(|j| pi[(i, j)]).collect()).collect();
-        let slopes = self.slopes.each_ref().map(Vec::as_slice);
         self.of.ends().iter().all(|gain| {
-            let form = self.of.form(gain, &Multipliers { rate: &rate, pi: &rows, slopes });
+            let form = self.of.form(gain, &Multipliers { rate: &rate, pi: &rows, slopes: &self.slopes });
             let order = form.len();
             // In units of the diagonal.
             let unit = |i: usize| form[i][i].max(f64::MIN_POSITIVE).sqrt();

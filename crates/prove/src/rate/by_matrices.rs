@@ -1,5 +1,5 @@
-//! From a ball of the first derivatives to a bound of the error for one n_o: Proposition R_D of derivation, 13.6, for claims by (M) and
-//! (Jm), which have no norms of the error system.
+//! From balls of the first derivatives to a bound of the error for one n_o: Propositions R_D and, where (M) is proved on a path with a corner,
+//! R_P of derivation, 13.6, for claims by (M) and (Jm), which have no norms of the error system.
 //!
 //! With `Pi > diag(0, e_low, 0)` and `Pi < diag(x_up I, e_up, z_up I)` the start has `W <= x_up dX^2 + e_up dE^2 + z_up dZ^2`, and
 //! `et^2 <= W/e_low`: the factor is as in [`super::bound`].
@@ -7,7 +7,7 @@
 use super::bound::{ByMatrices, DIGITS, RateBound, SHARES};
 use super::bounded_real::BoundedReal;
 use super::inequality::{RateWitness, is_definite};
-use super::matrix_loop::{MatrixLoop, Multipliers};
+use super::matrix_loop::{KnownSlopes, MatrixLoop, Multipliers};
 use super::slopes_program::SampledSlopes;
 use super::small_gain::Limit;
 use faer::linalg::solvers::DenseSolveCore;
@@ -15,11 +15,14 @@ use faer::{Mat, Side};
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, Portable, round_f64, round_rational};
-use sigmastar_plants::bounds::{Engine, FloatSlopes, FloatSuprema, Slopes};
+use sigmastar_plants::bounds::{Engine, FloatSlopes, FloatSuprema, Part, Slopes};
 use sigmastar_theory::data::Data;
 
 /// By what share the diagonal bounds of Pi may differ from the best ones.
 const ROOM: f64 = 1e-3;
+
+/// By what share balls are enlarged before they are compared: what is proved of them is about that much larger.
+const SLACK: f64 = 0.002;
 
 /// What is proved of a plant's derivatives, and where.
 pub struct Tube<'a> {
@@ -29,6 +32,8 @@ pub struct Tube<'a> {
     pub samples: &'a FloatSuprema,
     /// X and E of the matrix inequality, or of the joint one, of the claim: the error box lies inside.
     pub at: [&'a Rational; 2],
+    /// Those of (J, r) and of (g, d), where the matrix inequality is proved on a path with a corner.
+    pub corner: Option<[[&'a Rational; 2]; 2]>,
     /// The gain of the claim, in 1/time.
     pub sigma: &'a Rational,
     /// dX, dE, dZ.
@@ -41,32 +46,96 @@ pub struct Tube<'a> {
 /// every input gain of the data and every member of a family, `|e(t) - e_per(t)| <= factor exp(-rate (t - t_0))`.
 #[must_use]
 pub fn bounds(data: &Data<'_>, tube: &Tube<'_>, counts: &[u32]) -> Vec<Option<RateBound>> {
-    let at = tube.engine.float_arguments(tube.at);
-    let mut sampled = SampledSlopes::new(tube.samples, at);
-    counts.iter().map(|n_o| bound(data, tube, &mut sampled, *n_o)).collect()
+    let mut kinds: Vec<Kind<'_>> = tube.kinds().into_iter().map(|parts| Kind::new(tube, parts)).collect();
+    counts.iter().map(|n_o| bound(data, tube, &mut kinds, *n_o)).collect()
 }
 
-fn bound(data: &Data<'_>, tube: &Tube<'_>, sampled: &mut SampledSlopes<'_>, n_o: u32) -> Option<RateBound> {
+impl<'a> Tube<'a> {
+    /// The parts of D that may be known, and where: all of it, or its columns apart.
+    fn kinds(&self) -> Vec<Vec<(Part, [&'a Rational; 2])>> {
+        let apart = self.corner.map(|[of_x, of_e]| vec![(Part::States, of_x), (Part::Error, of_e)]);
+        std::iter::once(vec![(Part::All, self.at)]).chain(apart).collect()
+    }
+}
+
+/// Parts of D, and what is sampled of them.
+struct Kind<'a> {
+    parts: Vec<(Part, [&'a Rational; 2])>,
+    sampled: SampledSlopes<'a>,
+}
+
+impl<'a> Kind<'a> {
+    fn new(tube: &Tube<'a>, parts: Vec<(Part, [&'a Rational; 2])>) -> Kind<'a> {
+        let float: Vec<_> = parts.iter().map(|(part, at)| (*part, tube.engine.float_arguments(*at))).collect();
+        Kind { sampled: SampledSlopes::new(tube.samples, tube.engine.states(), &float), parts }
+    }
+
+    /// Balls with which the loop of all oscillators decays fastest, of those that a program with a few of them proposes; and that rate.
+    fn propose(
+        &mut self,
+        tube: &Tube<'_>,
+        few: &MatrixLoop<Enclosure>,
+        all: &MatrixLoop<Enclosure>,
+    ) -> Option<(f64, Vec<FloatSlopes>)> {
+        let fit = |(ball, (_, at)): (&FloatSlopes, &(Part, [&Rational; 2]))| {
+            tube.samples.fitted(ball, tube.engine.float_arguments(*at))
+        };
+        let seen = |balls: Vec<FloatSlopes>| {
+            let balls: Vec<FloatSlopes> = balls.iter().zip(&self.parts).map(fit).collect::<Option<_>>()?;
+            let rounded = balls.iter().map(|ball| ball.of_share(1.0 + SLACK).rounded(DIGITS[1]));
+            let rounded: Vec<Slopes> = rounded.collect::<Option<_>>()?;
+            Some((equation(all, &rounded)?.1[0], balls))
+        };
+        self.sampled.propose(few).into_iter().filter_map(seen).max_by(|a, b| a.0.total_cmp(&b.0))
+    }
+
+    fn prove(&self, tube: &Tube<'_>, balls: &[FloatSlopes]) -> Option<Vec<Slopes>> {
+        balls.iter().zip(&self.parts).map(|(ball, (_, at))| tube.engine.prove_slopes(ball, *at)).collect()
+    }
+}
+
+/// The equation for what is known, with its largest rate and the multiplier of the input gain.
+fn equation(of: &MatrixLoop<Enclosure>, slopes: &[Slopes]) -> Option<(BoundedReal, [f64; 2])> {
+    let doubles = |of: &[Vec<Rational>]| of.iter().map(|row| row.iter().map(Rational::to_f64).collect()).collect();
+    let known = slopes.iter().map(|part| known(part, of.states, doubles)).collect();
+    let equation = BoundedReal::new(of.doubles(1.0), known)?;
+    let largest = equation.largest_rate()?;
+    Some((equation, largest))
+}
+
+/// What is proved of a part of D, for the form.
+fn known<R>(
+    Slopes { part, q, g, h }: &Slopes,
+    states: usize,
+    numbers: impl Fn(&[Vec<Rational>]) -> Vec<Vec<R>>,
+) -> KnownSlopes<R> {
+    KnownSlopes { columns: part.columns(states), q: numbers(q), g: numbers(g), h: numbers(h) }
+}
+
+fn bound(data: &Data<'_>, tube: &Tube<'_>, kinds: &mut [Kind<'_>], n_o: u32) -> Option<RateBound> {
     let states = tube.engine.states();
     let with = |oscillators: &[u32]| MatrixLoop::new(data, states, tube.sigma, oscillators);
     // The mode of the fastest oscillator is the slowest of the loop.
     let few: Vec<u32> = if n_o > 2 { vec![1, n_o] } else { (1..=n_o).collect() };
     let all: Vec<u32> = (1..=n_o).collect();
-    let of = with(&all);
-    let equation = |slopes: &Slopes| {
-        let doubles = |of: &[Vec<Rational>]| of.iter().map(|row| row.iter().map(Rational::to_f64).collect()).collect();
-        let plain: [Vec<Vec<f64>>; 3] = [&slopes.q, &slopes.g, &slopes.h].map(|of| doubles(of));
-        let equation = BoundedReal::new(of.doubles(1.0), plain)?;
-        let largest = equation.largest_rate()?;
-        Some((equation, largest))
-    };
-    let at = tube.engine.float_arguments(tube.at);
-    let fitted = sampled.propose(&with(&few)).into_iter().filter_map(|ball| tube.samples.fitted(&ball, at));
-    // As all oscillators see them.
-    let seen = |ball: FloatSlopes| Some((equation(&ball.rounded(DIGITS[1])?)?.1[0], ball));
-    let (_, ball) = fitted.filter_map(seen).max_by(|a, b| a.0.total_cmp(&b.0))?;
-    let slopes = tube.engine.prove_slopes(&ball, tube.at)?;
-    let (equation, [largest, of_gain]) = equation(&slopes)?;
+    let (few, of) = (with(&few), with(&all));
+    let mut proposed: Vec<_> = kinds
+        .iter_mut()
+        .filter_map(|kind| kind.propose(tube, &few, &of).map(|(rate, balls)| (rate, balls, &*kind)))
+        .collect();
+    proposed.sort_by(|a, b| b.0.total_cmp(&a.0));
+    proposed.iter().find_map(|(_, balls, kind)| with_slopes(data, tube, (&of, n_o), kind.prove(tube, balls)?))
+}
+
+/// The best bound that follows from what is proved of D.
+fn with_slopes(
+    data: &Data<'_>,
+    tube: &Tube<'_>,
+    (of, n_o): (&MatrixLoop<Enclosure>, u32),
+    slopes: Vec<Slopes>,
+) -> Option<RateBound> {
+    let states = of.states;
+    let (equation, [largest, of_gain]) = equation(of, &slopes)?;
     SHARES.iter().find_map(|share| {
         let pi = equation.pi([largest * (1.0 + share) / 2.0, of_gain])?;
         let rate = round_f64(largest * share, 6, Direction::Down)?;
@@ -79,7 +148,7 @@ fn bound(data: &Data<'_>, tube: &Tube<'_>, sampled: &mut SampledSlopes<'_>, n_o:
                 l: Rational::new(),
                 inputs: [None, None],
             };
-            let known = Known { data, of: &of, slopes: &slopes };
+            let known = Known { data, of, slopes: &slopes };
             let lies = known.proves(&witness) && known.lies_between(&witness.pi, &upper, &e_low);
             let factor = lies.then(|| factor(data, tube.distances, &upper, &e_low)).flatten()?;
             let [x_up, e_up, z_up] = upper.clone();
@@ -96,7 +165,7 @@ fn bound(data: &Data<'_>, tube: &Tube<'_>, sampled: &mut SampledSlopes<'_>, n_o:
 struct Known<'k> {
     data: &'k Data<'k>,
     of: &'k MatrixLoop<Enclosure>,
-    slopes: &'k Slopes,
+    slopes: &'k [Slopes],
 }
 
 impl Known<'_> {
@@ -112,11 +181,11 @@ impl Known<'_> {
 
     /// Whether K is proved positive definite at every end of the input gain.
     fn proves(&self, RateWitness { rate, pi, .. }: &RateWitness) -> bool {
-        let Slopes { q, g, h } = self.slopes;
-        let [q, g, h] = [q, g, h].map(|of| self.enclosed(of));
+        let slopes: Vec<_> =
+            self.slopes.iter().map(|part| known(part, self.of.states, |rows| self.enclosed(rows))).collect();
         let (pi, rate) = (self.full(pi), self.data.rational(rate));
         self.of.ends().iter().all(|gain| {
-            let form = self.of.form(gain, &Multipliers { rate: &rate, pi: &pi, slopes: [&q, &g, &h] });
+            let form = self.of.form(gain, &Multipliers { rate: &rate, pi: &pi, slopes: &slopes });
             is_definite(form.len(), |i, j| form[i][j].clone())
         })
     }

@@ -9,12 +9,14 @@
 //!   `-2 eta'Pi (A + rate) eta - 2 eta'Pi B omega - (a'Q a - 2 a'G omega - omega'H omega)`.
 //!
 //! Where the bracket is not negative, that is where (D) holds of D, and K is positive definite, `W = eta'Pi eta` has `W' <= -2 rate W`. K is
-//! affine in b_u, so its ends serve; it does not contain the plant.
+//! affine in b_u, so its ends serve; it does not contain the plant. Of parts of D that are known apart omega is the sum of what each of them makes
+//! of its entries of a, and K, in eta and all of these, has a bracket for each.
 
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::real::{Operand, Real};
 use sigmastar_theory::data::Data;
+use std::ops::Range;
 
 /// The numbers of the loop with some of its oscillators.
 #[derive(Clone, Debug)]
@@ -31,14 +33,27 @@ pub struct MatrixLoop<R> {
     gains: Vec<R>,
 }
 
-/// Q, G and H by rows, and Pi with its rate.
+/// What is known of some columns of D.
+#[derive(Clone, Debug)]
+pub struct KnownSlopes<R> {
+    /// Which they are, so the entries of a that they multiply.
+    pub columns: Range<usize>,
+    /// Q by rows.
+    pub q: Vec<Vec<R>>,
+    /// G by rows.
+    pub g: Vec<Vec<R>>,
+    /// H by rows.
+    pub h: Vec<Vec<R>>,
+}
+
+/// Pi with its rate, and what is known of D.
 pub struct Multipliers<'m, R> {
     /// The rate, in 1/time.
     pub rate: &'m R,
     /// Pi by rows.
     pub pi: &'m [Vec<R>],
-    /// Q, G, H by rows.
-    pub slopes: [&'m [Vec<R>]; 3],
+    /// Each part of D.
+    pub slopes: &'m [KnownSlopes<R>],
 }
 
 impl MatrixLoop<Enclosure> {
@@ -127,9 +142,9 @@ where
         }
     }
 
-    /// K at one end of b_u, by the rows of its lower triangle, in (eta, omega).
+    /// K at one end of b_u, by the rows of its lower triangle, in eta and the omega of each part.
     #[must_use]
-    pub fn form(&self, gain: &R, Multipliers { rate, pi, slopes: [q, g, h] }: &Multipliers<'_, R>) -> Vec<Vec<R>> {
+    pub fn form(&self, gain: &R, Multipliers { rate, pi, slopes }: &Multipliers<'_, R>) -> Vec<Vec<R>> {
         let (order, signals) = (self.order(), self.states + 1);
         let (input, feedback) = (self.input(), self.feedback(gain));
         let drift: Vec<Option<(usize, R)>> = (0..order).map(|column| self.drift(column)).collect();
@@ -151,19 +166,26 @@ where
         };
         let of_state = |i: usize, j: usize| {
             let taken = half(i, j) + half(j, i) + &twice * &pi[i][j];
-            -(if i < signals && j < signals { taken + &q[i][j] } else { taken })
-        };
-        // The row of omega_k and the column of eta_j.
-        let between = |k: usize, j: usize| {
-            let driven = if k == self.states { &image[j] } else { &pi[j][k] };
-            if j < signals { &g[j][k] - driven } else { -driven.clone() }
+            let known = slopes.iter().find(|part| part.columns.contains(&i) && part.columns.contains(&j));
+            -(match known {
+                Some(KnownSlopes { columns, q, .. }) => taken + &q[i - columns.start][j - columns.start],
+                None => taken,
+            })
         };
         let mut rows: Vec<Vec<R>> = (0..order).map(|i| (0..=i).map(|j| of_state(i, j)).collect()).collect();
-        rows.extend((0..signals).map(|k| {
-            let mut row: Vec<R> = (0..order).map(|j| between(k, j)).collect();
-            row.extend(h[k][..=k].iter().cloned());
-            row
-        }));
+        for (part, KnownSlopes { columns, g, h, .. }) in slopes.iter().enumerate() {
+            // The row of omega_k and the column of eta_j.
+            let between = |k: usize, j: usize| {
+                let driven = if k == self.states { &image[j] } else { &pi[j][k] };
+                if columns.contains(&j) { &g[j - columns.start][k] - driven } else { -driven.clone() }
+            };
+            rows.extend((0..signals).map(|k| {
+                let mut row: Vec<R> = (0..order).map(|j| between(k, j)).collect();
+                row.extend(std::iter::repeat_n(R::int(0), part * signals));
+                row.extend(h[k][..=k].iter().cloned());
+                row
+            }));
+        }
         rows
     }
 }
@@ -187,23 +209,34 @@ mod tests {
         a.iter().zip(matrix).map(|(a, row)| a * row.iter().zip(b).map(|(entry, b)| entry * b).sum::<f64>()).sum()
     }
 
-    /// K at random vectors is `-2 eta'Pi eta' - 2 rate eta'Pi eta` less the bracket, eta' from the equations of the loop.
+    /// K at random vectors is `-2 eta'Pi eta' - 2 rate eta'Pi eta` less the brackets, eta' from the equations of the loop; of D as a whole, and of
+    /// its columns of x and of e apart.
     #[test]
-    fn k_is_the_fall_of_w_less_the_bracket() {
+    fn k_is_the_fall_of_w_less_the_brackets() {
         let mut seed = 7;
-        for (states, turns, gain) in
-            [(0, vec![], 1.0), (2, vec![3.0, 5.0], 1.0), (1, vec![2.5], 0.8), (3, vec![2.0], 1.3)]
+        let loops = [(0, vec![], 1.0), (2, vec![3.0, 5.0], 1.0), (1, vec![2.5], 0.8), (3, vec![2.0], 1.3)];
+        for (is_whole, (states, turns, gain)) in
+            [true, false].into_iter().flat_map(|whole| loops.clone().map(|of| (whole, of)))
         {
             let (sigma, mu, rate) = (4.0, 0.7, 0.3);
             let b: Vec<f64> = (0..=turns.len()).map(|l| 1.4 / (1.0 + l as f64)).collect();
             let of = MatrixLoop { states, sigma, mu, turns: turns.clone(), b: b.clone(), gains: vec![gain] };
             let order = of.order();
             let pi = square(order, &mut seed, true);
-            let [q, g, h] = [true, false, true].map(|symmetric| square(states + 1, &mut seed, symmetric));
-            let form = of.form(&gain, &Multipliers { rate: &rate, pi: &pi, slopes: [&q, &g, &h] });
+            let parts = if is_whole { vec![0..states + 1] } else { vec![0..states, states..states + 1] };
+            let known = |columns: Range<usize>| KnownSlopes {
+                q: square(columns.len(), &mut seed, true),
+                g: square(states + 1, &mut seed, false)[columns.clone()].to_vec(),
+                h: square(states + 1, &mut seed, true),
+                columns,
+            };
+            let slopes: Vec<KnownSlopes<f64>> = parts.into_iter().map(known).collect();
+            let form = of.form(&gain, &Multipliers { rate: &rate, pi: &pi, slopes: &slopes });
             for _ in 0..20 {
                 let eta: Vec<f64> = (0..order).map(|_| random(&mut seed)).collect();
-                let omega: Vec<f64> = (0..=states).map(|_| random(&mut seed)).collect();
+                let omegas: Vec<Vec<f64>> =
+                    slopes.iter().map(|_| (0..=states).map(|_| random(&mut seed)).collect()).collect();
+                let omega: Vec<f64> = (0..=states).map(|i| omegas.iter().map(|part| part[i]).sum()).collect();
                 let (a, zeta) = eta.split_at(states + 1);
                 let e = a[states];
                 // b'zs: the second states of the oscillators do not count.
@@ -217,9 +250,13 @@ mod tests {
                     slope.push(turn * zeta[2 * l + 2] - b[l + 1] * into);
                     slope.push(-turn * zeta[2 * l + 1]);
                 }
-                let bracket = form_of(&q, a, a) - 2.0 * form_of(&g, a, &omega) - form_of(&h, &omega, &omega);
-                let expected = -2.0 * form_of(&pi, &eta, &slope) - 2.0 * rate * form_of(&pi, &eta, &eta) - bracket;
-                let vector = [&eta[..], &omega].concat();
+                let bracket = |(KnownSlopes { columns, q, g, h }, omega): (&KnownSlopes<f64>, &Vec<f64>)| {
+                    let own = &a[columns.clone()];
+                    form_of(q, own, own) - 2.0 * form_of(g, own, omega) - form_of(h, omega, omega)
+                };
+                let brackets: f64 = slopes.iter().zip(&omegas).map(bracket).sum();
+                let expected = -2.0 * form_of(&pi, &eta, &slope) - 2.0 * rate * form_of(&pi, &eta, &eta) - brackets;
+                let vector = [eta.clone(), omegas.concat()].concat();
                 let full: Vec<Vec<f64>> =
                     (0..form.len()).map(|i| (0..form.len()).map(|j| form[i.max(j)][i.min(j)]).collect()).collect();
                 let found = form_of(&full, &vector, &vector);

@@ -1,13 +1,14 @@
 //! What is to be known of the first derivatives together so that the loop decays fast: Q, G and H of (K) and (D) (derivation, 13.6),
 //! proposed by semidefinite programs over sampled derivatives. Nothing rests on them.
 
-use super::matrix_loop::{MatrixLoop, Multipliers};
+use super::matrix_loop::{KnownSlopes, MatrixLoop, Multipliers};
 use faer::linalg::solvers::{DenseSolveCore, Llt};
 use faer::{Mat, Side};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_matrix::AffineMatrix;
 use sigmastar_matrix::semidefinite::propose;
-use sigmastar_plants::bounds::{FloatSlopes, FloatSuprema};
+use sigmastar_plants::bounds::{FloatSlopes, FloatSuprema, Part};
+use std::ops::Range;
 
 /// Points that are added where what was found does not hold, and how often.
 const POINTS: usize = 6;
@@ -27,11 +28,21 @@ const HALVED: usize = 5;
 /// The shares of the largest rate at which balls are taken: the program at that rate itself has no room.
 const TAKEN: [f64; 4] = [0.95, 0.8, 0.5, 0.2];
 
-/// Sampled derivatives on one box: extreme ones, and those that programs needed.
+/// The columns of D that are known together, and what is sampled of them.
+struct SampledPart {
+    part: Part,
+    columns: Range<usize>,
+    /// X + r and E of the box.
+    at: [f64; 2],
+    /// Extreme ones, and those that programs needed.
+    points: Vec<Vec<Vec<f64>>>,
+}
+
+/// Sampled derivatives: all of them on one box, or the columns of x and of e on boxes of their own.
 pub struct SampledSlopes<'s> {
     samples: &'s FloatSuprema,
-    at: [f64; 2],
-    points: Vec<Vec<Vec<f64>>>,
+    states: usize,
+    parts: Vec<SampledPart>,
     /// The unit of x in that of e, and the largest norm of the derivatives with it, in 1/time.
     length: f64,
     norm: f64,
@@ -39,43 +50,76 @@ pub struct SampledSlopes<'s> {
     time: f64,
 }
 
-/// What a program finds: Q, G, H by rows and the margin.
+/// What a program finds: the multipliers of each part, and the margin.
 struct Solution {
-    slopes: [Vec<Vec<f64>>; 3],
+    slopes: Vec<KnownSlopes<f64>>,
     margin: f64,
 }
 
 impl<'s> SampledSlopes<'s> {
-    /// Derivatives for X + r, E.
+    /// Of a plant with so many states: each part of D for its X + r, E.
     #[must_use]
-    pub fn new(samples: &'s FloatSuprema, at: [f64; 2]) -> SampledSlopes<'s> {
-        let plain = samples.derivatives_at(at, &samples.extreme_places(at));
-        let n = plain.first().map_or(0, Vec::len).saturating_sub(1);
-        let norm = |values: &mut dyn Iterator<Item = f64>| values.map(|value| value * value).sum::<f64>().sqrt();
-        let g = plain.iter().map(|d| norm(&mut d[..n].iter().map(|row| row[n]))).fold(0.0, f64::max);
-        let r = plain.iter().map(|d| norm(&mut d[n][..n].iter().copied())).fold(0.0, f64::max);
-        let length = if g > 0.0 && r > 0.0 { (g / r).sqrt() } else { 1.0 };
-        let mut found = SampledSlopes { samples, at, points: plain, length, norm: 0.0, time: 1.0 };
-        found.norm = found.scaled_points().iter().map(|d| norm(&mut d.iter().flatten().copied())).fold(0.0, f64::max);
+    pub fn new(samples: &'s FloatSuprema, states: usize, parts: &[(Part, [f64; 2])]) -> SampledSlopes<'s> {
+        let sampled = |(part, at): &(Part, [f64; 2])| {
+            let points = samples.derivatives_at(*part, *at, &samples.extreme_places(*at));
+            SampledPart { part: *part, columns: part.columns(states), at: *at, points }
+        };
+        let parts = parts.iter().map(sampled).collect();
+        let mut found = SampledSlopes { samples, states, parts, length: 1.0, norm: 0.0, time: 1.0 };
+        let g = found.largest(|i, j| i < states && j == states);
+        let r = found.largest(|i, j| i == states && j < states);
+        found.length = if g > 0.0 && r > 0.0 { (g / r).sqrt() } else { 1.0 };
+        found.norm = found.largest(|_, _| true);
         found
     }
 
-    fn scaled_points(&self) -> Vec<Vec<Vec<f64>>> {
-        self.points.iter().map(|d| self.scaled(d)).collect()
+    /// The largest root of the squares of these entries of D at a point, in the units.
+    fn largest(&self, counts: impl Fn(usize, usize) -> bool) -> f64 {
+        let of = |part: &SampledPart| {
+            let square = |d: &Vec<Vec<f64>>| -> f64 {
+                let scaled = self.scaled(&part.columns, d);
+                let entries = scaled
+                    .iter()
+                    .enumerate()
+                    .flat_map(|(i, row)| row.iter().enumerate().map(move |(j, entry)| (i, j, entry)));
+                entries.filter(|(i, j, _)| counts(*i, part.columns.start + j)).map(|(_, _, entry)| entry * entry).sum()
+            };
+            part.points.iter().map(square).fold(0.0, f64::max)
+        };
+        self.parts.iter().map(of).sum::<f64>().sqrt()
     }
 
-    /// D in the units.
-    fn scaled(&self, d: &[Vec<f64>]) -> Vec<Vec<f64>> {
-        let n = d.len() - 1;
-        let unit = |i: usize| if i < n { self.length } else { 1.0 };
-        (0..=n).map(|i| (0..=n).map(|j| d[i][j] * self.time * unit(j) / unit(i)).collect()).collect()
+    /// Columns of D in the units.
+    fn scaled(&self, columns: &Range<usize>, d: &[Vec<f64>]) -> Vec<Vec<f64>> {
+        let row = |(i, row): (usize, &Vec<f64>)| {
+            row.iter().zip(columns.clone()).map(|(entry, j)| entry * self.time * self.unit(j) / self.unit(i)).collect()
+        };
+        d.iter().enumerate().map(row).collect()
     }
 
-    /// Balls of Q, G and H that let this loop decay at a large rate, and at smaller ones.
+    fn unit(&self, i: usize) -> f64 {
+        if i < self.states { self.length } else { 1.0 }
+    }
+
+    /// The rate of the slowest loop with one of the derivatives of each part.
+    fn slowest(&self, of: &MatrixLoop<f64>) -> f64 {
+        let whole = |mut all: Vec<Vec<Vec<f64>>>, part: &SampledPart| {
+            all = all
+                .iter()
+                .flat_map(|left| {
+                    part.points.iter().map(|right| left.iter().zip(right).map(|(a, b)| [&a[..], b].concat()).collect())
+                })
+                .collect();
+            all
+        };
+        let all = self.parts.iter().fold(vec![vec![Vec::new(); self.states + 1]], whole);
+        all.iter().filter_map(|d| of.decay(d)).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Balls that let this loop decay at a large rate, and at smaller ones; one for each part.
     #[must_use]
-    pub fn propose(&mut self, of: &MatrixLoop<Enclosure>) -> Vec<FloatSlopes> {
-        let plain = of.doubles(1.0);
-        let slowest = self.points.iter().filter_map(|d| plain.decay(d)).fold(f64::INFINITY, f64::min);
+    pub fn propose(&mut self, of: &MatrixLoop<Enclosure>) -> Vec<Vec<FloatSlopes>> {
+        let slowest = self.slowest(&of.doubles(1.0));
         if !(slowest > 0.0 && slowest.is_finite()) {
             return Vec::new();
         }
@@ -94,46 +138,144 @@ impl<'s> SampledSlopes<'s> {
             return Vec::new();
         }
         let found: Vec<Solution> = TAKEN.iter().filter_map(|share| self.solve(&of, share * low)).collect();
-        found.iter().filter_map(|found| self.ball(found)).collect()
+        let balls = |found: &Solution| {
+            self.parts.iter().zip(&found.slopes).map(|(part, slopes)| self.ball(part.part, slopes)).collect()
+        };
+        found.iter().filter_map(balls).collect()
     }
 
     /// A solution at a rate, once the points are added where it does not hold.
     fn solve(&mut self, of: &MatrixLoop<f64>, rate: f64) -> Option<Solution> {
-        let mut found = program(of, &self.scaled_points(), rate)?;
+        let mut found = self.program(of, rate)?;
         for _ in 0..ROUNDS {
-            let lack = |d: &[Vec<f64>]| lack(&self.scaled(d), &found);
-            let worst = self.samples.places_beyond(self.at, POINTS, lack);
-            if worst.is_empty() {
+            let beyond = |(part, slopes): (&SampledPart, &KnownSlopes<f64>)| {
+                let lack = |d: &[Vec<f64>]| lack(&self.scaled(&part.columns, d), slopes, found.margin);
+                let worst = self.samples.places_beyond(part.part, part.at, POINTS, lack);
+                self.samples.derivatives_at(part.part, part.at, &worst)
+            };
+            let worst: Vec<_> = self.parts.iter().zip(&found.slopes).map(beyond).collect();
+            if worst.iter().all(Vec::is_empty) {
                 break;
             }
-            self.points.extend(self.samples.derivatives_at(self.at, &worst));
-            found = program(of, &self.scaled_points(), rate)?;
+            self.parts.iter_mut().zip(worst).for_each(|(part, worst)| part.points.extend(worst));
+            found = self.program(of, rate)?;
         }
         Some(found)
     }
 
-    /// The ball of a solution, in the units of the plant.
-    fn ball(&self, Solution { slopes: [q, g, h], .. }: &Solution) -> Option<FloatSlopes> {
-        let order = h.len();
-        let unit = |i: usize| if i + 1 < order { self.length } else { 1.0 };
-        let matrix = |of: &[Vec<f64>]| Mat::from_fn(order, order, |i, j| of[i][j]);
-        let (q, g, h) = (matrix(q), matrix(g), matrix(h));
+    /// The ball of a part of a solution, in the units of the plant.
+    fn ball(&self, part: Part, KnownSlopes { columns, q, g, h }: &KnownSlopes<f64>) -> Option<FloatSlopes> {
+        let (order, count) = (h.len(), columns.len());
+        let matrix = |of: &[Vec<f64>], rows: usize, columns: usize| Mat::from_fn(rows, columns, |i, j| of[i][j]);
+        let (q, g, h) = (matrix(q, count, count), matrix(g, count, order), matrix(h, order, order));
         let inverse = Llt::new(h.as_ref(), Side::Lower).ok()?.inverse();
         let centre = &inverse * g.transpose();
         let size = &q + &g * &centre;
         let rows = |of: &Mat<f64>, scale: &dyn Fn(usize, usize) -> f64| -> Vec<Vec<f64>> {
-            (0..order).map(|i| (0..order).map(|j| of[(i, j)] * scale(i, j)).collect()).collect()
+            (0..of.nrows()).map(|i| (0..of.ncols()).map(|j| of[(i, j)] * scale(i, j)).collect()).collect()
         };
-        let time = self.time;
+        let (time, unit) = (self.time, |i: usize| self.unit(i));
+        let own = |i: usize| self.unit(columns.start + i);
         let found = FloatSlopes {
-            centre: rows(&centre, &|i, j| -unit(i) / (unit(j) * time)),
-            size: rows(&size, &|i, j| 1.0 / (unit(i) * unit(j) * time)),
+            part,
+            centre: rows(&centre, &|i, j| -unit(i) / (own(j) * time)),
+            size: rows(&size, &|i, j| 1.0 / (own(i) * own(j) * time)),
             h: rows(&h, &|i, j| time / (unit(i) * unit(j))),
         };
         let finite =
             [&found.centre, &found.size, &found.h].into_iter().flatten().flatten().all(|entry| entry.is_finite());
         finite.then_some(found)
     }
+
+    /// The solution with the largest margin of all inequalities, where that is positive: Pi, K and (D) at every point are above it, and
+    /// the traces of Pi and of each H are bounded.
+    fn program(&self, of: &MatrixLoop<f64>, rate: f64) -> Option<Solution> {
+        let (order, signals) = (of.order(), of.states + 1);
+        let shapes: Vec<Range<usize>> = self.parts.iter().map(|part| part.columns.clone()).collect();
+        let of_pi = triangle(order);
+        // What each variable adds to Pi and to the slopes.
+        let parts = |variables: &[f64]| {
+            let mut rest = &variables[of_pi.len()..];
+            let mut take = |count: usize| {
+                let (taken, left) = rest.split_at(count);
+                rest = left;
+                taken
+            };
+            let known = |columns: &Range<usize>| {
+                let (count, small) = (columns.len(), triangle(columns.len()));
+                let q = symmetric(count, &small, take(small.len()));
+                let g = take(count * signals).chunks(signals).map(<[f64]>::to_vec).collect();
+                let of_h = triangle(signals);
+                let h = symmetric(signals, &of_h, take(of_h.len()));
+                KnownSlopes { columns: columns.clone(), q, g, h }
+            };
+            let slopes: Vec<KnownSlopes<f64>> = shapes.iter().map(known).collect();
+            (symmetric(order, &of_pi, variables), slopes)
+        };
+        let triangular = |n: usize| n * (n + 1) / 2;
+        let of_part =
+            |columns: &Range<usize>| triangular(columns.len()) + columns.len() * signals + triangular(signals);
+        let last = of_pi.len() + shapes.iter().map(of_part).sum::<usize>();
+        let unit = |variable: usize| {
+            let mut unit = vec![0.0; last];
+            unit[variable] = 1.0;
+            parts(&unit)
+        };
+        let mut constraints = Vec::new();
+        let mut above = |order: usize, forms: Vec<Vec<Vec<f64>>>| {
+            constraints.push(AffineMatrix::from_fn(
+                order,
+                last + 1,
+                |_, _| 0.0,
+                |variable, i, j| match forms.get(variable) {
+                    Some(form) => form[i.max(j)][i.min(j)],
+                    None => -f64::from(i == j),
+                },
+            ));
+        };
+        let units: Vec<_> = (0..last).map(unit).collect();
+        for gain in of.ends() {
+            let form = |(pi, slopes): &(Vec<Vec<f64>>, Vec<KnownSlopes<f64>>)| {
+                of.form(gain, &Multipliers { rate: &rate, pi, slopes })
+            };
+            above(order + signals * shapes.len(), units.iter().map(form).collect());
+        }
+        for (index, part) in self.parts.iter().enumerate() {
+            for d in &part.points {
+                let scaled = self.scaled(&part.columns, d);
+                above(
+                    part.columns.len(),
+                    units.iter().map(|(_, slopes)| of_derivatives(&scaled, &slopes[index])).collect(),
+                );
+            }
+        }
+        above(order, units.iter().map(|(pi, _)| pi.clone()).collect());
+        // 1 - tr(Pi)/order - the sum of tr(H)/signals >= 0.
+        let trace = |of: &[Vec<f64>]| (0..of.len()).map(|i| of[i][i]).sum::<f64>() / of.len() as f64;
+        let traces = |(pi, slopes): &(Vec<Vec<f64>>, Vec<KnownSlopes<f64>>)| {
+            slopes.iter().fold(-trace(pi), |sum, part| sum - trace(&part.h))
+        };
+        let bounded = |variable: usize| units.get(variable).map_or(0.0, traces);
+        constraints.push(AffineMatrix::from_fn(1, last + 1, |_, _| 1.0, |variable, _, _| bounded(variable)));
+        let mut cost = vec![0.0; last + 1];
+        cost[last] = -1.0;
+        let found = propose(&cost, &constraints).ok()?.x;
+        let margin = found[last];
+        let (_, slopes) = parts(&found[..last]);
+        (margin > SOLVED).then_some(Solution { slopes, margin })
+    }
+}
+
+fn triangle(n: usize) -> Vec<(usize, usize)> {
+    (0..n).flat_map(|i| (0..=i).map(move |j| (i, j))).collect()
+}
+
+fn symmetric(n: usize, places: &[(usize, usize)], values: &[f64]) -> Vec<Vec<f64>> {
+    let mut matrix = vec![vec![0.0; n]; n];
+    for ((i, j), value) in places.iter().zip(values) {
+        (matrix[*i][*j], matrix[*j][*i]) = (*value, *value);
+    }
+    matrix
 }
 
 impl MatrixLoop<f64> {
@@ -191,9 +333,9 @@ impl MatrixLoop<f64> {
 }
 
 /// By how much (D) fails at a point; 0 where it holds with some of the margin.
-fn lack(d: &[Vec<f64>], Solution { slopes: [q, g, h], margin, .. }: &Solution) -> f64 {
-    let order = d.len();
-    let rows = of_derivatives(d, [q, g, h]);
+fn lack(d: &[Vec<f64>], slopes: &KnownSlopes<f64>, margin: f64) -> f64 {
+    let rows = of_derivatives(d, slopes);
+    let order = rows.len();
     let own = |i: usize, j: usize| rows[i.max(j)][i.min(j)] - if i == j { LEFT * margin } else { 0.0 };
     let matrix = Mat::from_fn(order, order, own);
     if Llt::new(matrix.as_ref(), Side::Lower).is_ok() {
@@ -204,79 +346,11 @@ fn lack(d: &[Vec<f64>], Solution { slopes: [q, g, h], margin, .. }: &Solution) -
 }
 
 /// `Q - G D - D'G' - D'H D`, its lower triangle by rows.
-fn of_derivatives(d: &[Vec<f64>], [q, g, h]: [&[Vec<f64>]; 3]) -> Vec<Vec<f64>> {
-    let order = d.len();
+fn of_derivatives(d: &[Vec<f64>], KnownSlopes { columns, q, g, h }: &KnownSlopes<f64>) -> Vec<Vec<f64>> {
+    let (order, count) = (d.len(), columns.len());
     let times = |of: &[Vec<f64>], i: usize, j: usize| (0..order).map(|k| of[i][k] * d[k][j]).sum::<f64>();
-    let weighed: Vec<Vec<f64>> = (0..order).map(|i| (0..order).map(|j| times(h, i, j)).collect()).collect();
+    let weighed: Vec<Vec<f64>> = (0..order).map(|i| (0..count).map(|j| times(h, i, j)).collect()).collect();
     let square = |i: usize, j: usize| (0..order).map(|k| d[k][i] * weighed[k][j]).sum::<f64>();
     let entry = |i: usize, j: usize| q[i][j] - times(g, i, j) - times(g, j, i) - square(i, j);
-    (0..order).map(|i| (0..=i).map(|j| entry(i, j)).collect()).collect()
-}
-
-/// The solution with the largest margin of all inequalities, where that is positive: Pi, K and (D) at every point are above it, and
-/// the traces of Pi and H are bounded.
-fn program(of: &MatrixLoop<f64>, points: &[Vec<Vec<f64>>], rate: f64) -> Option<Solution> {
-    let (order, signals) = (of.order(), of.states + 1);
-    let triangle = |n: usize| (0..n).flat_map(|i| (0..=i).map(move |j| (i, j))).collect::<Vec<_>>();
-    let (of_pi, small) = (triangle(order), triangle(signals));
-    let full: Vec<(usize, usize)> = (0..signals).flat_map(|i| (0..signals).map(move |j| (i, j))).collect();
-    let ends = [of_pi.len(), of_pi.len() + small.len(), of_pi.len() + small.len() + full.len()];
-    let last = ends[2] + small.len();
-    let parts = |variables: &[f64]| {
-        let square = |n: usize| vec![vec![0.0; n]; n];
-        let symmetric = |n: usize, places: &[(usize, usize)], values: &[f64]| {
-            let mut matrix = square(n);
-            for ((i, j), value) in places.iter().zip(values) {
-                (matrix[*i][*j], matrix[*j][*i]) = (*value, *value);
-            }
-            matrix
-        };
-        let mut g = square(signals);
-        for ((i, j), value) in full.iter().zip(&variables[ends[1]..]) {
-            g[*i][*j] = *value;
-        }
-        let q = symmetric(signals, &small, &variables[ends[0]..]);
-        let h = symmetric(signals, &small, &variables[ends[2]..]);
-        (symmetric(order, &of_pi, variables), [q, g, h])
-    };
-    // What each variable adds to each of the forms.
-    let unit = |variable: usize| {
-        let mut unit = vec![0.0; last];
-        unit[variable] = 1.0;
-        parts(&unit)
-    };
-    let mut constraints = Vec::new();
-    let mut above = |order: usize, forms: Vec<Vec<Vec<f64>>>| {
-        constraints.push(AffineMatrix::from_fn(
-            order,
-            last + 1,
-            |_, _| 0.0,
-            |variable, i, j| match forms.get(variable) {
-                Some(form) => form[i.max(j)][i.min(j)],
-                None => -f64::from(i == j),
-            },
-        ));
-    };
-    let units: Vec<_> = (0..last).map(unit).collect();
-    for gain in of.ends() {
-        let form = |(pi, slopes): &(Vec<Vec<f64>>, [Vec<Vec<f64>>; 3])| {
-            of.form(gain, &Multipliers { rate: &rate, pi, slopes: slopes.each_ref().map(Vec::as_slice) })
-        };
-        above(order + signals, units.iter().map(form).collect());
-    }
-    for d in points {
-        let form = |(_, slopes): &(_, [Vec<Vec<f64>>; 3])| of_derivatives(d, slopes.each_ref().map(Vec::as_slice));
-        above(signals, units.iter().map(form).collect());
-    }
-    above(order, units.iter().map(|(pi, _)| pi.clone()).collect());
-    // 1 - tr(Pi)/order - tr(H)/signals >= 0.
-    let trace = |of: &[Vec<f64>]| (0..of.len()).map(|i| of[i][i]).sum::<f64>() / of.len() as f64;
-    let bounded = |variable: usize| units.get(variable).map_or(0.0, |(pi, [_, _, h])| -trace(pi) - trace(h));
-    constraints.push(AffineMatrix::from_fn(1, last + 1, |_, _| 1.0, |variable, _, _| bounded(variable)));
-    let mut cost = vec![0.0; last + 1];
-    cost[last] = -1.0;
-    let found = propose(&cost, &constraints).ok()?.x;
-    let margin = found[last];
-    let (_, slopes) = parts(&found[..last]);
-    (margin > SOLVED).then_some(Solution { slopes, margin })
+    (0..count).map(|i| (0..=i).map(|j| entry(i, j)).collect()).collect()
 }

@@ -33,8 +33,9 @@ fn a_proved_ball_holds_at_random_points() {
         let fitted = samples.fitted(&ball(&samples, at), at).expect("finite");
         let proved = engine.prove_slopes(&fitted, [&x, &e]).unwrap_or_else(|| panic!("{name}"));
         let points = random_points(engine.states(), 20_000);
-        let below =
-            samples.largest_of_derivatives_at(at, &points, |derivatives, _| -least(&proved, &matrix_of(derivatives)));
+        let below = samples.largest_of_derivatives_at(at, &points, |derivatives, _| {
+            -least(&proved, &matrix_of(derivatives, Part::All))
+        });
         let size = proved.q.iter().enumerate().map(|(i, row)| row[i].to_f64().abs()).fold(0.0, f64::max);
         assert!(below < 0.0 && below > -size, "{name}: {below} {size}");
         // Q less what is left at the points fails there.
