@@ -1,14 +1,16 @@
-//! Rates for given n_o of plants whose stability is proved by (M) or (Jm) (derivation, 13.6, Proposition R_D): against the loops themselves.
+//! Rates for given n_o of plants whose stability is proved by (M) or (Jm) (docs/mathematics.md, 13.6, Propositions R_D and R_P): against the loops themselves.
 
 use crate::support::{json, program};
 use serde_json::Value;
 
 /// A plant, 1.5 sigma*, and its period in floating point.
-const PLANTS: [(&str, &str, f64); 4] = [
+const PLANTS: [(&str, &str, f64); 5] = [
     ("motor-axis", "22.5852", 0.02),
     ("pendulum", "0.673", 1.0),
     ("relative-degree-2", "1.5109", 1.0),
     ("relative-degree-2-domain", "3.9105", 1.0),
+    // (M) on a path with a corner: Proposition R_P.
+    ("paper-example", "9.0905", 1.0),
 ];
 
 fn answer(arguments: &[&str]) -> Value {
