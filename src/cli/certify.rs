@@ -8,7 +8,7 @@ use super::files::{Input, OutputFile};
 use super::format::Format;
 use super::output::Shortened;
 use super::progress::{Audience, Working};
-use super::subject::{Subject, proving, with_sampling_period};
+use super::subject::{Asked, Subject, proving, with_sampling_period};
 use super::{input, output};
 use sigmastar_prove::certificate::{certificate_of, is_sampled, read_for};
 use sigmastar_prove::certify::{Limits, NoRatesOfClaim, rate_counts};
@@ -16,6 +16,7 @@ use sigmastar_prove::rate::bound::MAX_OSCILLATORS;
 use sigmastar_prove::reduction::{Prepared, Run};
 use sigmastar_report::RunReport;
 use sigmastar_theory::derivation::targets::{Target, TargetKind};
+use std::path::Path;
 
 /// Runs the command and returns the exit code.
 pub fn run(args: &CertifyArgs) -> u8 {
@@ -29,11 +30,15 @@ fn attempt(args: &CertifyArgs) -> Result<u8, Failure> {
         args.replace.folder(folder, &FIGURE_FILES)?;
     }
     let (targets, limits) = (targets(args)?, limits(args)?);
-    if args.spec == args.witness.clone().unwrap_or_default() {
+    let same = args.witness.as_ref().is_some_and(|witness| *witness == args.spec);
+    if same && args.spec == Path::new("-") {
+        return Err(Failure::call("standard input is read once", "name a file in the place of one `-`"));
+    }
+    let Asked { mut document, given } = Asked::read(&args.spec)?;
+    if same && given.is_none() {
         let message = "the specification and the witness cannot be the same file";
         return Err(Failure::call(message, "--witness names a certificate written with -o"));
     }
-    let mut document = input::document(&args.spec)?;
     if let Some(text) = &args.sampling_period {
         document = with_sampling_period(&document, text)?;
     }
@@ -52,6 +57,12 @@ fn attempt(args: &CertifyArgs) -> Result<u8, Failure> {
         return Err(Failure::call(message, format!("leave {flag} or the sampling period out")));
     }
     let counts = counts(args)?;
+    if given.is_some() && witness.is_none() && !args.quiet {
+        let kind = subject.kind();
+        output::remark(&format!(
+            "the {kind} in the certificate is certified anew, by the flags of this call alone; `check` decides the certificate itself"
+        ));
+    }
     let working = proving(&subject, args.quiet);
     let prepared = match &witness {
         None => Prepared::new(subject, gain).map(|prepared| prepared.within(limits)),
