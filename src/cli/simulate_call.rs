@@ -53,9 +53,7 @@ impl Called {
             }
         }
         let step = step.or_else(|| given.step().cloned());
-        let Some(sigma) = sigma.or_else(|| given.gain()) else {
-            return Err(Failure::call("the gain of the certificate is beyond double precision", "give --sigma"));
-        };
+        let sigma = sigma.unwrap_or_else(|| Constant::rational(given.sigma()));
         if !args.quiet && args.sigma.is_none() {
             let at = step.as_ref().map(|step| format!(", at samples {} apart", step.text)).unwrap_or_default();
             output::remark(&format!("sigma = {}, from the certificate{at}", sigma.to_f64()));

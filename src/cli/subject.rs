@@ -40,6 +40,8 @@ impl Asked {
             Failure::call("the certificate embeds neither a specification nor a plant", help)
         })?;
         let document = Document::parse(&format!("the {kind} in {}", shown(path)), &json_text(&embedded.to_json()))?;
+        // What is wrong with the document itself is told first.
+        Subject::read(&document)?;
         if !given.is_about(&document.root().sha256()) {
             let message = format!("the {kind} in the certificate is not the one that its digest is of");
             return Err(Failure::call(message, "the file was changed; `sigmastar check` says more"));

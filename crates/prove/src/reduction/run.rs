@@ -7,7 +7,7 @@ use super::subject::Sought;
 use super::{FreeNumbers, Subject, Witness};
 use crate::certify::{
     Alternatives, Certification, Limits, NoRatesOfClaim, Options, Refusal, SampledCertification, Verdict,
-    certify_sampled_within, certify_within, recheck, recheck_sampled,
+    certify_sampled_within, certify_within, claimed_ball, recheck, recheck_sampled,
 };
 use crate::search::SampledProposal;
 use rug::Rational;
@@ -48,6 +48,17 @@ pub enum Run<'s> {
     Sampled(Box<SampledCertification<'s>>),
 }
 
+/// What X0 of a claim bounds.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum StateStart {
+    /// `|x|`, of a specification.
+    State,
+    /// `|L^-1 (x - x_0)|`, of a plant.
+    Coordinates,
+    /// The same of a plant whose set is asked for as a ball: it contains that of all `|x - x_0|` up to this (derivation, 11.5).
+    Ball(Rational),
+}
+
 /// What a certified run claims, of either regulator.
 #[derive(Clone, Debug)]
 pub struct Certified<'r> {
@@ -57,6 +68,8 @@ pub struct Certified<'r> {
     pub sampling: Option<&'r Sampling>,
     /// The set of the starts.
     pub set: &'r ClaimedSet,
+    /// What its X0 bounds.
+    pub start: StateStart,
     /// Upper bounds of |x|, |e|, |zeta|_N and |z|_N along the periodic solution.
     pub periodic: [Enclosure; 4],
     /// Whether it is proved that no plant with a state has these data.
@@ -255,7 +268,14 @@ impl Run<'_> {
                 (sigma, Some(sampling), set, run.periodic_solution()?, run.no_plant.is_some())
             }
         };
-        Some(Certified { sigma, sampling, set, periodic, no_plant })
+        let start = match self.spec().plant() {
+            None => StateStart::State,
+            Some(plant) => match claimed_ball(plant, &set.x0).filter(|_| plant.ball.is_some()) {
+                Some(ball) => StateStart::Ball(ball),
+                None => StateStart::Coordinates,
+            },
+        };
+        Some(Certified { sigma, sampling, set, start, periodic, no_plant })
     }
 
     /// The conditions of the derivation that was asked about, proved or not.
