@@ -7,13 +7,13 @@ use super::failure::Failure;
 use super::files::{Input, OutputFile};
 use super::format::Format;
 use super::output::Shortened;
-use super::progress::{Audience, Working};
+use super::stages::{Stages, Step};
 use super::subject::{Asked, Subject, proving, with_sampling_period};
 use super::{input, output};
 use sigmastar_prove::certificate::{certificate_of, is_sampled, read_for};
 use sigmastar_prove::certify::{Limits, NoRatesOfClaim, rate_counts};
 use sigmastar_prove::rate::bound::MAX_OSCILLATORS;
-use sigmastar_prove::reduction::{Prepared, Run};
+use sigmastar_prove::reduction::{Prepared, Run, Stage};
 use sigmastar_report::RunReport;
 use sigmastar_theory::derivation::targets::{Target, TargetKind};
 use std::path::Path;
@@ -63,9 +63,10 @@ fn attempt(args: &CertifyArgs) -> Result<u8, Failure> {
             "the {kind} in the certificate is certified anew, by the flags of this call alone; `check` decides the certificate itself"
         ));
     }
-    let working = proving(&subject, args.quiet);
+    let stages = Stages::new(steps(args, &subject), args.progress, args.quiet);
+    let working = (!stages.are_told()).then(|| proving(&subject, args.quiet)).flatten();
     let prepared = match &witness {
-        None => Prepared::new(subject, gain).map(|prepared| prepared.within(limits)),
+        None => Prepared::watched(subject, gain, &stages).map(|prepared| prepared.within(limits)),
         Some(certificate) => {
             let witness = read_for(certificate, &subject)?;
             if witness.of_another && !args.quiet {
@@ -74,19 +75,20 @@ fn attempt(args: &CertifyArgs) -> Result<u8, Failure> {
                     "the certificate was made for another {kind}; its witness is tried on this one"
                 ));
             }
+            stages.begin(Step::Of(first(&subject)));
             Prepared::again(&subject, witness)
         }
     };
     let prepared = prepared.map_err(Failure::Documents)?;
     drop(working);
-    let audience = if args.quiet { Audience::Nobody } else { Audience::Terminal };
-    let working = Working::new("searching the free numbers, deciding the conditions", audience);
-    let mut run = prepared.certify(args.options()).map_err(Failure::Documents)?;
+    let mut run = prepared.certify_watched(args.options(), &stages).map_err(Failure::Documents)?;
+    stages.begin(Step::Rates);
     run.prove_rates(&counts).map_err(no_rates)?;
-    drop(working);
     let report = RunReport::new(&run, &targets, witness.is_some());
     let page = args.format == Format::Html;
+    stages.begin(Step::Figures);
     let drawn = (page || args.plots.is_some()).then(|| Drawn::of(&run)).flatten();
+    drop(stages);
     if let Some(folder) = &args.plots {
         match drawn.as_ref().map(Drawn::named) {
             None => output::remark(&format!("no figures were written: the verdict is {}", run.verdict())),
@@ -101,6 +103,27 @@ fn attempt(args: &CertifyArgs) -> Result<u8, Failure> {
         None => Shortened::new(&report, args.format, args.full),
     };
     tell(args, &run, &shown, output.as_ref())
+}
+
+/// The stages that the call will have.
+fn steps(args: &CertifyArgs, subject: &Subject) -> Vec<Step> {
+    let data = match (subject, args.witness.is_some()) {
+        (Subject::Plant(_), false) => vec![Stage::Orbit, Stage::Coordinates, Stage::Bounds],
+        (Subject::Plant(_), true) => vec![Stage::Bounds],
+        (Subject::Specification(spec), _) if spec.lyapunov.triple().is_none() => vec![Stage::Triple],
+        (Subject::Specification(_), _) => Vec::new(),
+    };
+    let rates = args.n_o.is_some().then_some(Step::Rates);
+    let figures = (args.format == Format::Html || args.plots.is_some()).then_some(Step::Figures);
+    data.into_iter().chain([Stage::Witness]).map(Step::Of).chain(rates).chain(figures).collect()
+}
+
+/// The stage in which the data of a witness are proved again.
+fn first(subject: &Subject) -> Stage {
+    match subject {
+        Subject::Plant(_) => Stage::Bounds,
+        Subject::Specification(_) => Stage::Triple,
+    }
 }
 
 fn flag(kind: TargetKind) -> &'static str {

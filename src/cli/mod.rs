@@ -28,6 +28,7 @@ mod simulate;
 mod simulate_call;
 mod simulate_gain;
 mod simulate_sampled;
+mod stages;
 mod subject;
 mod sweep;
 mod temporary;

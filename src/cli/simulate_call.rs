@@ -4,6 +4,7 @@ use super::args::SimulateArgs;
 use super::failure::Failure;
 use super::subject::Asked;
 use super::{input, output};
+use sigmastar_exact::number::write_exact;
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::Constant;
 
@@ -56,7 +57,7 @@ impl Called {
         let sigma = sigma.unwrap_or_else(|| Constant::rational(given.sigma()));
         if !args.quiet && args.sigma.is_none() {
             let at = step.as_ref().map(|step| format!(", at samples {} apart", step.text)).unwrap_or_default();
-            output::remark(&format!("sigma = {}, from the certificate{at}", sigma.to_f64()));
+            output::remark(&format!("sigma = {}, from the certificate{at}", write_exact(given.sigma())));
         }
         Ok(Called { plant, sigma: Some(sigma), step })
     }

@@ -7,7 +7,7 @@ use super::output::{json_text, shown};
 use super::progress::{Audience, Working};
 use sigmastar_lang::plant::{FORMAT as PLANT, Plant};
 use sigmastar_lang::spec::{Document, Specification};
-use sigmastar_prove::certificate::FORMAT as CERTIFICATE;
+use sigmastar_prove::certificate::{FORMAT as CERTIFICATE, embedded};
 use sigmastar_prove::reduction::at_samples;
 use sigmastar_prove::search::SharpProposal;
 use std::path::Path;
@@ -33,19 +33,18 @@ impl Asked {
             return Ok(Asked { document, given: None });
         }
         let given = Given::read(&document)?;
-        let embedded =
-            ["plant", "specification"].into_iter().find_map(|kind| Some((kind, document.at(&format!("/{kind}"))?)));
-        let (kind, embedded) = embedded.ok_or_else(|| {
+        let embedded = embedded(&document.root()).ok_or_else(|| {
             let help = "take a certificate that `certify -o` wrote";
             Failure::call("the certificate embeds neither a specification nor a plant", help)
         })?;
-        let document = Document::parse(&format!("the {kind} in {}", shown(path)), &json_text(&embedded.to_json()))?;
-        // What is wrong with the document itself is told first.
-        Subject::read(&document)?;
-        if !given.is_about(&document.root().sha256()) {
+        let subject = Subject::from_value(&embedded)?;
+        let kind = subject.kind();
+        if !given.is_about(subject.sha256()) {
             let message = format!("the {kind} in the certificate is not the one that its digest is of");
             return Err(Failure::call(message, "the file was changed; `sigmastar check` says more"));
         }
+        // A document of its own, for what puts other values into it.
+        let document = Document::parse(&format!("the {kind} in {}", shown(path)), &json_text(&embedded.to_json()))?;
         Ok(Asked { document, given: Some(given) })
     }
 

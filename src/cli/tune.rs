@@ -38,12 +38,7 @@ fn attempt(args: &TuneArgs) -> Result<u8, Failure> {
         (None, TuneGoal::SigmaStar) => Goal::Sigma,
         (None, TuneGoal::Feedback) => Goal::Feedback,
     };
-    if goal != Goal::Sigma && subject.sampling().is_some() {
-        return Err(wrong(&TuneError::Sampled));
-    }
-    if matches!(goal, Goal::Error(_)) && !subject.is_matched() {
-        return Err(wrong(&TuneError::NotMatched));
-    }
+    goal.fits(&subject).map_err(|error| wrong(&error))?;
     let parameters = parameters(&args.over, &document, model).map_err(|error| wrong(&error))?;
     let settings = Settings { goal, n_o: u64::from(args.error_at.unwrap_or(N_O)), tries: args.tries };
     let bar = Bar::new(u64::from(args.tries), args.quiet);

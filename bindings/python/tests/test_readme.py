@@ -19,7 +19,7 @@ def lines():
 
 
 def test_they_run(tmp_path):
-    for name in ("control", "pandas", "matplotlib"):
+    for name in ("control", "pandas", "matplotlib", "sympy"):
         pytest.importorskip(name)
     (tmp_path / "specs").symlink_to(ROOT / "specs")
     environment = {**os.environ, "MPLBACKEND": "Agg"}

@@ -84,6 +84,10 @@ pub struct CertifyArgs {
     #[arg(long)]
     pub no_compare: bool,
 
+    /// Tell the stages of the work on standard error, a line for each; on a terminal they are shown anyhow where it takes longer
+    #[arg(long, conflicts_with = "quiet")]
+    pub progress: bool,
+
     /// No remarks on standard error; errors are still shown
     #[arg(short, long)]
     pub quiet: bool,

@@ -27,6 +27,7 @@ mod study;
 mod subject;
 #[cfg(test)]
 mod tests;
+mod watch;
 mod witness;
 
 pub use proofs::{Reduced, bounds_around};
@@ -38,4 +39,5 @@ pub use sampled::{SampledPairs, reduce_sampled, with_sampled_pairs};
 pub use specification::specification;
 pub use study::{OrbitStudy, study};
 pub use subject::{Subject, at_samples};
+pub use watch::{Stage, Unwatched, Watch};
 pub use witness::{FreeNumbers, Witness, WitnessData};

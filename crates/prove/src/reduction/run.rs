@@ -4,6 +4,7 @@ use super::interval_costs::{costs_at_samples, interval_costs};
 use super::proofs::{WithoutJoint, bounds_around};
 use super::reduce::{reduce, reduce_by_norms};
 use super::subject::Sought;
+use super::watch::{Stage, Unwatched, Watch};
 use super::{FreeNumbers, Subject, Witness};
 use crate::certify::{
     Alternatives, Certification, Limits, NoRatesOfClaim, Options, Refusal, SampledCertification, Verdict,
@@ -82,6 +83,14 @@ impl Prepared {
     /// # Errors
     /// What keeps the data from being proved, at its place; not empty.
     pub fn new(subject: Subject, gain: Option<Rational>) -> Result<Prepared, Vec<SpecErrors>> {
+        Prepared::watched(subject, gain, &Unwatched)
+    }
+
+    /// The same, while somebody waits.
+    ///
+    /// # Errors
+    /// Those of [`Prepared::new`].
+    pub fn watched(subject: Subject, gain: Option<Rational>, watch: &dyn Watch) -> Result<Prepared, Vec<SpecErrors>> {
         let limits = Limits::default();
         let plant = match &subject {
             Subject::Plant(plant) if gain.is_none() => Some(plant.clone()),
@@ -89,11 +98,11 @@ impl Prepared {
         };
         match subject.sampling().cloned() {
             None => {
-                let (spec, start) = subject.proved_with_alternatives(gain.as_ref())?;
+                let (spec, start) = subject.proved_with_alternatives(gain.as_ref(), watch)?;
                 Ok(Prepared { spec, start: Start::Continuous(start), gain, limits, plant, by_norms: None })
             }
             Some(sampling) => {
-                let (spec, start) = subject.proved_at_samples(&sampling, gain.as_ref())?;
+                let (spec, start) = subject.proved_at_samples(&sampling, gain.as_ref(), watch)?;
                 Ok(Prepared {
                     spec,
                     start: Start::Sampled(Box::new(sampling), start),
@@ -132,6 +141,15 @@ impl Prepared {
     /// # Errors
     /// What the data are refused for, at its place; not empty.
     pub fn certify(&self, options: Options) -> Result<Run<'_>, Vec<SpecErrors>> {
+        self.certify_watched(options, &Unwatched)
+    }
+
+    /// The same, while somebody waits.
+    ///
+    /// # Errors
+    /// Those of [`Prepared::certify`].
+    pub fn certify_watched(&self, options: Options, watch: &dyn Watch) -> Result<Run<'_>, Vec<SpecErrors>> {
+        watch.enter(Stage::Witness);
         let (spec, gain) = (&self.spec, self.gain.as_ref());
         // Figures about the smallest gain say nothing about another one.
         let smallest = gain.is_none() && self.limits.is_empty() && spec.actuator.is_none();
@@ -150,6 +168,7 @@ impl Prepared {
                     }
                 });
                 run.map(|mut run| {
+                    watch.enter(Stage::Comparison);
                     if let Some((spec, proposal)) = other.filter(|_| smallest) {
                         run.with_gains_of(spec, proposal);
                     }
@@ -173,7 +192,8 @@ impl Prepared {
                     if let Some(plant) =
                         self.plant.as_ref().filter(|_| smallest && options.compare && run.claim().is_some())
                     {
-                        let gain = |plant: &Plant| reduce(plant, None).ok().map(|found| found.proposal.sigma);
+                        let gain =
+                            |plant: &Plant| reduce(plant, None, &Unwatched).ok().map(|found| found.proposal.sigma);
                         run.interval_costs = interval_costs(plant, gain);
                     }
                     Run::Continuous(Box::new(run))
@@ -184,6 +204,7 @@ impl Prepared {
                 certify_sampled_within(spec, sampling, wanted, start.as_ref(), options.ladder).map(|mut run| {
                     let claimed = run.claim().map(|proof| proof.witness.sigma.to_f64());
                     if let Some(sigma) = claimed.filter(|_| options.compare && smallest) {
+                        watch.enter(Stage::Comparison);
                         let subject = (spec, self.plant.as_deref());
                         run.interval_costs = costs_at_samples(subject, (sampling, sigma), options.ladder);
                     }
