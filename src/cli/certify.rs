@@ -13,7 +13,7 @@ use super::{input, output};
 use sigmastar_prove::certificate::{certificate_of, is_sampled, read_for};
 use sigmastar_prove::certify::{Limits, NoRatesOfClaim, rate_counts};
 use sigmastar_prove::rate::bound::MAX_OSCILLATORS;
-use sigmastar_prove::reduction::{Prepared, Run, Stage};
+use sigmastar_prove::reduction::{Prepared, Run, Stage, Unwatched, Watch};
 use sigmastar_report::RunReport;
 use sigmastar_theory::derivation::targets::{Target, TargetKind};
 use std::path::Path;
@@ -81,7 +81,15 @@ fn attempt(args: &CertifyArgs) -> Result<u8, Failure> {
     };
     let prepared = prepared.map_err(Failure::Documents)?;
     drop(working);
-    let mut run = prepared.certify_watched(args.options(), &stages).map_err(Failure::Documents)?;
+    let watch: &dyn Watch = match &witness {
+        None => &stages,
+        Some(_) => {
+            // Nothing is searched for.
+            stages.begin(Step::Decision);
+            &Unwatched
+        }
+    };
+    let mut run = prepared.certify_watched(args.options(), watch).map_err(Failure::Documents)?;
     stages.begin(Step::Rates);
     run.prove_rates(&counts).map_err(no_rates)?;
     let report = RunReport::new(&run, &targets, witness.is_some());
@@ -115,7 +123,8 @@ fn steps(args: &CertifyArgs, subject: &Subject) -> Vec<Step> {
     };
     let rates = args.n_o.is_some().then_some(Step::Rates);
     let figures = (args.format == Format::Html || args.plots.is_some()).then_some(Step::Figures);
-    data.into_iter().chain([Stage::Witness]).map(Step::Of).chain(rates).chain(figures).collect()
+    let claim = if args.witness.is_some() { Step::Decision } else { Step::Of(Stage::Witness) };
+    data.into_iter().map(Step::Of).chain([claim]).chain(rates).chain(figures).collect()
 }
 
 /// The stage in which the data of a witness are proved again.

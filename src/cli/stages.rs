@@ -23,6 +23,8 @@ const TICK: Duration = Duration::from_millis(120);
 pub enum Step {
     /// One of the library's.
     Of(Stage),
+    /// The conditions, decided from the numbers of a certificate.
+    Decision,
     /// Rates for given numbers of oscillators.
     Rates,
     /// The simulation of figures.
@@ -50,6 +52,7 @@ impl fmt::Display for Step {
             Step::Of(Stage::Triple) => "finding and proving the triple of the Jacobian",
             Step::Of(Stage::Witness) => "searching the free numbers, deciding the conditions",
             Step::Of(Stage::Comparison) => "working out what else would give",
+            Step::Decision => "deciding the conditions",
             Step::Rates => "proving rates",
             Step::Figures => "simulating for the figures",
         })

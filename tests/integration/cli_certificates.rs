@@ -23,7 +23,7 @@ fn of_plant(folder: &TempDir, name: &str, flags: &[&str]) -> (String, Value) {
     let path = folder.path().join(format!("{name}.certificate.json"));
     let path = path.to_str().expect("a plain name").to_owned();
     let plant = format!("specs/plants/{name}.json");
-    sigmastar(&["certify", "-q", "--no-compare", "-o", &path, &plant]).args(flags).assert().code(0);
+    sigmastar(&["certify", "-q", "--no-compare", "--force", "-o", &path, &plant]).args(flags).assert().code(0);
     let certificate = json(&fs::read(&path).expect("written"));
     (path, certificate)
 }
@@ -124,7 +124,7 @@ fn a_simulation_takes_the_gain_of_a_certificate() {
     assert_eq!(stdout(&["bound", &file]), stdout(&["bound", plant]));
     sigmastar(&["errata", &file]).assert().code(2).stderr(contains("needs a bounding specification"));
     // The gain of the certificate is that of the rates, which may be larger than the smallest one.
-    let (larger, _) = of_plant(&folder, "linear", &["--sigma", "2"]).clone();
+    let (larger, _) = of_plant(&folder, "linear", &["--sigma", "2"]);
     let rates = |arguments: &[&str]| stdout(&[&["rate", "-q", "--n-o", "2"][..], arguments].concat());
     assert_eq!(rates(&[&larger]), rates(&[plant, "--sigma", "2"]));
     assert!(rates(&[&larger]).contains("rates at sigma = 2\n"));

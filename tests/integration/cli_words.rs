@@ -179,6 +179,7 @@ fn the_stages_of_a_call_are_told() {
         ),
         (&["specs/linear.json"], 1, &["conditions"]),
         (&["specs/paper-example-jacobian.json", "--no-compare"], 2, &["triple of the Jacobian", "conditions"]),
+        (&["specs/linear.json", "--witness", "proofs-check/tests/certificates/linear.sharp.json"], 1, &["deciding"]),
         (&["specs/linear.json", "--format", "html"], 2, &["conditions", "figures"]),
     ] {
         let (plain, _) = call(&[arguments, &["-q"]].concat());
