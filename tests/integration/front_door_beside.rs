@@ -114,7 +114,7 @@ fn triples_orbits_and_pairs_have_the_reports_of_the_program() {
 
 #[test]
 fn better_values_are_those_of_the_program() {
-    let tuned = tune(subject(LINEAR), &TuneOptions::new().over("mu=1/10..10").tries(4)).unwrap();
+    let tuned = tune(subject(EXAMPLE_TEXT), &TuneOptions::new().over("mu=1/10..10").tries(8)).unwrap();
     let report = json(tuned.report());
     let document = tuned.document().expect("something better");
     assert!(tuned.has_claim());

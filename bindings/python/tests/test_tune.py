@@ -13,8 +13,8 @@ PLANT = ROOT / "specs" / "plants" / "linear.json"
 def test_tuning_is_that_of_the_program(program, tmp_path):
     both = sigmastar.tune(LINEAR, {"mu": ("1/10", 10), "n0": None}, tries=3)
     assert [one.name for one in both.values] == ["mu", "n0"]
-    tuning = sigmastar.tune(LINEAR, {"mu": ("1/10", 10)}, tries=4)
-    call = ("tune", LINEAR, "--over", "mu=1/10..10", "--tries", "4", "--quiet")
+    tuning = sigmastar.tune(EXAMPLE, {"mu": ("1/10", 10)}, tries=8)
+    call = ("tune", EXAMPLE, "--over", "mu=1/10..10", "--tries", "8", "--quiet")
     assert tuning.report("json").encode() == program(*call, "--format", "json")[1]
     assert tuning and tuning.is_better and [one.name for one in tuning.values] == ["mu"]
     assert repr(tuning) == f"<Tuning: mu={tuning.values[0].after}>"
@@ -23,6 +23,7 @@ def test_tuning_is_that_of_the_program(program, tmp_path):
     assert tuning.document["internal_model"]["mu"] == tuning.values[0].after
     certificate = sigmastar.certify(tmp_path / "tuned.json")
     assert certificate.sigma_star_exact == tuning.data["after"]["sigma_star"]
+    assert tuning.data["before"]["sigma_star"] == sigmastar.certify(EXAMPLE).sigma_star_exact
     feedback = sigmastar.tune(LINEAR, "mu", minimise="feedback", tries=3)
     assert feedback.data["minimised"] == "feedback"
     assert sigmastar.tune(LINEAR, ["mu"], error_at=2, tries=3).data["minimised"] == "error"
