@@ -81,8 +81,8 @@ pub use api::{
     Diagnostic, Error, ErrorKind, InitialSet, JacobianEntry, OscillatorShare, PeriodicSolution, Rate, RateMethod,
     Rates, RegulatorMatrices, Report, ReportFormat, SampledRegulator, Samples, SamplingPairs, Specification,
     SpecificationBuilder, Study, StudyCase, Subject, TransferBound, TransferChoice, TransferOptions, TransferStudy,
-    VERSION, Verdict, bounding_specification, certify, check, check_against, lyapunov, rates, regulator_matrices,
-    reread, sampled_regulator, sampling, transfer_bound, transfer_study,
+    TuneGoal, TuneOptions, Tuned, VERSION, Verdict, bounding_specification, certify, check, check_against, lyapunov,
+    rates, regulator_matrices, reread, sampled_regulator, sampling, transfer_bound, transfer_study, tune,
 };
 #[cfg(feature = "lab")]
 pub use api::{Falsification, FalsificationOutcome, Simulation, SimulationOptions, falsify, simulate};

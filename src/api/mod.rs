@@ -24,6 +24,7 @@ mod specification;
 mod study;
 mod subject;
 mod transfer;
+mod tune;
 
 pub use bound::{BoundedPlant, bounding_specification};
 pub use certificate::{Certificate, Claim, InitialSet, PeriodicSolution, Samples};
@@ -48,6 +49,7 @@ pub use specification::{JacobianEntry, Specification, SpecificationBuilder};
 pub use study::{Study, StudyCase};
 pub use subject::Subject;
 pub use transfer::{OscillatorShare, TransferBound, TransferOptions, TransferStudy, transfer_bound, transfer_study};
+pub use tune::{TuneGoal, TuneOptions, Tuned, tune};
 
 /// The version of this library, which certificates and results name.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");

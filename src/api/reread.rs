@@ -6,7 +6,7 @@ use super::error::{Error, ErrorKind};
 use super::json_text;
 use super::subject::Subject;
 use sigmastar_lang::spec::{self, Document};
-use sigmastar_prove::certificate::{certificate_of, read_for};
+use sigmastar_prove::certificate::{certificate_of, embedded, read_for};
 use sigmastar_prove::certify::{Options, rate_counts};
 use sigmastar_prove::reduction::Prepared;
 
@@ -22,15 +22,14 @@ use sigmastar_prove::reduction::Prepared;
 /// version made.
 pub fn reread(name: &str, bytes: &[u8]) -> Result<Certificate, Error> {
     let document = Document::from_bytes(name, bytes)?;
-    let Some((field, copy)) =
-        ["plant", "specification"].into_iter().find_map(|field| Some((field, document.at(&format!("/{field}"))?)))
-    else {
+    let Some(copy) = embedded(&document.root()) else {
         let (kind, message) = (spec::ErrorKind::MissingField, "there is neither a `specification` nor a `plant` in it");
         let help = Some("name a certificate that `certify` wrote".to_owned());
         return Err(document.errors_at("", &(0..0), kind, message, help).into());
     };
     // A document of its own, so that it can be asked for whatever a file can be asked for.
-    let subject = Subject::new(Document::parse(&format!("{field} of {name}"), &json_text(&copy.to_json()))?)?;
+    let kind = if document.at("/plant").is_some() { "plant" } else { "specification" };
+    let subject = Subject::new(Document::parse(&format!("{kind} of {name}"), &json_text(&copy.to_json()))?)?;
     let witness = read_for(&document, &subject.read)?;
     let stored = document.at("/claim").map(|claim| claim.to_json()).unwrap_or_default();
     let of_another = witness.of_another;

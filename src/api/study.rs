@@ -2,8 +2,9 @@
 
 use super::error::{Error, ErrorKind};
 use super::json_text;
-use sigmastar_lang::spec::{self, Document};
+use sigmastar_lang::spec::{self, Document, Notation};
 use sigmastar_sweep::sweep::{self, Case, Results, ResultsError, SubjectSource, Sweep, solve};
+use std::path::Path;
 
 /// A study with its subject (`docs/formats.md`): what values go where. Its cases can be run in any order and in different
 /// processes; the joined results are the bytes of `sigmastar sweep STUDY -o FILE`.
@@ -38,7 +39,8 @@ pub struct StudyCase {
 }
 
 impl Study {
-    /// Reads a study from the bytes of its file; `name` is what errors call it. `subject` is asked for the bytes of the
+    /// Reads a study from the bytes of its file; `name` is what errors call it, and its ending says the notation, as that of the subject's path
+    /// does (`Subject::from_bytes`). `subject` is asked for the bytes of the
     /// subject, by its path in the study, where the study does not have it in it.
     ///
     /// # Errors
@@ -48,11 +50,11 @@ impl Study {
         bytes: &[u8],
         subject: impl FnOnce(&str) -> Result<Vec<u8>, String>,
     ) -> Result<Study, Error> {
-        let study = sweep::Study::read(&Document::from_bytes(name, bytes)?)?;
+        let study = sweep::Study::read(&Document::from_bytes_as(name, bytes, Notation::of(Path::new(name)))?)?;
         let document = match &study.subject {
             SubjectSource::Embedded(_) => None,
             SubjectSource::Path(path) => match subject(path) {
-                Ok(bytes) => Some(Document::from_bytes(path, &bytes)?),
+                Ok(bytes) => Some(Document::from_bytes_as(path, &bytes, Notation::of(Path::new(path)))?),
                 Err(reason) => {
                     let message = format!("the subject `{path}` was not read: {reason}");
                     let kind = spec::ErrorKind::Unreadable;

@@ -4,8 +4,9 @@ use super::error::Error;
 use super::json_text;
 use super::specification::Specification;
 use sigmastar_lang::plant::Plant;
-use sigmastar_lang::spec::{Document, MAX_BYTES};
+use sigmastar_lang::spec::{Document, MAX_BYTES, Notation};
 use sigmastar_prove::reduction::Subject as Read;
+use std::path::Path;
 
 /// What errors call a document without a name of its own.
 const LABEL: &str = "document";
@@ -44,12 +45,13 @@ impl Subject {
         Subject::new(Document::parse(LABEL, text)?)
     }
 
-    /// The same from the bytes of a file; `name` is what errors call it, usually its path.
+    /// The same from the bytes of a file; `name` is what errors call it, usually its path, whose ending says the notation: JSON, or with
+    /// `.jsonc` JSON with comments, with `.toml` TOML.
     ///
     /// # Errors
     /// Those of [`Subject::from_json`], and bytes that are not UTF-8.
     pub fn from_bytes(name: &str, bytes: &[u8]) -> Result<Subject, Error> {
-        Subject::new(Document::from_bytes(name, bytes)?)
+        Subject::new(Document::from_bytes_as(name, bytes, Notation::of(Path::new(name)))?)
     }
 
     pub(super) fn new(source: Document) -> Result<Subject, Error> {

@@ -4,10 +4,10 @@ use super::args::BoundArgs;
 use super::failure::Failure;
 use super::files::Input;
 use super::progress::{Audience, Working};
+use super::subject::Asked;
 use super::{input, output};
 use rug::Rational;
 use sigmastar_exact::number::write_exact;
-use sigmastar_lang::plant::Plant;
 use sigmastar_prove::reduction::reduce_by_norms;
 use sigmastar_studies::bounding::bounding_specification;
 
@@ -19,7 +19,7 @@ pub fn run(args: &BoundArgs) -> u8 {
 fn attempt(args: &BoundArgs) -> Result<u8, Failure> {
     let file = args.replace.asked(args.output.as_deref(), Input::Plant(&args.plant), "the specification")?;
     let asked = args.domain.as_deref().map(domain).transpose()?;
-    let plant = Plant::from_value(&input::document(&args.plant)?.root())?;
+    let plant = Asked::read(&args.plant)?.plant("`bound`")?;
     let audience = if args.quiet { Audience::Nobody } else { Audience::Everywhere };
     let working = Working::new("finding the orbit and proving the plant's bounds", audience);
     let refused = |refusal: sigmastar_prove::reduction::PlantRefusal| Failure::Documents(refusal.errors(&plant));

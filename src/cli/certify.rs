@@ -7,15 +7,16 @@ use super::failure::Failure;
 use super::files::{Input, OutputFile};
 use super::format::Format;
 use super::output::Shortened;
-use super::progress::{Audience, Working};
-use super::subject::{Subject, proving, with_sampling_period};
+use super::stages::{Stages, Step};
+use super::subject::{Asked, Subject, proving, with_sampling_period};
 use super::{input, output};
 use sigmastar_prove::certificate::{certificate_of, is_sampled, read_for};
 use sigmastar_prove::certify::{Limits, NoRatesOfClaim, rate_counts};
 use sigmastar_prove::rate::bound::MAX_OSCILLATORS;
-use sigmastar_prove::reduction::{Prepared, Run};
+use sigmastar_prove::reduction::{Prepared, Run, Stage, Unwatched, Watch};
 use sigmastar_report::RunReport;
 use sigmastar_theory::derivation::targets::{Target, TargetKind};
+use std::path::Path;
 
 /// Runs the command and returns the exit code.
 pub fn run(args: &CertifyArgs) -> u8 {
@@ -29,11 +30,15 @@ fn attempt(args: &CertifyArgs) -> Result<u8, Failure> {
         args.replace.folder(folder, &FIGURE_FILES)?;
     }
     let (targets, limits) = (targets(args)?, limits(args)?);
-    if args.spec == args.witness.clone().unwrap_or_default() {
+    let same = args.witness.as_ref().is_some_and(|witness| *witness == args.spec);
+    if same && args.spec == Path::new("-") {
+        return Err(Failure::call("standard input is read once", "name a file in the place of one `-`"));
+    }
+    let Asked { mut document, given } = Asked::read(&args.spec)?;
+    if same && given.is_none() {
         let message = "the specification and the witness cannot be the same file";
         return Err(Failure::call(message, "--witness names a certificate written with -o"));
     }
-    let mut document = input::document(&args.spec)?;
     if let Some(text) = &args.sampling_period {
         document = with_sampling_period(&document, text)?;
     }
@@ -52,9 +57,16 @@ fn attempt(args: &CertifyArgs) -> Result<u8, Failure> {
         return Err(Failure::call(message, format!("leave {flag} or the sampling period out")));
     }
     let counts = counts(args)?;
-    let working = proving(&subject, args.quiet);
+    if given.is_some() && witness.is_none() && !args.quiet {
+        let kind = subject.kind();
+        output::remark(&format!(
+            "the {kind} in the certificate is certified anew, by the flags of this call alone; `check` decides the certificate itself"
+        ));
+    }
+    let stages = Stages::new(steps(args, &subject), args.progress, args.quiet);
+    let working = (!stages.are_told()).then(|| proving(&subject, args.quiet)).flatten();
     let prepared = match &witness {
-        None => Prepared::new(subject, gain).map(|prepared| prepared.within(limits)),
+        None => Prepared::watched(subject, gain, &stages).map(|prepared| prepared.within(limits)),
         Some(certificate) => {
             let witness = read_for(certificate, &subject)?;
             if witness.of_another && !args.quiet {
@@ -63,19 +75,28 @@ fn attempt(args: &CertifyArgs) -> Result<u8, Failure> {
                     "the certificate was made for another {kind}; its witness is tried on this one"
                 ));
             }
+            stages.begin(Step::Of(first(&subject)));
             Prepared::again(&subject, witness)
         }
     };
     let prepared = prepared.map_err(Failure::Documents)?;
     drop(working);
-    let audience = if args.quiet { Audience::Nobody } else { Audience::Terminal };
-    let working = Working::new("searching the free numbers, deciding the conditions", audience);
-    let mut run = prepared.certify(args.options()).map_err(Failure::Documents)?;
+    let watch: &dyn Watch = match &witness {
+        None => &stages,
+        Some(_) => {
+            // Nothing is searched for.
+            stages.begin(Step::Decision);
+            &Unwatched
+        }
+    };
+    let mut run = prepared.certify_watched(args.options(), watch).map_err(Failure::Documents)?;
+    stages.begin(Step::Rates);
     run.prove_rates(&counts).map_err(no_rates)?;
-    drop(working);
     let report = RunReport::new(&run, &targets, witness.is_some());
     let page = args.format == Format::Html;
+    stages.begin(Step::Figures);
     let drawn = (page || args.plots.is_some()).then(|| Drawn::of(&run)).flatten();
+    drop(stages);
     if let Some(folder) = &args.plots {
         match drawn.as_ref().map(Drawn::named) {
             None => output::remark(&format!("no figures were written: the verdict is {}", run.verdict())),
@@ -90,6 +111,28 @@ fn attempt(args: &CertifyArgs) -> Result<u8, Failure> {
         None => Shortened::new(&report, args.format, args.full),
     };
     tell(args, &run, &shown, output.as_ref())
+}
+
+/// The stages that the call will have.
+fn steps(args: &CertifyArgs, subject: &Subject) -> Vec<Step> {
+    let data = match (subject, args.witness.is_some()) {
+        (Subject::Plant(_), false) => vec![Stage::Orbit, Stage::Coordinates, Stage::Bounds],
+        (Subject::Plant(_), true) => vec![Stage::Bounds],
+        (Subject::Specification(spec), _) if spec.lyapunov.triple().is_none() => vec![Stage::Triple],
+        (Subject::Specification(_), _) => Vec::new(),
+    };
+    let rates = args.n_o.is_some().then_some(Step::Rates);
+    let figures = (args.format == Format::Html || args.plots.is_some()).then_some(Step::Figures);
+    let claim = if args.witness.is_some() { Step::Decision } else { Step::Of(Stage::Witness) };
+    data.into_iter().map(Step::Of).chain([claim]).chain(rates).chain(figures).collect()
+}
+
+/// The stage in which the data of a witness are proved again.
+fn first(subject: &Subject) -> Stage {
+    match subject {
+        Subject::Plant(_) => Stage::Bounds,
+        Subject::Specification(_) => Stage::Triple,
+    }
 }
 
 fn flag(kind: TargetKind) -> &'static str {

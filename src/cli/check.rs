@@ -4,9 +4,10 @@ use super::args::CheckArgs;
 use super::failure::Failure;
 use super::input;
 use super::output::{self, reason, shown};
-use super::subject::with_sampling_period;
+use super::subject::{has_format, with_sampling_period};
 use sigmastar_document::{Block, Made, clean};
 use sigmastar_lang::spec::{Document, Notation};
+use sigmastar_prove::certificate::FORMAT as CERTIFICATE;
 use std::fs::File;
 use std::io::{Cursor, Read};
 use std::path::Path;
@@ -40,7 +41,7 @@ fn answer(args: &CheckArgs) -> Result<proofs_check::Report, Failure> {
         Failure::call(message, "name files, not folders")
     })?;
     if report.verdict == proofs_check::verdict::Verdict::Invalid {
-        tell_sampling_period(args);
+        tell_difference(args);
     }
     Ok(report)
 }
@@ -52,12 +53,20 @@ fn specification(path: &Path, args: &CheckArgs) -> Result<Box<dyn Read>, Failure
     Ok(Box::new(Cursor::new(document.text().to_owned())))
 }
 
-/// Says where a certificate and the specification that it was compared with differ in the sampling period. Where one of them
+/// Says where a certificate and the specification that it was compared with differ in the sampling period, and where that is a certificate
+/// itself. Where one of them
 /// cannot be read again there is nothing to say.
-fn tell_sampling_period(args: &CheckArgs) {
+fn tell_difference(args: &CheckArgs) {
     let Some(path) = &args.spec else { return };
     let again = |path: &Path| (path != Path::new("-")).then(|| input::document(path).ok()).flatten();
     let (Some(certificate), Some(specification)) = (again(&args.certificate), again(path)) else { return };
+    if has_format(&specification, CERTIFICATE) {
+        let name = shown(path);
+        output::remark(&format!(
+            "`{name}` is a certificate: --spec takes the specification or plant that you have yourself"
+        ));
+        return;
+    }
     let period = |document: &Document, place: &str| {
         let value = document.at(&format!("{place}/internal_model/sampling_period"))?;
         value.text().or_else(|| value.numeral()).map(str::to_owned)

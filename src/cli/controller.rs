@@ -1,12 +1,13 @@
 //! `sigmastar controller`.
 
 use super::args::{ControllerArgs, RegulatorForm};
-use super::controller_source::{self, Asked, Given};
 use super::failure::Failure;
 use super::files::{Input, OutputFile, write_together};
 use super::format::Format;
+use super::given::{Given, Regulated};
 use super::input;
 use super::output::{self, shown};
+use super::subject::Asked;
 use sigmastar_document::clean;
 use sigmastar_lang::spec::Constant;
 use sigmastar_prove::reduction::Subject;
@@ -33,7 +34,8 @@ fn attempt(args: &ControllerArgs) -> Result<u8, Failure> {
     let step = args.discretise.as_deref().map(|text| input::positive("--discretise", text)).transpose()?;
     let saturation = args.saturation.as_deref().map(|text| input::positive("--saturation", text)).transpose()?;
     let other = args.certificate.as_deref().map(|path| Given::read(&input::written(path)?)).transpose()?;
-    let (subject, own) = controller_source::read(&input::document(&args.spec)?)?;
+    let asked = Asked::read(&args.spec)?;
+    let (subject, own) = (asked.subject()?, asked.given);
     if own.is_some() && other.is_some() {
         return Err(Failure::call("two certificates are given", "leave --certificate out"));
     }
@@ -48,7 +50,8 @@ fn attempt(args: &ControllerArgs) -> Result<u8, Failure> {
     let delayed = args.delay_samples.map(|count| count == 1).or(given.as_ref().and_then(Given::delayed));
     let delayed = delayed.unwrap_or(design.is_delayed());
     let design = design.with_delay(delayed);
-    let asked = Asked { model: subject.internal_model(), sigma: &sigma, step: step.as_ref(), delayed, n_o: args.n_o };
+    let asked =
+        Regulated { model: subject.internal_model(), sigma: &sigma, step: step.as_ref(), delayed, n_o: args.n_o };
     let certificate = provenance(given.as_ref(), &subject, &asked);
     refuse(args, &design, step.as_ref(), certificate.as_ref())?;
     let regulator = design.regulator();
@@ -98,9 +101,10 @@ fn attempt(args: &ControllerArgs) -> Result<u8, Failure> {
 }
 
 /// What the certificate has to do with this regulator; one that is about something else is told and left out.
-fn provenance(given: Option<&Given>, subject: &Subject, asked: &Asked<'_>) -> Option<Provenance> {
+fn provenance(given: Option<&Given>, subject: &Subject, asked: &Regulated<'_>) -> Option<Provenance> {
     let given = given?;
-    if let Some(what) = given.not_about(subject) {
+    if !given.is_about(subject.sha256()) {
+        let what = subject.kind();
         output::remark(&format!("the certificate was made for another {what}: it says nothing about this regulator"));
         return None;
     }

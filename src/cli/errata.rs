@@ -2,8 +2,8 @@
 
 use super::args::ErrataArgs;
 use super::failure::Failure;
-use super::{input, output};
-use sigmastar_lang::spec::Specification;
+use super::output;
+use super::subject::Asked;
 use sigmastar_paper::errata::ErrataReport;
 
 /// Runs the command and returns the exit code.
@@ -13,7 +13,7 @@ pub fn run(args: &ErrataArgs) -> u8 {
 
 fn attempt(args: &ErrataArgs) -> Result<u8, Failure> {
     let spec = match &args.spec {
-        Some(path) => Some(Specification::from_value(&input::document(path)?.root())?),
+        Some(path) => Some(Asked::read(path)?.specification("`errata`")?),
         None => None,
     };
     let report = ErrataReport::new(spec.as_ref());

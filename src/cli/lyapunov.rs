@@ -2,9 +2,8 @@
 
 use super::args::LyapunovArgs;
 use super::failure::Failure;
-use super::input;
 use super::output::Shortened;
-use super::subject::{Subject, seeking_triple};
+use super::subject::{Asked, Subject, seeking_triple};
 use sigmastar_lang::plant::Plant;
 use sigmastar_prove::certify::{Refusal, resolve};
 use sigmastar_prove::reduction::study;
@@ -16,7 +15,7 @@ pub fn run(args: &LyapunovArgs) -> u8 {
 }
 
 fn attempt(args: &LyapunovArgs) -> Result<u8, Failure> {
-    let spec = match Subject::read(&input::document(&args.spec)?)? {
+    let spec = match Asked::read(&args.spec)?.subject()? {
         Subject::Specification(spec) => spec,
         Subject::Plant(plant) => return of_plant(&plant, args),
     };

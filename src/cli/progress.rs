@@ -60,9 +60,7 @@ pub struct Working {
 pub enum Audience {
     /// Nowhere: `--quiet`.
     Nobody,
-    /// On a terminal only, for work that seldom takes long.
-    Terminal,
-    /// Also where standard error is a file or a pipe.
+    /// On a terminal, and where standard error is a file or a pipe.
     Everywhere,
 }
 
@@ -70,7 +68,7 @@ impl Working {
     /// Starts to wait; `what` completes "sigmastar: ...".
     pub fn new(what: &'static str, audience: Audience) -> Working {
         let terminal = stderr().is_terminal();
-        if audience == Audience::Nobody || (audience == Audience::Terminal && !terminal) {
+        if audience == Audience::Nobody {
             return Working { stop: None, thread: None };
         }
         let (stop, stopped) = channel();

@@ -3,7 +3,7 @@
 use super::args::RateArgs;
 use super::counts::finite_counts;
 use super::failure::Failure;
-use super::subject::{Subject, proved};
+use super::subject::{Asked, proved};
 use super::{input, output};
 use sigmastar_exact::number::write_exact;
 use sigmastar_prove::certify::{Options, Verdict, WITHOUT_INPUT_GAIN, certify_near, not_available_with_input_gain};
@@ -12,24 +12,32 @@ use sigmastar_studies::rate::{MAX_OSCILLATORS, NoRates, certified_rates};
 
 /// Runs the command and returns the exit code.
 pub fn run(args: &RateArgs) -> u8 {
-    attempt(args).unwrap_or_else(|failure| failure.tell(args.format, false))
+    attempt(args).unwrap_or_else(|failure| failure.tell(args.format, args.quiet))
 }
 
 fn attempt(args: &RateArgs) -> Result<u8, Failure> {
     let n_o = finite_counts(&args.n_o, MAX_OSCILLATORS)?;
-    let subject = Subject::read(&input::document(&args.spec)?)?;
+    let asked = Asked::read(&args.spec)?;
+    let subject = asked.subject()?;
     let sigma = args.sigma.as_ref().map(|text| input::rational("--sigma", text)).transpose()?;
+    if asked.given.as_ref().is_some_and(|given| given.step().is_some()) {
+        let message =
+            "this certificate is about the regulator at samples, and `rate` is about the one in continuous time";
+        return Err(Failure::call(message, "`certify --n-o LIST` proves rates at samples"));
+    }
+    let whose = if sigma.is_some() { "--sigma" } else { "the gain of the certificate" };
+    let sigma = sigma.or_else(|| asked.given.map(|given| given.sigma().clone()));
     if subject.input_gain().is_some_and(|gain| !gain.is_nominal()) {
         subject.without_input_gain("`rate`").map_err(Failure::Documents)?;
     }
-    let (spec, start) = proved(subject, false)?;
+    let (spec, start) = proved(subject, args.quiet)?;
     let run = certify_near(&spec, Options { compare: false, ..Options::default() }, start.as_ref())
         .map_err(|refusal| Failure::Documents(refusal.errors(&spec)))?;
     let (sigma, found) = match certified_rates(&run, sigma, &n_o) {
         Ok(found) => found,
         Err(NoRates::BelowSigmaStar(sigma_star)) => {
-            let message = format!("--sigma is below the certified sigma* = {}", write_exact(&sigma_star));
-            let help = "give a gain of at least sigma*, or leave the flag out for sigma* itself";
+            let message = format!("{whose} is below the certified sigma* = {}", write_exact(&sigma_star));
+            let help = "give --sigma a gain of at least sigma*; without it, of a specification or plant, sigma* itself is taken";
             return Err(Failure::call(message, help));
         }
         Err(NoRates::OtherGain(sigma)) => {

@@ -4,7 +4,7 @@ use super::args::SamplingArgs;
 use super::failure::Failure;
 use super::files::OutputFile;
 use super::progress::{Audience, Working};
-use super::subject::{Subject, proved};
+use super::subject::{Asked, Subject, proved};
 use super::transfer::svg_file;
 use super::{input, output};
 use rug::Rational;
@@ -21,7 +21,7 @@ pub fn run(args: &SamplingArgs) -> u8 {
 
 fn attempt(args: &SamplingArgs) -> Result<u8, Failure> {
     let plot = args.plot.as_deref().map(|path| svg_file(path, &args.spec, args.replace)).transpose()?;
-    let subject = Subject::read(&input::document(&args.spec)?)?;
+    let subject = Asked::read(&args.spec)?.subject()?;
     let (name, sha256, period) =
         (subject.name().to_owned(), subject.sha256().to_owned(), subject.period().nominal().clone());
     if !subject.is_matched() {

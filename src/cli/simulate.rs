@@ -7,6 +7,7 @@ use super::input;
 use super::output::{self, shown};
 use super::parameters;
 use super::progress::Bar;
+use super::simulate_call::Called;
 use super::simulate_gain::{at_period, gain_remarks, nominal, ordinary};
 use super::simulate_sampled;
 use sigmastar_lab::simulate::{
@@ -14,26 +15,25 @@ use sigmastar_lab::simulate::{
     simulate,
 };
 use sigmastar_lang::plant::Plant;
+use sigmastar_lang::spec::Constant;
 use sigmastar_prove::certify::Verdict;
 use sigmastar_regulator::{Design, Regulator, read_regulator};
 
 /// Runs the command and returns the exit code.
 pub fn run(args: &SimulateArgs) -> u8 {
-    let outcome = match &args.sampled {
-        None => attempt(args),
-        Some(step) => simulate_sampled::attempt(args, step),
-    };
+    let outcome = Called::read(args).and_then(|called| match called.step {
+        None => attempt(args, called.plant, called.sigma.as_ref()),
+        Some(step) => simulate_sampled::attempt(args, called.plant, called.sigma.as_ref(), &step),
+    });
     outcome.unwrap_or_else(|failure| failure.tell(args.format, args.quiet))
 }
 
-fn attempt(args: &SimulateArgs) -> Result<u8, Failure> {
+fn attempt(args: &SimulateArgs, plant: Plant, sigma: Option<&Constant>) -> Result<u8, Failure> {
     let csv_file = args.replace.asked(args.csv.as_deref(), Input::Plant(&args.plant), "the samples")?;
     let power = args.noise_power.as_deref().map(|text| input::positive("--noise-power", text)).transpose()?;
-    let sigma = args.sigma.as_deref().map(|text| input::positive("--sigma", text)).transpose()?;
     let gain = args.input_gain.as_deref().map(|text| input::positive("--input-gain", text)).transpose()?;
-    let plant = Plant::from_value(&input::document(&args.plant)?.root())?;
     let member = at_period(args, parameters::member(&plant, &args.parameter, args.quiet)?)?;
-    let regulator = match (&args.controller, &sigma, args.n_o) {
+    let regulator = match (&args.controller, sigma, args.n_o) {
         (Some(path), ..) => read_regulator(&input::written(path)?)?,
         (None, Some(sigma), Some(n_o)) => {
             Design::new(&plant.internal_model, sigma, n_o).for_actuator(plant.input_gain.as_ref()).regulator()

@@ -17,32 +17,29 @@ use sigmastar_lang::spec::Constant;
 use sigmastar_prove::certify::Verdict;
 use sigmastar_regulator::{Design, Discrete, Regulator, WrongDimension, read_discrete, read_regulator};
 
-/// Runs the command with this sampling time and returns the exit code.
+/// Runs the command with this plant, gain and sampling time, and returns the exit code.
 ///
 /// # Errors
 /// What is wrong with the call or its files.
-pub fn attempt(args: &SimulateArgs, step: &str) -> Result<u8, Failure> {
+pub fn attempt(args: &SimulateArgs, plant: Plant, sigma: Option<&Constant>, step: &Constant) -> Result<u8, Failure> {
     let csv_file = args.replace.asked(args.csv.as_deref(), Input::Plant(&args.plant), "the samples")?;
-    let step = input::positive("--sampled", step)?;
-    let sigma = args.sigma.as_deref().map(|text| input::positive("--sigma", text)).transpose()?;
-    let converters = converters(args, &step)?;
+    let converters = converters(args, step)?;
     let limit = args.saturation.as_deref().map(|text| input::positive("--saturation", text)).transpose()?;
     let phase = args.phase.as_deref().map(|text| input::nonnegative("--phase", text)).transpose()?;
     let gain = args.input_gain.as_deref().map(|text| input::positive("--input-gain", text)).transpose()?;
-    let plant = Plant::from_value(&input::document(&args.plant)?.root())?;
     let member = at_period(args, parameters::member(&plant, &args.parameter, args.quiet)?)?;
-    let (regulator, discrete) = match (&args.controller, &sigma, args.n_o) {
-        (Some(_), ..) => from_file(args, &step)?,
+    let (regulator, discrete) = match (&args.controller, sigma, args.n_o) {
+        (Some(_), ..) => from_file(args, step)?,
         (None, Some(sigma), Some(n_o)) => {
             let design = Design::new(&plant.internal_model, sigma, n_o).for_actuator(plant.input_gain.as_ref());
             let delayed = args.delay_samples.map_or(design.is_delayed(), |count| count == 1);
             let design = design.with_delay(delayed);
             if !args.quiet {
-                for error in design.sampling_errors(&step) {
+                for error in design.sampling_errors(step) {
                     output::remark(&format!("{error}; it is simulated as it is"));
                 }
             }
-            (design.regulator(), design.discretise(&step).ok_or_else(beyond)?)
+            (design.regulator(), design.discretise(step).ok_or_else(beyond)?)
         }
         _ => return Err(Failure::call("no regulator is given", "give --sigma and --n-o, or --controller")),
     };

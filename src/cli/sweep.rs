@@ -6,6 +6,7 @@ use super::files::{Input, OutputFile};
 use super::format::Format;
 use super::output::{reason, shown};
 use super::progress::Bar;
+use super::subject::Asked;
 use super::{input, output};
 use sigmastar_lang::spec::SpecErrors;
 use sigmastar_prove::certify::Verdict;
@@ -29,7 +30,7 @@ pub fn run(args: &SweepArgs) -> u8 {
 fn attempt(args: &SweepArgs) -> Result<u8, Failure> {
     let study = Study::read(&input::document(&args.study)?)?;
     let subject = subject_path(&study, &args.study);
-    let document = subject.as_deref().map(input::document).transpose()?;
+    let document = subject.as_deref().map(Asked::read).transpose()?.map(|asked| asked.document);
     let sweep = Sweep::new(study, document.as_ref())?;
     if let Some(index) = args.case {
         return one_case(&sweep, index);

@@ -7,7 +7,7 @@ use super::files::{Input, OutputFile};
 use super::format::Format;
 use super::output::Shortened;
 use super::progress::Bar;
-use super::subject::{Subject, proved};
+use super::subject::{Asked, Subject, proved};
 use super::{input, output};
 use sigmastar_document::progress::Progress;
 use sigmastar_exact::enclosure::DEFAULT_PRECISION;
@@ -38,7 +38,7 @@ fn attempt(args: &TransferArgs) -> Result<u8, Failure> {
         (None, None) => PairChoice::ForData,
     };
     let n_o = counts(&args.n_o)?;
-    let spec = match Subject::read(&input::document(&args.spec)?)? {
+    let spec = match Asked::read(&args.spec)?.subject()? {
         Subject::Specification(spec) => *spec,
         plant @ Subject::Plant(_) => proved(plant, args.quiet)?.0,
     };

@@ -3,10 +3,10 @@
 use super::args::{TuneArgs, TuneGoal};
 use super::failure::Failure;
 use super::files::Input;
+use super::output;
 use super::output::shown;
 use super::progress::Bar;
-use super::subject::Subject;
-use super::{input, output};
+use super::subject::{Asked, Subject};
 use sigmastar_lang::spec::Notation;
 use sigmastar_prove::certify::Verdict;
 use sigmastar_sweep::tune::{Goal, Settings, TuneError, TuningReport, parameters, tune};
@@ -22,7 +22,7 @@ pub fn run(args: &TuneArgs) -> u8 {
 fn attempt(args: &TuneArgs) -> Result<u8, Failure> {
     let file =
         args.replace.asked(args.output.as_deref(), Input::Specification(&args.spec), "the tuned specification")?;
-    let document = input::document(&args.spec)?;
+    let Asked { document, .. } = Asked::read(&args.spec)?;
     if let Some(path) = args.output.as_deref().filter(|path| !document.notation().is_part_of(Notation::of(path))) {
         let message =
             format!("`{}` would be read in another notation than `{}` is written in", shown(path), document.label());
@@ -38,12 +38,7 @@ fn attempt(args: &TuneArgs) -> Result<u8, Failure> {
         (None, TuneGoal::SigmaStar) => Goal::Sigma,
         (None, TuneGoal::Feedback) => Goal::Feedback,
     };
-    if goal != Goal::Sigma && subject.sampling().is_some() {
-        return Err(wrong(&TuneError::Sampled));
-    }
-    if matches!(goal, Goal::Error(_)) && !subject.is_matched() {
-        return Err(wrong(&TuneError::NotMatched));
-    }
+    goal.fits(&subject).map_err(|error| wrong(&error))?;
     let parameters = parameters(&args.over, &document, model).map_err(|error| wrong(&error))?;
     let settings = Settings { goal, n_o: u64::from(args.error_at.unwrap_or(N_O)), tries: args.tries };
     let bar = Bar::new(u64::from(args.tries), args.quiet);

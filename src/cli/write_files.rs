@@ -5,8 +5,7 @@ use super::failure::Failure;
 use super::files::{Input, OutputFile};
 use super::format::Format;
 use super::{input, output};
-use sigmastar_lang::spec::Notation;
-use std::path::Path;
+use sigmastar_lang::spec::{Document, Notation};
 
 /// Writes a JSON Schema to standard output; returns the exit code.
 pub fn schema(args: &SchemaArgs) -> u8 {
@@ -16,20 +15,26 @@ pub fn schema(args: &SchemaArgs) -> u8 {
 
 /// Writes a template; returns the exit code.
 pub fn new(args: &NewArgs) -> u8 {
-    let text = match args.kind {
-        NewArg::Spec => include_str!("templates/spec.jsonc"),
-        NewArg::Plant => include_str!("templates/plant.jsonc"),
-    };
-    template(text, args).unwrap_or_else(|failure| failure.tell(Format::Text, false))
+    template(args).unwrap_or_else(|failure| failure.tell(Format::Text, false))
 }
 
-fn template(text: &str, args: &NewArgs) -> Result<u8, Failure> {
+/// The template in the notation that the name of its file says; JSON has no comments.
+fn template(args: &NewArgs) -> Result<u8, Failure> {
     let path = args.output.as_deref();
-    if path.is_some_and(|path| path != Path::new("-") && Notation::of(path) != Notation::JsonWithComments) {
-        let message = "a template has comments, which are read in a file whose name ends in `.jsonc`";
-        return Err(Failure::call(message, "name the file so, such as `plant.jsonc`"));
+    let [commented, toml] = match args.kind {
+        NewArg::Spec => [include_str!("templates/spec.jsonc"), include_str!("templates/spec.toml")],
+        NewArg::Plant => [include_str!("templates/plant.jsonc"), include_str!("templates/plant.toml")],
+        NewArg::Study => [include_str!("templates/study.jsonc"), include_str!("templates/study.toml")],
+    };
+    let file = args.replace.asked(path, Input::None, "the template")?;
+    match path.map_or(Notation::JsonWithComments, Notation::of) {
+        Notation::JsonWithComments => write(commented, file),
+        Notation::Toml => write(toml, file),
+        Notation::Json => {
+            let plain = Document::parse_as("template", commented, Notation::JsonWithComments)?;
+            write(&output::json_text(&plain.root().to_json()), file)
+        }
     }
-    write(text, args.replace.asked(path, Input::None, "the template")?)
 }
 
 /// Writes a document as JSON; returns the exit code.

@@ -1,6 +1,6 @@
 //! What a first user runs into: how wrong calls and wrong files are told.
 
-use crate::support::{EXAMPLE, EXAMPLE_TEXT, PLANT, ROOT, json, program};
+use crate::support::{EXAMPLE, EXAMPLE_TEXT, PLANT, ROOT, json, program, utf8};
 use assert_cmd::Command;
 use predicates::prelude::*;
 use predicates::str::{contains, is_empty};
@@ -162,6 +162,38 @@ fn a_smaller_initial_set_has_a_size() {
     let [x0, e0] = [1.03 * number("X0"), 1.03 * number("E0")];
     let larger = format!(r#"{{ "kind": "box", "X0": "{x0}", "E0": "{e0}", "Z0": "0" }}"#);
     assert_eq!(run(set(&larger)).0, Some(3), "{larger}");
+}
+
+/// The stages are told where they are asked for, in the order of the call, and change nothing else.
+#[test]
+fn the_stages_of_a_call_are_told() {
+    let call = |arguments: &[&str]| {
+        let output = sigmastar(&[&["certify"], arguments].concat()).assert().code(0).get_output().clone();
+        (utf8(output.stdout), utf8(output.stderr))
+    };
+    for (arguments, of, told) in [
+        (
+            &["specs/plants/linear.json", "--n-o", "1"][..],
+            5,
+            &["orbit", "coordinates", "bounds", "conditions", "rates"][..],
+        ),
+        (&["specs/linear.json"], 1, &["conditions"]),
+        (&["specs/paper-example-jacobian.json", "--no-compare"], 2, &["triple of the Jacobian", "conditions"]),
+        (&["specs/linear.json", "--witness", "proofs-check/tests/certificates/linear.sharp.json"], 1, &["deciding"]),
+        (&["specs/linear.json", "--format", "html"], 2, &["conditions", "figures"]),
+    ] {
+        let (plain, _) = call(&[arguments, &["-q"]].concat());
+        let (report, said) = call(&[arguments, &["--progress"]].concat());
+        assert_eq!(report, plain, "{arguments:?}");
+        let lines: Vec<&str> = said.lines().filter(|line| line.contains(": stage ")).collect();
+        for (number, word) in (1..).zip(told) {
+            let start = format!("sigmastar: stage {number} of {of}: ");
+            assert!(lines.iter().any(|line| line.starts_with(&start) && line.contains(word)), "{start}{word}: {said}");
+        }
+        let (_, silent) = call(arguments);
+        assert!(!silent.contains("stage"), "{silent}");
+    }
+    sigmastar(&["certify", EXAMPLE, "--progress", "-q"]).assert().code(2).stderr(contains("cannot be used with"));
 }
 
 /// What a Jacobian costs is said where it takes long, never on standard output, and not with `--quiet`.

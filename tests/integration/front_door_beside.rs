@@ -1,10 +1,11 @@
-//! The front door beside one claim: stored certificates, bounds of a plant, pairs for samples, triples, simulations, trials.
+//! The front door beside one claim: stored certificates, bounds of a plant, pairs for samples, triples, better values, simulations, trials.
 
 use crate::support::{EXAMPLE_TEXT, PLANT_TEXT};
 use serde_json::Value;
 use sigmastar::{
-    Certificate, CertifyOptions, Error, ErrorKind, FalsificationOutcome, ReportFormat, SimulationOptions, Subject,
-    bounding_specification, certify, check, falsify, lyapunov, reread, sampling, simulate,
+    Certificate, CertifyOptions, Error, ErrorKind, FalsificationOutcome, ReportFormat, SimulationOptions, Study,
+    Subject, TuneGoal, TuneOptions, bounding_specification, certify, check, falsify, lyapunov, reread, sampling,
+    simulate, tune,
 };
 
 const LINEAR: &str = include_str!("../../specs/linear.json");
@@ -109,6 +110,47 @@ fn triples_orbits_and_pairs_have_the_reports_of_the_program() {
     let kind = |text: &str, period| sampling(subject(text), Some(&[period]), None).unwrap_err().kind();
     assert_eq!(kind(LINEAR, "3/10"), ErrorKind::Range);
     assert_eq!(kind(&LINEAR.replace("true", "false"), "1/100"), ErrorKind::Options);
+}
+
+#[test]
+fn better_values_are_those_of_the_program() {
+    let tuned = tune(subject(EXAMPLE_TEXT), &TuneOptions::new().over("mu=1/10..10").tries(8)).unwrap();
+    let report = json(tuned.report());
+    let document = tuned.document().expect("something better");
+    assert!(tuned.has_claim());
+    // What it is certified with is what the report says.
+    let again = certified(document, &CertifyOptions::new());
+    assert_eq!(report["after"]["sigma_star"], again.claim().sigma_star());
+    assert_eq!(report["parameters"][0]["after"], subject_value(document, "/internal_model/mu"));
+    let kind = |text: &str, options| tune(subject(text), &options).unwrap_err().kind();
+    let options = TuneOptions::new;
+    assert_eq!(kind(LINEAR, options().tries(1)), ErrorKind::Range);
+    assert_eq!(kind(LINEAR, options().goal(TuneGoal::ErrorAt(u32::MAX))), ErrorKind::Range);
+    assert_eq!(kind(LINEAR, options().over("mo")), ErrorKind::Options);
+    assert_eq!(kind(&LINEAR.replace("true", "false"), options().goal(TuneGoal::ErrorAt(1))), ErrorKind::Options);
+    let sampled = LINEAR.replace("\"matched\"", "\"sampling_period\": \"1/1000\", \"matched\"");
+    assert_eq!(kind(&sampled, options().goal(TuneGoal::Feedback)), ErrorKind::Options);
+}
+
+fn subject_value(document: &str, pointer: &str) -> Value {
+    let document: Value = serde_json::from_str(document).unwrap();
+    document.pointer(pointer).unwrap().clone()
+}
+
+/// The notation is that of the name, as for the program; without one it is JSON.
+#[test]
+fn a_file_is_read_in_the_notation_of_its_name() {
+    let toml = include_str!("../../src/cli/templates/plant.toml");
+    let [json, commented] = ["plant.json", "plant.jsonc"].map(|name| {
+        let text = include_str!("../../src/cli/templates/plant.jsonc");
+        Subject::from_bytes(name, text.as_bytes()).map(|subject| subject.sha256().to_owned())
+    });
+    assert_eq!(Subject::from_bytes("a/plant.toml", toml.as_bytes()).unwrap().sha256(), commented.unwrap());
+    assert_eq!(json.unwrap_err().kind(), ErrorKind::Format);
+    assert!(Subject::from_json(toml).is_err());
+    let study = include_str!("../../src/cli/templates/study.toml");
+    let study = Study::from_bytes("study.toml", study.as_bytes(), |_| Err(String::new())).unwrap();
+    assert_eq!(study.cases(), 6);
 }
 
 #[test]

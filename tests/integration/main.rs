@@ -11,6 +11,7 @@ mod cells;
 mod certify_random;
 mod check;
 mod chromium;
+mod cli_certificates;
 mod cli_certify;
 mod cli_force;
 mod cli_reports;

@@ -460,30 +460,43 @@ fn limits_hold_in_toml() {
 }
 
 #[test]
-fn templates_certify_as_they_stand() {
+fn templates_work_as_they_stand() {
+    use sigmastar_schema::Schema;
     let folder = TempDir::new().expect("a folder");
-    for kind in ["spec", "plant"] {
+    for (kind, schema) in [("spec", Schema::Specification), ("plant", Schema::Plant), ("study", Schema::Study)] {
         let file = folder.path().join(format!("{kind}.jsonc"));
         program().args(["new", kind, "-o"]).arg(&file).assert().code(0).stdout(is_empty()).stderr(is_empty());
         let printed = program().args(["new", kind]).assert().code(0).get_output().stdout.clone();
         assert_eq!(printed, fs::read(&file).expect("written"));
-        program().args(["certify", "-q"]).arg(&file).assert().code(0).stdout(contains("Certified: with sigma ="));
-        // Every field has its line: none of those that are required is left out, and the others are named in comments.
+        if kind == "study" {
+            let results = folder.path().join("results.jsonl");
+            let sweep = program().args(["sweep", "-q"]).arg(&file).arg("-o").arg(&results).assert().code(0);
+            sweep.stdout(contains("6 of 6 cases: 6 certified"));
+        } else {
+            program().args(["certify", "-q"]).arg(&file).assert().code(0).stdout(contains("Certified: with sigma ="));
+        }
         let text = utf8(printed);
-        assert!(text.lines().filter(|line| line.trim_start().starts_with("//")).count() > 15, "{kind}");
-        assert!(text.contains("$schema") && text.contains("\"domain\""));
-        // The schema agrees, also with the reference to it that the comment offers.
-        let text = text.replace("// \"$schema\"", "\"$schema\"");
-        let document = read(&text, Notation::JsonWithComments).root().to_json();
-        let schema =
-            if kind == "spec" { sigmastar_schema::Schema::Specification } else { sigmastar_schema::Schema::Plant };
-        assert!(crate::validator::Validator::new(&schema.json()).is_valid(&document), "{kind}");
-        assert!(document["$schema"].is_string());
-    }
-    for name in ["x.json", "x.toml", "x"] {
-        let file = folder.path().join(name);
-        program().args(["new", "spec", "-o"]).arg(&file).assert().code(2).stderr(contains(".jsonc"));
-        assert!(!file.exists());
+        let plain = read(&text, Notation::JsonWithComments);
+        for (name, sign) in [("a.jsonc", "//"), ("a.toml", "#"), ("a.json", ""), ("a", "")] {
+            let file = folder.path().join(format!("{kind}-{name}"));
+            program().args(["new", kind, "-o"]).arg(&file).assert().code(0).stderr(is_empty());
+            let text = fs::read_to_string(&file).expect("written");
+            let document = read(&text, Notation::of(&file));
+            assert_eq!(document.root().canonical(), plain.root().canonical(), "{kind} {name}");
+            if sign.is_empty() {
+                continue;
+            }
+            // Every field has its line: none of those that are required is left out, and the others are named in comments.
+            let is_comment = |line: &&str| line.trim_start().starts_with(sign);
+            assert!(text.lines().filter(is_comment).count() > 12, "{kind} {name}");
+            let left_out = if kind == "study" { "sampling_period" } else { "domain" };
+            assert!(text.lines().filter(is_comment).any(|line| line.contains(left_out)), "{kind} {name}");
+            // The schema agrees, also with the reference to it that the comment offers.
+            let text = text.replace(&format!("{sign} \"$schema\""), "\"$schema\"");
+            let document = read(&text, Notation::of(&file)).root().to_json();
+            assert!(crate::validator::Validator::new(&schema.json()).is_valid(&document), "{kind} {name}");
+            assert!(document["$schema"].is_string());
+        }
     }
     program().args(["new", "spce"]).assert().code(2).stderr(contains("spec"));
 }

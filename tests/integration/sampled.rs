@@ -363,12 +363,17 @@ fn the_table_lists_pairs_that_certify() {
         .code(0);
     let table = json(&table.get_output().stdout);
     let rows = |list: &str| table[list].as_array().unwrap().clone();
-    let [by_step, by_gain] = [rows("by_sampling_period"), rows("by_sigma")];
+    let [by_step, by_gain, round] = [rows("by_sampling_period"), rows("by_sigma"), rows("round")];
     assert_eq!((by_step.len(), by_gain.len()), (2, 2));
     assert_eq!(by_gain[1]["outcome"], object!("not certified"));
     let number = |value: &Value| value.as_str().unwrap().parse::<f64>().unwrap();
     assert!(number(&by_step[0]["sigma"]) > number(&by_step[1]["sigma"]));
-    for row in by_step.iter().chain(&by_gain[..1]) {
+    // Only of the gain that has a period; no longer, and 1, 2 or 5 times a power of ten.
+    assert_eq!((round.len(), &round[0]["round"], &round[0]["sigma"]), (1, &object!("sampling_period"), &object!("22")));
+    let step = number(&round[0]["sampling_period"]);
+    assert!(round[0]["samples"].as_u64() >= by_gain[0]["samples"].as_u64());
+    assert!([0.01, 0.02, 0.05].contains(&step), "{step}");
+    for row in by_step.iter().chain(&by_gain[..1]).chain(&round) {
         assert_eq!(row["outcome"], object!("certified"));
         let spec = Specification::from_json("plain", AT_REST_TEXT).unwrap();
         let step = sampled(row["sampling_period"].as_str().unwrap()).internal_model.sampling.unwrap();

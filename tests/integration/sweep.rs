@@ -169,6 +169,7 @@ fn rows_are_what_certify_says() {
             .assert()
             .code(0);
         let report: Value = serde_json::from_slice(&certified.get_output().stdout).unwrap();
+        assert_eq!(row["X0_bounds"], "|x|");
         for field in ["sigma_star", "initial_set", "periodic_solution"] {
             assert_eq!(row[field], report[field], "{field}");
         }
@@ -348,9 +349,13 @@ fn the_shipped_study_has_a_table_and_a_plot() {
     let read = Results::read("r", &fs::read(&results).unwrap()).unwrap();
     assert_eq!(read.rows.len(), 15);
     let table = fs::read_to_string(table).unwrap();
-    assert!(table.starts_with("index,alpha,p_up,verdict,sigma_star,X0,E0,Z0,x,e,zeta,z,no_plant,sha256,message\r\n"));
+    assert!(
+        table.starts_with(
+            "index,alpha,p_up,verdict,sigma_star,X0,X0_bounds,E0,Z0,x,e,zeta,z,no_plant,sha256,message\r\n"
+        )
+    );
     assert!(table.lines().nth(1).unwrap().starts_with("0,0.5,1.1,certified,"), "{table}");
-    assert!(table.lines().skip(1).all(|line| line.split(',').count() == 15));
+    assert!(table.lines().skip(1).all(|line| line.split(',').count() == 16));
     let svg = fs::read_to_string(plot).unwrap();
     for label in ["p_up = 11/10", "p_up = 1.5512", "p_up = 2.5", "alpha", "sigma_star"] {
         assert!(svg.contains(label), "{label}");
@@ -408,4 +413,50 @@ fn plants_and_samples_are_swept() {
     run.sweep("r.jsonl", &[]);
     let rows = run.rows("r.jsonl");
     assert_eq!((&rows[0]["verdict"], &rows[1]["verdict"]), (&json!("certified"), &json!("bad-input")));
+}
+
+/// X0 of a plant is in the coordinates of its certificate, but where the set is asked for as a ball: then it is that ball, of x.
+#[test]
+fn a_line_says_what_its_set_bounds() {
+    let plant = json!({
+        "format": "sigmastar/plant", "version": 1, "name": "two states", "period": "1", "states": ["a", "b"],
+        "f": ["-a + 4*b", "-4*b + sin(2*pi*t)"], "q": "1 + a/8 + cos(2*pi*t)",
+        "initial_set": { "kind": "aligned", "ball": "1/3", "E0": "1" },
+        "internal_model": { "mu": "1", "base_frequency": "2*pi", "matched": true,
+            "weights": { "family": "power", "n0": "2", "epsilon": "1/2" } },
+    });
+    let sweep = |plant: &Value| {
+        let run = Run::new(&json!({
+            "format": "sigmastar/study", "version": 1, "name": "sets", "design": "grid", "subject": plant,
+            "parameters": [{ "pointer": "/internal_model/mu", "values": ["1"] }],
+        }));
+        run.sweep("r.jsonl", &["--csv", run.path("t.csv").to_str().unwrap()]);
+        let certify = |format: &str| {
+            let mut certify = program();
+            certify.args(["certify", "-", "-q", "--no-compare", "--format", format]).write_stdin(plant.to_string());
+            certify.assert().code(0).get_output().stdout.clone()
+        };
+        let report: Value = serde_json::from_slice(&certify("json")).unwrap();
+        (run.rows("r.jsonl")[0].clone(), run.text("t.csv"), report)
+    };
+    let (row, table, report) = sweep(&plant);
+    assert_eq!((&row["initial_set"]["X0"], &row["X0_bounds"]), (&json!("1/3"), &json!("|x - x_0|")));
+    assert_ne!(row["initial_set"]["X0"], report["initial_set"]["X0"]);
+    assert_eq!(row["initial_set"]["E0"], report["initial_set"]["E0"]);
+    assert!(table.contains(",0.3333333333333333,|x - x_0|,1,M e,"), "{table}");
+    let mut other = plant;
+    other["initial_set"] = json!({ "kind": "aligned" });
+    let (row, table, report) = sweep(&other);
+    assert_eq!((&row["initial_set"], &row["X0_bounds"]), (&report["initial_set"], &json!("|L^-1 (x - x_0)|")));
+    assert!(table.contains(",|L^-1 (x - x_0)|,"), "{table}");
+    // Lines of earlier programs do not say, and are read; another word is refused.
+    let run = Run::new(&study(json!({})));
+    run.sweep("r.jsonl", &[]);
+    let text = run.text("r.jsonl");
+    let read = |text: &str| Results::read("r", text.as_bytes());
+    assert_eq!(
+        read(&text.replace("\"X0_bounds\":\"|x|\",", "")).unwrap().rows[&0].claim.as_ref().unwrap().x0_bounds,
+        None
+    );
+    assert!(read(&text.replace("\"X0_bounds\":\"|x|\"", "\"X0_bounds\":\"x\"")).is_err());
 }

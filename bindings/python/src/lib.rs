@@ -9,11 +9,12 @@ mod work;
 
 use pyo3::prelude::*;
 use sigmastar::{
-    Certificate, CertifyOptions, Error, SimulationOptions, Study, Subject, TransferChoice, TransferOptions,
+    Certificate, CertifyOptions, Error, SimulationOptions, Study, Subject, TransferChoice, TransferOptions, TuneGoal,
+    TuneOptions,
 };
 use std::cell::RefCell;
 use told::{Told, ToldCase, ToldCertificate, ToldCheck, ToldRates, ToldRegulator, ToldSampled, ToldTransfer};
-use told_beside::{ToldBounded, ToldFalsification, ToldPairs, ToldReport, ToldSimulation};
+use told_beside::{ToldBounded, ToldFalsification, ToldPairs, ToldReport, ToldSimulation, ToldTuning};
 use work::outside;
 
 /// A document: what errors call it, and its bytes.
@@ -113,6 +114,27 @@ fn sampling(
         let pairs =
             subject(&file).and_then(|subject| sigmastar::sampling(subject, periods.as_deref(), sigmas.as_deref()));
         pairs.map(|pairs| ToldPairs::from(&pairs)).into()
+    })
+}
+
+#[pyfunction]
+fn tune(
+    py: Python<'_>,
+    file: File,
+    over: String,
+    feedback: bool,
+    error_at: Option<u32>,
+    tries: u32,
+) -> PyResult<Told<ToldTuning>> {
+    let goal = match error_at {
+        Some(n_o) => TuneGoal::ErrorAt(n_o),
+        None if feedback => TuneGoal::Feedback,
+        None => TuneGoal::SigmaStar,
+    };
+    let options = TuneOptions::new().over(over).goal(goal).tries(tries);
+    outside(py, move || {
+        let tuned = subject(&file).and_then(|subject| sigmastar::tune(subject, &options));
+        tuned.map(|tuned| ToldTuning::from(&tuned)).into()
     })
 }
 
@@ -253,6 +275,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(bound, module)?)?;
     module.add_function(wrap_pyfunction!(lyapunov, module)?)?;
     module.add_function(wrap_pyfunction!(sampling, module)?)?;
+    module.add_function(wrap_pyfunction!(tune, module)?)?;
     module.add_function(wrap_pyfunction!(simulate, module)?)?;
     module.add_function(wrap_pyfunction!(falsify, module)?)?;
     module.add_function(wrap_pyfunction!(check, module)?)?;

@@ -2,7 +2,7 @@
 
 use crate::told::Reports;
 use pyo3::prelude::*;
-use sigmastar::{BoundedPlant, Falsification, FalsificationOutcome, Report, SamplingPairs, Simulation};
+use sigmastar::{BoundedPlant, Falsification, FalsificationOutcome, Report, SamplingPairs, Simulation, Tuned};
 
 /// A report that says everything.
 #[derive(IntoPyObject)]
@@ -41,6 +41,24 @@ pub struct ToldPairs {
 impl From<&SamplingPairs> for ToldPairs {
     fn from(pairs: &SamplingPairs) -> ToldPairs {
         ToldPairs { has_pair: pairs.has_pair(), reports: pairs.report().into() }
+    }
+}
+
+/// Better values of free numbers.
+#[derive(IntoPyObject)]
+pub struct ToldTuning {
+    has_claim: bool,
+    document: Option<String>,
+    reports: Reports,
+}
+
+impl From<&Tuned> for ToldTuning {
+    fn from(tuned: &Tuned) -> ToldTuning {
+        ToldTuning {
+            has_claim: tuned.has_claim(),
+            document: tuned.document().map(str::to_owned),
+            reports: tuned.report().into(),
+        }
     }
 }
 

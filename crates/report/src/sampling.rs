@@ -5,7 +5,7 @@ use sigmastar_document::number::{estimate, full, upper};
 use sigmastar_document::plot::{Curve, Figure, Scale, Style};
 use sigmastar_document::{Block, Readable, Table, clean};
 use sigmastar_exact::number::write_exact;
-use sigmastar_studies::sampling::{Asked, Pair, Row, SamplingStudy};
+use sigmastar_studies::sampling::{Asked, Pair, RoundForm, Row, SamplingStudy};
 
 /// The format of the JSON.
 const FORMAT: &str = "sigmastar/sampling";
@@ -25,7 +25,7 @@ pub struct SamplingReport<'s> {
 
 impl Readable for SamplingReport<'_> {
     fn blocks(&self) -> Vec<Block> {
-        let SamplingStudy { continuous, by_step, by_gain } = self.study;
+        let SamplingStudy { continuous, by_step, by_gain, round } = self.study;
         let mut blocks = vec![
             Block::Title(format!("{}: gains and sampling periods", clean(self.name))),
             Block::says(
@@ -45,9 +45,11 @@ impl Readable for SamplingReport<'_> {
         for (heading, rows) in [
             ("The smallest gain found for a sampling period", by_step),
             ("The longest sampling period found for a gain", by_gain),
+            ("The longest round sampling period found for a gain", round),
         ] {
             if !rows.is_empty() {
                 blocks.push(Block::heading(heading));
+                blocks.extend(what_is_round(rows).map(Block::says));
                 blocks.push(Block::Table(table(rows)));
                 blocks.extend(legend(rows));
             }
@@ -57,13 +59,13 @@ impl Readable for SamplingReport<'_> {
 
     /// As JSON: `{"format": "sigmastar/sampling", "version": 1, ...}`.
     fn json(&self) -> Value {
-        let SamplingStudy { continuous, by_step, by_gain } = self.study;
+        let SamplingStudy { continuous, by_step, by_gain, round } = self.study;
         let rows = |rows: &[Row]| -> Vec<Value> { rows.iter().map(row_json).collect() };
         json!({
             "format": FORMAT, "version": VERSION,
             "specification": { "name": self.name, "sha256": self.sha256 },
             "continuous_sigma": continuous.map(estimate),
-            "by_sampling_period": rows(by_step), "by_sigma": rows(by_gain),
+            "by_sampling_period": rows(by_step), "by_sigma": rows(by_gain), "round": rows(round),
         })
     }
 }
@@ -71,7 +73,7 @@ impl Readable for SamplingReport<'_> {
 fn asked(row: &Row) -> [String; 2] {
     match &row.asked {
         Asked::Step(sampling) => [sampling.text(), "-".to_owned()],
-        Asked::Gain(gain) => ["-".to_owned(), write_exact(gain)],
+        Asked::Gain(gain) | Asked::Round(gain, _) => ["-".to_owned(), write_exact(gain)],
     }
 }
 
@@ -120,7 +122,40 @@ fn legend(rows: &[Row]) -> Option<Block> {
     (!facts.is_empty()).then(|| Block::facts(facts))
 }
 
+/// What is round of the sampling periods, where they are.
+fn what_is_round(rows: &[Row]) -> Option<&'static str> {
+    let forms: Vec<RoundForm> = rows
+        .iter()
+        .filter_map(|row| match row.asked {
+            Asked::Round(_, form) => Some(form),
+            _ => None,
+        })
+        .collect();
+    if forms.contains(&RoundForm::Samples) {
+        return Some(
+            "Above, the period has any whole number of samples. Here that number is 1, 2 or 5 times a power of ten; no sampling period of \
+             that form fits.",
+        );
+    }
+    (!forms.is_empty()).then_some(
+        "Above, the period has any whole number of samples. Here the sampling period is 1, 2 or 5 times a power of ten besides: the longest \
+         such one that is tried and certified.",
+    )
+}
+
 fn row_json(row: &Row) -> Value {
+    let mut value = outcome_json(row);
+    if let Asked::Round(_, form) = &row.asked {
+        value["round"] = match form {
+            RoundForm::Period => "sampling_period",
+            RoundForm::Samples => "samples",
+        }
+        .into();
+    }
+    value
+}
+
+fn outcome_json(row: &Row) -> Value {
     match &row.found {
         Ok(pair) => json!({
             "outcome": "certified", "sampling_period": pair.sampling.text(), "samples": pair.sampling.samples,
@@ -137,7 +172,7 @@ fn row_json(row: &Row) -> Value {
                     value["sampling_period"] = sampling.text().into();
                     value["samples"] = sampling.samples.into();
                 }
-                Asked::Gain(gain) => value["sigma"] = write_exact(gain).into(),
+                Asked::Gain(gain) | Asked::Round(gain, _) => value["sigma"] = write_exact(gain).into(),
             }
             value
         }

@@ -10,7 +10,7 @@ use std::path::PathBuf;
 /// The flags of `certify`.
 #[derive(Args, Debug)]
 pub struct CertifyArgs {
-    /// Bounding specification or plant (.json, .jsonc, .toml), or `-` for standard input
+    /// Bounding specification or plant (.json, .jsonc, .toml), or a certificate of one, or `-` for standard input
     #[arg(value_name = "SPEC", value_hint = ValueHint::FilePath)]
     pub spec: PathBuf,
 
@@ -85,6 +85,10 @@ pub struct CertifyArgs {
     #[arg(long)]
     pub no_compare: bool,
 
+    /// Tell the stages of the work on standard error, a line for each; on a terminal they are shown anyhow where it takes longer
+    #[arg(long, conflicts_with = "quiet")]
+    pub progress: bool,
+
     /// No remarks on standard error; errors are still shown
     #[arg(short, long)]
     pub quiet: bool,
@@ -108,7 +112,8 @@ impl CertifyArgs {
 /// The flags of `sampling`.
 #[derive(Args, Debug)]
 pub struct SamplingArgs {
-    /// Bounding specification or plant (.json, .jsonc, .toml) with a matched base frequency, or `-` for standard input
+    /// Bounding specification or plant (.json, .jsonc, .toml) with a matched base frequency, or a certificate of one, or `-` for
+    /// standard input
     #[arg(value_name = "SPEC", value_hint = ValueHint::FilePath)]
     pub spec: PathBuf,
 
@@ -141,7 +146,7 @@ pub struct SamplingArgs {
 /// The flags of `transfer`.
 #[derive(Args, Debug)]
 pub struct TransferArgs {
-    /// Bounding specification or plant (.json, .jsonc, .toml), or `-` for standard input
+    /// Bounding specification or plant (.json, .jsonc, .toml), or a certificate of one, or `-` for standard input
     #[arg(value_name = "SPEC", value_hint = ValueHint::FilePath)]
     pub spec: PathBuf,
 
@@ -184,7 +189,7 @@ pub struct CheckArgs {
     #[arg(value_name = "CERTIFICATE", value_hint = ValueHint::FilePath)]
     pub certificate: PathBuf,
 
-    /// Specification that the certificate has to be about: other data make it invalid
+    /// Specification or plant (JSON) that the certificate has to be about: other data make it invalid
     #[arg(long, value_name = "SPEC", value_hint = ValueHint::FilePath)]
     pub spec: Option<PathBuf>,
 
@@ -204,7 +209,7 @@ pub struct CheckArgs {
 /// The flags of `errata`.
 #[derive(Args, Debug)]
 pub struct ErrataArgs {
-    /// Bounding specification (.json, .jsonc, .toml) to look at each item from, or `-` for standard input
+    /// Bounding specification (.json, .jsonc, .toml) to look at each item from, or a certificate of one, or `-` for standard input
     #[arg(value_name = "SPEC", value_hint = ValueHint::FilePath)]
     pub spec: Option<PathBuf>,
 
@@ -216,7 +221,7 @@ pub struct ErrataArgs {
 /// The flags of `lyapunov`.
 #[derive(Args, Debug)]
 pub struct LyapunovArgs {
-    /// Bounding specification with a Jacobian, or plant (.json, .jsonc, .toml), or `-` for standard input
+    /// Bounding specification with a Jacobian, or plant (.json, .jsonc, .toml), or a certificate of one, or `-` for standard input
     #[arg(value_name = "SPEC", value_hint = ValueHint::FilePath)]
     pub spec: PathBuf,
 
@@ -232,7 +237,7 @@ pub struct LyapunovArgs {
 /// The flags of `bound`.
 #[derive(Args, Debug)]
 pub struct BoundArgs {
-    /// Plant (.json, .jsonc, .toml), or `-` for standard input
+    /// Plant (.json, .jsonc, .toml), or a certificate of one, or `-` for standard input
     #[arg(value_name = "PLANT", value_hint = ValueHint::FilePath)]
     pub plant: PathBuf,
 
@@ -255,7 +260,7 @@ pub struct BoundArgs {
 /// The flags of `rate`.
 #[derive(Args, Debug)]
 pub struct RateArgs {
-    /// Bounding specification or plant (.json, .jsonc, .toml), or `-` for standard input
+    /// Bounding specification or plant (.json, .jsonc, .toml), or a certificate of one, or `-` for standard input
     #[arg(value_name = "SPEC", value_hint = ValueHint::FilePath)]
     pub spec: PathBuf,
 
@@ -263,13 +268,17 @@ pub struct RateArgs {
     #[arg(long, value_name = "LIST", default_value = "0,1,2,4,8,16", allow_hyphen_values = true)]
     pub n_o: String,
 
-    /// The gain, an exact constant of at least sigma*; sigma* itself if absent
+    /// The gain, an exact constant of at least sigma* [default: that of the certificate, where one is given, else sigma*]
     #[arg(long, value_name = "V", allow_hyphen_values = true)]
     pub sigma: Option<String>,
 
     /// Format of the report
     #[arg(long, value_enum, value_name = "NAME", default_value_t = Format::Text)]
     pub format: Format,
+
+    /// No remarks on standard error; errors are still shown
+    #[arg(short, long)]
+    pub quiet: bool,
 }
 
 /// A choice of transfer constants.

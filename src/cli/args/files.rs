@@ -45,7 +45,7 @@ pub struct NewArgs {
     #[arg(value_enum, value_name = "KIND")]
     pub kind: NewArg,
 
-    /// Write it to this file (.jsonc) instead of standard output
+    /// Write it to this file instead of standard output: with comments where its name ends in .jsonc or .toml, else as plain JSON
     #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub output: Option<PathBuf>,
 
@@ -60,6 +60,8 @@ pub enum NewArg {
     Spec,
     /// A plant by its formulas: the bounds are found and proved
     Plant,
+    /// A parameter study, for `sweep`
+    Study,
 }
 
 /// The flags of `convert`.

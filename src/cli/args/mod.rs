@@ -75,7 +75,9 @@ const CONTROLLER_EXAMPLES: &str = "Examples:
 /// Examples of `new`.
 const NEW_EXAMPLES: &str = "Examples:
   sigmastar new plant -o plant.jsonc
-  sigmastar certify plant.jsonc";
+  sigmastar certify plant.jsonc
+  sigmastar new study -o study.toml
+  sigmastar sweep study.toml -o results.jsonl --minimise sigma_star";
 
 /// Examples of `convert`.
 const CONVERT_EXAMPLES: &str = "Examples:
@@ -87,7 +89,21 @@ pub const SIMULATE_EXAMPLES: &str = "Examples:
   sigmastar simulate plant.json --sigma 2 --n-o 4
   sigmastar simulate plant.json --sigma 2 --high-gain --plots figures
   sigmastar simulate plant.json --sigma 2 --n-o 4 --sampled 1/1000 --delay 1/2000 --saturation 20
-  sigmastar simulate plant.json --controller controller.json --noise-power 1e-3 --seed 7";
+  sigmastar simulate plant.json --controller controller.json --noise-power 1e-3 --seed 7
+  sigmastar simulate plant.certificate.json --n-o 4";
+
+/// Examples of `rate`.
+const RATE_EXAMPLES: &str = "Examples:
+  sigmastar rate plant.json
+  sigmastar rate plant.json --n-o 0..20/4,50 --sigma 60
+  sigmastar rate plant.certificate.json --n-o 4 --format json";
+
+/// Examples of `falsify`.
+const FALSIFY_EXAMPLES: &str = "Examples:
+  sigmastar falsify plant.certificate.json
+  sigmastar falsify plant.certificate.json --trials 1000 --seed 7 -o counterexample.json
+  sigmastar falsify plant.certificate.json --trial 12 -o trial12.json
+  sigmastar falsify family.certificate.json --parameter k=4.4";
 
 /// Certified gains for output regulation: from a plant's formulas, or bounding functions of it, to a gain that provably works
 /// for every number of oscillators.
@@ -176,6 +192,7 @@ pub enum Command {
     /// Draws plants within the bounding functions, or takes the plant of the certificate, starts on the boundary of the initial
     /// set and checks every bound of the claim a little above sigma*, or of the law at samples with exactly its gain. Finding
     /// nothing proves nothing; exit code 1 and a plant file if it finds one.
+    #[command(after_help = FALSIFY_EXAMPLES)]
     Falsify(FalsifyArgs),
     /// List what is wrong in the paper, with evidence
     ///
@@ -197,10 +214,12 @@ pub enum Command {
     ///
     /// They tend to 0 as n_o grows, while sigma* does not move. Printed next to the spectral abscissa of the oscillators.
     /// Computed with enclosures; there is no file for the independent checker.
+    #[command(after_help = RATE_EXAMPLES)]
     Rate(RateArgs),
-    /// Write a commented template that certifies as it stands
+    /// Write a commented template that works as it stands
     ///
-    /// A specification or a plant in JSON with comments (.jsonc), each field explained: change the values.
+    /// A specification or a plant, for `certify`, or a study, for `sweep`, in JSON with comments (.jsonc) or TOML (.toml), each field
+    /// explained: change the values.
     #[command(after_help = NEW_EXAMPLES)]
     New(NewArgs),
     /// Write a specification, plant or study as JSON, whatever its notation

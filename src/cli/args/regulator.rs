@@ -71,12 +71,12 @@ pub struct ControllerArgs {
 /// The flags of `simulate`.
 #[derive(Args, Debug)]
 pub struct SimulateArgs {
-    /// Plant (.json, .jsonc, .toml), or `-` for standard input
+    /// Plant (.json, .jsonc, .toml), or a certificate of one, or `-` for standard input
     #[arg(value_name = "PLANT", value_hint = ValueHint::FilePath)]
     pub plant: PathBuf,
 
-    /// The gain sigma, an exact positive constant such as `48.5` or `97/2`
-    #[arg(long, value_name = "V", allow_hyphen_values = true, required_unless_present = "controller")]
+    /// The gain sigma, an exact positive constant such as `48.5` or `97/2` [default: that of the certificate, where one is given]
+    #[arg(long, value_name = "V", allow_hyphen_values = true)]
     pub sigma: Option<String>,
 
     /// The number of oscillators n_o, with the internal model of the plant file
@@ -93,7 +93,7 @@ pub struct SimulateArgs {
     pub controller: Option<PathBuf>,
 
     /// The regulator at samples H apart, an exact positive constant: the law that `controller --discretise H` exports, with u
-    /// held between samples
+    /// held between samples [default: the sampling period of the certificate, where it has one]
     #[arg(long, value_name = "H", allow_hyphen_values = true,
           conflicts_with_all = ["high_gain", "fixed", "noise_power", "noise_everywhere"])]
     pub sampled: Option<String>,

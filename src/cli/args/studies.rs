@@ -11,7 +11,7 @@ use std::path::PathBuf;
 /// The flags of `sweep`.
 #[derive(Args, Debug)]
 pub struct SweepArgs {
-    /// Study (.json, .jsonc, .toml), or `-` for standard input
+    /// Study (.json, .jsonc, .toml), or `-` for standard input; its subject may be a certificate
     #[arg(value_name = "STUDY", value_hint = ValueHint::FilePath)]
     pub study: PathBuf,
 
@@ -77,7 +77,7 @@ pub struct MergeArgs {
 /// The flags of `tune`.
 #[derive(Args, Debug)]
 pub struct TuneArgs {
-    /// Bounding specification or plant (JSON), or `-` for standard input
+    /// Bounding specification or plant (.json, .jsonc, .toml), or a certificate of one, or `-` for standard input
     #[arg(value_name = "SPEC", value_hint = ValueHint::FilePath)]
     pub spec: PathBuf,
 

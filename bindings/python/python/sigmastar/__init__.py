@@ -14,8 +14,8 @@ A claim is proved: no floating-point number decides it. What is not certified is
 `InputError`), never a certificate.
 """
 
-from ._beside import BoundedPlant, Lyapunov, Pair, SamplingPairs
-from ._calls import bound, certify, check, controller, falsify, load, lyapunov, rate, sampling, simulate, transfer
+from ._beside import BoundedPlant, Lyapunov, Pair, SamplingPairs, Tuned, Tuning
+from ._calls import bound, certify, check, controller, falsify, load, lyapunov, rate, sampling, simulate, transfer, tune
 from ._condition import Condition
 from ._errors import Diagnostic, InputError, RefutedError, SigmastarError, UndecidedError
 from ._exact import Exact
@@ -67,6 +67,8 @@ __all__ = [
     "Simulation",
     "Study",
     "TransferBound",
+    "Tuned",
+    "Tuning",
     "UndecidedError",
     "__version__",
     "bound",
@@ -84,5 +86,6 @@ __all__ = [
     "simulate",
     "study_cases",
     "transfer",
+    "tune",
     "write_results",
 ]

@@ -7,7 +7,7 @@ import os
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Dict, List, Optional, Tuple, Union
 
-from ._exact import Exact, digits, stated
+from ._exact import Exact, Shown, digits, stated
 from ._report import Reported
 from ._results import write
 from ._table import axes, dataframe
@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     from pandas import DataFrame  # type: ignore[import-untyped,unused-ignore]
 
 
-@dataclass(frozen=True)
-class BoundedPlant:
+@dataclass(frozen=True, repr=False)
+class BoundedPlant(Shown):
     """A bounding specification whose every number is proved of a plant. `certify` takes its `document`."""
 
     domain: Tuple[Exact, Exact]
@@ -59,8 +59,8 @@ class Lyapunov(Reported):
         return f"<Lyapunov: p_low={digits(low, 'down')}, p_up={digits(up, 'up')}, alpha={digits(alpha, 'down')}>"
 
 
-@dataclass(frozen=True)
-class Pair:
+@dataclass(frozen=True, repr=False)
+class Pair(Shown):
     """A certified pair of a gain and a sampling period."""
 
     sigma: Exact
@@ -92,6 +92,12 @@ class SamplingPairs(Reported):
         """For each gain with a certified sampling period the longest one that was found."""
         return self._pairs("by_sigma")
 
+    @property
+    def round(self) -> List[Pair]:
+        """For each gain of `by_sigma` the longest round sampling period that was tried and certified: 1, 2 or 5 times a power of ten, or with
+        such a number of samples where no such period fits (`data` says which)."""
+        return self._pairs("round")
+
     def _pairs(self, part: str) -> List[Pair]:
         rows = [row for row in self.data[part] if row["outcome"] == "certified"]
         return [
@@ -117,3 +123,59 @@ class SamplingPairs(Reported):
 
     def __repr__(self) -> str:
         return f"<SamplingPairs: {len(self.by_sampling_period) + len(self.by_sigma)} certified>"
+
+
+@dataclass(frozen=True, repr=False)
+class Tuned(Shown):
+    """A number that was tuned."""
+
+    name: str
+    """Its name."""
+    before: str
+    """Its value in the document as it was."""
+    after: Optional[str]
+    """Its better value, exactly; None where nothing better was found."""
+
+
+@dataclass(frozen=True, repr=False)
+class Tuning(Reported):
+    """Better values of free numbers, each certified by itself; that nothing better exists is not claimed. It is true where anything is
+    certified, before or after."""
+
+    has_claim: bool
+    """Whether anything is certified."""
+    _document: Optional[str] = field(repr=False)
+    _reports: Dict[str, str] = field(repr=False)
+
+    @property
+    def is_better(self) -> bool:
+        """Whether better values were found."""
+        return self._document is not None
+
+    @property
+    def values(self) -> List[Tuned]:
+        """The numbers, before and after."""
+        return [Tuned(row["name"], row["before"], row["after"]) for row in self.data["parameters"]]
+
+    @property
+    def document(self) -> Optional[Dict[str, Any]]:
+        """The document with the better values and nothing else changed; None where nothing better was found."""
+        found: Optional[Dict[str, Any]] = None if self._document is None else json.loads(self._document)
+        return found
+
+    def save(self, path: Union[str, "os.PathLike[str]"]) -> None:
+        """Writes that document as JSON; it appears whole or not at all.
+
+        Raises ValueError where nothing better was found.
+        """
+        if self._document is None:
+            raise ValueError("nothing better was found: there is no document to write")
+        write(path, self._document)
+
+    def __bool__(self) -> bool:
+        return self.has_claim
+
+    def __repr__(self) -> str:
+        if not self.is_better:
+            return "<Tuning: nothing better was found>"
+        return f"<Tuning: {', '.join(f'{one.name}={one.after}' for one in self.values)}>"

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import os
-from typing import Iterable, List, Literal, NamedTuple, Optional, Tuple, Union, overload
+from typing import Iterable, List, Literal, Mapping, NamedTuple, Optional, Tuple, Union, overload
 
 from . import _native
-from ._beside import BoundedPlant, Lyapunov, SamplingPairs
+from ._beside import BoundedPlant, Lyapunov, SamplingPairs, Tuning
 from ._document import Document, File, file, read
 from ._errors import found
 from ._exact import Number, stated, text
@@ -23,6 +23,9 @@ from ._results import transfer as _transfer
 
 Transfer = Literal["best", "boxes", "closed-form"]
 """A proof of the transfer bound."""
+
+Goal = Literal["sigma_star", "feedback"]
+"""What a tuning makes small."""
 
 
 class _Options(NamedTuple):
@@ -49,7 +52,7 @@ class _Run(NamedTuple):
 
 @overload
 def certify(
-    document: Document,
+    document: Union[Certificate, Document],
     *,
     sigma: Optional[Number] = ...,
     sampling_period: None = ...,
@@ -63,7 +66,7 @@ def certify(
 ) -> Certificate: ...
 @overload
 def certify(
-    document: Document,
+    document: Union[Certificate, Document],
     *,
     sigma: Optional[Number] = ...,
     sampling_period: Number,
@@ -76,7 +79,7 @@ def certify(
     compare: bool = ...,
 ) -> SampledCertificate: ...
 def certify(
-    document: Document,
+    document: Union[Certificate, Document],
     *,
     sigma: Optional[Number] = None,
     sampling_period: Optional[Number] = None,
@@ -88,7 +91,7 @@ def certify(
     precision_limit: int = _native.LARGEST_PRECISION_LIMIT,
     compare: bool = True,
 ) -> Certificate:
-    """Certifies a bounding specification or a plant: a path, or the document as a dictionary.
+    """Certifies a bounding specification or a plant: a path, or the document as a dictionary; of a certificate what it is about, anew.
 
     There is a certificate only where every condition is proved. The options are those of `sigmastar certify`:
 
@@ -106,7 +109,7 @@ def certify(
     """
     limits = (_maybe(steady_error), _maybe(peak_error), _maybe(max_control))
     options = _Options(transfer, precision_limit, compare, _maybe(sigma), _maybe(sampling_period), _counts(n_o), *limits)
-    return _certificate(found(_native.certify(file(document, "document"), options)))
+    return _certificate(found(_native.certify(_asked(document), options)))
 
 
 def load(path: Union[str, "os.PathLike[str]"]) -> Certificate:
@@ -131,37 +134,39 @@ def check(certificate: Union[Certificate, Document], specification: Optional[Doc
     return _check(found(_native.check(content, against)))
 
 
-def rate(document: Document, n_o: Iterable[int] = (0, 1, 2, 4, 8, 16), *, sigma: Optional[Number] = None) -> Rates:
+def rate(
+    document: Union[Certificate, Document], n_o: Iterable[int] = (0, 1, 2, 4, 8, 16), *, sigma: Optional[Number] = None
+) -> Rates:
     """Certifies a specification or plant and proves rates of convergence for some numbers of oscillators, at the gain sigma of
     at least sigma_star, or at sigma_star itself.
 
     Raises what `certify` raises; InputError for a smaller gain, and for more than 200 oscillators.
     """
-    return _rates(found(_native.rates(file(document, "document"), _maybe(sigma), _counts(n_o))))
+    return _rates(found(_native.rates(_asked(document), _maybe(sigma), _counts(n_o))))
 
 
-def bound(plant: Document, domain: Optional[Tuple[Number, Number]] = None) -> BoundedPlant:
+def bound(plant: Union[Certificate, Document], domain: Optional[Tuple[Number, Number]] = None) -> BoundedPlant:
     """The bounding specification of a plant, every number of it proved, on the domain (X, E), or on one a quarter larger than what the
     certificate of the plant needs.
 
     Raises what `certify` raises.
     """
     wanted = None if domain is None else (text(domain[0]), text(domain[1]))
-    told = found(_native.bound(file(plant, "document"), wanted))
+    told = found(_native.bound(_asked(plant), wanted))
     x, e = told["domain"]
     return BoundedPlant((stated(x, "down"), stated(e, "down")), told["limited"], told["json"])
 
 
-def lyapunov(document: Document) -> Lyapunov:
+def lyapunov(document: Union[Certificate, Document]) -> Lyapunov:
     """Finds and proves the Lyapunov triple of a specification with a Jacobian, or the orbit of a plant.
 
     Raises InputError for a specification that gives its triple, otherwise what `certify` raises.
     """
-    return Lyapunov(found(_native.lyapunov(file(document, "document")))["reports"])
+    return Lyapunov(found(_native.lyapunov(_asked(document)))["reports"])
 
 
 def sampling(
-    document: Document,
+    document: Union[Certificate, Document],
     sampling_periods: Optional[Iterable[Number]] = None,
     *,
     sigmas: Optional[Iterable[Number]] = None,
@@ -171,14 +176,43 @@ def sampling(
 
     Raises what `certify` raises; where nothing is certified the answer is false.
     """
-    told = found(_native.sampling(file(document, "document"), _texts(sampling_periods), _texts(sigmas)))
+    told = found(_native.sampling(_asked(document), _texts(sampling_periods), _texts(sigmas)))
     return SamplingPairs(told["has_pair"], told["reports"])
 
 
-def simulate(
-    plant: Document,
+def tune(
+    document: Union[Certificate, Document],
+    over: Union[str, Iterable[str], Mapping[str, Optional[Tuple[Number, Number]]]] = ("mu", "n0"),
     *,
-    sigma: Number,
+    minimise: Goal = "sigma_star",
+    error_at: Optional[int] = None,
+    tries: int = 120,
+) -> Tuning:
+    """Looks for better values of numbers that are free: mu, n0, epsilon, base_frequency and others, as `sigmastar tune` has them. Each
+    proposal is certified by itself.
+
+    - `over`: their names, or a dictionary of names and ranges, `{"mu": ("1/10", 10), "n0": None}`;
+    - `minimise`: `sigma_star`, or `feedback`, sigma_star + mu Nbar^2, what the law multiplies e by at most;
+    - `error_at`: make the certified bound of sup|e| with this many oscillators small instead;
+    - `tries`: how many proposals are certified at most.
+
+    Raises InputError for what cannot be tuned, and OSError as `certify`; where nothing is certified the answer is false.
+    """
+    if minimise not in ("sigma_star", "feedback"):
+        raise ValueError(f"minimise: {minimise!r} is none of 'sigma_star', 'feedback'")
+    if isinstance(over, Mapping):
+        ranges = {name: "" if ends is None else f"={text(ends[0])}..{text(ends[1])}" for name, ends in over.items()}
+        over = [name + ends for name, ends in ranges.items()]
+    names = over if isinstance(over, str) else ",".join(over)
+    at = None if error_at is None else _count(error_at)
+    told = found(_native.tune(_asked(document), names, minimise == "feedback", at, _count(tries, "tries")))
+    return Tuning(told["has_claim"], told["document"], told["reports"])
+
+
+def simulate(
+    plant: Union[Certificate, Document],
+    *,
+    sigma: Optional[Number] = None,
     n_o: Optional[int] = None,
     periods: int = 30,
     samples: int = 200,
@@ -186,20 +220,28 @@ def simulate(
     sampling_period: Optional[Number] = None,
     input_gain: Optional[Number] = None,
 ) -> Simulation:
-    """Simulates a plant with its regulator of gain `sigma` and `n_o` oscillators, or without them with `u = -sigma e`. Floating point:
-    it claims nothing.
+    """Simulates a plant, or that of a certificate, with its regulator of gain `sigma` and `n_o` oscillators, or without them with
+    `u = -sigma e`. Floating point: it claims nothing.
+
+    - `sigma`: the gain; without it, of a certificate its own;
 
     - `periods`, `samples`: the run from the initial condition of the plant, and its samples per period;
     - `harmonics`: Fourier coefficients of the steady error;
-    - `sampling_period`: the regulator at samples this far apart;
+    - `sampling_period`: the regulator at samples this far apart; without it, of a certificate about samples those;
     - `input_gain`: the true gain of the actuator.
 
     Raises InputError and OSError as `certify`.
     """
+    if isinstance(plant, Certificate):
+        sigma = plant.sigma_star_exact if sigma is None else sigma
+        if sampling_period is None and plant.samples is not None:
+            sampling_period = plant.samples.period
+    if sigma is None:
+        raise ValueError("no gain is given: give sigma, or a certificate")
     count = None if n_o is None else _count(n_o)
     periods, samples, harmonics = _count(periods, "periods"), _count(samples, "samples"), _count(harmonics, "harmonics")
     run = _Run(text(sigma), count, periods, samples, harmonics, _maybe(sampling_period), _maybe(input_gain))
-    told = found(_native.simulate(file(plant, "document"), run))
+    told = found(_native.simulate(_asked(plant), run))
     return Simulation(told["complete"], told["csv"], told["reports"])
 
 
@@ -214,7 +256,7 @@ def falsify(certificate: Union[Certificate, Document], *, trials: int = 50, seed
 
 
 def transfer(
-    document: Document,
+    document: Union[Certificate, Document],
     *,
     k0: Optional[Number] = None,
     minimise: Optional[Tuple[Number, Number]] = None,
@@ -232,7 +274,7 @@ def transfer(
         raise ValueError("k0 and minimise do not go together: leave one of them out")
     weights = None if minimise is None else (text(minimise[0]), text(minimise[1]))
     counts = None if n_o is None else [None if count is None else _count(count) for count in n_o]
-    return _transfer(found(_native.transfer(file(document, "document"), _maybe(k0), weights, counts)))
+    return _transfer(found(_native.transfer(_asked(document), _maybe(k0), weights, counts)))
 
 
 @overload
@@ -280,15 +322,20 @@ def controller(
         # The double is certified too, and is what the matrices hold; at samples only the exact gain is.
         sigma = float(source.sigma_star) if source.samples is None else source.sigma_star.exact
         step = step if source.samples is None else source.samples.period
-        document: File = (source.name, source._subject.encode("utf-8"))
-    else:
-        if sigma is None:
-            raise ValueError("no gain is given: give sigma, or a certificate")
-        document = file(source, "document")
+    elif sigma is None:
+        raise ValueError("no gain is given: give sigma, or a certificate")
+    document = _asked(source)
     count = _count(n_o)
     if step is None:
         return _regulator(found(_native.regulator(document, text(sigma), count)))
     return _sampled(found(_native.sampled_regulator(document, text(sigma), count, text(step))))
+
+
+def _asked(document: Union[Certificate, Document]) -> File:
+    """What errors call a document, and its bytes; of a certificate those of the specification or plant in it."""
+    if isinstance(document, Certificate):
+        return ("document", document._subject.encode("utf-8"))
+    return file(document, "document")
 
 
 def _maybe(number: Optional[Number]) -> Optional[str]:

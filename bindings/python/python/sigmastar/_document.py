@@ -11,9 +11,11 @@ from typing import Any, Mapping, Tuple, Union
 
 from . import _native
 from ._exact import text
+from ._formula import formula, is_sympy, with_powers
 
 Document = Union[Mapping[str, Any], str, "os.PathLike[str]"]
-"""A document: the path of its file, or its content as a dictionary."""
+"""A document: the path of its file (JSON, `.jsonc` or `.toml`), or its content as a dictionary, with formulas as texts or expressions of
+SymPy."""
 
 File = Tuple[str, bytes]
 
@@ -24,7 +26,9 @@ def file(document: Document, name: str) -> File:
     Raises OSError for a file that cannot be read, TypeError and ValueError for what JSON cannot hold exactly.
     """
     if isinstance(document, Mapping):
-        return (name, written(document).encode("utf-8"))
+        held = plain(document)
+        # A certificate is what it is, to the letter.
+        return (name, written(held if name == "certificate" else with_powers(held)).encode("utf-8"))
     if isinstance(document, (str, os.PathLike)):
         return read(os.fspath(document))
     raise TypeError(f"a {type(document).__name__} is no document: give a path or a dictionary")
@@ -36,16 +40,14 @@ def read(path: str) -> File:
         return (os.fsdecode(path), stream.read(_native.MAX_BYTES + 1))
 
 
-def written(document: Mapping[str, Any]) -> str:
-    """A dictionary as JSON: floats as Python writes them, a Fraction or Decimal as an exact constant.
-
-    Raises TypeError for what JSON cannot hold exactly, ValueError for a float that is not finite.
-    """
-    return json.dumps(plain(document), allow_nan=False, ensure_ascii=False, indent=2)
+def written(held: Any) -> str:
+    """What `plain` made, as JSON. Raises ValueError for a float that is not finite."""
+    return json.dumps(held, allow_nan=False, ensure_ascii=False, indent=2)
 
 
 def plain(value: Any) -> Any:
-    """The same value of types that JSON has."""
+    """The same value of types that JSON has: floats are written as Python does it, a Fraction, a Decimal or an expression of SymPy
+    becomes an exact constant or formula. Raises TypeError for what JSON cannot hold exactly."""
     if isinstance(value, Mapping):
         for key in value:
             if not isinstance(key, str):
@@ -57,6 +59,8 @@ def plain(value: Any) -> Any:
         return value
     if isinstance(value, (Fraction, Decimal)):
         return text(value)
+    if is_sympy(value) and not isinstance(value, Integral):
+        return formula(value)
     if isinstance(value, Integral):
         return int(value)
     if isinstance(value, float):

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import math
+from dataclasses import fields
 from decimal import ROUND_CEILING, ROUND_FLOOR, ROUND_HALF_EVEN, Context, Decimal
 from fractions import Fraction
 from numbers import Integral
-from typing import Literal, Tuple, Union
+from typing import ClassVar, Dict, Literal, Tuple, Union
+
+from ._formula import formula, is_sympy, powers
 
 Number = Union[str, int, float, Fraction, Decimal]
 """An exact constant: a text in the notation of specifications (`"1/3"`, `"2*pi"`), or a number. A float is the decimal that
@@ -67,15 +70,34 @@ def digits(value: Union[float, str], side: Side = "nearest") -> str:
     return format(context.divide(Decimal(exact.numerator), Decimal(exact.denominator)), "g")
 
 
+class Shown:
+    """A dataclass that shows of its doubles four digits, each rounded to the side on which what is said of it stays true; of exact numbers
+    all."""
+
+    _sides: ClassVar[Dict[str, Side]] = {}
+
+    def __repr__(self) -> str:
+        shown = (f"{one.name}={self._told(one.name)}" for one in fields(self) if one.repr)  # type: ignore[arg-type]
+        return f"{type(self).__name__}({', '.join(shown)})"
+
+    def _told(self, name: str) -> str:
+        value, side = getattr(self, name), self._sides.get(name)
+        if side is not None and isinstance(value, float):
+            return digits(value, side)
+        return value.exact if isinstance(value, Exact) else repr(value)
+
+
 def text(value: Number) -> str:
     """A number as an exact constant.
 
     Raises TypeError for what is no such number, ValueError for one that is not finite.
     """
     if isinstance(value, str):
-        return value
+        return powers(value)
     if isinstance(value, bool):
         raise TypeError("a Boolean is no number here")
+    if is_sympy(value) and not isinstance(value, Integral):
+        return formula(value)
     if isinstance(value, Exact):
         return value.exact
     if isinstance(value, Integral):

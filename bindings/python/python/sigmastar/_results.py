@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Dict, List, Literal, Optional, Tuple, Union
 
 from ._condition import Condition, conditions
-from ._exact import Exact, digits, stated
+from ._exact import Exact, Shown, digits, stated
 from ._report import Reported
 from ._table import axes
 
@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
-@dataclass(frozen=True)
-class InitialSet:
+@dataclass(frozen=True, repr=False)
+class InitialSet(Shown):
     """The set `|x| <= x0`, `|e| <= e0`, `sqrt(z'Nz) <= z0`, each number rounded down: the smaller set is covered too.
 
     Without z0 the regulator sets `z = M e` at its first instant.
@@ -27,6 +27,8 @@ class InitialSet:
     coordinates L of its certificate.
     """
 
+    _sides = {"x0": "down", "e0": "down", "z0": "down"}
+
     x0: Exact
     e0: Exact
     z0: Optional[Exact]
@@ -34,9 +36,11 @@ class InitialSet:
     """Of a plant: a radius such that the set contains all x with `|x - x_0(t)|` up to it, exactly."""
 
 
-@dataclass(frozen=True)
-class PeriodicSolution:
+@dataclass(frozen=True, repr=False)
+class PeriodicSolution(Shown):
     """Upper bounds of the periodic solution, rounded up: of |x|, |e|, |zeta|_N and |z|_N."""
+
+    _sides = {"x": "up", "e": "up", "zeta": "up", "z": "up"}
 
     x: float
     e: float
@@ -56,10 +60,12 @@ class Samples:
     """K of the law u = -sigma e + K v, a double, exactly."""
 
 
-@dataclass(frozen=True)
-class ErrorBound:
+@dataclass(frozen=True, repr=False)
+class ErrorBound(Shown):
     """Upper bounds of the error along the periodic solution with a number of oscillators. They follow from the claim; no independent
     program checks them."""
+
+    _sides = {"sup": "up", "rms": "up"}
 
     n_o: int
     """The number of oscillators."""
@@ -69,9 +75,11 @@ class ErrorBound:
     """Of the root mean square of e, rounded up."""
 
 
-@dataclass(frozen=True)
-class ClaimedRate:
+@dataclass(frozen=True, repr=False)
+class ClaimedRate(Shown):
     """What the claim says of one number of oscillators, at its gain alone: `|e - e_per| <= factor exp(-rate (t - t_0))`."""
+
+    _sides = {"rate": "down", "factor": "up"}
 
     n_o: int
     """The number of oscillators."""
@@ -227,9 +235,11 @@ class TransferBound(Reported):
         return f"<TransferBound: k0={digits(self.k0, 'up')}, k1={digits(self.k1, 'up')}>"
 
 
-@dataclass(frozen=True)
-class Rate:
+@dataclass(frozen=True, repr=False)
+class Rate(Shown):
     """What is proved for one number of oscillators, in 1/time. None says that nothing was proved, not that there is none."""
+
+    _sides = {"closed_loop": "down", "oscillators": "down", "spectral_estimate": "nearest"}
 
     n_o: int
     """The number of oscillators."""

@@ -15,7 +15,7 @@ mod write;
 
 pub use fields::{NumberFields, RefinedSquares, set_fields};
 pub use of_plant::{joint_existence_json, joint_stability_json, plant_parts};
-pub use read::{read_lyapunov, read_witness};
+pub use read::{embedded, read_lyapunov, read_witness};
 pub use read_plant::read_plant_witness;
 pub use read_sampled::{is_sampled, read_sampled_witness};
 pub use run::{certificate_of, read_for, read_numbers};

@@ -181,8 +181,9 @@ fn own_part<T>(
     }
 }
 
-/// The document in a certificate: a plant or a specification.
-pub(super) fn embedded<'v>(root: &Value<'v>) -> Option<Value<'v>> {
+/// The document in a certificate: a plant or a specification; `None` where there is neither.
+#[must_use]
+pub fn embedded<'v>(root: &Value<'v>) -> Option<Value<'v>> {
     ["plant", "specification"].into_iter().find_map(|name| root.member(name))
 }
 

@@ -1,6 +1,7 @@
 //! The arguments at which the sharp derivation uses a bound, and the proof of each value.
 
 use super::refusal::PlantRefusal;
+use super::watch::{Stage, Watch};
 use crate::search::{AtSigma, ByEnergy, ByMatrix, FloatModel, PeriodicSet, SHARE, active_level, weight_h};
 use rayon::prelude::*;
 use rug::Rational;
@@ -11,6 +12,7 @@ use sigmastar_lang::spec::{
 };
 use sigmastar_plants::bounds::{EnergyWeights, Engine, Entry, FloatSuprema, TABLE};
 use sigmastar_theory::derivation::paths::{Path, Paths};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Significant digits of an argument.
 const DIGITS: u32 = 8;
@@ -178,7 +180,9 @@ pub(super) fn prove_all(
     suprema: &FloatSuprema,
     needed: &Needed,
     mu: &Constant,
+    watch: &dyn Watch,
 ) -> Result<ProvedValues, PlantRefusal> {
+    watch.enter(Stage::Bounds);
     let inequality = match &needed.inequality {
         None => None,
         Some(wanted) => {
@@ -197,12 +201,14 @@ pub(super) fn prove_all(
     let asked = needed.list().into_iter().map(|entry| (entry, true));
     let by_norms = inequality.is_none() && !needed.by_joint && at_samples.stability.is_none();
     let beside = needed.of_error_box().into_iter().map(|entry| (entry, by_norms));
-    let proofs: Vec<(Result<ProvedValue, PlantRefusal>, bool)> = asked
-        .chain(beside)
-        .collect::<Vec<_>>()
-        .into_par_iter()
-        .map(|((bound, x, e), is_used)| (value_of(engine, suprema, bound, [x, e]), is_used))
-        .collect();
+    let all: Vec<_> = asked.chain(beside).collect();
+    let (done, count) = (AtomicUsize::new(0), all.len());
+    let prove = |((bound, x, e), is_used)| {
+        let value = value_of(engine, suprema, bound, [x, e]);
+        watch.part(done.fetch_add(1, Ordering::Relaxed) + 1, count);
+        (value, is_used)
+    };
+    let proofs: Vec<(Result<ProvedValue, PlantRefusal>, bool)> = all.into_par_iter().map(prove).collect();
     // What no condition uses may be missing.
     let proofs = proofs.into_iter().filter(|(proof, is_used)| *is_used || proof.is_ok()).map(|(proof, _)| proof);
     let values = ProvedValues::new(proofs.collect::<Result<_, _>>()?);

@@ -27,15 +27,17 @@ mod study;
 mod subject;
 #[cfg(test)]
 mod tests;
+mod watch;
 mod witness;
 
 pub use proofs::{Reduced, bounds_around};
 pub use proved_at_samples::ReducedSampled;
 pub use reduce::{decide_again, reduce, reduce_by_norms};
 pub use refusal::{MAX_STATES, PlantRefusal};
-pub use run::{Certified, Prepared, Run};
+pub use run::{Certified, Prepared, Run, StateStart};
 pub use sampled::{SampledPairs, reduce_sampled, with_sampled_pairs};
 pub use specification::specification;
 pub use study::{OrbitStudy, study};
 pub use subject::{Subject, at_samples};
+pub use watch::{Stage, Unwatched, Watch};
 pub use witness::{FreeNumbers, Witness, WitnessData};

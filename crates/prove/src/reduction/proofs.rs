@@ -5,6 +5,7 @@ use super::entries::{Needed, prove_all};
 use super::refusal::PlantRefusal;
 use super::sampling::{Sampling, float_matrix};
 use super::specification::specification;
+use super::watch::Watch;
 use crate::certify::Alternatives;
 use crate::search::{FloatModel, SharpProposal};
 use rayon::prelude::*;
@@ -154,12 +155,19 @@ pub(super) struct Proofs<'a> {
     pub(super) along: &'a Along,
     pub(super) engine: Engine,
     pub(super) suprema: FloatSuprema,
+    pub(super) watch: &'a dyn Watch,
 }
 
 impl<'a> Proofs<'a> {
     pub(super) fn new(along: &'a Along, sampling: &'a Sampling<'_>) -> Result<Proofs<'a>, PlantRefusal> {
         let plant = sampling.plant;
-        Ok(Proofs { plant, along, engine: along.engine(plant)?, suprema: along.suprema(sampling) })
+        Ok(Proofs {
+            plant,
+            along,
+            engine: along.engine(plant)?,
+            suprema: along.suprema(sampling),
+            watch: sampling.watch,
+        })
     }
 
     pub(super) fn states(&self) -> usize {
@@ -179,7 +187,7 @@ impl<'a> Proofs<'a> {
     ) -> Result<(FloatModel, Specification), PlantRefusal> {
         let [x, e] = needed.largest();
         self.engine.smooth(&x, &e)?;
-        let values = prove_all(&self.engine, &self.suprema, needed, &self.plant.internal_model.mu)?;
+        let values = prove_all(&self.engine, &self.suprema, needed, &self.plant.internal_model.mu, self.watch)?;
         let spec = self.along.specification(self.plant, joint(values))?;
         let data = Data::new(&spec, PRECISION);
         Ok((FloatModel::new(&data, trade_off(&data)), spec))

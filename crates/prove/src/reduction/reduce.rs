@@ -8,6 +8,7 @@ use super::joint::with_joint_metrics;
 use super::proofs::{Along, PRECISION, Proofs, ProvenCell, Reduced, along, trade_off};
 use super::refusal::{MAX_STATES, PlantRefusal};
 use super::sampling::{Sampling, float_matrix, rational_matrix, rational_symmetric};
+use super::watch::{Stage, Unwatched, Watch};
 use crate::certify::Alternatives;
 use crate::search::{Closest, Failing, FloatModel, Obstacle, SharpProposal, at_sigma, search_sharp_near};
 use nalgebra::DMatrix;
@@ -68,16 +69,16 @@ const WORTH: f64 = 1e-4;
 ///
 /// # Errors
 /// What could not be proved or found.
-pub fn reduce(plant: &Plant, gain: Option<&Rational>) -> Result<Reduced, PlantRefusal> {
-    let (whole, candidates) = with_whole(plant)?;
+pub fn reduce(plant: &Plant, gain: Option<&Rational>, watch: &dyn Watch) -> Result<Reduced, PlantRefusal> {
+    let (whole, candidates) = with_whole(plant, watch)?;
     let [narrow, narrower] = NARROW;
     let cells = Cells::new(&whole, &candidates, narrow)?;
-    in_cells(plant, &cells, &candidates, gain).or_else(|refusal| {
+    in_cells(plant, &cells, &candidates, gain, watch).or_else(|refusal| {
         // The tube may take what the initial set needs, and be too wide in other coordinates.
         let finer = refusal.may_be_of_tube().then(|| Cells::new(&whole, &candidates, narrower));
         match finer {
             Some(Ok(finer)) if finer.list.len() > cells.list.len() => {
-                in_cells(plant, &finer, &candidates, gain).map_err(|_| refusal)
+                in_cells(plant, &finer, &candidates, gain, watch).map_err(|_| refusal)
             }
             _ => Err(refusal),
         }
@@ -90,8 +91,9 @@ fn in_cells(
     cells: &Cells,
     candidates: &[Coordinates],
     gain: Option<&Rational>,
+    watch: &dyn Watch,
 ) -> Result<Reduced, PlantRefusal> {
-    with_cells(plant, cells, candidates, |sampling| {
+    with_cells(plant, cells, candidates, watch, |sampling| {
         let starts = starts(candidates, sampling);
         // A descent by norms is worth its time where a matrix inequality does not do far better from the same start.
         if let Ok((p, rough)) = &starts
@@ -135,7 +137,7 @@ pub(super) fn with_coordinates<T>(
     plant: &Plant,
     prove: impl FnOnce(&Along, &Sampling<'_>, &Chosen) -> Result<T, PlantRefusal>,
 ) -> Result<T, PlantRefusal> {
-    with_candidates(plant, |candidates, sampling| {
+    with_candidates(plant, &Unwatched, |candidates, sampling| {
         let (along, chosen) = best_by_norms(candidates, &starts(candidates, sampling), sampling)?;
         prove(&along, sampling, &chosen)
     })
@@ -144,15 +146,17 @@ pub(super) fn with_coordinates<T>(
 /// Finds the orbit, proposes coordinates, cuts the box of a family where its tube is wide, and goes on from there.
 pub(super) fn with_candidates<T>(
     plant: &Plant,
+    watch: &dyn Watch,
     prove: impl FnOnce(&[Coordinates], &Sampling<'_>) -> Result<T, PlantRefusal>,
 ) -> Result<T, PlantRefusal> {
-    let (whole, candidates) = with_whole(plant)?;
+    let (whole, candidates) = with_whole(plant, watch)?;
     let cells = Cells::new(&whole, &candidates, NARROW[0])?;
-    with_cells(plant, &cells, &candidates, |sampling| prove(&candidates, sampling))
+    with_cells(plant, &cells, &candidates, watch, |sampling| prove(&candidates, sampling))
 }
 
 /// The orbit, found for all members at once, and candidates for the coordinates: at least one.
-fn with_whole(plant: &Plant) -> Result<(Cell, Vec<Coordinates>), PlantRefusal> {
+fn with_whole(plant: &Plant, watch: &dyn Watch) -> Result<(Cell, Vec<Coordinates>), PlantRefusal> {
+    watch.enter(Stage::Orbit);
     if plant.states() > MAX_STATES {
         return Err(PlantRefusal::TooManyStates { states: plant.states() });
     }
@@ -173,13 +177,16 @@ fn with_cells<T>(
     plant: &Plant,
     cells: &Cells,
     candidates: &[Coordinates],
+    watch: &dyn Watch,
     prove: impl FnOnce(&Sampling<'_>) -> Result<T, PlantRefusal>,
 ) -> Result<T, PlantRefusal> {
     let first = candidates.first().ok_or(PlantRefusal::NoContraction)?;
     let spec = along(&cells.list, first)?.specification(plant, ProvedValues::default())?;
     let data = Data::new(&spec, PRECISION);
     let model = FloatModel::new(&data, trade_off(&data));
-    prove(&Sampling::new(plant, cells, &model))
+    let sampling = Sampling::new(plant, cells, &model, watch);
+    watch.enter(Stage::Coordinates);
+    prove(&sampling)
 }
 
 /// What those candidates with a constant P promise by norms, and that P.
@@ -201,6 +208,7 @@ pub(super) fn best_by_norms(
     starts: &Result<(PeriodicMatrix, Rough), PlantRefusal>,
     sampling: &Sampling<'_>,
 ) -> Result<(Along, Chosen), PlantRefusal> {
+    sampling.watch.enter(Stage::Coordinates);
     let by_constant = starts.as_ref().map_err(Clone::clone);
     let by_constant =
         by_constant.and_then(|(p, rough)| with_constant(p, sampling, None, |search| search.choose(rough)));
@@ -237,7 +245,10 @@ impl FoundByMatrix {
             Some(gain) if *gain >= proved.proposal.sigma => proved,
             // Joint metrics are not proved for an uncertain input gain.
             _ if chosen.model.input_gain.is_some() => proved,
-            _ => with_joint_metrics(&proofs, &chosen.model, &chosen.proposal, proved),
+            _ => {
+                sampling.watch.enter(Stage::Metrics);
+                with_joint_metrics(&proofs, &chosen.model, &chosen.proposal, proved)
+            }
         };
         // It is one of (M): beside joint metrics it may be larger than what they prove from another start.
         let lower = |aligned: &f64| *aligned < proved.proposal.sigma * (1.0 - WORTH_A_REMARK);
@@ -255,7 +266,7 @@ fn aligned(sampling: &Sampling<'_>, chosen: &Chosen, path: Path) -> Option<f64> 
     }
     let plant = Plant { initial_set: set.clone().aligned(), ..sampling.plant.clone() };
     let model = sampling.model.with_set(sampling.model.set.aligned());
-    let sampling = Sampling::new(&plant, sampling.cells, &model);
+    let sampling = Sampling::new(&plant, sampling.cells, &model, sampling.watch);
     let search = |search: &CoordinateSearch<'_>| Ok(search.estimate_near(&Start::from(chosen)));
     let sigma = with_search(&sampling, Some(path), search).ok().flatten()?;
     (sigma < chosen.proposal.sigma * (1.0 - WORTH_A_REMARK)).then_some(sigma)
@@ -268,7 +279,7 @@ fn with_nominal_gain(sampling: &Sampling<'_>, along: &Along, chosen: &Chosen, pa
     let spec = along.specification(&plant, ProvedValues::default()).ok()?;
     let data = Data::new(&spec, PRECISION);
     let model = FloatModel::new(&data, trade_off(&data));
-    let sampling = Sampling::new(&plant, sampling.cells, &model);
+    let sampling = Sampling::new(&plant, sampling.cells, &model, sampling.watch);
     let search = |search: &CoordinateSearch<'_>| Ok(search.estimate_near(&Start::from(chosen)));
     with_search(&sampling, Some(path), search).ok().flatten()
 }

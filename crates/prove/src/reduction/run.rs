@@ -4,10 +4,11 @@ use super::interval_costs::{costs_at_samples, interval_costs};
 use super::proofs::{WithoutJoint, bounds_around};
 use super::reduce::{reduce, reduce_by_norms};
 use super::subject::Sought;
+use super::watch::{Stage, Unwatched, Watch};
 use super::{FreeNumbers, Subject, Witness};
 use crate::certify::{
     Alternatives, Certification, Limits, NoRatesOfClaim, Options, Refusal, SampledCertification, Verdict,
-    certify_sampled_within, certify_within, recheck, recheck_sampled,
+    certify_sampled_within, certify_within, claimed_ball, recheck, recheck_sampled,
 };
 use crate::search::SampledProposal;
 use rug::Rational;
@@ -48,6 +49,17 @@ pub enum Run<'s> {
     Sampled(Box<SampledCertification<'s>>),
 }
 
+/// What X0 of a claim bounds.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum StateStart {
+    /// `|x|`, of a specification.
+    State,
+    /// `|L^-1 (x - x_0)|`, of a plant.
+    Coordinates,
+    /// The same of a plant whose set is asked for as a ball: it contains that of all `|x - x_0|` up to this (derivation, 11.5).
+    Ball(Rational),
+}
+
 /// What a certified run claims, of either regulator.
 #[derive(Clone, Debug)]
 pub struct Certified<'r> {
@@ -57,6 +69,8 @@ pub struct Certified<'r> {
     pub sampling: Option<&'r Sampling>,
     /// The set of the starts.
     pub set: &'r ClaimedSet,
+    /// What its X0 bounds.
+    pub start: StateStart,
     /// Upper bounds of |x|, |e|, |zeta|_N and |z|_N along the periodic solution.
     pub periodic: [Enclosure; 4],
     /// Whether it is proved that no plant with a state has these data.
@@ -69,6 +83,14 @@ impl Prepared {
     /// # Errors
     /// What keeps the data from being proved, at its place; not empty.
     pub fn new(subject: Subject, gain: Option<Rational>) -> Result<Prepared, Vec<SpecErrors>> {
+        Prepared::watched(subject, gain, &Unwatched)
+    }
+
+    /// The same, while somebody waits.
+    ///
+    /// # Errors
+    /// Those of [`Prepared::new`].
+    pub fn watched(subject: Subject, gain: Option<Rational>, watch: &dyn Watch) -> Result<Prepared, Vec<SpecErrors>> {
         let limits = Limits::default();
         let plant = match &subject {
             Subject::Plant(plant) if gain.is_none() => Some(plant.clone()),
@@ -76,11 +98,11 @@ impl Prepared {
         };
         match subject.sampling().cloned() {
             None => {
-                let (spec, start) = subject.proved_with_alternatives(gain.as_ref())?;
+                let (spec, start) = subject.proved_with_alternatives(gain.as_ref(), watch)?;
                 Ok(Prepared { spec, start: Start::Continuous(start), gain, limits, plant, by_norms: None })
             }
             Some(sampling) => {
-                let (spec, start) = subject.proved_at_samples(&sampling, gain.as_ref())?;
+                let (spec, start) = subject.proved_at_samples(&sampling, gain.as_ref(), watch)?;
                 Ok(Prepared {
                     spec,
                     start: Start::Sampled(Box::new(sampling), start),
@@ -119,6 +141,15 @@ impl Prepared {
     /// # Errors
     /// What the data are refused for, at its place; not empty.
     pub fn certify(&self, options: Options) -> Result<Run<'_>, Vec<SpecErrors>> {
+        self.certify_watched(options, &Unwatched)
+    }
+
+    /// The same, while somebody waits.
+    ///
+    /// # Errors
+    /// Those of [`Prepared::certify`].
+    pub fn certify_watched(&self, options: Options, watch: &dyn Watch) -> Result<Run<'_>, Vec<SpecErrors>> {
+        watch.enter(Stage::Witness);
         let (spec, gain) = (&self.spec, self.gain.as_ref());
         // Figures about the smallest gain say nothing about another one.
         let smallest = gain.is_none() && self.limits.is_empty() && spec.actuator.is_none();
@@ -137,6 +168,7 @@ impl Prepared {
                     }
                 });
                 run.map(|mut run| {
+                    watch.enter(Stage::Comparison);
                     if let Some((spec, proposal)) = other.filter(|_| smallest) {
                         run.with_gains_of(spec, proposal);
                     }
@@ -160,7 +192,8 @@ impl Prepared {
                     if let Some(plant) =
                         self.plant.as_ref().filter(|_| smallest && options.compare && run.claim().is_some())
                     {
-                        let gain = |plant: &Plant| reduce(plant, None).ok().map(|found| found.proposal.sigma);
+                        let gain =
+                            |plant: &Plant| reduce(plant, None, &Unwatched).ok().map(|found| found.proposal.sigma);
                         run.interval_costs = interval_costs(plant, gain);
                     }
                     Run::Continuous(Box::new(run))
@@ -171,6 +204,7 @@ impl Prepared {
                 certify_sampled_within(spec, sampling, wanted, start.as_ref(), options.ladder).map(|mut run| {
                     let claimed = run.claim().map(|proof| proof.witness.sigma.to_f64());
                     if let Some(sigma) = claimed.filter(|_| options.compare && smallest) {
+                        watch.enter(Stage::Comparison);
                         let subject = (spec, self.plant.as_deref());
                         run.interval_costs = costs_at_samples(subject, (sampling, sigma), options.ladder);
                     }
@@ -255,7 +289,14 @@ impl Run<'_> {
                 (sigma, Some(sampling), set, run.periodic_solution()?, run.no_plant.is_some())
             }
         };
-        Some(Certified { sigma, sampling, set, periodic, no_plant })
+        let start = match self.spec().plant() {
+            None => StateStart::State,
+            Some(plant) => match claimed_ball(plant, &set.x0).filter(|_| plant.ball.is_some()) {
+                Some(ball) => StateStart::Ball(ball),
+                None => StateStart::Coordinates,
+            },
+        };
+        Some(Certified { sigma, sampling, set, start, periodic, no_plant })
     }
 
     /// The conditions of the derivation that was asked about, proved or not.

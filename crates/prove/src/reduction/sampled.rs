@@ -10,6 +10,7 @@ use super::reduce::{
 use super::refusal::PlantRefusal;
 use super::sampled_matrix::{MatrixAtSamples, straight_by_matrix};
 use super::sampling::Sampling;
+use super::watch::Watch;
 use crate::search::{Failing, SampledSearch};
 use rug::Rational;
 use sigmastar_lang::plant::Plant;
@@ -43,8 +44,9 @@ pub fn reduce_sampled(
     plant: &Plant,
     sampling: &spec::Sampling,
     gain: Option<&Rational>,
+    watch: &dyn Watch,
 ) -> Result<ReducedSampled, PlantRefusal> {
-    with_candidates(plant, |candidates, sampled| {
+    with_candidates(plant, watch, |candidates, sampled| {
         let starts = starts(candidates, sampled);
         let by_norms = || {
             let (along, chosen) = best_by_norms(candidates, &starts, sampled)?;
@@ -148,7 +150,7 @@ impl<'p> SampledPairs<'p> {
                 .ok_or(PlantRefusal::NoGain(Failing::NotFinite(None).into()))?;
             let [x, e] = at.largest();
             engine.smooth(&x, &e)?;
-            let values = match prove_all(&engine, &suprema, &at, &self.plant.internal_model.mu) {
+            let values = match prove_all(&engine, &suprema, &at, &self.plant.internal_model.mu, self.sampled.watch) {
                 Ok(values) => values,
                 Err(error) => {
                     refusal = error;

@@ -333,7 +333,7 @@ impl<'a> MatrixAtSamples<'a> {
             let at = at.with_sampled(wanted.clone());
             let [x, e] = at.largest();
             engine.smooth(&x, &e).ok()?;
-            let values = prove_all(&engine, &self.suprema, &at, &plant.internal_model.mu).ok()?;
+            let values = prove_all(&engine, &self.suprema, &at, &plant.internal_model.mu, self.sampled.watch).ok()?;
             let spec = self.along.specification(plant, values).ok()?;
             let proposal = found_again(&spec, self.sampling, &proposal, Some(found.sigma)).ok()?;
             Some(ReducedSampled { spec, proposal })

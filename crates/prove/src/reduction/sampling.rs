@@ -3,6 +3,7 @@
 use super::cells::Cells;
 use super::coordinates::{Density, Energies, Estimates, Extreme, ProposeEnergy};
 use super::grid::{RATE, Source, Values};
+use super::watch::Watch;
 use crate::search::{FloatModel, Threshold};
 use nalgebra::DMatrix;
 use rug::Rational;
@@ -35,6 +36,8 @@ pub(super) struct Sampling<'a> {
     pub(super) cells: &'a Cells,
     /// The model, but for what depends on the coordinates.
     pub(super) model: &'a FloatModel,
+    /// Who hears of the stages.
+    pub(super) watch: &'a dyn Watch,
     /// In the coordinates x themselves.
     plain: FloatSuprema,
     /// Of |e|.
@@ -45,7 +48,7 @@ pub(super) struct Sampling<'a> {
 
 impl<'a> Sampling<'a> {
     /// The ordinary size of e is what q makes of it over a period, or the initial set.
-    pub(super) fn new(plant: &'a Plant, cells: &'a Cells, model: &'a FloatModel) -> Sampling<'a> {
+    pub(super) fn new(plant: &'a Plant, cells: &'a Cells, model: &'a FloatModel, watch: &'a dyn Watch) -> Sampling<'a> {
         let n = plant.states();
         let known = model.q_0.as_ref();
         let squares = known.map_or(1.0, |known| known.harmonics.iter().map(|c| c * c).sum());
@@ -53,7 +56,15 @@ impl<'a> Sampling<'a> {
         let by_forcing = 0.1 * squares.sqrt() * model.period;
         let unit_e = [e_0, by_forcing].into_iter().fold(0.0, f64::max);
         let plain = FloatSuprema::of_cells(plant, cells.in_doubles(), rows(&DMatrix::identity(n, n)), [None; 2]);
-        Sampling { plant, cells, model, plain, unit_e: if unit_e > 0.0 { unit_e } else { 1.0 }, asked: [x_0, e_0] }
+        Sampling {
+            plant,
+            cells,
+            model,
+            watch,
+            plain,
+            unit_e: if unit_e > 0.0 { unit_e } else { 1.0 },
+            asked: [x_0, e_0],
+        }
     }
 
     /// Whether the derivatives depend on the states or on the error: else all paths are one.

@@ -1,6 +1,7 @@
 //! What is certified: a bounding specification, or a plant by its formulas.
 
 use super::proofs::{Reduced, WithoutJoint};
+use super::watch::{Stage, Unwatched, Watch};
 use super::{reduce, reduce_sampled};
 use crate::certify::{Alternatives, WITHOUT_INPUT_GAIN, not_available_with_input_gain, with_triple};
 use crate::search::{SampledProposal, SharpProposal};
@@ -183,7 +184,7 @@ impl Subject {
     /// # Errors
     /// What keeps the data from being proved, at its place; not empty.
     pub fn proved(self) -> Result<(Specification, Option<SharpProposal>), Vec<SpecErrors>> {
-        let (spec, start) = self.proved_with_alternatives(None)?;
+        let (spec, start) = self.proved_with_alternatives(None, &Unwatched)?;
         Ok((spec, start.map(|sought| sought.proposal)))
     }
 
@@ -191,14 +192,16 @@ impl Subject {
     pub(super) fn proved_with_alternatives(
         self,
         gain: Option<&Rational>,
+        watch: &dyn Watch,
     ) -> Result<(Specification, Option<Sought>), Vec<SpecErrors>> {
         match self {
             Subject::Specification(spec) => {
+                watch.enter(Stage::Triple);
                 let proved = with_triple(&spec, None).map_err(|refusal| refusal.errors(&spec))?;
                 Ok((proved.into_owned(), None))
             }
             Subject::Plant(plant) => {
-                let reduced = reduce(&plant, gain).map_err(|refusal| refusal.errors(&plant))?;
+                let reduced = reduce(&plant, gain, watch).map_err(|refusal| refusal.errors(&plant))?;
                 let Reduced { spec, proposal, alternatives, without_joint } = reduced;
                 Ok((spec, Some(Sought { proposal, alternatives, without_joint })))
             }
@@ -213,13 +216,18 @@ impl Subject {
         self,
         sampling: &Sampling,
         gain: Option<&Rational>,
+        watch: &dyn Watch,
     ) -> Result<(Specification, Option<SampledProposal>), Vec<SpecErrors>> {
         match self {
             Subject::Plant(plant) => {
-                let reduced = reduce_sampled(&plant, sampling, gain).map_err(|refusal| refusal.errors(&plant))?;
+                let reduced =
+                    reduce_sampled(&plant, sampling, gain, watch).map_err(|refusal| refusal.errors(&plant))?;
                 Ok((reduced.spec, Some(reduced.proposal)))
             }
-            specification @ Subject::Specification(_) => Ok((specification.proved()?.0, None)),
+            specification @ Subject::Specification(_) => {
+                watch.enter(Stage::Triple);
+                Ok((specification.proved()?.0, None))
+            }
         }
     }
 }

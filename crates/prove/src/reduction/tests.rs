@@ -3,7 +3,7 @@
 #[path = "../../../plants/src/bounds/tests/random_points.rs"]
 mod random_points;
 
-use super::{bounds_around, reduce};
+use super::{Unwatched, bounds_around, reduce};
 use random_points::random_points;
 use rayon::prelude::*;
 use sigmastar_lang::plant::Plant;
@@ -37,7 +37,7 @@ fn values_are_above_random_points_and_near_them() {
     ];
     names.par_iter().step_by(if all { 1 } else { 3 }).for_each(|name| {
         let plant = Plant::load(&folder.join(name).with_extension("json")).unwrap();
-        let reduced = reduce(&plant, None).unwrap();
+        let reduced = reduce(&plant, None, &Unwatched).unwrap();
         let (_, samples) = bounds_around(&plant, reduced.spec.plant().unwrap()).unwrap();
         let radius = reduced.spec.plant().unwrap().largest(|cell| &cell.orbit.radius).to_f64();
         let points = random_points(plant.states(), if all { 100_000 } else { 20_000 });

@@ -3,9 +3,11 @@
 //! Nothing is monotone in either number, so a table lists pairs, each certified by itself, and says nothing between them.
 
 mod certifier;
+mod round;
 mod study;
 mod unfit;
 
 pub use certifier::{Certifier, OfPlant, OfSpecification, Pair};
+pub use round::RoundForm;
 pub use study::{Asked, Row, SamplingStudy};
 pub use unfit::Unfit;

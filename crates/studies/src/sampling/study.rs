@@ -1,6 +1,7 @@
 //! The table: the smallest certified gain for sampling periods, the longest certified sampling period for gains.
 
 use super::certifier::{Certifier, Pair};
+use super::round::{RoundForm, round_samplings};
 use rug::Rational;
 use sigmastar_exact::number::{Direction, round_f64};
 use sigmastar_lang::spec::{Constant, MAX_SAMPLES, Sampling};
@@ -18,6 +19,9 @@ const DIGITS: u32 = 4;
 /// How often a little more samples are tried where the pair that was found does not certify.
 const AGAIN: u32 = 4;
 
+/// How many round sampling periods are tried for a gain.
+const ROUND: usize = 4;
+
 /// How far beyond the samples that h sigma <= 1 and theta <= 1 ask for they are doubled.
 const FAR: f64 = 256.0;
 
@@ -31,6 +35,8 @@ pub enum Asked {
     Step(Sampling),
     /// The longest sampling period for this gain.
     Gain(Rational),
+    /// The longest round one.
+    Round(Rational, RoundForm),
 }
 
 /// One row.
@@ -51,6 +57,8 @@ pub struct SamplingStudy {
     pub by_step: Vec<Row>,
     /// One for each gain.
     pub by_gain: Vec<Row>,
+    /// One for each gain that has a sampling period: a round one that is no longer.
+    pub round: Vec<Row>,
 }
 
 impl SamplingStudy {
@@ -80,7 +88,10 @@ impl SamplingStudy {
             Row { asked: Asked::Gain(gain), found }
         };
         let by_step = steps.into_iter().map(of_step).collect();
-        SamplingStudy { continuous, by_step, by_gain: gains.into_iter().map(of_gain).collect() }
+        let by_gain: Vec<Row> = gains.into_iter().map(of_gain).collect();
+        let pairs = by_gain.iter().filter_map(|row| row.found.as_ref().ok());
+        let round = pairs.map(|pair| rounded(certifier, period, pair)).collect();
+        SamplingStudy { continuous, by_step, by_gain, round }
     }
 
     /// Whether some pair is certified.
@@ -148,6 +159,29 @@ fn longest(certifier: &impl Certifier, period: &Constant, gain: &Rational) -> Re
         high = (high + 1 + high / 32).min(MAX_SAMPLES);
     }
     closest.or(None)
+}
+
+/// The longest of the round sampling periods that are tried, no longer than that of a pair, with the same gain.
+fn rounded(certifier: &impl Certifier, period: &Constant, longest: &Pair) -> Row {
+    let (form, samplings) = round_samplings(period, longest.sampling.samples);
+    let mut closest = Closest::default();
+    let mut found = Err(MANY);
+    for sampling in samplings.into_iter().take(ROUND) {
+        let sampling = sampling.with_delay(delayed(certifier));
+        // A pair that is round itself is certified already.
+        let same = sampling.samples == longest.sampling.samples;
+        match if same { Ok(longest.clone()) } else { certifier.pair(&sampling, Some(&longest.sigma)) } {
+            Ok(pair) => {
+                found = Ok(Pair { sampling, ..pair });
+                break;
+            }
+            Err(obstacle) => {
+                closest.record(obstacle);
+                found = closest.or(None);
+            }
+        }
+    }
+    Row { asked: Asked::Round(longest.sigma.clone(), form), found }
 }
 
 /// The most samples that are tried: far beyond h sigma = 1 and theta = 1, where sampling hardly matters any more.

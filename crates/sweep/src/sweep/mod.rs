@@ -21,7 +21,7 @@ pub use figure::{FigureError, sweep_figure};
 pub use header::{Header, Shard};
 pub use parameter::Parameter;
 pub use results::{Merge, Results, ResultsError};
-pub use row::{Row, RowClaim, RowError};
+pub use row::{Row, RowClaim, RowError, X0_BOUNDS};
 pub use run::{run, solve};
 pub use study::{FORMAT, Study, SubjectSource, VERSIONS};
 pub use table::{best, csv, summary};

@@ -3,12 +3,17 @@
 use serde_json::json;
 use sigmastar_exact::enclosure::DIGITS;
 use sigmastar_exact::number::write_exact;
-use sigmastar_lang::spec::{Document, Errors, Object, Reported, SIZES, Sampling, SpecErrors, StartSizes, Value};
+use sigmastar_lang::spec::{
+    Document, Errors, Object, Reported, SIZES, Sampling, SpecErrors, StartSizes, Value, choose,
+};
 use sigmastar_prove::certify::Verdict;
-use sigmastar_prove::reduction::Certified;
+use sigmastar_prove::reduction::{Certified, StateStart};
 
 /// The verdicts by their words.
 const VERDICTS: [Verdict; 4] = [Verdict::Certified, Verdict::Refuted, Verdict::BadInput, Verdict::Undecided];
+
+/// What X0 of a line bounds: of a specification, of a plant whose set is asked for as a ball, of another plant.
+pub const X0_BOUNDS: [&str; 3] = ["|x|", "|x - x_0|", "|L^-1 (x - x_0)|"];
 
 /// What is certified, in the numbers of a certificate.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -18,8 +23,10 @@ pub struct RowClaim {
     pub sigma_star: String,
     /// The sampling period, where the claim is about the regulator at samples.
     pub sampling_period: Option<String>,
-    /// The initial set.
+    /// The initial set. Where a plant's is asked for as a ball its X0 is the radius of one that it contains.
     pub initial_set: StartSizes<String>,
+    /// What its X0 bounds, one of [`X0_BOUNDS`]; files of earlier programs do not say.
+    pub x0_bounds: Option<&'static str>,
     /// Upper bounds of |x|, |e|, |zeta|_N and |z|_N along the periodic solution, rounded up.
     pub periodic: [String; 4],
     /// Whether it is proved that no plant with a state has these data, so that the claim says nothing about any.
@@ -29,11 +36,21 @@ pub struct RowClaim {
 impl RowClaim {
     /// The claim of a run.
     pub(super) fn new(certified: &Certified<'_>) -> RowClaim {
-        let set = certified.set;
+        let mut initial_set = certified.set.map(write_exact);
+        let [state, ball, coordinates] = X0_BOUNDS;
+        let x0_bounds = match &certified.start {
+            StateStart::State => state,
+            StateStart::Coordinates => coordinates,
+            StateStart::Ball(radius) => {
+                initial_set.x0 = write_exact(radius);
+                ball
+            }
+        };
         RowClaim {
             sigma_star: write_exact(certified.sigma),
             sampling_period: certified.sampling.map(Sampling::text),
-            initial_set: set.map(write_exact),
+            initial_set,
+            x0_bounds: Some(x0_bounds),
             periodic: certified.periodic.each_ref().map(|bound| bound.upper_decimal(DIGITS)),
             no_plant: certified.no_plant,
         }
@@ -84,6 +101,9 @@ impl Row {
                 line["sampling_period"] = json!(step);
             }
             line["initial_set"] = claim.initial_set.named().map(|(name, size)| (name, json!(size))).collect();
+            if let Some(what) = claim.x0_bounds {
+                line["X0_bounds"] = json!(what);
+            }
             line["periodic_solution"] = json!({ "x": x, "e": e, "zeta": zeta, "z": z });
             line["no_plant"] = json!(claim.no_plant);
         }
@@ -174,6 +194,7 @@ fn claim(object: &mut Object<'_>, errors: &mut Errors) -> Result<RowClaim, Repor
     let sigma_star = object.required("sigma_star", errors).and_then(|value| text(&value, errors));
     let sampling_period = object.optional("sampling_period").map(|value| text(&value, errors)).transpose();
     let set = object.required("initial_set", errors).and_then(|value| sizes(&value, errors));
+    let x0_bounds = object.optional("X0_bounds").map(|value| choose(&value, "bound", &X0_BOUNDS, errors)).transpose();
     let periodic =
         object.required("periodic_solution", errors).and_then(|value| texts(&value, ["x", "e", "zeta", "z"], errors));
     let no_plant = object.required("no_plant", errors).and_then(|value| value.boolean(errors));
@@ -181,6 +202,7 @@ fn claim(object: &mut Object<'_>, errors: &mut Errors) -> Result<RowClaim, Repor
         sigma_star: sigma_star?,
         sampling_period: sampling_period?,
         initial_set: set?,
+        x0_bounds: x0_bounds?,
         periodic: periodic?,
         no_plant: no_plant?,
     })

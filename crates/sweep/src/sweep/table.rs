@@ -12,8 +12,8 @@ use sigmastar_prove::certify::Verdict;
 use std::cmp::Ordering;
 
 /// The columns behind the parameters.
-const COLUMNS: [&str; 12] =
-    ["verdict", "sigma_star", "X0", "E0", "Z0", "x", "e", "zeta", "z", "no_plant", "sha256", "message"];
+const COLUMNS: [&str; 13] =
+    ["verdict", "sigma_star", "X0", "X0_bounds", "E0", "Z0", "x", "e", "zeta", "z", "no_plant", "sha256", "message"];
 
 /// The table (RFC 4180): a row for each case. Numbers are as in the results, exactly; but a fraction becomes a double, of a
 /// parameter the nearest one, and of a claim the next one at which the claim holds: the gain and the sizes of the periodic
@@ -23,11 +23,11 @@ pub fn csv(results: &Results) -> String {
     let names = results.header.parameters.iter().map(|(_, name)| name.as_str());
     let mut text = record(std::iter::once("index").chain(names).chain(COLUMNS).map(str::to_owned));
     for row in results.rows.values() {
-        let none = || std::iter::repeat_n(String::new(), 9).collect::<Vec<_>>();
+        let none = || std::iter::repeat_n(String::new(), 10).collect::<Vec<_>>();
         let claimed = row.claim.as_ref().map_or_else(none, |claim| {
             let up = |text: &String| claimed_number(text, Enclosure::upper_f64);
             let StartSizes { x0, e0, z0 } = claim.initial_set.map(|text| claimed_number(text, Enclosure::lower_f64));
-            let set = [x0, e0, z0.unwrap_or_else(|| "M e".to_owned())];
+            let set = [x0, claim.x0_bounds.unwrap_or_default().to_owned(), e0, z0.unwrap_or_else(|| "M e".to_owned())];
             let sizes = set.into_iter().chain(claim.periodic.iter().map(up));
             std::iter::once(up(&claim.sigma_star)).chain(sizes).chain([claim.no_plant.to_string()]).collect()
         });

@@ -1,5 +1,6 @@
 //! What one proposal comes to: its certified figures, and the one that is to be small.
 
+use super::parameter::TuneError;
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_lang::spec::{Document, Sampling, SpecErrors, StartSizes};
@@ -18,6 +19,20 @@ pub enum Goal {
 }
 
 impl Goal {
+    /// That a document has what is to be made small.
+    ///
+    /// # Errors
+    /// What it has not: at samples only the gain is tuned, and bounds of the error by the number of oscillators are of a matched base
+    /// frequency.
+    pub fn fits(self, subject: &Subject) -> Result<(), TuneError> {
+        match self {
+            Goal::Sigma => Ok(()),
+            _ if subject.sampling().is_some() => Err(TuneError::Sampled),
+            Goal::Error(_) if !subject.is_matched() => Err(TuneError::NotMatched),
+            _ => Ok(()),
+        }
+    }
+
     /// The name in JSON.
     #[must_use]
     pub fn name(self) -> &'static str {

@@ -1,12 +1,12 @@
-//! Where `controller` takes its regulator from: a specification, a plant, or a certificate of one.
+//! A certificate that a command is given, as far as a regulator goes.
 
 use super::failure::Failure;
 use rug::Rational;
 use sigmastar_exact::enclosure::{DEFAULT_PRECISION, Enclosure};
 use sigmastar_exact::number::write_exact;
 use sigmastar_lang::spec::{Constant, Document, InternalModel, SampledGain, Sampling};
-use sigmastar_prove::certificate::{FORMAT as CERTIFICATE, read_numbers};
-use sigmastar_prove::reduction::{FreeNumbers, Subject};
+use sigmastar_prove::certificate::read_numbers;
+use sigmastar_prove::reduction::FreeNumbers;
 use sigmastar_regulator::export::{Provenance, Scope};
 
 /// A certificate, as far as a regulator goes. What it says is taken as it is.
@@ -51,6 +51,11 @@ impl Given {
         Rational::from_f64(up).map(|gain| Constant::rational(&gain))
     }
 
+    /// Its gain, as it states it.
+    pub fn sigma(&self) -> &Rational {
+        &self.sigma_star
+    }
+
     /// The sampling period, where it is about the regulator at samples.
     pub fn step(&self) -> Option<&Constant> {
         self.sampled.as_ref().map(|(sampling, _)| &sampling.step)
@@ -63,7 +68,7 @@ impl Given {
 
     /// Whether this regulator is the one at samples that it is about: the same gain, sampling period, delay, K and Nb2, exactly, and few
     /// enough oscillators. `None` where it is about the regulator in continuous time.
-    fn covers_samples(&self, regulator: &Asked<'_>) -> Option<bool> {
+    fn covers_samples(&self, regulator: &Regulated<'_>) -> Option<bool> {
         let (sampling, law) = self.sampled.as_ref()?;
         let same_step = regulator.step.is_some_and(|step| sampling.is(step)) && regulator.delayed == sampling.delayed;
         let same_law = regulator.step.and_then(|step| regulator.model.sampled_gain(step)).as_ref() == Some(law);
@@ -71,14 +76,13 @@ impl Given {
         Some(same_step && same_law && same_gain && 2 * u64::from(regulator.n_o) < u64::from(sampling.samples))
     }
 
-    /// What it is called where it was made for something else.
-    pub fn not_about(&self, subject: &Subject) -> Option<&'static str> {
-        let same = self.made_for.iter().flatten().any(|digest| *digest == subject.sha256());
-        (!same).then_some(subject.kind())
+    /// Whether it was made for the document with this digest.
+    pub fn is_about(&self, sha256: &str) -> bool {
+        self.made_for.iter().flatten().any(|digest| digest == sha256)
     }
 
     /// Its part in the export of a regulator.
-    pub fn provenance(&self, regulator: &Asked<'_>) -> Provenance {
+    pub fn provenance(&self, regulator: &Regulated<'_>) -> Provenance {
         let sigma = regulator.sigma;
         let covers_sigma = || match sigma.as_rational() {
             Some(sigma) => *sigma >= self.sigma_star,
@@ -107,7 +111,7 @@ impl Given {
 }
 
 /// The regulator that is asked for.
-pub struct Asked<'a> {
+pub struct Regulated<'a> {
     /// The internal model.
     pub model: &'a InternalModel,
     /// The gain.
@@ -118,26 +122,4 @@ pub struct Asked<'a> {
     pub delayed: bool,
     /// The number of oscillators.
     pub n_o: u32,
-}
-
-/// Reads what a regulator is asked for; of a certificate, what it was made for, and the certificate.
-///
-/// # Errors
-/// What is wrong with the document.
-pub fn read(document: &Document) -> Result<(Subject, Option<Given>), Failure> {
-    if document.at("/format").is_none_or(|format| format.text() != Some(CERTIFICATE)) {
-        return Ok((Subject::read(document)?, None));
-    }
-    let given = Given::read(document)?;
-    let embedded = ["/plant", "/specification"].into_iter().find_map(|pointer| document.at(pointer));
-    let embedded = embedded.ok_or_else(|| {
-        let help = "take a certificate that `certify -o` wrote";
-        Failure::call("the certificate embeds neither a specification nor a plant", help)
-    })?;
-    let subject = Subject::from_value(&embedded)?;
-    if let Some(kind) = given.not_about(&subject) {
-        let message = format!("the {kind} in the certificate is not the one that its digest is of");
-        return Err(Failure::call(message, "the file was changed; `sigmastar check` says more"));
-    }
-    Ok((subject, Some(given)))
 }

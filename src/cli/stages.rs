@@ -1,0 +1,194 @@
+//! The stages of a run on standard error, for whoever waits: where it is, and how far.
+//!
+//! How long a stage takes is not known beforehand, so no time is foretold; parts are counted where there are some.
+
+use super::output;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use sigmastar_prove::reduction::{Stage, Watch};
+use std::fmt;
+use std::io::{IsTerminal, stderr};
+use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
+use std::sync::{Mutex, PoisonError};
+use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
+
+/// How long a run takes before it is shown on a terminal.
+const PATIENCE: Duration = Duration::from_secs(2);
+
+/// How often the clock moves.
+const TICK: Duration = Duration::from_millis(120);
+
+/// A stage of a call of `certify`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Step {
+    /// One of the library's.
+    Of(Stage),
+    /// The conditions, decided from the numbers of a certificate.
+    Decision,
+    /// Rates for given numbers of oscillators.
+    Rates,
+    /// The simulation of figures.
+    Figures,
+}
+
+impl Step {
+    /// The stages that share a number: those behind the first are entered where they are wanted.
+    fn number_of(self) -> Step {
+        match self {
+            Step::Of(Stage::Metrics) => Step::Of(Stage::Bounds),
+            Step::Of(Stage::Comparison) => Step::Of(Stage::Witness),
+            step => step,
+        }
+    }
+}
+
+impl fmt::Display for Step {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Step::Of(Stage::Orbit) => "finding and proving the periodic orbit",
+            Step::Of(Stage::Coordinates) => "choosing coordinates and a gain over samples",
+            Step::Of(Stage::Bounds) => "proving the bounds of the formulas",
+            Step::Of(Stage::Metrics) => "proposing and proving joint metrics",
+            Step::Of(Stage::Triple) => "finding and proving the triple of the Jacobian",
+            Step::Of(Stage::Witness) => "searching the free numbers, deciding the conditions",
+            Step::Of(Stage::Comparison) => "working out what else would give",
+            Step::Decision => "deciding the conditions",
+            Step::Rates => "proving rates",
+            Step::Figures => "simulating for the figures",
+        })
+    }
+}
+
+/// Who is told of the stages.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Audience {
+    Nobody,
+    /// A line that changes, after a while.
+    Terminal,
+    /// A line for each stage, at once.
+    Log,
+}
+
+/// The stages of a run, told until it is dropped.
+pub struct Stages {
+    steps: Vec<Step>,
+    audience: Audience,
+    bar: ProgressBar,
+    start: Instant,
+    at: Mutex<String>,
+    stop: Option<Sender<()>>,
+    thread: Option<JoinHandle<()>>,
+}
+
+impl Stages {
+    /// Those that a call will have, in their order; on a terminal, or wherever it is `asked` for.
+    pub fn new(steps: Vec<Step>, asked: bool, quiet: bool) -> Stages {
+        let audience = match (quiet, stderr().is_terminal()) {
+            (true, _) => Audience::Nobody,
+            (false, true) => Audience::Terminal,
+            (false, false) if asked => Audience::Log,
+            (false, false) => Audience::Nobody,
+        };
+        let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::hidden());
+        let mut stages =
+            Stages { steps, audience, bar, start: Instant::now(), at: Mutex::default(), stop: None, thread: None };
+        if audience == Audience::Terminal {
+            stages.show_later();
+        }
+        stages
+    }
+
+    /// Whether somebody is told.
+    pub fn are_told(&self) -> bool {
+        self.audience != Audience::Nobody
+    }
+
+    /// A stage begins.
+    pub fn begin(&self, step: Step) {
+        let Some(number) = self.steps.iter().position(|known| *known == step.number_of()) else { return };
+        let text = format!("stage {} of {}: {step}", number + 1, self.steps.len());
+        let mut at = self.at.lock().unwrap_or_else(PoisonError::into_inner);
+        if *at == text {
+            return;
+        }
+        match self.audience {
+            Audience::Nobody => {}
+            Audience::Terminal => self.bar.set_message(text.clone()),
+            Audience::Log => output::remark(&format!("{text} (after {:.1} s)", self.start.elapsed().as_secs_f64())),
+        }
+        *at = text;
+    }
+
+    /// Shows the line after a while, with a clock.
+    fn show_later(&mut self) {
+        // The template is a constant, and one that is read.
+        if let Ok(style) = ProgressStyle::with_template("sigmastar: {msg} {spinner} {elapsed}") {
+            self.bar.set_style(style);
+        }
+        let (stop, stopped) = channel::<()>();
+        let bar = self.bar.clone();
+        let show = move || {
+            if stopped.recv_timeout(PATIENCE) == Err(RecvTimeoutError::Timeout) {
+                bar.set_draw_target(ProgressDrawTarget::stderr());
+                bar.enable_steady_tick(TICK);
+            }
+        };
+        // Without a thread the work goes on, in silence.
+        self.thread = std::thread::Builder::new().spawn(show).ok();
+        self.stop = Some(stop);
+    }
+}
+
+impl Watch for Stages {
+    fn enter(&self, stage: Stage) {
+        self.begin(Step::Of(stage));
+    }
+
+    fn part(&self, done: usize, of: usize) {
+        if self.audience == Audience::Terminal {
+            let at = self.at.lock().unwrap_or_else(PoisonError::into_inner);
+            self.bar.set_message(format!("{at}, {done} of {of}"));
+        }
+    }
+}
+
+impl Drop for Stages {
+    fn drop(&mut self) {
+        drop(self.stop.take());
+        if let Some(thread) = self.thread.take() {
+            // It has only written to standard error; there is nothing to be done about a panic of a library in it.
+            let _ = thread.join();
+        }
+        self.bar.finish_and_clear();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn told(stages: &Stages) -> String {
+        stages.at.lock().unwrap().clone()
+    }
+
+    #[test]
+    fn a_stage_is_told_by_its_place_in_the_call() {
+        let steps = vec![Step::Of(Stage::Orbit), Step::Of(Stage::Bounds), Step::Of(Stage::Witness), Step::Rates];
+        let stages = Stages::new(steps, false, true);
+        assert!(!stages.are_told());
+        stages.enter(Stage::Orbit);
+        assert_eq!(told(&stages), "stage 1 of 4: finding and proving the periodic orbit");
+        stages.enter(Stage::Metrics);
+        assert_eq!(told(&stages), "stage 2 of 4: proposing and proving joint metrics");
+        stages.part(1, 2);
+        // What this call does not have is not told.
+        stages.enter(Stage::Triple);
+        stages.begin(Step::Figures);
+        assert_eq!(told(&stages), "stage 2 of 4: proposing and proving joint metrics");
+        // A choice that fails is followed by another.
+        stages.enter(Stage::Bounds);
+        assert!(told(&stages).starts_with("stage 2 of 4: proving the bounds"));
+        stages.begin(Step::Rates);
+        assert_eq!(told(&stages), "stage 4 of 4: proving rates");
+    }
+}
