@@ -193,6 +193,7 @@ where
 #[cfg(test)]
 mod tests {
     use super::*;
+    use sigmastar_plants::bounds::Part;
 
     fn random(seed: &mut u64) -> f64 {
         *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
@@ -223,14 +224,14 @@ mod tests {
             let of = MatrixLoop { states, sigma, mu, turns: turns.clone(), b: b.clone(), gains: vec![gain] };
             let order = of.order();
             let pi = square(order, &mut seed, true);
-            let parts = if is_whole { vec![0..states + 1] } else { vec![0..states, states..states + 1] };
-            let known = |columns: Range<usize>| KnownSlopes {
+            let parts: &[Part] = if is_whole { &[Part::All] } else { &[Part::States, Part::Error] };
+            let mut known = |columns: Range<usize>| KnownSlopes {
                 q: square(columns.len(), &mut seed, true),
                 g: square(states + 1, &mut seed, false)[columns.clone()].to_vec(),
                 h: square(states + 1, &mut seed, true),
                 columns,
             };
-            let slopes: Vec<KnownSlopes<f64>> = parts.into_iter().map(known).collect();
+            let slopes: Vec<KnownSlopes<f64>> = parts.iter().map(|part| known(part.columns(states))).collect();
             let form = of.form(&gain, &Multipliers { rate: &rate, pi: &pi, slopes: &slopes });
             for _ in 0..20 {
                 let eta: Vec<f64> = (0..order).map(|_| random(&mut seed)).collect();

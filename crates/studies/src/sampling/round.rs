@@ -39,7 +39,7 @@ fn steps(period: &Rational, least: u32) -> Vec<Constant> {
             Rational::from(Integer::from(Integer::u_pow_u(10, u32::try_from(exponent.unsigned_abs()).unwrap_or(0))));
         if exponent < 0 { power.recip() } else { power }
     };
-    let all = (0..).flat_map(|down| [5, 2, 1].map(|digit| Rational::from(digit * power(top - down))));
+    let all = (0..).flat_map(|down| [5, 2, 1].map(|digit| digit * power(top - down)));
     all.skip_while(|step| *step > longest)
         .take_while(|step| *step >= shortest)
         .map(|step| Constant::rational(&step))
