@@ -24,7 +24,7 @@ use std::sync::Arc;
 pub struct Decision {
     /// Whether the bound holds on the whole region; `False` is a proof as well.
     pub truth: Truth,
-    /// The boxes that were examined; of a family in cells the most in one of these.
+    /// The boxes that were examined; of a family in cells the most in one of these, for each of them.
     pub boxes: usize,
 }
 
@@ -126,7 +126,7 @@ impl Engine {
         effort: usize,
         value: &BoundOnBox<'_>,
     ) -> Decision {
-        self.in_all(|tube| {
+        self.in_all(effort, |tube, effort| {
             let chart = self.chart(tube, active, [x, e]);
             let mut boxes = OnBoxes::new(self, quantity, (tube, &chart));
             subdivide(&chart, effort, |cell, ball| {
@@ -138,12 +138,14 @@ impl Engine {
         })
     }
 
-    /// A decision of every cell, one after the other up to the first that is not true.
-    pub(super) fn in_all(&self, mut decide: impl FnMut(&Tube) -> Decision) -> Decision {
+    /// A decision of every cell, one after the other up to the first that is not true, with an equal part of the effort for each: so that a
+    /// family takes what a plant does, here and where it is checked. `boxes` is not below the effort where that was not enough.
+    pub(super) fn in_all(&self, effort: usize, mut decide: impl FnMut(&Tube, usize) -> Decision) -> Decision {
         let mut all = Decision { truth: Truth::True, boxes: 0 };
+        let count = self.tubes().count();
         for tube in self.tubes() {
-            let decision = decide(tube);
-            all = Decision { boxes: all.boxes.max(decision.boxes), ..decision };
+            let decision = decide(tube, effort.div_ceil(count));
+            all = Decision { boxes: all.boxes.max(decision.boxes * count), ..decision };
             if !all.truth.is_true() {
                 break;
             }

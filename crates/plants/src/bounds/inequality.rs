@@ -85,7 +85,7 @@ impl Engine {
             }
             None => Verdict::Stuck,
         };
-        self.in_all(|tube| {
+        self.in_all(effort, |tube, effort| {
             let chart = self.chart(tube, &quantity.active, at);
             let mut boxes = OnBoxes::new(self, quantity, (tube, &chart));
             subdivide(&chart, effort, |cell, ball| boxes.with(cell, ball, |values, frame| examine(values, frame, ball)))

@@ -86,10 +86,10 @@ impl Engine {
 
     fn meets(&self, requirement: &Requirement, arguments: [&Rational; 2]) -> Truth {
         let Requirement { walk, active, demand, .. } = requirement;
-        self.in_all(|tube| {
+        self.in_all(BOXES * self.tubes().count(), |tube, effort| {
             let chart = self.chart(tube, active, arguments);
             let mut memory = Memory::default();
-            subdivide(&chart, BOXES, |cell, ball| {
+            subdivide(&chart, effort, |cell, ball| {
                 let time = self.time_cell(tube, if chart.time { cell[0] } else { Side::WHOLE });
                 let placed = chart.place(cell, ball, Some(&time));
                 let Placed { frame, t, x, e, p } = &placed;

@@ -121,6 +121,11 @@ fn of_cells_the_worst_counts() {
             let beyond = Rational::from_f64(if bound.is_rate() { worst * 1.02 } else { worst * 0.98 }).unwrap();
             let entry = Entry { bound, x: x.clone(), e: e.clone(), value: beyond };
             assert!(!case.engine.decide(&entry, 4000).truth.is_true(), "{bound:?} {order:?}");
+            // Each half has half of the effort.
+            let entry = Entry { bound, x: x.clone(), e: e.clone(), value: Rational::from_f64(proved).unwrap() };
+            let needed = case.engine.decide(&entry, 4000).boxes;
+            assert_eq!(case.engine.decide(&entry, needed).truth, Truth::True, "{bound:?} {order:?}");
+            assert!(needed == 2 || !case.engine.decide(&entry, needed - 2).truth.is_true(), "{bound:?} {order:?}");
         }
     }
     let none: [(&sigmastar_lang::spec::Parameters, Region); 0] = [];
