@@ -39,6 +39,7 @@ mod lmi_decay;
 mod lmi_specs;
 mod lyapunov;
 mod lyapunov_random;
+mod machines;
 mod messages;
 mod mutants;
 mod mutated_specifications;
