@@ -9,7 +9,7 @@ use std::process::Command as Process;
 /// How the code is compiled; nothing may be said of it.
 const STRICT: [&str; 6] = ["-std=c99", "-O2", "-Wall", "-Wextra", "-pedantic", "-Werror"];
 
-fn gcc(arguments: &[&Path], program: &Path) {
+pub fn gcc(arguments: &[&Path], program: &Path) {
     let gcc = Process::new("gcc").args(STRICT).arg("-o").arg(program).args(arguments).output().unwrap();
     assert!(gcc.status.success(), "{}", String::from_utf8_lossy(&gcc.stderr));
 }

@@ -15,12 +15,12 @@ const MECHANISMS: [(&str, &str); 5] = [
     ("start of z", "C5: how far the state of the internal model starts"),
 ];
 
-fn page(name: &str) -> String {
+pub fn page(name: &str) -> String {
     std::fs::read_to_string(Path::new(ROOT).join("docs").join(name)).expect("a document of the repository")
 }
 
 /// The rows of the table under a header, by the name in backticks of their first cell.
-fn table(text: &str, header: &str) -> BTreeMap<String, Vec<String>> {
+pub fn table(text: &str, header: &str) -> BTreeMap<String, Vec<String>> {
     let rows: BTreeMap<_, _> = text
         .lines()
         .skip_while(|line| *line != header)
@@ -41,7 +41,7 @@ fn plants() -> BTreeMap<String, Vec<String>> {
 }
 
 /// Four digits of a number, on the side that keeps the statement true.
-fn is_rounded(shown: &str, value: &Value, up: bool) -> bool {
+pub fn is_rounded(shown: &str, value: &Value, up: bool) -> bool {
     let (Ok(shown), Some(Ok(value))) = (shown.parse::<f64>(), value.as_str().map(str::parse::<f64>)) else {
         return false;
     };
@@ -161,7 +161,7 @@ fn drawings_are_compared_to_a_pixel() {
 }
 
 /// A figure of the documents against the one that the program drew into a folder.
-fn compare_figure(name: &str, drawn: &Path) {
+pub fn compare_figure(name: &str, drawn: &Path) {
     let drawn = std::fs::read_to_string(drawn).unwrap();
     let shipped: PathBuf = Path::new(ROOT).join(format!("docs/figures/{name}.svg"));
     if std::env::var_os("SIGMASTAR_FIGURES").is_some_and(|value| value == "write") {

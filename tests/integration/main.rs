@@ -40,6 +40,7 @@ mod lmi_decay;
 mod lmi_specs;
 mod lyapunov;
 mod lyapunov_random;
+mod machines;
 mod messages;
 mod mutants;
 mod mutated_specifications;

@@ -1,0 +1,174 @@
+//! Real machines: every file of `specs/machines` is certified as `docs/machines.md` says, its certificates are decided by the
+//! checker, its C code compiles, and its figure is what the program draws.
+
+use crate::controller::installed;
+use crate::controller_c::gcc;
+use crate::gallery::{compare_figure, is_rounded, page, table};
+use crate::support::{ROOT, every, json, program, utf8};
+use serde_json::Value;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+use tempfile::TempDir;
+
+/// What calls an exported law.
+const MAIN: &str = r#"#include "law.h"
+int main(void)
+{
+    sigmastar_controller controller;
+
+    sigmastar_reset(&controller, 0.0);
+    return sigmastar_step(&controller, 0.0) == 0.0 ? 0 : 1;
+}
+"#;
+
+fn machines() -> BTreeMap<String, Vec<String>> {
+    table(&page("machines.md"), "| machine | states | sigma* | sigma | ball | e | n_o = 0 | n_o = 10 | u | h |")
+}
+
+/// The certificate of a machine with further flags, written into a folder, and its report.
+fn certified(folder: &Path, name: &str, flags: &[&str]) -> (PathBuf, Value) {
+    let (file, machine) = (folder.join("certificate.json"), format!("specs/machines/{name}.toml"));
+    let call = ["certify", &machine, "--quiet", "--force", "--format", "json"];
+    let output = program().args(call).args(flags).arg("-o").arg(&file).output().unwrap();
+    let report = json(&output.stdout);
+    assert_eq!(report["verdict"], "certified", "{name} {flags:?}: {report:#}");
+    (file, report)
+}
+
+/// What is wrong in the row of a machine beside the report at its gain.
+fn wrong(cells: &[String], states: usize, report: &Value) -> Vec<&'static str> {
+    let bounds = report["consequences"]["error_bounds"].as_array().expect("a matched plant");
+    let at = |n_o: u64| bounds.iter().find(|row| row["n_o"] == n_o).map_or(&Value::Null, |row| &row["sup"]);
+    [
+        ("states", cells[1] == states.to_string()),
+        ("sigma", report["sigma_star"] == *cells[3]),
+        ("ball", is_rounded(&cells[4], &report["plant"]["ball"], false)),
+        ("e", is_rounded(&cells[5], &report["initial_set"]["E0"], false)),
+        ("n_o = 0", is_rounded(&cells[6], at(0), true)),
+        ("n_o = 10", is_rounded(&cells[7], at(10), true)),
+        ("u", is_rounded(&cells[8], &report["control"]["steady"], true)),
+    ]
+    .into_iter()
+    .filter_map(|(column, right)| (!right).then_some(column))
+    .collect()
+}
+
+#[test]
+fn every_machine_has_a_row_and_a_section() {
+    let folder = std::fs::read_dir(Path::new(ROOT).join("specs/machines")).unwrap();
+    let there: BTreeSet<String> =
+        folder.map(|entry| entry.unwrap().path().file_stem().unwrap().to_str().unwrap().to_owned()).collect();
+    let rows = machines();
+    assert!(rows.keys().eq(&there), "{there:?}");
+    let text = page("machines.md");
+    for name in rows.keys() {
+        assert!(text.contains(&format!("(figures/{name}.svg)")), "docs/machines.md does not show {name}");
+    }
+}
+
+/// Of an ordinary run two machines; with `SIGMASTAR_CASES=all` every one, and the smallest gains that are found.
+#[test]
+fn the_machines_are_certified_checked_and_exported() {
+    let folder = TempDir::new().unwrap();
+    let every_machine = every(4);
+    for (name, cells) in machines().into_iter().step_by(every_machine) {
+        if every_machine == 1 {
+            let (_, report) = certified(folder.path(), &name, &[]);
+            assert_eq!(report["sigma_star"], *cells[2], "{name}");
+        }
+        let gain = ["--sigma", &cells[3]];
+        let (certificate, report) = certified(folder.path(), &name, &gain);
+        let columns = wrong(&cells, states(&name), &report);
+        assert!(columns.is_empty(), "docs/machines.md, {name}: {columns:?} in\n{cells:?}\n{report:#}");
+        valid(&certificate);
+        let output = program().args(["falsify", "-q", "--trials", "2"]).arg(&certificate).output().unwrap();
+        assert!(output.status.success(), "{name}: {}", utf8(output.stderr));
+        let (certificate, _) = certified(folder.path(), &name, &[gain[0], gain[1], "--sampling-period", &cells[9]]);
+        valid(&certificate);
+        compiles(folder.path(), &certificate);
+    }
+}
+
+fn states(name: &str) -> usize {
+    let output = program().args(["convert", &format!("specs/machines/{name}.toml")]).output().unwrap();
+    json(&output.stdout)["states"].as_array().map_or(0, Vec::len)
+}
+
+fn valid(certificate: &Path) {
+    let output = program().args(["check", "--format", "json"]).arg(certificate).output().unwrap();
+    let answer = json(&output.stdout);
+    assert_eq!(answer["verdict"], "valid", "{answer:#}");
+}
+
+/// The law of a certificate as C, with ten oscillators.
+fn compiles(folder: &Path, certificate: &Path) {
+    let (law, main, run) = (folder.join("law.c"), folder.join("main.c"), folder.join("law"));
+    let call = ["--n-o", "10", "--format", "c", "--force", "-o"];
+    let output = program().arg("controller").arg(certificate).args(call).arg(&law).output().unwrap();
+    assert!(output.status.success(), "{}", utf8(output.stderr));
+    std::fs::write(&main, MAIN).unwrap();
+    if installed("gcc", &["--version"]) {
+        gcc(&[&law, &main], &run);
+        assert!(std::process::Command::new(&run).status().unwrap().success());
+    }
+}
+
+/// The figures of the page. `SIGMASTAR_FIGURES=write` draws them again.
+#[test]
+fn the_figures_of_the_machines_are_what_the_program_draws() {
+    let folder = TempDir::new().unwrap();
+    for (name, cells) in machines() {
+        let machine = format!("specs/machines/{name}.toml");
+        let call =
+            ["simulate", &machine, "--sigma", &cells[3], "--n-o", "3", "--periods", "6", "--samples", "50", "--force"];
+        let output = program().args(call).arg("--plots").arg(folder.path()).output().unwrap();
+        assert_eq!(output.status.code(), Some(0), "{name}: {}", utf8(output.stderr));
+        compare_figure(&name, &folder.path().join("response.svg"));
+    }
+}
+
+#[test]
+fn figures_that_are_not_the_programs_are_found() {
+    let report = serde_json::json!({
+        "sigma_star": "3000", "plant": { "ball": "0.05" }, "control": { "steady": "0.151432" },
+        "initial_set": { "E0": "20" },
+        "consequences": { "error_bounds": [{ "n_o": 0, "sup": "1.31586" }, { "n_o": 10, "sup": "0.030052" }] },
+    });
+    let right = ["`a`", "1", "656.774", "3000", "0.05", "20", "1.316", "0.03006", "0.1515", "1/20000"];
+    let right = right.map(str::to_owned);
+    assert_eq!(wrong(&right, 1, &report), Vec::<&str>::new());
+    for (cell, text, column) in [
+        (1, "2", "states"),
+        (3, "3001", "sigma"),
+        (4, "0.051", "ball"),
+        (5, "21", "e"),
+        (6, "1.315", "n_o = 0"),
+        (7, "0.03005", "n_o = 10"),
+        (8, "0.1514", "u"),
+    ] {
+        let mut cells = right.clone();
+        text.clone_into(&mut cells[cell]);
+        assert_eq!(wrong(&cells, 1, &report), [column], "{text}");
+    }
+}
+
+/// The script of the comparison has the data of the machine; where python-control is installed it prints what the page shows.
+#[test]
+fn the_comparison_is_about_the_magnetic_bearing() {
+    let text = page("comparison.md");
+    let script = std::fs::read_to_string(Path::new(ROOT).join("examples/comparison.py")).unwrap();
+    let row = &machines()["magnetic-bearing"];
+    assert!(script.contains(&format!("(1, 10, 100, {}, {})", row[2], row[3])), "examples/comparison.py");
+    for figure in [&row[2], &row[3]] {
+        assert!(text.contains(&format!("\n{figure:<8}  ")), "docs/comparison.md: {figure}");
+    }
+    let machine = std::fs::read_to_string(Path::new(ROOT).join("specs/machines/magnetic-bearing.toml")).unwrap();
+    let data = ["lambda = 500 ", "m = 1.637 ", "s_0 = 0.78 ", "low = 172000, high = 210000", "mu = 500", "x = \"1/5\""];
+    assert!(data.iter().all(|datum| machine.contains(datum)), "{machine}");
+    assert!(script.contains("= 500.0, 1.637, 0.78, 0.2, 500.0, 200 * np.pi"), "{script}");
+    if installed("python3", &["-c", "import control"]) {
+        let output =
+            std::process::Command::new("python3").arg("examples/comparison.py").current_dir(ROOT).output().unwrap();
+        assert!(text.contains(&utf8(output.stdout)), "{}", utf8(output.stderr));
+    }
+}
