@@ -77,11 +77,11 @@ pub fn check(json: &Json, other: Option<&Json>, figures_limit: u64, lines: &mut 
         no_plant: if continuous { file.optional("no_plant") } else { None },
     };
     let states = spec.plant.as_ref().map_or(0, |plant| plant.states);
-    let region = derivation.region();
-    let kind = match region {
+    let regions = derivation.regions();
+    let kind = match regions {
         None if continuous => Kind::Continuous,
         None => Kind::Sampled,
-        Some(_) => Kind::Slopes(states),
+        Some(_) => Kind::Slopes { states, corner: derivation.has_corner() && states > 0 },
     };
     let rates = Witness::read_all(witness.optional("for_n_o").as_ref(), &claim.rates, kind)?;
     witness.finish()?;
@@ -105,7 +105,7 @@ pub fn check(json: &Json, other: Option<&Json>, figures_limit: u64, lines: &mut 
     // Last, because it may take the longest.
     if let Some(cells) = &cells {
         let inequalities =
-            Inequalities { slopes: region.map(|at| Asked { witnesses: &rates, at }), ..derivation.inequalities() };
+            Inequalities { slopes: regions.map(|at| Asked { witnesses: &rates, at }), ..derivation.inequalities() };
         proofs_plants::prove(&spec, cells, arguments.each_ref(), inequalities, lines)?;
     }
     if let Some((jacobian, witness)) = &spec.jacobian {
@@ -139,7 +139,7 @@ fn prove(
     let free = derivation.free();
     claim.check(d, &proved, [&free.x_p, &free.e_p], derivation.prediction())?;
     if !rates.is_empty() {
-        if !derivation.rests_on_norms() && derivation.region().is_none() {
+        if !derivation.rests_on_norms() && derivation.regions().is_none() {
             return bad(
                 "/claim/for_n_o",
                 "rates at samples are proved with a claim by norms, of a law without a delay",

@@ -43,6 +43,6 @@ pub fn arguments<'i>(inequalities: Inequalities<'i>) -> impl Iterator<Item = [&'
         let existence = parts.existence.map(|part| [&part.x, &part.e]);
         parts.stability.map(|part| [&part.x, &part.e]).into_iter().chain(existence)
     });
-    let of_slopes = inequalities.slopes.map(|asked| asked.at);
+    let of_slopes = inequalities.slopes.into_iter().flat_map(|asked| asked.at);
     of_stability.chain(of_joint).chain(of_existence).chain(of_slopes).chain(at_samples)
 }

@@ -1,5 +1,6 @@
 //! The questions of the rates of a claim by a matrix inequality or by joint metrics, (D) of docs/mathematics.md, section 13.6: that
-//! `Q - G D - D'G' - D'H D` is positive semidefinite, `D = [J, g; r, d]` the derivatives of (f, q) in (x, e), in the coordinates of the claim.
+//! `Q - G D - D'G' - D'H D` is positive semidefinite, `D = [J, g; r, d]` the derivatives of (f, q) in (x, e), or its columns `[J; r]` or `[g; d]`, each
+//! where the inequality of the claim has them, in the coordinates of the claim.
 
 use super::form::{numbers, of_output};
 use super::formula::{Axis, Id};
@@ -10,7 +11,7 @@ use proofs_core::rules::rates::Asked;
 use proofs_core::rules::rates::claimed::RULE;
 use proofs_core::rules::rates::slopes::Slopes;
 
-/// One for each n_o whose Q, G and H are not those of one before.
+/// One for each part of each n_o whose Q, G and H are not those of one before.
 pub fn questions<'i>(model: &mut Model, asked: Asked<'i>) -> Vec<Said<'i>> {
     let mut all: Vec<Said<'i>> = Vec::new();
     for (place, (n_o, slopes)) in asked.slopes().enumerate() {
@@ -18,27 +19,29 @@ pub fn questions<'i>(model: &mut Model, asked: Asked<'i>) -> Vec<Said<'i>> {
             continue;
         }
         let question = of_slopes(model, slopes);
-        let what = format!("(D), Q - G D - D'G' - D'H D >= 0 for n_o = {n_o}");
-        all.push(Said { rule: RULE, pointer: &slopes.pointer, what, at: asked.at, question });
+        let [_, name] = slopes.columns.words();
+        let what = format!("{name}, Q - G D - D'G' - D'H D >= 0 for n_o = {n_o}");
+        all.push(Said { rule: RULE, pointer: &slopes.pointer, what, at: asked.region(slopes.columns), question });
     }
     all
 }
 
-fn of_slopes(model: &mut Model, Slopes { q, g, h, .. }: &Slopes) -> Question {
+fn of_slopes(model: &mut Model, Slopes { columns, q, g, h, .. }: &Slopes) -> Question {
     let states = model.states();
-    // D, its last row that of q and its last column that of e.
+    // D, its last row that of q and its last column that of e; of that the columns that are asked about.
     let column = of_output(model);
     let slope = model.formulas.derivative(model.q, Axis::Output);
     let of_f = model.jacobian.iter().zip(column).map(|(row, last)| [row.as_slice(), &[last]].concat());
-    let derivatives: Vec<Vec<Id>> = of_f.chain([[model.row.as_slice(), &[slope]].concat()]).collect();
+    let rows = of_f.chain([[model.row.as_slice(), &[slope]].concat()]);
+    let derivatives: Vec<Vec<Id>> = rows.map(|row| row[columns.places(states)].to_vec()).collect();
 
     let formulas = &mut model.formulas;
-    let order = states + 1;
+    let (order, count) = (states + 1, q.len());
     let [q, g, h] = [q, g, h].map(|rows| rows.iter().map(|row| numbers(formulas, row)).collect::<Vec<_>>());
     let mut image = |row: &dyn Fn(usize) -> Id, j: usize| formulas.dot((0..order).map(|k| (row(k), derivatives[k][j])));
     let of_h: Vec<Vec<Id>> =
-        (0..order).map(|i| (0..order).map(|j| image(&|k| h[i.max(k)][i.min(k)], j)).collect()).collect();
-    let of_g: Vec<Vec<Id>> = g.iter().map(|row| (0..order).map(|j| image(&|k| row[k], j)).collect()).collect();
+        (0..order).map(|i| (0..count).map(|j| image(&|k| h[i.max(k)][i.min(k)], j)).collect()).collect();
+    let of_g: Vec<Vec<Id>> = g.iter().map(|row| (0..count).map(|j| image(&|k| row[k], j)).collect()).collect();
     let mut rows = Vec::new();
     for (i, line) in q.into_iter().enumerate() {
         let own: Vec<Id> = line

@@ -80,19 +80,22 @@ impl AtSamples {
     }
 }
 
-/// Rates as the witness of a claim by a matrix inequality has them, and where (D) is to hold.
+/// Rates as the witness of a claim by a matrix inequality has them, and where that has (J, r), and (g, d).
 struct Slopes {
     list: Vec<Witness>,
-    at: [Rational; 2],
+    at: [[Rational; 2]; 2],
 }
 
 impl Slopes {
     fn read(part: &Value) -> Outcome<Slopes> {
-        let states = part["list"][0]["slopes"]["H"].as_array().unwrap().len() - 1;
+        let states = part["list"][0]["Pi"].as_array().unwrap().len() - 2;
         let json = parse(part["list"].to_string().as_bytes()).unwrap();
         let field = Field { json: &json, pointer: "/witness/for_n_o".to_owned() };
-        let at = ["X", "E"].map(|name| decimal(part[name].as_str().unwrap()).unwrap());
-        Witness::read_list(Some(&field), Kind::Slopes(states)).map(|list| Slopes { list, at })
+        let [own, other] = [part, part.get("splitting").unwrap_or(part)];
+        let number = |of: &Value, name: &str| decimal(of[name].as_str().unwrap()).unwrap();
+        let at = [[number(own, "X"), number(other, "E")], [number(other, "X"), number(own, "E")]];
+        let kind = Kind::Slopes { states, corner: part.get("splitting").is_some() };
+        Witness::read_list(Some(&field), kind).map(|list| Slopes { list, at })
     }
 }
 
@@ -109,7 +112,8 @@ pub fn judged(parts: &Value) -> Outcome<Vec<String>> {
         existence: parts.existence.as_ref(),
     });
     let slopes = parts.get("slopes").map(Slopes::read).transpose()?;
-    let slopes = slopes.as_ref().map(|parts| Asked { witnesses: &parts.list, at: parts.at.each_ref() });
+    let slopes =
+        slopes.as_ref().map(|parts| Asked { witnesses: &parts.list, at: parts.at.each_ref().map(<[_; 2]>::each_ref) });
     let inequalities = Inequalities {
         stability: inequality.as_ref(),
         joint: joint.as_ref(),

@@ -12,32 +12,43 @@ const STEP: f64 = 1e-9;
 
 type Matrix = Vec<Vec<f64>>;
 
-/// `G D + D'G' + D'H D`.
+/// `G D + D'G' + D'H D`, D all of its columns or some.
 fn taken(g: &Matrix, h: &Matrix, d: &Matrix) -> Matrix {
-    let all = 0..d.len();
-    let dot = |value: &dyn Fn(usize) -> f64| all.clone().map(value).sum::<f64>();
+    let all = 0..d[0].len();
+    let dot = |value: &dyn Fn(usize) -> f64| (0..d.len()).map(value).sum::<f64>();
     let g_d = |i: usize, j: usize| dot(&|k| g[i][k] * d[k][j]);
     let h_d = |i: usize, j: usize| dot(&|k| h[i.max(k)][i.min(k)] * d[k][j]);
     let entry = |i: usize, j: usize| g_d(i, j) + g_d(j, i) + dot(&|k| d[k][i] * h_d(k, j));
     all.clone().map(|i| all.clone().map(|j| entry(i, j)).collect()).collect()
 }
 
-/// The part for n_o = 0 with `Q + shift I`; of Pi and the rest of it (D) has nothing.
-fn part(q: &Matrix, shift: f64, g: &Matrix, h: &Matrix, [x, e]: [&str; 2]) -> Value {
-    let text = |value: f64| json!(format!("{value:.15}"));
-    let own = |i: usize, j: usize| q[i][j] + if i == j { shift } else { 0.0 };
-    let triangle = |value: &dyn Fn(usize, usize) -> f64, order: usize| -> Value {
-        (0..order).map(|i| (0..=i).map(|j| text(value(i, j))).collect::<Value>()).collect()
-    };
-    let order = h.len();
-    let slopes = json!({
-        "Q": triangle(&own, order),
+fn text(value: f64) -> Value {
+    json!(format!("{value:.15}"))
+}
+
+fn triangle(value: &dyn Fn(usize, usize) -> f64, order: usize) -> Value {
+    (0..order).map(|i| (0..=i).map(|j| text(value(i, j))).collect::<Value>()).collect()
+}
+
+/// `Q + shift I`, G and H of so many columns.
+fn slopes(q: &Matrix, shift: f64, g: &Matrix, h: &Matrix) -> Value {
+    json!({
+        "Q": triangle(&|i, j| q[i][j] + if i == j { shift } else { 0.0 }, g.len()),
         "G": g.iter().map(|row| row.iter().map(|value| text(*value)).collect::<Value>()).collect::<Value>(),
-        "H": triangle(&|i, j| h[i][j], order),
-    });
-    let pi = triangle(&|i, j| f64::from(u8::from(i == j)), order + 1);
+        "H": triangle(&|i, j| h[i][j], h.len()),
+    })
+}
+
+/// The part for n_o = 0 with slopes of a plant with so many states; of Pi and the rest of it (D) has nothing.
+fn of_none(states: usize, slopes: &Value, [x, e]: [&str; 2]) -> Value {
+    let pi = triangle(&|i, j| f64::from(u8::from(i == j)), states + 2);
     let witness = json!({ "n_o": 0, "Pi": pi, "slopes": slopes, "x_up": "1", "e_low": "1", "e_up": "1", "z_up": "1" });
     json!({ "X": x, "E": e, "list": [witness] })
+}
+
+/// The same with `Q + shift I`, G and H of all columns.
+fn part(q: &Matrix, shift: f64, g: &Matrix, h: &Matrix, at: [&str; 2]) -> Value {
+    of_none(h.len() - 1, &slopes(q, shift, g, h), at)
 }
 
 #[track_caller]
@@ -48,6 +59,14 @@ fn decided(parts: &Parts, q: &Matrix, g: &Matrix, h: &Matrix, at: [&str; 2], shi
 
 fn matrix(rows: &[&[f64]]) -> Matrix {
     rows.iter().map(|row| row.to_vec()).collect()
+}
+
+/// One for `[J; r]` and one for `[g; d]`, in `|y| <= X`, `|e| <= E` with a splitting.
+fn parts_of([of_states, of_error]: [&Value; 2], at: [&str; 2], [x, e]: [&str; 2]) -> Value {
+    let states = of_states["H"].as_array().unwrap().len() - 1;
+    let mut part = of_none(states, &json!({ "states": of_states, "error": of_error }), at);
+    part["splitting"] = json!({ "X": x, "E": e });
+    part
 }
 
 /// Every number of Q, G, H, of the derivatives and of the coordinates is where it belongs.
@@ -80,7 +99,75 @@ fn against_what_is_left_by_hand() {
             .with("/witness/orbit/mean", json!(["0", "0"]))
             .with("/witness/lyapunov/P", json!([["1", "0"], ["0", "1"]]));
         decided(&parts, &taken(&g, &h, &derivatives), &g, &h, ["1", "1"], [STEP, -STEP]);
+
+        // The same of the first two columns, with the first two rows of G, and of the last one, with the last row.
+        let own = |columns: std::ops::Range<usize>| {
+            let d: Matrix = derivatives.iter().map(|row| row[columns.clone()].to_vec()).collect();
+            let g = g[columns].to_vec();
+            let q = taken(&g, &h, &d);
+            [STEP, -STEP].map(|shift| slopes(&q, shift, &g, &h))
+        };
+        let ([of_states, less], [of_error, less_of_error]) = (own(0..2), own(2..3));
+        let with = |both| parts.clone().with("/slopes", parts_of(both, ["1", "1"], ["1", "1"]));
+        with([&of_states, &of_error]).accepted();
+        let at = |part: &str| format!("{PLACE}/{part}");
+        with([&less, &of_error]).refused(Verdict::Invalid, "rates", &at("states"));
+        with([&of_states, &less_of_error]).refused(Verdict::Invalid, "rates", &at("error"));
     }
+}
+
+/// Each part has its own region: [J; r] of `|y| <= X` and the E of the splitting, [g; d] of the X of the splitting and `|e| <= E`.
+#[test]
+fn parts_over_their_regions() {
+    // J = -2 - 3 x^2 + e/2, r = 1/2 + e/4, g = 3/10 + x/2, d = x/4 + e/2.
+    let plant = at_rest("-2*x - x^3 + 3*e/10 + x*e/2", "x/2 + x*e/4 + e^2/4");
+    let h = matrix(&[&[0.5], &[0.1, 0.7]]);
+    let (of_x, of_e) = (matrix(&[&[0.3, -0.2]]), matrix(&[&[0.1, 0.4]]));
+    // What Q has to be at least, to within what a fine grid of the whole region misses; the extremes are at its ends.
+    let largest = |g: &Matrix, column: &dyn Fn(f64, f64) -> [f64; 2], [x, e]: [f64; 2]| {
+        let grid = |end: f64| (0..=200).map(move |k| end * (f64::from(k) / 100.0 - 1.0));
+        let value = |x: f64, e: f64| taken(g, &h, &column(x, e).map(|entry| vec![entry]).to_vec())[0][0];
+        grid(x).flat_map(|x| grid(e).map(move |e| (x, e))).map(|(x, e)| value(x, e)).fold(f64::MIN, f64::max)
+    };
+    let in_x = |x: f64, e: f64| [-2.0 - 3.0 * x * x + e / 2.0, 0.5 + e / 4.0];
+    let in_e = |x: f64, e: f64| [0.3 + x / 2.0, x / 4.0 + e / 2.0];
+    let made = |of_states: [f64; 2], of_error: [f64; 2], shift: f64| {
+        let of = |g: &Matrix, least: f64| slopes(&vec![vec![least]], shift, g, &h);
+        let [x, e] = [of(&of_x, largest(&of_x, &in_x, of_states)), of(&of_e, largest(&of_e, &in_e, of_error))];
+        [x, e]
+    };
+    // X, E and those of the splitting.
+    let (at, split) = (["0.9", "0.8"], ["0.3", "0.2"]);
+    let with = |[of_states, of_error]: &[Value; 2], at, split| {
+        plant.clone().with("/slopes", parts_of([of_states, of_error], at, split))
+    };
+    let right = made([0.9, 0.2], [0.3, 0.8], 1e-4);
+    with(&right, at, split).accepted();
+    // Where the inequality reaches farther in either, they do not hold.
+    for (at, split, part) in [
+        (["0.95", "0.8"], split, "states"),
+        (at, ["0.3", "0.25"], "states"),
+        (at, ["0.35", "0.2"], "error"),
+        (["0.9", "0.85"], split, "error"),
+    ] {
+        with(&right, at, split).refused(Verdict::Invalid, "rates", &format!("{PLACE}/{part}"));
+    }
+    // What holds in a smaller region alone, of x or of e.
+    for (of_states, of_error, part) in [
+        ([0.85, 0.2], [0.3, 0.8], "states"),
+        ([0.9, 0.15], [0.3, 0.8], "states"),
+        ([0.9, 0.2], [0.25, 0.8], "error"),
+        ([0.9, 0.2], [0.3, 0.75], "error"),
+    ] {
+        let made = with(&made(of_states, of_error, 1e-4), at, split);
+        made.refused(Verdict::Invalid, "rates", &format!("{PLACE}/{part}"));
+    }
+    // With one state either has the shape of the other.
+    let [of_states, of_error] = right;
+    with(&[of_error, of_states], at, split).refused(Verdict::Invalid, "rates", &format!("{PLACE}/states"));
+    // The same numbers for both: of [J; r] they hold by far, of [g; d] they do not.
+    let same = slopes(&matrix(&[&[0.0]]), 0.0, &matrix(&[&[2.0, 0.0]]), &matrix(&[&[0.1], &[0.0, 0.1]]));
+    with(&[same.clone(), same], at, split).refused(Verdict::Invalid, "rates", &format!("{PLACE}/error"));
 }
 
 /// The border is that of the worst derivatives on the whole region, of x and of e.

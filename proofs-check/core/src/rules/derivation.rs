@@ -92,10 +92,15 @@ impl Derivation {
         }
     }
 
-    /// X and E of the inequality by which the error decays, in continuous time; none where it does by norms.
-    pub fn region(&self) -> Option<[&Rational; 2]> {
+    /// (X, E) at which the inequality by which the error decays has (J, r), and (g, d), in continuous time; none where it does by norms.
+    pub fn regions(&self) -> Option<[[&Rational; 2]; 2]> {
         let Inequalities { stability, joint, .. } = self.inequalities();
-        stability.map(|part| [&part.x, &part.e]).or_else(|| joint.map(|part| [&part.x, &part.e]))
+        stability.map(Inequality::arguments).or_else(|| joint.map(|part| [[&part.x, &part.e]; 2]))
+    }
+
+    /// Whether it is an inequality with a splitting, on a path with a corner.
+    pub fn has_corner(&self) -> bool {
+        self.inequalities().stability.is_some_and(|part| part.splitting.is_some())
     }
 
     /// Y_0 as it is written, of a law with a delay.

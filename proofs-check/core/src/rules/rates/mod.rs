@@ -52,24 +52,37 @@ pub enum Kind {
     Continuous,
     /// By norms, at samples.
     Sampled,
-    /// By a matrix inequality or joint metrics, of a plant with so many states.
-    Slopes(usize),
+    /// By a matrix inequality or joint metrics, of a plant with so many states; `corner`: whether the inequality has a splitting.
+    Slopes { states: usize, corner: bool },
 }
 
-/// What proves the rates of a claim by slopes, and X and E of the inequality that it rests on: (D) is to hold there.
+/// What proves the rates of a claim by slopes, and (X, E) at which the inequality that it rests on has (J, r), and (g, d).
 #[derive(Clone, Copy)]
 pub struct Asked<'w> {
     pub witnesses: &'w [Witness],
-    pub at: [&'w Rational; 2],
+    pub at: [[&'w Rational; 2]; 2],
 }
 
 impl<'w> Asked<'w> {
     /// The slopes, each with its n_o.
     pub fn slopes(self) -> impl Iterator<Item = (u32, &'w slopes::Slopes)> {
-        self.witnesses.iter().filter_map(|witness| match &witness.proof {
-            Proof::Slopes(proof) => Some((witness.n_o, &proof.slopes)),
-            Proof::Continuous(..) | Proof::Sampled(..) => None,
+        self.witnesses.iter().flat_map(|witness| {
+            let parts: &[_] = match &witness.proof {
+                Proof::Slopes(proof) => &proof.parts,
+                Proof::Continuous(..) | Proof::Sampled(..) => &[],
+            };
+            parts.iter().map(|part| (witness.n_o, part))
         })
+    }
+
+    /// X and E up to which (D) of these columns is to hold: of all of them, those of the whole error box.
+    pub fn region(self, columns: slopes::Columns) -> [&'w Rational; 2] {
+        let [of_states, of_error] = self.at;
+        match columns {
+            slopes::Columns::All => [of_states[0], of_error[1]],
+            slopes::Columns::States => of_states,
+            slopes::Columns::Error => of_error,
+        }
     }
 }
 
@@ -104,7 +117,7 @@ impl Witness {
         let mut fields = field.fields()?;
         let n_o = read_count(&mut fields)?;
         // With slopes nothing is proved of noise: there the field is one that is not known.
-        let noise = if matches!(kind, Kind::Slopes(_)) { None } else { fields.optional("noise") };
+        let noise = if matches!(kind, Kind::Slopes { .. }) { None } else { fields.optional("noise") };
         let mut noise = noise.map(|field| field.fields()).transpose()?;
         let proof = match kind {
             Kind::Continuous => {
@@ -115,7 +128,9 @@ impl Witness {
                 let of_noise = noise.as_mut().map(|fields| sampled::OfNoise::read(fields, n_o)).transpose()?;
                 Proof::Sampled(Box::new(sampled::Proof::read(&mut fields, n_o)?), of_noise.map(Box::new))
             }
-            Kind::Slopes(states) => Proof::Slopes(Box::new(slopes::Proof::read(&mut fields, n_o, states)?)),
+            Kind::Slopes { states, corner } => {
+                Proof::Slopes(Box::new(slopes::Proof::read(&mut fields, n_o, states, corner)?))
+            }
         };
         let ends = [fields.required("e_up")?.rational()?, fields.required("z_up")?.rational()?];
         [noise, Some(fields)].into_iter().flatten().try_for_each(|fields| fields.finish())?;

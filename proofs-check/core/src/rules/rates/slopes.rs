@@ -6,10 +6,15 @@
 //! `x' = omega_f`, `(e, zs)' = (-sigma e, Phi zs) + B (omega_q + (1 - b_u) sigma e + b_u mu b'zs)`.
 //! A witness for one n_o is Pi of (x, e, zs), Q, G and H of order n + 1, e_low, e_up, z_up and, with states, x_up; `W = eta'Pi eta`.
 //!
-//! Guarantee of [`rate`], with (D) proved of the plant's formulas (the crate `proofs-plants` does): in the error box, where the
-//! matrix inequality or the metrics keep the solution, omega is D a with the average D of the derivatives along the straight segment, on which
-//! (D), `Q - G D - D'G' - D'H D >= 0`, holds at every point; it is concave in D, for H >= 0, so that it holds of the average, whatever path
-//! the claim is proved on. So `a'Q a - 2 a'G omega - omega'H omega >= 0`, and as `-2 eta'Pi eta' - 2 rate eta'Pi eta` less that is positive definite (K)
+//! A claim whose matrix inequality is proved with a splitting, on a path with a corner, may have two of them in the place of Q, G, H: of the columns
+//! of D that belong to x and of the one that belongs to e, each with Q of as many rows as there are columns, G of these rows and n + 1 columns and H
+//! of order n + 1. Then omega is the sum of one for each.
+//!
+//! Guarantee of [`rate`], with (D) of each part proved of the plant's formulas (the crate `proofs-plants` does): in the error box, where the
+//! matrix inequality or the metrics keep the solution, omega is D a with the average D of the derivatives along the straight segment, whatever path
+//! the claim is proved on; with two parts each has its columns of D averaged over its own segment of the path of that claim. On a segment (D),
+//! `Q - G D - D'G' - D'H D >= 0`, holds at every point; it is concave in D, for H >= 0, so that it holds of the average.
+//! So `a'Q a - 2 a'G omega - omega'H omega >= 0` of each part, and as `-2 eta'Pi eta' - 2 rate eta'Pi eta` less all of that is positive definite (K)
 //! at both ends of b_u, in which it is affine, `W' <= -2 rate W`. With `Pi > diag(0, e_low, 0)` then `e^2 <= W/e_low`, and with `Pi < diag(x_up I, e_up, z_up I)`
 //! W of a start is at most `x_up dX^2 + e_up dE^2 + z_up dZ^2`, which `factor^2 e_low` is not below.
 
@@ -24,12 +29,46 @@ use crate::matrix::positive_definite;
 use crate::plant::coordinates::semidefinite;
 use crate::verdict::{Outcome, bad, demand};
 use rug::Rational;
+use std::ops::Range;
 
-/// Q and H by their lower triangles, G by its rows: what is said of the slopes of (f, q) in (x, e).
+/// Which columns of D something is said of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Columns {
+    /// All of them.
+    All,
+    /// `[J; r]`.
+    States,
+    /// `[g; d]`.
+    Error,
+}
+
+impl Columns {
+    /// Their places in a.
+    pub fn places(self, states: usize) -> Range<usize> {
+        match self {
+            Columns::All => 0..states + 1,
+            Columns::States => 0..states,
+            Columns::Error => states..states + 1,
+        }
+    }
+
+    /// What their places are, and the name of (D).
+    pub fn words(self) -> [&'static str; 2] {
+        match self {
+            Columns::All => ["one for each state and one for e", "(D)"],
+            Columns::States => ["one for each state", "(D_s)"],
+            Columns::Error => ["one for e", "(D_e)"],
+        }
+    }
+}
+
+/// Q and H by their lower triangles, G by its rows: what is said of the slopes of (f, q) in (x, e), or in one of these.
 #[derive(Clone, Debug)]
 pub struct Slopes {
     /// Where they stand in the file.
     pub pointer: String,
+    /// What they are about.
+    pub columns: Columns,
     /// Q, its lower triangle.
     pub q: Matrix,
     /// G, all of it.
@@ -39,23 +78,46 @@ pub struct Slopes {
 }
 
 impl Slopes {
-    fn read(field: &Field<'_>, order: usize) -> Outcome<Slopes> {
+    /// Those of all columns of D, or, where the claim rests on a path with a corner, those of its two parts.
+    fn read(field: &Field<'_>, states: usize, corner: bool) -> Outcome<Vec<Slopes>> {
         let mut fields = field.fields()?;
-        let what = "one for each state and one for e";
-        let q = triangle(&fields.required("Q")?, order, what)?;
-        let rows = fields.required("G")?;
-        let g = rows.elements()?.iter().map(numbers).collect::<Outcome<Matrix>>()?;
-        if g.len() != order || g.iter().any(|row| row.len() != order) {
-            return bad(&rows.pointer, format!("expected {order} rows of {order} numbers, {what}"));
+        let Some(of_states) = fields.optional("states") else {
+            let all = Slopes::take(&mut fields, Columns::All, states)?;
+            return fields.finish().map(|()| vec![all]);
+        };
+        if !corner {
+            return bad(
+                &of_states.pointer,
+                "the slopes of its parts need a path with a corner: a matrix inequality with a splitting",
+            );
         }
-        let h = triangle(&fields.required("H")?, order, what)?;
+        let parts = [(of_states, Columns::States), (fields.required("error")?, Columns::Error)];
         fields.finish()?;
-        Ok(Slopes { pointer: field.pointer.clone(), q, g, h })
+        let part = |(field, columns): (Field<'_>, Columns)| {
+            let mut fields = field.fields()?;
+            let part = Slopes::take(&mut fields, columns, states)?;
+            fields.finish().map(|()| part)
+        };
+        parts.into_iter().map(part).collect()
     }
 
-    /// Whether they are the same three matrices.
+    /// Takes Q, G and H out of an object.
+    fn take(fields: &mut Fields<'_>, columns: Columns, states: usize) -> Outcome<Slopes> {
+        let (count, order, [what, _]) = (columns.places(states).len(), states + 1, columns.words());
+        let q = triangle(&fields.required("Q")?, count, what)?;
+        let rows = fields.required("G")?;
+        let g = rows.elements()?.iter().map(numbers).collect::<Outcome<Matrix>>()?;
+        if g.len() != count || g.iter().any(|row| row.len() != order) {
+            return bad(&rows.pointer, format!("expected {count} rows of {order} numbers, {what} in rows"));
+        }
+        let h = triangle(&fields.required("H")?, order, Columns::All.words()[0])?;
+        Ok(Slopes { pointer: fields.pointer.clone(), columns, q, g, h })
+    }
+
+    /// Whether they are the same three matrices, of the same columns.
     pub fn are(&self, other: &Slopes) -> bool {
-        [(&self.q, &other.q), (&self.g, &other.g), (&self.h, &other.h)].into_iter().all(|(own, other)| own == other)
+        let matrices = [(&self.q, &other.q), (&self.g, &other.g), (&self.h, &other.h)];
+        self.columns == other.columns && matrices.into_iter().all(|(own, other)| own == other)
     }
 
     /// H >= 0, in exact arithmetic, so that (D) is concave. (K) has H as its part in omega: it is definite too.
@@ -70,14 +132,15 @@ impl Slopes {
 /// What proves the rate of one n_o, but for e_up and z_up.
 pub struct Proof {
     stored: Stored,
-    pub slopes: Slopes,
+    /// One of all columns of D, or one of each of its two parts.
+    pub parts: Vec<Slopes>,
     /// None without states.
     x_up: Option<Rational>,
 }
 
 impl Proof {
-    /// Takes it out of a part for this n_o, of a plant with so many states.
-    pub fn read(fields: &mut Fields<'_>, n_o: u32, states: usize) -> Outcome<Proof> {
+    /// Takes it out of a part for this n_o, of a plant with so many states; `corner`: whether the claim rests on a path with a corner.
+    pub fn read(fields: &mut Fields<'_>, n_o: u32, states: usize, corner: bool) -> Outcome<Proof> {
         if let Some(norms) = ["w", "l"].into_iter().find_map(|name| fields.optional(name)) {
             return bad(
                 &norms.pointer,
@@ -85,18 +148,25 @@ impl Proof {
             );
         }
         let stored = Stored::read(fields, n_o, states)?;
-        let slopes = Slopes::read(&fields.required("slopes")?, states + 1)?;
+        let parts = Slopes::read(&fields.required("slopes")?, states, corner)?;
         let x_up = if states > 0 { Some(fields.required("x_up")?.rational()?) } else { None };
-        Ok(Proof { stored, slopes, x_up })
+        Ok(Proof { stored, parts, x_up })
     }
 }
 
-/// The error system of one n_o, with Pi and Q, G and H.
+/// Q, G and H of a part of D, enclosed, and where its columns begin.
+struct Part {
+    first: usize,
+    q: Vec<Vec<Interval>>,
+    g: Vec<Vec<Interval>>,
+    h: Vec<Vec<Interval>>,
+}
+
+/// The error system of one n_o, with Pi and what is said of the parts of D.
 struct Loop {
     sigma: Interval,
     norm: Norm,
-    /// Q, G, H.
-    slopes: [Vec<Vec<Interval>>; 3],
+    parts: Vec<Part>,
 }
 
 impl Loop {
@@ -108,22 +178,28 @@ impl Loop {
         vec![(", at b_lo", end(&gain.low, low)), (", at b_hi", end(&gain.high, high))]
     }
 
-    /// The lower triangle of the form of (K) in (x, e, zs, omega); what comes back through B beside omega is `(1 - b_u) sigma e + b_u mu b'zs`.
+    /// The lower triangle of the form of (K) in (x, e, zs) and the omega of each part; what comes back through B beside them is
+    /// `(1 - b_u) sigma e + b_u mu b'zs`.
     fn form(&self, rate: &Interval, end: &[Interval; 2]) -> Vec<Vec<Interval>> {
-        let Loop { sigma, norm, slopes: [q, g, h] } = self;
+        let Loop { sigma, norm, parts } = self;
         let (order, of_e) = (norm.order(), norm.of_e);
         let moved = |i: usize, j: usize| norm.moved(i, j, sigma, end.each_ref());
-        let entry = |i: usize, j: usize| {
-            let falls = -(moved(i, j) + moved(j, i) + norm.at(i, j) * rate * 2);
-            if i <= of_e { falls - &q[i][j] } else { falls }
-        };
-        let mut rows: Vec<Vec<Interval>> = (0..order).map(|i| (0..=i).map(|j| entry(i, j)).collect()).collect();
-        for (i, own) in h.iter().enumerate() {
-            let beside = |j: usize| {
-                let driven = -if i < of_e { norm.at(j, i) } else { &norm.image[j] };
-                if j <= of_e { driven + &g[j][i] } else { driven }
-            };
-            rows.push((0..order).map(beside).chain(own.iter().cloned()).collect());
+        let falls = |i: usize, j: usize| -(moved(i, j) + moved(j, i) + norm.at(i, j) * rate * 2);
+        let mut rows: Vec<Vec<Interval>> = (0..order).map(|i| (0..=i).map(|j| falls(i, j)).collect()).collect();
+        for Part { first, q, g, h } in parts {
+            for (own, taken) in rows[*first..].iter_mut().zip(q) {
+                own[*first..].iter_mut().zip(taken).for_each(|(entry, value)| *entry = &*entry - value);
+            }
+            let before = rows.len() - order;
+            for (i, own) in h.iter().enumerate() {
+                let beside = |j: usize| {
+                    let driven = -if i < of_e { norm.at(j, i) } else { &norm.image[j] };
+                    let said = j.checked_sub(*first).and_then(|place| g.get(place));
+                    said.map_or_else(|| driven.clone(), |row| &driven + &row[i])
+                };
+                let apart = std::iter::repeat_n(Interval::int(0, rate.precision()), before);
+                rows.push((0..order).map(beside).chain(apart).chain(own.iter().cloned()).collect());
+            }
         }
         rows
     }
@@ -136,10 +212,15 @@ pub fn rate(
     (claimed, proof, ends): (&Rate<'_>, &Proof, &[Rational; 2]),
     reach: &[Interval; 3],
 ) -> Outcome<[Interval; 2]> {
-    let Proof { stored, slopes, x_up } = proof;
-    slopes.demand_concave()?;
-    let of_slopes = [&slopes.q, &slopes.g, &slopes.h].map(|rows| enclosed(d, rows));
-    let made = Loop { sigma: d.number(sigma), norm: Norm::new(d, stored)?, slopes: of_slopes };
+    let Proof { stored, parts, x_up } = proof;
+    parts.iter().try_for_each(Slopes::demand_concave)?;
+    let norm = Norm::new(d, stored)?;
+    let part = |slopes: &Slopes| {
+        let [q, g, h] = [&slopes.q, &slopes.g, &slopes.h].map(|rows| enclosed(d, rows));
+        Part { first: slopes.columns.places(norm.of_e).start, q, g, h }
+    };
+    let parts = parts.iter().map(part).collect();
+    let made = Loop { sigma: d.number(sigma), norm, parts };
     made.norm.lies_above()?;
     let rate = d.number(&claimed.rate);
     for (at, end) in made.ends(d) {
