@@ -146,7 +146,7 @@ fn a_file_is_read_in_the_notation_of_its_name() {
         Subject::from_bytes(name, text.as_bytes()).map(|subject| subject.sha256().to_owned())
     });
     assert_eq!(Subject::from_bytes("a/plant.toml", toml.as_bytes()).unwrap().sha256(), commented.unwrap());
-    assert_eq!(json.unwrap_err().kind(), ErrorKind::Format);
+    assert_eq!(json.unwrap_err().kind(), ErrorKind::Document);
     assert!(Subject::from_json(toml).is_err());
     let study = include_str!("../../src/cli/templates/study.toml");
     let study = Study::from_bytes("study.toml", study.as_bytes(), |_| Err(String::new())).unwrap();

@@ -380,7 +380,7 @@ fn the_schema_of_certificates_is_that_of_what_is_written() {
         assert_eq!(validator.complaints(&shipped.certificate), None, "{}", shipped.name);
         names(&shipped.certificate, &mut used);
     }
-    let stored = ["certificates", "sampled", "plants", "actuator", "rates", "noise"];
+    let stored = ["certificates", "sampled", "plants", "actuator", "rates", "noise", "slopes"];
     let stored = stored.map(|name| format!("proofs-check/tests/{name}"));
     for folder in &stored {
         for path in files(folder).iter().filter(|path| !path.ends_with("plants/paper-example.json")) {
