@@ -366,12 +366,16 @@ fn the_schema_of_certificates_is_that_of_what_is_written() {
     // A rate of a plant whose claim rests on a matrix inequality.
     let of_slopes = folder.path().join("slopes.certificate.json");
     program().args(["certify", "-q", &axis, "--sigma", "23", "--n-o", "1", "-o"]).arg(&of_slopes).assert().code(0);
+    // The same on a path with a corner, where the parts of the derivatives are known apart.
+    let (example, of_parts) =
+        (format!("{ROOT}/specs/plants/paper-example.json"), folder.path().join("parts.certificate.json"));
+    program().args(["certify", "-q", &example, "--sigma", "9.1", "--n-o", "0", "-o"]).arg(&of_parts).assert().code(0);
     // A family whose parameters are cut into cells.
     let (plant, of_family) = (folder.path().join("family.json"), folder.path().join("family.certificate.json"));
     std::fs::write(&plant, super::cells::family(["1.4", "2.6"]).to_string()).expect("a file");
     program().args(["certify", "-q"]).arg(&plant).arg("-o").arg(&of_family).assert().code(0);
     let mut used = BTreeSet::new();
-    let made = [&file, &sampled, &of_gain, &of_noise, &of_slopes, &of_family].map(|path| parsed(path));
+    let made = [&file, &sampled, &of_gain, &of_noise, &of_slopes, &of_parts, &of_family].map(|path| parsed(path));
     for certificate in [contradicted].into_iter().chain(made) {
         assert_eq!(validator.complaints(&certificate), None);
         names(&certificate, &mut used);
@@ -380,7 +384,7 @@ fn the_schema_of_certificates_is_that_of_what_is_written() {
         assert_eq!(validator.complaints(&shipped.certificate), None, "{}", shipped.name);
         names(&shipped.certificate, &mut used);
     }
-    let stored = ["certificates", "sampled", "plants", "actuator", "rates", "noise", "slopes"];
+    let stored = ["certificates", "sampled", "plants", "actuator", "rates", "noise"];
     let stored = stored.map(|name| format!("proofs-check/tests/{name}"));
     for folder in &stored {
         for path in files(folder).iter().filter(|path| !path.ends_with("plants/paper-example.json")) {
