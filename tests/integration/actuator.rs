@@ -1,7 +1,7 @@
 //! An actuator that saturates, limits of the error and the control, and the rows of larger gains (docs/mathematics.md, 13.5): what is certified,
 //! that no member of a claim saturates, and what a regulator and a simulation make of it.
 
-use crate::support::{json, options, program, specification_text, utf8};
+use crate::support::{count, json, options, program, specification_text, utf8};
 use proofs_check::verdict::Verdict as Answer;
 use serde_json::{Value, json as object};
 use sigmastar_document::progress::Silent;
@@ -140,7 +140,8 @@ fn from_the_set_the_actuator_never_saturates() {
             let claim = TriedClaim::from_document(&Document::parse("certificate", &certificate.to_string()).unwrap());
             falsify(&claim.unwrap(), TrialSettings { trials, seed: 3, only: None }, &Silent)
         };
-        let outcome = tried(&made, 6);
+        let trials = count(2, 6).into();
+        let outcome = tried(&made, trials);
         let gain: f64 = made["claim"]["sigma"].as_str().unwrap().parse().unwrap();
         let mut largest = 0.0_f64;
         for finding in &outcome.findings {
@@ -157,7 +158,7 @@ fn from_the_set_the_actuator_never_saturates() {
         let about = if forged.get("plant").is_some() { "plant" } else { "specification" };
         forged[about]["actuator"]["max"] = less.clone().into();
         forged["claim"]["actuator"]["max"] = less.into();
-        let found = tried(&forged, 6);
+        let found = tried(&forged, trials);
         let (_, violation) = found.counterexample().expect("it asks for more");
         assert_eq!(violation.quantity, ON_THE_WAY, "{name}");
     }
@@ -170,7 +171,7 @@ fn the_bounds_of_the_control_are_no_larger_than_they_need_be() {
     for name in ["linear", NAME, "plants/linear", "plants/duffing"] {
         let made = certificate(&specification_text(name));
         let claim = TriedClaim::from_document(&Document::parse("certificate", &made.to_string()).unwrap()).unwrap();
-        let outcome = falsify(&claim, TrialSettings { trials: 24, seed: 5, only: None }, &Silent);
+        let outcome = falsify(&claim, TrialSettings { trials: count(6, 24).into(), seed: 5, only: None }, &Silent);
         assert!(outcome.counterexample().is_none(), "{name}");
         for closest in outcome.closest() {
             match closest.quantity {

@@ -1,6 +1,6 @@
 //! Families whose box of parameters is cut into cells: certified where one tube is too wide, checked, tried, and decided again.
 
-use super::support::{json, program};
+use super::support::{every, json, program};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
@@ -48,7 +48,7 @@ fn again(plant: &Path, certificate: &Path) -> Value {
 #[test]
 fn a_wide_family_is_certified_in_cells() {
     let folder = TempDir::new().unwrap();
-    let plant = family(["1.4", "2.6"]);
+    let plant = family(["1.7", "2.3"]);
     let (file, report) = certified(&folder, &plant, "1");
     let certificate = json(&std::fs::read(&file).unwrap());
     let cells = certificate["witness"]["cells"].as_array().expect("cells").clone();
@@ -61,8 +61,8 @@ fn a_wide_family_is_certified_in_cells() {
     assert_eq!(again(&own, &file), "certified");
     // For part of the box too, and not beyond it.
     let other = |ends: [&str; 2]| again(&stored(&folder, "other.json", &family(ends)), &file);
-    assert_eq!(other(["1.5", "2.1"]), "certified");
-    assert_ne!(other(["1.3", "2.6"]), "certified");
+    assert_eq!(other(["1.75", "2.1"]), "certified");
+    assert_ne!(other(["1.6", "2.3"]), "certified");
     // What the claim says of members is not broken by simulations, at the ends and inside.
     let tried = program().args(["falsify", "--quiet", "--trials", "6"]).arg(&file).output().unwrap();
     assert_eq!(tried.status.code(), Some(0), "{}", String::from_utf8_lossy(&tried.stderr));
@@ -74,7 +74,7 @@ fn a_wide_family_is_certified_in_cells() {
         [again(&own, &file) == "certified", checked(&file)["verdict"] == "valid"]
     };
     let none = [false; 2];
-    for left_out in 0..cells.len() {
+    for left_out in (0..cells.len()).step_by(every(3)) {
         assert_eq!(forged("left.json", &|cells| drop(cells.remove(left_out))), none, "{left_out}");
     }
     assert_eq!(forged("twice.json", &|cells| cells.push(cells[0].clone())), [true; 2]);

@@ -84,7 +84,7 @@ fn no_better_weights(
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: count(4, 100), max_shrink_iters: 40, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: count(2, 100), max_shrink_iters: 40, ..ProptestConfig::default() })]
 
     #[test]
     fn every_one_is_certified(text in specification()) {

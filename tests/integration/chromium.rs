@@ -1,7 +1,7 @@
 //! The pages of `--format html` in a real browser: nothing is loaded, nothing is complained of, the first screen answers what a
 //! reader asks, and what is folded is printed. Where Chromium is not installed this is said, and nothing fails.
 
-use crate::support::{EXAMPLE, PLANT, program, refuted_witness};
+use crate::support::{EXAMPLE, PLANT, answer, every, refuted_witness};
 use serde_json::Value;
 use std::fs;
 use std::io::Write as _;
@@ -76,17 +76,28 @@ fn printed(browser: &Path, page: &Path) -> (usize, Vec<String>) {
 
 /// A report as a page in a folder.
 fn page(folder: &Path, name: &str, arguments: &[&str], code: i32) -> PathBuf {
-    let assert = program().args(arguments).args(["--format", "html"]).assert().code(code);
+    let output = answer(&[arguments, &["--format", "html"]].concat());
+    assert_eq!(output.status.code(), Some(code), "{arguments:?}");
     let path = folder.join(format!("{name}.html"));
-    fs::write(&path, &assert.get_output().stdout).unwrap();
+    fs::write(&path, &output.stdout).unwrap();
     path
 }
 
-/// Every kind of report, with its name and exit code.
-fn every_page(folder: &Path) -> Vec<PathBuf> {
+/// Every kind of report, written once.
+fn every_page() -> &'static [PathBuf] {
+    static PAGES: LazyLock<Vec<PathBuf>> = LazyLock::new(|| {
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("pages");
+        fs::create_dir_all(&folder).expect("a folder for tests");
+        pages(&folder)
+    });
+    &PAGES
+}
+
+/// With their names and exit codes.
+fn pages(folder: &Path) -> Vec<PathBuf> {
     let certificate = folder.join("certificate.json");
     let certificate = certificate.to_str().expect("a plain name");
-    let claim = page(folder, "certify", &["certify", EXAMPLE, "-q", "-o", certificate], 0);
+    let claim = page(folder, "certify", &["certify", EXAMPLE, "-q", "--force", "-o", certificate], 0);
     let jacobian = "specs/paper-example-jacobian.json";
     let others: [(&str, &[&str], i32); 11] = [
         ("plant", &["certify", PLANT, "-q"], 0),
@@ -108,12 +119,15 @@ fn every_page(folder: &Path) -> Vec<PathBuf> {
 #[test]
 fn pages_load_nothing_and_print_what_is_folded() {
     let Some(browser) = chromium("pages_load_nothing_and_print_what_is_folded") else { return };
-    let folder = TempDir::new().unwrap();
-    for page in every_page(folder.path()) {
-        let (pages, console) = printed(&browser, &page);
+    // One browser loads them all in frames; to print takes one for each.
+    let frames: Vec<_> = every_page().iter().map(|page| (page.clone(), 1400, 900)).collect();
+    let (_, console) = framed(&browser, &frames);
+    assert!(console.is_empty(), "{console:?}");
+    for page in every_page().iter().step_by(every(3)) {
+        let (pages, console) = printed(&browser, page);
         assert!(console.is_empty(), "{}: {console:?}", page.display());
         assert!(pages > 0, "{}", page.display());
-        let text = fs::read_to_string(&page).unwrap();
+        let text = fs::read_to_string(page).unwrap();
         if text.contains("<details>") {
             let opened = page.with_extension("open.html");
             fs::write(&opened, text.replace("<details>", "<details open>")).unwrap();
@@ -130,19 +144,24 @@ fn a_bad_page_is_seen() {
     let policy = "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'\">";
     let image = "<img src=\"http://192.0.2.1/x.png\" alt=\"\">";
     let folded = format!("<details><summary>a</summary>{}</details>", "<p>b</p>".repeat(200));
-    for (head, body, complaints, pages) in [
+    let cases = [
         (policy, "<p>a</p>".to_owned(), 0, 1),
         (policy, image.to_owned(), 1, 1),
         ("", "<script>console.warn('careful')</script>".to_owned(), 1, 1),
         ("", folded.clone(), 0, 1),
         ("", folded.replace("<details>", "<details open>"), 0, 5),
-    ] {
-        let page = folder.path().join("page.html");
+    ];
+    let mut frames = Vec::new();
+    for (at, (head, body, complaints, pages)) in cases.iter().enumerate() {
+        let page = folder.path().join(format!("page-{at}.html"));
         fs::write(&page, format!("<!DOCTYPE html><html><head>{head}</head><body>{body}</body></html>")).unwrap();
         let (printed, console) = printed(&browser, &page);
-        assert_eq!(console.len(), complaints, "{body}: {console:?}");
-        assert!(if pages == 1 { printed == 1 } else { printed >= pages }, "{printed}: {body}");
+        assert_eq!(console.len(), *complaints, "{body}: {console:?}");
+        assert!(if *pages == 1 { printed == 1 } else { printed >= *pages }, "{printed}: {body}");
+        frames.push((page, 400, 800));
     }
+    let (_, console) = framed(&browser, &frames);
+    assert_eq!(console.len(), cases.iter().map(|(_, _, complaints, _)| complaints).sum::<usize>(), "{console:?}");
 }
 
 /// Where the answers on a page end, in its own pixels, and how wide it is.
@@ -161,24 +180,46 @@ addEventListener('load', () => {
 });
 </script></head>";
 
-/// The number of answers, where the last of them ends, and by how much the page is wider than its window.
-fn measured(browser: &Path, page: &Path, width: u32, height: u32) -> (u64, f64, f64) {
-    // The copy that is measured may run the script; a frame is as narrow as it is told, unlike a window.
-    let text = fs::read_to_string(page).unwrap();
-    let text = text.replace("<meta http-equiv", "<meta name").replace("</head>", MEASURE);
-    let inner = page.with_extension("inner.html");
-    fs::write(&inner, text).unwrap();
-    let outer = page.with_extension("outer.html");
-    let name = inner.file_name().and_then(|name| name.to_str()).expect("a plain name");
-    let listen = "addEventListener('message', m => { document.title = JSON.stringify(m.data); })";
-    let frame = format!("<iframe width=\"{width}\" height=\"{height}\" style=\"border:0\" src=\"{name}\"></iframe>");
-    fs::write(&outer, format!("<!DOCTYPE html><html><body><script>{listen}</script>{frame}</body></html>")).unwrap();
+/// What the pages of frames of these sizes tell the page around them, and what the console says of all.
+fn framed(browser: &Path, frames: &[(PathBuf, u32, u32)]) -> (Vec<Value>, Vec<String>) {
+    let outer = frames[0].0.with_extension("outer.html");
+    let listen = "const said = {}; addEventListener('message', m => {
+        const all = [...document.querySelectorAll('iframe')];
+        said[all.findIndex(frame => frame.contentWindow === m.source)] = m.data; document.title = JSON.stringify(said);
+    })";
+    let frame = |(page, width, height): &(PathBuf, u32, u32)| {
+        let name = page.file_name().and_then(|name| name.to_str()).expect("a plain name");
+        format!("<iframe width=\"{width}\" height=\"{height}\" style=\"border:0\" src=\"{name}\"></iframe>")
+    };
+    let frames: String = frames.iter().map(frame).collect();
+    let page = format!("<!DOCTYPE html><html><head><title>{{}}</title><script>{listen}</script></head><body>{frames}");
+    fs::write(&outer, page + "</body></html>").unwrap();
     let (dom, console) = browse(browser, &outer, &["--virtual-time-budget=3000", "--dump-dom"]);
     let title = dom.split_once("<title>").and_then(|(_, rest)| rest.split_once("</title>")).map(|(title, _)| title);
     let title = title.unwrap_or_else(|| panic!("no answer: {console:?} {dom}"));
     let said: Value = serde_json::from_str(&title.replace("&quot;", "\"")).expect("JSON");
-    let number = |name: &str| said[name].as_f64().expect("a number");
-    (said["answers"].as_u64().expect("a number"), number("bottom"), number("width") - number("inner"))
+    ((0..).map_while(|index: usize| said.get(index.to_string()).cloned()).collect(), console)
+}
+
+/// Of each page in a window of a size: the number of answers, where the last of them ends, and by how much the page is wider.
+fn measured(browser: &Path, pages: &[(&Path, u32, u32)]) -> Vec<(u64, f64, f64)> {
+    // The copy that is measured may run the script; a frame is as narrow as it is told, unlike a window.
+    let copy = |(page, width, height): &(&Path, u32, u32)| {
+        let text = fs::read_to_string(page).unwrap();
+        let text = text.replace("<meta http-equiv", "<meta name").replace("</head>", MEASURE);
+        let inner = page.with_extension("inner.html");
+        fs::write(&inner, text).unwrap();
+        (inner, *width, *height)
+    };
+    let (said, console) = framed(browser, &pages.iter().map(copy).collect::<Vec<_>>());
+    assert_eq!(said.len(), pages.len(), "{console:?}");
+    let number = |said: &Value, name: &str| said[name].as_f64().expect("a number");
+    let one = |((_, width, _), said): (&(&Path, u32, u32), &Value)| {
+        assert_eq!(said["inner"], *width);
+        let overflow = number(said, "width") - number(said, "inner");
+        (said["answers"].as_u64().expect("a number"), number(said, "bottom"), overflow)
+    };
+    pages.iter().zip(&said).map(one).collect()
 }
 
 /// What is certified, with what gain, from where, what to do next: without scrolling, on a telephone and on a desk. Without a
@@ -195,27 +236,29 @@ fn the_first_screen_answers_what_a_reader_asks() {
         ("undecided", &["certify", EXAMPLE, "-q", "--sigma", "30"], 3, 2),
         ("refuted", &["certify", EXAMPLE, "-q", "--witness", refuted_witness()], 1, 2),
     ];
-    for (name, arguments, code, expected) in cases {
-        let page = page(folder.path(), name, arguments, code);
-        for (width, height) in [(400, 800), (1400, 900)] {
-            let (answers, bottom, overflow) = measured(&browser, &page, width, height);
-            assert_eq!(answers, expected, "{name}");
-            assert!(bottom <= f64::from(height), "{name} at {width}: the answers end at {bottom}");
-            assert!(overflow <= 0.0, "{name} at {width}: {overflow} pixels too wide");
-        }
+    let pages = cases.map(|(name, arguments, code, _)| page(folder.path(), name, arguments, code));
+    let mut windows: Vec<(&Path, u32, u32)> = Vec::new();
+    for page in &pages {
+        windows.extend([(page.as_path(), 400, 800), (page.as_path(), 1400, 900)]);
     }
-    // On a screen that is too low this is seen.
-    let (_, bottom, _) = measured(&browser, &folder.path().join("claim.html"), 400, 200);
-    assert!(bottom > 200.0, "{bottom}");
+    // On a screen that is too low the answers end below.
+    windows.push((&pages[0], 400, 200));
+    let mut found = measured(&browser, &windows);
+    assert!(found.pop().is_some_and(|(_, bottom, _)| bottom > 200.0));
+    for (at, ((answers, bottom, overflow), (_, width, height))) in found.into_iter().zip(&windows).enumerate() {
+        let (name, .., expected) = cases[at / 2];
+        assert_eq!(answers, expected, "{name}");
+        assert!(bottom <= f64::from(*height), "{name} at {width}: the answers end at {bottom}");
+        assert!(overflow <= 0.0, "{name} at {width}: {overflow} pixels too wide");
+    }
 }
 
 /// No page is wider than a telephone: tables and figures scroll in themselves.
 #[test]
 fn no_page_is_wider_than_its_window() {
     let Some(browser) = chromium("no_page_is_wider_than_its_window") else { return };
-    let folder = TempDir::new().unwrap();
-    for page in every_page(folder.path()) {
-        let (_, _, overflow) = measured(&browser, &page, 400, 800);
+    let windows: Vec<_> = every_page().iter().map(|page| (page.as_path(), 400, 800)).collect();
+    for (page, (_, _, overflow)) in every_page().iter().zip(measured(&browser, &windows)) {
         assert!(overflow <= 0.0, "{}: {overflow} pixels too wide", page.display());
     }
 }

@@ -3,7 +3,7 @@
 
 use crate::controller::{constant, example};
 use crate::sampled_falsify::{DELAYED, certified, tried};
-use crate::support::{EXAMPLE_TEXT, every, program};
+use crate::support::{EXAMPLE_TEXT, count, every, program};
 use faer::Mat;
 use serde_json::{Value, json};
 use sigmastar_lab::falsify::Finding;
@@ -184,7 +184,7 @@ fn a_claim_is_certified_and_decided_again() {
 
 #[test]
 fn falsify_finds_nothing_in_a_true_claim_and_what_is_wrong_in_a_forged_one() {
-    for finding in &tried(&DELAYED, 6).findings {
+    for finding in &tried(&DELAYED, count(2, 6).into()).findings {
         let Finding::Holds { shares, .. } = finding else { panic!("{finding:?}") };
         assert!(shares.iter().all(|(_, share)| *share <= 1.0), "{shares:?}");
     }
@@ -195,7 +195,7 @@ fn falsify_finds_nothing_in_a_true_claim_and_what_is_wrong_in_a_forged_one() {
         let number = forged.pointer_mut(place).unwrap();
         let value = number.as_str().unwrap().parse::<f64>().unwrap();
         *number = format!("{:?}", value * factor).into();
-        assert!(tried(&forged, 4).counterexample().is_some(), "{place}");
+        assert!(tried(&forged, count(2, 4).into()).counterexample().is_some(), "{place}");
     }
 }
 
@@ -209,7 +209,7 @@ fn with_an_input_gain() {
     });
     let report = proofs_check::check(certificate.to_string().as_bytes());
     assert!(report.is_flawless(), "{}", report.text(false));
-    for finding in &tried(&certificate, 4).findings {
+    for finding in &tried(&certificate, count(2, 4).into()).findings {
         assert!(matches!(finding, Finding::Holds { .. }), "{finding:?}");
     }
 }

@@ -17,7 +17,7 @@ use tempfile::TempDir;
 const SEEDS: [u64; 2] = [1, 40];
 
 /// Members that are simulated of a family, likewise.
-const MEMBERS: [u64; 2] = [6, 500];
+const MEMBERS: [u64; 2] = [2, 500];
 
 /// The least share of families that have to be certified, and of those whose gain over 50 has to be refuted.
 const SHARE: [f64; 2] = [0.85, 0.5];

@@ -327,6 +327,7 @@ fn written() -> &'static BTreeMap<&'static str, Vec<Value>> {
             parsed(&std::fs::read_to_string(format!("{folder}/report.json")).expect("written"), only)
         };
         let falsify = ["falsify", "-q", "--trials", "2", VALID];
+        let swept = swept();
         BTreeMap::from([
             ("certificate-fragment", certificates()),
             (
@@ -363,8 +364,8 @@ fn written() -> &'static BTreeMap<&'static str, Vec<Value>> {
                     run(1, &["check", refuted_witness(), "--format", "json"]),
                 ],
             ),
-            ("sweep-fragment", swept().into_iter().take(1).collect()),
-            ("sweep-case-fragment", swept().into_iter().skip(1).collect()),
+            ("sweep-fragment", swept[..1].to_vec()),
+            ("sweep-case-fragment", swept[1..].to_vec()),
             ("tune-fragment", vec![other(&["tune", "-q", EXAMPLE, "--over", "mu", "--tries", "8"])]),
             ("rates-fragment", vec![other(&["rate", EXAMPLE, "--n-o", "0,1"])]),
             ("lyapunov-fragment", vec![other(&["lyapunov", "specs/paper-example-jacobian.json"])]),

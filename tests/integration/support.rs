@@ -47,6 +47,14 @@ pub fn answer(arguments: &[&str]) -> Output {
     place.get_or_init(|| program().args(arguments).output().expect("the program runs")).clone()
 }
 
+/// What the program answers to such arguments, and the file that it writes, after `-o`: made once for all tests.
+pub fn made(arguments: &[&str]) -> (Output, Vec<u8>) {
+    let name: String = arguments.join(" ").chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '-' }).collect();
+    let file = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("made-{name}"));
+    let output = answer(&[arguments, &["--force", "-o", file.to_str().expect("a plain name")]].concat());
+    (output, std::fs::read(&file).unwrap_or_default())
+}
+
 /// A certificate of the paper's example with an error box that is too small: decided again, it is refuted.
 pub fn refuted_witness() -> &'static str {
     static PATH: LazyLock<String> = LazyLock::new(|| forged("refuted", "/witness/D_e", "1"));

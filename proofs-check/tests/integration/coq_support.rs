@@ -41,7 +41,9 @@ pub fn proofs() -> Option<&'static Path> {
             return None;
         }
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("coq");
-        let made = Command::new("make").arg("--no-print-directory").arg("-C").arg(&folder).output().expect("make runs");
+        let jobs = format!("-j{}", std::thread::available_parallelism().map_or(1, usize::from));
+        let made = Command::new("make").args([&jobs, "--no-print-directory", "-C"]).arg(&folder).output();
+        let made = made.expect("make runs");
         assert!(made.status.success(), "{}", String::from_utf8_lossy(&made.stderr));
         Some(folder)
     };

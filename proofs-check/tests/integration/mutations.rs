@@ -4,12 +4,12 @@
 //! A mutant may be accepted only in one of the classes of `harmless`, each of which leaves a true claim, or with figures that
 //! are said to differ, in one of the classes of `told`.
 
-use crate::common::{BOXES, PAPER, certificate, every, names, rehash};
+use crate::common::{BOXES, PAPER, certificate, every, names, rehash, text};
 use proofs_check::check;
 use proofs_check::verdict::Verdict;
 use rug::Rational;
 use serde_json::Value;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Why an accepted mutant is harmless, or `None`: then it is a hole in the checker.
 fn harmless(name: &str, pointer: &str, kind: &str) -> Option<&'static str> {
@@ -192,6 +192,11 @@ fn mutate_at<'p>(name: &str, places: impl Iterator<Item = &'p String>) -> Tally 
     tally
 }
 
+/// Whether a claim rests on a place. The others are figures.
+fn rests_on(pointer: &str) -> bool {
+    ["/specification/", "/claim/", "/witness/"].iter().any(|at| pointer.starts_with(at))
+}
+
 /// Deleting, doubling and moving.
 fn structure(original: &Value, pointer: &str, tally: &mut Tally) {
     let (parent, _) = pointer.rsplit_once('/').unwrap();
@@ -232,6 +237,50 @@ fn structure(original: &Value, pointer: &str, tally: &mut Tally) {
     }
 }
 
+/// Places of every kind that a claim rests on, each in the shortest certificate that has it: altered in one way, another from place to
+/// place, and left out. Those are of one kind that are the same field of other elements of a list.
+#[test]
+fn a_place_of_every_kind() {
+    let mut names = names("certificates");
+    names.sort_by_key(|name| text("certificates", name).len());
+    let kind = |pointer: &str| -> Vec<String> {
+        let part = |part: &str| if part.parse::<usize>().is_ok() { "*".to_owned() } else { part.to_owned() };
+        pointer.split('/').map(part).collect()
+    };
+    let mut seen = BTreeSet::new();
+    for name in names {
+        let original = certificate(&name);
+        let mut all = Vec::new();
+        pointers(&original, String::new(), &mut all);
+        let mut tally = Tally { name: name.clone(), ..Tally::default() };
+        for pointer in all.iter().filter(|pointer| rests_on(pointer)) {
+            if !seen.insert(kind(pointer)) {
+                continue;
+            }
+            let value = original.pointer(pointer).unwrap();
+            let others: Vec<_> = replacements(value).into_iter().filter(|(_, new)| new != value).collect();
+            let (kind, replacement) = &others[seen.len() % others.len()];
+            let mut mutant = original.clone();
+            *mutant.pointer_mut(pointer).unwrap() = replacement.clone();
+            tally.judge(pointer, kind, &mutant.to_string());
+            if pointer.starts_with("/specification/") {
+                rehash(&mut mutant);
+                tally.judge(pointer, &format!("{kind}, re-hashed"), &mutant.to_string());
+            }
+            let mut mutant = original.clone();
+            let (parent, last) = pointer.rsplit_once('/').unwrap();
+            match mutant.pointer_mut(parent).unwrap() {
+                Value::Object(map) => drop(map.remove(&last.replace("~1", "/").replace("~0", "~")).unwrap()),
+                Value::Array(list) => drop(list.remove(last.parse().unwrap())),
+                _ => unreachable!("a parent is an object or an array"),
+            }
+            tally.judge(pointer, "deleted", &mutant.to_string());
+        }
+        tally.report();
+    }
+    assert!(seen.len() > 120, "{}", seen.len());
+}
+
 #[test]
 fn places_of_a_sharp_certificate() {
     mutate(PAPER, every(7), 0).report();
@@ -248,9 +297,7 @@ fn places_that_a_claim_by_mean_squares_rests_on() {
     for name in names("certificates").iter().filter(|name| name.ends_with(".means")) {
         let mut all = Vec::new();
         pointers(&certificate(name), String::new(), &mut all);
-        let below =
-            |pointer: &&String| ["/specification/", "/claim/", "/witness/"].iter().any(|at| pointer.starts_with(at));
-        mutate_at(name, all.iter().filter(below).step_by(every(7))).report();
+        mutate_at(name, all.iter().filter(|pointer| rests_on(pointer)).step_by(every(7))).report();
     }
 }
 

@@ -1,7 +1,8 @@
 //! Bounds of random plants that are stated 0.1 % below a value which is met: neither program may prove one.
 
 use super::plants::Drawn;
-use super::{cases, random};
+use super::random;
+use crate::support::cases;
 use rand::RngExt;
 use rand::rngs::StdRng;
 use rug::Rational;
@@ -49,7 +50,7 @@ fn stated(drawn: &Drawn, samples: &FloatSuprema, kind: Bound, random: &mut StdRn
 #[test]
 fn fuzz_bounds_of_plants_by_the_producer() {
     let (mut tried, mut accepted) = (0, 0);
-    for case in cases(10) {
+    for case in cases(4, 1000) {
         let random = &mut random(5, case);
         let drawn = Drawn::new(random);
         let (engine, samples) = (drawn.engine(), drawn.samples());
@@ -76,7 +77,7 @@ fn fuzz_bounds_of_plants_by_the_producer() {
 fn fuzz_bounds_of_plants_by_the_checker() {
     let (mut refused, mut accepted, mut open) = (0, 0, 0);
     let large = Rational::from(1) << 60;
-    for case in cases(12) {
+    for case in cases(9, 1200) {
         let random = &mut random(6, case);
         let drawn = Drawn::new(random);
         let samples = drawn.samples();

@@ -1,7 +1,8 @@
 //! Operations on intervals, of the producer and of the checker, against single operations of MPFR at 400 bits that are rounded
 //! both ways: 0, ends near multiples of pi/2, huge, tiny and infinite ends, points.
 
-use super::{any, cases, random};
+use super::{any, random};
+use crate::support::cases;
 use proofs_check::interval::Interval;
 use rand::RngExt;
 use rand::rngs::StdRng;
@@ -295,7 +296,7 @@ fn examine_all<A: Arithmetic>(case: u64, [a, b]: [&A; 2], [of_a, of_b]: [&[Float
 
 #[test]
 fn fuzz_intervals_of_both_programs() {
-    for case in cases(1500) {
+    for case in cases(1500, 150_000) {
         let random = &mut random(1, case);
         let (a, b) = (sample(random), sample(random));
         let members = [&a.members[..], &b.members[..]];

@@ -12,12 +12,6 @@ mod plants;
 
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
-use std::ops::Range;
-
-/// The numbers of cases: of an ordinary run so many, in a night a hundred times as many.
-fn cases(ordinary: u64) -> Range<u64> {
-    crate::support::cases(ordinary, 100 * ordinary)
-}
 
 /// The random numbers of one case of one fuzzer.
 fn random(fuzzer: u64, case: u64) -> StdRng {

@@ -1,6 +1,7 @@
 //! What either program proves to be a bounding function is defined and nondecreasing at random pairs of points.
 
-use super::{any, cases, decimal, random};
+use super::{any, decimal, random};
+use crate::support::cases;
 use proofs_check::expr::ARGUMENTS;
 use rand::RngExt;
 use rand::rngs::StdRng;
@@ -102,7 +103,7 @@ fn counterexample(expr: &Expr, ends: [&Rational; 2], random: &mut StdRng) -> Opt
 #[test]
 fn fuzz_monotonicity_by_both_programs() {
     let settings = ProofSettings { max_boxes: 150, max_operations: 6000, ..ProofSettings::default() };
-    let (mut proved, cases) = ([0, 0], cases(400));
+    let (mut proved, cases) = ([0, 0], cases(400, 40_000));
     for case in cases.clone() {
         let random = &mut random(4, case);
         let depth = random.random_range(0..3);

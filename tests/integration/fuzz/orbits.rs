@@ -2,7 +2,8 @@
 //! may prove one.
 
 use super::plants::{Drawn, rational};
-use super::{cases, random};
+use super::random;
+use crate::support::cases;
 use rand::RngExt;
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
@@ -83,7 +84,7 @@ fn part_of(value: f64, part: f64) -> Rational {
 fn fuzz_defects_of_orbits() {
     let large = Rational::from(1) << 60;
     let mut accepted = [0, 0];
-    let cases = cases(4);
+    let cases = cases(2, 400);
     for case in cases.clone() {
         let random = &mut random(7, case);
         let drawn = Drawn::new(random);
@@ -120,7 +121,7 @@ fn fuzz_defects_of_orbits() {
 #[test]
 fn fuzz_rests_of_the_forcing() {
     let mut accepted = [0, 0];
-    let cases = cases(4);
+    let cases = cases(2, 400);
     for case in cases.clone() {
         let random = &mut random(8, case);
         let drawn = Drawn::new(random);

@@ -1,6 +1,7 @@
 //! What either program takes for periodic in t is so: values one period apart meet, at random points.
 
-use super::{any, cases, random};
+use super::{any, random};
+use crate::support::cases;
 use proofs_check::constant::Constant;
 use proofs_check::json::{Field, Json};
 use rand::RngExt;
@@ -96,7 +97,7 @@ fn checked(text: &str, period: &str) -> bool {
 #[test]
 fn fuzz_periodicity_of_plants() {
     let names = PlantNames::new(vec!["x".to_owned()]).unwrap();
-    let (mut proved, cases) = (0, cases(1500));
+    let (mut proved, cases) = (0, cases(1500, 150_000));
     for case in cases.clone() {
         let random = &mut random(2, case);
         let period = *any(random, &PERIODS);
@@ -118,7 +119,7 @@ fn fuzz_periodicity_of_plants() {
 #[test]
 fn fuzz_trigonometric_polynomials() {
     let mut read = 0;
-    for case in cases(1000) {
+    for case in cases(1000, 100_000) {
         let random = &mut random(3, case);
         let period = *any(random, &PERIODS);
         let depth = random.random_range(0..4);

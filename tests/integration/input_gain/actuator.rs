@@ -2,7 +2,7 @@
 
 use super::{gain, text, written};
 use crate::controller::{array, constant, controller, installed, signal};
-use crate::support::{json, program, utf8};
+use crate::support::{count, json, program, utf8};
 use serde_json::Value;
 use sigmastar_document::progress::Silent;
 use sigmastar_lab::falsify::{Finding, TrialSettings, TriedClaim, falsify};
@@ -196,7 +196,7 @@ fn trials_take_the_ends_first() {
         let certificate = folder.path().join("certificate.json");
         program().args(["certify", "-q", &file, "--force", "-o"]).arg(&certificate).assert().code(0);
         let claim = TriedClaim::from_document(&Document::load(&certificate).unwrap()).unwrap();
-        let found = falsify(&claim, TrialSettings { trials: 8, seed: 3, only: None }, &Silent);
+        let found = falsify(&claim, TrialSettings { trials: count(4, 8).into(), seed: 3, only: None }, &Silent);
         let end = |name: &str| sizes[name].as_str().unwrap().parse::<f64>().unwrap();
         let mut gains = Vec::new();
         for finding in &found.findings {

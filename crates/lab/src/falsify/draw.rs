@@ -90,6 +90,7 @@ mod tests {
     use serde_json::Value;
     use sigmastar_lang::expr::{Evaluator, Expr, PlantExpr, PlantNames, Program, Variables};
     use sigmastar_lang::spec::Specification;
+    use std::collections::HashMap;
     use std::sync::Arc;
 
     fn claim(spec: &str) -> TriedClaim {
@@ -106,14 +107,17 @@ mod tests {
         claim(&document.to_string())
     }
 
-    /// What f, q and their derivatives are at a random point, by difference quotients, with |x| and |e|.
-    fn found(family: &Family, random: &mut Random) -> (Vec<(Bound, f64)>, [f64; 2]) {
+    /// f and q, for points.
+    fn evaluator(family: &Family) -> Evaluator {
         let n = family.states();
         let (f, q) = family.texts();
         let names = PlantNames::new((1..=n).map(|i| format!("x{i}")).collect()).unwrap();
         let parsed: Vec<PlantExpr> = f.iter().chain([&q]).map(|text| PlantExpr::parse(text, &names).unwrap()).collect();
-        let program = Arc::new(Program::values(&parsed.iter().collect::<Vec<_>>(), n));
-        let mut evaluator = Evaluator::new(program);
+        Evaluator::new(Arc::new(Program::values(&parsed.iter().collect::<Vec<_>>(), n)))
+    }
+
+    /// What f, q and their derivatives are at a random point, by difference quotients, with |x| and |e|.
+    fn found(n: usize, evaluator: &mut Evaluator, random: &mut Random) -> (Vec<(Bound, f64)>, [f64; 2]) {
         let mut at = |t: f64, x: &[f64], e: f64| {
             let mut values = vec![0.0; n + 1];
             evaluator.set_time(t);
@@ -160,20 +164,24 @@ mod tests {
     /// Checks what a plant is at many points against its own bounds and those of the specification. Returns the largest
     /// share of its own bounds that was found; for the slope from above the least distance from that of the specification.
     fn check(family: &Family, claim: &TriedClaim, random: &mut Random) -> Vec<(Bound, f64)> {
-        let own = |bound| Expr::parse(&family.bound(bound).unwrap().text(), Variables::XAndE).unwrap().to_float();
+        let parse = |bound| Expr::parse(&family.bound(bound).unwrap().text(), Variables::XAndE).unwrap().to_float();
+        let mut own = HashMap::new();
+        let allowed: HashMap<_, _> =
+            claim.spec.bounds.named().map(|(bound, allowed)| (bound, allowed.to_float())).collect();
+        let mut evaluator = evaluator(family);
         let mut touched: Vec<(Bound, f64)> = Vec::new();
         for _ in 0..300 {
-            let (found, [x, e]) = found(family, random);
+            let (found, [x, e]) = found(family.states(), &mut evaluator, random);
             for (index, (bound, found)) in found.into_iter().enumerate() {
-                let most = own(bound).eval(x, e);
+                let most = own.entry(bound).or_insert_with(|| parse(bound)).eval(x, e);
                 assert!(found <= most * (1.0 + 1e-6) + 2e-5 || bound.is_signed(), "{bound:?}: {found} {most}");
                 assert!(found <= most + 2e-5 || !bound.is_signed(), "{bound:?}: {found} {most}");
-                if let Some(allowed) = claim.spec.bounds.own(bound) {
-                    let allowed = allowed.to_float().eval(x, e);
+                let allowed = allowed.get(&bound).map(|allowed| allowed.eval(x, e));
+                if let Some(allowed) = allowed {
                     assert!(found <= allowed + 1e-5 * (1.0 + allowed.abs()), "{bound:?}: {found} {allowed}");
                 }
                 let share = match bound.is_signed() {
-                    true => found - claim.spec.bounds.own(bound).map_or(most, |allowed| allowed.to_float().eval(x, e)),
+                    true => found - allowed.unwrap_or(most),
                     false if most > 1e-3 => found / most,
                     false => 0.0,
                 };
@@ -183,8 +191,8 @@ mod tests {
                 }
             }
         }
-        for (bound, allowed) in claim.spec.bounds.named().filter(|(bound, _)| *bound != Bound::Rate) {
-            let [most, allowed] = [own(bound), allowed.to_float()].map(|expr| expr.eval(3.0, 4.0));
+        for (bound, allowed) in allowed.into_iter().filter(|(bound, _)| *bound != Bound::Rate) {
+            let [most, allowed] = [parse(bound), allowed].map(|expr| expr.eval(3.0, 4.0));
             assert!(most <= allowed, "{bound:?}: {most} {allowed}");
         }
         touched
