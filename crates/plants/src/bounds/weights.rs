@@ -36,9 +36,13 @@ impl FloatWeights {
     /// v: the column of e, in x and y, with P = 1; `moves` are the 1 - b of an input gain.
     pub(super) fn of_error(self, at: &Derivatives<'_>, moves: Option<[f64; 2]>) -> Column {
         let of_states = at.g.iter().map(|slope| -self.w_x * slope);
+        let half = 0.5 * self.k_p;
         Column {
-            fixed: of_states.chain([-1.0 - 0.5 * self.k_p * at.d]).collect(),
-            moved: moves.map(|moves| moves.map(|share| -0.5 * self.k_p * share)),
+            fixed: of_states.chain([-1.0 - half * at.d]).collect(),
+            moved: moves.map(|moves| moves.map(|share| -half * share)),
+            larger: moves.map_or(Thresholds::ALL, |moves| {
+                moves.into_iter().map(|share| for_any_larger(half, 1.0 - share)).fold(Thresholds::ALL, Thresholds::and)
+            }),
         }
     }
 }
@@ -48,6 +52,15 @@ pub(super) struct Column {
     fixed: Vec<f64>,
     /// What sigma adds to the last entry, at both ends.
     moved: Option<[f64; 2]>,
+    /// The sigma from which on the inequality holds of any larger one too, at both ends.
+    larger: Thresholds,
+}
+
+/// Where `(1 + ht (1-b) sigma)^2 <= 4 ht sigma` at one end of an input gain, (B) of derivation, 13.1: between `1/(ht (1 + sqrt(b))^2)` and
+/// `1/(ht (1 - sqrt(b))^2)`.
+fn for_any_larger(h_over_mu: f64, b: f64) -> Thresholds {
+    let at = |root: f64| (h_over_mu * root * root).recip();
+    Thresholds { least: at(1.0 + b.sqrt()), largest: at(1.0 - b.sqrt()) }
 }
 
 impl Column {
@@ -242,7 +255,7 @@ impl Root {
             let root = half + discriminant.sqrt();
             Thresholds { least: square / root, largest: root / curved }
         };
-        at_end(moved[0]).and(at_end(moved[1]))
+        at_end(moved[0]).and(at_end(moved[1])).and(column.larger)
     }
 
     /// The least of them.

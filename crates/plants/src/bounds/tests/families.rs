@@ -124,7 +124,7 @@ fn of_cells_the_worst_counts() {
             // Each half has half of the effort.
             let entry = Entry { bound, x: x.clone(), e: e.clone(), value: Rational::from_f64(proved).unwrap() };
             let needed = case.engine.decide(&entry, 4000).boxes;
-            assert_eq!(case.engine.decide(&entry, needed).truth, Truth::True, "{bound:?} {order:?}");
+            assert!(case.engine.decide(&entry, needed).truth.is_true(), "{bound:?} {order:?}");
             assert!(needed == 2 || !case.engine.decide(&entry, needed - 2).truth.is_true(), "{bound:?} {order:?}");
         }
     }
