@@ -19,12 +19,15 @@ use sigmastar_lang::expr::{Memory, VariableSet};
 use sigmastar_lang::spec::Bound;
 use std::sync::Arc;
 
+/// Up to so many cells each may take all of an effort; more of them share what these would.
+const WHOLE: usize = 4;
+
 /// The answer for an entry.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Decision {
     /// Whether the bound holds on the whole region; `False` is a proof as well.
     pub truth: Truth,
-    /// The boxes that were examined; of a family in cells the most in one of these, for each of them.
+    /// The boxes that were examined; of a family in cells the most in one of these, as a share of the effort.
     pub boxes: usize,
 }
 
@@ -138,14 +141,20 @@ impl Engine {
         })
     }
 
-    /// A decision of every cell, one after the other up to the first that is not true, with an equal part of the effort for each: so that a
-    /// family takes what a plant does, here and where it is checked. `boxes` is not below the effort where that was not enough.
+    /// So many times less than the effort each cell may take.
+    pub(super) fn parts(&self) -> usize {
+        self.tubes().count().div_ceil(WHOLE)
+    }
+
+    /// A decision of every cell, one after the other up to the first that is not true, in few cells with all of the effort for each, in many
+    /// with a part of it: so that a family takes little more than a plant does, here and where it is checked. `boxes` is not below the effort
+    /// where that was not enough.
     pub(super) fn in_all(&self, effort: usize, mut decide: impl FnMut(&Tube, usize) -> Decision) -> Decision {
         let mut all = Decision { truth: Truth::True, boxes: 0 };
-        let count = self.tubes().count();
+        let parts = self.parts();
         for tube in self.tubes() {
-            let decision = decide(tube, effort.div_ceil(count));
-            all = Decision { boxes: all.boxes.max(decision.boxes * count), ..decision };
+            let decision = decide(tube, effort.div_ceil(parts));
+            all = Decision { boxes: all.boxes.max(decision.boxes * parts), ..decision };
             if !all.truth.is_true() {
                 break;
             }

@@ -86,7 +86,7 @@ impl Engine {
 
     fn meets(&self, requirement: &Requirement, arguments: [&Rational; 2]) -> Truth {
         let Requirement { walk, active, demand, .. } = requirement;
-        self.in_all(BOXES * self.tubes().count(), |tube, effort| {
+        self.in_all(BOXES * self.parts(), |tube, effort| {
             let chart = self.chart(tube, active, arguments);
             let mut memory = Memory::default();
             subdivide(&chart, effort, |cell, ball| {

@@ -102,8 +102,8 @@ fn of_cells_the_worst_counts() {
             sigmastar_lang::spec::OrbitCurve { centre: still(mean), sensitivities: ["0", "0"].map(still).to_vec() };
         (cell, orbit)
     });
-    let case = |order: [usize; 2]| {
-        let cells = || order.map(|i| (&halves[i].0, &halves[i].1));
+    let case = |order: &[usize]| {
+        let cells = || order.iter().map(|i| (&halves[*i].0, &halves[*i].1));
         let curves = cells().map(|(cell, orbit)| (cell, FloatCurve::from(orbit)));
         let samples = FloatSuprema::of_cells(&plant, curves, vec![vec![1.0]], [Some(&p), None]);
         let regions = cells()
@@ -112,7 +112,7 @@ fn of_cells_the_worst_counts() {
     };
     let [x, e] = [rational("0.5"), rational("1")];
     // J = -k + 2 c x: in the first half at least 1 - 3/4 is left, in the second 3/2 - 1/2. q_e = k x + c: 1.5*0.75 + 0.5, and 2*0.5 + 0.5.
-    for order in [[0, 1], [1, 0]] {
+    for order in [&[0, 1][..], &[1, 0], &[0, 1, 1, 1, 1, 1, 1, 1]] {
         let case = case(order);
         for (bound, worst) in [(Bound::Rate, 0.25), (Bound::QeMax, 1.625), (Bound::Qx, 2.0)] {
             let proved = case.engine.prove_value(&case.samples, bound, &x, &e).unwrap().value.to_f64();
@@ -121,11 +121,15 @@ fn of_cells_the_worst_counts() {
             let beyond = Rational::from_f64(if bound.is_rate() { worst * 1.02 } else { worst * 0.98 }).unwrap();
             let entry = Entry { bound, x: x.clone(), e: e.clone(), value: beyond };
             assert!(!case.engine.decide(&entry, 4000).truth.is_true(), "{bound:?} {order:?}");
-            // Each half has half of the effort.
+            // Of eight each has half of the effort.
+            let parts = if order.len() > 4 { 2 } else { 1 };
             let entry = Entry { bound, x: x.clone(), e: e.clone(), value: Rational::from_f64(proved).unwrap() };
             let needed = case.engine.decide(&entry, 4000).boxes;
-            assert!(case.engine.decide(&entry, needed).truth.is_true(), "{bound:?} {order:?}");
-            assert!(needed == 2 || !case.engine.decide(&entry, needed - 2).truth.is_true(), "{bound:?} {order:?}");
+            assert!(needed % parts == 0 && case.engine.decide(&entry, needed).truth.is_true(), "{bound:?} {order:?}");
+            assert!(
+                needed == parts || !case.engine.decide(&entry, needed - parts).truth.is_true(),
+                "{bound:?} {order:?}"
+            );
         }
     }
     let none: [(&sigmastar_lang::spec::Parameters, Region); 0] = [];
