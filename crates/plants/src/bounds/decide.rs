@@ -19,7 +19,7 @@ use sigmastar_lang::expr::{Memory, VariableSet};
 use sigmastar_lang::spec::Bound;
 use std::sync::Arc;
 
-/// Up to so many cells each may take all of an effort; more of them share what these would.
+/// Up to so many cells each may take all of an effort; more of them share one.
 const WHOLE: usize = 4;
 
 /// The answer for an entry.
@@ -143,7 +143,8 @@ impl Engine {
 
     /// So many times less than the effort each cell may take.
     pub(super) fn parts(&self) -> usize {
-        self.tubes().count().div_ceil(WHOLE)
+        let count = self.tubes().count();
+        if count > WHOLE { count } else { 1 }
     }
 
     /// A decision of every cell, one after the other up to the first that is not true, in few cells with all of the effort for each, in many

@@ -121,8 +121,8 @@ fn of_cells_the_worst_counts() {
             let beyond = Rational::from_f64(if bound.is_rate() { worst * 1.02 } else { worst * 0.98 }).unwrap();
             let entry = Entry { bound, x: x.clone(), e: e.clone(), value: beyond };
             assert!(!case.engine.decide(&entry, 4000).truth.is_true(), "{bound:?} {order:?}");
-            // Of eight each has half of the effort.
-            let parts = if order.len() > 4 { 2 } else { 1 };
+            // Of eight each has an eighth of the effort.
+            let parts = if order.len() > 4 { 8 } else { 1 };
             let entry = Entry { bound, x: x.clone(), e: e.clone(), value: Rational::from_f64(proved).unwrap() };
             let needed = case.engine.decide(&entry, 4000).boxes;
             assert!(needed % parts == 0 && case.engine.decide(&entry, needed).truth.is_true(), "{bound:?} {order:?}");
