@@ -73,7 +73,7 @@ mod tests {
 
     #[test]
     fn where_there_is_none_the_samples_are_round() {
-        assert_eq!(of("1/3", 99), (RoundForm::Samples, vec![100, 200, 500, 1000], "(1/3)/100".to_owned()));
+        assert_eq!(of("1/3", 99), (RoundForm::Samples, vec![100, 200, 500, 1000], "1/300".to_owned()));
         let (form, samples, first) = of("2*pi", 100);
         assert_eq!((form, samples), (RoundForm::Samples, vec![100, 200, 500, 1000]));
         assert!(first.contains("pi"), "{first}");
