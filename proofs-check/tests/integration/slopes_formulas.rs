@@ -203,8 +203,10 @@ fn over_the_region() {
             let made = parts.clone().with("/slopes", part(&below(drop), 0.0, &g, &h, at));
             made.refused(Verdict::Invalid, "rates", PLACE);
         }
-        // In a smaller region the same number does.
-        parts.with("/slopes", part(&below(0.01), 0.0, &g, &h, ["1", "0.4"])).accepted();
+        // In a smaller region the same number does, but not where that is the one of a splitting.
+        parts.clone().with("/slopes", part(&below(0.01), 0.0, &g, &h, ["1", "0.4"])).accepted();
+        let made = parts.with("/slopes", part(&below(0.01), 0.0, &g, &h, ["1", "0.5"]));
+        made.with("/slopes/splitting", json!({ "X": "1", "E": "0.4" })).refused(Verdict::Invalid, "rates", PLACE);
     }
     // j = -2 - 3 x^2: at the end of the ball.
     let steep = at_rest("-2*x - x^3 + 3*e/10", "x/2");
@@ -217,7 +219,9 @@ fn over_the_region() {
     decided(&steep, &worst, &g, &h, ["0.5", "1"], [1e-4, -0.01]);
     let mut small = worst.clone();
     small[0][0] -= 0.01;
-    steep.with("/slopes", part(&small, 0.0, &g, &h, ["0.49", "1"])).accepted();
+    steep.clone().with("/slopes", part(&small, 0.0, &g, &h, ["0.49", "1"])).accepted();
+    let made = steep.with("/slopes", part(&small, 0.0, &g, &h, ["0.5", "1"]));
+    made.with("/slopes/splitting", json!({ "X": "0.49", "E": "1" })).refused(Verdict::Invalid, "rates", PLACE);
 }
 
 /// dq/de is -1/4 at e = 0, half way and at both ends, where samples look, and larger between.
