@@ -59,27 +59,28 @@ pub(super) fn descend(
     for round in 0..if both { 2 } else { 1 } {
         // The size that was best for one rate is near that for the next.
         let mut size = at.size;
-        let position = least(-5.0, last, steps[0], |position| {
+        let of_position = |position| {
             let of = |size: f64| cost(Point { position, size, ..at });
-            let found = least(size - 3.0, size + 3.0, steps[1], of);
-            let value = of(found);
+            let (found, value) = golden(of, [size - 3.0, size + 3.0], steps[1]);
             if value.is_finite() {
                 size = found;
             }
             value
-        });
-        size = least(size - 3.0, size + 3.0, steps[1], |size| cost(Point { position, size, ..at }));
+        };
+        let (position, _) = golden(of_position, [-5.0, last], steps[0]);
+        (size, _) = golden(|size| cost(Point { position, size, ..at }), [size - 3.0, size + 3.0], steps[1]);
         at = Point { position, size, ..at };
         settle(at);
         if both && round == 0 {
-            at.ratio = least(-3.0, 3.0, steps[2], |ratio| cost(Point { ratio, ..at }));
+            (at.ratio, _) = golden(|ratio| cost(Point { ratio, ..at }), [-3.0, 3.0], steps[2]);
         }
     }
     at
 }
 
-/// Where a function is about least, by golden sections; where it is infinite on both sides the lower end is nearer.
-fn least(mut low: f64, mut up: f64, steps: usize, mut function: impl FnMut(f64) -> f64) -> f64 {
+/// Where a function is about least, by golden sections with so many steps, and what it is there; where it is infinite on both sides the
+/// lower end is nearer.
+pub(super) fn golden(mut function: impl FnMut(f64) -> f64, [mut low, mut up]: [f64; 2], steps: usize) -> (f64, f64) {
     let ratio = (5f64.sqrt() - 1.0) / 2.0;
     let mut inner = [up - ratio * (up - low), low + ratio * (up - low)];
     let mut values = inner.map(&mut function);
@@ -94,5 +95,5 @@ fn least(mut low: f64, mut up: f64, steps: usize, mut function: impl FnMut(f64) 
             values = [values[1], function(inner[1])];
         }
     }
-    if values[0] < values[1] { inner[0] } else { inner[1] }
+    if values[0] < values[1] { (inner[0], values[0]) } else { (inner[1], values[1]) }
 }

@@ -17,6 +17,7 @@
 //! with one, if and only if `((k_d + kappa k_f)^2 |H|^2 + p b_d^2 |V|^2)(1 + 1/p) < 1` for some p > 0. Nothing here is a claim: it says
 //! where to look for Pi.
 
+use super::descent::golden;
 use super::inequality::ErrorDynamics;
 use super::oscillators::OscillatorMatrix;
 use faer::{Mat, c64};
@@ -25,6 +26,9 @@ use sigmastar_exact::number::Portable;
 
 /// Steps of the bisection in the rate.
 const BISECTIONS: u32 = 45;
+
+/// Steps of a search for where a product is least, or a gain largest.
+pub(super) const GOLDEN: usize = 40;
 
 /// Frequencies about each eigenvalue, in units of its distance from the line.
 const OFFSETS: [f64; 15] = [0.0, 0.1, 0.25, 0.5, 0.8, 1.2, 2.0, 4.0, 10.0, -0.1, -0.25, -0.5, -1.0, -2.0, -5.0];
@@ -237,7 +241,7 @@ impl SmallGain {
                 values[*i] <= 1.05 * least && neighbours.iter().all(|j| values[*i] <= values[*j])
             });
             let around = refined.map(|i| (omegas[i.saturating_sub(1)], omegas[(i + 1).min(omegas.len() - 1)]));
-            around.map(|(low, up)| golden(|omega| left(share, omega), low, up).1).fold(least, f64::min)
+            around.map(|(low, up)| golden(|omega| left(share, omega), [low, up], GOLDEN).1).fold(least, f64::min)
         };
         if self.dynamics.moved.is_empty() {
             return [of(1.0), 1.0];
@@ -313,23 +317,4 @@ pub struct Multipliers {
     pub moved: f64,
     /// At least the sum of 1/l, 1/l_e and 1/l_b over the signals that do not vanish, positive.
     pub input: f64,
-}
-
-/// The least value that golden-section search meets between two arguments, after its place.
-pub(super) fn golden(function: impl Fn(f64) -> f64, mut low: f64, mut up: f64) -> (f64, f64) {
-    let ratio = (5f64.sqrt() - 1.0) / 2.0;
-    let mut inner = [up - ratio * (up - low), low + ratio * (up - low)];
-    let mut values = inner.map(&function);
-    for _ in 0..40 {
-        if values[0] < values[1] {
-            up = inner[1];
-            inner = [up - ratio * (up - low), inner[0]];
-            values = [function(inner[0]), values[0]];
-        } else {
-            low = inner[0];
-            inner = [inner[1], low + ratio * (up - low)];
-            values = [values[1], function(inner[1])];
-        }
-    }
-    if values[1] < values[0] { (inner[1], values[1]) } else { (inner[0], values[0].min(values[1])) }
 }

@@ -16,7 +16,8 @@
 
 use super::form::{OfX, SampledDynamics};
 use super::riccati::System;
-use crate::rate::small_gain::{Limit, golden};
+use crate::rate::descent::golden;
+use crate::rate::small_gain::{GOLDEN, Limit};
 use faer::{Mat, c64};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::Portable;
@@ -306,7 +307,7 @@ impl SampledCondition {
         };
         let value = |choice: &Choice| choice.product(self.half_gain, sizes);
         let best = |share: f64| {
-            let power = golden(|power| value(&of(share, power)), -RATIOS, RATIOS);
+            let power = golden(|power| value(&of(share, power)), [-RATIOS, RATIOS], GOLDEN);
             of(share, power.0)
         };
         let all = shares.iter().map(|share| best(*share)).map(|choice| (choice, value(&choice)));
