@@ -6,7 +6,7 @@ use super::error::Error;
 use super::options::{Asked, CertifyOptions};
 use super::report::Report;
 use super::subject::Subject;
-use sigmastar_prove::reduction::{Prepared, Run, Subject as Read, at_samples};
+use sigmastar_prove::reduction::{Prepared, Run, Subject as Read, Unwatched, at_samples};
 use sigmastar_report::run_sentence;
 
 /// Certifies a specification or a plant: a Lyapunov triple for a Jacobian or the orbit and bounds of a plant, the search for a
@@ -46,8 +46,11 @@ fn run(subject: &Subject, options: &CertifyOptions) -> Result<Certificate, Error
     if let Some(misfit) = options.misfit(sampled) {
         return Err(Error::misfit(misfit));
     }
-    let prepared = Prepared::new(asked.read.clone(), gain).map_err(|all| Error::documents(&all))?;
-    let prepared = prepared.within(limits);
+    let prepared = match gain {
+        None => Prepared::for_rates(&asked.read, (&limits, &counts), options, &Unwatched),
+        gain => Prepared::new(asked.read.clone(), gain).map(|prepared| prepared.within(limits)),
+    };
+    let prepared = prepared.map_err(|all| Error::documents(&all))?;
     let mut run = prepared.certify(options).map_err(|all| Error::documents(&all))?;
     run.prove_rates(&counts).map_err(Error::no_rates)?;
     Certificate::new(&run, &asked, false).ok_or_else(|| not_certified(&run))

@@ -22,8 +22,8 @@ pub struct CertifyOptions {
     sigma: Option<String>,
     sampling_period: Option<String>,
     n_o: Vec<u32>,
-    /// Of the steady error, of the error on the way, of what is put out.
-    limits: [Option<String>; 3],
+    /// Of the steady error, of the error on the way, of what is put out, of the rates.
+    limits: [Option<String>; 4],
 }
 
 /// Options that are in range.
@@ -44,7 +44,7 @@ impl Default for CertifyOptions {
             sigma: None,
             sampling_period: None,
             n_o: Vec::new(),
-            limits: [None, None, None],
+            limits: [const { None }; 4],
         }
     }
 }
@@ -138,6 +138,13 @@ impl CertifyOptions {
         self.limited(2, limit.into())
     }
 
+    /// Certify the smallest gain that is found with which the rates for the numbers of [`CertifyOptions::n_o`] are at least this, a positive
+    /// rational number, in 1/time; with [`CertifyOptions::sigma`] refuse a gain with which that is not proved.
+    #[must_use]
+    pub fn rate(self, least: impl Into<String>) -> CertifyOptions {
+        self.limited(3, least.into())
+    }
+
     fn limited(mut self, which: usize, limit: String) -> CertifyOptions {
         self.limits[which] = Some(limit);
         self
@@ -163,12 +170,21 @@ impl CertifyOptions {
         let step = self.sampling_period.as_ref().map(|text| positive("sampling_period", text)).transpose()?;
         let counts = rate_counts(&self.n_o).map_err(Error::no_rates)?;
         let limit = |name, text: &Option<String>| text.as_ref().map(|text| rational(name, text)).transpose();
-        let [steady, peak, control] = &self.limits;
+        let [steady, peak, control, rate] = &self.limits;
         let limits = Limits {
             steady_error: limit("steady_error", steady)?,
             peak_error: limit("peak_error", peak)?,
             control: limit("max_control", control)?,
+            rate: limit("rate", rate)?,
         };
+        if limits.rate.is_some() && counts.is_empty() {
+            let help = "say with n_o for which numbers of oscillators";
+            return Err(Error::new(
+                ErrorKind::Options,
+                "rate: a rate is one for given n_o, and none is given".to_owned(),
+                help,
+            ));
+        }
         Ok(Asked { options, gain, step, counts, limits })
     }
 }

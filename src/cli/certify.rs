@@ -66,6 +66,7 @@ fn attempt(args: &CertifyArgs) -> Result<u8, Failure> {
     let stages = Stages::new(steps(args, &subject), args.progress, args.quiet);
     let working = (!stages.are_told()).then(|| proving(&subject, args.quiet)).flatten();
     let prepared = match &witness {
+        None if gain.is_none() => Prepared::for_rates(&subject, (&limits, &counts), args.options(), &stages),
         None => Prepared::watched(subject, gain, &stages).map(|prepared| prepared.within(limits)),
         Some(certificate) => {
             let witness = read_for(certificate, &subject)?;
@@ -159,6 +160,7 @@ fn limits(args: &CertifyArgs) -> Result<Limits, Failure> {
         steady_error: limit("--steady-error", &args.steady_error)?,
         peak_error: limit("--peak-error", &args.peak_error)?,
         control: limit("--max-control", &args.max_control)?,
+        rate: limit("--rate", &args.rate)?,
     })
 }
 

@@ -188,3 +188,47 @@ fn a_witness_is_read_beside_rates() {
     assert_eq!(first["witness"], again["witness"]);
     assert_eq!(first["claim"]["for_n_o"][1]["n_o"], 2);
 }
+
+/// The gain has the rates that were asked for, hardly a smaller one does, and what is never reached is undecided.
+#[test]
+fn a_gain_for_rates_that_are_asked_for() {
+    let file = "specs/motor-axis.json";
+    let report = |more: &[&str]| {
+        let output =
+            program().args(["certify", file, "--n-o", "0,4", "--format", "json", "-q"]).args(more).output().unwrap();
+        (output.status.code(), json(&output.stdout))
+    };
+    let number = |value: &Value| value.as_str().unwrap().parse::<f64>().unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("certificate.json");
+    let (code, found) = report(&["--rate", "3", "-o", path.to_str().unwrap()]);
+    assert_eq!((code, &found["given_gain"]), (Some(0), &Value::Bool(false)));
+    let (gain, least) = (number(&found["sigma_star"]), number(&found["sigma_star_estimate"]));
+    let proved = number(&found["limits"]["rate"]["proved"]);
+    assert!((3.0..3.05).contains(&proved) && gain > 1.2 * least, "{proved} at {gain}, {least}");
+    let claim = json(&std::fs::read(&path).unwrap())["claim"].clone();
+    let slowest = claim["for_n_o"].as_array().unwrap().iter().map(|entry| number(&entry["rate"])).reduce(f64::min);
+    assert_eq!(slowest, Some(proved));
+    assert!(proofs_check::check(&std::fs::read(&path).unwrap()).is_flawless());
+    // Just below it the rate is not proved, and it is a given gain that is refused; just above it it is.
+    let (code, missed) = report(&["--rate", "3", "--sigma", &format!("{:.3}", 0.98 * gain)]);
+    assert_eq!((code, missed["verdict"].as_str()), (Some(3), Some("undecided")));
+    assert!(missed["statement"].as_str().unwrap().contains("the rate for n_o = 4 is not proved to be at least 3"));
+    let (code, given) = report(&["--rate", "3", "--sigma", &format!("{:.3}", 1.01 * gain)]);
+    assert_eq!((code, &given["given_gain"]), (Some(0), &Value::Bool(true)));
+    // With what else is asked for.
+    let (_, both) = report(&["--rate", "3", "--peak-error", "2"]);
+    assert!(number(&both["sigma_star"]) > gain && number(&both["limits"]["peak_error"]["proved"]) <= 2.0);
+    let (code, never) = report(&["--rate", "1000"]);
+    assert_eq!(code, Some(3));
+    assert!(never["statement"].as_str().unwrap().contains("the largest that is found is about"));
+    for wrong in ["0", "-1", "x", "sqrt(2)"] {
+        assert_eq!(report(&["--rate", wrong]).0, Some(2), "{wrong}");
+    }
+    program().args(["certify", file, "--rate", "3"]).assert().code(2);
+    let without = sigmastar::certify(
+        sigmastar::Subject::from_bytes(file, &std::fs::read(file).unwrap()).unwrap(),
+        &sigmastar::CertifyOptions::new().rate("3"),
+    );
+    assert_eq!(without.unwrap_err().kind(), sigmastar::ErrorKind::Options);
+}

@@ -43,6 +43,7 @@ struct Options {
     steady_error: Option<String>,
     peak_error: Option<String>,
     max_control: Option<String>,
+    rate: Option<String>,
 }
 
 impl Options {
@@ -62,7 +63,8 @@ impl Options {
         let options = self.sampling_period.into_iter().fold(options, CertifyOptions::sampling_period);
         let options = self.steady_error.into_iter().fold(options, CertifyOptions::steady_error);
         let options = self.peak_error.into_iter().fold(options, CertifyOptions::peak_error);
-        Ok(self.max_control.into_iter().fold(options, CertifyOptions::max_control).n_o(self.n_o))
+        let options = self.max_control.into_iter().fold(options, CertifyOptions::max_control);
+        Ok(self.rate.into_iter().fold(options, CertifyOptions::rate).n_o(self.n_o))
     }
 }
 

@@ -31,8 +31,9 @@ pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences
         return Vec::new();
     };
     let sigma = write_exact(sigma);
-    let kept =
-        run.bounds().and_then(|(steady, peak, control)| limits::kept(&run.limits, &Bounds { steady, peak, control }));
+    let kept = run.bounds().and_then(|(steady, peak, control)| {
+        limits::kept(&run.limits, &Bounds { rates: run.rates().collect(), steady, peak, control })
+    });
     let with = kept.map_or_else(String::new, |kept| format!("; with it {kept}"));
     let gain = match (&run.given_gain, &run.spec.actuator) {
         (_, Some(actuator)) => format!(
@@ -130,7 +131,7 @@ pub(super) fn of_samples(run: &SampledCertification<'_>, rechecked: bool) -> Vec
     let witness = &proof.witness;
     // That gain stands exactly in the sentence above: the claim is about no other.
     let SampledEvaluation { size, peak, control, .. } = &proof.evaluation;
-    let kept = limits::kept(&run.limits, &Bounds { steady: &size.e_per, peak, control });
+    let kept = limits::kept(&run.limits, &Bounds { rates: run.rates().collect(), steady: &size.e_per, peak, control });
     let gain = format!(
         "exactly that sigma, in 1/time, for this sampling period alone: no threshold, neither for larger gains nor for faster samples{}",
         kept.map_or_else(String::new, |kept| format!("; with it {kept}"))

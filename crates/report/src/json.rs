@@ -43,7 +43,7 @@ pub(super) fn report(run: &Certification<'_>, consequences: Option<&Consequences
         report["periodic_solution"] = json!({ "x": x, "e": e, "zeta": zeta, "z": z });
         report["control"] = control(run.control());
         if let Some((steady, peak, control)) = run.bounds().filter(|_| !run.limits.is_empty()) {
-            report["limits"] = kept_json(&run.limits, &Bounds { steady, peak, control });
+            report["limits"] = kept_json(&run.limits, &Bounds { rates: run.rates().collect(), steady, peak, control });
             report["sigma_star_estimate"] = json!(run.smallest_gain.map(estimate));
         }
         let [x, e] = error_box.each_ref().map(full);

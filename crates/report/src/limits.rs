@@ -1,16 +1,19 @@
 //! What a claim keeps to at its gain: limits that were asked for, and what the actuator takes.
 
+use rug::Rational;
 use serde_json::{Map, Value, json};
 use sigmastar_document::clean;
-use sigmastar_document::number::{full, upper};
+use sigmastar_document::number::{exact, full, upper};
 use sigmastar_exact::enclosure::Enclosure;
-use sigmastar_exact::number::write_exact;
+use sigmastar_exact::number::{Direction, write_exact};
 use sigmastar_lang::spec::Specification;
 use sigmastar_prove::certify::Limits;
 use sigmastar_theory::derivation::control::Control;
 
 /// What is bounded at the gain of a claim.
 pub(super) struct Bounds<'r> {
+    /// The rates for the numbers of oscillators that were asked about.
+    pub(super) rates: Vec<(u32, Option<&'r Rational>)>,
     /// |e| along the periodic solution.
     pub(super) steady: &'r Enclosure,
     /// |e| on the way.
@@ -24,12 +27,25 @@ pub(super) fn kept(limits: &Limits, bounds: &Bounds<'_>) -> Option<String> {
     let named = named(limits, bounds).into_iter().filter_map(|(_, of, limit, bound)| {
         limit.map(|limit| of.replace("VALUE", &format!("{limit} (proved: {})", upper(&bound))))
     });
-    let all: Vec<String> = named.collect();
+    let all: Vec<String> = named.chain(rate_kept(limits, bounds)).collect();
     (!all.is_empty()).then(|| all.join(", "))
 }
 
+/// "a rate of at least 2 for n_o = 0, 4 (proved: 2.3)"
+fn rate_kept(limits: &Limits, bounds: &Bounds<'_>) -> Option<String> {
+    let (asked, slowest) = (limits.rate.as_ref()?, slowest(bounds)?);
+    let counts: Vec<String> = bounds.rates.iter().map(|(n_o, _)| n_o.to_string()).collect();
+    let proved = exact(slowest, Direction::Down);
+    Some(format!("a rate of at least {} for n_o = {} (proved: {proved})", write_exact(asked), counts.join(", ")))
+}
+
+/// The slowest rate, where all are proved.
+fn slowest<'r>(bounds: &Bounds<'r>) -> Option<&'r Rational> {
+    bounds.rates.iter().map(|(_, rate)| *rate).min()?
+}
+
 fn named(limits: &Limits, bounds: &Bounds<'_>) -> [(&'static str, &'static str, Option<String>, Enclosure); 3] {
-    let text = |limit: &Option<rug::Rational>| limit.as_ref().map(write_exact);
+    let text = |limit: &Option<Rational>| limit.as_ref().map(write_exact);
     let largest = &bounds.control.steady + &bounds.control.transient;
     [
         ("steady_error", "|e| <= VALUE along the periodic solution", text(&limits.steady_error), bounds.steady.clone()),
@@ -40,11 +56,15 @@ fn named(limits: &Limits, bounds: &Bounds<'_>) -> [(&'static str, &'static str, 
 
 /// The same as JSON: what was asked for, and what is proved.
 pub(super) fn kept_json(limits: &Limits, bounds: &Bounds<'_>) -> Value {
+    let rate = limits.rate.as_ref().zip(slowest(bounds)).map(|(asked, proved)| {
+        ("rate".to_owned(), json!({ "asked": write_exact(asked), "proved": write_exact(proved) }))
+    });
     let named = named(limits, bounds).into_iter();
     let fields: Map<String, Value> = named
         .filter_map(|(name, _, limit, bound)| {
             Some((name.to_owned(), json!({ "asked": limit?, "proved": full(&bound) })))
         })
+        .chain(rate)
         .collect();
     if fields.is_empty() { Value::Null } else { fields.into() }
 }

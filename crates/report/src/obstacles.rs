@@ -190,6 +190,7 @@ fn obstacle_advice(run: &Certification<'_>, obstacle: Obstacle, add: &mut dyn Fn
         Failing::Limit { which, .. } => {
             add(&format!("{}, or a smaller initial set", wider(which)));
         }
+        Failing::Rate { .. } => add(SLOWER),
         Failing::InputGain { .. } => add("a narrower interval `input_gain`"),
         Failing::Delay { .. } => add("a shorter sampling period or a smaller mu"),
         Failing::Hold { .. } | Failing::Samples => add("a smaller gain or a shorter sampling period"),
@@ -200,6 +201,9 @@ fn obstacle_advice(run: &Certification<'_>, obstacle: Obstacle, add: &mut dyn Fn
         add(&format!("the last witness used the bounding functions up to X = {x}, E = {e}"));
     }
 }
+
+/// What a rate that is not proved asks for.
+pub(super) const SLOWER: &str = "a smaller rate, or fewer oscillators";
 
 /// What a limit that is not kept asks for.
 pub(super) fn wider(which: Limited) -> &'static str {

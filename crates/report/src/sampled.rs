@@ -4,7 +4,7 @@ use super::failures::{FORMAT, VERSION, errors_json};
 use super::for_n_o::{sampled_json, sampled_section};
 use super::json::{actuator, conditions_with_truth, control, input_gain, interval_costs};
 use super::limits::{self, Bounds, kept_json};
-use super::obstacles::{describe, first_of, rest_of, wider};
+use super::obstacles::{SLOWER, describe, first_of, rest_of, wider};
 use super::of_plant::plant_json;
 use super::remarks::sampled_remarks;
 use super::sets::{Boxes, Sizes};
@@ -102,6 +102,9 @@ impl<'r> SampledReport<'r> {
             }
             Outcome::NotFound(Obstacle { failing: Failing::Limit { which, .. }, .. }) => {
                 items.push(format!("{}, a smaller initial set, or a shorter sampling period", wider(*which)));
+            }
+            Outcome::NotFound(Obstacle { failing: Failing::Rate { .. }, .. }) => {
+                items.push(format!("{SLOWER}, or a shorter sampling period"));
             }
             Outcome::NotFound(_) => {
                 items.push(
@@ -318,7 +321,10 @@ impl Readable for SampledReport<'_> {
             }
             if !run.limits.is_empty() {
                 let SampledEvaluation { size, peak, control, .. } = &proof.evaluation;
-                report["limits"] = kept_json(&run.limits, &Bounds { steady: &size.e_per, peak, control });
+                report["limits"] = kept_json(
+                    &run.limits,
+                    &Bounds { rates: run.rates().collect(), steady: &size.e_per, peak, control },
+                );
             }
             if !run.interval_costs.is_empty() {
                 report["sigma_without_interval_estimates"] = interval_costs(&run.interval_costs);

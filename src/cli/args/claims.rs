@@ -34,13 +34,17 @@ pub struct CertifyArgs {
     #[arg(long, value_name = "V", allow_hyphen_values = true)]
     pub max_control: Option<String>,
 
+    /// Certify the smallest gain that is found with which the rates for the numbers of --n-o are at least V (1/time)
+    #[arg(long, value_name = "V", allow_hyphen_values = true, requires = "n_o")]
+    pub rate: Option<String>,
+
     /// Certify the regulator at samples this far apart, an exact positive constant; sets or replaces `sampling_period`
     #[arg(long, value_name = "H", allow_hyphen_values = true)]
     pub sampling_period: Option<String>,
 
     /// Decide the witness of this certificate again instead of searching
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath,
-          conflicts_with_all = ["transfer", "sigma", "steady_error", "peak_error", "max_control"])]
+          conflicts_with_all = ["transfer", "sigma", "steady_error", "peak_error", "max_control", "rate"])]
     pub witness: Option<PathBuf>,
 
     /// Format of the report

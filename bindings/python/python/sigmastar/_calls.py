@@ -38,6 +38,7 @@ class _Options(NamedTuple):
     steady_error: Optional[str]
     peak_error: Optional[str]
     max_control: Optional[str]
+    rate: Optional[str]
 
 
 class _Run(NamedTuple):
@@ -60,6 +61,7 @@ def certify(
     steady_error: Optional[Number] = ...,
     peak_error: Optional[Number] = ...,
     max_control: Optional[Number] = ...,
+    rate: Optional[Number] = ...,
     transfer: Transfer = ...,
     precision_limit: int = ...,
     compare: bool = ...,
@@ -74,6 +76,7 @@ def certify(
     steady_error: Optional[Number] = ...,
     peak_error: Optional[Number] = ...,
     max_control: Optional[Number] = ...,
+    rate: Optional[Number] = ...,
     transfer: Transfer = ...,
     precision_limit: int = ...,
     compare: bool = ...,
@@ -87,6 +90,7 @@ def certify(
     steady_error: Optional[Number] = None,
     peak_error: Optional[Number] = None,
     max_control: Optional[Number] = None,
+    rate: Optional[Number] = None,
     transfer: Transfer = "best",
     precision_limit: int = _native.LARGEST_PRECISION_LIMIT,
     compare: bool = True,
@@ -100,6 +104,7 @@ def certify(
     - `n_o`: numbers of oscillators (at most 8, up to 50) for each of which a rate and a factor are proved and claimed, at this gain;
     - `steady_error`, `peak_error`, `max_control`: certify the smallest gain that is found with which |e| along the periodic solution, |e|
       on the way, or what is put out stays within this;
+    - `rate`: certify the smallest gain that is found with which the rates for the numbers of `n_o` are at least this, in 1/time;
     - `transfer`: the proof of the transfer bound, `best`, `boxes` or `closed-form`;
     - `precision_limit`: the precision in bits at which an undecided condition is given up;
     - `compare`: whether the repaired derivation is worked out too, for the report and the certificate.
@@ -107,7 +112,7 @@ def certify(
     Raises InputError where the document or an option is wrong, UndecidedError where nothing is claimed either way, RefutedError
     where what was asked for is proved not to hold, and OSError for a file that cannot be read.
     """
-    limits = (_maybe(steady_error), _maybe(peak_error), _maybe(max_control))
+    limits = (_maybe(steady_error), _maybe(peak_error), _maybe(max_control), _maybe(rate))
     options = _Options(transfer, precision_limit, compare, _maybe(sigma), _maybe(sampling_period), _counts(n_o), *limits)
     return _certificate(found(_native.certify(_asked(document), options)))
 

@@ -58,13 +58,15 @@ pub struct Limits {
     pub peak_error: Option<Rational>,
     /// Of what is put out, on the way from the initial set, at all times.
     pub control: Option<Rational>,
+    /// Of the rates for the numbers of oscillators that are asked about, in 1/time: each is at least this.
+    pub rate: Option<Rational>,
 }
 
 impl Limits {
     /// Whether nothing is asked for.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.named().all(|(_, limit)| limit.is_none())
+        self.rate.is_none() && self.named().all(|(_, limit)| limit.is_none())
     }
 
     fn named(&self) -> impl Iterator<Item = (Limited, Option<&Rational>)> {
@@ -76,7 +78,7 @@ impl Limits {
         .into_iter()
     }
 
-    /// Whether the bounds at the gain of a proof are certainly not above: of |e| along the periodic solution and on the way, and of the
+    /// Whether the bounds at the gain of a proof are certainly not above, rates apart: of |e| along the periodic solution and on the way, and of the
     /// control.
     #[must_use]
     pub fn kept(&self, [steady, peak]: [&Enclosure; 2], control: &Control<Enclosure>) -> bool {

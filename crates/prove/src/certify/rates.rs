@@ -1,8 +1,10 @@
 //! Rates for given numbers of oscillators, as a part of a claim (derivation, 13.6).
 
 use super::certification::Certification;
-use super::proof::{Proof, SampledProof, SharpProof};
+use super::options::Limits;
+use super::proof::{Outcome, Proof, SampledProof, SharpProof};
 use super::sampled::SampledCertification;
+use super::verdict::Verdict;
 use crate::rate::bound::{MAX_COUNTS, MAX_OSCILLATORS, Place, bound};
 use crate::rate::by_matrices::{Tube, bounds};
 use crate::rate::found::RateForCount;
@@ -10,6 +12,7 @@ use crate::rate::noise::{Confinement, NoNoiseBound, NoiseBound, noise_bound};
 use crate::rate::sampled::bound::{self as at_samples, SampledRateBound};
 use crate::rate::sampled::found::SampledRateForCount;
 use crate::rate::sampled::noise::noise_bound as at_samples_with_noise;
+use crate::search::Failing;
 use rayon::prelude::*;
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
@@ -319,6 +322,50 @@ impl SampledCertification<'_> {
         };
         self.for_n_o.iter().filter_map(sentences).collect()
     }
+}
+
+impl Certification<'_> {
+    /// The rates of the claim, of each number of oscillators that was asked about.
+    pub fn rates(&self) -> impl Iterator<Item = (u32, Option<&Rational>)> {
+        self.for_n_o.iter().map(|found| (found.n_o, found.bound.as_ref().map(|bound| &bound.witness.rate)))
+    }
+
+    /// Takes the claim back where a least rate was asked for and is not proved.
+    pub(crate) fn keep_to_rate(&mut self) {
+        let missed = self.sigma_star().and_then(|sigma| missed(&self.limits, sigma, self.rates()));
+        if let Some(missed) = missed {
+            (self.sharp, self.verdict) = (Outcome::NotFound(missed.into()), Verdict::Undecided);
+            (self.exact, self.gains, self.for_n_o) = (None, Vec::new(), Vec::new());
+        }
+    }
+}
+
+impl SampledCertification<'_> {
+    /// The same at samples.
+    pub fn rates(&self) -> impl Iterator<Item = (u32, Option<&Rational>)> {
+        self.for_n_o.iter().map(|found| (found.n_o, found.bound.as_ref().map(|bound| &bound.rate)))
+    }
+
+    /// The same at samples.
+    pub(crate) fn keep_to_rate(&mut self) {
+        let missed = self.claim().and_then(|proof| missed(&self.limits, &proof.witness.sigma, self.rates()));
+        if let Some(missed) = missed {
+            (self.outcome, self.verdict) = (Outcome::NotFound(missed.into()), Verdict::Undecided);
+            self.for_n_o = Vec::new();
+        }
+    }
+}
+
+/// That the slowest of these rates is not what was asked for; nothing where it is, or where nothing was.
+fn missed<'r>(
+    limits: &Limits,
+    sigma: &Rational,
+    rates: impl Iterator<Item = (u32, Option<&'r Rational>)>,
+) -> Option<Failing> {
+    let asked = limits.rate.as_ref()?;
+    let (n_o, slowest) = rates.min_by_key(|(_, rate)| *rate)?;
+    let (of, largest) = (sigma.to_f64(), slowest.map(Rational::to_f64));
+    slowest.is_none_or(|rate| rate < asked).then(|| Failing::Rate { n_o, asked: asked.to_f64(), largest, sigma: of })
 }
 
 #[cfg(test)]

@@ -195,6 +195,7 @@ fn help(obstacle: &Obstacle) -> &'static str {
         }
         Failing::Gain { .. } => "a larger gain, or none: the smallest one is then sought",
         Failing::Limit { .. } => "a larger limit, or a smaller initial set",
+        Failing::Rate { .. } => "a smaller rate, or fewer oscillators",
         Failing::InputGain { .. } => "a narrower `input_gain`",
         Failing::Delay { .. } => "a shorter sampling period, or a smaller mu",
         Failing::Hold { given: true, .. } => "a smaller gain, or a shorter sampling period",

@@ -1,5 +1,7 @@
 //! The whole way from a subject to a decided claim, of either regulator.
 
+mod for_rate;
+
 use super::interval_costs::{costs_at_samples, interval_costs};
 use super::proofs::{WithoutJoint, bounds_around};
 use super::reduce::{reduce, reduce_by_norms};
@@ -34,6 +36,8 @@ pub struct Prepared {
     start: Start,
     gain: Option<Rational>,
     limits: Limits,
+    /// About the smallest gain, where `gain` was not given but found above it.
+    found_above: Option<f64>,
     /// The plant, where it is one whose least gain is sought.
     plant: Option<Box<Plant>>,
     /// The data of that plant by norms, where bounds are to be kept: of a larger gain than the least one they may say more.
@@ -91,7 +95,6 @@ impl Prepared {
     /// # Errors
     /// Those of [`Prepared::new`].
     pub fn watched(subject: Subject, gain: Option<Rational>, watch: &dyn Watch) -> Result<Prepared, Vec<SpecErrors>> {
-        let limits = Limits::default();
         let plant = match &subject {
             Subject::Plant(plant) if gain.is_none() => Some(plant.clone()),
             _ => None,
@@ -99,20 +102,19 @@ impl Prepared {
         match subject.sampling().cloned() {
             None => {
                 let (spec, start) = subject.proved_with_alternatives(gain.as_ref(), watch)?;
-                Ok(Prepared { spec, start: Start::Continuous(start), gain, limits, plant, by_norms: None })
+                Ok(Prepared { plant, ..Prepared::of(spec, Start::Continuous(start), gain) })
             }
             Some(sampling) => {
                 let (spec, start) = subject.proved_at_samples(&sampling, gain.as_ref(), watch)?;
-                Ok(Prepared {
-                    spec,
-                    start: Start::Sampled(Box::new(sampling), start),
-                    gain,
-                    limits,
-                    plant,
-                    by_norms: None,
-                })
+                let start = Start::Sampled(Box::new(sampling), start);
+                Ok(Prepared { plant, ..Prepared::of(spec, start, gain) })
             }
         }
+    }
+
+    fn of(spec: Specification, start: Start, gain: Option<Rational>) -> Prepared {
+        let limits = Limits::default();
+        Prepared { spec, start, gain, limits, found_above: None, plant: None, by_norms: None }
     }
 
     /// The data of a subject as the witness of a certificate has them, each proved again: nothing is searched for.
@@ -121,8 +123,7 @@ impl Prepared {
     /// What is not proved, at its place, and a witness of the other regulator or of other samples; not empty.
     pub fn again(subject: &Subject, witness: Witness) -> Result<Prepared, Vec<SpecErrors>> {
         let spec = witness.proved(subject)?;
-        let (start, limits) = (Start::Given(witness.numbers), Limits::default());
-        Ok(Prepared { spec, start, gain: None, limits, plant: None, by_norms: None })
+        Ok(Prepared::of(spec, Start::Given(witness.numbers), None))
     }
 
     /// The same, for a claim that is to keep to limits at its gain: at the one that is given, or at the smallest one that is found with
@@ -196,6 +197,9 @@ impl Prepared {
                             |plant: &Plant| reduce(plant, None, &Unwatched).ok().map(|found| found.proposal.sigma);
                         run.interval_costs = interval_costs(plant, gain);
                     }
+                    if self.found_above.is_some() {
+                        (run.given_gain, run.smallest_gain) = (None, self.found_above);
+                    }
                     Run::Continuous(Box::new(run))
                 })
             }
@@ -207,6 +211,9 @@ impl Prepared {
                         watch.enter(Stage::Comparison);
                         let subject = (spec, self.plant.as_deref());
                         run.interval_costs = costs_at_samples(subject, (sampling, sigma), options.ladder);
+                    }
+                    if self.found_above.is_some() {
+                        run.given_gain = None;
                     }
                     Run::Sampled(Box::new(run))
                 })
@@ -244,7 +251,8 @@ fn around_again(spec: &Specification) -> Option<(Engine, FloatSuprema)> {
 
 impl Run<'_> {
     /// Proves rates for these numbers of oscillators at the gain of the claim, by norms or from the derivatives of the plant
-    /// ([`Certification::prove_rates`], [`Certification::prove_rates_around`], [`SampledCertification::prove_rates`]).
+    /// ([`Certification::prove_rates`], [`Certification::prove_rates_around`], [`SampledCertification::prove_rates`]). Where a least rate is to be
+    /// kept and one of them is not proved to be as large there is no claim any more.
     ///
     /// # Errors
     /// Theirs.
@@ -256,6 +264,20 @@ impl Run<'_> {
             }
             Run::Continuous(run) => run.prove_rates(counts),
             Run::Sampled(run) => run.prove_rates(counts),
+        }?;
+        match self {
+            Run::Continuous(run) => run.keep_to_rate(),
+            Run::Sampled(run) => run.keep_to_rate(),
+        }
+        Ok(())
+    }
+
+    /// The rates of the claim, of each number of oscillators that was asked about; none where it is not proved.
+    #[must_use]
+    pub fn rates(&self) -> Vec<(u32, Option<&Rational>)> {
+        match self {
+            Run::Continuous(run) => run.rates().collect(),
+            Run::Sampled(run) => run.rates().collect(),
         }
     }
 

@@ -64,6 +64,17 @@ pub enum Failing {
         /// The gain for which that does.
         sigma: f64,
     },
+    /// For a number of oscillators no rate is proved that is as large as was asked for, for every gain that was tried.
+    Rate {
+        /// n_o.
+        n_o: u32,
+        /// What the rate is to be at least, in 1/time.
+        asked: f64,
+        /// The largest one that is found, where there is one.
+        largest: Option<f64>,
+        /// The gain for which that is.
+        sigma: f64,
+    },
     /// A proof was found, but the bounding functions are not proved up to its arguments.
     Bounds,
 }
@@ -140,7 +151,7 @@ impl Failing {
             Failing::Sampling => 9,
             Failing::Samples => 10,
             Failing::Bounds => 11,
-            Failing::Limit { .. } => 12,
+            Failing::Limit { .. } | Failing::Rate { .. } => 12,
         }
     }
 }
@@ -221,6 +232,15 @@ impl Obstacle {
                 short(least),
                 short(sigma)
             ),
+            Failing::Rate { n_o, asked, largest, sigma } => {
+                let found = largest.map_or_else(
+                    || format!("none is proved at the gain {}", short(sigma)),
+                    |largest| {
+                        format!("the largest that is found is about {}, at the gain {}", short(largest), short(sigma))
+                    },
+                );
+                format!("the rate for n_o = {n_o} is not proved to be at least {}: {found}", short(asked))
+            }
             Failing::Samples => "a period would need more samples than are taken".to_owned(),
             Failing::Bounds => {
                 format!("the bounding functions are not proved up to the arguments of the proof that was found{place}")
