@@ -261,6 +261,39 @@ fn rows_of_larger_gains() {
     assert_eq!(without["gains"], object!([]));
 }
 
+/// The rates of rows are about those that `--sigma` proves at that gain: by norms, by matrices, and at samples, whose rows are what it certifies.
+#[test]
+fn rows_have_the_rates_that_are_asked_for() {
+    let spec = format!("specs/{NAME}.json");
+    let plant = "specs/plants/motor-axis.json";
+    let cases: [(&[&str], usize); 3] =
+        [(&[&spec], 6), (&[plant], 2), (&[&spec, "--sampling-period", "1/1000"], 6)];
+    for (call, at_least) in cases {
+        let asked = [call, &["--n-o", "0,4"]].concat();
+        let (_, whole) = report(&asked);
+        let rows = whole["gains"].as_array().unwrap();
+        assert!(rows.len() >= at_least, "{call:?}: {rows:?}");
+        for own in [0, 1].map(|i| &whole["for_n_o"][i]) {
+            assert!(rows[0]["rates"].as_array().unwrap().contains(&object!({ "n_o": own["n_o"], "rate": own["rate"] })));
+        }
+        for row in &rows[1..at_least] {
+            let (code, own) = report(&[&asked[..], &["--sigma", row["sigma"].as_str().unwrap()]].concat());
+            assert_eq!(code, 0);
+            for (i, n_o) in [0, 4].into_iter().enumerate() {
+                assert_eq!(row["rates"][i]["n_o"], n_o);
+                let [rate, of_claim] = [&row["rates"][i], &own["for_n_o"][i]].map(|found| number(&found["rate"]));
+                assert!((0.7..1.1).contains(&(rate / of_claim)), "{call:?} {}: {rate} {of_claim}", row["sigma"]);
+            }
+            if call.len() > 1 {
+                let [e, e_per] = [&row["steady_error"][0]["sup"], &own["periodic_solution"]["e"]].map(number);
+                assert!((e / e_per - 1.0).abs() < 1e-3, "{}: {e} {e_per}", row["sigma"]);
+            }
+        }
+    }
+    let (_, plain) = report(&[&spec]);
+    assert!(plain["gains"][0].get("rates").is_none());
+}
+
 /// Exports clip, and say what the certificate says of that; another gain is refused.
 #[test]
 fn exports_clip_where_the_actuator_saturates() {

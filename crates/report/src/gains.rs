@@ -1,49 +1,78 @@
 //! What larger gains bring: certified bounds at multiples of the gain of a claim.
 
+use rug::Rational;
 use serde_json::{Value, json};
 use sigmastar_document::number::{exact, full, upper};
 use sigmastar_document::{Block, Table};
 use sigmastar_exact::number::{Direction, write_exact};
-use sigmastar_prove::certify::{Certification, GainRow, SHOWN_N_O};
+use sigmastar_prove::certify::{Certification, GainRow, SHOWN_N_O, SampledCertification};
 
 /// The share of the bound of |e| that a larger gain has to leave to be named.
 const WORTH: f64 = 0.5;
 
-/// The table; nothing where there are no rows but that of the claim.
+/// The table of a claim in continuous time; nothing where there are no rows but that of the claim.
 pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
-    if run.gains.len() < 2 {
-        return Vec::new();
-    }
-    let [none, some] = SHOWN_N_O.map(|n_o| format!("steady |e|, {n_o}"));
-    let titles = ["sigma", &none, &some, "E0", "largest |e|", "steady |u|", "largest |u|"];
+    let steady = SHOWN_N_O.map(|n_o| format!("steady |e|, {n_o}"));
+    let says = "Steady is along the periodic solution, of the error with 0 and with 10 oscillators; largest is on the way from |e| <= E0 and the rest \
+                of the initial set: where the file states no sizes of the set they are twice those of the periodic solution at that gain. \
+                Each row is proved, for every n_o but where one is named, with a witness of its own that no independent program checks: \
+                `certify --sigma V -o FILE` writes a certificate.";
+    table(&run.gains, &steady, says)
+}
+
+/// The same at samples.
+pub(super) fn sampled_section(run: &SampledCertification<'_>) -> Vec<Block> {
+    let says = "At the same samples; steady is along the periodic solution, largest on the way from |e| <= E0 and the rest of the initial set: where the \
+                file states no sizes of the set they are twice those of the periodic solution at that gain. Each row is proved, for every n_o below half of \
+                the samples but where one is named, and for that gain alone; no independent program checks it: `certify --sigma V -o FILE` writes a certificate.";
+    table(&run.gains, &["steady |e|".to_owned()], says)
+}
+
+fn table(rows: &[GainRow], steady: &[String], says: &str) -> Vec<Block> {
+    let [first, _, ..] = rows else { return Vec::new() };
+    let rates: Vec<String> = first.rates.iter().map(|(n_o, _)| format!("rate, {n_o}")).collect();
+    let titles: Vec<&str> = std::iter::once("sigma")
+        .chain(steady.iter().map(String::as_str))
+        .chain(["E0", "largest |e|", "steady |u|", "largest |u|"])
+        .chain(rates.iter().map(String::as_str))
+        .collect();
     let mut table = Table::new(&titles);
-    for GainRow { sigma, e0, steady: [first, second], peak, control } in &run.gains {
+    for GainRow { sigma, e0, steady, peak, control, rates, .. } in rows {
         let largest = &control.steady + &control.transient;
-        let [peak, along, largest] = [peak, &control.steady, &largest].map(upper);
-        table.push([write_exact(sigma), upper(first), upper(second), exact(e0, Direction::Down), peak, along, largest]);
+        let rate = |(_, rate): &(u32, Option<Rational>)| {
+            rate.as_ref().map_or_else(|| "not proved".to_owned(), |rate| exact(rate, Direction::Down))
+        };
+        let cells = std::iter::once(write_exact(sigma))
+            .chain(steady.iter().map(upper))
+            .chain([exact(e0, Direction::Down), upper(peak), upper(&control.steady), upper(&largest)])
+            .chain(rates.iter().map(rate));
+        table.push(cells);
     }
-    vec![
-        Block::heading("What larger gains bring"),
-        Block::says(
-            "Steady is along the periodic solution, of the error with 0 and with 10 oscillators; largest is on the way from |e| <= E0 and the \
-             rest of the initial set: where the file states no sizes of the set they are twice those of the periodic solution at that gain. \
-             Each row is proved, for every n_o but where one is named, with a witness of its own that no independent program checks: \
-             `certify --sigma V -o FILE` writes a certificate.",
-        ),
-        Block::Table(table),
-    ]
+    vec![Block::heading("What larger gains bring"), Block::says(says), Block::Table(table)]
 }
 
 /// The rows as JSON.
-pub(super) fn rows_json(run: &Certification<'_>) -> Value {
-    let row = |GainRow { sigma, e0, steady, peak, control }: &GainRow| {
-        let named = SHOWN_N_O.iter().zip(steady).map(|(n_o, bound)| json!({ "n_o": n_o, "sup": full(bound) }));
-        json!({
-            "sigma": write_exact(sigma), "E0": write_exact(e0), "steady_error": named.collect::<Vec<_>>(), "peak_error": full(peak),
+pub(super) fn rows_json(rows: &[GainRow]) -> Value {
+    let row = |GainRow { sigma, e0, steady, peak, control, rates, .. }: &GainRow| {
+        // At samples it is one bound for every n_o.
+        let steady: Value = match steady.as_slice() {
+            [all] => json!([{ "sup": full(all) }]),
+            named => {
+                SHOWN_N_O.iter().zip(named).map(|(n_o, bound)| json!({ "n_o": n_o, "sup": full(bound) })).collect()
+            }
+        };
+        let mut value = json!({
+            "sigma": write_exact(sigma), "E0": write_exact(e0), "steady_error": steady, "peak_error": full(peak),
             "control": { "steady": full(&control.steady), "transient": full(&control.transient) },
-        })
+        });
+        if !rates.is_empty() {
+            let rate =
+                |(n_o, rate): &(u32, Option<Rational>)| json!({ "n_o": n_o, "rate": rate.as_ref().map(write_exact) });
+            value["rates"] = rates.iter().map(rate).collect();
+        }
+        value
     };
-    run.gains.iter().map(row).collect()
+    rows.iter().map(row).collect()
 }
 
 /// That the bound of |e| on the way is far above the initial set, with a gain that is better where there is one.

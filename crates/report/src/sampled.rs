@@ -10,7 +10,7 @@ use super::remarks::sampled_remarks;
 use super::sets::{Boxes, Sizes};
 use super::verdict::of_the_data;
 use super::words;
-use super::{brief, conditions, of_plant};
+use super::{brief, conditions, gains, of_plant};
 use rug::Rational;
 use serde_json::{Value, json};
 use sigmastar_document::number::{estimate, exact, full, upper};
@@ -268,6 +268,7 @@ impl Readable for SampledReport<'_> {
             blocks.extend(brief::of_samples(run, self.rechecked));
             blocks.push(Block::Detail);
             blocks.extend(sampled_section(run));
+            blocks.extend(gains::sampled_section(run));
             blocks.push(Block::heading("What the claim rests on"));
             blocks.push(Block::List(self.basis()));
         } else {
@@ -319,6 +320,7 @@ impl Readable for SampledReport<'_> {
             if let Some(rates) = sampled_json(run) {
                 report["for_n_o"] = rates;
             }
+            report["gains"] = gains::rows_json(&run.gains);
             if !run.limits.is_empty() {
                 let SampledEvaluation { size, peak, control, .. } = &proof.evaluation;
                 report["limits"] = kept_json(

@@ -1,6 +1,7 @@
 //! What a run found out.
 
 use super::bounding::BoundingProblem;
+use super::gains::GainRow;
 use super::matrix_checks::MatrixChecks;
 use super::no_plant::NoPlant;
 use super::options::{Limits, Options};
@@ -61,39 +62,6 @@ pub struct Alternatives {
     pub aligned: Option<f64>,
     /// With the input gain known to be the nominal one, where it is uncertain; by the kind of proof that the claim has.
     pub nominal_gain: Option<f64>,
-}
-
-/// The numbers of oscillators of which the steady error is bounded.
-pub const SHOWN_N_O: [u64; 2] = [0, 10];
-
-/// Bounds at one gain, for every solution from the initial set there: where the specification states no sizes of it they are those of the
-/// periodic solution at this gain.
-///
-/// Guarantee: every condition is proved for a witness at this gain.
-#[derive(Clone, Debug)]
-pub struct GainRow {
-    /// The gain.
-    pub sigma: Rational,
-    /// E0 of the initial set.
-    pub e0: Rational,
-    /// Of |e| along the periodic solution, for the numbers of oscillators of [`SHOWN_N_O`].
-    pub steady: [Enclosure; 2],
-    /// Of |e| on the way, for every n_o.
-    pub peak: Enclosure,
-    /// Of what is put out, for every n_o.
-    pub control: Control<Enclosure>,
-}
-
-/// By so much more than at the start |e| may be on the way before a larger gain is looked for.
-const FAR: f64 = 10.0;
-
-impl GainRow {
-    /// Whether the bound of |e| on the way is far above what |e| is at the start, and along the periodic solution.
-    #[must_use]
-    pub fn goes_far(&self) -> bool {
-        let start = self.e0.to_f64().max(self.steady[0].upper_f64());
-        self.peak.upper_f64() > FAR * start
-    }
 }
 
 /// Everything a run found out.

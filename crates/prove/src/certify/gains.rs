@@ -2,25 +2,79 @@
 
 use super::best::model;
 use super::bounding::prove_up_to;
-use super::certification::{Certification, GainRow, SHOWN_N_O};
+use super::certification::Certification;
 use super::options::Ladder;
-use super::proof::SharpProof;
+use super::proof::{SampledProof, SharpProof};
 use super::round::{TransferKind, round_again};
-use crate::search::{FloatModel, Goal, SharpProposal, search_sharp_at};
+use super::sampled::{SampledCertification, certify_sampled};
+use crate::search::{FloatModel, Goal, SampledProposal, SharpProposal, search_sharp_at};
 use rayon::prelude::*;
 use rug::Rational;
+use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, round_rational};
 use sigmastar_lang::spec::Specification;
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::consequences::error_bounds;
+use sigmastar_theory::derivation::control::Control;
 use sigmastar_theory::derivation::mistuned::Mistuning;
 use sigmastar_theory::transfer::TransferProof;
+use std::sync::Arc;
+
+/// The numbers of oscillators of which the steady error is bounded in continuous time.
+pub const SHOWN_N_O: [u64; 2] = [0, 10];
+
+/// Bounds at one gain, for every solution from the initial set there: where the specification states no sizes of it they are those of the
+/// periodic solution at this gain.
+///
+/// Guarantee: every condition is proved for a witness at this gain.
+#[derive(Clone, Debug)]
+pub struct GainRow {
+    /// The gain.
+    pub sigma: Rational,
+    /// E0 of the initial set.
+    pub e0: Rational,
+    /// Of |e| along the periodic solution, for the numbers of oscillators of [`SHOWN_N_O`]; at samples one, for every n_o.
+    pub steady: Vec<Enclosure>,
+    /// Of |e| on the way, for every n_o.
+    pub peak: Enclosure,
+    /// Of what is put out, for every n_o.
+    pub control: Control<Enclosure>,
+    /// The rates for the numbers of oscillators that were asked about, in 1/time; none where it is not proved.
+    pub rates: Vec<(u32, Option<Rational>)>,
+    pub(super) proof: RowProof,
+}
+
+/// What proves a row.
+#[derive(Clone, Debug)]
+pub(super) enum RowProof {
+    /// A proof with the data of the claim, or with others of the same plant.
+    Continuous(Box<SharpProof>, Option<Arc<Specification>>),
+    /// Of the regulator at samples.
+    Sampled(Box<SampledProof>),
+}
+
+/// By so much more than at the start |e| may be on the way before a larger gain is looked for.
+const FAR: f64 = 10.0;
+
+impl GainRow {
+    /// Whether the bound of |e| on the way is far above what |e| is at the start, and along the periodic solution.
+    #[must_use]
+    pub fn goes_far(&self) -> bool {
+        let start = self.e0.to_f64().max(self.steady[0].upper_f64());
+        self.peak.upper_f64() > FAR * start
+    }
+}
 
 /// The gains, in tenths of that of the claim.
 const TENTHS: [u32; 5] = [12, 15, 20, 30, 50];
 
+/// So many tenths of a gain.
+fn larger(tenths: u32, sigma: &Rational) -> Rational {
+    round_rational(&(Rational::from((tenths, 10)) * sigma), 6, Direction::Up)
+}
+
 /// The row of a proof.
-fn row_of(spec: &Specification, proof: &SharpProof) -> GainRow {
+fn row_of(spec: &Specification, proof: SharpProof, other: Option<Arc<Specification>>) -> GainRow {
     let data = Data::new(spec, proof.precision);
     let (evaluation, mistuning) = (&proof.evaluation, Mistuning::new(&data));
     let sigma = data.rational(&proof.witness.sigma);
@@ -29,21 +83,28 @@ fn row_of(spec: &Specification, proof: &SharpProof) -> GainRow {
     GainRow {
         sigma: proof.witness.sigma.clone(),
         e0: proof.witness.set.e0.clone(),
-        steady: SHOWN_N_O.map(sup),
+        steady: SHOWN_N_O.map(sup).into(),
         peak: evaluation.peak.clone(),
         control: evaluation.control.clone(),
+        rates: Vec::new(),
+        proof: RowProof::Continuous(Box::new(proof), other),
     }
 }
 
 /// The rows of larger gains than that of a claim; one at which nothing is proved from near `start` has none. The error boxes are those with the
 /// smallest bound of |e| that are found.
 ///
-/// `spec` has the data of the claim, or others of the same plant.
-fn gain_rows(spec: &Specification, proof: &SharpProof, (model, start): (&FloatModel, &SharpProposal)) -> Vec<GainRow> {
+/// `spec` has the data of the claim, or others of the same plant, which the rows then keep.
+fn gain_rows(
+    spec: &Specification,
+    proof: &SharpProof,
+    (model, start): (&FloatModel, &SharpProposal),
+    other: Option<&Arc<Specification>>,
+) -> Vec<GainRow> {
     let model = model.with_goal(Goal::Peak);
     let reach = proof.decided().reach();
     let row = |tenths: &u32| {
-        let sigma = round_rational(&(Rational::from((*tenths, 10)) * &proof.witness.sigma), 6, Direction::Up);
+        let sigma = larger(*tenths, &proof.witness.sigma);
         let found = search_sharp_at(&model, sigma.to_f64(), Some(start)).ok()?;
         let (k0, k1) = (proof.witness.k0.clone(), proof.witness.k1.clone());
         let pair = (k0, k1, proof.witness.transfer.clone());
@@ -54,7 +115,7 @@ fn gain_rows(spec: &Specification, proof: &SharpProof, (model, start): (&FloatMo
         let [x, e] = proof.decided().reach()?;
         let within = reach.as_ref().is_some_and(|[known_x, known_e]| x <= *known_x && e <= *known_e);
         let known = spec.domain.is_some() || spec.plant().is_some() || within || prove_up_to(spec, &x, &e).is_ok();
-        known.then(|| row_of(spec, &proof))
+        known.then(|| row_of(spec, proof, other.cloned()))
     };
     TENTHS.par_iter().filter_map(row).collect()
 }
@@ -65,8 +126,8 @@ impl Certification<'_> {
         let Some(proof) = self.sharp.proved().filter(|_| self.claim().is_some() && self.spec.actuator.is_none()) else {
             return;
         };
-        let mut rows = vec![row_of(self.spec, proof)];
-        rows.extend(gain_rows(self.spec, proof, (model, start)));
+        let mut rows = vec![row_of(self.spec, proof.clone(), None)];
+        rows.extend(gain_rows(self.spec, proof, (model, start), None));
         self.gains = rows;
     }
 
@@ -86,7 +147,8 @@ impl Certification<'_> {
             TransferProof::Boxes(_) => TransferKind::Boxes,
         };
         let model = model(&Data::new(spec, proof.precision), kind);
-        for row in gain_rows(spec, proof, (&model, start)) {
+        let other = Arc::new(spec.clone());
+        for row in gain_rows(spec, proof, (&model, start), Some(&other)) {
             match self.gains.iter_mut().find(|known| known.sigma == row.sigma) {
                 Some(known) if row.peak.lt(&known.peak).is_true() => *known = row,
                 Some(_) => {}
@@ -94,5 +156,29 @@ impl Certification<'_> {
             }
         }
         self.gains.sort_by(|a, b| a.sigma.cmp(&b.sigma));
+    }
+}
+
+impl SampledCertification<'_> {
+    /// The rows at the gain of the claim and at larger ones, at the same samples: what a call with that gain certifies. Without a claim, and with an
+    /// actuator, there are none.
+    pub(crate) fn set_gains(&mut self, start: Option<&SampledProposal>, ladder: Ladder) {
+        let Some(proof) = self.claim().filter(|_| self.spec.actuator.is_none()) else { return };
+        let row = |proof: &SampledProof| GainRow {
+            sigma: proof.witness.sigma.clone(),
+            e0: proof.witness.set.e0.clone(),
+            steady: vec![proof.evaluation.size.e_per.clone()],
+            peak: proof.evaluation.peak.clone(),
+            control: proof.evaluation.control.clone(),
+            rates: Vec::new(),
+            proof: RowProof::Sampled(Box::new(proof.clone())),
+        };
+        let at = |tenths: &u32| {
+            let sigma = larger(*tenths, &proof.witness.sigma);
+            let run = certify_sampled(self.spec, &self.sampling, Some(&sigma), start, ladder).ok()?;
+            run.claim().map(row)
+        };
+        let more: Vec<GainRow> = TENTHS.par_iter().filter_map(at).collect();
+        self.gains = std::iter::once(row(proof)).chain(more).collect();
     }
 }

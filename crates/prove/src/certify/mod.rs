@@ -24,6 +24,7 @@ mod rates;
 mod refusal;
 mod room;
 mod round;
+mod row_rates;
 mod sampled;
 mod sensitivity;
 mod smaller;
@@ -31,10 +32,9 @@ mod verdict;
 
 pub use ball::{claimed_ball, covers_ball, inverse_norm, within_ball};
 pub use bounding::{BoundingProblem, prove_on_domain, prove_up_to};
-pub use certification::{
-    Alternatives, Certification, ExactClaim, GainRow, PrintedFigure, RelativeDegreeGains, SHOWN_N_O,
-};
+pub use certification::{Alternatives, Certification, ExactClaim, PrintedFigure, RelativeDegreeGains};
 pub use decide::{decide, decide_exact};
+pub use gains::{GainRow, SHOWN_N_O};
 pub use jacobian::{MAX_SEARCHES, Resolution, resolve, resolve_with, with_triple};
 pub use matrix_checks::{ContractionCheck, MatrixChecks, SylvesterCheck};
 pub use misfit::Misfit;

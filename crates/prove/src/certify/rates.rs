@@ -6,7 +6,7 @@ use super::proof::{Outcome, Proof, SampledProof, SharpProof};
 use super::sampled::SampledCertification;
 use super::verdict::Verdict;
 use crate::rate::bound::{MAX_COUNTS, MAX_OSCILLATORS, Place, bound};
-use crate::rate::by_matrices::{Tube, bounds};
+use crate::rate::by_matrices::{Start, Tube, bounds};
 use crate::rate::found::RateForCount;
 use crate::rate::noise::{Confinement, NoNoiseBound, NoiseBound, noise_bound};
 use crate::rate::sampled::bound::{self as at_samples, SampledRateBound};
@@ -21,7 +21,8 @@ use sigmastar_lang::spec::{MatrixInequality, Specification};
 use sigmastar_plants::bounds::{Engine, FloatSuprema};
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::initial_set::claimed_distances;
-use sigmastar_theory::derivation::sampled;
+use sigmastar_theory::derivation::sampled::{self, SampledEvaluation};
+use sigmastar_theory::derivation::sharp::SharpEvaluation;
 use sigmastar_theory::derivation::stability::level_condition;
 
 /// Why a claim can have no rates for given numbers of oscillators.
@@ -112,13 +113,7 @@ impl Certification<'_> {
     /// there together. None where the claim rests on norms, and without one.
     #[must_use]
     pub fn matrix_arguments(&self) -> Option<[&Rational; 2]> {
-        let Proof { witness, .. } = self.sharp.proved().filter(|_| self.claim().is_some())?;
-        let values = self.spec.bounds.proved_values();
-        if let Some(joint) = values.joint_stability() {
-            return Some([&joint.inequality.x, &joint.inequality.e]);
-        }
-        let inequality = values.inequality().filter(|known| known.w_x == witness.w_x && known.h == witness.h)?;
-        Some([&inequality.x, &inequality.e])
+        self.sharp.proved().filter(|_| self.claim().is_some()).and_then(|proof| matrix_arguments(self.spec, proof))
     }
 
     /// Proves rates for these numbers of oscillators at the gain of the claim, and makes them a part of it; without a claim there are none.
@@ -140,6 +135,7 @@ impl Certification<'_> {
         };
         self.for_n_o = for_n_o(self.spec, proof, &counts);
         self.make_room(&counts);
+        self.set_rates_of_rows(&counts, None);
         Ok(())
     }
 
@@ -159,26 +155,48 @@ impl Certification<'_> {
         let (Some(at), Some(proof)) = (self.matrix_arguments(), self.sharp.proved()) else {
             return self.prove_rates(asked);
         };
-        let Proof { witness, evaluation, precision } = proof;
-        let data = Data::new(self.spec, *precision);
-        let periodic = [&evaluation.periodic.x_per, &evaluation.periodic.e_per, &evaluation.z];
-        let distances = claimed_distances(&data, &witness.set, periodic);
+        let data = Data::new(self.spec, proof.precision);
+        let distances = distances(&data, proof);
         let inequality = self.spec.bounds.proved_values().inequality();
         let corner = inequality.filter(|known| known.splitting.is_some()).map(MatrixInequality::arguments);
-        let tube = Tube { engine, samples, at, corner, sigma: &witness.sigma, distances: distances.each_ref() };
+        let start = Start { sigma: &proof.witness.sigma, distances: distances.each_ref() };
+        let tube = Tube { engine, samples, at, corner, start };
         let noise = || self.spec.disturbances.any().then_some(Err(NoNoiseBound::ByMatrices));
         let of = |(n_o, bound): (&u32, _)| RateForCount { n_o: *n_o, bound, noise: noise() };
         self.for_n_o = counts.iter().zip(bounds(&data, &tube, &counts)).map(of).collect();
+        self.set_rates_of_rows(&counts, Some(engine.states()));
         Ok(())
     }
+}
+
+/// X and E of the inequality by which stability is proved in a proof.
+pub(super) fn matrix_arguments<'s>(spec: &'s Specification, proof: &SharpProof) -> Option<[&'s Rational; 2]> {
+    let values = spec.bounds.proved_values();
+    if let Some(joint) = values.joint_stability() {
+        return Some([&joint.inequality.x, &joint.inequality.e]);
+    }
+    let inequality =
+        values.inequality().filter(|known| known.w_x == proof.witness.w_x && known.h == proof.witness.h)?;
+    Some([&inequality.x, &inequality.e])
+}
+
+/// dX, dE, dZ of the set of a proof.
+pub(super) fn distances(data: &Data<'_>, proof: &SharpProof) -> [Enclosure; 3] {
+    let SharpEvaluation { periodic, z, .. } = &proof.evaluation;
+    claimed_distances(data, &proof.witness.set, [&periodic.x_per, &periodic.e_per, z])
+}
+
+/// The same at samples.
+pub(super) fn distances_at_samples(data: &Data<'_>, proof: &SampledProof) -> [Enclosure; 3] {
+    let SampledEvaluation { size, z, .. } = &proof.evaluation;
+    claimed_distances(data, &proof.witness.set, [&size.x_per, &size.e_per, z])
 }
 
 /// Rates, and bounds under noise and disturbances where the document has them, of a claim by norms.
 pub(super) fn for_n_o(spec: &Specification, proof: &SharpProof, counts: &[u32]) -> Vec<RateForCount> {
     let Proof { witness, evaluation, precision } = proof;
     let data = Data::new(spec, *precision);
-    let periodic = [&evaluation.periodic.x_per, &evaluation.periodic.e_per, &evaluation.z];
-    let distances = claimed_distances(&data, &witness.set, periodic);
+    let distances = distances(&data, proof);
     let place = Place { sigma: &witness.sigma, error_box: &evaluation.error_box, distances: distances.each_ref() };
     let confinement = Confinement {
         level: disturbed_level(&data, &distances, [&witness.d_x, &witness.d_e, &witness.w_x, &witness.h]),
@@ -240,8 +258,7 @@ pub(super) fn for_n_o_at_samples(
 ) -> Vec<SampledRateForCount> {
     let Proof { witness, evaluation, precision } = proof;
     let (data, law) = (Data::new(spec, *precision), &evaluation.law);
-    let periodic = [&evaluation.size.x_per, &evaluation.size.e_per, &evaluation.z];
-    let distances = claimed_distances(&data, &witness.set, periodic);
+    let distances = distances_at_samples(&data, proof);
     let place = Place { sigma: &witness.sigma, error_box: &evaluation.error_box, distances: distances.each_ref() };
     let confinement = Confinement {
         level: disturbed_level(&data, &distances, [&witness.d_x, &witness.d_e, &witness.w_x, &witness.eta]),
@@ -300,6 +317,7 @@ impl SampledCertification<'_> {
         }
         self.for_n_o = for_n_o_at_samples(self.spec, proof, &counts);
         self.make_room(&counts);
+        self.set_rates_of_rows(&counts);
         Ok(())
     }
 
@@ -351,7 +369,7 @@ impl SampledCertification<'_> {
         let missed = self.claim().and_then(|proof| missed(&self.limits, &proof.witness.sigma, self.rates()));
         if let Some(missed) = missed {
             (self.outcome, self.verdict) = (Outcome::NotFound(missed.into()), Verdict::Undecided);
-            self.for_n_o = Vec::new();
+            (self.gains, self.for_n_o) = (Vec::new(), Vec::new());
         }
     }
 }

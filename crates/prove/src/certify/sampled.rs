@@ -2,6 +2,7 @@
 
 use super::bounding::{BoundingProblem, prove_on_domain, prove_up_to};
 use super::decide::decide;
+use super::gains::GainRow;
 use super::limits::{FloatLimits, NEAR, ROOMS};
 use super::no_plant::{NoPlant, no_plant};
 use super::options::{Ladder, Limits};
@@ -55,6 +56,8 @@ pub struct SampledCertification<'s> {
     pub no_plant: Option<NoPlant>,
     /// What the gain would be with each interval closed to its nominal value, where it is compared: estimates.
     pub interval_costs: Vec<(String, Option<f64>)>,
+    /// Bounds at the gain of the claim and at larger ones; empty without a claim, with an actuator, and where nothing is compared.
+    pub gains: Vec<GainRow>,
     /// Rates for the numbers of oscillators that were asked about.
     pub for_n_o: Vec<SampledRateForCount>,
 }
@@ -302,6 +305,7 @@ fn assemble<'s>(
         found,
         unproved_bounds: unproved,
         interval_costs: Vec::new(),
+        gains: Vec::new(),
         for_n_o: Vec::new(),
     })
 }

@@ -34,6 +34,12 @@ pub struct Tube<'a> {
     pub at: [&'a Rational; 2],
     /// Those of (J, r) and of (g, d), where the matrix inequality is proved on a path with a corner.
     pub corner: Option<[[&'a Rational; 2]; 2]>,
+    /// The gain and the set.
+    pub start: Start<'a>,
+}
+
+/// From where solutions start, at which gain.
+pub struct Start<'a> {
     /// The gain of the claim, in 1/time.
     pub sigma: &'a Rational,
     /// dX, dE, dZ.
@@ -48,6 +54,16 @@ pub struct Tube<'a> {
 pub fn bounds(data: &Data<'_>, tube: &Tube<'_>, counts: &[u32]) -> Vec<Option<RateBound>> {
     let mut kinds: Vec<Kind<'_>> = tube.kinds().into_iter().map(|parts| Kind::new(tube, parts)).collect();
     counts.iter().map(|n_o| bound(data, tube, &mut kinds, *n_o)).collect()
+}
+
+/// The bound at another gain, from what is proved of the derivatives already: of a plant with so many states.
+///
+/// Guarantee: that of [`bounds`] at the gain of `start`, for solutions that stay where `slopes` are proved.
+#[must_use]
+pub fn again(data: &Data<'_>, (states, start): (usize, &Start<'_>), slopes: &[Slopes], n_o: u32) -> Option<RateBound> {
+    let all: Vec<u32> = (1..=n_o).collect();
+    let of = MatrixLoop::new(data, states, start.sigma, &all);
+    with_slopes(data, start, (&of, n_o), slopes.to_vec())
 }
 
 impl<'a> Tube<'a> {
@@ -114,7 +130,7 @@ fn known<R>(
 
 fn bound(data: &Data<'_>, tube: &Tube<'_>, kinds: &mut [Kind<'_>], n_o: u32) -> Option<RateBound> {
     let states = tube.engine.states();
-    let with = |oscillators: &[u32]| MatrixLoop::new(data, states, tube.sigma, oscillators);
+    let with = |oscillators: &[u32]| MatrixLoop::new(data, states, tube.start.sigma, oscillators);
     // The mode of the fastest oscillator is the slowest of the loop.
     let few: Vec<u32> = if n_o > 2 { vec![1, n_o] } else { (1..=n_o).collect() };
     let all: Vec<u32> = (1..=n_o).collect();
@@ -124,13 +140,13 @@ fn bound(data: &Data<'_>, tube: &Tube<'_>, kinds: &mut [Kind<'_>], n_o: u32) -> 
         .filter_map(|kind| kind.propose(tube, &few, &of).map(|(rate, balls)| (rate, balls, &*kind)))
         .collect();
     proposed.sort_by(|a, b| b.0.total_cmp(&a.0));
-    proposed.iter().find_map(|(_, balls, kind)| with_slopes(data, tube, (&of, n_o), kind.prove(tube, balls)?))
+    proposed.iter().find_map(|(_, balls, kind)| with_slopes(data, &tube.start, (&of, n_o), kind.prove(tube, balls)?))
 }
 
 /// The best bound that follows from what is proved of D.
 fn with_slopes(
     data: &Data<'_>,
-    tube: &Tube<'_>,
+    start: &Start<'_>,
     (of, n_o): (&MatrixLoop<Enclosure>, u32),
     slopes: Vec<Slopes>,
 ) -> Option<RateBound> {
@@ -139,7 +155,7 @@ fn with_slopes(
     SHARES.iter().find_map(|share| {
         let pi = equation.pi([largest * (1.0 + share) / 2.0, of_gain])?;
         let rate = round_f64(largest * share, 6, Direction::Down)?;
-        let (upper, e_low) = diagonal_bounds(&pi, states, tube.distances)?;
+        let (upper, e_low) = diagonal_bounds(&pi, states, start.distances)?;
         DIGITS.iter().find_map(|digits| {
             let witness = RateWitness {
                 rate: rate.clone(),
@@ -150,7 +166,7 @@ fn with_slopes(
             };
             let known = Known { data, of, slopes: &slopes };
             let lies = known.proves(&witness) && known.lies_between(&witness.pi, &upper, &e_low);
-            let factor = lies.then(|| factor(data, tube.distances, &upper, &e_low)).flatten()?;
+            let factor = lies.then(|| factor(data, start.distances, &upper, &e_low)).flatten()?;
             let [x_up, e_up, z_up] = upper.clone();
             let x_up = (states > 0).then_some(x_up);
             let by = Some(ByMatrices { slopes: slopes.clone(), x_up });

@@ -212,6 +212,9 @@ impl Prepared {
                         let subject = (spec, self.plant.as_deref());
                         run.interval_costs = costs_at_samples(subject, (sampling, sigma), options.ladder);
                     }
+                    if options.compare {
+                        run.set_gains(start.as_ref(), options.ladder);
+                    }
                     if self.found_above.is_some() {
                         run.given_gain = None;
                     }
