@@ -171,7 +171,7 @@ fn the_bounds_of_the_control_are_no_larger_than_they_need_be() {
     for name in ["linear", NAME, "plants/linear", "plants/duffing"] {
         let made = certificate(&specification_text(name));
         let claim = TriedClaim::from_document(&Document::parse("certificate", &made.to_string()).unwrap()).unwrap();
-        let outcome = falsify(&claim, TrialSettings { trials: count(6, 24).into(), seed: 5, only: None }, &Silent);
+        let outcome = falsify(&claim, TrialSettings { trials: count(6, 250).into(), seed: 5, only: None }, &Silent);
         assert!(outcome.counterexample().is_none(), "{name}");
         for closest in outcome.closest() {
             match closest.quantity {
@@ -266,15 +266,16 @@ fn rows_of_larger_gains() {
 fn rows_have_the_rates_that_are_asked_for() {
     let spec = format!("specs/{NAME}.json");
     let plant = "specs/plants/motor-axis.json";
-    let cases: [(&[&str], usize); 3] =
-        [(&[&spec], 6), (&[plant], 2), (&[&spec, "--sampling-period", "1/1000"], 6)];
+    let cases: [(&[&str], usize); 3] = [(&[&spec], 6), (&[plant], 2), (&[&spec, "--sampling-period", "1/1000"], 6)];
     for (call, at_least) in cases {
         let asked = [call, &["--n-o", "0,4"]].concat();
         let (_, whole) = report(&asked);
         let rows = whole["gains"].as_array().unwrap();
         assert!(rows.len() >= at_least, "{call:?}: {rows:?}");
         for own in [0, 1].map(|i| &whole["for_n_o"][i]) {
-            assert!(rows[0]["rates"].as_array().unwrap().contains(&object!({ "n_o": own["n_o"], "rate": own["rate"] })));
+            assert!(
+                rows[0]["rates"].as_array().unwrap().contains(&object!({ "n_o": own["n_o"], "rate": own["rate"] }))
+            );
         }
         for row in &rows[1..at_least] {
             let (code, own) = report(&[&asked[..], &["--sigma", row["sigma"].as_str().unwrap()]].concat());

@@ -264,3 +264,58 @@ fn what_is_refused() {
     assert_eq!(output.status.code(), Some(2));
     assert!(String::from_utf8(output.stderr).unwrap().contains("3 K h Nb2/2"));
 }
+
+/// Plants of which a claim with a delay is tried: in an ordinary run the first two.
+const PLANTS: [&str; 12] = [
+    "motor-axis",
+    "pendulum",
+    "chain",
+    "converter",
+    "duffing",
+    "linear",
+    "paper-example",
+    "paper-example-ball",
+    "paper-example-paper-set",
+    "paper-example-rotated",
+    "relative-degree-2",
+    "relative-degree-2-domain",
+];
+
+/// Where a gain is certified with a delay the loop at its periodic solution is stable, up to the largest number of oscillators.
+#[test]
+fn plants_are_stable_at_the_gains_that_are_certified() {
+    let folder = tempfile::tempdir().unwrap();
+    let answer = |arguments: &[&str]| -> Value {
+        let output = program().args(arguments).args(["--format", "json"]).output().unwrap();
+        serde_json::from_slice(&output.stdout).unwrap()
+    };
+    let (mut certified, mut largest) = (0, 0.0_f64);
+    let all = every(2) == 1;
+    for name in PLANTS.iter().take(if all { PLANTS.len() } else { 2 }) {
+        for samples in if all { vec![20_u32, 50, 101, 200] } else { vec![50] } {
+            let text = std::fs::read_to_string(format!("specs/plants/{name}.json")).unwrap();
+            let mut plant: Value = serde_json::from_str(&text).unwrap();
+            let period = plant["period"].as_str().unwrap().to_owned();
+            plant["internal_model"]["sampling_period"] = format!("({period})/{samples}").into();
+            plant["internal_model"]["delay_samples"] = 1.into();
+            let file = folder.path().join(format!("{name}-{samples}.json"));
+            std::fs::write(&file, plant.to_string()).unwrap();
+            let file = file.to_str().unwrap();
+            let report = answer(&["certify", file, "-q", "--no-compare"]);
+            let Some(sigma) = report["sigma"].as_str() else {
+                assert_eq!(report["verdict"], "undecided", "{name} {samples}");
+                println!("{name} {samples}: undecided");
+                continue;
+            };
+            certified += 1;
+            for n_o in [0, 1, samples / 4, (samples - 1) / 2] {
+                let simulated = answer(&["simulate", file, "--sigma", sigma, "--n-o", &n_o.to_string(), "-q"]);
+                let multiplier = simulated["steady_state"]["multipliers"][0].as_f64().expect("a multiplier");
+                assert!(multiplier < 1.0, "{name} {samples} {sigma} {n_o}: {multiplier}");
+                largest = largest.max(multiplier);
+            }
+            println!("{name} {samples}: sigma = {sigma}, largest multiplier so far {largest}");
+        }
+    }
+    assert!(certified >= if all { 36 } else { 2 } && largest > 0.9, "{certified} {largest}");
+}

@@ -345,6 +345,37 @@ fn members_of_a_family_are_tried() {
     assert_eq!(run.status.code(), Some(0), "{}", String::from_utf8_lossy(&run.stderr));
 }
 
+/// The orbit of a member is near one that is affine in the parameters, and trials start in the set around it wherever it is: where x does not
+/// depend on e the bound of x on the way is hardly larger than the set.
+#[test]
+fn members_start_within_the_set_wherever_their_orbits_are() {
+    let folder = TempDir::new().unwrap();
+    let plant = json!({
+        "format": "sigmastar/plant", "version": 1, "name": "x by itself", "period": "1", "states": ["x"],
+        "f": ["-a*x + cos(2*pi*t)"], "q": "x/2 - e + sin(2*pi*t)",
+        "parameters": { "a": { "nominal": "2", "low": "1.5", "high": "2.5" } },
+        "initial_set": { "kind": "box", "ball": "1", "E0": "1", "Z0": "0" },
+        "internal_model": { "mu": "1", "base_frequency": "2*pi", "matched": true,
+            "weights": { "family": "power", "n0": "2", "epsilon": "1/2" } }
+    });
+    let (file, _) = certified(&folder, &plant);
+    let certificate = json(&std::fs::read(&file).unwrap());
+    let numbers = |value: &Value| value.as_str().unwrap().parse::<f64>().unwrap();
+    let [radius, x_0, d_x] = [
+        &certificate["witness"]["orbit"]["radius"],
+        &certificate["claim"]["initial_set"]["X0"],
+        &certificate["witness"]["D_x"],
+    ]
+    .map(numbers);
+    assert!(radius > 1e-4 && d_x < x_0 * (1.0 + 1e-5), "{radius} {x_0} {d_x}");
+    let report = json(&falsified(&file, &["--trials", "20"]).stdout);
+    let trials = report["trials"].as_array().unwrap();
+    assert!(trials.iter().all(|trial| trial["finding"] == "holds"), "{report:#}");
+    // They start near its edge.
+    let way = report["closest"].as_array().unwrap().iter().find(|of| of["quantity"].as_str().unwrap().contains("D_x"));
+    assert!(way.unwrap()["share"].as_f64().unwrap() > 0.98, "{way:?}");
+}
+
 /// The regulator stays that of the file, the plant is another.
 #[test]
 fn a_member_is_simulated() {

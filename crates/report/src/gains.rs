@@ -16,7 +16,7 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
     let says = "Steady is along the periodic solution, of the error with 0 and with 10 oscillators; largest is on the way from |e| <= E0 and the rest \
                 of the initial set: where the file states no sizes of the set they are twice those of the periodic solution at that gain. \
                 Each row is proved, for every n_o but where one is named, with a witness of its own that no independent program checks: \
-                `certify --sigma V -o FILE` writes a certificate.";
+                `certify --sigma V -o FILE` writes a certificate, and `sampling` lists the longest sampling periods of such gains.";
     table(&run.gains, &steady, says)
 }
 

@@ -125,7 +125,7 @@ fn member(claim: &TriedClaim) -> Result<Plant, String> {
 fn start(claim: &TriedClaim, states: usize, regulator: &Regulator) -> Vec<f64> {
     let mut start = boundary(claim, states, regulator, &mut Random::new(0, 1));
     if let Some(own) = &claim.own {
-        let x = own.state(0.0, &start[..states]);
+        let x = own.state_within(0.0, &start[..states]);
         start[..states].copy_from_slice(&x);
     }
     start

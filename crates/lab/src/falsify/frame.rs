@@ -60,6 +60,13 @@ impl OwnPlant {
         (self.orbit(s) + &self.coordinates * DVector::from_column_slice(y)).as_slice().to_vec()
     }
 
+    /// A state at t = s T whose deviation from x_0 is no larger than this one, wherever within its radius x_0 is.
+    pub(super) fn state_within(&self, s: f64, y: &[f64]) -> Vec<f64> {
+        let size = DVector::from_column_slice(y).norm();
+        let share = if size > 0.0 { (1.0 - self.radius / size).max(0.0) } else { 1.0 };
+        self.state(s, &y.iter().map(|part| share * part).collect::<Vec<_>>())
+    }
+
     /// |y| of a state at t = s T, at least: the approximation of the orbit is taken, and what it may be away from x_0 left out.
     pub(super) fn distance(&self, s: f64, x: &[f64]) -> f64 {
         (self.norm((DVector::from_column_slice(x) - self.orbit(s)).as_slice()) - self.radius).max(0.0)

@@ -35,7 +35,7 @@ pub(super) fn run(claim: &TriedClaim, law: &SampledClaim, mut random: Random, nu
         Some(own) => {
             let n = own.plant.states();
             let mut start = boundary(claim, n, &regulator, &mut random);
-            let x = own.state(phase / claim.spec.period.nominal().to_f64(), &start[..n]);
+            let x = own.state_within(phase / claim.spec.period.nominal().to_f64(), &start[..n]);
             start[..n].copy_from_slice(&x);
             (TriedPlant::Own(Box::new(own.plant.clone())), start)
         }

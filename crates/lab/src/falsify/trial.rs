@@ -92,7 +92,7 @@ fn run_own(claim: &TriedClaim, own: &OwnPlant, mut random: Random, number: u64) 
     let claim = claim.about(&member);
     let own = claim.own.as_ref().unwrap_or(own);
     let period = claim.spec.period.interval().map(|_| own.plant.period.nominal().clone());
-    let x = own.state(0.0, &start[..n]);
+    let x = own.state_within(0.0, &start[..n]);
     start[..n].copy_from_slice(&x);
     let closed_loop = with_gain(ClosedLoop::new(&own.plant, regulator), input_gain);
     let plant = TriedPlant::Own(Box::new(own.plant.clone()));

@@ -28,8 +28,9 @@ use sigmastar_theory::derivation::stability::level_condition;
 /// Proofs with more room that are tried one after the other.
 const TRIES: usize = 4;
 
-/// By so much the room is larger than what was found in a smaller one asks for.
-const MORE: f64 = 1.05;
+/// By so much the room is larger than what was found in a smaller one asks for, in turn: little where little is asked for, as the bounds of a plant
+/// are proved hardly further than a claim needs them.
+const MORE: [fn(f64) -> f64; 2] = [|needed| 1.0 + 1.25 * (needed - 1.0), |needed| 1.05 * needed];
 
 impl Certification<'_> {
     /// Where the error box has no room for what noise and a disturbance add, another proof of the claim is taken that has, if more of the bounds
@@ -143,8 +144,10 @@ fn more_proved<P, F>(
     for _ in 0..TRIES {
         // For all that are missing if that can be had, for some of them else.
         let found = missing.iter().rev().find_map(|needed| {
-            let factor = factor * needed * MORE;
-            Some((factor, with_room(factor)?))
+            MORE.iter().find_map(|more| {
+                let factor = factor * more(*needed);
+                Some((factor, with_room(factor)?))
+            })
         });
         let Some((larger, claim)) = found else { break };
         let found = bounds(&claim);
