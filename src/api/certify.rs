@@ -47,7 +47,7 @@ fn run(subject: &Subject, options: &CertifyOptions) -> Result<Certificate, Error
         return Err(Error::misfit(misfit));
     }
     let prepared = match gain {
-        None => Prepared::for_rates(&asked.read, (&limits, &counts), options, &Unwatched),
+        None => Prepared::seeking(&asked.read, (&limits, &counts), options, &Unwatched),
         gain => Prepared::new(asked.read.clone(), gain).map(|prepared| prepared.within(limits)),
     };
     let prepared = prepared.map_err(|all| Error::documents(&all))?;

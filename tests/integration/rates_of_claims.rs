@@ -232,3 +232,20 @@ fn a_gain_for_rates_that_are_asked_for() {
     );
     assert_eq!(without.unwrap_err().kind(), sigmastar::ErrorKind::Options);
 }
+
+/// The smallest gain of a plant at samples may rest on (Ms), which has no rates: with `--n-o` it rests on norms, and so it does where limits are kept
+/// with them alone.
+#[test]
+fn at_samples_a_plant_of_which_rates_are_asked_rests_on_norms() {
+    let report = |more: &[&str]| {
+        let call = ["certify", "specs/plants/motor-axis.json", "--sampling-period", "1/20000", "--no-compare", "-q"];
+        json(&program().args(call).args(["--format", "json"]).args(more).output().unwrap().stdout)
+    };
+    let number = |value: &Value| value.as_str().unwrap().parse::<f64>().unwrap();
+    let [least, with_rates, fast, kept] =
+        [&[][..], &["--n-o", "4"], &["--n-o", "4", "--rate", "4.7"], &["--peak-error", "120"]].map(report);
+    assert!(number(&with_rates["sigma"]) > number(&least["sigma"]));
+    assert!(number(&with_rates["for_n_o"][0]["rate"]) > 1.0);
+    assert!(number(&fast["limits"]["rate"]["proved"]) >= 4.7);
+    assert!(number(&kept["limits"]["peak_error"]["proved"]) <= 120.0, "{kept:#}");
+}

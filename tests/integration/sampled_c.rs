@@ -4,7 +4,7 @@
 use crate::controller::installed;
 use crate::sampled::at_samples;
 use crate::sampled_falsify::{CERTIFICATE, DELAYED, SAMPLES};
-use crate::support::{PLANT_TEXT, program};
+use crate::support::{PLANT_TEXT, json, program, specification_text};
 use sigmastar_document::progress::Silent;
 use sigmastar_lab::simulate::{Piece, SampledLoop, SampledRun, Tolerance, sampled_steady_state};
 use sigmastar_lang::plant::Plant;
@@ -113,6 +113,17 @@ impl Drop for Exported {
 
 /// The loop over some periods: at each sample zeta, and the plant after it.
 fn run(sampled: &SampledLoop, program: &Path, start: &[f64], periods: usize) -> Vec<(Vec<f64>, Piece)> {
+    run_measured(sampled, program, start, periods, |e| e)
+}
+
+/// The same with a converter before the C code.
+fn run_measured(
+    sampled: &SampledLoop,
+    program: &Path,
+    start: &[f64],
+    periods: usize,
+    measured: impl Fn(f64) -> f64,
+) -> Vec<(Vec<f64>, Piece)> {
     let n = sampled.states();
     let mut exported = Exported::new(program, &start[n + 1..][..sampled.discrete.dimension()]);
     let mut run = SampledRun::new(sampled, 0, start).unwrap();
@@ -121,7 +132,7 @@ fn run(sampled: &SampledLoop, program: &Path, start: &[f64], periods: usize) -> 
     for _ in 0..periods * sampled.samples().unwrap() {
         let e = run.plant_state()[n];
         let zeta = exported.z.iter().zip(&m).map(|(z, m)| z - m * e).collect();
-        let u = exported.step(e);
+        let u = exported.step(measured(e));
         let mut pieces = run.advance_with(u, UNITS, Tolerance::TIGHT).unwrap();
         intervals.push((zeta, pieces.remove(0)));
     }
@@ -133,7 +144,7 @@ fn norm(values: &[f64]) -> f64 {
 }
 
 /// The C code of the certificate, whose header says that it is about this law, and what it does not cover.
-fn export(folder: &Path, (certificate, delayed): (&Path, bool), sigma: &Constant, n_o: u32) -> std::path::PathBuf {
+fn export(folder: &Path, (certificate, says): (&Path, [&str; 2]), sigma: &Constant, n_o: u32) -> std::path::PathBuf {
     let (source, main, binary) = (folder.join("law.c"), folder.join("main.c"), folder.join("law"));
     let (n_o, step) = (n_o.to_string(), format!("1/{SAMPLES}"));
     let arguments =
@@ -141,8 +152,7 @@ fn export(folder: &Path, (certificate, delayed): (&Path, bool), sigma: &Constant
     program().arg("controller").arg(certificate).args(arguments).arg(&source).assert().success();
     let header = std::fs::read_to_string(source.with_extension("h")).unwrap();
     let header = header.split_whitespace().filter(|word| *word != "*").collect::<Vec<_>>().join(" ");
-    let delay = if delayed { "put out at the sample k + 1" } else { "a delay" };
-    for words in ["The law at samples here is the one that is claimed", "No claim covers the rounding", delay] {
+    for words in ["The law at samples here is the one that is claimed"].into_iter().chain(says) {
         assert!(header.contains(words), "{header}");
     }
     std::fs::write(&main, MAIN).unwrap();
@@ -208,8 +218,10 @@ fn keeps_every_bound(stated: &serde_json::Value) {
     let z_0 = witness.set.z0.as_ref().expect("a set that does not start with z = M e");
     let set = [&witness.set.x0, &witness.set.e0, z_0].map(rug::Rational::to_f64);
     let sigma = Constant::rational(&witness.sigma);
+    let delay = if witness.delay.is_some() { "put out at the sample k + 1" } else { "a delay" };
+    let says = ["No claim covers the rounding", delay];
     for (n_o, phase) in [(0, 0.0), (1, 0.37), (5, 0.0), (20, 0.9), (SAMPLES / 2 - 1, 0.123)] {
-        let program = export(folder.path(), (&certificate, witness.delay.is_some()), &sigma, n_o);
+        let program = export(folder.path(), (&certificate, says), &sigma, n_o);
         let design = Design::new(&claim.spec.internal_model, &sigma, n_o);
         let discrete = design.discretise(&witness.sampling.step).unwrap();
         assert_eq!(rug::Rational::from_f64(discrete.gain), Some(witness.law.gain.clone()), "the K of the claim");
@@ -268,5 +280,58 @@ fn keeps_every_bound(stated: &serde_json::Value) {
             assert!(away[0] <= d_x && away[1] <= d_e, "n_o = {n_o}: {away:?} {d_x} {d_e}");
             assert!(distances[distances.len() - 1] < 0.5 * distances[0], "n_o = {n_o}");
         }
+    }
+}
+
+/// Behind a converter of 12 bits the C code keeps the bounds that are claimed of it: from the periodic solution that of the limit, from the boundary
+/// of the set that of all times.
+#[test]
+fn the_exported_c_behind_a_converter_of_12_bits() {
+    if !installed("gcc", &["--version"]) {
+        return;
+    }
+    // From -2 to 2.
+    const QUANTUM: f64 = 4.0 / 4096.0;
+    let folder = tempfile::tempdir().unwrap();
+    let (file, certificate) = (folder.path().join("spec.json"), folder.path().join("certificate.json"));
+    let mut document = json(specification_text("paper-example-rms-at-rest").as_bytes());
+    document["measurement"] = serde_json::json!({ "quantum": "1/1024" });
+    document["arithmetic"] = "double".into();
+    std::fs::write(&file, document.to_string()).unwrap();
+    let step = format!("1/{SAMPLES}");
+    let call = ["--sampling-period", &step, "--sigma", "30", "--n-o", "0,4,10", "--no-compare", "--quiet", "-o"];
+    program().arg("certify").arg(&file).args(call).arg(&certificate).assert().success();
+    let text = std::fs::read_to_string(&certificate).unwrap();
+    let stated = json(text.as_bytes());
+    let claim = read_claim(&Document::parse("certificate", &text).unwrap()).unwrap();
+    let (witness, plant) = (at_samples(&claim), Plant::from_json("paper-example", PLANT_TEXT).unwrap());
+    let sigma = Constant::rational(&witness.sigma);
+    let set = [&witness.set.x0, &witness.set.e0].map(rug::Rational::to_f64);
+    for (entry, n_o) in stated["claim"]["for_n_o"].as_array().unwrap().iter().zip([0, 4, 10]) {
+        assert_eq!(entry["n_o"], n_o);
+        let [limit, peak] =
+            ["limit", "peak"].map(|part| entry["noise"][part].as_str().unwrap().parse::<f64>().unwrap());
+        let program =
+            export(folder.path(), (&certificate, ["computed in double precision as exported", "a delay"]), &sigma, n_o);
+        let design = Design::new(&claim.spec.internal_model, &sigma, n_o);
+        let discrete = design.discretise(&witness.sampling.step).unwrap();
+        let sampled = SampledLoop::new(&plant, design.regulator(), discrete);
+        let steady = sampled_steady_state(&sampled, &vec![0.0; sampled.dimension()], &Silent).unwrap();
+        let orbit = run(&sampled, &program, &steady.start, 1);
+        let measured = |e: f64| QUANTUM * (e / QUANTUM).round();
+        let furthest = |start: &[f64], periods: usize| {
+            let run = run_measured(&sampled, &program, start, periods, measured);
+            let errors = run.iter().zip(orbit.iter().cycle()).flat_map(|((_, piece), (_, point))| {
+                piece.states.iter().zip(&point.states).map(|(y, point)| (y[2] - point[2]).abs())
+            });
+            errors.fold(0.0, f64::max)
+        };
+        let found = furthest(&steady.start, 30);
+        assert!(found <= limit && found > 0.02 * limit, "n_o = {n_o}: {found} {limit}");
+        let x_0 = at_rest(&sampled)[0][0];
+        let z = vec![0.0; sampled.regulator.dimension()];
+        let start = [0.6 * set[0] + x_0[0], -0.8 * set[0] + x_0[1], set[1]].into_iter().chain(z).collect();
+        let found = furthest(&sampled.starting(start, false), PERIODS);
+        assert!(found <= peak && found > 0.2 * peak, "n_o = {n_o}: {found} {peak}");
     }
 }

@@ -1,6 +1,6 @@
 //! What each interval of a parameter, and that of the period, costs; at samples that of the input gain, too.
 
-use super::sampled::reduce_sampled;
+use super::sampled::{RestsOn, reduce_sampled};
 use super::watch::Unwatched;
 use crate::certify::{Ladder, certify_sampled};
 use crate::search::SampledProposal;
@@ -29,8 +29,9 @@ pub(super) fn costs_at_samples(
     ladder: Ladder,
 ) -> Vec<(String, Option<f64>)> {
     let at_most = |proposal: SampledProposal| proposal.sigma.min(sigma);
-    let of_plant =
-        |plant: &Plant| reduce_sampled(plant, sampling, None, &Unwatched).ok().map(|found| at_most(found.proposal));
+    let of_plant = |plant: &Plant| {
+        reduce_sampled(plant, sampling, (None, RestsOn::Either), &Unwatched).ok().map(|found| at_most(found.proposal))
+    };
     let uncertain = spec.input_gain.as_ref().filter(|gain| !gain.is_nominal());
     let of_gain = uncertain.map(|_| {
         let sigma = match plant {

@@ -35,7 +35,7 @@ pub use proved_at_samples::ReducedSampled;
 pub use reduce::{decide_again, reduce, reduce_by_norms};
 pub use refusal::{MAX_STATES, PlantRefusal};
 pub use run::{Certified, Prepared, Run, StateStart};
-pub use sampled::{SampledPairs, reduce_sampled, with_sampled_pairs};
+pub use sampled::{RestsOn, SampledPairs, reduce_sampled, with_sampled_pairs};
 pub use specification::specification;
 pub use study::{OrbitStudy, study};
 pub use subject::{Subject, at_samples};

@@ -1,13 +1,13 @@
 //! The whole way from a subject to a decided claim, of either regulator.
 
-mod for_rate;
+mod seeking;
 
 use super::interval_costs::{costs_at_samples, interval_costs};
 use super::proofs::{WithoutJoint, bounds_around};
 use super::reduce::{reduce, reduce_by_norms};
 use super::subject::Sought;
 use super::watch::{Stage, Unwatched, Watch};
-use super::{FreeNumbers, Subject, Witness};
+use super::{FreeNumbers, RestsOn, Subject, Witness};
 use crate::certify::{
     Alternatives, Certification, Limits, NoRatesOfClaim, Options, Refusal, SampledCertification, Verdict,
     certify_sampled_within, certify_within, claimed_ball, recheck, recheck_sampled,
@@ -95,6 +95,15 @@ impl Prepared {
     /// # Errors
     /// Those of [`Prepared::new`].
     pub fn watched(subject: Subject, gain: Option<Rational>, watch: &dyn Watch) -> Result<Prepared, Vec<SpecErrors>> {
+        Prepared::resting(subject, (gain, RestsOn::Either), watch)
+    }
+
+    /// The same, where a claim at samples may be asked to rest on norms.
+    fn resting(
+        subject: Subject,
+        (gain, on): (Option<Rational>, RestsOn),
+        watch: &dyn Watch,
+    ) -> Result<Prepared, Vec<SpecErrors>> {
         let plant = match &subject {
             Subject::Plant(plant) if gain.is_none() => Some(plant.clone()),
             _ => None,
@@ -105,7 +114,7 @@ impl Prepared {
                 Ok(Prepared { plant, ..Prepared::of(spec, Start::Continuous(start), gain) })
             }
             Some(sampling) => {
-                let (spec, start) = subject.proved_at_samples(&sampling, gain.as_ref(), watch)?;
+                let (spec, start) = subject.proved_at_samples(&sampling, (gain.as_ref(), on), watch)?;
                 let start = Start::Sampled(Box::new(sampling), start);
                 Ok(Prepared { plant, ..Prepared::of(spec, start, gain) })
             }

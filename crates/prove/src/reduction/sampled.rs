@@ -35,15 +35,24 @@ pub struct SampledPairs<'p> {
     empty: Specification,
 }
 
+/// What a claim at samples may rest on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RestsOn {
+    /// What serves for the smaller gain.
+    Either,
+    /// Norms of the error system, without which there are no rates.
+    Norms,
+}
+
 /// The same for the regulator at samples: at the gain that is given, or at the smallest one that is found, by norms or, where that serves
-/// for a smaller one, by matrix inequalities over the derivatives.
+/// for a smaller one and they are not asked for, by matrix inequalities over the derivatives.
 ///
 /// # Errors
 /// What could not be proved or found.
 pub fn reduce_sampled(
     plant: &Plant,
     sampling: &spec::Sampling,
-    gain: Option<&Rational>,
+    (gain, on): (Option<&Rational>, RestsOn),
     watch: &dyn Watch,
 ) -> Result<ReducedSampled, PlantRefusal> {
     with_candidates(plant, watch, |candidates, sampled| {
@@ -53,7 +62,7 @@ pub fn reduce_sampled(
             SampledPairs::new(plant, &along, sampled, &chosen)?.reduce(sampling, gain)
         };
         // What norms prove of a gain that is given is enough; of the law with a delay nothing else is proved.
-        if sampling.delayed {
+        if sampling.delayed || on == RestsOn::Norms {
             return by_norms();
         }
         let of_given = gain.map(|_| by_norms());

@@ -2,7 +2,7 @@
 
 use super::proofs::{Reduced, WithoutJoint};
 use super::watch::{Stage, Unwatched, Watch};
-use super::{reduce, reduce_sampled};
+use super::{RestsOn, reduce, reduce_sampled};
 use crate::certify::{Alternatives, WITHOUT_INPUT_GAIN, not_available_with_input_gain, with_triple};
 use crate::search::{SampledProposal, SharpProposal};
 use rug::Rational;
@@ -215,13 +215,13 @@ impl Subject {
     pub fn proved_at_samples(
         self,
         sampling: &Sampling,
-        gain: Option<&Rational>,
+        asked: (Option<&Rational>, RestsOn),
         watch: &dyn Watch,
     ) -> Result<(Specification, Option<SampledProposal>), Vec<SpecErrors>> {
         match self {
             Subject::Plant(plant) => {
                 let reduced =
-                    reduce_sampled(&plant, sampling, gain, watch).map_err(|refusal| refusal.errors(&plant))?;
+                    reduce_sampled(&plant, sampling, asked, watch).map_err(|refusal| refusal.errors(&plant))?;
                 Ok((reduced.spec, Some(reduced.proposal)))
             }
             specification @ Subject::Specification(_) => {

@@ -1,0 +1,140 @@
+//! The smallest gain for which a claim has what is asked of it (derivation, 13.5, 13.6).
+
+use super::{Prepared, RestsOn, Run, Subject, Watch};
+use crate::certify::{Limits, Options};
+use rug::Rational;
+use sigmastar_exact::number::{Direction, round_f64};
+use sigmastar_lang::spec::SpecErrors;
+
+/// The gains that are tried in turn, over the smallest one.
+const SHARES: [f64; 7] = [1.2, 1.5, 2.0, 3.0, 4.0, 6.0, 10.0];
+
+/// Steps of the bisection between a gain that does not do and one that does.
+const STEPS: usize = 6;
+
+/// Digits of a gain.
+const DIGITS: u32 = 5;
+
+/// What is asked of a claim.
+struct Search<'q> {
+    subject: &'q Subject,
+    limits: &'q Limits,
+    counts: &'q [u32],
+    /// Without comparisons.
+    options: Options,
+    watch: &'q dyn Watch,
+}
+
+/// A gain that is certified, and the slowest of its rates; none where one of them is not proved.
+struct Tried {
+    prepared: Prepared,
+    sigma: Rational,
+    rate: Option<Rational>,
+}
+
+impl Prepared {
+    /// The data of a subject for the smallest gain that is found with which the limits are kept, the least rate among them, of these numbers
+    /// of oscillators; where no gain has it, for the one with the largest rate that is found. A run with it whose rates are proved
+    /// decides anew ([`Run::prove_rates`]). At samples a claim of which rates are asked rests on norms where it can, and so does one that
+    /// keeps its limits with them alone.
+    ///
+    /// # Errors
+    /// Those of [`Prepared::new`].
+    pub fn seeking(
+        subject: &Subject,
+        (limits, counts): (&Limits, &[u32]),
+        options: Options,
+        watch: &dyn Watch,
+    ) -> Result<Prepared, Vec<SpecErrors>> {
+        let search = Search { subject, limits, counts, options: Options { compare: false, ..options }, watch };
+        match &limits.rate {
+            None => search.within_limits(),
+            Some(least) => search.with_rate(least),
+        }
+    }
+}
+
+impl Search<'_> {
+    fn by_norms(&self, gain: Option<Rational>) -> Result<Prepared, Vec<SpecErrors>> {
+        Prepared::resting(self.subject.clone(), (gain, RestsOn::Norms), self.watch)
+    }
+
+    fn at(&self, gain: Option<Rational>) -> Result<Prepared, Vec<SpecErrors>> {
+        let either = |gain| Prepared::watched(self.subject.clone(), gain, self.watch);
+        match self.subject.sampling().is_some() && !self.counts.is_empty() {
+            true => self.by_norms(gain.clone()).or_else(|_| either(gain)),
+            false => either(gain),
+        }
+    }
+
+    fn within_limits(&self) -> Result<Prepared, Vec<SpecErrors>> {
+        let prepared = self.at(None)?.within(self.limits.clone());
+        let certifies = |prepared: &Prepared| {
+            prepared.certify_watched(self.options, self.watch).is_ok_and(|run| run.certified().is_some())
+        };
+        let plant_at_samples = matches!(self.subject, Subject::Plant(_)) && self.subject.sampling().is_some();
+        let has_other = plant_at_samples && self.counts.is_empty() && !self.limits.is_empty();
+        if !has_other || certifies(&prepared) {
+            return Ok(prepared);
+        }
+        let other = self.by_norms(None).map(|other| other.within(self.limits.clone()));
+        Ok(other.ok().filter(certifies).unwrap_or(prepared))
+    }
+
+    fn with_rate(&self, least: &Rational) -> Result<Prepared, Vec<SpecErrors>> {
+        // With it a claim that is too slow would be taken back, and its rates with it.
+        let others = || Limits { rate: None, ..self.limits.clone() };
+        let asking = |prepared: Prepared| Ok(Prepared { limits: self.limits.clone(), ..prepared });
+        let does = |tried: &Tried| tried.rate.as_ref().is_some_and(|rate| rate >= least);
+        let mut best = match self.tried(self.at(None)?.within(others())) {
+            Ok(first) => first,
+            Err(prepared) => return asking(prepared),
+        };
+        if does(&best) {
+            return asking(best.prepared);
+        }
+        let (smallest, mut below) = (best.sigma.to_f64(), best.sigma.clone());
+        let tried = |sigma: Rational| {
+            let tried = self.tried(self.at(Some(sigma)).ok()?.within(others())).ok()?;
+            Some(Tried { prepared: Prepared { found_above: Some(smallest), ..tried.prepared }, ..tried })
+        };
+        for sigma in SHARES.iter().filter_map(|share| round_f64(smallest * share, DIGITS, Direction::Up)) {
+            if let Some(next) = tried(sigma.clone()).filter(|next| next.rate > best.rate) {
+                best = next;
+            }
+            if does(&best) {
+                break;
+            }
+            below = sigma;
+        }
+        for _ in 0..if does(&best) { STEPS } else { 0 } {
+            let middle = round_f64((below.to_f64() * best.sigma.to_f64()).sqrt(), DIGITS, Direction::Up);
+            let Some(middle) = middle.filter(|middle| below < *middle && *middle < best.sigma) else { break };
+            match tried(middle.clone()).filter(does) {
+                Some(smaller) => best = smaller,
+                None => below = middle,
+            }
+        }
+        asking(best.prepared)
+    }
+
+    /// What is certified of it, with the slowest rate; itself where nothing is.
+    fn tried(&self, prepared: Prepared) -> Result<Tried, Prepared> {
+        let mut run = prepared.certify_watched(self.options, self.watch).ok();
+        let sigma = run.as_ref().and_then(|run| Some(run.certified()?.sigma.clone()));
+        let rate = run.as_mut().and_then(|run| run.slowest_rate(self.counts));
+        drop(run);
+        match sigma {
+            Some(sigma) => Ok(Tried { prepared, sigma, rate }),
+            None => Err(prepared),
+        }
+    }
+}
+
+impl Run<'_> {
+    /// The smallest of the rates of these numbers of oscillators; `None` where one of them is not proved.
+    fn slowest_rate(&mut self, counts: &[u32]) -> Option<Rational> {
+        self.prove_rates(counts).ok()?;
+        self.rates().into_iter().map(|(_, rate)| rate).min()?.cloned()
+    }
+}
