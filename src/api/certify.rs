@@ -46,11 +46,8 @@ fn run(subject: &Subject, options: &CertifyOptions) -> Result<Certificate, Error
     if let Some(misfit) = options.misfit(sampled) {
         return Err(Error::misfit(misfit));
     }
-    let prepared = match gain {
-        None => Prepared::seeking(&asked.read, (&limits, &counts), options, &Unwatched),
-        gain => Prepared::new(asked.read.clone(), gain).map(|prepared| prepared.within(limits)),
-    };
-    let prepared = prepared.map_err(|all| Error::documents(&all))?;
+    let prepared = Prepared::seeking(&asked.read, gain, (&limits, &counts), options, &Unwatched)
+        .map_err(|all| Error::documents(&all))?;
     let mut run = prepared.certify(options).map_err(|all| Error::documents(&all))?;
     run.prove_rates(&counts).map_err(Error::no_rates)?;
     Certificate::new(&run, &asked, false).ok_or_else(|| not_certified(&run))

@@ -66,8 +66,7 @@ fn attempt(args: &CertifyArgs) -> Result<u8, Failure> {
     let stages = Stages::new(steps(args, &subject), args.progress, args.quiet);
     let working = (!stages.are_told()).then(|| proving(&subject, args.quiet)).flatten();
     let prepared = match &witness {
-        None if gain.is_none() => Prepared::seeking(&subject, (&limits, &counts), args.options(), &stages),
-        None => Prepared::watched(subject, gain, &stages).map(|prepared| prepared.within(limits)),
+        None => Prepared::seeking(&subject, gain, (&limits, &counts), args.options(), &stages),
         Some(certificate) => {
             let witness = read_for(certificate, &subject)?;
             if witness.of_another && !args.quiet {

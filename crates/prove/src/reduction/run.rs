@@ -98,19 +98,19 @@ impl Prepared {
         Prepared::resting(subject, (gain, RestsOn::Either), watch)
     }
 
-    /// The same, where a claim at samples may be asked to rest on norms.
+    /// The same of a claim that may be asked to rest on norms; in continuous time the data are those of the smallest gain then.
     fn resting(
         subject: Subject,
         (gain, on): (Option<Rational>, RestsOn),
         watch: &dyn Watch,
     ) -> Result<Prepared, Vec<SpecErrors>> {
         let plant = match &subject {
-            Subject::Plant(plant) if gain.is_none() => Some(plant.clone()),
+            Subject::Plant(plant) if gain.is_none() && on == RestsOn::Either => Some(plant.clone()),
             _ => None,
         };
         match subject.sampling().cloned() {
             None => {
-                let (spec, start) = subject.proved_with_alternatives(gain.as_ref(), watch)?;
+                let (spec, start) = subject.proved_with_alternatives((gain.as_ref(), on), watch)?;
                 Ok(Prepared { plant, ..Prepared::of(spec, Start::Continuous(start), gain) })
             }
             Some(sampling) => {

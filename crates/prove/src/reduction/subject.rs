@@ -2,7 +2,7 @@
 
 use super::proofs::{Reduced, WithoutJoint};
 use super::watch::{Stage, Unwatched, Watch};
-use super::{RestsOn, reduce, reduce_sampled};
+use super::{RestsOn, reduce, reduce_by_norms, reduce_sampled};
 use crate::certify::{Alternatives, WITHOUT_INPUT_GAIN, not_available_with_input_gain, with_triple};
 use crate::search::{SampledProposal, SharpProposal};
 use rug::Rational;
@@ -184,14 +184,14 @@ impl Subject {
     /// # Errors
     /// What keeps the data from being proved, at its place; not empty.
     pub fn proved(self) -> Result<(Specification, Option<SharpProposal>), Vec<SpecErrors>> {
-        let (spec, start) = self.proved_with_alternatives(None, &Unwatched)?;
+        let (spec, start) = self.proved_with_alternatives((None, RestsOn::Either), &Unwatched)?;
         Ok((spec, start.map(|sought| sought.proposal)))
     }
 
     /// The same for a gain that is given or for the smallest one, with what the search of a plant saw beside.
     pub(super) fn proved_with_alternatives(
         self,
-        gain: Option<&Rational>,
+        (gain, on): (Option<&Rational>, RestsOn),
         watch: &dyn Watch,
     ) -> Result<(Specification, Option<Sought>), Vec<SpecErrors>> {
         match self {
@@ -201,7 +201,11 @@ impl Subject {
                 Ok((proved.into_owned(), None))
             }
             Subject::Plant(plant) => {
-                let reduced = reduce(&plant, gain, watch).map_err(|refusal| refusal.errors(&plant))?;
+                let reduced = match on {
+                    RestsOn::Either => reduce(&plant, gain, watch),
+                    RestsOn::Norms => reduce_by_norms(&plant),
+                };
+                let reduced = reduced.map_err(|refusal| refusal.errors(&plant))?;
                 let Reduced { spec, proposal, alternatives, without_joint } = reduced;
                 Ok((spec, Some(Sought { proposal, alternatives, without_joint })))
             }

@@ -1,6 +1,6 @@
 //! The smallest gain for which a claim has what is asked of it (derivation, 13.5, 13.6).
 
-use super::{Prepared, RestsOn, Run, Subject, Watch};
+use super::{Prepared, RestsOn, Run, Start, Subject, Watch};
 use crate::certify::{Limits, Options};
 use rug::Rational;
 use sigmastar_exact::number::{Direction, round_f64};
@@ -35,21 +35,33 @@ struct Tried {
 impl Prepared {
     /// The data of a subject for the smallest gain that is found with which the limits are kept, the least rate among them, of these numbers
     /// of oscillators; where no gain has it, for the one with the largest rate that is found. A run with it whose rates are proved
-    /// decides anew ([`Run::prove_rates`]). At samples a claim of which rates are asked rests on norms where it can, and so does one that
-    /// keeps its limits with them alone.
+    /// decides anew ([`Run::prove_rates`]). A claim of a plant rests on norms where it can and what is asked needs them: rates at samples, what
+    /// noise does, and limits at samples that are kept with them alone. At the gain that is given nothing is sought.
     ///
     /// # Errors
     /// Those of [`Prepared::new`].
     pub fn seeking(
         subject: &Subject,
+        gain: Option<Rational>,
         (limits, counts): (&Limits, &[u32]),
         options: Options,
         watch: &dyn Watch,
     ) -> Result<Prepared, Vec<SpecErrors>> {
         let search = Search { subject, limits, counts, options: Options { compare: false, ..options }, watch };
-        match &limits.rate {
-            None => search.within_limits(),
-            Some(least) => search.with_rate(least),
+        match (&limits.rate, gain) {
+            (_, Some(gain)) => Ok(search.at(Some(gain))?.within(limits.clone())),
+            (None, None) => search.within_limits(),
+            (Some(least), None) => search.with_rate(least),
+        }
+    }
+}
+
+impl Prepared {
+    /// Whether a gain that is given is not below the smallest one of the data in continuous time; at samples they are those of the gain.
+    fn reaches(&self, gain: Option<&Rational>) -> bool {
+        match (&self.start, gain) {
+            (Start::Continuous(Some(sought)), Some(gain)) => sought.proposal.sigma <= gain.to_f64(),
+            _ => true,
         }
     }
 }
@@ -59,11 +71,17 @@ impl Search<'_> {
         Prepared::resting(self.subject.clone(), (gain, RestsOn::Norms), self.watch)
     }
 
+    /// Whether what is asked can be had of a claim by norms alone: rates at samples, and what noise does.
+    fn asks_for_norms(&self) -> bool {
+        let Subject::Plant(plant) = self.subject else { return false };
+        !self.counts.is_empty() && (self.subject.sampling().is_some() || plant.disturbances.any())
+    }
+
     fn at(&self, gain: Option<Rational>) -> Result<Prepared, Vec<SpecErrors>> {
-        let either = |gain| Prepared::watched(self.subject.clone(), gain, self.watch);
-        match self.subject.sampling().is_some() && !self.counts.is_empty() {
-            true => self.by_norms(gain.clone()).or_else(|_| either(gain)),
-            false => either(gain),
+        let by_norms = || self.by_norms(gain.clone()).ok().filter(|prepared| prepared.reaches(gain.as_ref()));
+        match self.asks_for_norms().then(by_norms).flatten() {
+            Some(prepared) => Ok(prepared),
+            None => Prepared::watched(self.subject.clone(), gain, self.watch),
         }
     }
 
@@ -73,7 +91,7 @@ impl Search<'_> {
             prepared.certify_watched(self.options, self.watch).is_ok_and(|run| run.certified().is_some())
         };
         let plant_at_samples = matches!(self.subject, Subject::Plant(_)) && self.subject.sampling().is_some();
-        let has_other = plant_at_samples && self.counts.is_empty() && !self.limits.is_empty();
+        let has_other = plant_at_samples && !self.asks_for_norms() && !self.limits.is_empty();
         if !has_other || certifies(&prepared) {
             return Ok(prepared);
         }
