@@ -168,3 +168,38 @@ fn trials_hold_the_bounds_and_break_smaller_ones() {
     let call = program().arg("falsify").arg(path).args(["--trials", "3", "--full"]).output().unwrap();
     assert!(utf8(call.stdout).contains("with noise and disturbance, in the limit"));
 }
+
+/// Of a plant the claim rests on norms where what noise does is asked, in continuous time and at samples: the checker decides it, and trials hold it.
+#[test]
+fn noise_of_a_plant_is_bounded_by_norms() {
+    let folder = tempfile::tempdir().unwrap();
+    let disturbed = |name: &str, members: &[(&str, Value)]| {
+        let mut plant = json(&std::fs::read(format!("specs/plants/{name}.json")).unwrap());
+        for (member, value) in members {
+            plant[*member] = value.clone();
+        }
+        plant.to_string()
+    };
+    let small = [("measurement", object!({ "quantum": "1/1000" })), ("disturbance", object!("1/20"))];
+    let large = [("measurement", object!({ "quantum": "1/50" })), ("disturbance", object!("20"))];
+    let cases: [(String, &[&str]); 2] = [
+        (disturbed("pendulum", &small), &["--sigma", "1.7", "--n-o", "0,4"]),
+        (disturbed("motor-axis", &large), &["--sampling-period", "1/20000", "--sigma", "80", "--n-o", "0,4"]),
+    ];
+    for (text, call) in cases {
+        let (report, certificate) = certify(folder.path(), &text, call);
+        let certificate = certificate.unwrap_or_else(|| panic!("{report:#}"));
+        for entry in certificate["claim"]["for_n_o"].as_array().unwrap() {
+            let [limit, peak] = ["limit", "peak"].map(|part| number(&entry["noise"][part]));
+            assert!(0.0 < limit && limit < 0.1 * peak, "{entry}");
+        }
+        let checked = proofs_check::check(certificate.to_string().as_bytes());
+        assert!(checked.is_flawless(), "{}", checked.text(false));
+        assert!(trials(&certificate, 4).counterexample().is_none());
+    }
+    // Without noise, or without a list, it is the matrix inequality with its smaller gain.
+    let sigma = |text: &str, call: &[&str]| number(&certify(folder.path(), text, call).0["sigma_star"]);
+    let [plain, with_noise] = [disturbed("pendulum", &[]), disturbed("pendulum", &small)];
+    let least = sigma(&plain, &["--n-o", "0"]);
+    assert!(least == sigma(&with_noise, &[]) && least < sigma(&with_noise, &["--n-o", "0"]));
+}
