@@ -221,9 +221,24 @@ pub(super) fn are_zeta_bounds(rows: &[Vec<Rational>], [z_low, z_up]: &[Rational;
         })
 }
 
-/// A level and a z_noise with `sqrt((level^2 + I)/(1 + c)) + sqrt(z_up) dz <= level <= z_noise sqrt(z_low)`, I and dz being those of z_noise.
+impl RoundingWitness {
+    /// Whether `sqrt((level^2 + I)/(1 + c)) + sqrt(z_up) dz <= level <= z_noise sqrt(z_low)`, I and dz being those of z_noise.
+    ///
+    /// Guarantee: if true, the root of W of the part with the inputs stays below the level from 0 on, and so |zeta|_N of that part below z_noise.
+    fn holds(&self, computed: &Computed, c: &Enclosure, of_inputs: impl Fn(&Rounded) -> Enclosure) -> bool {
+        let number = |value: &Rational| Enclosure::from_rational(value, c.precision());
+        let [z_low, z_up, z_noise, level] = [&self.z_low, &self.z_up, &self.z_noise, &self.level].map(number);
+        let rounded = computed.rounded(&z_noise);
+        let kept = Enclosure::one(c.precision()) + c;
+        let next = ((level.sqr() + of_inputs(&rounded)) / kept).sqrt() + z_up.sqrt() * rounded.state;
+        next.le(&level).is_true() && level.le(&(z_noise * z_low.sqrt())).is_true()
+    }
+}
+
+/// A level and a z_noise that hold, about the least ones.
 ///
-/// Guarantee: then the root of W of the part with the inputs stays below the level from 0 on, and so |zeta|_N of that part below z_noise.
+/// # Errors
+/// There are none, or the law is not ordinary with them.
 pub(super) fn settled(
     computed: &Computed,
     c: &Enclosure,
@@ -233,30 +248,116 @@ pub(super) fn settled(
     let precision = c.precision();
     let number = |value: &Rational| Enclosure::from_rational(value, precision);
     let (kept, root_low, root_up) = (Enclosure::one(precision) + c, number(&z_low).sqrt(), number(&z_up).sqrt());
-    let up = |value: &Enclosure| {
-        round_f64(value.upper_f64() * (1.0 + ROOM), FIGURES, Direction::Up).ok_or(NoNoiseBound::NotFound)
-    };
+    let up = |value: f64| round_f64(value * (1.0 + ROOM), FIGURES, Direction::Up).ok_or(NoNoiseBound::NotFound);
     let mut z_noise = Rational::new();
     for _ in 0..TRIES {
-        let rounded = computed.rounded(&number(&z_noise));
-        let inputs = of_inputs(&rounded);
-        let moved = &root_up * &rounded.state;
-        // Where both sides are equal.
-        let least = (&moved * &kept + (moved.sqr() * &kept + c * &inputs).sqrt()) / c;
-        let level = up(&least)?;
-        let needed = up(&(number(&level) / &root_low))?;
-        if needed > z_noise {
-            z_noise =
-                round_f64(needed.to_f64() * (1.0 + ROOM), FIGURES, Direction::Up).ok_or(NoNoiseBound::NotFound)?;
-            continue;
-        }
         if let Some((what, size)) = computed.extraordinary(&number(&z_noise)) {
             return Err(NoNoiseBound::BeyondDoubles { what, size });
         }
-        let at = number(&level);
-        let next = ((at.sqr() + inputs) / &kept).sqrt() + moved;
-        let stays = next.le(&at).is_true() && at.le(&(number(&z_noise) * &root_low)).is_true();
-        return if stays { Ok(RoundingWitness { z_low, z_up, z_noise, level }) } else { Err(NoNoiseBound::NotFound) };
+        let rounded = computed.rounded(&number(&z_noise));
+        let moved = &root_up * &rounded.state;
+        // Where both sides are equal.
+        let least = (&moved * &kept + (moved.sqr() * &kept + c * of_inputs(&rounded)).sqrt()) / c;
+        let level = up(least.upper_f64())?;
+        let needed = up((number(&level) / &root_low).upper_f64())?;
+        if needed <= z_noise {
+            let witness = RoundingWitness { z_low, z_up, z_noise, level };
+            return if witness.holds(computed, c, of_inputs) { Ok(witness) } else { Err(NoNoiseBound::NotFound) };
+        }
+        z_noise = up(needed.to_f64())?;
     }
     Err(NoNoiseBound::RoundingGrows)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn number(value: f64) -> Enclosure {
+        Enclosure::from_rational(&Rational::from_f64(value).unwrap(), 128)
+    }
+
+    fn computed(weight: f64) -> Computed {
+        let law = ComputedLaw {
+            sigma: number(60.0),
+            gain: number(0.995),
+            decay: number(0.88),
+            nominal: number(1.0),
+            n_bar: number(2.0),
+            roots: vec![number(1.5), number(weight)],
+        };
+        Computed { law, measured: number(1.9), zeta: number(5.0), misled: number(1e-15) }
+    }
+
+    /// What D and v add.
+    fn inputs(rounded: &Rounded) -> Enclosure {
+        number(0.5) * rounded.control.sqr() + number(8e4) * number(1e-16).sqr()
+    }
+
+    #[test]
+    fn a_level_is_accepted_and_smaller_numbers_are_refused() {
+        let (computed, c) = (computed(1.0), number(1e-3));
+        let of_zeta = || [9, 33].map(Rational::from);
+        let found = settled(&computed, &c, of_zeta(), inputs).unwrap();
+        assert!(found.level < 1e-9 && found.holds(&computed, &c, inputs));
+        let with = |change: &dyn Fn(&mut RoundingWitness)| {
+            let mut witness = found.clone();
+            change(&mut witness);
+            witness
+        };
+        let share = |value: &Rational, percent: u32| Rational::from(value * percent) / 100;
+        for broken in [
+            with(&|witness| witness.level = share(&witness.level, 99)),
+            with(&|witness| witness.level = share(&witness.level, 101)),
+            with(&|witness| witness.z_noise = share(&witness.z_noise, 99)),
+            with(&|witness| witness.z_low = share(&witness.z_low, 98)),
+            with(&|witness| witness.z_up = share(&witness.z_up, 102)),
+        ] {
+            assert!(!broken.holds(&computed, &c, inputs), "{broken:?}");
+        }
+        // Half as much is taken away in a sample, and twice as much is put in.
+        assert!(!found.holds(&computed, &number(5e-4), inputs));
+        assert!(!found.holds(&computed, &c, |rounded| inputs(rounded) * 10000));
+    }
+
+    #[test]
+    fn where_there_is_no_level_the_cause_is_told() {
+        let settled = |computed: &Computed, c: f64| settled(computed, &number(c), [9, 33].map(Rational::from), inputs);
+        assert_eq!(settled(&computed(1.0), 1e-16).unwrap_err(), NoNoiseBound::RoundingGrows);
+        let told = settled(&computed(1e-140), 1e-3).unwrap_err();
+        assert!(matches!(told, NoNoiseBound::BeyondDoubles { what: "a weight", .. }), "{told:?}");
+        let mut loud = computed(1.0);
+        loud.measured = number(1e300) * 10;
+        let told = settled(&loud, 1e-3).unwrap_err();
+        assert!(matches!(told, NoNoiseBound::BeyondDoubles { what: "the control", .. }), "{told:?}");
+        let mut small = computed(1.0);
+        small.law.nominal = number(1e-272);
+        let told = settled(&small, 1e-3).unwrap_err();
+        assert!(matches!(told, NoNoiseBound::BeyondDoubles { what: "the nominal gain", .. }), "{told:?}");
+    }
+
+    #[test]
+    fn pi_is_between_its_bounds_of_zeta() {
+        let pi = Mat::from_fn(3, 3, |i, j| [[4.0, 1.0, -0.5], [1.0, 2.0, 0.25], [-0.5, 0.25, 3.0]][i][j]);
+        let rows: Vec<Vec<Rational>> =
+            (0..3).map(|i| (0..=i).map(|j| Rational::from_f64(pi[(i, j)]).unwrap()).collect()).collect();
+        let [z_low, z_up] = zeta_bounds(&pi).unwrap();
+        assert!(are_zeta_bounds(&rows, &[z_low.clone(), z_up.clone()], 128));
+        let more = |value: &Rational, thousandths: u32| Rational::from(value * thousandths) / 1000;
+        assert!(!are_zeta_bounds(&rows, &[more(&z_low, 1002), z_up.clone()], 128));
+        assert!(!are_zeta_bounds(&rows, &[z_low, more(&z_up, 998)], 128));
+    }
+
+    /// Without oscillators by hand, u0 being 2^-53.
+    #[test]
+    fn the_counts_of_an_integrator() {
+        let law = ComputedLaw { roots: vec![number(1.5)], ..computed(1.0).law };
+        let Rounded { control, state } = law.rounded(&number(0.25), &number(4.0));
+        let unit = 2f64.powi(-53);
+        let [of_control, of_state] =
+            [11.0 * (0.995 * 2.0 * 4.0 + 60.0 * 0.25), 5.0 * 2f64.sqrt() * 4.0 + 3.0 * 0.88 * 0.25 * 2.0];
+        for (bound, expected) in [(control, of_control), (state, of_state)] {
+            assert!((bound.midpoint_f64() / (expected * unit) - 1.0).abs() < 1e-12);
+        }
+    }
 }
