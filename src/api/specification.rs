@@ -233,6 +233,12 @@ impl SpecificationBuilder {
         self.with("disturbance", text(most))
     }
 
+    /// That what is said of given numbers of oscillators at samples counts the rounding of the exported C code, which computes in doubles.
+    #[must_use]
+    pub fn in_doubles(self) -> SpecificationBuilder {
+        self.with("arithmetic", text("double"))
+    }
+
     /// The weights n_0 and `n_l = l^-(1 + epsilon)` for l >= 1.
     #[must_use]
     pub fn power_weights(self, n0: &str, epsilon: &str) -> SpecificationBuilder {

@@ -4,8 +4,9 @@ use super::failure::Failure;
 use rug::Rational;
 use sigmastar_exact::enclosure::{DEFAULT_PRECISION, Enclosure};
 use sigmastar_exact::number::write_exact;
-use sigmastar_lang::spec::{Constant, Document, InternalModel, SampledGain, Sampling};
+use sigmastar_lang::spec::{Constant, Document, Errors, InternalModel, SampledGain, Sampling};
 use sigmastar_prove::certificate::read_numbers;
+use sigmastar_prove::rate::bound::MAX_COUNTS;
 use sigmastar_prove::reduction::FreeNumbers;
 use sigmastar_regulator::export::{Provenance, Scope};
 
@@ -18,6 +19,8 @@ pub struct Given {
     /// Whether it is about its gain alone because of an actuator.
     with_actuator: bool,
     statement: String,
+    /// The numbers of oscillators of which it says something that counts rounding.
+    rounding: Vec<u64>,
     /// The digests that it states, of a specification and of a plant.
     made_for: [Option<String>; 2],
 }
@@ -38,7 +41,16 @@ impl Given {
         })?;
         let made_for = ["/specification_sha256", "/plant_sha256"].map(text);
         let with_actuator = document.at("/claim/actuator").is_some();
-        Ok(Given { sha256: document.root().sha256(), sigma_star, sampled, with_actuator, statement, made_for })
+        let in_doubles = ["/specification/arithmetic", "/plant/arithmetic"]
+            .into_iter()
+            .any(|pointer| text(pointer).as_deref() == Some("double"));
+        let stated = |i: usize| {
+            document.at(&format!("/claim/for_n_o/{i}/noise")).and(document.at(&format!("/claim/for_n_o/{i}/n_o")))
+        };
+        let counts = (0..MAX_COUNTS).filter(|_| in_doubles).filter_map(stated);
+        let rounding = counts.filter_map(|n_o| n_o.integer(&mut Errors::new()).ok()).collect();
+        let sha256 = document.root().sha256();
+        Ok(Given { sha256, sigma_star, sampled, with_actuator, statement, rounding, made_for })
     }
 
     /// sigma*, rounded up to a double: the gain that is exported is certified too. Of the regulator at samples, and with an actuator,
@@ -96,6 +108,7 @@ impl Given {
             sigma_star: write_exact(&self.sigma_star),
             one_gain: self.sampled.is_some() || self.with_actuator,
             statement: self.statement.clone(),
+            rounding: self.rounding.contains(&u64::from(regulator.n_o)).then_some(regulator.n_o),
             scope: match self.covers_samples(regulator) {
                 Some(true) => Scope::Samples,
                 Some(false) => Scope::OtherSamples,

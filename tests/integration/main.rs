@@ -62,6 +62,7 @@ mod rates_by_matrices;
 mod rates_of_claims;
 mod rejected;
 mod report_words;
+mod rounding;
 mod sampled;
 mod sampled_c;
 mod sampled_cli;

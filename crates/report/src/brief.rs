@@ -94,7 +94,8 @@ fn for_n_o(run: &Certification<'_>) -> Option<String> {
         Some(bound) => {
             let factor = exact(&bound.factor, Direction::Up);
             let rate = exact(&bound.witness.rate, Direction::Down);
-            let disturbed = disturbed(noise.as_ref().map(|noise| noise.as_ref().ok().map(|noise| &noise.limit)));
+            let disturbed =
+                disturbed(run.spec, noise.as_ref().map(|noise| noise.as_ref().ok().map(|noise| &noise.limit)));
             format!("n_o = {n_o}: {factor} exp(-{rate} (t - t_0)){disturbed}")
         }
     };
@@ -102,12 +103,13 @@ fn for_n_o(run: &Certification<'_>) -> Option<String> {
     (!all.is_empty()).then(|| format!("|e - e_per| at this gain alone, {}", all.join("; ")))
 }
 
-/// What noise and a disturbance add, where there are some and it is proved.
-fn disturbed(noise: Option<Option<&Rational>>) -> String {
+/// What noise and a disturbance, or rounding alone, add, where there are some and it is proved.
+fn disturbed(spec: &Specification, noise: Option<Option<&Rational>>) -> String {
+    let word = if spec.disturbances.any() { "disturbed" } else { "rounded" };
     match noise {
         None => String::new(),
-        Some(Some(limit)) => format!(", disturbed + {}", exact(limit, Direction::Up)),
-        Some(None) => ", disturbed not proved".to_owned(),
+        Some(Some(limit)) => format!(", {word} + {}", exact(limit, Direction::Up)),
+        Some(None) => format!(", {word} not proved"),
     }
 }
 
@@ -116,7 +118,8 @@ fn for_n_o_at_samples(run: &SampledCertification<'_>) -> Option<String> {
     let one = |SampledRateForCount { n_o, bound, noise }: &SampledRateForCount| match bound {
         None => format!("n_o = {n_o}: not proved"),
         Some(SampledRateBound { rate, factor, .. }) => {
-            let disturbed = disturbed(noise.as_ref().map(|noise| noise.as_ref().ok().map(|noise| &noise.limit)));
+            let disturbed =
+                disturbed(run.spec, noise.as_ref().map(|noise| noise.as_ref().ok().map(|noise| &noise.limit)));
             let [factor, rate] = [exact(factor, Direction::Up), exact(rate, Direction::Down)];
             format!("n_o = {n_o}: {factor} exp(-{rate} (t - t_0)){disturbed}")
         }
@@ -164,7 +167,14 @@ pub(super) fn of_samples(run: &SampledCertification<'_>, rechecked: bool) -> Vec
         Some(_) => format!("{late} rounding or quantisation"),
         None => format!("{late} rounding, quantisation or saturation"),
     };
-    let beside = if run.spec.v_bar() > 0 { ", but what noise adds with given n_o counts `measurement`" } else { "" };
+    let beside = match (run.spec.v_bar() > 0, run.spec.disturbances.in_doubles()) {
+        (false, false) => "",
+        (true, false) => ", but what noise adds with given n_o counts `measurement`",
+        (false, true) => ", but what is said of given n_o counts the rounding of the exported C code",
+        (true, true) => {
+            ", but what noise adds with given n_o counts `measurement` and the rounding of the exported C code"
+        }
+    };
     facts.push(("assumed", format!("{}; {of_the_computer}{beside}", assumed(run.spec, run.largest_arguments(), None))));
     vec![Block::facts(facts), Block::says(norms(run.spec, "law"))]
 }

@@ -61,8 +61,13 @@ fn noise_section(run: &Certification<'_>) -> Vec<Block> {
     let asked = run.for_n_o.iter().filter_map(|found| {
         found.noise.as_ref().map(|noise| (found.n_o, noise.as_ref().map(of).map_err(|reason| *reason)))
     });
-    disturbed(run.spec, asked.collect(), ["lambda in 1/time", ""])
+    let words = format!("With {}, any measurable signals,", run.spec.disturbances.in_words());
+    let said = Said { title: "Noise and disturbances", words, without: "them", decay: "lambda in 1/time", place: "" };
+    disturbed(run.spec, asked.collect(), &said)
 }
+
+/// The arithmetic of the law at samples.
+const IN_DOUBLES: &str = "computed in double precision by the exported C code, whose rounding is counted,";
 
 /// What is shown of such a bound.
 struct Shown {
@@ -71,15 +76,24 @@ struct Shown {
     decay: Rational,
 }
 
-/// The section on noise and a disturbance; `decay` and `place` are of the form of the claim.
-fn disturbed(
-    spec: &Specification,
-    asked: Vec<(u32, Result<Shown, NoNoiseBound>)>,
-    [decay, place]: [&str; 2],
-) -> Vec<Block> {
+/// The words of a section on noise, a disturbance and rounding.
+struct Said {
+    title: &'static str,
+    /// What disturbs the loop.
+    words: String,
+    /// What the periodic solution is without.
+    without: &'static str,
+    /// The name of the decay, and where the way is bounded by the rate: of the form of the claim.
+    decay: &'static str,
+    place: &'static str,
+}
+
+/// The section on noise and a disturbance.
+fn disturbed(spec: &Specification, asked: Vec<(u32, Result<Shown, NoNoiseBound>)>, said: &Said) -> Vec<Block> {
     if asked.is_empty() {
         return Vec::new();
     }
+    let Said { title, words, without, decay, place } = said;
     let mut table = Table::new(&["n_o", "in the limit", "at all times", decay]);
     let mut reasons: Vec<(NoNoiseBound, Vec<String>)> = Vec::new();
     for (n_o, noise) in asked {
@@ -100,11 +114,10 @@ fn disturbed(
         });
     }
     let mut blocks = vec![
-        Block::heading("Noise and disturbances"),
+        Block::heading(*title),
         Block::says(format!(
-            "With {}, any measurable signals, |e(t) - e_per(t)| is at most this in the limit and at all times from the start on, for every \
-             start in the set: a part of the claim, for this n_o and this gain alone. e_per is of the periodic solution without them{}.",
-            spec.disturbances.in_words(),
+            "{words} |e(t) - e_per(t)| is at most this in the limit and at all times from the start on, for every \
+             start in the set: a part of the claim, for this n_o and this gain alone. e_per is of the periodic solution without {without}{}.",
             // The factor is of a start without noise.
             match spec.initial_set.is_aligned() {
                 true => "; the start is z = M e of the measured e".to_owned(),
@@ -203,11 +216,17 @@ fn sampled_noise(run: &SampledCertification<'_>) -> Vec<Block> {
     let asked = run.for_n_o.iter().filter_map(|found| {
         found.noise.as_ref().map(|noise| (found.n_o, noise.as_ref().map(of).map_err(|reason| *reason)))
     });
-    disturbed(
-        run.spec,
-        asked.collect(),
-        ["c of a sample", " at the sampling instants, between samples too the bound at all times"],
-    )
+    let disturbances = &run.spec.disturbances;
+    let signals = disturbances.any().then(|| format!("With {}, any measurable signals,", disturbances.in_words()));
+    let (title, words, without) = match (signals, disturbances.in_doubles()) {
+        (Some(words), true) => {
+            ("Noise, disturbances and rounding", format!("{words} and {IN_DOUBLES}"), "them and without rounding")
+        }
+        (Some(words), false) => ("Noise and disturbances", words, "them"),
+        (None, _) => ("Rounding", format!("With the law {IN_DOUBLES}"), "rounding"),
+    };
+    let place = " at the sampling instants, between samples too the bound at all times";
+    disturbed(run.spec, asked.collect(), &Said { title, words, without, decay: "c of a sample", place })
 }
 
 /// The same as JSON; none where no number was asked about.

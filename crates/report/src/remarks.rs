@@ -24,6 +24,11 @@ pub fn remarks(run: &Certification<'_>) -> Vec<String> {
     }
     remarks.extend(gains::remark(run));
     remarks.extend(unused_disturbances(run.spec, run.for_n_o.is_empty()));
+    remarks.extend(run.spec.disturbances.in_doubles().then(|| {
+        "Remark: `arithmetic` does not enter this claim, which is about the regulator in continuous time. It counts in what is said of given \
+         numbers of oscillators at samples: ask with `--sampling-period H --n-o LIST`."
+            .to_owned()
+    }));
     remarks
 }
 
@@ -32,6 +37,15 @@ fn unused_disturbances(spec: &Specification, unused: bool) -> Option<String> {
     (unused && spec.disturbances.any()).then(|| {
         "Remark: `measurement` and `disturbance` do not enter this claim, which is about the loop without noise. They count in what is said of \
          given numbers of oscillators: ask with `--n-o LIST`."
+            .to_owned()
+    })
+}
+
+/// That rounding counts nowhere in the claim at samples.
+fn unused_arithmetic(run: &SampledCertification<'_>) -> Option<String> {
+    (run.for_n_o.is_empty() && run.spec.disturbances.in_doubles()).then(|| {
+        "Remark: `arithmetic` does not enter this claim, which is about the law without rounding. It counts in what is said of given numbers of \
+         oscillators: ask with `--n-o LIST`."
             .to_owned()
     })
 }
@@ -65,6 +79,7 @@ pub fn sampled_remarks(run: &SampledCertification<'_>) -> Vec<String> {
     let mut remarks = of(run.no_plant.as_ref(), run.has_force_at_origin());
     remarks.extend(unused_parameters(run.spec));
     remarks.extend(unused_disturbances(run.spec, run.for_n_o.is_empty()));
+    remarks.extend(unused_arithmetic(run));
     remarks
 }
 

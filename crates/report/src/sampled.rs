@@ -147,12 +147,16 @@ impl<'r> SampledReport<'r> {
              follows from it."
                 .to_owned(),
             format!(
-                "Assumed of the computer: u is held over each sample, {}, no rounding, no quantisation{}{}; a period has exactly the \
+                "Assumed of the computer: u is held over each sample, {}, no rounding{}, no quantisation{}{}; a period has exactly the \
                  whole number of samples.",
                 if run.sampling.delayed {
                     "what is computed from a measurement is put out exactly at the next sample"
                 } else {
                     "no delay of the computation"
+                },
+                match run.spec.disturbances.in_doubles() {
+                    true => " (but that of the exported C code counts in what is said of given n_o)",
+                    false => "",
                 },
                 if run.spec.v_bar() > 0 { " (but that of e counts in what is said of given n_o)" } else { "" },
                 if run.spec.actuator.is_some() { "" } else { ", no saturation" }

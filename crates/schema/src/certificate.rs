@@ -249,6 +249,16 @@ fn by_norms(sampled: bool) -> Shape {
             .take(if sampled { 3 } else { 2 })
             .map(|(name, of)| may(name, name, format!("The weight of {of}, where there is one."), rational())),
     );
+    if sampled {
+        let of_rounding = [
+            ("z_low", "What Pi is above in z."),
+            ("z_up", "What the block of z in Pi is below."),
+            ("z_noise", "What noise and rounding add to zeta at most."),
+            ("level", "What the root of W of that part stays below."),
+        ];
+        let rounds = |what| format!("{what} Of a law in doubles.");
+        noise.extend(of_rounding.map(|(name, what)| may(name, name, rounds(what), rational())));
+    }
     fields.push(may("noise", "Noise", "What proves the bounds under noise.", Shape::Object(noise)));
     Shape::Object(fields)
 }

@@ -145,6 +145,17 @@ pub(super) fn disturbance() -> Field {
     )
 }
 
+/// `arithmetic`.
+pub(super) fn arithmetic() -> Field {
+    may(
+        "arithmetic",
+        "Arithmetic",
+        "In what the law at samples is computed: `exact` without rounding, which is meant where it is absent, or `double`, as the exported C code \
+         does. It counts in what is said of given numbers of oscillators at samples.",
+        Shape::Word(vec!["exact", "double"]),
+    )
+}
+
 fn weights() -> Shape {
     let family = |name| must("family", "Family", "How the weights are given.", Shape::Word(vec![name]));
     let power = vec![

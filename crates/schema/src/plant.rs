@@ -1,7 +1,7 @@
 //! The fields of a plant.
 
 use super::parts::{
-    POSITIVE, actuator, disturbance, header, initial_set, input_gain, internal_model, measurement, period,
+    POSITIVE, actuator, arithmetic, disturbance, header, initial_set, input_gain, internal_model, measurement, period,
 };
 use super::shape::{Field, Shape, Sign, any_list, may, must};
 use sigmastar_lang::plant::{FORMAT, VERSIONS};
@@ -63,6 +63,7 @@ pub(super) fn fields(whole: bool) -> Vec<Field> {
         actuator(),
         measurement(),
         disturbance(),
+        arithmetic(),
     ]);
     fields
 }

@@ -1,7 +1,8 @@
 //! The fields of a bounding specification.
 
 use super::parts::{
-    NONNEGATIVE, POSITIVE, actuator, disturbance, header, initial_set, input_gain, internal_model, measurement, period,
+    NONNEGATIVE, POSITIVE, actuator, arithmetic, disturbance, header, initial_set, input_gain, internal_model,
+    measurement, period,
 };
 use super::shape::{Field, Shape, Sign, list, may, must};
 use sigmastar_lang::spec::{Bound, FORMAT, MAX_HARMONICS, MAX_RELATIVE_DEGREE_COEFFICIENTS, MAX_STATES, VERSIONS};
@@ -40,6 +41,7 @@ pub(super) fn fields(whole: bool) -> Vec<Field> {
         actuator(),
         measurement(),
         disturbance(),
+        arithmetic(),
         must("initial_set", "Initial set", "The initial conditions that the claim covers.", initial_set(false)),
         may("relative_degree", "Relative degree", "The filter of an output of higher relative degree.", {
             Shape::Object(vec![filter])

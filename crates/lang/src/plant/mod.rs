@@ -45,7 +45,7 @@ pub struct Plant {
     pub input_gain: Option<InputGain>,
     /// What the actuator takes, where the claim is to keep to it.
     pub actuator: Option<Actuator>,
-    /// Noise of the measurement, and a disturbance: of what is said of given numbers of oscillators.
+    /// Noise of the measurement, a disturbance, and the rounding of the law: of what is said of given numbers of oscillators.
     pub disturbances: Disturbances,
     /// The document as it was read.
     pub document: serde_json::Value,

@@ -1,14 +1,15 @@
-//! What disturbs the loop beside the plant (derivation, 13.6): noise and steps of the measured e, and a disturbance added to q.
+//! What disturbs the loop beside the plant (derivation, 13.6): noise and steps of the measured e, a disturbance added to q, and the rounding of
+//! the arithmetic of the law at samples.
 
 use super::constant::{nonnegative_constant, whole};
 use super::document::Value;
 use super::error::{ErrorKind, Errors, Reported};
-use super::object::Object;
+use super::object::{Object, choose};
 use super::parts::Constant;
 use rug::Rational;
 use sigmastar_exact::number::parse_decimal;
 
-/// `measurement` and `disturbance`: any measurable signals within these bounds. A bound that is absent is 0.
+/// `measurement` and `disturbance`: any measurable signals within these bounds. A bound that is absent is 0. And `arithmetic`.
 ///
 /// They count only in what is said of given numbers of oscillators.
 #[derive(Clone, Debug, Default)]
@@ -19,7 +20,22 @@ pub struct Disturbances {
     pub quantum: Option<Constant>,
     /// The greatest size of what is added to q, in the unit of e'.
     pub disturbance: Option<Constant>,
+    /// In what the law at samples is computed.
+    pub arithmetic: Arithmetic,
 }
+
+/// In what the law at samples is computed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Arithmetic {
+    /// In real numbers: a claim does not count rounding.
+    #[default]
+    Exact,
+    /// In doubles, by the operations of the exported C code.
+    Double,
+}
+
+/// What words say of a law in doubles.
+const IN_DOUBLES: &str = "computed in double precision as exported";
 
 impl Disturbances {
     /// v_bar, `noise + quantum/2`: what is measured is e + v with |v| <= v_bar.
@@ -34,13 +50,33 @@ impl Disturbances {
         exact(self.disturbance.as_ref())
     }
 
-    /// Whether something disturbs the loop: v_bar + d_bar > 0.
+    /// Whether something disturbs the loop in continuous time: v_bar + d_bar > 0.
     #[must_use]
     pub fn any(&self) -> bool {
         self.v_bar() + self.d_bar() > 0
     }
 
-    /// What disturbs the loop, in words; those that are not 0, joined by commas.
+    /// The same of the loop at samples, whose arithmetic may round.
+    #[must_use]
+    pub fn any_at_samples(&self) -> bool {
+        self.any() || self.in_doubles()
+    }
+
+    /// Whether the law at samples is computed in doubles.
+    #[must_use]
+    pub fn in_doubles(&self) -> bool {
+        self.arithmetic == Arithmetic::Double
+    }
+
+    /// What disturbs the loop at samples, in words.
+    #[must_use]
+    pub fn in_words_at_samples(&self) -> String {
+        let parts =
+            [Some(self.in_words()).filter(|words| !words.is_empty()), self.in_doubles().then(|| IN_DOUBLES.to_owned())];
+        parts.into_iter().flatten().collect::<Vec<_>>().join(", ")
+    }
+
+    /// What disturbs the loop in continuous time, in words; those that are not 0, joined by commas.
     #[must_use]
     pub fn in_words(&self) -> String {
         let some = |constant: &Option<Constant>, before: &str, after: &str| {
@@ -65,15 +101,30 @@ fn exact(constant: Option<&Constant>) -> Rational {
     constant.and_then(Constant::as_rational).cloned().unwrap_or_default()
 }
 
-/// Takes `measurement` and `disturbance` out of a document: rational numbers, not negative, written as a decimal or a fraction.
+/// Takes `measurement`, `disturbance` and `arithmetic` out of a document: rational numbers, not negative, written as a decimal or a fraction,
+/// and a word.
 ///
 /// # Errors
-/// Reports fields that are unknown, a `measurement` that says nothing, and numbers that are of another kind or negative.
+/// Reports fields that are unknown, a `measurement` that says nothing, numbers that are of another kind or negative, and an arithmetic that is
+/// not the one of the exported code.
 pub fn read_disturbances(object: &mut Object<'_>, errors: &mut Errors) -> Result<Disturbances, Reported> {
     let measurement = object.optional("measurement").map(|value| read_measurement(&value, errors)).transpose();
     let disturbance = object.optional("disturbance").map(|value| bound(&value, errors)).transpose();
+    let arithmetic = object.optional("arithmetic").map(|value| read_arithmetic(&value, errors)).transpose();
     let (noise, quantum) = measurement?.unwrap_or_default();
-    Ok(Disturbances { noise, quantum, disturbance: disturbance? })
+    Ok(Disturbances { noise, quantum, disturbance: disturbance?, arithmetic: arithmetic?.unwrap_or_default() })
+}
+
+fn read_arithmetic(value: &Value<'_>, errors: &mut Errors) -> Result<Arithmetic, Reported> {
+    if value.text() == Some("single") {
+        let error =
+            value.error(ErrorKind::UnknownName, "the exported code computes in double precision, and so does a claim");
+        return Err(errors.report(error.expected("expected `double` or `exact`")));
+    }
+    Ok(match choose(value, "arithmetic", &["exact", "double"], errors)? {
+        "double" => Arithmetic::Double,
+        _ => Arithmetic::Exact,
+    })
 }
 
 fn read_measurement(value: &Value<'_>, errors: &mut Errors) -> Result<(Option<Constant>, Option<Constant>), Reported> {
@@ -140,6 +191,20 @@ mod tests {
     }
 
     #[test]
+    fn rounding_counts_at_samples() {
+        let double = read(r#"{ "arithmetic": "double" }"#).unwrap();
+        assert!(double.any_at_samples() && !double.any() && double.in_words().is_empty());
+        assert_eq!(double.in_words_at_samples(), "computed in double precision as exported");
+        let both = read(r#"{ "arithmetic": "double", "disturbance": "3" }"#).unwrap();
+        assert_eq!(
+            both.in_words_at_samples(),
+            "a disturbance of at most 3 added to q, computed in double precision as exported"
+        );
+        let exact = read(r#"{ "arithmetic": "exact" }"#).unwrap();
+        assert!(!exact.any_at_samples() && exact.in_words_at_samples().is_empty());
+    }
+
+    #[test]
     fn what_is_no_bound_is_refused() {
         for (wrong, kind, place) in [
             (r#"{ "measurement": {} }"#, ErrorKind::MissingField, "/measurement"),
@@ -156,6 +221,10 @@ mod tests {
             (r#"{ "disturbance": "x" }"#, ErrorKind::Expression, "/disturbance"),
             (r#"{ "disturbance": null }"#, ErrorKind::Type, "/disturbance"),
             (r#"{ "disturbance": { "max": "1" } }"#, ErrorKind::Type, "/disturbance"),
+            (r#"{ "arithmetic": "single" }"#, ErrorKind::UnknownName, "/arithmetic"),
+            (r#"{ "arithmetic": "Double" }"#, ErrorKind::UnknownName, "/arithmetic"),
+            (r#"{ "arithmetic": true }"#, ErrorKind::Type, "/arithmetic"),
+            (r#"{ "arithmetic": null }"#, ErrorKind::Type, "/arithmetic"),
         ] {
             assert_eq!(read(wrong).unwrap_err(), [(kind, place.to_owned())], "{wrong}");
         }

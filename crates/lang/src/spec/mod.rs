@@ -49,7 +49,7 @@ pub use actuator::{Actuator, read_actuator};
 pub use bound::Bound;
 pub use bounding::Bounds;
 pub use constant::{any_constant, any_constant_in, nonnegative_constant, positive_constant, positive_constant_in};
-pub use disturbances::{Disturbances, read_disturbances};
+pub use disturbances::{Arithmetic, Disturbances, read_disturbances};
 pub use document::{Document, Value};
 pub use error::nearest;
 pub use error::{ErrorKind, Errors, MAX_ERRORS, Reported, SpecError, SpecErrors};

@@ -46,7 +46,7 @@ pub struct Specification {
     pub input_gain: Option<InputGain>,
     /// What the actuator takes, where the claim is to keep to it.
     pub actuator: Option<Actuator>,
-    /// Noise of the measurement, and a disturbance: of what is said of given numbers of oscillators.
+    /// Noise of the measurement, a disturbance, and the rounding of the law: of what is said of given numbers of oscillators.
     pub disturbances: Disturbances,
     /// The relative-degree filter, when e is a combination of xi_1, ..., xi_r.
     pub relative_degree: Option<RelativeDegree>,

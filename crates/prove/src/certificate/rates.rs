@@ -9,6 +9,7 @@ use crate::rate::sampled::bound::SampledRateBound;
 use crate::rate::sampled::form::{Inputs, OfX, SampledRateWitness};
 use crate::rate::sampled::found::SampledRateForCount;
 use crate::rate::sampled::noise::SampledNoiseBound;
+use crate::rate::sampled::rounding::RoundingWitness;
 use rug::Rational;
 use serde_json::{Value, json};
 use sigmastar_exact::number::write_exact;
@@ -117,8 +118,14 @@ pub(super) fn sampled_rate_witnesses(run: &SampledCertification<'_>) -> Option<(
         let mut value = at_samples(witness, e_low);
         value["n_o"] = (*n_o).into();
         (value["e_up"], value["z_up"]) = (write_exact(e_up).into(), write_exact(z_up).into());
-        if let Some(SampledNoiseBound { witness, e_low, .. }) = noise {
-            value["noise"] = at_samples(witness, e_low);
+        if let Some(SampledNoiseBound { witness, e_low, rounding, .. }) = noise {
+            let mut part = at_samples(witness, e_low);
+            if let Some(RoundingWitness { z_low, z_up, z_noise, level }) = rounding {
+                for (name, number) in [("z_low", z_low), ("z_up", z_up), ("z_noise", z_noise), ("level", level)] {
+                    part[name] = write_exact(number).into();
+                }
+            }
+            value["noise"] = part;
         }
         value
     })

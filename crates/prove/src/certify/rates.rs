@@ -12,6 +12,7 @@ use crate::rate::noise::{Confinement, NoNoiseBound, NoiseBound, noise_bound};
 use crate::rate::sampled::bound::{self as at_samples, SampledRateBound};
 use crate::rate::sampled::found::SampledRateForCount;
 use crate::rate::sampled::noise::noise_bound as at_samples_with_noise;
+use crate::rate::sampled::rounding::measured;
 use crate::search::Failing;
 use rayon::prelude::*;
 use rug::Rational;
@@ -198,11 +199,8 @@ pub(super) fn for_n_o(spec: &Specification, proof: &SharpProof, counts: &[u32]) 
     let data = Data::new(spec, *precision);
     let distances = distances(&data, proof);
     let place = Place { sigma: &witness.sigma, error_box: &evaluation.error_box, distances: distances.each_ref() };
-    let confinement = Confinement {
-        level: disturbed_level(&data, &distances, [&witness.d_x, &witness.d_e, &witness.w_x, &witness.h]),
-        w_x: &witness.w_x,
-        radii: [&witness.d_x, &witness.d_e],
-    };
+    let numbers = [&witness.d_x, &witness.d_e, &witness.w_x, &witness.h];
+    let confinement = confinement(&data, (&distances, &evaluation.z), &data.rational(&spec.v_bar()), numbers);
     let disturbed = spec.disturbances.any();
     let of = |n_o: &u32| {
         let bound = bound(&data, &place, *n_o);
@@ -228,22 +226,26 @@ impl Certification<'_> {
                 write_exact(&bound.factor),
                 write_exact(&bound.witness.rate),
             );
-            let of_noise = noise
-                .as_ref()
-                .and_then(|noise| noise.as_ref().ok())
-                .map(|NoiseBound { limit, peak, .. }| noise_in_words(self.spec, (*n_o, &sigma), [peak, limit]));
+            let of_noise =
+                noise.as_ref().and_then(|noise| noise.as_ref().ok()).map(|NoiseBound { limit, peak, .. }| {
+                    noise_in_words(self.spec, &self.spec.disturbances.in_words(), (*n_o, &sigma), [peak, limit])
+                });
             Some(of_rate + &of_noise.unwrap_or_default())
         };
         self.for_n_o.iter().filter_map(sentences).collect()
     }
 }
 
-/// The sentence about noise and a disturbance, with a space before it.
-fn noise_in_words(spec: &Specification, (n_o, sigma): (u32, &str), [peak, limit]: [&Rational; 2]) -> String {
+/// The sentence about noise, a disturbance and rounding, of which there are these parts, with a space before it.
+fn noise_in_words(
+    spec: &Specification,
+    parts: &str,
+    (n_o, sigma): (u32, &str),
+    [peak, limit]: [&Rational; 2],
+) -> String {
     format!(
-        " With n_o = {n_o} and sigma = {sigma} exactly, {}, also |e(t) - e_per(t)| <= {} for these starts{} and all t >= t_0, and \
+        " With n_o = {n_o} and sigma = {sigma} exactly, {parts}, also |e(t) - e_per(t)| <= {} for these starts{} and all t >= t_0, and \
          its limit superior is at most {}.",
-        spec.disturbances.in_words(),
         write_exact(peak),
         if spec.initial_set.is_aligned() { " (z = M e of the measured e)" } else { "" },
         write_exact(limit),
@@ -260,12 +262,10 @@ pub(super) fn for_n_o_at_samples(
     let (data, law) = (Data::new(spec, *precision), &evaluation.law);
     let distances = distances_at_samples(&data, proof);
     let place = Place { sigma: &witness.sigma, error_box: &evaluation.error_box, distances: distances.each_ref() };
-    let confinement = Confinement {
-        level: disturbed_level(&data, &distances, [&witness.d_x, &witness.d_e, &witness.w_x, &witness.eta]),
-        w_x: &witness.w_x,
-        radii: [&witness.d_x, &witness.d_e],
-    };
-    let disturbed = spec.disturbances.any();
+    let numbers = [&witness.d_x, &witness.d_e, &witness.w_x, &witness.eta];
+    let v_bar = measured(&data, &evaluation.error_box.e_b);
+    let confinement = confinement(&data, (&distances, &evaluation.z), &v_bar, numbers);
+    let disturbed = spec.disturbances.any_at_samples();
     let of = |n_o: &u32| {
         let bound = at_samples::bound(&data, law, &place, *n_o);
         let noise = disturbed.then(|| match bound {
@@ -277,13 +277,20 @@ pub(super) fn for_n_o_at_samples(
     counts.par_iter().map(of).collect()
 }
 
-/// L_0, the left side of C4 at these distances; an aligned regulator sets z = M (e + v).
-fn disturbed_level(data: &Data<'_>, [of_x, of_e, of_zeta]: &[Enclosure; 3], numbers: [&Rational; 4]) -> Enclosure {
-    let spec = data.spec;
-    let misaligned =
-        if spec.initial_set.is_aligned() { &data.n_bar * data.rational(&spec.v_bar()) } else { data.zero() };
-    let numbers = numbers.map(|value| data.rational(value));
-    level_condition(data, [of_x, of_e, &(of_zeta + misaligned)], numbers.each_ref()).0
+/// What keeps the solutions without inputs in the box, L_0 being the left side of C4 at these distances; an aligned regulator sets
+/// z = M (e + v).
+fn confinement<'a>(
+    data: &Data<'_>,
+    ([of_x, of_e, of_zeta], z): (&[Enclosure; 3], &Enclosure),
+    v_bar: &Enclosure,
+    [d_x, d_e, w_x, h]: [&'a Rational; 4],
+) -> Confinement<'a> {
+    let misaligned = if data.spec.initial_set.is_aligned() { &data.n_bar * v_bar } else { data.zero() };
+    let numbers = [d_x, d_e, w_x, h].map(|value| data.rational(value));
+    let (level, _) = level_condition(data, [of_x, of_e, &(of_zeta + misaligned)], numbers.each_ref());
+    let [.., h] = &numbers;
+    let least = data.input_gain.as_ref().map_or_else(|| h.clone(), |gain| h * &gain.low);
+    Confinement { zeta: z + (&level / least).sqrt(), level, w_x, radii: [d_x, d_e] }
 }
 
 impl SampledCertification<'_> {
@@ -335,7 +342,9 @@ impl SampledCertification<'_> {
                 write_exact(rate),
             );
             let of_noise = noise.as_ref().and_then(|noise| noise.as_ref().ok());
-            let of_noise = of_noise.map(|noise| noise_in_words(self.spec, (*n_o, &sigma), [&noise.peak, &noise.limit]));
+            let parts = self.spec.disturbances.in_words_at_samples();
+            let of_noise =
+                of_noise.map(|noise| noise_in_words(self.spec, &parts, (*n_o, &sigma), [&noise.peak, &noise.limit]));
             Some(of_rate + &of_noise.unwrap_or_default())
         };
         self.for_n_o.iter().filter_map(sentences).collect()

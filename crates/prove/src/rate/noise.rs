@@ -38,6 +38,8 @@ pub struct Confinement<'a> {
     pub w_x: &'a Rational,
     /// D_x, D_e.
     pub radii: [&'a Rational; 2],
+    /// Z + sqrt(L_0/h), h the weight of |zeta|_N^2 in U, with an input gain the least one: |zeta|_N is below it without inputs.
+    pub zeta: Enclosure,
 }
 
 /// Proved bounds for one n_o.
@@ -60,6 +62,8 @@ pub struct NoiseBound {
 pub enum NoNoiseBound {
     /// The document has an `actuator`: the bound of the control that keeps to it knows no noise.
     Actuator,
+    /// The same of a law that is computed in doubles.
+    ActuatorInDoubles,
     /// No rate was proved, which a claim has beside.
     NoRate,
     /// The claim rests on the derivatives of a plant, and has no norms of the error system.
@@ -73,6 +77,15 @@ pub enum NoNoiseBound {
         /// How many times as large the box would have to be.
         needed: f64,
     },
+    /// The rounding of a law in doubles is not bounded: a number of it is too small or too large for a count of roundings.
+    BeyondDoubles {
+        /// Which one.
+        what: &'static str,
+        /// About its size, or the bound of it.
+        size: f64,
+    },
+    /// What rounding adds grows with the state, and faster than the loop takes it away.
+    RoundingGrows,
 }
 
 impl NoNoiseBound {
@@ -82,6 +95,9 @@ impl NoNoiseBound {
         match self {
             NoNoiseBound::Actuator => {
                 "not with an `actuator`: its bound of the control does not know the noise".to_owned()
+            }
+            NoNoiseBound::ActuatorInDoubles => {
+                "not with an `actuator`: its bound of the control knows neither noise nor the rounding of the law".to_owned()
             }
             NoNoiseBound::NoRate => "not proved, as no rate is".to_owned(),
             NoNoiseBound::ByMatrices => {
@@ -94,6 +110,14 @@ impl NoNoiseBound {
                 "not proved: e may deviate by about {}, for which the error box has no room; a larger gain makes room, as a rule",
                 shown(limit)
             ),
+            NoNoiseBound::BeyondDoubles { what, size } => format!(
+                "not proved: {what} may be {size:e}, and rounding is counted of constants from 2^-900 to 2^900 and of signals below 2^1000; \
+                 other units may serve"
+            ),
+            NoNoiseBound::RoundingGrows => {
+                "not proved: what rounding adds in a sample may be more than the loop takes away in it; a longer sampling period, or larger weights"
+                    .to_owned()
+            }
         }
     }
 }

@@ -38,11 +38,12 @@ pub fn json(export: &Export<'_>) -> Value {
         }
         law
     });
-    let certificate = export.certificate.map(|Provenance { sha256, sigma_star, one_gain, statement, scope }| {
-        let gain = if *one_gain { "sigma" } else { "sigma_star" };
-        let covers = if scope.is_sampled() { "covers_law" } else { "covers_sigma" };
-        object!({ "sha256": sha256, gain: sigma_star, "statement": statement, covers: scope.covers() })
-    });
+    let certificate =
+        export.certificate.map(|Provenance { sha256, sigma_star, one_gain, statement, scope, .. }| {
+            let gain = if *one_gain { "sigma" } else { "sigma_star" };
+            let covers = if scope.is_sampled() { "covers_law" } else { "covers_sigma" };
+            object!({ "sha256": sha256, gain: sigma_star, "statement": statement, covers: scope.covers() })
+        });
     let mut file = object!({
         "format": FORMAT, "version": VERSION,
         "name": export.name,

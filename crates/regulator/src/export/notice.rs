@@ -26,6 +26,8 @@ pub struct Provenance {
     pub statement: String,
     /// What it says about this regulator.
     pub scope: Scope,
+    /// The number of oscillators, where what it says of this one counts the rounding of the C code.
+    pub rounding: Option<u32>,
 }
 
 /// What the claim of a certificate is about, and whether the regulator is that.
@@ -117,9 +119,16 @@ pub fn notice(export: &Export<'_>) -> Vec<String> {
         _ => "quantisation, or saturation",
     };
     let late = if delayed { "a computation that takes more than a sample" } else { "a delay of the computation" };
-    lines.push(format!(
-        "No claim covers the rounding of these numbers and of the arithmetic with them, {late}, {saturates}."
-    ));
+    let rounding = export.certificate.filter(|certificate| certificate.scope == Scope::Samples);
+    lines.push(match rounding.and_then(|certificate| certificate.rounding) {
+        None => format!(
+            "No claim covers the rounding of these numbers and of the arithmetic with them, {late}, {saturates}."
+        ),
+        Some(n_o) => format!(
+            "The rounding of the exported C code counts in what the certificate says of e with n_o = {n_o} \"computed in double precision as \
+             exported\", and in no other bound. No claim covers {late}, {saturates}."
+        ),
+    });
     let never = match claimed {
         (Some(Scope::Samples), Some(_)) => "; from the set of the certificate it never is",
         (Some(Scope::Continuous), Some(_)) => {

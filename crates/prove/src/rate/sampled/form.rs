@@ -142,7 +142,9 @@ impl<'a> SampledDynamics<'a> {
         positive.extend(witness.of_x.iter().flat_map(|OfX { w, l_x, l_e, l_y }| [w, l_x, l_e, l_y]));
         let Inputs { g_d, g_v, g_r } = &witness.inputs;
         positive.extend([g_d, g_v, g_r].into_iter().flatten());
-        let fits = witness.of_x.is_some() == self.bounds.has_x && g_r.is_some() == (self.bounds.has_x && g_d.is_some());
+        // Of rounding alone there is a D, but nothing within a sample.
+        let fits =
+            witness.of_x.is_some() == self.bounds.has_x && (g_r.is_none() || (self.bounds.has_x && g_d.is_some()));
         if !(triangle && fits) || positive.iter().any(|number| **number <= 0) {
             return false;
         }

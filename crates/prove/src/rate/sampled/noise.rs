@@ -8,10 +8,17 @@
 //!   `S := (s + (h/2) d_bar)/(1 - (h/2)(k_e + k_x kappa))`,  the denominator being positive,
 //!
 //! it moves e by at most S at all times. The rest is as in [`crate::rate::noise`], L_0 being the left side of C4 at samples.
+//!
+//! Of a law that is computed in doubles ([`super::rounding`]) v_bar is that of the double that is measured, D is at most `(1+g) d_bar + b_hi du`, and
+//! zs+ is moved by a vector of at most dz besides, which adds `sqrt(z_up) dz` to the root of W. With I what the inputs add to W in a sample and a
+//! level with `sqrt((level^2 + I)/(1+c)) + sqrt(z_up) dz <= level`, that root stays below the level, and s is `level/sqrt(e_low)`.
 
 use super::bound::{DIGITS, Proposal};
 use super::condition::SampledCondition;
 use super::form::{Inputs, SampledDynamics, SampledRateWitness};
+use super::rounding::{
+    Computed, ComputedLaw, Rounded, RoundingWitness, are_zeta_bounds, largest_of_zeta, measured, settled, zeta_bounds,
+};
 use crate::rate::bound::Place;
 use crate::rate::descent::{Point, Thoroughness, descend};
 use crate::rate::inequality::{LoopBounds, is_above};
@@ -54,6 +61,8 @@ pub struct SampledNoiseBound {
     pub limit: Rational,
     /// `sqrt(L_0) + S`, rounded up, in the unit of e.
     pub peak: Rational,
+    /// What is proved besides of a law in doubles.
+    pub rounding: Option<RoundingWitness>,
 }
 
 /// The best bounds that are found.
@@ -61,7 +70,8 @@ pub struct SampledNoiseBound {
 /// Guarantee: with n_o oscillators at the gain of `place`, the law and every input gain of the data, and any measurable inputs within the bounds
 /// of the specification, every solution that is within the distances of `place` at a sampling instant t_0 has `|e(t) - e_per(t)| <= peak` at all times
 /// t >= t_0, between samples too, and a limit superior of that of at most `limit`, e_per being of the periodic solution without inputs; whoever the
-/// plant is of which the bounds of the error box hold.
+/// plant is of which the bounds of the error box hold. Where the specification says so the law is computed in doubles, by the operations of the
+/// exported C code, and e_per is that of the loop without rounding.
 ///
 /// # Errors
 /// What was not found or not proved.
@@ -72,28 +82,63 @@ pub fn noise_bound(
     confinement: &Confinement<'_>,
     n_o: u32,
 ) -> Result<SampledNoiseBound, NoNoiseBound> {
+    let in_doubles = data.spec.disturbances.in_doubles();
     if data.spec.actuator.is_some() {
-        return Err(NoNoiseBound::Actuator);
+        return Err(if in_doubles { NoNoiseBound::ActuatorInDoubles } else { NoNoiseBound::Actuator });
     }
     let not_found = NoNoiseBound::NotFound;
     let bounds = LoopBounds::of_error(data, place.error_box).ok_or(not_found)?;
     let oscillators = OscillatorMatrix::new(data, n_o);
     let dynamics = SampledDynamics::new(data, (&oscillators, law), place.sigma, &bounds).ok_or(not_found)?;
-    let sizes = [data.spec.d_bar(), data.spec.v_bar()];
-    let search = Search::new(&dynamics, sizes.each_ref().map(Rational::to_f64)).ok_or(not_found)?;
+    let number = |value: &Rational| data.rational(value);
+    let d_bar = number(&data.spec.d_bar());
+    let v_bar = measured(data, &place.error_box.e_b);
+    let computed = in_doubles.then(|| Computed {
+        law: ComputedLaw::new(data, &dynamics),
+        measured: &place.error_box.e_b + &v_bar,
+        zeta: confinement.zeta.clone(),
+        misled: &data.n_bar * &v_bar,
+    });
+    let sample = &dynamics.sample;
+    let largest_gain = law.input_gain.as_ref().map(|gain| &gain.high);
+    let acting = |control: &Enclosure| largest_gain.map_or_else(|| control.clone(), |gain| gain * control);
+    // D: what a disturbance adds, and what rounding adds to u.
+    let added = |control: Option<&Enclosure>| {
+        let of_d = &sample.enlarged * &d_bar;
+        control.map_or(of_d.clone(), |control| of_d + acting(control))
+    };
+    let disturbance = data.spec.d_bar().to_f64();
+    let [enlarged, c_d] = [&sample.enlarged, &sample.c_d].map(Enclosure::upper_f64);
+    let (sizes, moved) = match computed.as_ref().map(|computed| computed.rounded(&data.zero())) {
+        None => ([disturbance, data.spec.v_bar().to_f64()], None),
+        Some(Rounded { control, state }) => {
+            ([disturbance + acting(&control).upper_f64() / enlarged, v_bar.upper_f64()], Some(state.upper_f64()))
+        }
+    };
+    let strengths = Strengths { sizes, of_d: [enlarged * sizes[0], c_d * disturbance], moved };
+    let search = Search::new(&dynamics, strengths).ok_or(not_found)?;
     let found = search.best().ok_or(not_found)?;
     let of = |share: &f64| DIGITS.iter().find_map(|digits| proved(&dynamics, &found, *share, *digits));
-    let (witness, e_low) = SHARES.iter().find_map(of).ok_or(not_found)?;
+    let Proved { witness, e_low, of_zeta } = SHARES.iter().find_map(of).ok_or(not_found)?;
 
-    let number = |value: &Rational| data.rational(value);
-    let [d_bar, v_bar] = sizes.each_ref().map(number);
-    let sample = &dynamics.sample;
     let Inputs { g_d, g_v, g_r } = &witness.inputs;
     let weighed = |weight: &Option<Rational>, size: Enclosure| {
         weight.as_ref().map_or_else(|| data.zero(), |weight| number(weight) * size.sqr())
     };
-    let level = weighed(g_d, &sample.enlarged * &d_bar) + weighed(g_v, v_bar) + weighed(g_r, &sample.c_d * &d_bar);
-    let at_samples = (level / (number(&witness.c) * number(&e_low))).sqrt();
+    let inputs = |control: Option<&Enclosure>| {
+        weighed(g_d, added(control)) + weighed(g_v, v_bar.clone()) + weighed(g_r, &sample.c_d * &d_bar)
+    };
+    let c = number(&witness.c);
+    let rounding = match (&computed, of_zeta) {
+        (Some(computed), Some(of_zeta)) => {
+            Some(settled(computed, &c, of_zeta, |rounded| inputs(Some(&rounded.control)))?)
+        }
+        _ => None,
+    };
+    let at_samples = match &rounding {
+        None => (inputs(None) / (c * number(&e_low))).sqrt(),
+        Some(RoundingWitness { level, .. }) => number(level) / number(&e_low).sqrt(),
+    };
     let error_box = place.error_box;
     let kappa = data.p_up.sqrt() * &error_box.k_f / &error_box.rate;
     let two = data.rational(&Rational::from(2));
@@ -115,16 +160,19 @@ pub fn noise_bound(
     let up = |value: &Enclosure| {
         value.upper_rational().map(|upper| round_rational(&upper, FIGURES, Direction::Up)).ok_or(not_found)
     };
-    Ok(SampledNoiseBound { e_low, limit: up(&s)?, peak: up(&peak)?, witness })
+    Ok(SampledNoiseBound { e_low, limit: up(&s)?, peak: up(&peak)?, witness, rounding })
+}
+
+/// What is proved of the numbers of a search.
+struct Proved {
+    witness: SampledRateWitness,
+    e_low: Rational,
+    /// z_low and z_up; of a law in doubles.
+    of_zeta: Option<[Rational; 2]>,
 }
 
 /// A witness with a share of the proposed c and Pi in so many digits, and e_low; proved.
-fn proved(
-    dynamics: &SampledDynamics<'_>,
-    found: &Found,
-    share: f64,
-    digits: u32,
-) -> Option<(SampledRateWitness, Rational)> {
+fn proved(dynamics: &SampledDynamics<'_>, found: &Found, share: f64, digits: u32) -> Option<Proved> {
     let Proposal { c, pi, l_slope, l_hold, of_x } = &found.proposal;
     let scaled = Proposal { c: c * share, pi: pi.clone(), l_slope: *l_slope, l_hold: *l_hold, of_x: of_x.clone() };
     let round = |weight: f64| round_f64(weight * (1.0 + ROOM), FIGURES, Direction::Up);
@@ -137,7 +185,10 @@ fn proved(
     let witness = SampledRateWitness { inputs, ..scaled.in_digits(digits)? };
     let e_low = round_f64(found.e_low * (1.0 - ROOM), FIGURES, Direction::Down).filter(|e_low| *e_low > 0)?;
     let precision = dynamics.law.step.precision();
-    (dynamics.proves(&witness) && is_above(&witness.pi, &e_low, precision)).then_some((witness, e_low))
+    let of_zeta = if found.rounds { Some(zeta_bounds(pi)?) } else { None };
+    let between = of_zeta.as_ref().is_none_or(|of_zeta| are_zeta_bounds(&witness.pi, of_zeta, precision));
+    let holds = dynamics.proves(&witness) && is_above(&witness.pi, &e_low, precision) && between;
+    holds.then_some(Proved { witness, e_low, of_zeta })
 }
 
 /// The numbers of a proof in doubles.
@@ -148,23 +199,32 @@ struct Found {
     e_low: f64,
     /// s^2.
     square: f64,
+    /// Whether the law rounds.
+    rounds: bool,
+}
+
+/// The sizes of the inputs.
+#[derive(Clone, Copy)]
+struct Strengths {
+    /// Of d, of which rounding is a part, and of v.
+    sizes: [f64; 2],
+    /// Of D, and c_d d_bar.
+    of_d: [f64; 2],
+    /// dz, where the law rounds.
+    moved: Option<f64>,
 }
 
 struct Search {
     condition: SampledCondition,
     largest: f64,
-    /// d_bar, v_bar.
-    sizes: [f64; 2],
-    /// (1+g) d_bar and c_d d_bar.
-    of_d: [f64; 2],
+    strengths: Strengths,
 }
 
 impl Search {
-    fn new(dynamics: &SampledDynamics<'_>, sizes: [f64; 2]) -> Option<Search> {
+    fn new(dynamics: &SampledDynamics<'_>, strengths: Strengths) -> Option<Search> {
         let condition = SampledCondition::new(dynamics)?;
         let largest = condition.largest_rate()?;
-        let of_d = [&dynamics.sample.enlarged, &dynamics.sample.c_d].map(|factor| factor.upper_f64() * sizes[0]);
-        Some(Search { condition, largest, sizes, of_d })
+        Some(Search { condition, largest, strengths })
     }
 
     /// About the least s: over the rate, the size of the inputs, with both over their ratio, and what is given away.
@@ -178,29 +238,37 @@ impl Search {
             slack.set(best.unwrap_or_else(|| slack.get()));
         };
         let thoroughness = Thoroughness { steps, last: 6.0 };
-        let at = descend(thoroughness, self.sizes, |point| cost(point, slack.get()), settle);
+        let at = descend(thoroughness, self.strengths.sizes, |point| cost(point, slack.get()), settle);
         self.solve(at, slack.get())
     }
 
     fn solve(&self, point: Point, slack: f64) -> Option<Found> {
         let rate = point.rate(self.largest);
         let multipliers = self.condition.multipliers(rate, slack)?;
-        let [d_bar, v_bar] = self.sizes;
-        let [gam_d, gam_v] = point.weights(multipliers.room, self.sizes, self.condition.noise_gain);
+        let Strengths { sizes: [d, v], of_d: [of_d, within], moved } = self.strengths;
+        let [gam_d, gam_v] = point.weights(multipliers.room, self.strengths.sizes, self.condition.noise_gain);
         let system = self.condition.disturbed(rate, &multipliers, [gam_d, gam_v]);
         let pi = system.largest()?;
         let first = pi.partial_piv_lu().inverse()[(0, 0)];
         let inputs = Inputs {
-            g_d: (d_bar > 0.0).then_some(1.0 / gam_d),
-            g_v: (v_bar > 0.0).then_some(1.0 / gam_v),
-            g_r: (d_bar > 0.0 && multipliers.of_x.is_some()).then_some(multipliers.g_r),
+            g_d: (d > 0.0).then_some(1.0 / gam_d),
+            g_v: (v > 0.0).then_some(1.0 / gam_v),
+            g_r: (within > 0.0 && multipliers.of_x.is_some()).then_some(multipliers.g_r),
         };
         let weighed = |weight: Option<f64>, size: f64| weight.map_or(0.0, |weight| weight * size * size);
-        let level = weighed(inputs.g_d, self.of_d[0]) + weighed(inputs.g_v, v_bar) + weighed(inputs.g_r, self.of_d[1]);
+        let level = weighed(inputs.g_d, of_d) + weighed(inputs.g_v, v) + weighed(inputs.g_r, within);
         let c = self.condition.c(rate);
-        let square = level * first / c;
+        let square = match moved {
+            None => level * first / c,
+            Some(moved) => {
+                let moved = largest_of_zeta(&pi)?.sqrt() * moved;
+                let root = (moved * (1.0 + c) + (moved * moved * (1.0 + c) + c * level).sqrt()) / c;
+                root * root * first
+            }
+        };
         let (l_slope, l_hold, of_x) = (multipliers.l_slope, multipliers.l_hold, multipliers.of_x);
         let proposal = Proposal { c, pi, l_slope, l_hold, of_x };
-        (square.is_finite() && square > 0.0).then_some(Found { proposal, inputs, e_low: 1.0 / first, square })
+        let rounds = moved.is_some();
+        (square.is_finite() && square > 0.0).then_some(Found { proposal, inputs, e_low: 1.0 / first, square, rounds })
     }
 }

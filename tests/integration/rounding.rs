@@ -1,0 +1,277 @@
+//! The rounding of the exported law (docs/mathematics.md, 13.6, Proposition A): the counts against the operations of the C code, bit for bit, and
+//! what claims for given n_o say of it.
+
+use crate::controller::constant;
+use crate::support::{Shipped, certified, json, program, specification_text};
+use rug::Rational;
+use serde_json::{Value, json as object};
+use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_exact::number::{Direction, round_rational};
+use sigmastar_lang::spec::{Constant, Specification};
+use sigmastar_prove::certify::{Ladder, SampledCertification, certify_sampled};
+use sigmastar_prove::rate::sampled::rounding::{ComputedLaw, Rounded};
+use sigmastar_regulator::{Design, Stepper};
+
+/// Bits of what is compared with.
+const PRECISION: u32 = 200;
+
+const COUNTS: [u32; 4] = [0, 1, 4, 10];
+
+/// The samples of a period that are tried, in this order.
+const SAMPLES: [u32; 6] = [120, 250, 500, 2000, 8000, 30000];
+
+struct Random(u64);
+
+impl Random {
+    fn word(&mut self) -> u64 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 33) ^ (self.0 << 20)
+    }
+
+    fn unit(&mut self) -> f64 {
+        (self.word() >> 11) as f64 / 2f64.powi(52) - 1.0
+    }
+
+    /// Of a random size between powers of 2.
+    fn of_size(&mut self, [low, high]: [i32; 2]) -> f64 {
+        let exponent = low + (self.word() % (high - low) as u64) as i32;
+        self.unit() * 2f64.powi(exponent)
+    }
+}
+
+fn exact(value: f64) -> Enclosure {
+    Enclosure::from_rational(&Rational::from_f64(value).expect("finite"), PRECISION)
+}
+
+/// The exact law, and the code.
+struct Pair {
+    law: ComputedLaw,
+    /// cos and sin of l w h, exactly, for l = 1, ..., n_o.
+    turns: Vec<[Enclosure; 2]>,
+    stepper: Box<dyn Fn(&[f64], f64) -> (f64, Vec<f64>)>,
+}
+
+fn pair(spec: &Specification, sigma: &Constant, samples: u32, n_o: u32) -> Pair {
+    let step = constant(&format!("({})/{samples}", spec.period.nominal().text));
+    let design = Design::new(&spec.internal_model, sigma, n_o).for_actuator(spec.input_gain.as_ref());
+    let (regulator, discrete) = (design.regulator(), design.discretise(&step).expect("a law"));
+    let of = |constant: &Constant| constant.enclose(PRECISION);
+    let one = Enclosure::one(PRECISION);
+    let weights = &spec.internal_model.weights;
+    let law = ComputedLaw {
+        gain: Enclosure::from_rational(&spec.internal_model.sampled_gain(&step).expect("a gain").gain, PRECISION),
+        decay: &one - of(sigma) * of(&step),
+        sigma: of(sigma),
+        nominal: spec.input_gain.as_ref().map_or(one, |gain| of(&gain.nominal)),
+        n_bar: weights.total(PRECISION).sqrt(),
+        roots: (0..=u64::from(n_o)).map(|l| weights.weight(l, PRECISION).sqrt()).collect(),
+    };
+    let turn = |l: i64| {
+        let angle = Enclosure::pi(PRECISION) * (2 * l) / Enclosure::from_integer(i64::from(samples), PRECISION);
+        [angle.cos(), angle.sin()]
+    };
+    let stepper = move |z: &[f64], e: f64| {
+        let mut stepper = Stepper::starting(regulator.clone(), discrete.clone(), z.to_vec()).expect("of this size");
+        let u = stepper.step(e);
+        (u, stepper.state().to_vec())
+    };
+    Pair { law, turns: (1..=i64::from(n_o)).map(turn).collect(), stepper: Box::new(stepper) }
+}
+
+/// How much of du and of dz a step takes; fails beyond 1.
+fn shares(pair: &Pair, z: &[f64], m: f64) -> [f64; 2] {
+    let Pair { law, turns, stepper } = pair;
+    let (u, next) = stepper(z, m);
+    let n = |l: usize| law.roots[l].sqr();
+    let measured = exact(m);
+    let w: Vec<Enclosure> = z
+        .iter()
+        .enumerate()
+        .map(|(i, z)| if i == 0 || i % 2 == 1 { exact(*z) - &measured } else { exact(*z) })
+        .collect();
+    let mut sum = n(0) * &w[0];
+    let mut square = n(0) * w[0].sqr();
+    let carry = &law.decay * &measured;
+    let mut wrong = n(0) * (exact(next[0]) - (&w[0] + &carry)).sqr();
+    for (at, [cos, sin]) in turns.iter().enumerate() {
+        let (l, first) = (at + 1, 2 * at + 1);
+        let turned = [cos * &w[first] + sin * &w[first + 1], cos * &w[first + 1] - sin * &w[first]];
+        sum = sum + n(l) * &turned[0];
+        square = square + n(l) * (w[first].sqr() + w[first + 1].sqr());
+        let off = [exact(next[first]) - (&turned[0] + &carry), exact(next[first + 1]) - &turned[1]];
+        wrong = wrong + n(l) * (off[0].sqr() + off[1].sqr());
+    }
+    let control = &law.gain * sum - &law.sigma * &measured;
+    let off = (exact(u) * &law.nominal - control).abs();
+    let (m, w) = (measured.abs(), square.sqrt());
+    assert_eq!(law.extraordinary(&m, &w, &w), None);
+    let Rounded { control, state } = law.rounded(&m, &w);
+    let wrong = wrong.sqrt();
+    assert!(off.le(&control).is_true() && wrong.le(&state).is_true(), "{z:?} {m:?}: {off} {control}, {wrong} {state}");
+    [(off / control).upper_f64(), (wrong / state).upper_f64()]
+}
+
+/// Random states and errors of all sizes, at the edge of cancelling, with and without a nominal gain that no double is; subnormal numbers too.
+#[test]
+fn the_code_never_rounds_more_than_is_counted() {
+    let mut document: Value = serde_json::from_str(&specification_text("paper-example")).unwrap();
+    let plain = document.clone();
+    document["input_gain"] = object!({ "nominal": "3/7", "low": "0.4", "high": "0.5" });
+    let mut random = Random(11);
+    for (name, document) in [("plain", plain), ("nominal", document)] {
+        let spec = Specification::from_json(name, &document.to_string()).expect("sound");
+        for n_o in [0, 1, 2, 4, 7, 10] {
+            let mut worst = [0.0_f64; 2];
+            for (sigma, samples) in [("30", 40), ("100/3", 60), ("7.77", 500), ("61.1", 1000), ("400", 400)] {
+                let pair = pair(&spec, &constant(sigma), samples, n_o);
+                let sizes = [[-3, 3], [-30, 30], [-3, 0], [-1060, -1000]];
+                for trial in 0..120 {
+                    let within = sizes[trial % sizes.len()];
+                    let m = random.of_size(within);
+                    let near = trial % 3 == 0;
+                    let z: Vec<f64> = (0..2 * n_o as usize + 1)
+                        .map(|i| match near && (i == 0 || i % 2 == 1) {
+                            true => m * (1.0 + random.of_size([-50, 1])),
+                            false => random.of_size(within),
+                        })
+                        .collect();
+                    let found = shares(&pair, &z, m);
+                    worst = [worst[0].max(found[0]), worst[1].max(found[1])];
+                }
+            }
+            println!("{name} n_o = {n_o}: of du {:.3}, of dz {:.3}", worst[0], worst[1]);
+            assert!(worst.iter().all(|share| *share > 1e-3), "{name} {n_o}: {worst:?}");
+        }
+    }
+}
+
+/// A claim at samples in doubles, at 1.5 times its least gain, with what it says of the counts; `None` where there is none.
+fn in_doubles(spec: &Specification) -> Option<Specification> {
+    SAMPLES.iter().find_map(|samples| {
+        let mut document = spec.document.clone();
+        document["internal_model"]["sampling_period"] = format!("({})/{samples}", spec.period.nominal().text).into();
+        document["arithmetic"] = "double".into();
+        let spec = Specification::from_json("doubles", &document.to_string()).ok()?;
+        claim(&spec).is_some().then_some(spec)
+    })
+}
+
+fn claim(spec: &Specification) -> Option<SampledCertification<'_>> {
+    let sampling = spec.internal_model.sampling.as_ref()?;
+    let least = certify_sampled(spec, sampling, None, None, Ladder::default()).ok()?;
+    let gain = round_rational(&(&least.claim()?.witness.sigma * Rational::from((3, 2))), 6, Direction::Up);
+    let run = certify_sampled(spec, sampling, Some(&gain), None, Ladder::default()).ok()?;
+    run.claim().is_some().then_some(run)
+}
+
+/// Rounding alone is far below the errors of the start, for each shipped specification.
+#[test]
+fn rounding_alone_is_small() {
+    let mut seen = 0;
+    for Shipped { name, spec, .. } in certified() {
+        let Some(spec) = in_doubles(spec) else {
+            println!("{name}: no claim at samples");
+            continue;
+        };
+        let mut run = claim(&spec).expect("found");
+        run.prove_rates(&COUNTS).expect("by norms");
+        let initial = run.claim().expect("certified").witness.set.e0.to_f64();
+        for found in &run.for_n_o {
+            match found.noise.as_ref().expect("asked for") {
+                Ok(bound) => {
+                    let share = bound.limit.to_f64() / initial;
+                    println!(
+                        "{name} N_s = {} n_o = {}: limit {:.3e}, of E_0 {share:.2e}",
+                        run.sampling.samples,
+                        found.n_o,
+                        bound.limit.to_f64()
+                    );
+                    assert!(share < 1e-9, "{name} {}: {share}", found.n_o);
+                    seen += 1;
+                }
+                Err(reason) => println!("{name} n_o = {}: {}", found.n_o, reason.message()),
+            }
+        }
+    }
+    assert!(seen >= 40, "{seen}");
+}
+
+/// A certificate of the paper's example with these members, and its report.
+fn written(members: &[(&str, Value)], arguments: &[&str]) -> (Value, Value) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let [file, certificate] = ["spec.json", "certificate.json"].map(|name| folder.path().join(name));
+    let mut document: Value = serde_json::from_str(&specification_text("paper-example-at-rest")).unwrap();
+    members.iter().for_each(|(name, value)| document[*name] = value.clone());
+    std::fs::write(&file, document.to_string()).unwrap();
+    let mut call = program();
+    call.arg("certify").arg(&file).args(["--sigma", "60"]).args(arguments);
+    let output = call.args(["--no-compare", "--format", "json", "-o"]).arg(&certificate).output().unwrap();
+    let report = json(&output.stdout);
+    assert_eq!(output.status.code(), Some(0), "{report}");
+    (report, json(&std::fs::read(&certificate).unwrap()))
+}
+
+const AT: [&str; 4] = ["--sampling-period", "1/500", "--n-o", "0,2"];
+const OF_ROUNDING: [&str; 4] = ["z_low", "z_up", "z_noise", "level"];
+
+#[test]
+fn a_certificate_in_doubles_says_so() {
+    let noise = [("measurement", object!({ "noise": "0.0001" })), ("disturbance", object!("0.002"))];
+    let double = ("arithmetic", object!("double"));
+    for (members, parts, inputs) in [
+        (vec![double.clone()], "computed in double precision as exported", [true, true, false]),
+        (
+            [noise.to_vec(), vec![double.clone()]].concat(),
+            "noise of at most 0.0001 on the measurement of e, a disturbance of at most 0.002 added to q, computed in double precision as exported",
+            [true, true, true],
+        ),
+    ] {
+        let (report, certificate) = written(&members, &AT);
+        for i in 0..2 {
+            let [claim, witness] = ["claim", "witness"].map(|part| &certificate[part]["for_n_o"][i]);
+            assert_eq!(claim["noise"], report["for_n_o"][i]["noise"]);
+            assert!(OF_ROUNDING.iter().all(|name| witness["noise"][*name].is_string()), "{witness}");
+            assert_eq!(["g_d", "g_v", "g_r"].map(|name| witness["noise"][name].is_string()), inputs);
+            let [limit, peak] = ["limit", "peak"].map(|name| claim["noise"][name].as_str().expect("a number"));
+            let said = format!(
+                " With n_o = {} and sigma = 60 exactly, {parts}, also |e(t) - e_per(t)| <= {peak} for these starts and all t >= t_0, and its \
+                 limit superior is at most {limit}.",
+                claim["n_o"]
+            );
+            assert!(certificate["claim"]["statement"].as_str().expect("words").contains(&said), "{said}");
+        }
+    }
+    // Without it the claim is what it was, and the field says so too.
+    let (_, plain) = written(&noise, &AT);
+    let exact = ("arithmetic", object!("exact"));
+    let (_, named) = written(&[noise.to_vec(), vec![exact]].concat(), &AT);
+    assert_eq!((&plain["claim"], &plain["witness"]), (&named["claim"], &named["witness"]));
+    let without = |name: &&str| plain["witness"]["for_n_o"][0]["noise"][*name].is_null();
+    assert!(OF_ROUNDING.iter().all(without));
+}
+
+#[test]
+fn where_rounding_does_not_count_a_remark_or_a_reason_says_so() {
+    let double = ("arithmetic", object!("double"));
+    // In continuous time, and at samples without numbers of oscillators.
+    let (report, certificate) = written(std::slice::from_ref(&double), &["--n-o", "1"]);
+    assert!(report["remarks"].to_string().contains("--sampling-period H --n-o LIST"), "{}", report["remarks"]);
+    let (_, plain) = written(&[], &["--n-o", "1"]);
+    assert_eq!((&plain["claim"], &plain["witness"]), (&certificate["claim"], &certificate["witness"]));
+    let (report, _) = written(std::slice::from_ref(&double), &AT[..2]);
+    assert!(report["remarks"].to_string().contains("--n-o LIST"), "{}", report["remarks"]);
+    let actuator = ("actuator", object!({ "max": "1000" }));
+    let (report, certificate) = written(&[double, actuator], &AT);
+    let said = report["for_n_o"][0]["noise"]["reason"].as_str().expect("a reason");
+    assert!(said.contains("`actuator`") && said.contains("rounding"), "{said}");
+    assert!(certificate["claim"]["for_n_o"][0]["noise"].is_null());
+}
+
+/// Single precision is an error that says what the code does.
+#[test]
+fn single_precision_is_refused() {
+    let mut document: Value = serde_json::from_str(&specification_text("paper-example")).unwrap();
+    document["arithmetic"] = "single".into();
+    let errors = Specification::from_json("single", &document.to_string()).expect_err("refused");
+    assert!(errors.to_string().contains("double precision"), "{errors}");
+}
