@@ -10,6 +10,7 @@ mod continuous;
 mod form;
 mod noise;
 mod norm;
+mod rounding;
 mod sampled;
 pub mod slopes;
 mod stored;
@@ -153,6 +154,7 @@ pub fn prove(
     let error_box = ErrorBox::new(d, free.paths, [&sizes.x, &sizes.e], radii.each_ref());
     let reach = distances(d, &free.set, [&sizes.x, &sizes.e, &sizes.zeta]);
     let law = law.map(|terms| Law::new(d, terms));
+    let known = noise::Known::new(d, (free, sizes), &error_box.e_b, law.is_some());
     for (rate, witness) in claimed.iter().zip(witnesses) {
         let at = format!("{}/noise", witness.pointer);
         norm::positive("rate", &rate.rate, &rate.pointer)?;
@@ -164,7 +166,7 @@ pub fn prove(
             ),
             (Proof::Sampled(proof, of_noise), Some(law)) => (
                 sampled::rate(law, &error_box, (rate, proof, &witness.ends), &reach)?,
-                of_noise.as_ref().map(|proof| sampled::noise(law, &error_box, proof, rate.n_o)),
+                of_noise.as_ref().map(|proof| sampled::noise(law, (&error_box, &known), proof, rate.n_o)),
             ),
             (Proof::Slopes(proof), None) => (slopes::rate(d, sigma, (rate, proof, &witness.ends), &reach)?, None),
             _ => return bad(&witness.pointer, "this is not what proves a rate of such a regulator"),
@@ -176,7 +178,7 @@ pub fn prove(
         condition.demand(RULE, &format!("{}/factor", rate.pointer))?;
         if let (Some(limits), Some(of_noise)) = (&rate.noise, of_noise) {
             let [s, kappa] = of_noise?;
-            noise::prove(d, (free, sizes), limits, [&s, &kappa], &at, lines)?;
+            noise::prove(d, (free, &known), limits, [&s, &kappa], &at, lines)?;
         }
     }
     Ok(())
