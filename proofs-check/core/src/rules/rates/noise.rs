@@ -53,10 +53,7 @@ impl Known {
     /// Of a claim at samples, or in continuous time.
     pub fn new(d: &Data<'_>, (free, sizes): (&Free, &Sizes), e_b: &Interval, at_samples: bool) -> Known {
         let v_bar = d.number(&d.spec.noise.v_bar());
-        let off = match d.spec.noise.is_rounded(at_samples) {
-            true => &v_bar + power(d, -53) * (e_b + &v_bar) + power(d, -1074),
-            false => v_bar,
-        };
+        let off = if d.spec.noise.is_rounded(at_samples) { of_doubles(d, [&v_bar, e_b]) } else { v_bar };
         let mut reach = distances(d, &free.set, [&sizes.x, &sizes.e, &sizes.zeta]);
         if free.set.z0.is_none() {
             reach[2] = &reach[2] + &d.n_bar * &off;
@@ -66,6 +63,11 @@ impl Known {
         let zeta = &sizes.zeta + (&start / d.by_gain(|gain| &gain.low, &h)).sqrt();
         Known { off, start, zeta, e_b: e_b.clone() }
     }
+}
+
+/// v_d, of a double that is the nearest to what is measured where |e| <= e_b.
+pub(super) fn of_doubles(d: &Data<'_>, [v_bar, e_b]: [&Interval; 2]) -> Interval {
+    v_bar + power(d, -53) * (e_b + v_bar) + power(d, -1074)
 }
 
 /// kappa, with a_2 > 0.

@@ -35,7 +35,7 @@ const NAMES: [&str; 4] = ["z_low", "z_up", "z_noise", "level"];
 pub struct Rounding {
     pointer: String,
     /// Under [`NAMES`].
-    numbers: [Rational; 4],
+    pub(super) numbers: [Rational; 4],
 }
 
 impl Rounding {
