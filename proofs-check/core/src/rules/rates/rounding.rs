@@ -52,11 +52,7 @@ impl Rounding {
     }
 
     /// That they are there exactly where the file has a regulator that rounds, all above 0.
-    pub fn demanded<'w>(
-        d: &Data<'_>,
-        given: Option<&'w Rounding>,
-        pointer: &str,
-    ) -> Outcome<Option<&'w Rounding>> {
+    pub fn demanded<'w>(d: &Data<'_>, given: Option<&'w Rounding>, pointer: &str) -> Outcome<Option<&'w Rounding>> {
         match (given, d.spec.noise.is_rounded(true)) {
             (None, false) => Ok(None),
             (Some(rounding), true) => {

@@ -328,9 +328,8 @@ pub fn noise(
     let (step, [c, ..]) = (&made.step, &made.of_slopes);
     let d_bar = d.number(&d_bar);
     let own = (1 + &step.g) * &d_bar;
-    let of_inputs = |of_d: &Interval| {
-        added(d, g_d, of_d) + added(d, g_v, &known.off) + added(d, g_r, &(&step.c_d * &d_bar))
-    };
+    let of_inputs =
+        |of_d: &Interval| added(d, g_d, of_d) + added(d, g_v, &known.off) + added(d, g_r, &(&step.c_d * &d_bar));
     let at_samples = match rounding {
         None => (of_inputs(&own) / c / &made.norm.e_low).sqrt(),
         Some(rounding) => {

@@ -40,8 +40,7 @@ fn part<'a>(json: &'a Json, name: &str) -> Field<'a> {
 
 /// Those of the periodic solution, as a claim has them.
 fn sizes(d: &Data<'_>, claim: &Json) -> Sizes {
-    let [x, e, zeta] =
-        ["x", "e", "zeta"].map(|size| d.number(&rational(part(claim, "periodic_solution").json, size)));
+    let [x, e, zeta] = ["x", "e", "zeta"].map(|size| d.number(&rational(part(claim, "periodic_solution").json, size)));
     Sizes { x, e, zeta }
 }
 
