@@ -12,8 +12,9 @@
 //! - z after it: a sum more, gamma_5 |w_l| in both, and in the first one three of carry besides, gamma_3 (1 - h sigma) m_b.
 //!
 //! What is below the normal numbers is off by 2^-1075 in a product or a quotient, and exact in a sum. Less than 10^3 of these, times K, the weights or the
-//! nominal gain, are within `tiny = 2^-1000 (1 + K)(1 + sigma)(1 + Nbar^2)(1 + nominal)`. Guarantee of [`Rounding::errors`]: constants are normal, nothing overflows,
-//! and u is off by at most du_b, zeta by dz_b in |.|_N, in every step from a state within z_b, the sum of what is known of |zeta|_N and of z_noise.
+//! nominal gain, are within `tiny = 2^-1000 (1 + K)(1 + sigma)(1 + Nbar^2)(1 + nominal)`. Guarantee of [`Rounding::errors`]: constants are normal,
+//! nothing overflows, and u is off by at most du_b, zeta by dz_b in |.|_N, in every step from a state within z_b, the sum of what is known of |zeta|_N and
+//! of z_noise.
 //!
 //! Guarantee of [`Rounding::level`]: W, from rest, stays below level^2 at all samples, for it does so after each of them, and then |zeta|_N of
 //! what noise does is at most z_noise.
@@ -72,7 +73,7 @@ impl Rounding {
 
     /// du_b and dz_b.
     pub fn errors(&self, law: &Law<'_>, known: &Known, n_o: u32) -> Outcome<[Interval; 2]> {
-        let [_, _, z_noise, _] = self.enclosed(law.d);
+        let [_, _, z_noise, _] = self.enclosed(law.d.precision);
         let z_b = &known.zeta + z_noise;
         let w_b = &z_b + &law.d.n_bar * &known.off;
         let m_b = &known.e_b + &known.off;
@@ -80,10 +81,9 @@ impl Rounding {
         Ok(errors(law, n_o, [&w_b, &m_b]))
     }
 
-    /// A bound of `sqrt(W)`, `W <= (W + sum)/(1 + c)` but for dz_b: the level, where it is one.
+    /// A bound of `sqrt(W)`, where a step makes `sqrt((W + sum)/(1 + c))` of it, and at most `sqrt(z_up) dz_b` more: the level, if it is one.
     pub fn level(&self, norm: &Norm, [sum, c, dz_b]: [&Interval; 3]) -> Outcome<Interval> {
-        let precision = sum.precision();
-        let [z_low, z_up, z_noise, level] = self.numbers.each_ref().map(|value| Interval::rational(value, precision));
+        let [z_low, z_up, z_noise, level] = self.enclosed(sum.precision());
         norm.holds_oscillators([&z_low, &z_up])?;
         let after = ((level.sqr() + sum) / (c + 1)).sqrt() + z_up.sqrt() * dz_b;
         let at = format!("{}/level", self.pointer);
@@ -95,8 +95,8 @@ impl Rounding {
         Ok(level)
     }
 
-    fn enclosed(&self, d: &Data<'_>) -> [Interval; 4] {
-        self.numbers.each_ref().map(|value| d.number(value))
+    fn enclosed(&self, precision: u32) -> [Interval; 4] {
+        self.numbers.each_ref().map(|value| Interval::rational(value, precision))
     }
 }
 
