@@ -59,6 +59,7 @@ impl Subject {
                 limit(spec.plant.as_deref())
             )
         });
+        let rounded = claim.says_of_noise() && spec.noise.is_rounded(claim.sampled.is_some());
         Subject {
             statement: printable_whole(claim.statement.text().unwrap_or_default()),
             also,
@@ -72,13 +73,16 @@ impl Subject {
                 list.extend(spec.period.range().map(period));
                 match &claim.sampled {
                     Some(sampled) => {
-                        list.extend(sampled.assumed(spec.actuator.is_some(), claim.says_of_noise()));
+                        list.extend(sampled.assumed([spec.actuator.is_some(), claim.says_of_noise(), rounded]));
                         list.extend(spec.input_gain.as_ref().map(|gain| format!("the regulator{}", output(gain))));
                     }
                     None => list.push(regulator(spec, claim.says_of_noise())),
                 }
                 if claim.says_of_noise() {
                     list.push(NOISE.to_owned());
+                }
+                if rounded {
+                    list.push(ROUNDING.to_owned());
                 }
                 list
             },
@@ -175,6 +179,11 @@ fn output(gain: &Range) -> String {
 const NOISE: &str = "where noise is said: at all times the regulator takes e + v for e, and the plant has q + d for q, with v within the \
                      noise and half a step of the measurement and d within the disturbance, whatever they are otherwise";
 
+/// What is assumed besides where its arithmetic is that of doubles.
+const ROUNDING: &str = "where noise is said: the regulator computes in doubles as its exported C code does, each constant the double nearest to \
+                        it and each operation rounded to nearest on its own, in the order of that code (no fast-math, no fused operations, no \
+                        excess precision); what it takes for e is the double nearest to e + v, and its z starts as doubles";
+
 /// What it takes for granted of a continuous regulator; `noisy`: something is said of noise.
 fn regulator(spec: &Specification, noisy: bool) -> String {
     let frequency = if spec.matched { ", with base_frequency exactly 2 pi/period" } else { "" };
@@ -245,9 +254,12 @@ fn difference(a: &Json, b: &Json, place: &str, free: &[&str]) -> Option<(String,
                     (Some(i), Some(j)) => difference(&a[i].1, &b[j].1, &at, free),
                     (i, j) => {
                         let (ours, theirs) = (i.map(|i| &a[i].1), j.map(|j| &b[j].1));
-                        // Not matched is the default.
-                        let only = ours.or(theirs);
-                        let default = key == "matched" && matches!(only, Some(Json::Bool(false)));
+                        // Not matched and exact is the default.
+                        let default = match ours.or(theirs) {
+                            Some(Json::Bool(value)) => key == "matched" && !value,
+                            Some(Json::Text(text)) => at == "/arithmetic" && text == "exact",
+                            _ => false,
+                        };
                         (!default).then(|| (at, shown(ours), shown(theirs)))
                     }
                 },

@@ -2,7 +2,8 @@
 //! alone: all else that it says is of the loop without them.
 //!
 //! What is measured is `e + v`, |v| <= v_bar at all times, and q + d stands for q, |d| <= d_bar. Guarantee: `v_bar = noise + quantum/2`, for a
-//! converter in steps of `quantum` rounds to the nearest, and `d_bar = disturbance`, none of the three below 0.
+//! converter in steps of `quantum` rounds to the nearest, and `d_bar = disturbance`, none of the three below 0. With the `arithmetic` `double` the
+//! rounding of a regulator at samples counts too ([`crate::rules::rates`]); `exact`, which need not be written, leaves it out.
 
 use crate::constant::RULE;
 use crate::json::{Field, Fields};
@@ -34,10 +35,11 @@ pub struct Noise {
     noise: Option<Size>,
     quantum: Option<Size>,
     disturbance: Option<Size>,
+    doubles: bool,
 }
 
 impl Noise {
-    /// Takes `measurement` and `disturbance` out of a file, where they are.
+    /// Takes `measurement`, `disturbance` and `arithmetic` out of a file, where they are.
     pub fn read(file: &mut Fields<'_>) -> Outcome<Noise> {
         let mut read = Noise::default();
         if let Some(field) = file.optional("measurement") {
@@ -50,6 +52,7 @@ impl Noise {
             fields.finish()?;
         }
         read.disturbance = file.optional("disturbance").map(|field| Size::read(&field)).transpose()?;
+        read.doubles = file.optional("arithmetic").map_or(Ok(false), |field| in_doubles(&field))?;
         Ok(read)
     }
 
@@ -63,22 +66,41 @@ impl Noise {
         Size::value(self.disturbance.as_ref())
     }
 
-    /// Whether there is none.
-    pub fn is_none(&self) -> bool {
-        self.v_bar() + self.d_bar() == 0
+    /// Whether a regulator computes in doubles, `at_samples`: in continuous time none does.
+    pub fn is_rounded(&self, at_samples: bool) -> bool {
+        at_samples && self.doubles
+    }
+
+    /// Whether there is none, of a regulator at samples or in continuous time.
+    pub fn is_none(&self, at_samples: bool) -> bool {
+        self.v_bar() + self.d_bar() == 0 && !self.is_rounded(at_samples)
     }
 
     /// Those that are there, in words.
-    pub fn in_words(&self) -> String {
+    pub fn in_words(&self, at_samples: bool) -> String {
         let part = |size: &Option<Size>, of: &dyn Fn(&str) -> String| {
             size.as_ref().filter(|size| size.value != 0).map(|size| of(&apart(&size.text)))
         };
+        let rounding = self.is_rounded(at_samples).then(|| "computed in double precision as exported".to_owned());
         let parts = [
             part(&self.noise, &|size| format!("noise of at most {size} on the measurement of e")),
             part(&self.quantum, &|size| format!("a measurement of e in steps of {size}")),
             part(&self.disturbance, &|size| format!("a disturbance of at most {size} added to q")),
+            rounding,
         ];
         parts.into_iter().flatten().collect::<Vec<_>>().join(", ")
+    }
+}
+
+/// Whether the `arithmetic` is that of doubles.
+fn in_doubles(field: &Field<'_>) -> Outcome<bool> {
+    match field.text()? {
+        "double" => Ok(true),
+        "exact" => Ok(false),
+        "single" => {
+            bad(&field.pointer, "nothing is proved of single precision: the regulator is exported in double precision")
+        }
+        _ => bad(&field.pointer, "expected `double`, in which the regulator is exported, or `exact`"),
     }
 }
 

@@ -5,6 +5,7 @@
 mod actuator;
 mod aligned;
 mod arguments;
+mod arithmetic;
 mod at_samples;
 mod at_samples_certificate;
 mod cells;

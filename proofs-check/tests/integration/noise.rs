@@ -16,7 +16,7 @@ pub fn stored(name: &str) -> Value {
 }
 
 /// With another document: its digest is made right.
-fn with_document(certificate: &Value, changes: &[(&str, Value)]) -> Value {
+pub fn with_document(certificate: &Value, changes: &[(&str, Value)]) -> Value {
     let mut made = edited(certificate.clone(), changes);
     rehash(&mut made);
     made
@@ -26,12 +26,12 @@ fn is_sampled(certificate: &Value) -> bool {
     certificate["claim"]["regulator"] == "digital"
 }
 
-fn count(certificate: &Value) -> usize {
+pub fn count(certificate: &Value) -> usize {
     certificate["claim"]["for_n_o"].as_array().unwrap().len()
 }
 
 /// The witness of the noise of an entry, with its pointer and its names but for Pi.
-fn of_noise(certificate: &Value, i: usize) -> (String, Vec<String>) {
+pub fn of_noise(certificate: &Value, i: usize) -> (String, Vec<String>) {
     let pointer = format!("/witness/for_n_o/{i}/noise");
     let fields = certificate.pointer(&pointer).unwrap().as_object().unwrap();
     (pointer, fields.keys().filter(|name| *name != "Pi").cloned().collect())

@@ -47,7 +47,10 @@ pub fn reworded(mut certificate: Value) -> Value {
     let given = |value: &Value| !value.is_null() && text(value) != "0";
     let words =
         |(value, before, after): &(&Value, &str, &str)| given(value).then(|| format!("{before}{}{after}", text(value)));
-    let noise: Vec<String> = parts.iter().filter_map(words).collect();
+    let mut noise: Vec<String> = parts.iter().filter_map(words).collect();
+    if !claim["regulator"].is_null() && document["arithmetic"] == "double" {
+        noise.push("computed in double precision as exported".to_owned());
+    }
     let sentence = |entry: &Value| {
         let n_o = &entry["n_o"];
         let rate = format!(

@@ -206,7 +206,7 @@ impl<'a> Claim<'a> {
                 self.of_plant((spec, plant), family, start)?
             }
         };
-        demand_noise(d, &self.rates)?;
+        demand_noise(d, &self.rates, self.sampled.is_some())?;
         let sigma = self.sampled.as_ref().map_or(self.sigma_text, Regulator::sigma_text);
         let kind = [self.sampled.is_some(), self.set.z0.is_none()];
         let besides: String = self.rates.iter().map(|rate| rate.in_words(sigma, kind, &spec.noise)).collect();

@@ -70,7 +70,7 @@ impl<'a> Rate<'a> {
             words += &format!(
                 " With n_o = {n_o} and sigma = {sigma} exactly, {}, also |e(t) - e_per(t)| <= {peak} for these starts{starts} and all t >= t_0, \
                  and its limit superior is at most {limit}.",
-                noise.in_words()
+                noise.in_words(at_samples)
             );
         }
         words

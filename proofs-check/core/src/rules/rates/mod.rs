@@ -3,13 +3,15 @@
 //! or joint metrics in continuous time ([`slopes`]).
 //!
 //! Guarantee of [`prove`], for each n_o: every solution from the claimed set has `|e - e_per| <= factor exp(-rate (t - t_0))`, at samples for the sampling
-//! instants t, and with the noise of the file, where that is claimed (`noise`), `|e - e_per| <= peak` at all times and at most `limit` in the end.
+//! instants t, and with the noise of the file and the rounding of its regulator (`rounding`), where that is claimed (`noise`), `|e - e_per| <= peak` at all
+//! times and at most `limit` in the end.
 
 pub mod claimed;
 mod continuous;
 mod form;
 mod noise;
 mod norm;
+mod rounding;
 mod sampled;
 pub mod slopes;
 mod stored;
@@ -153,6 +155,8 @@ pub fn prove(
     let error_box = ErrorBox::new(d, free.paths, [&sizes.x, &sizes.e], radii.each_ref());
     let reach = distances(d, &free.set, [&sizes.x, &sizes.e, &sizes.zeta]);
     let law = law.map(|terms| Law::new(d, terms));
+    let known = claimed.iter().any(|rate| rate.noise.is_some());
+    let known = known.then(|| noise::Known::new(d, (free, sizes), &error_box.e_b, law.is_some()));
     for (rate, witness) in claimed.iter().zip(witnesses) {
         let at = format!("{}/noise", witness.pointer);
         norm::positive("rate", &rate.rate, &rate.pointer)?;
@@ -164,7 +168,10 @@ pub fn prove(
             ),
             (Proof::Sampled(proof, of_noise), Some(law)) => (
                 sampled::rate(law, &error_box, (rate, proof, &witness.ends), &reach)?,
-                of_noise.as_ref().map(|proof| sampled::noise(law, &error_box, proof, rate.n_o)),
+                of_noise
+                    .as_ref()
+                    .zip(known.as_ref())
+                    .map(|(proof, known)| sampled::noise(law, (&error_box, known), proof, rate.n_o)),
             ),
             (Proof::Slopes(proof), None) => (slopes::rate(d, sigma, (rate, proof, &witness.ends), &reach)?, None),
             _ => return bad(&witness.pointer, "this is not what proves a rate of such a regulator"),
@@ -174,9 +181,9 @@ pub fn prove(
         let condition = Condition::at_most("R", what, start, d.number(&rate.factor).sqr() * e_low);
         lines.push(condition.line());
         condition.demand(RULE, &format!("{}/factor", rate.pointer))?;
-        if let (Some(limits), Some(of_noise)) = (&rate.noise, of_noise) {
+        if let (Some(limits), Some(of_noise), Some(known)) = (&rate.noise, of_noise, &known) {
             let [s, kappa] = of_noise?;
-            noise::prove(d, (free, sizes), limits, [&s, &kappa], &at, lines)?;
+            noise::prove(d, (free, known), limits, [&s, &kappa], &at, lines)?;
         }
     }
     Ok(())

@@ -8,9 +8,13 @@
 //!
 //! Guarantee of [`prove`]: the sum stays in the box, `limit >= S` and `peak >= sqrt(L_0) + S`. A regulator that sets z = M e at its first instant
 //! does so with the e that it measures: then zeta is M v there, within Nbar v_bar of 0.
+//!
+//! Where the regulator computes in doubles the e that it takes is one, the nearest to what is measured. In the box it is off by at most
+//! `v_d = v_bar + u0 (E_b + v_bar) + 2^-1074`, u0 = 2^-53, which stands for v_bar everywhere.
 
 use super::claimed::{Limits, RULE, Rate};
 use super::norm::positive;
+use super::rounding::power;
 use crate::actuator;
 use crate::data::Data;
 use crate::interval::Interval;
@@ -20,16 +24,50 @@ use crate::verdict::{Condition, Outcome, Verdict, finding, invalid};
 use rug::Rational;
 
 /// Where a claim says something of noise, the file has some, and no actuator, for the bound of what is put out does not know it.
-pub fn demand_noise(d: &Data<'_>, claimed: &[Rate<'_>]) -> Outcome<()> {
+pub fn demand_noise(d: &Data<'_>, claimed: &[Rate<'_>], at_samples: bool) -> Outcome<()> {
     let Some(Limits { pointer, .. }) = claimed.iter().find_map(|rate| rate.noise.as_ref()) else { return Ok(()) };
-    if d.spec.noise.is_none() {
-        return invalid(RULE, pointer, "the file states no noise and no disturbance");
+    if d.spec.noise.is_none(at_samples) {
+        let rounds = if d.spec.noise.is_rounded(true) { "; rounding counts at samples alone" } else { "" };
+        return invalid(RULE, pointer, format!("the file states no noise and no disturbance{rounds}"));
     }
     if d.spec.actuator.is_some() {
         let message = "with an actuator nothing is proved of noise: the bound of what is put out does not know it";
         return Err(finding(Verdict::Undecided, actuator::RULE, pointer, message));
     }
     Ok(())
+}
+
+/// What is known of the solutions of a claim before anything is said of what noise does from rest.
+pub struct Known {
+    /// The most that a measurement is off: v_bar, or v_d.
+    pub off: Interval,
+    /// L_0.
+    pub start: Interval,
+    /// Z + sqrt(L_0/eta_w), which bounds |zeta|_N but for what noise adds: U has eta_w |zeta|_N^2, with an input gain b eta, b_lo eta at least.
+    pub zeta: Interval,
+    /// E_b, which bounds |e| in the error box.
+    pub e_b: Interval,
+}
+
+impl Known {
+    /// Of a claim at samples, or in continuous time.
+    pub fn new(d: &Data<'_>, (free, sizes): (&Free, &Sizes), e_b: &Interval, at_samples: bool) -> Known {
+        let v_bar = d.number(&d.spec.noise.v_bar());
+        let off = if d.spec.noise.is_rounded(at_samples) { of_doubles(d, [&v_bar, e_b]) } else { v_bar };
+        let mut reach = distances(d, &free.set, [&sizes.x, &sizes.e, &sizes.zeta]);
+        if free.set.z0.is_none() {
+            reach[2] = &reach[2] + &d.n_bar * &off;
+        }
+        let [d_x, d_e, w_x, h] = [&free.d_x, &free.d_e, &free.w_x, &free.h].map(|value| d.number(value));
+        let [start, _] = level(d, &reach, [&d_x, &d_e, &w_x, &d.by_gain(|gain| &gain.high, &h)]);
+        let zeta = &sizes.zeta + (&start / d.by_gain(|gain| &gain.low, &h)).sqrt();
+        Known { off, start, zeta, e_b: e_b.clone() }
+    }
+}
+
+/// v_d, of a double that is the nearest to what is measured where |e| <= e_b.
+pub(super) fn of_doubles(d: &Data<'_>, [v_bar, e_b]: [&Interval; 2]) -> Interval {
+    v_bar + power(d, -53) * (e_b + v_bar) + power(d, -1074)
 }
 
 /// kappa, with a_2 > 0.
@@ -42,20 +80,15 @@ pub fn of_states(d: &Data<'_>, error_box: &ErrorBox, pointer: &str) -> Outcome<I
 /// Proves what is claimed from S and kappa; `pointer` is the place of the witness.
 pub fn prove(
     d: &Data<'_>,
-    (free, sizes): (&Free, &Sizes),
+    (free, known): (&Free, &Known),
     claimed: &Limits<'_>,
     [s, kappa]: [&Interval; 2],
     pointer: &str,
     lines: &mut Vec<String>,
 ) -> Outcome<()> {
-    let mut reach = distances(d, &free.set, [&sizes.x, &sizes.e, &sizes.zeta]);
-    if free.set.z0.is_none() {
-        reach[2] = &reach[2] + &d.n_bar * d.number(&d.spec.noise.v_bar());
-    }
-    let [d_x, d_e, w_x, h] = [&free.d_x, &free.d_e, &free.w_x, &free.h].map(|value| d.number(value));
-    let [start, _] = level(d, &reach, [&d_x, &d_e, &w_x, &d.by_gain(|gain| &gain.high, &h)]);
-    let largest = start.sqrt() + s;
-    let of_x = ((start / w_x).sqrt() + kappa * s) / d.p_low.sqrt();
+    let [d_x, d_e, w_x] = [&free.d_x, &free.d_e, &free.w_x].map(|value| d.number(value));
+    let largest = known.start.sqrt() + s;
+    let of_x = ((&known.start / w_x).sqrt() + kappa * s) / d.p_low.sqrt();
     let [limit, peak] = [&claimed.limit, &claimed.peak].map(|value| d.number(value));
     let conditions = [
         (Condition::at_most("N", "S <= limit", s.clone(), limit), format!("{}/limit", claimed.pointer)),

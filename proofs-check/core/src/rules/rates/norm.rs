@@ -131,6 +131,20 @@ impl Norm {
         demand(positive_definite(rest), RULE, &format!("{}/e_low", self.pointer), "Pi > diag(0, e_low, 0)")
     }
 
+    /// `Pi > diag(0, 0, z_low I)`, and its block of zs is below z_up I.
+    pub fn holds_oscillators(&self, [z_low, z_up]: [&Interval; 2]) -> Outcome<()> {
+        let rest = self.triangle(&|i, j| {
+            let own = self.at(i, j);
+            if i == j && i > self.of_e { own - z_low } else { own.clone() }
+        });
+        let at = |name: &str| format!("{}/{name}", self.pointer);
+        demand(positive_definite(rest), RULE, &at("z_low"), "Pi > diag(0, 0, z_low I)")?;
+        let block: Vec<Vec<Interval>> = (self.of_e + 1..self.order())
+            .map(|i| (self.of_e + 1..=i).map(|j| if i == j { z_up - self.at(i, i) } else { -self.at(i, j) }).collect())
+            .collect();
+        demand(positive_definite(block), RULE, &at("z_up"), "the block of zs in Pi is below z_up I")
+    }
+
     /// Demands `Pi < diag(x_up I, e_up, z_up I)`, and bounds y'Pi y from above at a start within dX, dE and dZ. `of_x`: x_up; where Pi has no x, what
     /// stands before |x|^2 besides, none where x has no part in it.
     pub fn start(

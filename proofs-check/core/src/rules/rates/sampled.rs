@@ -22,12 +22,16 @@
 //! `g_d (1+g)^2 d_bar^2`, `g_v v_bar^2` and `g_r c_d^2 d_bar^2` over c. Where k_x = 0 the equations of y do not have xi, and all that stands beside it is left
 //! out.
 //!
+//! With rounding ([`super::rounding`]) `|D| <= (1+g) d_bar + b_hi du_b`, for the u of a sample is off by one number, and `N^(1/2) dz` is added to zs+, beside
+//! the form: `sqrt(W)` is a norm, and at most `sqrt((W + ...)/(1+c)) + sqrt(z_up) dz_b` after a sample.
+//!
 //! Between samples `|e| <= s + |G|` where s bounds it at samples, and `|G| <= (h/2) sup|q + d|`, `|q| <= k_x xi + k_e |e|`, `xi <= kappa sup|e|`.
 
 use super::claimed::{RULE, Rate};
 use super::form::{Form, Linear};
-use super::noise::{added, of_states, weight};
+use super::noise::{Known, added, of_states, weight};
 use super::norm::{Norm, Stored, no_part_of_x, positive};
+use super::rounding::Rounding;
 use crate::interval::Interval;
 use crate::json::Fields;
 use crate::matrix::positive_definite;
@@ -55,6 +59,7 @@ pub struct OfNoise {
     g_d: Option<Rational>,
     g_v: Option<Rational>,
     g_r: Option<Rational>,
+    pub(super) rounding: Option<Rounding>,
 }
 
 impl Proof {
@@ -78,7 +83,8 @@ impl OfNoise {
     pub fn read(fields: &mut Fields<'_>, n_o: u32) -> Outcome<OfNoise> {
         let proof = Proof::read(fields, n_o)?;
         let mut optional = |name| fields.optional(name).map(|field| field.rational()).transpose();
-        Ok(OfNoise { proof, g_d: optional("g_d")?, g_v: optional("g_v")?, g_r: optional("g_r")? })
+        let [g_d, g_v, g_r] = ["g_d", "g_v", "g_r"].map(&mut optional);
+        Ok(OfNoise { proof, g_d: g_d?, g_v: g_v?, g_r: g_r?, rounding: Rounding::read(fields)? })
     }
 }
 
@@ -303,20 +309,35 @@ pub fn rate(
 }
 
 /// Proves (R_h) with noise, and gives S, at all times, and kappa.
-pub fn noise(law: &Law<'_>, error_box: &ErrorBox, proof: &OfNoise, n_o: u32) -> Outcome<[Interval; 2]> {
+pub fn noise(
+    law: &Law<'_>,
+    (error_box, known): (&ErrorBox, &Known),
+    proof: &OfNoise,
+    n_o: u32,
+) -> Outcome<[Interval; 2]> {
     let (d, pointer) = (law.d, proof.proof.stored.pointer.as_str());
     let made = Loop::new(law, error_box, &proof.proof)?;
+    let rounding = Rounding::demanded(d, proof.rounding.as_ref(), pointer)?;
     let [d_bar, v_bar] = [d.spec.noise.d_bar(), d.spec.noise.v_bar()];
     let through_x = d_bar > 0 && made.of_x.is_some();
-    let g_d = weight(d, ("g_d", proof.g_d.as_ref()), d_bar > 0, pointer)?;
-    let g_v = weight(d, ("g_v", proof.g_v.as_ref()), v_bar > 0, pointer)?;
+    let g_d = weight(d, ("g_d", proof.g_d.as_ref()), d_bar > 0 || rounding.is_some(), pointer)?;
+    let g_v = weight(d, ("g_v", proof.g_v.as_ref()), v_bar > 0 || rounding.is_some(), pointer)?;
     let g_r = weight(d, ("g_r", proof.g_r.as_ref()), through_x, pointer)?;
     let [g_d, g_v, g_r] = [&g_d, &g_v, &g_r].map(Option::as_ref);
     made.decays([g_d, g_v, g_r], &format!("(R_h) with noise for n_o = {n_o}"))?;
     let (step, [c, ..]) = (&made.step, &made.of_slopes);
-    let [d_bar, v_bar] = [d_bar, v_bar].map(|bound| d.number(&bound));
-    let sum = added(d, g_d, &((1 + &step.g) * &d_bar)) + added(d, g_v, &v_bar) + added(d, g_r, &(&step.c_d * &d_bar));
-    let at_samples = (sum / c / &made.norm.e_low).sqrt();
+    let d_bar = d.number(&d_bar);
+    let own = (1 + &step.g) * &d_bar;
+    let of_inputs =
+        |of_d: &Interval| added(d, g_d, of_d) + added(d, g_v, &known.off) + added(d, g_r, &(&step.c_d * &d_bar));
+    let at_samples = match rounding {
+        None => (of_inputs(&own) / c / &made.norm.e_low).sqrt(),
+        Some(rounding) => {
+            let [du_b, dz_b] = rounding.errors(law, known, n_o)?;
+            let sum = of_inputs(&(own + d.by_gain(|gain| &gain.high, &du_b)));
+            rounding.level(&made.norm, [&sum, c, &dz_b])? / made.norm.e_low.sqrt()
+        }
+    };
     let (kappa, half) = (of_states(d, error_box, pointer)?, &law.h / 2);
     Ok([between(&at_samples, [&half, &d_bar], &step.k_e + &error_box.k_x * &kappa, pointer)?, kappa])
 }

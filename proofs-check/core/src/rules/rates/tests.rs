@@ -4,6 +4,7 @@ use super::{Kind, Proof, Witness, claimed::Rate, continuous, sampled};
 use crate::data::Data;
 use crate::interval::Interval;
 use crate::json::{Field, Json, parse};
+use crate::rules::common::Sizes;
 use crate::rules::derivation::Derivation;
 use crate::rules::sampled::claim::Regulator;
 use crate::rules::sampled::law::Law;
@@ -11,6 +12,8 @@ use crate::rules::set::ClaimedSet;
 use crate::rules::stability::ErrorBox;
 use crate::spec::Specification;
 use rug::Rational;
+
+mod rounding;
 
 /// Numbers in [-1, 1), the same in every run (SplitMix64).
 fn drawn() -> impl FnMut() -> f64 {
@@ -35,16 +38,23 @@ fn part<'a>(json: &'a Json, name: &str) -> Field<'a> {
     Field { json, pointer: String::new() }.fields().unwrap().required(name).unwrap()
 }
 
+/// Those of the periodic solution, as a claim has them.
+fn sizes(d: &Data<'_>, claim: &Json) -> Sizes {
+    let [x, e, zeta] = ["x", "e", "zeta"].map(|size| d.number(&rational(part(claim, "periodic_solution").json, size)));
+    Sizes { x, e, zeta }
+}
+
 /// What a stored certificate is made of.
 fn with_stored(name: &str, use_it: impl Fn(&Data<'_>, (&Derivation, &Rational), &ErrorBox, &Witness)) {
-    let path = format!("{}/../tests/noise/{name}.json", env!("CARGO_MANIFEST_DIR"));
+    let path = format!("{}/../tests/{name}.json", env!("CARGO_MANIFEST_DIR"));
     let json = parse(&std::fs::read(path).unwrap()).unwrap();
     let mut witness = part(&json, "witness").fields().unwrap();
     let spec = Specification::read(&part(&json, "specification"), &mut witness).unwrap();
     let claim = part(&json, "claim");
     let set = part(claim.json, "initial_set");
-    let [x0, e0, z0] = ["X0", "E0", "Z0"].map(|size| rational(set.json, size));
-    let set = ClaimedSet { x0, e0, z0: Some(z0) };
+    let [x0, e0] = ["X0", "E0"].map(|size| rational(set.json, size));
+    let z0 = set.fields().unwrap().optional("Z0").map(|field| field.rational().unwrap());
+    let set = ClaimedSet { x0, e0, z0 };
     let mut fields = claim.fields().unwrap();
     let (derivation, sigma) = match Regulator::read(&mut fields).unwrap() {
         Some(regulator) => (Derivation::read_sampled(&mut witness, &regulator, set), regulator.sigma),
@@ -60,9 +70,9 @@ fn with_stored(name: &str, use_it: impl Fn(&Data<'_>, (&Derivation, &Rational), 
     let proofs = Witness::read_all(proofs.as_ref(), &rates, kind).unwrap();
     let d = Data::new(&spec, 128);
     let free = derivation.free();
-    let sizes = ["x", "e"].map(|size| d.number(&rational(part(claim.json, "periodic_solution").json, size)));
+    let Sizes { x, e, .. } = sizes(&d, claim.json);
     let radii = [d.number(&free.d_x), d.number(&free.d_e)];
-    let error_box = ErrorBox::new(&d, free.paths, sizes.each_ref(), radii.each_ref());
+    let error_box = ErrorBox::new(&d, free.paths, [&x, &e], radii.each_ref());
     for proof in &proofs {
         use_it(&d, (&derivation, &sigma), &error_box, proof);
     }
@@ -120,7 +130,7 @@ fn quadratic(pi: &super::norm::Norm, a: &[f64], b: &[f64]) -> f64 {
 
 #[test]
 fn the_form_in_continuous_time_is_that_of_the_law() {
-    for name in ["paper-example", "input-gain"] {
+    for name in ["noise/paper-example", "noise/input-gain"] {
         with_stored(name, |d, (_, sigma), error_box, witness| {
             let Proof::Continuous(_, Some(proof)) = &witness.proof else { panic!("{name}") };
             let made = continuous::Loop::new(d, error_box, sigma, &proof.proof).unwrap();
@@ -168,7 +178,7 @@ fn the_form_in_continuous_time_is_that_of_the_law() {
 
 #[test]
 fn the_form_at_samples_is_that_of_the_law() {
-    for name in ["sampled", "sampled-input-gain"] {
+    for name in ["noise/sampled", "noise/sampled-input-gain"] {
         with_stored(name, |d, (derivation, _), error_box, witness| {
             let Proof::Sampled(_, Some(proof)) = &witness.proof else { panic!("{name}") };
             let law = Law::new(d, derivation.law().unwrap());

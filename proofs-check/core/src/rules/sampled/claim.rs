@@ -84,10 +84,10 @@ impl<'a> Regulator<'a> {
     }
 
     /// What the claim takes for granted of the regulator; `saturates`: the saturation of the actuator is in the claim, `noisy`: something is said
-    /// of noise and quantisation.
-    pub fn assumed(&self, saturates: bool, noisy: bool) -> Vec<String> {
+    /// of noise and quantisation, `rounded`: and of its arithmetic.
+    pub fn assumed(&self, [saturates, noisy, rounded]: [bool; 3]) -> Vec<String> {
         let saturation = if saturates { "" } else { "no saturation, " };
-        let but = if noisy { " but where it is said" } else { "" };
+        let [but, but_rounded] = [noisy, rounded].map(|said| if said { " but where it is said" } else { "" });
         let (law, late) = match self.delayed {
             false => (
                 "u_k = -sigma e_k + K v_k, v_k = M'N R (z_k - M e_k), z_(k+1) = R (z_k - M e_k) + (1 - h sigma) M e_k",
@@ -106,7 +106,7 @@ impl<'a> Regulator<'a> {
                  base_frequency exactly 2 pi/period; between samples the plant runs continuously and u is held"
             ),
             format!(
-                "{late}, no rounding of the regulator's arithmetic or of R, no quantisation{but}, {saturation}no \
+                "{late}, no rounding of the regulator's arithmetic or of R{but_rounded}, no quantisation{but}, {saturation}no \
                  noise{but}, no jitter of the samples"
             ),
         ]
