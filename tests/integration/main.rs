@@ -72,6 +72,7 @@ mod sampled_rates;
 mod sampled_simulation;
 mod schemas;
 mod search_scale;
+mod shipping;
 mod short_reports;
 mod simulate;
 mod spec_document;

@@ -113,14 +113,19 @@ pub fn notice(export: &Export<'_>) -> Vec<String> {
         ));
     }
     let claimed = (export.certificate.map(|certificate| certificate.scope), export.actuator);
+    let rounding = export.certificate.filter(|certificate| certificate.scope == Scope::Samples);
+    let rounding = rounding.and_then(|certificate| certificate.rounding);
+    let quantisation =
+        if rounding.is_some() { "quantisation that it does not name there" } else { "quantisation" };
     // With an actuator the saturation is in a claim about the regulator that is exported, and in no other.
     let saturates = match (claimed, export.discrete) {
-        ((Some(Scope::Samples), Some(_)), _) | ((Some(Scope::Continuous), Some(_)), None) => "or quantisation",
-        _ => "quantisation, or saturation",
+        ((Some(Scope::Samples), Some(_)), _) | ((Some(Scope::Continuous), Some(_)), None) => {
+            format!("or {quantisation}")
+        }
+        _ => format!("{quantisation}, or saturation"),
     };
     let late = if delayed { "a computation that takes more than a sample" } else { "a delay of the computation" };
-    let rounding = export.certificate.filter(|certificate| certificate.scope == Scope::Samples);
-    lines.push(match rounding.and_then(|certificate| certificate.rounding) {
+    lines.push(match rounding {
         None => format!(
             "No claim covers the rounding of these numbers and of the arithmetic with them, {late}, {saturates}."
         ),

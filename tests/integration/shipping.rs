@@ -1,0 +1,89 @@
+//! "From a plant to a controller that ships" (docs/guide/ships.md): its commands run, and say what the page says.
+
+use crate::controller::installed;
+use crate::support::{json, program};
+use serde_json::Value;
+use std::path::Path;
+use std::process::Command;
+
+const FILE: &str = "specs/shipping/motor-axis.toml";
+
+fn report(folder: &Path, more: &[&str]) -> (i32, Value) {
+    let certificate = folder.join("axis.certificate.json");
+    let call = ["certify", FILE, "--n-o", "0,4,10", "--format", "json", "-q", "--force", "-o"];
+    let output = program().args(call).arg(certificate).args(more).output().unwrap();
+    (output.status.code().unwrap(), json(&output.stdout))
+}
+
+/// A bound in four digits, rounded up, and the shortest way to write it.
+fn up(value: &Value) -> String {
+    let value: f64 = value.as_str().expect("a number").parse().unwrap();
+    let unit = 10f64.powi(value.log10().floor() as i32 - 3);
+    let rounded = ((value / unit - 1e-9).ceil() * unit * 1e6).round() / 1e6;
+    rounded.to_string()
+}
+
+#[test]
+fn the_page_says_what_its_commands_say() {
+    let page = std::fs::read_to_string("docs/guide/ships.md").unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let lines: Vec<&str> = page.lines().filter(|line| line.starts_with('|')).collect();
+    let line = |start: &str| *lines.iter().find(|line| line.starts_with(start)).unwrap_or_else(|| panic!("{start}"));
+    for (asked, flags) in [
+        ("--max-control 22000", &["--max-control", "22000"][..]),
+        ("--peak-error 25", &["--peak-error", "25"]),
+        ("--peak-error 60", &["--peak-error", "60"]),
+    ] {
+        let (code, report) = report(folder.path(), flags);
+        assert_eq!(code, 0, "{report:#}");
+        let own = &report["gains"][0];
+        let [steady, transient] = ["steady", "transient"].map(|part| own["control"][part].as_str().unwrap());
+        let control = steady.parse::<f64>().unwrap() + transient.parse::<f64>().unwrap();
+        let four = &report["for_n_o"][1];
+        let cells = [
+            report["sigma"].as_str().unwrap().to_owned(),
+            up(&own["peak_error"]),
+            up(&control.to_string().into()),
+            up(&four["noise"]["limit"]),
+        ];
+        assert!(line(&format!("| `{asked}` |")).contains(&cells.join(" | ")), "{asked}: {cells:?}");
+        if asked == "--peak-error 60" {
+            assert!(page.contains(&format!("at most\n{}", up(&report["periodic_solution"]["e"]))));
+            for found in report["for_n_o"].as_array().unwrap() {
+                let cells = [&found["noise"]["limit"], &found["noise"]["peak"]].map(up);
+                let row = line(&format!("| {} |", found["n_o"]));
+                assert!(row.contains(&cells.join(" | ")), "{row} {cells:?}");
+                assert!(row.contains(&format!("| {} exp(-", up(&found["factor"]))), "{row}");
+            }
+        }
+    }
+    let (code, missed) = report(folder.path(), &["--peak-error", "60", "--rate", "4"]);
+    let said = missed["statement"].as_str().unwrap();
+    assert!(code == 3 && said.contains("n_o = 10 is not proved to be at least 4") && said.contains("about 1.41"), "{said}");
+}
+
+#[test]
+fn its_controller_compiles_and_its_header_says_all_of_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let (code, _) = report(folder.path(), &["--peak-error", "60"]);
+    assert_eq!(code, 0);
+    let [certificate, source] = ["axis.certificate.json", "axis.c"].map(|name| folder.path().join(name));
+    program().arg("check").arg(&certificate).assert().success();
+    let call = ["--n-o", "4", "--format", "c", "-o"];
+    program().arg("controller").arg(&certificate).args(call).arg(&source).assert().success();
+    let header = std::fs::read_to_string(source.with_extension("h")).unwrap();
+    let header = header.split_whitespace().filter(|word| *word != "*").collect::<Vec<_>>().join(" ");
+    for words in [
+        "a constant load in [1350, 1650]",
+        "noise of at most (40/4096) on the measurement of e",
+        "counts in what the certificate says of e with n_o = 4",
+        "quantisation that it does not name there",
+    ] {
+        assert!(header.contains(words), "{words}: {header}");
+    }
+    if installed("gcc", &["--version"]) {
+        let strict = ["-std=c99", "-Wall", "-Wextra", "-pedantic", "-Werror", "-c", "-o"];
+        let gcc = Command::new("gcc").args(strict).arg(folder.path().join("axis.o")).arg(&source).output().unwrap();
+        assert!(gcc.status.success(), "{}", String::from_utf8_lossy(&gcc.stderr));
+    }
+}
