@@ -107,7 +107,10 @@ fn shares(pair: &Pair, z: &[f64], m: f64) -> [f64; 2] {
     assert_eq!(law.extraordinary(&m, &w, &w), None);
     let Rounded { control, state } = law.rounded(&m, &w);
     let wrong = wrong.sqrt();
-    assert!(off.le(&control).is_true() && wrong.le(&state).is_true(), "{z:?} {m:?}: {off} {control}, {wrong} {state}");
+    assert!(
+        off.le(&control).is_true() && wrong.le(&state).is_true(),
+        "{z:?} {m:?}: {off:?} {control:?}, {wrong:?} {state:?}"
+    );
     [(off / control).upper_f64(), (wrong / state).upper_f64()]
 }
 

@@ -27,9 +27,9 @@ use sigmastar_theory::data::Data;
 /// u0 = 2^-53, by what share an operation in doubles is off at most.
 const UNIT: i32 = -53;
 
-/// Roundings of a term of u beside the n_o sums: 4 of the turned state, 2 of n_l and its product, 2 of K (as if it were rounded too) and its product,
-/// the last sum, and 2 of the nominal gain and the division by it.
-const OF_CONTROL: u32 = 11;
+/// Roundings of a term of u beside one for each weight, of which there are n_o + 1: the n_o sums, 4 of the turned state, 2 of n_l and its product, 2 of
+/// K (as if it were rounded too) and its product, the last sum, and 2 of the nominal gain and the division by it.
+const OF_CONTROL: u32 = 10;
 
 /// The exponents of 2 between which the constants are, and below which every intermediate number is.
 const CONSTANTS: [i32; 2] = [-900, 900];
@@ -113,7 +113,8 @@ impl ComputedLaw {
 
     /// du and dz for |m| <= m_b and |w|_N <= w_b.
     ///
-    /// Guarantee: as the module says, where the law is [ordinary](ComputedLaw::extraordinary) with these bounds; with or without fused multiply-adds and flushing of subnormal numbers.
+    /// Guarantee: as the module says, where nothing is [extraordinary](ComputedLaw::extraordinary) with these bounds; with or without fused
+    /// multiply-adds and flushing of subnormal numbers.
     #[must_use]
     pub fn rounded(&self, m: &Enclosure, w: &Enclosure) -> Rounded {
         let ComputedLaw { sigma, gain, decay, nominal, n_bar, roots } = self;
@@ -124,7 +125,7 @@ impl ComputedLaw {
             &roundings / (&one - &roundings)
         };
         // A certificate has at most 50 oscillators.
-        let of_control = gamma(roots.len() as u32 - 1 + OF_CONTROL);
+        let of_control = gamma(roots.len() as u32 + OF_CONTROL);
         let tiny =
             power(-LARGEST, precision) * (&one + gain) * (&one + sigma) * (&one + n_bar.sqr()) * (&one + nominal);
         let two = Enclosure::from_integer(2, precision);
