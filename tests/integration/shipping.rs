@@ -59,7 +59,10 @@ fn the_page_says_what_its_commands_say() {
     }
     let (code, missed) = report(folder.path(), &["--peak-error", "60", "--rate", "4"]);
     let said = missed["statement"].as_str().unwrap();
-    assert!(code == 3 && said.contains("n_o = 10 is not proved to be at least 4") && said.contains("about 1.41"), "{said}");
+    assert!(
+        code == 3 && said.contains("n_o = 10 is not proved to be at least 4") && said.contains("about 1.41"),
+        "{said}"
+    );
 }
 
 #[test]

@@ -115,8 +115,7 @@ pub fn notice(export: &Export<'_>) -> Vec<String> {
     let claimed = (export.certificate.map(|certificate| certificate.scope), export.actuator);
     let rounding = export.certificate.filter(|certificate| certificate.scope == Scope::Samples);
     let rounding = rounding.and_then(|certificate| certificate.rounding);
-    let quantisation =
-        if rounding.is_some() { "quantisation that it does not name there" } else { "quantisation" };
+    let quantisation = if rounding.is_some() { "quantisation that it does not name there" } else { "quantisation" };
     // With an actuator the saturation is in a claim about the regulator that is exported, and in no other.
     let saturates = match (claimed, export.discrete) {
         ((Some(Scope::Samples), Some(_)), _) | ((Some(Scope::Continuous), Some(_)), None) => {
