@@ -23,7 +23,7 @@ pub fn remarks(run: &Certification<'_>) -> Vec<String> {
         remarks.push(format!("Remark: sigma* is above 10^4 divided by the period.{cause}"));
     }
     remarks.extend(gains::remark(run));
-    remarks.extend(unused_disturbances(run.spec, run.for_n_o.is_empty()));
+    remarks.extend(unused_disturbances(run.spec, run.claim().is_some() && run.for_n_o.is_empty()));
     remarks.extend(run.spec.disturbances.in_doubles().then(|| {
         "Remark: `arithmetic` does not enter this claim, which is about the regulator in continuous time. It counts in what is said of given \
          numbers of oscillators at samples: ask with `--sampling-period H --n-o LIST`."
@@ -43,7 +43,7 @@ fn unused_disturbances(spec: &Specification, unused: bool) -> Option<String> {
 
 /// That rounding counts nowhere in the claim at samples.
 fn unused_arithmetic(run: &SampledCertification<'_>) -> Option<String> {
-    (run.for_n_o.is_empty() && run.spec.disturbances.in_doubles()).then(|| {
+    (run.claim().is_some() && run.for_n_o.is_empty() && run.spec.disturbances.in_doubles()).then(|| {
         "Remark: `arithmetic` does not enter this claim, which is about the law without rounding. It counts in what is said of given numbers of \
          oscillators: ask with `--n-o LIST`."
             .to_owned()
@@ -78,7 +78,7 @@ fn far_above_its_samples(entries: &[ProvedValue]) -> Option<String> {
 pub fn sampled_remarks(run: &SampledCertification<'_>) -> Vec<String> {
     let mut remarks = of(run.no_plant.as_ref(), run.has_force_at_origin());
     remarks.extend(unused_parameters(run.spec));
-    remarks.extend(unused_disturbances(run.spec, run.for_n_o.is_empty()));
+    remarks.extend(unused_disturbances(run.spec, run.claim().is_some() && run.for_n_o.is_empty()));
     remarks.extend(unused_arithmetic(run));
     remarks
 }
