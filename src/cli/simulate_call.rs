@@ -36,6 +36,7 @@ impl Called {
                     "give --sigma, or --controller, or name a certificate of the plant, whose gain is taken then";
                 return Err(Failure::call("no gain is given", help));
             }
+            at_samples(args, step.as_ref())?;
             return Ok(Called { plant, sigma, step });
         };
         if let (Some(own), None) = (given.step(), &step) {
@@ -54,11 +55,30 @@ impl Called {
             }
         }
         let step = step.or_else(|| given.step().cloned());
+        at_samples(args, step.as_ref())?;
         let sigma = sigma.unwrap_or_else(|| Constant::rational(given.sigma()));
         if !args.quiet && args.sigma.is_none() {
             let at = step.as_ref().map(|step| format!(", at samples {} apart", step.text)).unwrap_or_default();
             output::remark(&format!("sigma = {}, from the certificate{at}", write_exact(given.sigma())));
         }
         Ok(Called { plant, sigma: Some(sigma), step })
+    }
+}
+
+/// Flags of the regulator at samples need a sampling time, from the call or from a certificate.
+fn at_samples(args: &SimulateArgs, step: Option<&Constant>) -> Result<(), Failure> {
+    let of_samples = [
+        ("--delay-samples", args.delay_samples.is_some()),
+        ("--delay", args.delay.is_some()),
+        ("--quantise", !args.quantise.is_empty()),
+        ("--saturation", args.saturation.is_some()),
+        ("--phase", args.phase.is_some()),
+    ];
+    match of_samples.into_iter().find(|(_, asked)| *asked).filter(|_| step.is_none()) {
+        None => Ok(()),
+        Some((flag, _)) => Err(Failure::call(
+            format!("{flag} is of the regulator at samples, and no sampling period is given"),
+            "give --sampled H, or name a certificate of the regulator at samples, whose sampling period is taken then",
+        )),
     }
 }

@@ -231,6 +231,16 @@ fn a_gain_that_keeps_to_limits() {
     let (code, never) = report(&[&file, "--max-control", "1"]);
     assert_eq!(code, 3);
     assert!(never["statement"].as_str().unwrap().contains("what is put out is not proved to be at most 1"));
+    // Below what it is at the start no gain keeps it, in continuous time and at samples.
+    let folder = tempfile::tempdir().unwrap();
+    let started = text(NAME, &[("/initial_set", object!({ "kind": "at-rest", "X0": "1/10", "E0": "1/10" }))]);
+    let started = written(folder.path(), "started.json", &started);
+    for more in [&[][..], &["--sampling-period", "1/1000"]] {
+        let (code, never) = report(&[&[started.as_str(), "--peak-error", "0.05"], more].concat());
+        let said = never["statement"].as_str().unwrap();
+        assert!(code == 3 && said.contains("up to E0 = 0.1 at the start: no gain can do that"), "{said}");
+        assert_eq!(report(&[&[started.as_str(), "--peak-error", "1"], more].concat()).0, 0);
+    }
     for wrong in ["0", "-1", "x", "sqrt(2)"] {
         program().args(["certify", &file, "--peak-error", wrong]).assert().code(2);
     }

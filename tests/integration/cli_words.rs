@@ -27,7 +27,7 @@ fn example(changes: &[(&str, &str)]) -> String {
 fn a_flag_is_shown_as_it_was_typed() {
     for (value, shown, help) in [
         ("-1", "1 | --sigma -1\n  |         ^^ expected a positive number", "must be positive"),
-        ("2 s", "1 | --sigma 2 s\n  |           ^", "numbers have no units: write 2 alone"),
+        ("2 s", "1 | --sigma 2 s\n  |           ^", "numbers have no units: leave `s` out"),
         ("1/0", "1 | --sigma 1/0\n  |         ^^^", "a division by 0"),
         ("\"\\", "1 | --sigma \"\\\n  |         ^", "no meaning in an expression"),
     ] {
@@ -58,8 +58,8 @@ fn time_and_units_in_an_expression_are_explained() {
     let q = "\"4.822 + X + atan(E*(X + 0.189))\"";
     for (change, help) in [
         ((q, "\"3*cos(2*pi*t) + X\""), "take the supremum over t, or give the plant itself (`sigmastar/plant`)"),
-        ((q, "\"3 m/s\""), "numbers have no units: write 3 alone"),
-        (("\"period\": \"1\"", "\"period\": \"1 s\""), "numbers have no units: write 1 alone"),
+        ((q, "\"3 m/s\""), "numbers have no units: leave `m` out"),
+        (("\"period\": \"1\"", "\"period\": \"1 s\""), "numbers have no units: leave `s` out"),
     ] {
         let call = sigmastar(&["certify", "-"]).write_stdin(example(&[change])).assert();
         call.code(2).stdout(is_empty()).stderr(contains(help));

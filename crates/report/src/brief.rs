@@ -13,6 +13,7 @@ use sigmastar_exact::number::{Direction, write_exact};
 use sigmastar_lang::spec::Specification;
 use sigmastar_prove::certify::{Certification, SampledCertification, claimed_ball};
 use sigmastar_prove::rate::found::RateForCount;
+use sigmastar_prove::rate::noise::NoNoiseBound;
 use sigmastar_prove::rate::sampled::bound::SampledRateBound;
 use sigmastar_prove::rate::sampled::found::SampledRateForCount;
 use sigmastar_theory::derivation::control::Control;
@@ -94,8 +95,7 @@ fn for_n_o(run: &Certification<'_>) -> Option<String> {
         Some(bound) => {
             let factor = exact(&bound.factor, Direction::Up);
             let rate = exact(&bound.witness.rate, Direction::Down);
-            let disturbed =
-                disturbed(run.spec, noise.as_ref().map(|noise| noise.as_ref().ok().map(|noise| &noise.limit)));
+            let disturbed = disturbed(run.spec, noise.as_ref().map(|noise| noise.as_ref().map(|noise| &noise.limit)));
             format!("n_o = {n_o}: {factor} exp(-{rate} (t - t_0)){disturbed}")
         }
     };
@@ -104,12 +104,12 @@ fn for_n_o(run: &Certification<'_>) -> Option<String> {
 }
 
 /// What noise and a disturbance, or rounding alone, add, where there are some and it is proved.
-fn disturbed(spec: &Specification, noise: Option<Option<&Rational>>) -> String {
+fn disturbed(spec: &Specification, noise: Option<Result<&Rational, &NoNoiseBound>>) -> String {
     let word = if spec.disturbances.any() { "disturbed" } else { "rounded" };
     match noise {
         None => String::new(),
-        Some(Some(limit)) => format!(", {word} + {}", exact(limit, Direction::Up)),
-        Some(None) => format!(", {word} not proved"),
+        Some(Ok(limit)) => format!(", {word} + {}", exact(limit, Direction::Up)),
+        Some(Err(reason)) => format!(" ({word}: {})", reason.message()),
     }
 }
 
@@ -118,8 +118,7 @@ fn for_n_o_at_samples(run: &SampledCertification<'_>) -> Option<String> {
     let one = |SampledRateForCount { n_o, bound, noise }: &SampledRateForCount| match bound {
         None => format!("n_o = {n_o}: not proved"),
         Some(SampledRateBound { rate, factor, .. }) => {
-            let disturbed =
-                disturbed(run.spec, noise.as_ref().map(|noise| noise.as_ref().ok().map(|noise| &noise.limit)));
+            let disturbed = disturbed(run.spec, noise.as_ref().map(|noise| noise.as_ref().map(|noise| &noise.limit)));
             let [factor, rate] = [exact(factor, Direction::Up), exact(rate, Direction::Down)];
             format!("n_o = {n_o}: {factor} exp(-{rate} (t - t_0)){disturbed}")
         }
@@ -167,7 +166,8 @@ pub(super) fn of_samples(run: &SampledCertification<'_>, rechecked: bool) -> Vec
         Some(_) => format!("{late} rounding or quantisation"),
         None => format!("{late} rounding, quantisation or saturation"),
     };
-    let beside = match (run.spec.v_bar() > 0, run.spec.disturbances.in_doubles()) {
+    let proved = run.counts_noise();
+    let beside = match (proved && run.spec.v_bar() > 0, proved && run.spec.disturbances.in_doubles()) {
         (false, false) => "",
         (true, false) => ", but what noise adds with given n_o counts `measurement`",
         (false, true) => ", but what is said of given n_o counts the rounding of the exported C code",

@@ -190,6 +190,7 @@ fn obstacle_advice(run: &Certification<'_>, obstacle: Obstacle, add: &mut dyn Fn
         Failing::Limit { which, .. } => {
             add(&format!("{}, or a smaller initial set", wider(which)));
         }
+        Failing::Start { .. } => add(SMALLER_START),
         Failing::Rate { .. } => add(SLOWER),
         Failing::InputGain { .. } => add("a narrower interval `input_gain`"),
         Failing::Delay { .. } => add("a shorter sampling period or a smaller mu"),
@@ -201,6 +202,9 @@ fn obstacle_advice(run: &Certification<'_>, obstacle: Obstacle, add: &mut dyn Fn
         add(&format!("the last witness used the bounding functions up to X = {x}, E = {e}"));
     }
 }
+
+/// What a limit below the start asks for.
+pub(super) const SMALLER_START: &str = "a smaller `E0`, or a limit above it";
 
 /// What a rate that is not proved asks for.
 pub(super) const SLOWER: &str = "a smaller rate, or fewer oscillators";

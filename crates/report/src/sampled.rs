@@ -4,7 +4,7 @@ use super::failures::{FORMAT, VERSION, errors_json};
 use super::for_n_o::{sampled_json, sampled_section};
 use super::json::{actuator, conditions_with_truth, control, input_gain, interval_costs};
 use super::limits::{self, Bounds, kept_json};
-use super::obstacles::{SLOWER, describe, first_of, rest_of, wider};
+use super::obstacles::{SLOWER, SMALLER_START, describe, first_of, rest_of, wider};
 use super::of_plant::plant_json;
 use super::remarks::sampled_remarks;
 use super::sets::{Boxes, Sizes};
@@ -103,6 +103,9 @@ impl<'r> SampledReport<'r> {
             Outcome::NotFound(Obstacle { failing: Failing::Limit { which, .. }, .. }) => {
                 items.push(format!("{}, a smaller initial set, or a shorter sampling period", wider(*which)));
             }
+            Outcome::NotFound(Obstacle { failing: Failing::Start { .. }, .. }) => {
+                items.push(SMALLER_START.to_owned());
+            }
             Outcome::NotFound(Obstacle { failing: Failing::Rate { .. }, .. }) => {
                 items.push(format!("{SLOWER}, or a shorter sampling period"));
             }
@@ -154,11 +157,14 @@ impl<'r> SampledReport<'r> {
                 } else {
                     "no delay of the computation"
                 },
-                match run.spec.disturbances.in_doubles() {
+                match run.counts_noise() && run.spec.disturbances.in_doubles() {
                     true => " (but that of the exported C code counts in what is said of given n_o)",
                     false => "",
                 },
-                if run.spec.v_bar() > 0 { " (but that of e counts in what is said of given n_o)" } else { "" },
+                match run.counts_noise() && run.spec.v_bar() > 0 {
+                    true => " (but that of e counts in what is said of given n_o)",
+                    false => "",
+                },
                 if run.spec.actuator.is_some() { "" } else { ", no saturation" }
             ),
         ];

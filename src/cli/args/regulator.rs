@@ -100,24 +100,24 @@ pub struct SimulateArgs {
 
     /// 1: the law whose control is put out at the next sample, 0: the one without such a delay (`delay_samples` of the plant file
     /// without this flag; a file of --controller has its own)
-    #[arg(long, value_name = "N", requires = "sampled", conflicts_with = "controller",
+    #[arg(long, value_name = "N", conflicts_with = "controller",
           value_parser = clap::value_parser!(u32).range(0..=1))]
     pub delay_samples: Option<u32>,
 
     /// Time that a control takes to be computed: it acts D after its sample, 0 <= D <= H
-    #[arg(long, value_name = "D", requires = "sampled", allow_hyphen_values = true)]
+    #[arg(long, value_name = "D", allow_hyphen_values = true)]
     pub delay: Option<String>,
 
     /// Measure e in multiples of QE and, if QU is given, put u out in multiples of QU
-    #[arg(long, value_name = "QE[,QU]", requires = "sampled", value_delimiter = ',', allow_hyphen_values = true)]
+    #[arg(long, value_name = "QE[,QU]", value_delimiter = ',', allow_hyphen_values = true)]
     pub quantise: Vec<String>,
 
     /// Clip the control to |u| <= U, with the exported law's anti-windup [default: `actuator` of the plant file, where it has one]
-    #[arg(long, value_name = "U", requires = "sampled", allow_hyphen_values = true)]
+    #[arg(long, value_name = "U", allow_hyphen_values = true)]
     pub saturation: Option<String>,
 
     /// Time of the first sample, where the run starts: the phase of the sampling grid
-    #[arg(long, value_name = "P", requires = "sampled", allow_hyphen_values = true)]
+    #[arg(long, value_name = "P", allow_hyphen_values = true)]
     pub phase: Option<String>,
 
     /// Length of the run from the initial condition, in periods

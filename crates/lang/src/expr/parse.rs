@@ -338,10 +338,10 @@ impl<S: Scope> Parser<'_, S> {
             Some(advice) => match advice.strip_prefix("write ") {
                 Some(meant) => product(meant),
                 None if called || !number || !advice.starts_with("did you mean") => advice,
-                None => without_unit(left),
+                None => without_unit(right),
             },
             None if called || !number => product(right),
-            None => without_unit(left),
+            None => without_unit(right),
         }
     }
 
@@ -361,9 +361,9 @@ impl<S: Scope> Parser<'_, S> {
     }
 }
 
-/// The advice on a number with a unit behind it.
-fn without_unit(number: &str) -> String {
-    format!("numbers have no units: write {number} alone, in the same units of time, x and e as all other data")
+/// The advice on a unit behind a number.
+fn without_unit(unit: &str) -> String {
+    format!("numbers have no units: leave `{unit}` out, and take the same units of time, x and e in all data")
 }
 
 /// A piece of a stranger's text, short enough for a message.
@@ -429,7 +429,9 @@ mod tests {
         let missing = |left: &str, right: &str| Kind::MissingOperator { left: left.into(), right: right.into() };
         let unexpected = |found: &str| Kind::Unexpected { found: found.into() };
         let unknown = |name: &str| Kind::UnknownName { name: name.into() };
-        const UNIT: &str = "numbers have no units: write 2 alone, in the same units of time, x and e as all other data";
+        const UNIT: &str = "numbers have no units: leave `s` out, and take the same units of time, x and e in all data";
+        const ANGLE: &str =
+            "numbers have no units: leave `rad` out, and take the same units of time, x and e in all data";
         const SUPREMUM: &str = "a bounding function holds for every t: take the supremum over t, or give the plant itself \
                                 (`sigmastar/plant`), whose formulas may have t";
         for (text, kind, span, help) in [
@@ -442,7 +444,8 @@ mod tests {
             ("(X)E", missing(")", "E"), 3..4, Some("write )*E")),
             ("(2 3)", missing("2", "3"), 3..4, Some("write 2*3")),
             ("2 s", missing("2", "s"), 2..3, Some(UNIT)),
-            ("2 rad/s", missing("2", "rad"), 2..5, Some(UNIT)),
+            ("2 rad/s", missing("2", "rad"), 2..5, Some(ANGLE)),
+            ("1/2 s", missing("2", "s"), 4..5, Some(UNIT)),
             ("2 x", missing("2", "x"), 2..3, Some("write 2*X")),
             ("2 ln(X)", missing("2", "ln"), 2..4, Some("write 2*log")),
             ("2 sqr(X)", missing("2", "sqr"), 2..5, Some("did you mean sqrt?")),

@@ -261,6 +261,16 @@ impl<N: Clone> InitialSet<N> {
         }
     }
 
+    /// The E0 that is given.
+    #[must_use]
+    pub fn e0(&self) -> Option<&N> {
+        match self {
+            InitialSet::Paper => None,
+            InitialSet::AtRest { e0, .. } | InitialSet::Aligned { e0, .. } => e0.as_ref(),
+            InitialSet::Box { e0, .. } => Some(e0),
+        }
+    }
+
     /// The same, where it matters which number it is: 0 for X_0, 1 for E_0, 2 for Z_0.
     #[must_use]
     pub fn map_each<M>(&self, mut number: impl FnMut(usize, &N) -> M) -> InitialSet<M> {

@@ -5,7 +5,7 @@ use super::round::rounded_sigma;
 use crate::search::{Failing, Goal, Largest, Limited, Obstacle};
 use rug::Rational;
 use sigmastar_exact::number::Portable;
-use sigmastar_lang::spec::Specification;
+use sigmastar_lang::spec::{Constant, Specification};
 
 /// What a claim is to keep to in floating point, with what the actuator takes.
 #[derive(Clone, Copy, Debug)]
@@ -13,6 +13,8 @@ pub(super) struct FloatLimits {
     limits: [(Limited, Option<f64>); 4],
     /// What the control of the law is divided by.
     nominal: f64,
+    /// E0 of a set from which |e| is already above its limit at the start.
+    beyond: Option<f64>,
 }
 
 /// The gains of a search, over the smallest one.
@@ -43,7 +45,9 @@ impl FloatLimits {
             (Limited::Actuator, actuator),
         ];
         let nominal = spec.input_gain.as_ref().map_or(1.0, |gain| gain.nominal.to_f64());
-        limits.iter().any(|(_, limit)| limit.is_some()).then_some(FloatLimits { limits, nominal })
+        let e0 = spec.initial_set.e0().map(Constant::to_f64);
+        let beyond = e0.filter(|e0| peak.as_ref().is_some_and(|peak| peak.to_f64() < *e0));
+        limits.iter().any(|(_, limit)| limit.is_some()).then_some(FloatLimits { limits, nominal, beyond })
     }
 
     fn has(&self, which: Limited) -> bool {
@@ -108,6 +112,9 @@ impl FloatLimits {
         (given, room): (bool, f64),
         at: impl Fn(Goal, f64) -> Result<(P, Largest), Obstacle>,
     ) -> Result<Found<P>, Obstacle> {
+        if let (Some(e0), (_, Some(asked))) = (self.beyond, self.limits[1]) {
+            return Err(Failing::Start { asked, e0 }.into());
+        }
         let rounded = |sigma: f64| rounded_sigma(sigma, 0.0).map_or(sigma, |sigma| sigma.to_f64()).min(largest);
         let falls = !self.has(Limited::Control) && !self.has(Limited::Actuator);
         let further = (1..=DOUBLINGS).map(|k| 10.0 * 2f64.portable_powi(k)).filter(|_| falls);

@@ -70,6 +70,12 @@ impl SampledCertification<'_> {
         (self.verdict == Verdict::Certified && all(&proof.evaluation.conditions).is_true()).then_some(proof)
     }
 
+    /// Whether for some number of oscillators that was asked about it is proved what noise, a disturbance and rounding do.
+    #[must_use]
+    pub fn counts_noise(&self) -> bool {
+        self.for_n_o.iter().any(|found| matches!(found.noise, Some(Ok(_))))
+    }
+
     /// The conditions, proved or not.
     #[must_use]
     pub fn conditions(&self) -> &[Condition] {

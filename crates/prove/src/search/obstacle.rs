@@ -64,6 +64,13 @@ pub enum Failing {
         /// The gain for which that does.
         sigma: f64,
     },
+    /// |e| is to stay below less than what it is at the start.
+    Start {
+        /// The limit.
+        asked: f64,
+        /// E0.
+        e0: f64,
+    },
     /// For a number of oscillators no rate is proved that is as large as was asked for, for every gain that was tried.
     Rate {
         /// n_o.
@@ -151,7 +158,7 @@ impl Failing {
             Failing::Sampling => 9,
             Failing::Samples => 10,
             Failing::Bounds => 11,
-            Failing::Limit { .. } | Failing::Rate { .. } => 12,
+            Failing::Limit { .. } | Failing::Rate { .. } | Failing::Start { .. } => 12,
         }
     }
 }
@@ -231,6 +238,11 @@ impl Obstacle {
                 short(asked),
                 short(least),
                 short(sigma)
+            ),
+            Failing::Start { asked, e0 } => format!(
+                "|e| on the way is to be at most {}, and the initial set has |e| up to E0 = {} at the start: no gain can do that",
+                short(asked),
+                short(e0)
             ),
             Failing::Rate { n_o, asked, largest, sigma } => {
                 let found = largest.map_or_else(
