@@ -77,3 +77,19 @@ def test_pictures(tmp_path):
     assert given is ax
     with pytest.raises(ValueError):
         study.plot(lines, "q_up")
+
+
+def test_a_rate_that_is_asked_for_and_one_number_of_oscillators():
+    motor = os.path.join(ROOT, "specs", "motor-axis.json")
+    one = sigmastar.certify(motor, n_o=4, rate=3)
+    assert [rate.n_o for rate in one.rates] == [4] and one.rates[0].rate >= 3 and one.sigma_star > 2400
+    with pytest.raises(sigmastar.UndecidedError, match="the largest that is found"):
+        sigmastar.certify(motor, n_o=4, rate=1000)
+    with pytest.raises(sigmastar.InputError, match="a rate is one for given n_o"):
+        sigmastar.certify(motor, rate=3)
+
+
+def test_a_sampled_claim_has_no_figure_of_bounds():
+    sampled = sigmastar.certify(os.path.join(ROOT, "specs", "paper-example-at-rest.json"), sampling_period="1/1000")
+    with pytest.raises(ValueError, match="continuous time"):
+        sampled.plot()

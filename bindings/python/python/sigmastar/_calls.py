@@ -57,7 +57,7 @@ def certify(
     *,
     sigma: Optional[Number] = ...,
     sampling_period: None = ...,
-    n_o: Iterable[int] = ...,
+    n_o: Union[int, Iterable[int]] = ...,
     steady_error: Optional[Number] = ...,
     peak_error: Optional[Number] = ...,
     max_control: Optional[Number] = ...,
@@ -72,7 +72,7 @@ def certify(
     *,
     sigma: Optional[Number] = ...,
     sampling_period: Number,
-    n_o: Iterable[int] = ...,
+    n_o: Union[int, Iterable[int]] = ...,
     steady_error: Optional[Number] = ...,
     peak_error: Optional[Number] = ...,
     max_control: Optional[Number] = ...,
@@ -86,7 +86,7 @@ def certify(
     *,
     sigma: Optional[Number] = None,
     sampling_period: Optional[Number] = None,
-    n_o: Iterable[int] = (),
+    n_o: Union[int, Iterable[int]] = (),
     steady_error: Optional[Number] = None,
     peak_error: Optional[Number] = None,
     max_control: Optional[Number] = None,
@@ -358,8 +358,8 @@ def _stored(certificate: Union[Certificate, Document]) -> File:
     return file(certificate, "certificate")
 
 
-def _counts(n_o: Iterable[int]) -> list[int]:
-    return [_count(count) for count in n_o]
+def _counts(n_o: Union[int, Iterable[int]]) -> list[int]:
+    return [_count(count) for count in ([n_o] if isinstance(n_o, int) else n_o)]
 
 
 def _count(count: int, of: str = "oscillators") -> int:
