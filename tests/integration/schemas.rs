@@ -219,6 +219,7 @@ fn specifications() -> Vec<Value> {
                 ("input_gain", json!({ "nominal": 1, "low": "4/5", "high": 1.25 })),
                 ("actuator", json!({ "max": "3*pi" })),
                 ("measurement", json!({ "noise": 0.01, "quantum": "1/300" })),
+                ("arithmetic", json!("double")),
                 ("disturbance", json!("0")),
             ],
         ),
@@ -248,6 +249,7 @@ fn plants() -> Vec<Value> {
                 ("input_gain", json!({ "nominal": 2, "low": 1, "high": 3 })),
                 ("actuator", json!({ "max": 30 })),
                 ("measurement", json!({ "noise": "0.01", "quantum": 0 })),
+                ("arithmetic", json!("exact")),
                 ("disturbance", json!(2)),
             ],
         ),
@@ -384,7 +386,7 @@ fn the_schema_of_certificates_is_that_of_what_is_written() {
         assert_eq!(validator.complaints(&shipped.certificate), None, "{}", shipped.name);
         names(&shipped.certificate, &mut used);
     }
-    let stored = ["certificates", "sampled", "plants", "actuator", "rates", "noise"];
+    let stored = ["certificates", "sampled", "plants", "actuator", "rates", "noise", "arithmetic"];
     let stored = stored.map(|name| format!("proofs-check/tests/{name}"));
     for folder in &stored {
         for path in files(folder).iter().filter(|path| !path.ends_with("plants/paper-example.json")) {

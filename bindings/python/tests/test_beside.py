@@ -80,7 +80,7 @@ def test_pictures(tmp_path):
 
 
 def test_a_rate_that_is_asked_for_and_one_number_of_oscillators():
-    motor = os.path.join(ROOT, "specs", "motor-axis.json")
+    motor = ROOT / "specs" / "motor-axis.json"
     one = sigmastar.certify(motor, n_o=4, rate=3)
     assert [rate.n_o for rate in one.rates] == [4] and one.rates[0].rate >= 3 and one.sigma_star > 2400
     with pytest.raises(sigmastar.UndecidedError, match="the largest that is found"):
@@ -90,6 +90,6 @@ def test_a_rate_that_is_asked_for_and_one_number_of_oscillators():
 
 
 def test_a_sampled_claim_has_no_figure_of_bounds():
-    sampled = sigmastar.certify(os.path.join(ROOT, "specs", "paper-example-at-rest.json"), sampling_period="1/1000")
+    sampled = sigmastar.certify(ROOT / "specs" / "paper-example-at-rest.json", sampling_period="1/1000")
     with pytest.raises(ValueError, match="continuous time"):
         sampled.plot()

@@ -1,7 +1,7 @@
 //! What a run found out.
 
 use super::bounding::BoundingProblem;
-use super::gains::GainRow;
+use super::gain_row::GainRow;
 use super::matrix_checks::MatrixChecks;
 use super::no_plant::NoPlant;
 use super::options::{Limits, Options};

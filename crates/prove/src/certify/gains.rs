@@ -3,6 +3,7 @@
 use super::best::model;
 use super::bounding::prove_up_to;
 use super::certification::Certification;
+use super::gain_row::{GainRow, RowProof, SHOWN_N_O};
 use super::options::Ladder;
 use super::proof::{SampledProof, SharpProof};
 use super::round::{TransferKind, round_again};
@@ -10,60 +11,13 @@ use super::sampled::{SampledCertification, certify_sampled};
 use crate::search::{FloatModel, Goal, SampledProposal, SharpProposal, search_sharp_at};
 use rayon::prelude::*;
 use rug::Rational;
-use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, round_rational};
 use sigmastar_lang::spec::Specification;
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::consequences::error_bounds;
-use sigmastar_theory::derivation::control::Control;
 use sigmastar_theory::derivation::mistuned::Mistuning;
 use sigmastar_theory::transfer::TransferProof;
 use std::sync::Arc;
-
-/// The numbers of oscillators of which the steady error is bounded in continuous time.
-pub const SHOWN_N_O: [u64; 2] = [0, 10];
-
-/// Bounds at one gain, for every solution from the initial set there: where the specification states no sizes of it they are those of the
-/// periodic solution at this gain.
-///
-/// Guarantee: every condition is proved for a witness at this gain.
-#[derive(Clone, Debug)]
-pub struct GainRow {
-    /// The gain.
-    pub sigma: Rational,
-    /// E0 of the initial set.
-    pub e0: Rational,
-    /// Of |e| along the periodic solution, for the numbers of oscillators of [`SHOWN_N_O`]; at samples one, for every n_o.
-    pub steady: Vec<Enclosure>,
-    /// Of |e| on the way, for every n_o.
-    pub peak: Enclosure,
-    /// Of what is put out, for every n_o.
-    pub control: Control<Enclosure>,
-    /// The rates for the numbers of oscillators that were asked about, in 1/time; none where it is not proved.
-    pub rates: Vec<(u32, Option<Rational>)>,
-    pub(super) proof: RowProof,
-}
-
-/// What proves a row.
-#[derive(Clone, Debug)]
-pub(super) enum RowProof {
-    /// A proof with the data of the claim, or with others of the same plant.
-    Continuous(Box<SharpProof>, Option<Arc<Specification>>),
-    /// Of the regulator at samples.
-    Sampled(Box<SampledProof>),
-}
-
-/// By so much more than at the start |e| may be on the way before a larger gain is looked for.
-const FAR: f64 = 10.0;
-
-impl GainRow {
-    /// Whether the bound of |e| on the way is far above what |e| is at the start, and along the periodic solution.
-    #[must_use]
-    pub fn goes_far(&self) -> bool {
-        let start = self.e0.to_f64().max(self.steady[0].upper_f64());
-        self.peak.upper_f64() > FAR * start
-    }
-}
 
 /// The gains, in tenths of that of the claim.
 const TENTHS: [u32; 5] = [12, 15, 20, 30, 50];

@@ -1,7 +1,7 @@
 //! The rates at larger gains, beside those of a claim (derivation, 13.6).
 
 use super::certification::Certification;
-use super::gains::{GainRow, RowProof};
+use super::gain_row::{GainRow, RowProof};
 use super::proof::SharpProof;
 use super::rates::{distances, distances_at_samples, matrix_arguments};
 use super::sampled::SampledCertification;

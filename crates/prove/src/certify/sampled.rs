@@ -2,7 +2,7 @@
 
 use super::bounding::{BoundingProblem, prove_on_domain, prove_up_to};
 use super::decide::decide;
-use super::gains::GainRow;
+use super::gain_row::GainRow;
 use super::limits::{FloatLimits, NEAR, ROOMS};
 use super::no_plant::{NoPlant, no_plant};
 use super::options::{Ladder, Limits};

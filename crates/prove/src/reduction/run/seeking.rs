@@ -104,17 +104,17 @@ impl Search<'_> {
         let others = || Limits { rate: None, ..self.limits.clone() };
         let asking = |prepared: Prepared| Ok(Prepared { limits: self.limits.clone(), ..prepared });
         let does = |tried: &Tried| tried.rate.as_ref().is_some_and(|rate| rate >= least);
-        let mut best = match self.tried(self.at(None)?.within(others())) {
-            Ok(first) => first,
-            Err(prepared) => return asking(prepared),
-        };
+        let (prepared, claim) = self.tried(self.at(None)?.within(others()));
+        let Some((sigma, rate)) = claim else { return asking(prepared) };
+        let mut best = Tried { prepared, sigma, rate };
         if does(&best) {
             return asking(best.prepared);
         }
         let (smallest, mut below) = (best.sigma.to_f64(), best.sigma.clone());
         let tried = |sigma: Rational| {
-            let tried = self.tried(self.at(Some(sigma)).ok()?.within(others())).ok()?;
-            Some(Tried { prepared: Prepared { found_above: Some(smallest), ..tried.prepared }, ..tried })
+            let (prepared, claim) = self.tried(self.at(Some(sigma)).ok()?.within(others()));
+            let (sigma, rate) = claim?;
+            Some(Tried { prepared: Prepared { found_above: Some(smallest), ..prepared }, sigma, rate })
         };
         for sigma in SHARES.iter().filter_map(|share| round_f64(smallest * share, DIGITS, Direction::Up)) {
             if let Some(next) = tried(sigma.clone()).filter(|next| next.rate > best.rate) {
@@ -136,16 +136,13 @@ impl Search<'_> {
         asking(best.prepared)
     }
 
-    /// What is certified of it, with the slowest rate; itself where nothing is.
-    fn tried(&self, prepared: Prepared) -> Result<Tried, Prepared> {
+    /// The gain that is certified with it, and the slowest rate.
+    fn tried(&self, prepared: Prepared) -> (Prepared, Option<(Rational, Option<Rational>)>) {
         let mut run = prepared.certify_watched(self.options, self.watch).ok();
         let sigma = run.as_ref().and_then(|run| Some(run.certified()?.sigma.clone()));
         let rate = run.as_mut().and_then(|run| run.slowest_rate(self.counts));
         drop(run);
-        match sigma {
-            Some(sigma) => Ok(Tried { prepared, sigma, rate }),
-            None => Err(prepared),
-        }
+        (prepared, sigma.map(|sigma| (sigma, rate)))
     }
 }
 

@@ -1,0 +1,53 @@
+//! Bounds at one gain, as reports have them for the gain of a claim and for larger ones (derivation, 13.5).
+
+use super::proof::{SampledProof, SharpProof};
+use rug::Rational;
+use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_lang::spec::Specification;
+use sigmastar_theory::derivation::control::Control;
+use std::sync::Arc;
+
+/// The numbers of oscillators of which the steady error is bounded in continuous time.
+pub const SHOWN_N_O: [u64; 2] = [0, 10];
+
+/// Bounds at one gain, for every solution from the initial set there: where the specification states no sizes of it they are those of the
+/// periodic solution at this gain.
+///
+/// Guarantee: every condition is proved for a witness at this gain.
+#[derive(Clone, Debug)]
+pub struct GainRow {
+    /// The gain.
+    pub sigma: Rational,
+    /// E0 of the initial set.
+    pub e0: Rational,
+    /// Of |e| along the periodic solution, for the numbers of oscillators of [`SHOWN_N_O`]; at samples one, for every n_o.
+    pub steady: Vec<Enclosure>,
+    /// Of |e| on the way, for every n_o.
+    pub peak: Enclosure,
+    /// Of what is put out, for every n_o.
+    pub control: Control<Enclosure>,
+    /// The rates for the numbers of oscillators that were asked about, in 1/time; none where it is not proved.
+    pub rates: Vec<(u32, Option<Rational>)>,
+    pub(super) proof: RowProof,
+}
+
+/// What proves a row.
+#[derive(Clone, Debug)]
+pub(super) enum RowProof {
+    /// A proof with the data of the claim, or with others of the same plant.
+    Continuous(Box<SharpProof>, Option<Arc<Specification>>),
+    /// Of the regulator at samples.
+    Sampled(Box<SampledProof>),
+}
+
+/// By so much more than at the start |e| may be on the way before a larger gain is looked for.
+const FAR: f64 = 10.0;
+
+impl GainRow {
+    /// Whether the bound of |e| on the way is far above what |e| is at the start, and along the periodic solution.
+    #[must_use]
+    pub fn goes_far(&self) -> bool {
+        let start = self.e0.to_f64().max(self.steady[0].upper_f64());
+        self.peak.upper_f64() > FAR * start
+    }
+}
