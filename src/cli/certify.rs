@@ -10,6 +10,7 @@ use super::output::Shortened;
 use super::stages::{Stages, Step};
 use super::subject::{Asked, Subject, proving, with_sampling_period};
 use super::{input, output};
+use proofs_check::verdict::Verdict as Checked;
 use sigmastar_prove::certificate::{certificate_of, is_sampled, read_for};
 use sigmastar_prove::certify::{Limits, NoRatesOfClaim, rate_counts};
 use sigmastar_prove::rate::bound::MAX_OSCILLATORS;
@@ -92,6 +93,10 @@ fn attempt(args: &CertifyArgs) -> Result<u8, Failure> {
     let mut run = prepared.certify_watched(args.options(), watch).map_err(Failure::Documents)?;
     stages.begin(Step::Rates);
     run.prove_rates(&counts).map_err(no_rates)?;
+    if output.is_some() {
+        stages.begin(Step::Checked);
+        decide_again(&mut run);
+    }
     let report = RunReport::new(&run, &targets, witness.is_some());
     let page = args.format == Format::Html;
     stages.begin(Step::Figures);
@@ -122,9 +127,10 @@ fn steps(args: &CertifyArgs, subject: &Subject) -> Vec<Step> {
         (Subject::Specification(_), _) => Vec::new(),
     };
     let rates = args.n_o.is_some().then_some(Step::Rates);
+    let checked = args.output.is_some().then_some(Step::Checked);
     let figures = (args.format == Format::Html || args.plots.is_some()).then_some(Step::Figures);
     let claim = if args.witness.is_some() { Step::Decision } else { Step::Of(Stage::Witness) };
-    data.into_iter().map(Step::Of).chain([claim]).chain(rates).chain(figures).collect()
+    data.into_iter().map(Step::Of).chain([claim]).chain(rates).chain(checked).chain(figures).collect()
 }
 
 /// The stage in which the data of a witness are proved again.
@@ -167,6 +173,15 @@ fn targets(args: &CertifyArgs) -> Result<Vec<Target>, Failure> {
     let given = [(TargetKind::Sup, &args.target_sup), (TargetKind::Rms, &args.target_rms)];
     let given = given.into_iter().filter_map(|(kind, text)| Some((kind, text.as_ref()?)));
     given.map(|(kind, text)| input::target(kind, flag(kind), text)).collect()
+}
+
+/// Nothing is written, and nothing said to be certified, that the independent checker does not decide as well.
+fn decide_again(run: &mut Run<'_>) {
+    let Some(certificate) = certificate_of(run) else { return };
+    match proofs_check::check(output::json_text(&certificate).as_bytes()).verdict {
+        Checked::Valid => {}
+        verdict => run.is_not_decided_again(verdict != Checked::Undecided),
+    }
 }
 
 /// Writes the certificate, or says why there is none; shows the report, and what is wrong with the bounding functions.

@@ -27,6 +27,8 @@ pub enum Step {
     Decision,
     /// Rates for given numbers of oscillators.
     Rates,
+    /// The certificate, by the independent checker.
+    Checked,
     /// The simulation of figures.
     Figures,
 }
@@ -54,6 +56,7 @@ impl fmt::Display for Step {
             Step::Of(Stage::Comparison) => "working out what else would give",
             Step::Decision => "deciding the conditions",
             Step::Rates => "proving rates",
+            Step::Checked => "letting the independent checker decide",
             Step::Figures => "simulating for the figures",
         })
     }

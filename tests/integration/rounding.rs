@@ -43,15 +43,15 @@ fn exact(value: f64) -> Enclosure {
     Enclosure::from_rational(&Rational::from_f64(value).expect("finite"), PRECISION)
 }
 
-/// A step of the code: z and the measured e, then u and the next z.
-type Step = dyn Fn(&[f64], f64) -> (f64, Vec<f64>);
+/// From a state and a measured error the control and the next state.
+type Code = dyn Fn(&[f64], f64) -> (f64, Vec<f64>);
 
 /// The exact law, and the code.
 struct Pair {
     law: ComputedLaw,
     /// cos and sin of l w h, exactly, for l = 1, ..., n_o.
     turns: Vec<[Enclosure; 2]>,
-    stepper: Box<Step>,
+    stepper: Box<Code>,
 }
 
 fn pair(spec: &Specification, sigma: &Constant, samples: u32, n_o: u32) -> Pair {

@@ -365,6 +365,12 @@ fn the_schema_of_certificates_is_that_of_what_is_written() {
     std::fs::write(&spec, with("specs/no-x.json", &inputs).to_string()).expect("a file");
     let asked = ["certify", "-q", "--sigma", "6", "--n-o", "1"];
     program().args(asked).arg(&spec).arg("-o").arg(&of_noise).assert().code(0);
+    // Rounding, for given n_o at samples.
+    let doubles = [("arithmetic", json!("double"))];
+    let (spec, of_doubles) = (folder.path().join("doubles.json"), folder.path().join("doubles.certificate.json"));
+    std::fs::write(&spec, with("specs/no-x.json", &doubles).to_string()).expect("a file");
+    let asked = ["certify", "-q", "--sigma", "6.5", "--sampling-period", "(1)/120", "--n-o", "1"];
+    program().args(asked).arg(&spec).arg("-o").arg(&of_doubles).assert().code(0);
     // A rate of a plant whose claim rests on a matrix inequality.
     let of_slopes = folder.path().join("slopes.certificate.json");
     program().args(["certify", "-q", &axis, "--sigma", "23", "--n-o", "1", "-o"]).arg(&of_slopes).assert().code(0);
@@ -377,7 +383,8 @@ fn the_schema_of_certificates_is_that_of_what_is_written() {
     std::fs::write(&plant, super::cells::family(["1.4", "2.6"]).to_string()).expect("a file");
     program().args(["certify", "-q"]).arg(&plant).arg("-o").arg(&of_family).assert().code(0);
     let mut used = BTreeSet::new();
-    let made = [&file, &sampled, &of_gain, &of_noise, &of_slopes, &of_parts, &of_family].map(|path| parsed(path));
+    let made = [&file, &sampled, &of_gain, &of_noise, &of_doubles, &of_slopes, &of_parts, &of_family];
+    let made = made.map(|path| parsed(path));
     for certificate in [contradicted].into_iter().chain(made) {
         assert_eq!(validator.complaints(&certificate), None);
         names(&certificate, &mut used);

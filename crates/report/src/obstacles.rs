@@ -190,6 +190,7 @@ fn obstacle_advice(run: &Certification<'_>, obstacle: Obstacle, add: &mut dyn Fn
         Failing::Limit { which, .. } => {
             add(&format!("{}, or a smaller initial set", wider(which)));
         }
+        Failing::NotDecidedAgain { refused } => add(again(refused)),
         Failing::Start { .. } => add(SMALLER_START),
         Failing::Rate { .. } => add(SLOWER),
         Failing::InputGain { .. } => add("a narrower interval `input_gain`"),
@@ -200,6 +201,14 @@ fn obstacle_advice(run: &Certification<'_>, obstacle: Obstacle, add: &mut dyn Fn
     }
     if let Some([x, e]) = run.largest_arguments().map(|arguments| arguments.each_ref().map(upper)) {
         add(&format!("the last witness used the bounding functions up to X = {x}, E = {e}"));
+    }
+}
+
+/// What a certificate asks for that the checker does not decide.
+pub(super) fn again(refused: bool) -> &'static str {
+    match refused {
+        false => "narrower intervals or a smaller initial set, of which fewer boxes are to be decided",
+        true => "please report the file: a certificate that is refused is a defect",
     }
 }
 

@@ -4,7 +4,7 @@ use super::failures::{FORMAT, VERSION, errors_json};
 use super::for_n_o::{sampled_json, sampled_section};
 use super::json::{actuator, conditions_with_truth, control, input_gain, interval_costs};
 use super::limits::{self, Bounds, kept_json};
-use super::obstacles::{SLOWER, SMALLER_START, describe, first_of, rest_of, wider};
+use super::obstacles::{SLOWER, SMALLER_START, again, describe, first_of, rest_of, wider};
 use super::of_plant::plant_json;
 use super::remarks::sampled_remarks;
 use super::sets::{Boxes, Sizes};
@@ -102,6 +102,9 @@ impl<'r> SampledReport<'r> {
             }
             Outcome::NotFound(Obstacle { failing: Failing::Limit { which, .. }, .. }) => {
                 items.push(format!("{}, a smaller initial set, or a shorter sampling period", wider(*which)));
+            }
+            Outcome::NotFound(Obstacle { failing: Failing::NotDecidedAgain { refused }, .. }) => {
+                items.push(again(*refused).to_owned());
             }
             Outcome::NotFound(Obstacle { failing: Failing::Start { .. }, .. }) => {
                 items.push(SMALLER_START.to_owned());

@@ -361,9 +361,14 @@ impl Certification<'_> {
     pub(crate) fn keep_to_rate(&mut self) {
         let missed = self.sigma_star().and_then(|sigma| missed(&self.limits, sigma, self.rates()));
         if let Some(missed) = missed {
-            (self.sharp, self.verdict) = (Outcome::NotFound(missed.into()), Verdict::Undecided);
-            (self.exact, self.gains, self.for_n_o) = (None, Vec::new(), Vec::new());
+            self.take_back(missed);
         }
+    }
+
+    /// Takes the claim back, with all that was said beside it.
+    pub(crate) fn take_back(&mut self, reason: Failing) {
+        (self.sharp, self.verdict) = (Outcome::NotFound(reason.into()), Verdict::Undecided);
+        (self.exact, self.gains, self.for_n_o) = (None, Vec::new(), Vec::new());
     }
 }
 
@@ -377,9 +382,14 @@ impl SampledCertification<'_> {
     pub(crate) fn keep_to_rate(&mut self) {
         let missed = self.claim().and_then(|proof| missed(&self.limits, &proof.witness.sigma, self.rates()));
         if let Some(missed) = missed {
-            (self.outcome, self.verdict) = (Outcome::NotFound(missed.into()), Verdict::Undecided);
-            (self.gains, self.for_n_o) = (Vec::new(), Vec::new());
+            self.take_back(missed);
         }
+    }
+
+    /// The same at samples.
+    pub(crate) fn take_back(&mut self, reason: Failing) {
+        (self.outcome, self.verdict) = (Outcome::NotFound(reason.into()), Verdict::Undecided);
+        (self.gains, self.for_n_o) = (Vec::new(), Vec::new());
     }
 }
 

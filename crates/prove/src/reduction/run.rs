@@ -12,7 +12,7 @@ use crate::certify::{
     Alternatives, Certification, Limits, NoRatesOfClaim, Options, Refusal, SampledCertification, Verdict,
     certify_sampled_within, certify_within, claimed_ball, recheck, recheck_sampled,
 };
-use crate::search::SampledProposal;
+use crate::search::{Failing, SampledProposal};
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_lang::plant::Plant;
@@ -282,6 +282,15 @@ impl Run<'_> {
             Run::Sampled(run) => run.keep_to_rate(),
         }
         Ok(())
+    }
+
+    /// Takes the claim back because the independent checker does not come to it: it refuses the certificate, or gives up.
+    pub fn is_not_decided_again(&mut self, refused: bool) {
+        let reason = Failing::NotDecidedAgain { refused };
+        match self {
+            Run::Continuous(run) => run.take_back(reason),
+            Run::Sampled(run) => run.take_back(reason),
+        }
     }
 
     /// The rates of the claim, of each number of oscillators that was asked about; none where it is not proved.

@@ -64,6 +64,11 @@ pub enum Failing {
         /// The gain for which that does.
         sigma: f64,
     },
+    /// Every condition is proved, and the independent checker does not come to the same.
+    NotDecidedAgain {
+        /// Whether it refuses the certificate; else it gives up.
+        refused: bool,
+    },
     /// |e| is to stay below less than what it is at the start.
     Start {
         /// The limit.
@@ -159,6 +164,7 @@ impl Failing {
             Failing::Samples => 10,
             Failing::Bounds => 11,
             Failing::Limit { .. } | Failing::Rate { .. } | Failing::Start { .. } => 12,
+            Failing::NotDecidedAgain { .. } => 13,
         }
     }
 }
@@ -239,6 +245,15 @@ impl Obstacle {
                 short(least),
                 short(sigma)
             ),
+            Failing::NotDecidedAgain { refused: false } => {
+                "every condition is proved here, but the independent checker does not decide the certificate within the work that it allows \
+                 itself"
+                    .to_owned()
+            }
+            Failing::NotDecidedAgain { refused: true } => {
+                "every condition is proved here, but the independent checker refuses the certificate: one of the two programs is wrong"
+                    .to_owned()
+            }
             Failing::Start { asked, e0 } => format!(
                 "|e| on the way is to be at most {}, and the initial set has |e| up to E0 = {} at the start: no gain can do that",
                 short(asked),
