@@ -44,7 +44,7 @@ pub(super) fn sentence(run: &Certification<'_>) -> String {
             Some(condition) => format!("condition {} is {}", condition.id, truth(condition)),
             None => "the conditions were not proved".to_owned(),
         },
-        Attempt::NotFound(obstacle) => format!("no candidate was found: {}", obstacle.describe()),
+        Attempt::NotFound(obstacle) => obstacle.sentence(),
     };
     let word = if run.verdict == Verdict::Refuted { "Refuted" } else { "Undecided" };
     format!("{word}: no sigma is certified here; {what}. Nothing is claimed about the plant either way.")

@@ -57,7 +57,7 @@ impl<'r> SampledReport<'r> {
             return "h sigma exceeds 1: the law would overshoot from sample to sample".to_owned();
         }
         match &run.outcome {
-            Outcome::NotFound(obstacle) => format!("no candidate was found: {}", obstacle.describe()),
+            Outcome::NotFound(obstacle) => obstacle.sentence(),
             Outcome::NotProved { failing, .. } => match failing.first() {
                 Some(condition) => format!("condition {} is {}", condition.id, super::obstacles::truth(condition)),
                 None => "the conditions were not proved".to_owned(),

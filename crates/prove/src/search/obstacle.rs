@@ -177,6 +177,15 @@ impl Obstacle {
         if others > rank || (others == rank && size(&other) < size(&self)) { other } else { self }
     }
 
+    /// The same with what it means: no candidate, or one that is not enough.
+    #[must_use]
+    pub fn sentence(&self) -> String {
+        match self.failing {
+            Failing::NotDecidedAgain { .. } | Failing::Rate { .. } | Failing::Start { .. } => self.describe(),
+            _ => format!("no candidate was found: {}", self.describe()),
+        }
+    }
+
     /// What failed and where, for reports.
     #[must_use]
     pub fn describe(&self) -> String {

@@ -13,8 +13,7 @@
 //! `v_d = v_bar + u0 (E_b + v_bar) + 2^-1074`, u0 = 2^-53, which stands for v_bar everywhere.
 
 use super::claimed::{Limits, RULE, Rate};
-use super::norm::positive;
-use super::rounding::power;
+use super::norm::{positive, power};
 use crate::actuator;
 use crate::data::Data;
 use crate::interval::Interval;

@@ -11,7 +11,7 @@ use crate::jacobian::Matrix;
 use crate::json::Fields;
 use crate::matrix::positive_definite;
 use crate::verdict::{Outcome, demand, invalid};
-use rug::Rational;
+use rug::{Integer, Rational};
 
 /// Pi as a witness has it.
 pub struct Stored {
@@ -191,4 +191,11 @@ pub fn positive(name: &str, value: &Rational, pointer: &str) -> Outcome<()> {
 pub fn no_part_of_x(k_x: &Interval, pointer: &str) -> Outcome<()> {
     let truth = if k_x.is_zero() { Some(true) } else { k_x.is_positive().then_some(false) };
     demand(truth, RULE, pointer, "k_x = 0, where there is no `w`")
+}
+
+/// 2 to this power.
+pub fn power(d: &Data<'_>, exponent: i32) -> Interval {
+    let whole = Integer::from(1) << exponent.unsigned_abs();
+    let value = Rational::from(whole);
+    d.number(&if exponent < 0 { value.recip() } else { value })
 }

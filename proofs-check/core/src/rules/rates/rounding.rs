@@ -21,13 +21,13 @@
 
 use super::claimed::RULE;
 use super::noise::Known;
-use super::norm::{Norm, positive};
+use super::norm::{Norm, positive, power};
 use crate::data::Data;
 use crate::interval::Interval;
 use crate::json::Fields;
 use crate::rules::sampled::law::Law;
 use crate::verdict::{Condition, Outcome, bad, invalid};
-use rug::{Integer, Rational};
+use rug::Rational;
 
 /// The numbers of a witness by their names.
 const NAMES: [&str; 4] = ["z_low", "z_up", "z_noise", "level"];
@@ -98,13 +98,6 @@ impl Rounding {
     fn enclosed(&self, precision: u32) -> [Interval; 4] {
         self.numbers.each_ref().map(|value| Interval::rational(value, precision))
     }
-}
-
-/// 2 to this power.
-pub fn power(d: &Data<'_>, exponent: i32) -> Interval {
-    let whole = Integer::from(1) << exponent.unsigned_abs();
-    let value = Rational::from(whole);
-    d.number(&if exponent < 0 { value.recip() } else { value })
 }
 
 /// The nominal gain that is divided by; 1, where nothing is.
