@@ -242,20 +242,21 @@ fn the_exported_law_has_the_recursion_of_the_proof() {
 #[test]
 fn what_has_no_rates_at_samples_is_refused_with_the_reason() {
     let spec = "specs/paper-example-rms-at-rest.json";
+    let folder = tempfile::tempdir().expect("a folder");
+    // The smallest gain of this plant rests on (Ms), and so does a claim that is decided again.
+    let by_matrix = folder.path().join("matrix.json").display().to_string();
+    let at = ["specs/plants/motor-axis.json", "--sampling-period", "1/20000"];
+    program().arg("certify").args(at).args(["-q", "--no-compare", "-o", &by_matrix]).assert().success();
     for (arguments, part) in [
-        (&[spec, "--sampling-period", "1/60", "--n-o", "1,30"][..], "n_o < 60/2"),
-        (
-            &["specs/plants/converter.json", "--sampling-period", "1/20000", "--n-o", "1"],
-            "not available for a claim by (",
-        ),
+        (vec![spec, "--sampling-period", "1/60", "--n-o", "1,30"], "n_o < 60/2"),
+        ([&at[..], &["--witness", &by_matrix, "--n-o", "1"]].concat(), "not available for a claim by (Ms)"),
     ] {
-        let output = program().arg("certify").args(arguments).args(["--format", "json"]).output().expect("it runs");
+        let output = program().arg("certify").args(&arguments).args(["--format", "json"]).output().expect("it runs");
         let report = json(&output.stdout);
         assert_eq!((output.status.code(), &report["verdict"]), (Some(2), &Value::from("bad-input")), "{arguments:?}");
         let message = report["errors"][0]["message"].as_str().expect("a message");
         assert!(message.contains(part), "{arguments:?}: {message}");
     }
-    let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("delayed.json").display().to_string();
     let mut document = json(&std::fs::read(spec).expect("shipped"));
     document["internal_model"]["sampling_period"] = "1/400".into();
