@@ -181,7 +181,7 @@ const NOISE: &str = "where noise is said: at all times the regulator takes e + v
 
 /// What is assumed besides where its arithmetic is that of doubles.
 const ROUNDING: &str = "where noise is said: the regulator computes in doubles as its exported C code does, each constant the double nearest to \
-                        it and each operation rounded to nearest on its own, in the order of that code (no fast-math, no fused operations, no \
+                        it and each operation rounded to nearest on its own, in the order of that code (no fast-math, no \
                         excess precision); what it takes for e is the double nearest to e + v, and its z starts as doubles";
 
 /// What it takes for granted of a continuous regulator; `noisy`: something is said of noise.

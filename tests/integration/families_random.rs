@@ -19,11 +19,8 @@ const SEEDS: [u64; 2] = [1, 40];
 /// Members that are simulated of a family, likewise.
 const MEMBERS: [u64; 2] = [2, 500];
 
-/// The least share of families that have to be certified, and of those with a gain of [`NEEDED`] or more whose gain over 50 has to be refuted.
+/// The least share of families that have to be certified, and of those whose gain over 50 has to be refuted.
 const SHARE: [f64; 2] = [0.85, 0.5];
-
-/// Where a smaller gain is certified the plants hardly need one.
-const NEEDED: f64 = 0.1;
 
 /// How far intervals reach on either side, in per cent of the number.
 const REACH: Range<u32> = 5..31;
@@ -85,7 +82,7 @@ fn random_families_are_certified_and_valid_and_no_member_breaks_a_bound() {
     let seeds = cases(SEEDS[0], SEEDS[1]);
     let count = (seeds.end - seeds.start) as f64;
     let members = if count > SEEDS[0] as f64 { MEMBERS[1] } else { MEMBERS[0] };
-    let (mut certified, mut needing, mut refuted, mut simulated) = (0, 0, 0, 0);
+    let (mut certified, mut refuted, mut simulated) = (0, 0, 0);
     // Numbered from 1: that one shows in an ordinary run that a gain much too small is found.
     for seed in seeds.map(|seed| seed + 1) {
         let file = folder.path().join(format!("{seed}.json"));
@@ -111,12 +108,11 @@ fn random_families_are_certified_and_valid_and_no_member_breaks_a_bound() {
         smaller["claim"]["sigma_star"] = format!("{:.12}", sigma / 50.0).into();
         std::fs::write(&certificate, smaller.to_string()).unwrap();
         let trials = answer("falsify", &certificate, &["--quiet", "--trials", &members.min(50).to_string()]);
-        needing += u32::from(sigma >= NEEDED);
-        refuted += u32::from(sigma >= NEEDED && trials["refuted"] == true);
+        refuted += u32::from(trials["refuted"] == true);
     }
     println!(
-        "{certified} of {count} certified and valid, {simulated} members within every bound, a fiftieth refuted of {refuted} of {needing}"
+        "{certified} of {count} certified and valid, {simulated} members within every bound, a fiftieth refuted of {refuted}"
     );
     assert!(f64::from(certified) >= SHARE[0] * count, "{certified} of {count}");
-    assert!(f64::from(refuted) >= SHARE[1] * f64::from(needing), "{refuted} of {needing}");
+    assert!(f64::from(refuted) >= SHARE[1] * f64::from(certified), "{refuted} of {certified}");
 }

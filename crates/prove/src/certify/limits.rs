@@ -13,8 +13,8 @@ pub(super) struct FloatLimits {
     limits: [(Limited, Option<f64>); 4],
     /// What the control of the law is divided by.
     nominal: f64,
-    /// E0 of a set from which |e| is already above its limit at the start.
-    beyond: Option<f64>,
+    /// The limit of |e| on the way and E0, where the set has |e| above that limit at the start.
+    beyond: Option<[f64; 2]>,
 }
 
 /// The gains of a search, over the smallest one.
@@ -45,8 +45,8 @@ impl FloatLimits {
             (Limited::Actuator, actuator),
         ];
         let nominal = spec.input_gain.as_ref().map_or(1.0, |gain| gain.nominal.to_f64());
-        let e0 = spec.initial_set.e0().map(Constant::to_f64);
-        let beyond = e0.filter(|e0| peak.as_ref().is_some_and(|peak| peak.to_f64() < *e0));
+        let start = float(peak).zip(spec.initial_set.e0().map(Constant::to_f64));
+        let beyond = start.filter(|(asked, e0)| asked < e0).map(|(asked, e0)| [asked, e0]);
         limits.iter().any(|(_, limit)| limit.is_some()).then_some(FloatLimits { limits, nominal, beyond })
     }
 
@@ -112,7 +112,7 @@ impl FloatLimits {
         (given, room): (bool, f64),
         at: impl Fn(Goal, f64) -> Result<(P, Largest), Obstacle>,
     ) -> Result<Found<P>, Obstacle> {
-        if let (Some(e0), (_, Some(asked))) = (self.beyond, self.limits[1]) {
+        if let Some([asked, e0]) = self.beyond {
             return Err(Failing::Start { asked, e0 }.into());
         }
         let rounded = |sigma: f64| rounded_sigma(sigma, 0.0).map_or(sigma, |sigma| sigma.to_f64()).min(largest);

@@ -43,6 +43,8 @@ pub struct SampledDynamics<'a> {
     pub bounds: &'a LoopBounds,
     /// What follows from them for a sample.
     pub sample: SampleBounds<Enclosure>,
+    /// Whether there is a disturbance, which moves e within a sample, too: rounding alone does not.
+    disturbed: bool,
     /// cos(l w h) and sin(l w h) for l = 0, ..., n_o.
     pub turns: Vec<[Enclosure; 2]>,
 }
@@ -118,6 +120,7 @@ impl<'a> SampledDynamics<'a> {
             sigma: sigma.clone(),
             bounds,
             sample,
+            disturbed: data.spec.d_bar() > 0,
             turns,
         })
     }
@@ -142,9 +145,8 @@ impl<'a> SampledDynamics<'a> {
         positive.extend(witness.of_x.iter().flat_map(|OfX { w, l_x, l_e, l_y }| [w, l_x, l_e, l_y]));
         let Inputs { g_d, g_v, g_r } = &witness.inputs;
         positive.extend([g_d, g_v, g_r].into_iter().flatten());
-        // Of rounding alone there is a D, but nothing within a sample.
-        let fits =
-            witness.of_x.is_some() == self.bounds.has_x && (g_r.is_none() || (self.bounds.has_x && g_d.is_some()));
+        let within = self.bounds.has_x && self.disturbed && g_d.is_some();
+        let fits = witness.of_x.is_some() == self.bounds.has_x && g_r.is_some() == within;
         if !(triangle && fits) || positive.iter().any(|number| **number <= 0) {
             return false;
         }

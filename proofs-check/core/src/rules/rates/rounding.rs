@@ -5,7 +5,7 @@
 //!   `z_0 = z_0 - m`, `S = n_0 z_0`; for l = 1, ..., n_o `a = z_l1 - m`, `b = z_l2`, `z_l1 = c_l a + s_l b`, `z_l2 = c_l b - s_l a`, `S = S + n_l z_l1`;
 //!   `u = K S - sigma m`, which is put out over the nominal gain, if there is one; `carry = (1 - h sigma) m`, `z_0 = z_0 + carry`, `z_l1 = z_l1 + carry`.
 //! Each constant is the double nearest to its number, each operation rounds to nearest: a factor 1 + delta for each, |delta| <= u0 = 2^-53, k of which
-//! are within gamma_k = k u0/(1 - k u0) of 1. With `w = zeta - M v = z - M m`, |w|_N <= w_b, and |m| <= m_b, all at a sample:
+//! are within gamma_k = k u0/(1 - k u0) of 1 (a fused multiply-add has one of them less). With `w = zeta - M v = z - M m`, |w|_N <= w_b, and |m| <= m_b, all at a sample:
 //! - z_l1 and z_l2, turned: difference, constant, product and sum, gamma_4 (|c a| + |s b|) <= gamma_4 |w_l|;
 //! - S: a constant, a product and at most n_o sums more, gamma_(n_o+6) sum n_l |w_l| <= gamma_(n_o+6) Nbar |w|_N;
 //! - u: K, its product, the difference, the nominal gain and the quotient, gamma_(n_o+11) (K Nbar w_b + sigma m_b);
