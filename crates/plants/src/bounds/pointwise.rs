@@ -44,25 +44,30 @@ impl Asked {
     const RATE_EXISTENCE: Asked = Asked(16);
     /// Everything.
     pub const ALL: Asked = Asked(31);
-    /// The kinds.
-    pub const KINDS: [Asked; 5] = [Asked::NORM, Asked::SLOPES, Asked::IN_TIME, Asked::RATE, Asked::RATE_EXISTENCE];
+    /// What a set with a periodic solution asks for at the same (X, E) is of one group.
+    pub const GROUPS: [Asked; 3] =
+        [Asked(Asked::NORM.0 | Asked::RATE.0), Asked(Asked::SLOPES.0 | Asked::IN_TIME.0), Asked::RATE_EXISTENCE];
 
-    /// The place among [`Asked::KINDS`] of the kind of a bound of the table.
+    /// The place in [`Asked::GROUPS`] of a bound of the table.
     #[must_use]
-    pub fn kind(bound: Bound) -> usize {
-        match bound {
-            Bound::Fx => 0,
-            Bound::Qtx | Bound::Qte => 2,
-            Bound::Rate => 3,
-            Bound::RateExistence => 4,
+    pub fn group(bound: Bound) -> usize {
+        match Asked::only(bound) {
+            Asked::NORM | Asked::RATE => 0,
+            Asked::RATE_EXISTENCE => 2,
             _ => 1,
         }
     }
 
-    /// The kind of a bound of the table, and nothing else.
+    /// A bound of the table with what costs nothing beside it.
     #[must_use]
     pub fn only(bound: Bound) -> Asked {
-        Asked::KINDS[Asked::kind(bound)]
+        match bound {
+            Bound::Fx => Asked::NORM,
+            Bound::Qtx | Bound::Qte => Asked::IN_TIME,
+            Bound::Rate => Asked::RATE,
+            Bound::RateExistence => Asked::RATE_EXISTENCE,
+            _ => Asked::SLOPES,
+        }
     }
 
     fn has(self, other: Asked) -> bool {

@@ -22,8 +22,8 @@ pub type Source = dyn Fn(f64, f64, Asked) -> Values + Send + Sync;
 /// Linear interpolation between nodes at 0 and at `smallest ratio^k`, k = 0, 1, ...; beyond the last node nothing is known.
 pub struct Grid<V> {
     source: Box<Make<V>>,
-    /// The arguments of the nodes, X and E, in increasing order.
-    arguments: [Vec<f64>; 2],
+    /// The arguments of the nodes, X and E.
+    axes: [Axis; 2],
     /// A row for each X, made where a search looks: a fine grid has a million nodes. A node is a function of its place alone, so that it
     /// does not matter who computes it.
     nodes: Vec<OnceLock<Row<V>>>,
@@ -45,51 +45,87 @@ impl<V> Grid<V> {
     /// A grid about the size `units` of (X, E).
     #[must_use]
     pub fn new(source: impl Fn(f64, f64) -> V + Send + Sync + 'static, units: [f64; 2], ratio: f64) -> Grid<V> {
-        let arguments = units.map(|unit| {
+        let axes = units.map(|unit| {
             let node = |k: i32| SMALLEST * unit * ratio.portable_powi(k);
             let within = (0..).map(node).take_while(|node| *node < LARGEST * unit * ratio);
-            std::iter::once(0.0).chain(within).collect::<Vec<f64>>()
+            Axis::new(std::iter::once(0.0).chain(within).collect())
         });
-        let nodes = empty(arguments[0].len());
-        Grid { source: Box::new(source), arguments, nodes }
+        let nodes = empty(axes[0].nodes.len());
+        Grid { source: Box::new(source), axes, nodes }
     }
 
     /// What `value` says of the nodes, at (X, E).
     #[must_use]
     pub fn at(&self, [x, e]: [f64; 2], value: impl Fn(&V) -> f64) -> Option<f64> {
-        let ((i, across), (j, along)) = (self.cell(0, x)?, self.cell(1, e)?);
-        let between = |low: f64, high: f64, part: f64| low + (high - low) * part;
+        let [xs, es] = &self.axes;
+        let ((i, across), (j, along)) = (xs.cell(x)?, es.cell(e)?);
+        // A node that has no part in it is not made.
+        let between = |low: f64, high: &dyn Fn() -> f64, part: f64| match part {
+            0.0 => low,
+            part => low + (high() - low) * part,
+        };
         let node = |i: usize, j: usize| value(self.node([i, j]));
-        let low = between(node(i, j), node(i + 1, j), across);
-        let high = between(node(i, j + 1), node(i + 1, j + 1), across);
-        Some(between(low, high, along))
-    }
-
-    /// The node below an argument, and how far the argument is on the way to the next one.
-    fn cell(&self, axis: usize, argument: f64) -> Option<(usize, f64)> {
-        let nodes = &self.arguments[axis];
-        let above = nodes.partition_point(|node| *node <= argument);
-        let (below, next) = (above.checked_sub(1)?, nodes.get(above)?);
-        Some((below, (argument - nodes[below]) / (next - nodes[below])))
+        let row = |j: usize| between(node(i, j), &|| node(i + 1, j), across);
+        Some(between(row(j), &|| row(j + 1), along))
     }
 
     fn node(&self, [i, j]: [usize; 2]) -> &V {
-        let [xs, es] = &self.arguments;
-        let row = self.nodes[i].get_or_init(|| empty(es.len()));
-        row[j].get_or_init(|| Box::new((self.source)(xs[i], es[j])))
+        let [xs, es] = &self.axes;
+        let row = self.nodes[i].get_or_init(|| empty(es.nodes.len()));
+        row[j].get_or_init(|| Box::new((self.source)(xs.nodes[i], es.nodes[j])))
     }
 }
 
-/// The bounds between the nodes of grids about the size `units` of (X, E), one for each kind, as a search takes them; that of existence
+/// The nodes of one argument, with where to look for it: a search looks some million times.
+struct Axis {
+    /// In increasing order, from 0.
+    nodes: Vec<f64>,
+    /// The node below the first number with these leading bits, of those from the first node that is not 0 on.
+    below: Vec<usize>,
+}
+
+/// Numbers that agree in the bits above are within an eighth of each other.
+const LEADING: u32 = 52 - 3;
+
+impl Axis {
+    fn new(nodes: Vec<f64>) -> Axis {
+        let leading = |node: Option<&f64>| node.map_or(0, |node| node.to_bits() >> LEADING);
+        let all = leading(nodes.get(1))..=leading(nodes.last());
+        let below = |bits: u64| {
+            let first = f64::from_bits(bits << LEADING);
+            nodes.partition_point(|node| *node <= first).saturating_sub(1)
+        };
+        Axis { below: all.map(below).collect(), nodes }
+    }
+
+    /// The node below an argument, and how far the argument is on the way to the next one.
+    fn cell(&self, argument: f64) -> Option<(usize, f64)> {
+        let smallest = self.nodes.get(1)?;
+        let mut below = if argument >= *smallest {
+            *self.below.get(((argument.to_bits() >> LEADING) - (smallest.to_bits() >> LEADING)) as usize)?
+        } else if argument >= 0.0 {
+            0
+        } else {
+            return None;
+        };
+        while self.nodes.get(below + 1).is_some_and(|node| *node <= argument) {
+            below += 1;
+        }
+        let next = self.nodes.get(below + 1)?;
+        Some((below, (argument - self.nodes[below]) / (next - self.nodes[below])))
+    }
+}
+
+/// The bounds between the nodes of grids about the size `units` of (X, E), one for each group of them, as a search takes them; that of existence
 /// where there is a P for it.
 #[must_use]
 pub fn functions(source: &Arc<Source>, units: [f64; 2], ratio: f64, existence: bool) -> Vec<(Bound, FloatBound)> {
-    let grids = Asked::KINDS.map(|kind| {
+    let grids = Asked::GROUPS.map(|group| {
         let source = source.clone();
-        Arc::new(Grid::new(move |x, e| source(x, e, kind), units, ratio))
+        Arc::new(Grid::new(move |x, e| source(x, e, group), units, ratio))
     });
     let function = |(index, bound): (usize, &Bound)| {
-        let grid = grids[Asked::kind(*bound)].clone();
+        let grid = grids[Asked::group(*bound)].clone();
         let at = move |x: f64, e: f64| grid.at([x, e], |values: &Values| values[index]).unwrap_or(f64::NAN);
         (*bound, FloatBound::Function(Arc::new(at)))
     };
@@ -100,4 +136,34 @@ pub fn functions(source: &Arc<Source>, units: [f64; 2], ratio: f64, existence: b
 /// So many places with nothing in them.
 fn empty<T, C: FromIterator<OnceLock<T>>>(count: usize) -> C {
     std::iter::repeat_with(OnceLock::new).take(count).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The cell is the one that a search in all nodes finds, at nodes and beside them, below 0 and beyond the last one.
+    #[test]
+    fn arguments_are_found_between_their_nodes() {
+        for (unit, ratio) in [(1.0, 1.02), (3e-7, 1.6), (7e5, 2.5)] {
+            let grid = Grid::new(|_, _| (), [unit; 2], ratio);
+            let [axis, _] = &grid.axes;
+            let beside = axis.nodes.iter().flat_map(|node| [node.next_down(), *node, node.next_up(), node * 1.01]);
+            let last = axis.nodes[axis.nodes.len() - 1];
+            for argument in beside.chain([f64::NAN, f64::INFINITY, 2.0 * last, 0.5 * unit * SMALLEST, 1e-300]) {
+                let above = axis.nodes.partition_point(|node| *node <= argument);
+                let known = above.checked_sub(1).filter(|_| above < axis.nodes.len() && !argument.is_nan());
+                assert_eq!(axis.cell(argument).map(|(below, _)| below), known, "{argument} of {unit}, {ratio}");
+            }
+        }
+    }
+
+    /// Between nodes it is linear; nodes without a part in it are not made.
+    #[test]
+    fn what_has_no_part_is_not_made() {
+        let grid = Grid::new(|x, e| if e > 0.0 { f64::NAN } else { 2.0 * x }, [1.0; 2], 1.6);
+        let value = grid.at([0.3, 0.0], |value| *value);
+        assert!(value.is_some_and(|value| (value - 0.6).abs() < 1e-12), "{value:?}");
+        assert!(grid.at([0.3, 0.1], |value| *value).is_some_and(f64::is_nan));
+    }
 }

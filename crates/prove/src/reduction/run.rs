@@ -4,7 +4,7 @@ mod seeking;
 
 use super::interval_costs::{costs_at_samples, interval_costs};
 use super::proofs::{WithoutJoint, bounds_around};
-use super::reduce::{reduce, reduce_by_norms};
+use super::reduce::{reduce, reduce_by_norms_quickly};
 use super::subject::Sought;
 use super::watch::{Stage, Unwatched, Watch};
 use super::{FreeNumbers, RestsOn, Subject, Witness};
@@ -141,7 +141,7 @@ impl Prepared {
     pub fn within(self, limits: Limits) -> Prepared {
         let kept = !limits.is_empty() || self.spec.actuator.is_some();
         let plant = self.plant.as_ref().filter(|_| kept && matches!(self.start, Start::Continuous(_)));
-        let reduced = plant.and_then(|plant| reduce_by_norms(plant).ok());
+        let reduced = plant.and_then(|plant| reduce_by_norms_quickly(plant).ok());
         let by_norms = reduced.map(|reduced| Box::new((reduced.spec, reduced.proposal)));
         Prepared { limits, by_norms, ..self }
     }
@@ -185,7 +185,7 @@ impl Prepared {
                     // Joint metrics, and the weights of a matrix inequality, are those of the smallest gain.
                     let plant = self.plant.as_ref().filter(|plant| options.compare && plant.initial_set.x0().is_none());
                     if let Some(plant) = plant.filter(|_| smallest && run.goes_far())
-                        && let Ok(by_norms) = reduce_by_norms(plant)
+                        && let Ok(by_norms) = reduce_by_norms_quickly(plant)
                     {
                         run.with_gains_of(&by_norms.spec, &by_norms.proposal);
                     }
