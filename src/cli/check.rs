@@ -3,7 +3,7 @@
 use super::args::CheckArgs;
 use super::failure::Failure;
 use super::input;
-use super::output::{self, reason, shown};
+use super::output::{self, json_text, reason, shown};
 use super::subject::{has_format, with_sampling_period};
 use sigmastar_document::{Block, Made, clean};
 use sigmastar_lang::spec::{Document, Notation};
@@ -50,7 +50,7 @@ fn answer(args: &CheckArgs) -> Result<proofs_check::Report, Failure> {
 fn specification(path: &Path, args: &CheckArgs) -> Result<Box<dyn Read>, Failure> {
     let Some(text) = &args.sampling_period else { return open(path, "name the specification that you have") };
     let document = with_sampling_period(&input::document(path)?, text)?;
-    Ok(Box::new(Cursor::new(document.text().to_owned())))
+    Ok(Box::new(Cursor::new(json_text(&document.root().to_json()))))
 }
 
 /// Says where a certificate and the specification that it was compared with differ in the sampling period, and where that is a certificate

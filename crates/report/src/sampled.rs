@@ -4,7 +4,7 @@ use super::failures::{FORMAT, VERSION, errors_json};
 use super::for_n_o::{sampled_json, sampled_section};
 use super::json::{actuator, conditions_with_truth, control, input_gain, interval_costs};
 use super::limits;
-use super::obstacles::{SLOWER, SMALLER_START, again, describe, first_of, rest_of, wider};
+use super::obstacles::{SLOWER, SMALLER_START, again, describe, first_of, other_gain, rest_of, wider};
 use super::of_plant::plant_json;
 use super::remarks::sampled_remarks;
 use super::sets::{Boxes, Sizes};
@@ -100,6 +100,7 @@ impl<'r> SampledReport<'r> {
                 );
             }
             Outcome::NotFound(Obstacle { failing: Failing::Limit { which, .. }, .. }) => {
+                items.extend(run.given_gain.as_ref().map(|_| other_gain(*which).to_owned()));
                 items.push(format!("{}, a smaller initial set, or a shorter sampling period", wider(*which)));
             }
             Outcome::NotFound(Obstacle { failing: Failing::NotDecidedAgain { refused }, .. }) => {

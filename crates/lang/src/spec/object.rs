@@ -106,15 +106,10 @@ impl<'d> Object<'d> {
             }
             let message = format!("this is a file of format `{}`", shown(found));
             let error = value.error(ErrorKind::Format, message).expected(format!("expected `{format}`"));
-            // What is to be certified, in the place of what was.
-            let what = match (found, format) {
-                ("sigmastar/plant", "sigmastar/certificate") => "a plant",
-                ("sigmastar/bounding-spec", "sigmastar/certificate") => "a specification",
-                _ => return Err(errors.report(error)),
-            };
-            Err(errors.report(error.help(format!(
-                "{what} is to be certified first: `sigmastar certify FILE -o CERTIFICATE`; this command reads the CERTIFICATE"
-            ))))
+            Err(errors.report(match way_out(found, format) {
+                Some(help) => error.help(help),
+                None => error,
+            }))
         });
         let version = self.required("version", errors).and_then(|value| {
             let version = value.integer(errors)?;
@@ -158,6 +153,36 @@ impl<'d> Object<'d> {
         }
         errors.count(unknown.count());
     }
+}
+
+/// The formats that people name in a file of their own.
+const FORMATS: [&str; 5] =
+    ["sigmastar/plant", "sigmastar/bounding-spec", "sigmastar/study", "sigmastar/certificate", "sigmastar/controller"];
+
+/// What to do with a file of the format `found` where one of `wanted` is read.
+fn way_out(found: &str, wanted: &str) -> Option<String> {
+    let first = |what: &str| {
+        format!(
+            "{what} is to be certified first: `sigmastar certify FILE -o CERTIFICATE`; this command reads the CERTIFICATE"
+        )
+    };
+    Some(match (found, wanted) {
+        // What is to be certified, in the place of what was.
+        ("sigmastar/plant", "sigmastar/certificate") => first("a plant"),
+        ("sigmastar/bounding-spec", "sigmastar/certificate") => first("a specification"),
+        ("sigmastar/plant", "sigmastar/bounding-spec") => {
+            "this command needs bounding functions: `sigmastar bound FILE -o SPEC` writes those of a plant; it reads the SPEC".to_owned()
+        }
+        ("sigmastar/bounding-spec", "sigmastar/plant") => {
+            "this command needs formulas, and a specification has bounds alone: `sigmastar new plant` writes a plant to begin with".to_owned()
+        }
+        ("sigmastar/study", _) => "`sigmastar sweep` is for studies".to_owned(),
+        ("sigmastar/controller", _) => "`sigmastar simulate PLANT --controller FILE` takes it".to_owned(),
+        _ => {
+            let near = nearest(found, FORMATS).filter(|near| *near != found)?;
+            format!("did you mean `{near}`?")
+        }
+    })
 }
 
 /// The name of a kind or family, out of those that are known.
