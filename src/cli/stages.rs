@@ -213,6 +213,7 @@ mod tests {
         stages.enter(Stage::Metrics);
         assert_eq!(told(&stages), "stage 2 of 4: proposing and proving joint metrics");
         stages.part(1, 2);
+        stages.tried(3);
         // What this call does not have is not told.
         stages.enter(Stage::Triple);
         stages.begin(Step::Figures);

@@ -142,9 +142,13 @@ fn missing_quotes(text: &str, at: usize, message: &str) -> Option<String> {
         }
         "expected `,` or `}`" | "expected `,` or `]`" => {
             let before = text[..at].trim_end();
-            let start =
-                before.rfind(|c: char| !(c.is_ascii_digit() || matches!(c, '.' | '-' | '+'))).map_or(0, |at| at + 1);
-            if before[start..].starts_with(|c: char| c.is_ascii_digit() || c == '-') && !text[at..].starts_with('"') {
+            let is_digit = |c: char| c.is_ascii_digit() || matches!(c, '.' | '-' | '+');
+            let start = before.rfind(|c: char| !is_digit(c)).map_or(0, |at| at + 1);
+            let (number, rest) = (&before[start..], &text[at..]);
+            let is_comment = ["//", "/*"].iter().any(|start| rest.starts_with(start));
+            let goes_on =
+                rest.starts_with(|c: char| c.is_alphabetic() || matches!(c, '_' | '*' | '/' | '^' | '+' | '-' | '('));
+            if number.starts_with(|c: char| c.is_ascii_digit() || c == '-') && goes_on && !is_comment {
                 let value = until(start, &[',', '}', ']', '"']);
                 return Some(format!("formulas and fractions stand in double quotes: `\"{}\"`", shown(&value)));
             }

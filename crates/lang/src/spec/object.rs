@@ -102,7 +102,7 @@ impl<'d> Object<'d> {
         let found = self.required("format", errors).and_then(|value| {
             let found = value.string(errors)?;
             if found == format {
-                return Ok(());
+                return self.fields_of(format, &value, errors);
             }
             let message = format!("this is a file of format `{}`", shown(found));
             let error = value.error(ErrorKind::Format, message).expected(format!("expected `{format}`"));
@@ -125,6 +125,23 @@ impl<'d> Object<'d> {
             Err(errors.report(error))
         });
         found.and(version)
+    }
+
+    /// That the fields are not those of a plant under the format of a specification, or the reverse.
+    fn fields_of(&self, format: &str, place: &Value<'_>, errors: &mut Errors) -> Result<(), Reported> {
+        const SPECIFICATION: (&str, [&str; 2]) = ("sigmastar/bounding-spec", ["lyapunov", "bounds"]);
+        const PLANT: (&str, [&str; 2]) = ("sigmastar/plant", ["f", "q"]);
+        let (own, (other, others)) = match format {
+            "sigmastar/bounding-spec" => (SPECIFICATION.1, PLANT),
+            "sigmastar/plant" => (PLANT.1, SPECIFICATION),
+            _ => return Ok(()),
+        };
+        let has = |name: &&str| self.value.member(name).is_some();
+        if own.iter().any(has) || !others.iter().all(has) {
+            return Ok(());
+        }
+        let message = format!("the fields are those of a file of the format `{other}`");
+        Err(errors.report(place.error(ErrorKind::Format, message).expected(format!("expected `{other}`"))))
     }
 
     /// Refuses the fields that were not asked for: the first [`MAX_UNKNOWN`] each with its nearest known neighbour, the

@@ -56,9 +56,10 @@ impl FarStart {
     /// The same in a sentence without a final stop.
     #[must_use]
     pub fn describe(&self) -> String {
-        let FarStart { x, e, x_0, away: [y, _], set: [x0, e0] } = self;
+        let FarStart { x, e, x_0, away: [y, error], set: [x0, e0] } = self;
         let list = |numbers: &[f64]| numbers.iter().map(|number| short(*number)).collect::<Vec<_>>().join(", ");
-        if x.is_empty() {
+        // The state is within, or there is none.
+        if *y <= FAR * x0 && *error > FAR * e0 {
             return format!(
                 "`simulate` starts at e = {}, far outside of the certified set |e| <= {}: nothing is claimed from there",
                 short(*e),
@@ -66,14 +67,14 @@ impl FarStart {
             );
         }
         format!(
-            "`simulate` starts at x = ({}), e = {}, where |y| = {}, far outside of the certified set |y| <= {}, |e| <= {} about the orbit with \
-             x_0(0) = ({}): nothing is claimed from there, and another orbit may be near",
+            "`simulate` starts at x = ({}), e = {}, far outside of the certified set |y| <= {}, |e| <= {}: the orbit that it is about has x_0(0) = \
+             ({}), and |y| is {} at that start, where nothing is claimed; the plant may have another orbit there",
             list(x),
             short(*e),
-            short(*y),
             short(*x0),
             short(*e0),
-            list(x_0)
+            list(x_0),
+            short(*y)
         )
     }
 }
@@ -81,4 +82,53 @@ impl FarStart {
 /// Four digits.
 fn short(value: f64) -> String {
     round_f64(value, 4, Direction::Nearest).map_or_else(|| value.to_string(), |value| write_exact(&value))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use sigmastar_lang::plant::InitialRegulator;
+    use sigmastar_lang::spec::{
+        Constant, Lyapunov, Parameters, PeriodicMatrix, ProvedCell, ProvedForcing, ProvedOrbit, TrigonometricVector,
+    };
+
+    /// x_0(0) = 1 + 1/2, and L = 2.
+    fn plant() -> OfPlant {
+        let rational = |p: i32, q: i32| Rational::from((p, q));
+        let curve = TrigonometricVector {
+            mean: vec![rational(1, 1)],
+            harmonics: vec![[vec![rational(1, 2)], vec![rational(7, 1)]]],
+        };
+        let [defect, tube, radius] = [(); 3].map(|()| rational(1, 100));
+        let (mean, rest, rest_t) = (Rational::new(), Rational::new(), Rational::new());
+        let forcing = ProvedForcing { mean, harmonics: Vec::new(), sensitivities: Vec::new(), rest, rest_t };
+        let orbit = ProvedOrbit { approximation: curve.into(), defect, tube, radius };
+        let one = || Constant::rational(&rational(1, 1));
+        OfPlant {
+            parameters: Parameters::default(),
+            coordinates: vec![vec![rational(2, 1)]],
+            cells: vec![ProvedCell { parameters: Parameters::default(), orbit, forcing }],
+            why_cut: None,
+            triple: Lyapunov { p_low: one(), p_up: one(), alpha: one() },
+            matrix: PeriodicMatrix { mean: vec![vec![rational(1, 1)]], harmonics: Vec::new() },
+            existence: None,
+            domain: None,
+            ball: None,
+        }
+    }
+
+    #[test]
+    fn a_start_is_far_in_the_norm_of_the_set() {
+        let far = |x: f64, e: f64| {
+            let initial = Initial { x: vec![x], e, z: InitialRegulator::AtRest };
+            FarStart::of(&plant(), &initial, [&Rational::from((1, 2)), &Rational::from(1)])
+        };
+        // |y| = |x - 3/2|/2, and 3/2 is far of 1/2.
+        assert_eq!((far(4.4, 2.9), far(-1.4, 0.0)), (None, None));
+        let other = far(-1.6, 0.0).unwrap();
+        assert!((other.away[0] - 1.55).abs() < 1e-12 && other.x_0 == [1.5], "{other:?}");
+        assert!(other.describe().contains("x_0(0) = (1.5), and |y| is 1.55 at that start"), "{}", other.describe());
+        let error = far(1.5, -3.1).unwrap().describe();
+        assert!(error.contains("starts at e = -3.1, far outside") && !error.contains("x_0"), "{error}");
+    }
 }
