@@ -156,8 +156,11 @@ fn what_wants_quotes_in_json_is_shown_with_them() {
     for (content, said) in [
         ("{ \"period\": 2*pi }", Some("formulas and fractions stand in double quotes: `\"2*pi\"`")),
         ("{ \"period\": 1/50,\n\"x\": 1 }", Some("`\"1/50\"`")),
+        ("{ \"f\": 1e5*x, \"é\": 1 }", Some("`\"1e5*x\"`")),
+        ("{ \"f\": [\"é\" 1*x, é1*x] }", None),
         ("{ \"f\": [-2*x, 1] }", Some("`\"-2*x\"`")),
         ("{ \"name\": My plant, \"x\": 1 }", Some("texts and formulas stand in double quotes: `\"My plant\"`")),
+        ("{ \"mu\": 1,5 }", Some("decimals have a point")),
         ("{ name: 1 }", Some("the names of fields stand in double quotes: `\"name\"`")),
         ("{ \"matched\": True }", Some("write `true`")),
         ("{ \"a\": 1 \"b\": 2 }", Some("put a comma in front of it")),
@@ -218,6 +221,31 @@ fn a_file_of_another_format_is_sent_to_its_command() {
     let (_folder, path) = file("file.json", &plant_text.replace("sigmastar/plant", "another/one"));
     let (_, text) = told(&["certify"], &path);
     assert!(!text.contains("did you mean"), "{text}");
+}
+
+#[test]
+fn what_stands_in_a_field_of_an_object_is_put_there() {
+    let changed = |name: &str, value: Value| {
+        let mut plant: Value = serde_json::from_str(&plant("sin(2*pi*t)", None)).unwrap();
+        plant[name] = value;
+        let (_folder, path) = file("plant.json", &plant.to_string());
+        told(&["certify", "--no-compare"], &path)
+    };
+    for (name, value, said) in [
+        ("actuator", "5".into(), "write `{ \"max\": \"5\" }`"),
+        ("initial_set", "aligned".into(), "write `{ \"kind\": \"aligned\" }`"),
+        ("sampling_period", "1/500".into(), "`sampling_period` stands in `internal_model`"),
+        ("parameters", serde_json::json!({ "k": "3 +- 1" }), "\"low\": \"2\", \"high\": \"4\""),
+        ("parameters", serde_json::json!({ "k": ["1", "2"] }), "\"low\": \"1\", \"high\": \"2\""),
+        ("q", "1,5*sin(2*pi*t)".into(), "decimals have a point, as in 1.5"),
+    ] {
+        let (code, text) = changed(name, value);
+        assert!(code == 2 && text.contains(said), "{name}: {text}");
+    }
+    let (code, text) = changed("parameters", serde_json::json!({ "k": "3 - 1" }));
+    assert!(code == 0 && text.contains("k is used nowhere"), "{text}");
+    let (code, text) = changed("q", "min(1, 2)*sin(2*pi*t)".into());
+    assert!(code == 0, "{text}");
 }
 
 #[test]

@@ -170,6 +170,11 @@ pub(super) fn suggest<S: Scope>(name: &str, scope: &S) -> Option<String> {
         }
         _ => {}
     }
+    for (sign, exponent) in [('\u{b2}', 2), ('\u{b3}', 3)] {
+        if let Some(base) = name.strip_suffix(sign) {
+            return Some(format!("write {base}^{exponent}"));
+        }
+    }
     let product = scope.spelled_out(name);
     if product != name {
         return Some(format!("write {product}"));
@@ -204,6 +209,7 @@ mod tests {
             ("tahn", "did you mean tanh?"),
             ("pow", "write a power as u^v"),
             ("two", "write 2"),
+            ("X\u{b2}", "write X^2"),
             ("Ten", "write 10"),
         ] {
             assert_eq!(suggest(name).as_deref(), Some(meant), "{name}");

@@ -302,6 +302,11 @@ impl<S: Scope> Parser<'_, S> {
             '√' => Some("write sqrt(...)"),
             '²' => Some("write ^2"),
             '³' => Some("write ^3"),
+            ',' if expected == OPERATOR
+                && self.at.checked_sub(1).is_some_and(|at| self.tokens[at].kind == TokenKind::Numeral) =>
+            {
+                Some("decimals have a point, as in 1.5")
+            }
             _ => None,
         };
         let known = matches!(symbol, '+' | '-' | '*' | '/' | '^' | '(' | ')' | ',');

@@ -129,6 +129,9 @@ fn missing_quotes(text: &str, at: usize, message: &str) -> Option<String> {
     };
     let starts_a_name = text[at..].starts_with(is_name);
     match message {
+        "key must be a string" if text[at..].starts_with(|c: char| c.is_ascii_digit()) => {
+            Some("decimals have a point, as in 1.5".to_owned())
+        }
         "key must be a string" if starts_a_name => {
             let key = until(at, &[':', ',', '}']);
             Some(format!("the names of fields stand in double quotes: `\"{}\"`", shown(&key)))
@@ -142,8 +145,8 @@ fn missing_quotes(text: &str, at: usize, message: &str) -> Option<String> {
         }
         "expected `,` or `}`" | "expected `,` or `]`" => {
             let before = text[..at].trim_end();
-            let is_digit = |c: char| c.is_ascii_digit() || matches!(c, '.' | '-' | '+');
-            let start = before.rfind(|c: char| !is_digit(c)).map_or(0, |at| at + 1);
+            let start =
+                before.trim_end_matches(|c: char| c.is_ascii_digit() || matches!(c, '.' | '-' | '+' | 'e' | 'E')).len();
             let (number, rest) = (&before[start..], &text[at..]);
             let is_comment = ["//", "/*"].iter().any(|start| rest.starts_with(start));
             let goes_on =

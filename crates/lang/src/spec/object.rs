@@ -163,7 +163,9 @@ impl<'d> Object<'d> {
                 format!("unknown field `{}`", shown(key)),
             );
             let near = nearest(key, absent.iter().copied()).or_else(|| nearest(key, self.known.iter().copied()));
+            let of_model = self.known.contains(&"internal_model") && OF_INTERNAL_MODEL.contains(&key);
             errors.report(match near {
+                _ if of_model => error.help(format!("`{key}` stands in `internal_model`")),
                 Some(name) => error.expected(format!("did you mean `{name}`?")),
                 None => error.help(format!("the fields known {place} are {}", list(&self.known))),
             });
@@ -171,6 +173,9 @@ impl<'d> Object<'d> {
         errors.count(unknown.count());
     }
 }
+
+/// Fields of the regulator, which some write beside it.
+const OF_INTERNAL_MODEL: [&str; 6] = ["mu", "base_frequency", "matched", "weights", "sampling_period", "delay_samples"];
 
 /// The formats that people name in a file of their own.
 const FORMATS: [&str; 5] =

@@ -298,7 +298,7 @@ fn prove_matched(
         }
     };
     let own = frequency.exact.as_ref().and_then(|frequency| Monomial::pi().div(frequency));
-    let own = own.map(|half| Quantity::exact(half).times(Quantity::rational(2)).shown());
+    let own = own.and_then(|half| half.as_rational().map(|half| write_exact(&Rational::from(half * 2))));
     let own = own.map_or_else(String::new, |own| format!("state the period of this base frequency, {own}, or "));
     Err(errors.report(error.help(format!("or {own}set `matched` to false: the gain does not need it"))))
 }
