@@ -38,7 +38,7 @@ fn run(subject: &Subject, options: &CertifyOptions) -> Result<Certificate, Error
     let asked = match &step {
         None => subject.clone(),
         Some(step) => {
-            let read = Read::read(&at_samples(&subject.source, step, "sampling_period")?)?;
+            let read = Read::read(&at_samples(&subject.source, step)?)?;
             Subject { read, source: subject.source.clone() }
         }
     };

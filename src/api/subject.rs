@@ -1,11 +1,11 @@
 //! What is certified: a bounding specification, or a plant by its formulas.
 
 use super::error::Error;
-use super::json_text;
 use super::specification::Specification;
+use super::{json_text, positive};
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{Document, MAX_BYTES, Notation};
-use sigmastar_prove::reduction::Subject as Read;
+use sigmastar_prove::reduction::{Subject as Read, at_samples};
 use std::path::Path;
 
 /// What errors call a document without a name of its own.
@@ -56,6 +56,17 @@ impl Subject {
 
     pub(super) fn new(source: Document) -> Result<Subject, Error> {
         Ok(Subject { read: Read::read(&source)?, source })
+    }
+
+    /// The same document about the regulator at samples this far apart, as `sampling_period` of its internal model: what
+    /// [`certify`](crate::certify) with [`CertifyOptions::sampling_period`](crate::CertifyOptions::sampling_period) certifies, so that
+    /// [`check_against`](crate::check_against) can compare such a certificate with the document that it was made for.
+    ///
+    /// # Errors
+    /// A sampling period that is no exact positive constant, or does not go with the document.
+    pub fn at_samples(&self, sampling_period: &str) -> Result<Subject, Error> {
+        let step = positive("sampling_period", sampling_period)?;
+        Subject::new(at_samples(&self.source, &step)?)
     }
 
     /// The plant; what is none is told as such.

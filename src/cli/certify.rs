@@ -11,8 +11,9 @@ use super::stages::{Stages, Step};
 use super::subject::{Asked, Subject, proving, with_sampling_period};
 use super::{input, output};
 use proofs_check::verdict::Verdict as Checked;
+use sigmastar_lang::plant::Plant;
 use sigmastar_prove::certificate::{certificate_of, is_sampled, read_for};
-use sigmastar_prove::certify::{Limits, NoRatesOfClaim, rate_counts};
+use sigmastar_prove::certify::{FarStart, Limits, NoRatesOfClaim, rate_counts};
 use sigmastar_prove::rate::bound::MAX_OSCILLATORS;
 use sigmastar_prove::reduction::{Prepared, Run, Stage, Unwatched, Watch};
 use sigmastar_report::RunReport;
@@ -63,6 +64,14 @@ fn attempt(args: &CertifyArgs) -> Result<u8, Failure> {
         output::remark(&format!(
             "the {kind} in the certificate is certified anew, by the flags of this call alone; `check` decides the certificate itself"
         ));
+    }
+    let plant = match &subject {
+        Subject::Plant(plant) if !args.quiet => Some(plant),
+        _ => None,
+    };
+    if let Some(unused) = plant.and_then(|plant| plant.parameters.unused_in_words()) {
+        // The search may take long.
+        output::remark(&unused);
     }
     let stages = Stages::new(steps(args, &subject), args.progress, args.quiet);
     let working = (!stages.are_told()).then(|| proving(&subject, args.quiet)).flatten();
@@ -115,7 +124,17 @@ fn attempt(args: &CertifyArgs) -> Result<u8, Failure> {
         Some(drawn) => Shortened::new(&drawn.in_front_of_the_rest(&report), args.format, args.full),
         None => Shortened::new(&report, args.format, args.full),
     };
-    tell(args, &run, &shown, output.as_ref())
+    let code = tell(args, &run, &shown, output.as_ref())?;
+    if let Some(far) = plant.and_then(|plant| far_start(&run, plant)) {
+        output::remark(&far.describe());
+    }
+    Ok(code)
+}
+
+/// The start of simulations, where it is far outside of what is certified.
+fn far_start(run: &Run<'_>, plant: &Plant) -> Option<FarStart> {
+    let set = run.certified()?.set;
+    FarStart::of(run.spec().plant()?, &plant.initial, [&set.x0, &set.e0])
 }
 
 /// The stages that the call will have.

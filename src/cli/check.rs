@@ -3,7 +3,7 @@
 use super::args::CheckArgs;
 use super::failure::Failure;
 use super::input;
-use super::output::{self, reason, shown};
+use super::output::{self, json_text, reason, shown};
 use super::subject::{has_format, with_sampling_period};
 use sigmastar_document::{Block, Made, clean};
 use sigmastar_lang::spec::{Document, Notation};
@@ -40,8 +40,10 @@ fn answer(args: &CheckArgs) -> Result<proofs_check::Report, Failure> {
         let message = format!("cannot read `{}`: {}", shown(&args.certificate), reason(&error));
         Failure::call(message, "name files, not folders")
     })?;
-    if report.verdict == proofs_check::verdict::Verdict::Invalid {
-        tell_difference(args);
+    match report.verdict {
+        proofs_check::verdict::Verdict::Invalid => tell_difference(args),
+        proofs_check::verdict::Verdict::BadInput => tell_no_certificate(&args.certificate),
+        _ => {}
     }
     Ok(report)
 }
@@ -50,7 +52,19 @@ fn answer(args: &CheckArgs) -> Result<proofs_check::Report, Failure> {
 fn specification(path: &Path, args: &CheckArgs) -> Result<Box<dyn Read>, Failure> {
     let Some(text) = &args.sampling_period else { return open(path, "name the specification that you have") };
     let document = with_sampling_period(&input::document(path)?, text)?;
-    Ok(Box::new(Cursor::new(document.text().to_owned())))
+    Ok(Box::new(Cursor::new(json_text(&document.root().to_json()))))
+}
+
+/// Says of a file that is no certificate what one is.
+fn tell_no_certificate(path: &Path) {
+    let is_one =
+        path == Path::new("-") || input::written(path).is_ok_and(|document| has_format(&document, CERTIFICATE));
+    if !is_one {
+        output::remark(&format!(
+            "`{}` is no certificate: `sigmastar certify FILE -o CERTIFICATE` writes one",
+            shown(path)
+        ));
+    }
 }
 
 /// Says where a certificate and the specification that it was compared with differ in the sampling period, and where that is a certificate

@@ -29,8 +29,8 @@ impl Drawn {
         Some(match edge(&certificate) {
             Ok(edge) => {
                 let words = format!(
-                    "Black and shaded: proved, of every solution from the set. Coloured lines: a simulation {}, floating point, which proves \
-                     nothing.",
+                    "Proved, of every solution from the set: the thick line holds at all times, the bands hold in the limit, and are drawn over the \
+                     second half of the time that is shown. Thin lines: a simulation {}, floating point, which proves nothing.",
                     edge.words
                 );
                 Drawn { words, figures: Some(edge.figures(&proved)) }

@@ -4,10 +4,12 @@ use super::failure::Failure;
 use rug::Rational;
 use sigmastar_exact::enclosure::{DEFAULT_PRECISION, Enclosure};
 use sigmastar_exact::number::write_exact;
-use sigmastar_lang::spec::{Constant, Document, Errors, InternalModel, SampledGain, Sampling};
-use sigmastar_prove::certificate::read_numbers;
+use sigmastar_lang::plant::Plant;
+use sigmastar_lang::spec::{Constant, Document, Errors, InternalModel, SampledGain, Sampling, any_constant};
+use sigmastar_prove::certificate::{read_for, read_numbers};
+use sigmastar_prove::certify::FarStart;
 use sigmastar_prove::rate::bound::MAX_COUNTS;
-use sigmastar_prove::reduction::FreeNumbers;
+use sigmastar_prove::reduction::{FreeNumbers, Subject, WitnessData};
 use sigmastar_regulator::export::{Provenance, Scope};
 
 /// A certificate, as far as a regulator goes. What it says is taken as it is.
@@ -23,6 +25,8 @@ pub struct Given {
     rounding: Vec<u64>,
     /// The digests that it states, of a specification and of a plant.
     made_for: [Option<String>; 2],
+    /// All of it.
+    document: Document,
 }
 
 impl Given {
@@ -50,7 +54,16 @@ impl Given {
         let counts = (0..MAX_COUNTS).filter(|_| in_doubles).filter_map(stated);
         let rounding = counts.filter_map(|n_o| n_o.integer(&mut Errors::new()).ok()).collect();
         let sha256 = document.root().sha256();
-        Ok(Given { sha256, sigma_star, sampled, with_actuator, statement, rounding, made_for })
+        Ok(Given {
+            sha256,
+            sigma_star,
+            sampled,
+            with_actuator,
+            statement,
+            rounding,
+            made_for,
+            document: document.clone(),
+        })
     }
 
     /// sigma*, rounded up to a double: the gain that is exported is certified too. Of the regulator at samples, and with an actuator,
@@ -86,6 +99,20 @@ impl Given {
         let same_law = regulator.step.and_then(|step| regulator.model.sampled_gain(step)).as_ref() == Some(law);
         let same_gain = regulator.sigma.as_rational() == Some(&self.sigma_star);
         Some(same_step && same_law && same_gain && 2 * u64::from(regulator.n_o) < u64::from(sampling.samples))
+    }
+
+    /// Where a simulation of its plant starts, far outside of its set.
+    pub fn far_start(&self, plant: &Plant) -> Option<FarStart> {
+        let size = |name: &str| {
+            let value = self.document.at(&format!("/claim/initial_set/{name}"))?;
+            any_constant(&value, &mut Errors::new()).ok()?.as_rational().cloned()
+        };
+        let set = [size("X0").unwrap_or_default(), size("E0")?];
+        let witness = read_for(&self.document, &Subject::Plant(Box::new(plant.clone()))).ok()?;
+        match &witness.data {
+            WitnessData::OfPlant(parts) => FarStart::of(&parts.0, &plant.initial, set.each_ref()),
+            WitnessData::Given | WitnessData::Triples(_) => None,
+        }
     }
 
     /// Whether it was made for the document with this digest.

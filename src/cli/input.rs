@@ -5,7 +5,8 @@ use super::output::{reason, shown};
 use rug::Rational;
 use sigmastar_lang::spec::model::Constant;
 use sigmastar_lang::spec::{
-    Document, Errors, MAX_BYTES, Notation, Reported, Value, any_constant, nonnegative_constant, positive_constant,
+    Document, Errors, MAX_BYTES, Notation, Reported, SpecError, SpecErrors, Value, any_constant, nonnegative_constant,
+    positive_constant,
 };
 use sigmastar_theory::derivation::targets::{Target, TargetKind};
 use std::fs::File;
@@ -95,6 +96,18 @@ pub fn nonnegative(flag: &str, text: &str) -> Result<Constant, Failure> {
 /// What is wrong with the constant, in its place.
 pub fn real(flag: &str, text: &str) -> Result<Constant, Failure> {
     constant(flag, text, any_constant)
+}
+
+/// Errors of a field, at the flag that its value is from.
+pub fn at_flag((flag, text): (&str, &str), errors: &[SpecError]) -> SpecErrors {
+    let document = Document::flag(flag, text);
+    let place = document.at(&format!("/{flag}")).unwrap_or_else(|| document.root());
+    let mut all = Errors::new();
+    for error in errors {
+        let at = place.error_in(error.kind, &(0..text.len()), error.message.clone());
+        all.report(SpecError { expected: error.expected.clone(), help: error.help.clone(), ..at });
+    }
+    all.into_errors(&document)
 }
 
 fn constant(

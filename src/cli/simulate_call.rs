@@ -61,6 +61,9 @@ impl Called {
             let at = step.as_ref().map(|step| format!(", at samples {} apart", step.text)).unwrap_or_default();
             output::remark(&format!("sigma = {}, from the certificate{at}", write_exact(given.sigma())));
         }
+        if let Some(far) = given.far_start(&plant).filter(|_| !args.quiet) {
+            output::remark(&far.describe());
+        }
         Ok(Called { plant, sigma: Some(sigma), step })
     }
 }

@@ -15,6 +15,9 @@ use std::time::{Duration, Instant};
 /// How long a run takes before it is shown on a terminal.
 const PATIENCE: Duration = Duration::from_secs(2);
 
+/// How long a log is silent within a stage.
+const PAUSE: Duration = Duration::from_secs(5);
+
 /// How often the clock moves.
 const TICK: Duration = Duration::from_millis(120);
 
@@ -79,6 +82,8 @@ pub struct Stages {
     bar: ProgressBar,
     start: Instant,
     at: Mutex<String>,
+    /// When the log was last told of parts.
+    told: Mutex<Instant>,
     stop: Option<Sender<()>>,
     thread: Option<JoinHandle<()>>,
 }
@@ -93,8 +98,8 @@ impl Stages {
             (false, false) => Audience::Nobody,
         };
         let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::hidden());
-        let mut stages =
-            Stages { steps, audience, bar, start: Instant::now(), at: Mutex::default(), stop: None, thread: None };
+        let (start, at) = (Instant::now(), Mutex::default());
+        let mut stages = Stages { steps, audience, bar, start, at, told: Mutex::new(start), stop: None, thread: None };
         if audience == Audience::Terminal {
             stages.show_later();
         }
@@ -117,9 +122,32 @@ impl Stages {
         match self.audience {
             Audience::Nobody => {}
             Audience::Terminal => self.bar.set_message(text.clone()),
-            Audience::Log => output::remark(&format!("{text} (after {:.1} s)", self.start.elapsed().as_secs_f64())),
+            Audience::Log => self.log(&text),
         }
         *at = text;
+    }
+
+    fn log(&self, text: &str) {
+        output::remark(&format!("{text} (after {:.1} s)", self.start.elapsed().as_secs_f64()));
+        *self.told.lock().unwrap_or_else(PoisonError::into_inner) = Instant::now();
+    }
+
+    /// How far the stage is: at once in the line of a terminal, now and then in a log.
+    fn within(&self, count: &str) {
+        match self.audience {
+            Audience::Nobody => {}
+            Audience::Terminal => {
+                let at = self.at.lock().unwrap_or_else(PoisonError::into_inner);
+                self.bar.set_message(format!("{at}, {count}"));
+            }
+            Audience::Log => {
+                let at = self.at.lock().unwrap_or_else(PoisonError::into_inner);
+                let told = self.told.lock().unwrap_or_else(PoisonError::into_inner).elapsed();
+                if told >= PAUSE {
+                    self.log(&format!("{at}, {count}"));
+                }
+            }
+        }
     }
 
     /// Shows the line after a while, with a clock.
@@ -148,10 +176,11 @@ impl Watch for Stages {
     }
 
     fn part(&self, done: usize, of: usize) {
-        if self.audience == Audience::Terminal {
-            let at = self.at.lock().unwrap_or_else(PoisonError::into_inner);
-            self.bar.set_message(format!("{at}, {done} of {of}"));
-        }
+        self.within(&format!("{done} of {of}"));
+    }
+
+    fn tried(&self, count: usize) {
+        self.within(&format!("{count} candidates tried"));
     }
 }
 
@@ -184,6 +213,7 @@ mod tests {
         stages.enter(Stage::Metrics);
         assert_eq!(told(&stages), "stage 2 of 4: proposing and proving joint metrics");
         stages.part(1, 2);
+        stages.tried(3);
         // What this call does not have is not told.
         stages.enter(Stage::Triple);
         stages.begin(Step::Figures);

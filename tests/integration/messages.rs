@@ -1,6 +1,6 @@
 //! What a newcomer writes by mistake, and what is said to it; beside each the case that nearly is the mistake.
 
-use crate::support::{program, utf8};
+use crate::support::{EXAMPLE, program, utf8};
 use serde_json::Value;
 use std::path::PathBuf;
 
@@ -113,5 +113,201 @@ fn what_is_no_certificate_yet_is_certified_first() {
     for command in ["falsify", "check"] {
         let (code, text) = told(&[command], &path);
         assert!(code == 2 && !text.contains("certified first"), "{command}: {text}");
+    }
+}
+
+/// What is certified of the paper's example with these flags: the exit code, and both streams in one line.
+fn certified(flags: &[&str]) -> (i32, String) {
+    let (code, text) = told(&[&["certify", "--no-compare"], flags].concat(), std::path::Path::new(EXAMPLE));
+    (code, text.split_whitespace().collect::<Vec<_>>().join(" "))
+}
+
+#[test]
+fn the_words_of_a_claim_say_what_it_keeps_to() {
+    let (code, text) = certified(&["--max-control", "300", "--peak-error", "10"]);
+    let (words, facts) = text.split_once(" - gain: ").unwrap();
+    assert!(code == 0 && words.contains("T = 1. At sigma = ") && !facts.contains("(proved: "), "{text}");
+    assert!(words.contains(", |e| <= 10 (proved: ") && words.contains(") on the way, |u| <= 300 (proved: "), "{text}");
+    let (_, text) = certified(&[]);
+    assert!(!text.contains("At sigma = "), "{text}");
+}
+
+#[test]
+fn another_gain_is_the_advice_where_one_is_given() {
+    const SMALLER: &str = "a smaller gain, which puts out less";
+    const LARGER: &str = "a larger gain, which leaves less of the error";
+    for (flags, said) in [
+        (&["--sigma", "60", "--max-control", "1"][..], Some(SMALLER)),
+        (&["--sigma", "60", "--max-control", "1", "--sampling-period", "1/10000"], Some(SMALLER)),
+        (&["--sigma", "60", "--steady-error", "1/1000"], Some(LARGER)),
+        // No gain was given, and none does.
+        (&["--max-control", "1"], None),
+    ] {
+        let (code, text) = certified(flags);
+        assert_eq!(code, 3, "{flags:?}: {text}");
+        for advice in [SMALLER, LARGER] {
+            assert_eq!(text.contains(advice), said == Some(advice), "{flags:?}: {text}");
+        }
+    }
+}
+
+#[test]
+fn what_wants_quotes_in_json_is_shown_with_them() {
+    for (content, said) in [
+        ("{ \"period\": 2*pi }", Some("formulas and fractions stand in double quotes: `\"2*pi\"`")),
+        ("{ \"period\": 1/50,\n\"x\": 1 }", Some("`\"1/50\"`")),
+        ("{ \"f\": 1e5*x, \"é\": 1 }", Some("`\"1e5*x\"`")),
+        ("{ \"f\": [\"é\" 1*x, é1*x] }", None),
+        ("{ \"f\": [-2*x, 1] }", Some("`\"-2*x\"`")),
+        ("{ \"name\": My plant, \"x\": 1 }", Some("texts and formulas stand in double quotes: `\"My plant\"`")),
+        ("{ \"mu\": 1,5 }", Some("decimals have a point")),
+        ("{ name: 1 }", Some("the names of fields stand in double quotes: `\"name\"`")),
+        ("{ \"matched\": True }", Some("write `true`")),
+        ("{ \"a\": 1 \"b\": 2 }", Some("put a comma in front of it")),
+        ("{ \"a\": 1 // one\n}", Some("JSON has no comments")),
+        ("{ \"a\": 1; }", None),
+        ("{ \"a\": }", None),
+        ("{ \"a\": 1", None),
+    ] {
+        let (_folder, path) = file("plant.json", content);
+        let (code, text) = told(&["certify"], &path);
+        assert!(code == 2 && said.is_none_or(|said| text.contains(said)), "{content}: {text}");
+        assert!(said.is_some() || !text.contains("quotes") && !text.contains("comma in front"), "{content}: {text}");
+    }
+}
+
+#[test]
+fn a_sampling_period_is_told_at_its_flag_and_the_rest_in_the_file() {
+    let (_folder, path) = file("plant.json", &plant("sin(2*pi*t)", None));
+    let (code, text) = told(&["certify", "--sampling-period", "500"], &path);
+    assert!(code == 2 && text.contains("--> <command line>:1:19") && text.contains("write `1/500`"), "{text}");
+    // Longer than the period, and no rate of samples either; shorter, and no share of it.
+    for step in ["3/2", "2/7"] {
+        let (code, text) = told(&["certify", "--sampling-period", step], &path);
+        assert!(code == 2 && text.contains("<command line>") && !text.contains("two samples"), "{text}");
+    }
+    let (_folder, path) = file("plant.json", &plant("sin(2*pi*t)", None).replace("\"mu\":\"1\"", "\"mu\":\"-1\""));
+    let (code, text) = told(&["certify", "--sampling-period", "1/500"], &path);
+    assert!(code == 2 && text.contains("plant.json:1:") && !text.contains("command line"), "{text}");
+}
+
+#[test]
+fn a_file_of_another_format_is_sent_to_its_command() {
+    let plant_text = plant("sin(2*pi*t)", None);
+    let specification = std::fs::read_to_string("specs/no-x.json").unwrap();
+    for (command, content, said) in [
+        ("errata", plant_text.clone(), "`sigmastar bound FILE -o SPEC` writes those of a plant"),
+        ("bound", specification.clone(), "this command needs formulas"),
+        ("certify", plant_text.replace("sigmastar/plant", "sigmastar/plnat"), "did you mean `sigmastar/plant`?"),
+        ("certify", plant_text.replace("sigmastar/plant", "sigmastar/bounding-spec"), "expected `sigmastar/plant`"),
+        (
+            "certify",
+            specification.replace("sigmastar/bounding-spec", "sigmastar/plant"),
+            "those of a file of the format `sigmastar/bounding-spec`",
+        ),
+        (
+            "certify",
+            "{ \"format\": \"sigmastar/study\", \"version\": 1 }".to_owned(),
+            "`sigmastar sweep` is for studies",
+        ),
+        ("certify", plant_text.replace("\"format\":\"sigmastar/plant\",", ""), "the field `format` is missing"),
+    ] {
+        let (_folder, path) = file("file.json", &content);
+        let (code, text) = told(&[command], &path);
+        assert!(code == 2 && text.contains(said), "{command}: {text}");
+        assert_eq!(text.matches("error[").count(), 1, "{command}: {text}");
+    }
+    // What is nothing that is known, and near to nothing.
+    let (_folder, path) = file("file.json", &plant_text.replace("sigmastar/plant", "another/one"));
+    let (_, text) = told(&["certify"], &path);
+    assert!(!text.contains("did you mean"), "{text}");
+}
+
+#[test]
+fn what_stands_in_a_field_of_an_object_is_put_there() {
+    let changed = |name: &str, value: Value| {
+        let mut plant: Value = serde_json::from_str(&plant("sin(2*pi*t)", None)).unwrap();
+        plant[name] = value;
+        let (_folder, path) = file("plant.json", &plant.to_string());
+        told(&["certify", "--no-compare"], &path)
+    };
+    for (name, value, said) in [
+        ("actuator", "5".into(), "write `{ \"max\": \"5\" }`"),
+        ("initial_set", "aligned".into(), "write `{ \"kind\": \"aligned\" }`"),
+        ("sampling_period", "1/500".into(), "`sampling_period` stands in `internal_model`"),
+        ("parameters", serde_json::json!({ "k": "3 +- 1" }), "\"low\": \"2\", \"high\": \"4\""),
+        ("parameters", serde_json::json!({ "k": ["1", "2"] }), "\"low\": \"1\", \"high\": \"2\""),
+        ("q", "1,5*sin(2*pi*t)".into(), "decimals have a point, as in 1.5"),
+    ] {
+        let (code, text) = changed(name, value);
+        assert!(code == 2 && text.contains(said), "{name}: {text}");
+    }
+    let (code, text) = changed("parameters", serde_json::json!({ "k": "3 - 1" }));
+    assert!(code == 0 && text.contains("k is used nowhere"), "{text}");
+    let (code, text) = changed("q", "min(1, 2)*sin(2*pi*t)".into());
+    assert!(code == 0, "{text}");
+}
+
+#[test]
+fn what_is_no_certificate_is_told_what_one_is() {
+    const WRITES: &str = "is no certificate: `sigmastar certify FILE -o CERTIFICATE` writes one";
+    for content in ["{ \"format\": \"sigmastar/study\", \"version\": 1 }", "{}", "hello"] {
+        let (_folder, path) = file("file.json", content);
+        let (code, text) = told(&["check"], &path);
+        assert!(code == 2 && text.contains(WRITES), "{content}: {text}");
+    }
+    // One that is broken is one.
+    let (_folder, path) = file("file.json", "{ \"format\": \"sigmastar/certificate\", \"version\": 1 }");
+    let (code, text) = told(&["check"], &path);
+    assert!(code == 2 && !text.contains(WRITES), "{text}");
+}
+
+#[test]
+fn a_period_that_is_not_that_of_the_formulas_is_told_for_itself() {
+    let with = |period: &str, frequency: &str| {
+        let text = plant("sin(2*pi*t)", None).replace("\"period\":\"1\"", &format!("\"period\":\"{period}\""));
+        text.replace("\"base_frequency\":\"2*pi\"", &format!("\"base_frequency\":\"{frequency}\""))
+    };
+    let told = |text: &str| {
+        let (_folder, path) = file("plant.json", text);
+        told(&["certify"], &path)
+    };
+    let (code, text) = told(&with("1/2", "2*pi"));
+    assert!(code == 2 && text.contains("not periodic in t with the stated period"), "{text}");
+    assert!(!text.contains("base_frequency") && !text.contains("matched"), "{text}");
+    // Two periods are a period, and the base frequency is of one.
+    let (code, text) = told(&with("2", "2*pi"));
+    assert!(code == 2 && text.contains("state the period of this base frequency, 1,"), "{text}");
+}
+
+#[test]
+fn what_is_used_nowhere_is_told_before_the_search() {
+    let mut plant: Value = serde_json::from_str(&plant("k*sin(2*pi*t)", None)).unwrap();
+    plant["parameters"] = serde_json::json!({ "k": "1", "c": "2" });
+    let (_folder, path) = file("plant.json", &plant.to_string());
+    let output = program().args(["certify", "--progress", "--no-compare"]).arg(&path).output().unwrap();
+    let text = utf8(output.stderr);
+    let [remark, stage] = ["the parameter c is used nowhere", "stage 1 of"].map(|part| text.find(part).unwrap());
+    assert!(remark < stage, "{text}");
+    plant["q"] = "k*sin(2*pi*t)/c".into();
+    let (_folder, path) = file("plant.json", &plant.to_string());
+    let (_, text) = told(&["certify", "--no-compare"], &path);
+    assert!(!text.contains("used nowhere"), "{text}");
+}
+
+#[test]
+fn a_start_of_simulations_far_outside_of_the_set_is_told() {
+    let mut plant: Value = serde_json::from_str(&plant("x/10 + sin(2*pi*t)", Some("x"))).unwrap();
+    plant["initial_set"] = serde_json::json!({ "kind": "at-rest", "ball": "1", "E0": "1" });
+    for (initial, far) in [("-20", true), ("1/2", false)] {
+        plant["initial"]["x"][0] = initial.into();
+        let (folder, path) = file("plant.json", &plant.to_string());
+        let certificate = folder.path().join("certificate.json");
+        let output = program().args(["certify", "--no-compare", "-o"]).args([&certificate, &path]).output().unwrap();
+        let said = "far outside of the certified set |y| <= ";
+        let text = utf8(output.stderr);
+        assert!(output.status.success() && text.contains(said) == far, "{initial}: {text}");
+        let (code, text) = told(&["simulate", "--n-o", "1", "--periods", "1"], &certificate);
+        assert!(code == 0 && text.contains(said) == far, "{initial}: {text}");
     }
 }

@@ -187,12 +187,22 @@ fn as_text(bytes: Vec<u8>) -> String {
 }
 
 #[pyfunction]
-fn check(py: Python<'_>, certificate: Vec<u8>, against: Option<File>) -> PyResult<Told<ToldCheck>> {
+fn check(
+    py: Python<'_>,
+    certificate: Vec<u8>,
+    against: Option<File>,
+    sampling_period: Option<String>,
+) -> PyResult<Told<ToldCheck>> {
     outside(py, move || {
         let text = as_text(certificate);
         let report = match against {
             None => Ok(sigmastar::check(&text)),
-            Some(file) => subject(&file).map(|subject| sigmastar::check_against(&text, subject)),
+            Some(file) => subject(&file)
+                .and_then(|subject| match &sampling_period {
+                    None => Ok(subject),
+                    Some(period) => subject.at_samples(period),
+                })
+                .map(|subject| sigmastar::check_against(&text, subject)),
         };
         report.map(|report| ToldCheck::from(&report)).into()
     })

@@ -33,7 +33,13 @@ def test_what_was_saved_comes_back(document, options, tmp_path):
         assert made[name] == stored[name], name
     for name in ("sigma_star_exact", "statement", "initial_set", "conditions", "name", "sha256", "error_bounds", "rates"):
         assert getattr(again, name) == getattr(certificate, name), name
-    assert sigmastar.check(again, None if "sampling_period" in options else document)
+    step = options.get("sampling_period")
+    assert sigmastar.check(again, document, sampling_period=step)
+    # Another sampling period, or none, is another document.
+    assert not sigmastar.check(again, document, sampling_period="1/250" if step else "1/500")
+    assert step is None or not sigmastar.check(again, document)
+    with pytest.raises(ValueError):
+        sigmastar.check(again, sampling_period="1/500")
     assert pickle.loads(pickle.dumps(again)) == again
     assert sigmastar.controller(again, 2).step == sigmastar.controller(certificate, 2).step
 
@@ -77,3 +83,18 @@ def test_what_was_altered_does_not(tmp_path):
         sigmastar.load(EXAMPLE)
     with pytest.raises(FileNotFoundError):
         sigmastar.load(tmp_path / "nowhere.json")
+
+
+def test_the_path_of_a_certificate_stands_for_its_document(tmp_path):
+    path = tmp_path / "certificate.json"
+    made = sigmastar.certify(PLANT)
+    made.save(path)
+    assert sigmastar.certify(path).sigma_star_exact == made.sigma_star_exact
+    assert sigmastar.simulate(path, n_o=1, periods=2).to_json() == sigmastar.simulate(made, n_o=1, periods=2).to_json()
+    assert sigmastar.controller(path, 2).step is None
+    document = json.loads(path.read_text(encoding="utf-8"))
+    document["claim"]["sigma_star"] = "50"
+    path.write_text(json.dumps(document))
+    # One that was altered does not.
+    with pytest.raises(sigmastar.SigmastarError):
+        sigmastar.certify(path)

@@ -1,7 +1,6 @@
 //! The first lines of a report on a certified claim: the gain, from where, what to do next, what sets the gain, what is
 //! assumed. The sections below say more of each.
 
-use super::limits::{self, Bounds};
 use super::sensitivity;
 use super::verdict::assumed;
 use super::words;
@@ -18,7 +17,6 @@ use sigmastar_prove::rate::sampled::bound::SampledRateBound;
 use sigmastar_prove::rate::sampled::found::SampledRateForCount;
 use sigmastar_theory::derivation::control::Control;
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
-use sigmastar_theory::derivation::sampled::SampledEvaluation;
 use sigmastar_theory::derivation::targets::Consequences;
 
 /// The numbers of oscillators of which the error is said.
@@ -32,17 +30,13 @@ pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences
         return Vec::new();
     };
     let sigma = write_exact(sigma);
-    let kept = run.bounds().and_then(|(steady, peak, control)| {
-        limits::kept(&run.limits, &Bounds { rates: run.rates().collect(), steady, peak, control })
-    });
-    let with = kept.map_or_else(String::new, |kept| format!("; with it {kept}"));
     let gain = match (&run.given_gain, &run.spec.actuator) {
         (_, Some(actuator)) => format!(
-            "sigma = {sigma} in 1/time, this one alone{with}; |u| never exceeds the {} that the actuator takes; the same for every n_o",
+            "sigma = {sigma} in 1/time, this one alone; |u| never exceeds the {} that the actuator takes; the same for every n_o",
             clean(&actuator.max.text)
         ),
         (Some(_), None) => {
-            format!("sigma = {sigma} in 1/time, as it was given, or any larger{with}; the same for every n_o")
+            format!("sigma = {sigma} in 1/time, as it was given, or any larger; the same for every n_o")
         }
         (None, None) if !run.limits.is_empty() => {
             let least = run.smallest_gain.map_or_else(String::new, |least| {
@@ -52,9 +46,8 @@ pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences
                 )
             });
             format!(
-                "sigma = {sigma} in 1/time, the smallest one that is found with which{}; the loop is proved for every larger one, too, \
-                 whose bounds are others; the same for every n_o{least}",
-                with.trim_start_matches("; with it")
+                "sigma = {sigma} in 1/time, the smallest one that is found that keeps to what was asked for; the loop is proved for every \
+                 larger one, too, whose bounds are others; the same for every n_o{least}"
             )
         }
         (None, None) => format!("sigma* = {sigma} in 1/time, or any larger; the same for every n_o"),
@@ -132,12 +125,9 @@ pub(super) fn of_samples(run: &SampledCertification<'_>, rechecked: bool) -> Vec
     let (Some(proof), Some(periodic)) = (run.claim(), run.periodic_solution()) else { return Vec::new() };
     let witness = &proof.witness;
     // That gain stands exactly in the sentence above: the claim is about no other.
-    let SampledEvaluation { size, peak, control, .. } = &proof.evaluation;
-    let kept = limits::kept(&run.limits, &Bounds { rates: run.rates().collect(), steady: &size.e_per, peak, control });
-    let gain = format!(
-        "exactly that sigma, in 1/time, for this sampling period alone: no threshold, neither for larger gains nor for faster samples{}",
-        kept.map_or_else(String::new, |kept| format!("; with it {kept}"))
-    );
+    let gain =
+        "exactly that sigma, in 1/time, for this sampling period alone: no threshold, neither for larger gains nor for faster samples"
+            .to_owned();
     let next = match rechecked {
         true => {
             "`sigmastar check FILE` decides the certificate with other code; `controller FILE --n-o N` writes the code"

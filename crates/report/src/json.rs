@@ -3,7 +3,7 @@
 use super::failures::{FORMAT, VERSION, errors_json};
 use super::for_n_o::rates_json;
 use super::gains::rows_json;
-use super::limits::{Bounds, kept_json};
+use super::limits;
 use super::matrix_checks::checks_json;
 use super::obstacles::advice;
 use super::of_plant::plant_json;
@@ -42,8 +42,8 @@ pub(super) fn report(run: &Certification<'_>, consequences: Option<&Consequences
         let [x, e, zeta, z] = periodic.each_ref().map(full);
         report["periodic_solution"] = json!({ "x": x, "e": e, "zeta": zeta, "z": z });
         report["control"] = control(run.control());
-        if let Some((steady, peak, control)) = run.bounds().filter(|_| !run.limits.is_empty()) {
-            report["limits"] = kept_json(&run.limits, &Bounds { rates: run.rates().collect(), steady, peak, control });
+        if let Some(kept) = limits::json(run) {
+            report["limits"] = kept;
             report["sigma_star_estimate"] = json!(run.smallest_gain.map(estimate));
         }
         let [x, e] = error_box.each_ref().map(full);

@@ -7,23 +7,54 @@ use sigmastar_document::number::{exact, full, upper};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, write_exact};
 use sigmastar_lang::spec::Specification;
-use sigmastar_prove::certify::Limits;
+use sigmastar_prove::certify::{Certification, Limits, SampledCertification};
 use sigmastar_theory::derivation::control::Control;
+use sigmastar_theory::derivation::sampled::SampledEvaluation;
 
 /// What is bounded at the gain of a claim.
-pub(super) struct Bounds<'r> {
+struct Bounds<'r> {
     /// The rates for the numbers of oscillators that were asked about.
-    pub(super) rates: Vec<(u32, Option<&'r Rational>)>,
+    rates: Vec<(u32, Option<&'r Rational>)>,
     /// |e| along the periodic solution.
-    pub(super) steady: &'r Enclosure,
+    steady: &'r Enclosure,
     /// |e| on the way.
-    pub(super) peak: &'r Enclosure,
+    peak: &'r Enclosure,
     /// What is put out.
-    pub(super) control: &'r Control<Enclosure>,
+    control: &'r Control<Enclosure>,
+}
+
+impl<'r> Bounds<'r> {
+    /// Those of a claim in continuous time.
+    fn of_run(run: &'r Certification<'_>) -> Option<Bounds<'r>> {
+        let (steady, peak, control) = run.bounds()?;
+        Some(Bounds { rates: run.rates().collect(), steady, peak, control })
+    }
+
+    /// Those of a claim at samples.
+    fn of_samples(run: &'r SampledCertification<'_>) -> Option<Bounds<'r>> {
+        let SampledEvaluation { size, peak, control, .. } = &run.claim()?.evaluation;
+        Some(Bounds { rates: run.rates().collect(), steady: &size.e_per, peak, control })
+    }
+}
+
+/// " At sigma = 39.8018, |e| <= 0.1 on the way (proved: 0.0997), ...": what a claim keeps to, which a larger gain need not; empty where nothing was
+/// asked for.
+pub(super) fn sentence(run: &Certification<'_>) -> String {
+    in_words(run.sigma_star(), Bounds::of_run(run).and_then(|bounds| kept(&run.limits, &bounds)))
+}
+
+/// The same of a claim at samples.
+pub(super) fn sampled_sentence(run: &SampledCertification<'_>) -> String {
+    let sigma = run.claim().map(|proof| &proof.witness.sigma);
+    in_words(sigma, Bounds::of_samples(run).and_then(|bounds| kept(&run.limits, &bounds)))
+}
+
+fn in_words(sigma: Option<&Rational>, kept: Option<String>) -> String {
+    sigma.zip(kept).map_or_else(String::new, |(sigma, kept)| format!(" At sigma = {}, {kept}.", write_exact(sigma)))
 }
 
 /// "|e| <= 0.1 on the way (proved: 0.0997), ..."; nothing where nothing was asked for.
-pub(super) fn kept(limits: &Limits, bounds: &Bounds<'_>) -> Option<String> {
+fn kept(limits: &Limits, bounds: &Bounds<'_>) -> Option<String> {
     let named = named(limits, bounds).into_iter().filter_map(|(_, of, limit, bound)| {
         limit.map(|limit| of.replace("VALUE", &format!("{limit} (proved: {})", upper(&bound))))
     });
@@ -54,8 +85,17 @@ fn named(limits: &Limits, bounds: &Bounds<'_>) -> [(&'static str, &'static str, 
     ]
 }
 
-/// The same as JSON: what was asked for, and what is proved.
-pub(super) fn kept_json(limits: &Limits, bounds: &Bounds<'_>) -> Value {
+/// The same as JSON: what was asked for, and what is proved; nothing where nothing was asked for.
+pub(super) fn json(run: &Certification<'_>) -> Option<Value> {
+    kept_json(&run.limits, &Bounds::of_run(run)?)
+}
+
+/// The same of a claim at samples.
+pub(super) fn sampled_json(run: &SampledCertification<'_>) -> Option<Value> {
+    kept_json(&run.limits, &Bounds::of_samples(run)?)
+}
+
+fn kept_json(limits: &Limits, bounds: &Bounds<'_>) -> Option<Value> {
     let rate = limits.rate.as_ref().zip(slowest(bounds)).map(|(asked, proved)| {
         ("rate".to_owned(), json!({ "asked": write_exact(asked), "proved": write_exact(proved) }))
     });
@@ -66,7 +106,7 @@ pub(super) fn kept_json(limits: &Limits, bounds: &Bounds<'_>) -> Value {
         })
         .chain(rate)
         .collect();
-    if fields.is_empty() { Value::Null } else { fields.into() }
+    (!fields.is_empty()).then(|| fields.into())
 }
 
 /// " and an actuator that takes |u| <= 50 (u does not exceed it from the set)"; nothing where there is none.

@@ -188,6 +188,9 @@ fn obstacle_advice(run: &Certification<'_>, obstacle: Obstacle, add: &mut dyn Fn
         }
         Failing::Gain { .. } => add("a larger gain, or none: without --sigma the smallest one is sought"),
         Failing::Limit { which, .. } => {
+            if let Some(gain) = run.given_gain.as_ref().map(|_| other_gain(which)) {
+                add(gain);
+            }
             add(&format!("{}, or a smaller initial set", wider(which)));
         }
         Failing::NotDecidedAgain { refused } => add(again(refused)),
@@ -223,6 +226,18 @@ pub(super) fn wider(which: Limited) -> &'static str {
     match which {
         Limited::Actuator => "a larger `actuator.max`",
         Limited::SteadyError | Limited::PeakError | Limited::Control => "a larger limit",
+    }
+}
+
+/// What another gain than the one that is given may do for a limit: the control grows with it, the error falls.
+pub(super) fn other_gain(which: Limited) -> &'static str {
+    match which {
+        Limited::Control | Limited::Actuator => {
+            "a smaller gain, which puts out less: without --sigma one with which the limit is kept is sought"
+        }
+        Limited::SteadyError | Limited::PeakError => {
+            "a larger gain, which leaves less of the error: without --sigma one with which the limit is kept is sought"
+        }
     }
 }
 

@@ -85,13 +85,7 @@ pub fn sampled_remarks(run: &SampledCertification<'_>) -> Vec<String> {
 
 /// That parameters of a plant are used nowhere.
 fn unused_parameters(spec: &Specification) -> Option<String> {
-    let unused = spec.plant()?.parameters.unused();
-    let (noun, verb) = match unused {
-        [] => return None,
-        [_] => ("parameter", "is"),
-        _ => ("parameters", "are"),
-    };
-    Some(format!("Remark: the {noun} {} {verb} used nowhere in the plant.", unused.join(", ")))
+    Some(format!("Remark: {}.", spec.plant()?.parameters.unused_in_words()?))
 }
 
 fn of(no_plant: Option<&NoPlant>, force_at_origin: bool) -> Vec<String> {

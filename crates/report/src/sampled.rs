@@ -3,8 +3,8 @@
 use super::failures::{FORMAT, VERSION, errors_json};
 use super::for_n_o::{sampled_json, sampled_section};
 use super::json::{actuator, conditions_with_truth, control, input_gain, interval_costs};
-use super::limits::{self, Bounds, kept_json};
-use super::obstacles::{SLOWER, SMALLER_START, again, describe, first_of, rest_of, wider};
+use super::limits;
+use super::obstacles::{SLOWER, SMALLER_START, again, describe, first_of, other_gain, rest_of, wider};
 use super::of_plant::plant_json;
 use super::remarks::sampled_remarks;
 use super::sets::{Boxes, Sizes};
@@ -20,7 +20,6 @@ use sigmastar_exact::number::{Direction, write_exact};
 use sigmastar_prove::certificate::{no_plant_json, set_fields};
 use sigmastar_prove::certify::{Outcome, SampledCertification, SampledProof, Verdict};
 use sigmastar_prove::search::{Failing, Obstacle};
-use sigmastar_theory::derivation::sampled::SampledEvaluation;
 
 /// Everything that the report is made from.
 pub struct SampledReport<'r> {
@@ -101,6 +100,7 @@ impl<'r> SampledReport<'r> {
                 );
             }
             Outcome::NotFound(Obstacle { failing: Failing::Limit { which, .. }, .. }) => {
+                items.extend(run.given_gain.as_ref().map(|_| other_gain(*which).to_owned()));
                 items.push(format!("{}, a smaller initial set, or a shorter sampling period", wider(*which)));
             }
             Outcome::NotFound(Obstacle { failing: Failing::NotDecidedAgain { refused }, .. }) => {
@@ -195,7 +195,7 @@ fn certified(run: &SampledCertification<'_>, proof: &SampledProof) -> String {
     format!(
         "Certified: the regulator at samples h = {} apart ({samples} in a period){} with sigma = {} and K = {}, mu = {} and base \
          frequency {}, for every number of oscillators n_o < {samples}/2 and every phase of the samples{}{}: every solution that \
-         starts, at a sampling instant, from {}{} converges exponentially to a T-periodic solution, T = {}.",
+         starts, at a sampling instant, from {}{} converges exponentially to a T-periodic solution, T = {}.{}",
         clean(&witness.sampling.text()),
         if witness.sampling.delayed { ", each control computed in the sample before it acts," } else { "" },
         write_exact(&witness.sigma),
@@ -213,6 +213,7 @@ fn certified(run: &SampledCertification<'_>, proof: &SampledProof) -> String {
             ),
         },
         clean(&spec.period.nominal().text),
+        limits::sampled_sentence(run),
     )
 }
 
@@ -334,12 +335,8 @@ impl Readable for SampledReport<'_> {
                 report["for_n_o"] = rates;
             }
             report["gains"] = gains::rows_json(&run.gains);
-            if !run.limits.is_empty() {
-                let SampledEvaluation { size, peak, control, .. } = &proof.evaluation;
-                report["limits"] = kept_json(
-                    &run.limits,
-                    &Bounds { rates: run.rates().collect(), steady: &size.e_per, peak, control },
-                );
+            if let Some(kept) = limits::sampled_json(run) {
+                report["limits"] = kept;
             }
             if !run.interval_costs.is_empty() {
                 report["sigma_without_interval_estimates"] = interval_costs(&run.interval_costs);

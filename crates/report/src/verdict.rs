@@ -21,7 +21,7 @@ pub fn sentence(run: &Certification<'_>) -> String {
     match (run.sigma_star(), run.claimed_set()) {
         (Some(sigma), Some(set)) => format!(
             "Certified: with sigma = {}{}, mu = {} and base frequency {}{}, for every number of oscillators n_o >= 0{}, every solution that starts, at any time, from {} converges exponentially to a T-periodic \
-             solution{}.",
+             solution{}.{}",
             if spec.actuator.is_some() { write_exact(sigma) } else { exact(sigma, Direction::Up) },
             if spec.actuator.is_some() { "" } else { " (or any larger)" },
             clean(&spec.internal_model.mu.text),
@@ -33,6 +33,7 @@ pub fn sentence(run: &Certification<'_>) -> String {
                 None => format!(", T = {}", clean(&spec.period.nominal().text)),
                 Some(_) => String::new(),
             },
+            limits::sentence(run),
         ),
         _ => obstacles::sentence(run),
     }

@@ -7,7 +7,7 @@ from typing import Iterable, List, Literal, Mapping, NamedTuple, Optional, Tuple
 
 from . import _native
 from ._beside import BoundedPlant, Lyapunov, SamplingPairs, Tuning
-from ._document import Document, File, file, read
+from ._document import Document, File, file, is_certificate, read
 from ._errors import found
 from ._exact import Number, stated, text
 from ._laboratory import Falsification, Simulation
@@ -126,17 +126,25 @@ def load(path: Union[str, "os.PathLike[str]"]) -> Certificate:
     return _certificate(found(_native.reread(read(os.fspath(path)))))
 
 
-def check(certificate: Union[Certificate, Document], specification: Optional[Document] = None) -> Check:
+def check(
+    certificate: Union[Certificate, Document],
+    specification: Optional[Document] = None,
+    *,
+    sampling_period: Optional[Number] = None,
+) -> Check:
     """Decides a certificate again, with none of the code that wrote it: a Certificate, a path or a dictionary.
 
-    With a specification or plant, a certificate about other data is invalid. The answer is true only where the claim is proved.
+    With a specification or plant, a certificate about other data is invalid; `sampling_period` is the one that `certify` was given beside
+    it, where it was. The answer is true only where the claim is proved.
     A dictionary has to hold every number as the file does: one that `json.load` made may not, where floats lose their spelling.
 
-    Raises InputError and OSError for the specification alone; a bad certificate is told in the answer.
+    Raises InputError and OSError for the specification and the sampling period alone; a bad certificate is told in the answer.
     """
+    if specification is None and sampling_period is not None:
+        raise ValueError("sampling_period goes with the specification or plant that the certificate is compared with: give it too")
     content = _stored(certificate)[1]
     against = None if specification is None else file(specification, "document")
-    return _check(found(_native.check(content, against)))
+    return _check(found(_native.check(content, against, _maybe(sampling_period))))
 
 
 def rate(
@@ -237,6 +245,7 @@ def simulate(
 
     Raises InputError and OSError as `certify`.
     """
+    plant = _source(plant)
     if isinstance(plant, Certificate):
         sigma = plant.sigma_star_exact if sigma is None else sigma
         if sampling_period is None and plant.samples is not None:
@@ -319,6 +328,7 @@ def controller(
 
     Raises InputError for a gain or sampling time that is wrong or works badly, and OSError as `certify`.
     """
+    source = _source(source)
     if isinstance(source, Certificate):
         if sigma is not None:
             raise ValueError("a certificate has its gain: leave sigma out, or give the specification")
@@ -338,9 +348,17 @@ def controller(
 
 def _asked(document: Union[Certificate, Document]) -> File:
     """What errors call a document, and its bytes; of a certificate those of the specification or plant in it."""
-    if isinstance(document, Certificate):
-        return ("document", document._subject.encode("utf-8"))
-    return file(document, "document")
+    source = _source(document)
+    if isinstance(source, Certificate):
+        return ("document", source._subject.encode("utf-8"))
+    return file(source, "document")
+
+
+def _source(document: Union[Certificate, Document]) -> Union[Certificate, Document]:
+    """The document; where its file is a stored certificate, that, decided again."""
+    if isinstance(document, (str, os.PathLike)) and is_certificate(read(os.fspath(document))[1]):
+        return load(document)
+    return document
 
 
 def _maybe(number: Optional[Number]) -> Optional[str]:

@@ -40,6 +40,15 @@ def read(path: str) -> File:
         return (os.fsdecode(path), stream.read(_native.MAX_BYTES + 1))
 
 
+def is_certificate(content: bytes) -> bool:
+    """Whether these bytes are JSON that says of itself that it is a certificate."""
+    try:
+        held = json.loads(content)
+    except (ValueError, RecursionError):
+        return False
+    return isinstance(held, dict) and held.get("format") == "sigmastar/certificate"
+
+
 def written(held: Any) -> str:
     """What `plain` made, as JSON. Raises ValueError for a float that is not finite."""
     return json.dumps(held, allow_nan=False, ensure_ascii=False, indent=2)

@@ -38,6 +38,9 @@ const ALIASES: [(&str, &str); 12] = [
 /// Edits beyond which a name is not taken for a misspelling.
 const MAX_EDITS: usize = 2;
 
+/// Numbers in words, from 0 on.
+const NUMBERS: [&str; 11] = ["zero", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten"];
+
 /// What can stand where an operand is needed, in a bounding function and in a constant.
 pub(super) const OPERAND: &str = "a number, X, E, pi, a function or an opening parenthesis";
 const CONSTANT_OPERAND: &str = "a number, pi, a function or an opening parenthesis";
@@ -154,6 +157,9 @@ pub(super) fn suggest<S: Scope>(name: &str, scope: &S) -> Option<String> {
     if let Some(meant) = known(scope).find(|known| known.to_lowercase() == lower) {
         return Some(format!("write {meant}"));
     }
+    if let Some(number) = NUMBERS.iter().position(|word| *word == lower) {
+        return Some(format!("write {number}"));
+    }
     match lower.as_str() {
         "e" => return Some("Euler's number is exp(1)".to_owned()),
         "pow" => return Some("write a power as u^v".to_owned()),
@@ -164,6 +170,11 @@ pub(super) fn suggest<S: Scope>(name: &str, scope: &S) -> Option<String> {
         }
         _ => {}
     }
+    for (sign, exponent) in [('\u{b2}', 2), ('\u{b3}', 3)] {
+        if let Some(base) = name.strip_suffix(sign) {
+            return Some(format!("write {base}^{exponent}"));
+        }
+    }
     let product = scope.spelled_out(name);
     if product != name {
         return Some(format!("write {product}"));
@@ -173,6 +184,8 @@ pub(super) fn suggest<S: Scope>(name: &str, scope: &S) -> Option<String> {
         .filter(|known| known.len() > 1)
         .map(|known| (strsim::osa_distance(&lower, known), known))
         .filter(|(edits, known)| *edits <= MAX_EDITS && *edits < known.len() && *edits < name.chars().count())
+        // Of two or three letters, two others are another word.
+        .filter(|(edits, _)| *edits == 1 || name.chars().count() > 3)
         .min_by_key(|(edits, known)| (*edits, known.len().abs_diff(lower.len())))
         .map(|(_, known)| format!("did you mean {known}?"))
 }
@@ -195,6 +208,9 @@ mod tests {
             ("XE", "write X*E"),
             ("tahn", "did you mean tanh?"),
             ("pow", "write a power as u^v"),
+            ("two", "write 2"),
+            ("X\u{b2}", "write X^2"),
+            ("Ten", "write 10"),
         ] {
             assert_eq!(suggest(name).as_deref(), Some(meant), "{name}");
         }
@@ -205,6 +221,7 @@ mod tests {
             assert!(suggest(name).unwrap().contains("write tanh(20*x) for sign(x)"), "{name}");
         }
         assert_eq!(suggest("sinn").as_deref(), Some("did you mean sin?"));
+        assert_eq!(suggest("twp"), None);
         assert_eq!(suggest("q"), None);
         assert_eq!(suggest("velocity"), None);
         assert_eq!(super::suggest("e", &Variables::None).as_deref(), Some("Euler's number is exp(1)"));

@@ -302,6 +302,11 @@ impl<S: Scope> Parser<'_, S> {
             '√' => Some("write sqrt(...)"),
             '²' => Some("write ^2"),
             '³' => Some("write ^3"),
+            ',' if expected == OPERATOR
+                && self.at.checked_sub(1).is_some_and(|at| self.tokens[at].kind == TokenKind::Numeral) =>
+            {
+                Some("decimals have a point, as in 1.5")
+            }
             _ => None,
         };
         let known = matches!(symbol, '+' | '-' | '*' | '/' | '^' | '(' | ')' | ',');
@@ -338,11 +343,32 @@ impl<S: Scope> Parser<'_, S> {
             Some(advice) => match advice.strip_prefix("write ") {
                 Some(meant) => product(meant),
                 None if called || !number || !advice.starts_with("did you mean") => advice,
-                None => without_unit(right),
+                None => self.without_unit(left, right),
             },
             None if called || !number => product(right),
-            None => without_unit(right),
+            None => self.without_unit(left, right),
         }
+    }
+
+    /// The advice on a unit behind a number.
+    fn without_unit(&self, number: &str, unit: &str) -> String {
+        // What a unit means is told where the number is all that stands in front of it.
+        let lower = if self.at == 1 { unit.to_lowercase() } else { String::new() };
+        let (frequency, time) = match lower.as_str() {
+            "hz" => (number.to_owned(), format!("1/{number}")),
+            "khz" => (format!("1000*{number}"), format!("1/(1000*{number})")),
+            "rpm" => (format!("{number}/60"), format!("60/{number}")),
+            "ms" => return format!("numbers have no units: with the second as the unit of time, write {number}/1000"),
+            _ => {
+                return format!(
+                    "numbers have no units: leave `{unit}` out, and take the same units of time, x and e in all data"
+                );
+            }
+        };
+        format!(
+            "numbers have no units: with the second as the unit of time, {number} {unit} is {time} as a period or sampling period, and \
+             2*pi*{frequency} as an angular frequency such as `base_frequency`"
+        )
     }
 
     /// What follows a complete operand and is neither an operator nor the end.
@@ -359,11 +385,6 @@ impl<S: Scope> Parser<'_, S> {
             TokenKind::Symbol(symbol) => self.misplaced(symbol, token.span.clone(), OPERATOR),
         }
     }
-}
-
-/// The advice on a unit behind a number.
-fn without_unit(unit: &str) -> String {
-    format!("numbers have no units: leave `{unit}` out, and take the same units of time, x and e in all data")
 }
 
 /// A piece of a stranger's text, short enough for a message.
@@ -429,6 +450,11 @@ mod tests {
         let missing = |left: &str, right: &str| Kind::MissingOperator { left: left.into(), right: right.into() };
         let unexpected = |found: &str| Kind::Unexpected { found: found.into() };
         let unknown = |name: &str| Kind::UnknownName { name: name.into() };
+        const HERTZ: &str = "numbers have no units: with the second as the unit of time, 2 Hz is 1/2 as a period or sampling period, and 2*pi*2 as an angular \
+                             frequency such as `base_frequency`";
+        const MILLI: &str = "numbers have no units: with the second as the unit of time, write 2/1000";
+        const OTHER: &str =
+            "numbers have no units: leave `ms` out, and take the same units of time, x and e in all data";
         const UNIT: &str = "numbers have no units: leave `s` out, and take the same units of time, x and e in all data";
         const ANGLE: &str =
             "numbers have no units: leave `rad` out, and take the same units of time, x and e in all data";
@@ -446,6 +472,9 @@ mod tests {
             ("2 s", missing("2", "s"), 2..3, Some(UNIT)),
             ("2 rad/s", missing("2", "rad"), 2..5, Some(ANGLE)),
             ("1/2 s", missing("2", "s"), 4..5, Some(UNIT)),
+            ("2 Hz", missing("2", "Hz"), 2..4, Some(HERTZ)),
+            ("2 ms", missing("2", "ms"), 2..4, Some(MILLI)),
+            ("1/2 ms", missing("2", "ms"), 4..6, Some(OTHER)),
             ("2 x", missing("2", "x"), 2..3, Some("write 2*X")),
             ("2 ln(X)", missing("2", "ln"), 2..4, Some("write 2*log")),
             ("2 sqr(X)", missing("2", "sqr"), 2..5, Some("did you mean sqrt?")),
@@ -466,7 +495,8 @@ mod tests {
             ("max(1, 2", Kind::Unclosed, 3..4, Some("add the missing `)`")),
             ("1)", unexpected(")"), 1..2, None),
             ("()", unexpected(")"), 1..2, None),
-            ("(1, 2)", unexpected(","), 2..3, None),
+            ("(1, 2)", unexpected(","), 2..3, Some("decimals have a point, as in 1.5")),
+            ("(X, 2)", unexpected(","), 2..3, None),
             ("1 * / 2", unexpected("/"), 4..5, None),
             ("X**2", unexpected("*"), 2..3, Some("write a power as u^v")),
             ("X×E", Kind::UnexpectedCharacter { character: '×' }, 1..3, Some("write *")),

@@ -1,7 +1,8 @@
 //! Whether the right sides have the stated period: as far as points can tell, and by proof.
 
 use super::Plant;
-use crate::expr::{Evaluator, NotPeriodic, PeriodicityReason};
+use crate::expr::{Evaluator, NotPeriodic, PeriodicityReason, Program};
+use crate::spec::Constant;
 use sigmastar_exact::number::told_apart;
 use std::fmt;
 use std::ops::Range;
@@ -32,16 +33,16 @@ impl fmt::Display for Counterexample {
 
 /// Compares the right sides at t and t + T at points that are spread evenly (an additive recurrence) over a period and
 /// the box |x_i|, |e| <= 1.
-pub(super) fn counterexample(plant: &Plant) -> Option<Counterexample> {
-    let period = plant.period.nominal().to_f64();
-    let program = Arc::new(plant.program());
+pub(super) fn counterexample(program: Program, states: usize, period: &Constant) -> Option<Counterexample> {
+    let period = period.to_f64();
+    let program = Arc::new(program);
     let mut evaluator = Evaluator::new(program.clone());
     let (mut now, mut later) = (vec![0.0; program.outputs()], vec![0.0; program.outputs()]);
     for point in 1..=POINTS {
         let coordinate =
             |along: u32| (f64::from(point) * f64::from(2 * along + 1).sqrt() * 0.618_033_988_749_894_9).fract();
         let t = coordinate(1) * period;
-        let x: Vec<f64> = (0..plant.states()).map(|i| 2.0 * coordinate(3 + i as u32) - 1.0).collect();
+        let x: Vec<f64> = (0..states).map(|i| 2.0 * coordinate(3 + i as u32) - 1.0).collect();
         let e = 2.0 * coordinate(2) - 1.0;
         evaluator.set_time(t);
         evaluator.evaluate(&x, e, &mut now);

@@ -1,12 +1,13 @@
 //! From a document to a plant.
 
 use super::{Initial, InitialRegulator, Plant, periodicity};
-use crate::expr::{Definitions, Expr, Phase, PlantExpr, PlantNames};
+use crate::expr::{Definitions, Expr, Phase, PlantExpr, PlantNames, Program};
 use crate::spec::{
     Constant, Document, Domain, ErrorKind, Errors, InitialSet, Parameters, Period, Reported, SpecErrors, Value,
     any_constant_in, positive_constant_in, read_actuator, read_disturbances, read_input_gain, read_internal_model,
     read_parameters, read_period, read_with_ball,
 };
+use rug::Rational;
 use std::path::Path;
 
 /// The `format` of a plant file.
@@ -66,16 +67,21 @@ fn read(value: &Value<'_>, errors: &mut Errors) -> Result<Plant, Reported> {
     let initial = object.optional("initial");
     let initial_set = object.optional("initial_set").map(|value| read_with_ball(&value, constants, errors)).transpose();
     let domain = object.optional("domain").map(|value| read_domain(&value, constants, errors)).transpose();
-    let internal_model = object
-        .required("internal_model", errors)
-        .and_then(|value| read_internal_model(&value, period.as_ref().ok(), constants, errors));
+    let internal_model = object.required("internal_model", errors);
     let input_gain =
         object.optional("input_gain").map(|value| read_input_gain(&value, &parameters, errors)).transpose();
     let actuator = object.optional("actuator").map(|value| read_actuator(&value, constants, errors)).transpose();
     let disturbances = read_disturbances(&mut object, errors);
     object.finish(errors);
-    // Without the names of the states the right sides have no meaning to check.
-    let names = names?.with_parameters(constants.clone());
+    // Without the names of the states the right sides have no meaning to check, and the rest has.
+    let names = match names {
+        Ok(names) => names.with_parameters(constants.clone()),
+        Err(reported) => {
+            let model = internal_model;
+            drop(model.and_then(|value| read_internal_model(&value, period.as_ref().ok(), constants, errors)));
+            return Err(reported);
+        }
+    };
     // Where the period is wrong that alone is told.
     let names = names.with_phase(period.as_ref().map_or_else(|_| Phase::new(&Expr::zero(), true), Period::phase));
     let f = f.and_then(|value| {
@@ -84,6 +90,30 @@ fn read(value: &Value<'_>, errors: &mut Errors) -> Result<Plant, Reported> {
         Ok((elements, read.into_iter().collect::<Result<Vec<_>, _>>()?))
     });
     let q = q.and_then(|value| expression(&value, &names, errors).map(|q| (value, q)));
+    // A period that is not that of the formulas would be held against the base frequency, which may be right.
+    let broken = match (&f, &q, &period) {
+        (Ok((_, f)), Ok((_, q)), Ok(period)) => {
+            let right_sides: Vec<&PlantExpr> = f.iter().chain([q]).collect();
+            let nominal = parameters.clone().with_clock(period.clock()).nominal();
+            let nominal: Vec<f64> = nominal.iter().map(Rational::to_f64).collect();
+            let program = Program::values(&right_sides, f.len()).with_parameters(&nominal);
+            periodicity::counterexample(program, f.len(), period.nominal())
+        }
+        _ => None,
+    };
+    let periodic = match (&broken, &f, &q) {
+        (Some(broken), Ok((f_values, _)), Ok((q_value, _))) => {
+            let value = f_values.get(broken.index).unwrap_or(q_value);
+            let message = format!("this is not periodic in t with the stated period: {broken}");
+            let length = value.text().or_else(|| value.numeral()).map_or(0, str::len);
+            let error = value.error_in(ErrorKind::Range, &(0..length), message);
+            let help = "correct the expression, or state the period of all right sides together";
+            Err(errors.report(error.help(help)))
+        }
+        _ => Ok(()),
+    };
+    let known = period.as_ref().ok().filter(|_| broken.is_none());
+    let internal_model = internal_model.and_then(|value| read_internal_model(&value, known, constants, errors));
     let states = names.states().len();
     let initial_set = initial_set.map(|set| set.unwrap_or((InitialSet::AtRest { x0: None, e0: None }, None)));
     let aligned = initial_set.as_ref().is_ok_and(|(set, _)| set.is_aligned());
@@ -91,14 +121,15 @@ fn read(value: &Value<'_>, errors: &mut Errors) -> Result<Plant, Reported> {
         Some(value) => read_initial(&value, states, aligned, constants, errors),
         None => Ok(Initial { x: vec![0.0; states], e: 0.0, z: InitialRegulator::AtRest }),
     };
-    let ((f_values, f), (q_value, q)) = (f?, q?);
+    periodic?;
+    let ((_, f), (_, q)) = (f?, q?);
     let (initial_set, ball) = initial_set?;
     schema?;
     let (document, sha256) = value.embedded();
     let members = WITH_PARAMETERS.map(|name| document.get(name));
     let period = period?;
     let parameters = parameters.used_in(&members.into_iter().flatten().collect::<Vec<_>>()).with_clock(period.clock());
-    let plant = Plant {
+    Ok(Plant {
         name: name?,
         description: description?,
         period,
@@ -118,17 +149,7 @@ fn read(value: &Value<'_>, errors: &mut Errors) -> Result<Plant, Reported> {
         sha256,
         source: value.document().clone(),
         pointer: value.pointer().to_owned(),
-    };
-    if let Some(broken) = periodicity::counterexample(&plant) {
-        let value = f_values.get(broken.index).unwrap_or(&q_value);
-        let message = format!("this is not periodic in t with the stated period: {broken}");
-        let length = value.text().or_else(|| value.numeral()).map_or(0, str::len);
-        let error = value.error_in(ErrorKind::Range, &(0..length), message);
-        return Err(
-            errors.report(error.help("correct the expression, or state the period of all right sides together"))
-        );
-    }
-    Ok(plant)
+    })
 }
 
 fn read_names(value: &Value<'_>, errors: &mut Errors) -> Result<PlantNames, Reported> {

@@ -2,7 +2,7 @@
 
 use super::constant::positive_constant_in;
 use super::document::Value;
-use super::error::{Errors, Reported};
+use super::error::{ErrorKind, Errors, Reported, shown};
 use super::parts::Constant;
 use super::quantity::Quantity;
 use crate::expr::Definitions;
@@ -29,6 +29,11 @@ impl Actuator {
 /// # Errors
 /// Reports a field that is missing or unknown, and a number that is not positive.
 pub fn read_actuator(value: &Value<'_>, names: &Definitions, errors: &mut Errors) -> Result<Actuator, Reported> {
+    if let Some(max) = value.text().or_else(|| value.numeral()) {
+        let error = value.error(ErrorKind::Type, format!("{} is {}", value.name(), value.type_name()));
+        let help = format!("write `{{ \"max\": \"{}\" }}`: |u| up to it is put out as it is", shown(max));
+        return Err(errors.report(error.expected("expected an object").help(help)));
+    }
     let mut object = value.object(errors)?;
     let max = object.required("max", errors).and_then(|value| positive_constant_in(&value, names, errors));
     object.finish(errors);

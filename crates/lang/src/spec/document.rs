@@ -27,6 +27,8 @@ pub struct Document {
     source: Arc<Source>,
     notation: Notation,
     root: Arc<Node>,
+    /// The pointers of what is not in the text.
+    put_in: Vec<String>,
 }
 
 impl Document {
@@ -50,7 +52,7 @@ impl Document {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let source = source(label, text);
         match notation.parse(text) {
-            Ok(root) => Ok(Document { source, notation, root: Arc::new(root) }),
+            Ok(root) => Ok(Document { source, notation, root: Arc::new(root), put_in: Vec::new() }),
             Err(error) => Err(SpecErrors::single(source, error)),
         }
     }
@@ -64,7 +66,8 @@ impl Document {
         let number = Node { span: text.len() - value.len()..text.len(), content: Content::Number(value.to_owned()) };
         let member = json::Member { key: flag.to_owned(), key_span: 0..flag.len(), value: number };
         let root = Node { span: 0..text.len(), content: Content::Object(vec![member]) };
-        Document { source: source(COMMAND_LINE, &text), notation: Notation::Json, root: Arc::new(root) }
+        let source = source(COMMAND_LINE, &text);
+        Document { source, notation: Notation::Json, root: Arc::new(root), put_in: Vec::new() }
     }
 
     /// Reads a document in JSON from bytes.
@@ -128,7 +131,7 @@ impl Document {
         &self.source.label
     }
 
-    /// The text of the document.
+    /// The text that the document was read from.
     #[must_use]
     pub fn text(&self) -> &str {
         &self.source.text
@@ -164,6 +167,27 @@ impl Document {
         Some(value)
     }
 
+    /// The same document with a text as the field `name` of the object at a pointer, in the place of its own where it has one; itself where there is no
+    /// such object. Its [text](Document::text) stays what was read: an error about the field is told at the field that it replaces, or at the object.
+    ///
+    /// # Errors
+    /// A document that would be too large with it.
+    pub fn with_field(&self, object: &str, name: &str, text: &str) -> Result<Document, SpecErrors> {
+        if self.text().len() + name.len() + text.len() > MAX_BYTES {
+            return Err(SpecErrors::single(self.source.clone(), limits::too_large()));
+        }
+        let Some(place) = self.at(object).map(|object| object.key_span()) else { return Ok(self.clone()) };
+        let mut root = Node::clone(&self.root);
+        let Some(members) = root.members_at(object) else { return Ok(self.clone()) };
+        let value = |span: &Range<usize>| Node { span: span.clone(), content: Content::Text(text.to_owned()) };
+        match members.iter_mut().find(|member| member.key == name) {
+            Some(member) => member.value = value(&member.value.span),
+            None => members.push(Member { key: name.to_owned(), key_span: place.clone(), value: value(&place) }),
+        }
+        let put_in = self.put_in.iter().cloned().chain([format!("{object}/{}", json::escape_pointer(name))]).collect();
+        Ok(Document { root: Arc::new(root), put_in, ..self.clone() })
+    }
+
     pub(super) fn source(&self) -> &Arc<Source> {
         &self.source
     }
@@ -194,20 +218,19 @@ impl Errors {
     ///
     /// # Errors
     /// Everything that was reported, in file order.
-    pub fn conclude<T>(mut self, document: &Document, outcome: Result<T, Reported>) -> Result<T, SpecErrors> {
+    pub fn conclude<T>(self, document: &Document, outcome: Result<T, Reported>) -> Result<T, SpecErrors> {
         match outcome {
             Ok(value) if self.list.is_empty() => Ok(value),
             // `Err` carries a `Reported`, so the list is not empty here either.
-            _ => {
-                self.list.sort_by_key(|error| (error.span.start, error.span.end));
-                Err(SpecErrors {
-                    origin: document.source().clone(),
-                    errors: self.list,
-                    omitted: self.omitted,
-                    in_full: None,
-                })
-            }
+            _ => Err(self.into_errors(document)),
         }
+    }
+
+    /// What was reported of a document, in file order. Hypothesis: something was.
+    #[must_use]
+    pub fn into_errors(mut self, document: &Document) -> SpecErrors {
+        self.list.sort_by_key(|error| (error.span.start, error.span.end));
+        SpecErrors { origin: document.source().clone(), errors: self.list, omitted: self.omitted, in_full: None }
     }
 }
 
@@ -274,6 +297,8 @@ impl<'d> Value<'d> {
     #[must_use]
     pub fn error_in(&self, kind: ErrorKind, part: &Range<usize>, message: impl Into<String>) -> SpecError {
         let span = match &self.node.content {
+            // What was put in is not what stands there.
+            Content::Text(_) if self.document.put_in.contains(&self.pointer) => self.anchor(),
             Content::Text(_) => self.document.notation.locate(&self.document.source.text, &self.node.span, part),
             Content::Number(_) => {
                 let within = |offset: usize| self.node.span.start.saturating_add(offset).min(self.node.span.end);

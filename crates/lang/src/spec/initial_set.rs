@@ -2,7 +2,7 @@
 
 use super::constant::nonnegative_constant_in;
 use super::document::Value;
-use super::error::{ErrorKind, Errors, Reported};
+use super::error::{ErrorKind, Errors, Reported, shown};
 use super::object::{Object, choose};
 use super::parts::{Constant, InitialSet};
 use crate::expr::Definitions;
@@ -34,6 +34,11 @@ fn read_kinds(
     names: &Definitions,
     errors: &mut Errors,
 ) -> Result<(InitialSet, Option<Constant>), Reported> {
+    if let Some(kind) = value.text() {
+        let error =
+            value.error(ErrorKind::Type, format!("{} is a string", value.name())).expected("expected an object");
+        return Err(errors.report(error.help(format!("write `{{ \"kind\": \"{}\" }}`", shown(kind)))));
+    }
     let mut object = value.object(errors)?;
     let kind = object.required("kind", errors);
     // Without a kind the other fields have no meaning to check.

@@ -3,6 +3,7 @@
 use super::constant::{positive_constant_in, whole};
 use super::document::Value;
 use super::error::{ErrorKind, Errors, Reported};
+use super::interval::no_list;
 use super::parameters::Parameters;
 use super::parts::Constant;
 use super::quantity::Quantity;
@@ -176,6 +177,7 @@ fn ordered_by(
     errors: &mut Errors,
     mut read: impl FnMut(&'static str, &Value<'_>, &mut Errors) -> Result<Constant, Reported>,
 ) -> Result<[Constant; 3], Reported> {
+    no_list(value, errors)?;
     let mut object = value.object(errors)?;
     let nominal = object.required("nominal", errors).and_then(|value| read("nominal", &value, errors));
     let mut end = |name: &'static str, in_order: fn(&Constant, &Constant) -> Truth, relation: &str| {

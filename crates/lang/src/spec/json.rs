@@ -109,11 +109,55 @@ fn syntax_error(text: &str, error: &serde_json::Error) -> SpecError {
     if let Some(help) = other_notation(text) {
         return located.help(help);
     }
+    if let Some(help) = missing_quotes(text, at, message) {
+        return located.help(help);
+    }
     match &text[at..end] {
         "/" | "#" => located.help("JSON has no comments; name the file `.jsonc`, or put remarks in `description`"),
         "'" => located.help("strings stand in double quotes"),
         "}" | "]" if text[..at].trim_end().ends_with(',') => located.help("remove the comma in front of it"),
         _ => located,
+    }
+}
+
+/// What to write where the parser meets at `at` a text without quotes, or what goes on behind a number.
+fn missing_quotes(text: &str, at: usize, message: &str) -> Option<String> {
+    let is_name = |c: char| c.is_alphanumeric() || matches!(c, '_' | '$' | '(' | '-');
+    let until = |start: usize, ends: &[char]| {
+        let rest = text[start..].lines().next().unwrap_or_default();
+        rest[..rest.find(ends).unwrap_or(rest.len())].trim_end().to_owned()
+    };
+    let starts_a_name = text[at..].starts_with(is_name);
+    match message {
+        "key must be a string" if text[at..].starts_with(|c: char| c.is_ascii_digit()) => {
+            Some("decimals have a point, as in 1.5".to_owned())
+        }
+        "key must be a string" if starts_a_name => {
+            let key = until(at, &[':', ',', '}']);
+            Some(format!("the names of fields stand in double quotes: `\"{}\"`", shown(&key)))
+        }
+        "expected value" if starts_a_name => {
+            let value = until(at, &[',', '}', ']', '"']);
+            Some(match value.to_lowercase().as_str() {
+                word @ ("true" | "false" | "null") => format!("write `{word}`"),
+                _ => format!("texts and formulas stand in double quotes: `\"{}\"`", shown(&value)),
+            })
+        }
+        "expected `,` or `}`" | "expected `,` or `]`" => {
+            let before = text[..at].trim_end();
+            let start =
+                before.trim_end_matches(|c: char| c.is_ascii_digit() || matches!(c, '.' | '-' | '+' | 'e' | 'E')).len();
+            let (number, rest) = (&before[start..], &text[at..]);
+            let is_comment = ["//", "/*"].iter().any(|start| rest.starts_with(start));
+            let goes_on =
+                rest.starts_with(|c: char| c.is_alphabetic() || matches!(c, '_' | '*' | '/' | '^' | '+' | '-' | '('));
+            if number.starts_with(|c: char| c.is_ascii_digit() || c == '-') && goes_on && !is_comment {
+                let value = until(start, &[',', '}', ']', '"']);
+                return Some(format!("formulas and fractions stand in double quotes: `\"{}\"`", shown(&value)));
+            }
+            text[at..].starts_with(['"', '{', '[']).then(|| "put a comma in front of it".to_owned())
+        }
+        _ => None,
     }
 }
 
@@ -202,6 +246,20 @@ impl Node {
                 }
                 output.push('}');
             }
+        }
+    }
+
+    /// The members of the object at a pointer.
+    pub(super) fn members_at(&mut self, pointer: &str) -> Option<&mut Vec<Member>> {
+        let steps = pointer.split('/').skip(1).map(|step| step.replace("~1", "/").replace("~0", "~"));
+        let mut node = self;
+        for step in steps {
+            let Content::Object(members) = &mut node.content else { return None };
+            node = &mut members.iter_mut().find(|member| member.key == step)?.value;
+        }
+        match &mut node.content {
+            Content::Object(members) => Some(members),
+            _ => None,
         }
     }
 

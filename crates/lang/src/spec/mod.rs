@@ -18,6 +18,7 @@ mod error;
 mod existence_inequality;
 mod initial_set;
 mod input_gain;
+mod interval;
 mod jacobian;
 mod joint_inequality;
 mod json;

@@ -102,19 +102,14 @@ impl<'d> Object<'d> {
         let found = self.required("format", errors).and_then(|value| {
             let found = value.string(errors)?;
             if found == format {
-                return Ok(());
+                return self.fields_of(format, &value, errors);
             }
             let message = format!("this is a file of format `{}`", shown(found));
             let error = value.error(ErrorKind::Format, message).expected(format!("expected `{format}`"));
-            // What is to be certified, in the place of what was.
-            let what = match (found, format) {
-                ("sigmastar/plant", "sigmastar/certificate") => "a plant",
-                ("sigmastar/bounding-spec", "sigmastar/certificate") => "a specification",
-                _ => return Err(errors.report(error)),
-            };
-            Err(errors.report(error.help(format!(
-                "{what} is to be certified first: `sigmastar certify FILE -o CERTIFICATE`; this command reads the CERTIFICATE"
-            ))))
+            Err(errors.report(match way_out(found, format) {
+                Some(help) => error.help(help),
+                None => error,
+            }))
         });
         let version = self.required("version", errors).and_then(|value| {
             let version = value.integer(errors)?;
@@ -130,6 +125,23 @@ impl<'d> Object<'d> {
             Err(errors.report(error))
         });
         found.and(version)
+    }
+
+    /// That the fields are not those of a plant under the format of a specification, or the reverse.
+    fn fields_of(&self, format: &str, place: &Value<'_>, errors: &mut Errors) -> Result<(), Reported> {
+        const SPECIFICATION: (&str, [&str; 2]) = ("sigmastar/bounding-spec", ["lyapunov", "bounds"]);
+        const PLANT: (&str, [&str; 2]) = ("sigmastar/plant", ["f", "q"]);
+        let (own, (other, others)) = match format {
+            "sigmastar/bounding-spec" => (SPECIFICATION.1, PLANT),
+            "sigmastar/plant" => (PLANT.1, SPECIFICATION),
+            _ => return Ok(()),
+        };
+        let has = |name: &&str| self.value.member(name).is_some();
+        if own.iter().any(has) || !others.iter().all(has) {
+            return Ok(());
+        }
+        let message = format!("the fields are those of a file of the format `{other}`");
+        Err(errors.report(place.error(ErrorKind::Format, message).expected(format!("expected `{other}`"))))
     }
 
     /// Refuses the fields that were not asked for: the first [`MAX_UNKNOWN`] each with its nearest known neighbour, the
@@ -151,13 +163,48 @@ impl<'d> Object<'d> {
                 format!("unknown field `{}`", shown(key)),
             );
             let near = nearest(key, absent.iter().copied()).or_else(|| nearest(key, self.known.iter().copied()));
+            let of_model = self.known.contains(&"internal_model") && OF_INTERNAL_MODEL.contains(&key);
             errors.report(match near {
+                _ if of_model => error.help(format!("`{key}` stands in `internal_model`")),
                 Some(name) => error.expected(format!("did you mean `{name}`?")),
                 None => error.help(format!("the fields known {place} are {}", list(&self.known))),
             });
         }
         errors.count(unknown.count());
     }
+}
+
+/// Fields of the regulator, which some write beside it.
+const OF_INTERNAL_MODEL: [&str; 6] = ["mu", "base_frequency", "matched", "weights", "sampling_period", "delay_samples"];
+
+/// The formats that people name in a file of their own.
+const FORMATS: [&str; 5] =
+    ["sigmastar/plant", "sigmastar/bounding-spec", "sigmastar/study", "sigmastar/certificate", "sigmastar/controller"];
+
+/// What to do with a file of the format `found` where one of `wanted` is read.
+fn way_out(found: &str, wanted: &str) -> Option<String> {
+    let first = |what: &str| {
+        format!(
+            "{what} is to be certified first: `sigmastar certify FILE -o CERTIFICATE`; this command reads the CERTIFICATE"
+        )
+    };
+    Some(match (found, wanted) {
+        // What is to be certified, in the place of what was.
+        ("sigmastar/plant", "sigmastar/certificate") => first("a plant"),
+        ("sigmastar/bounding-spec", "sigmastar/certificate") => first("a specification"),
+        ("sigmastar/plant", "sigmastar/bounding-spec") => {
+            "this command needs bounding functions: `sigmastar bound FILE -o SPEC` writes those of a plant; it reads the SPEC".to_owned()
+        }
+        ("sigmastar/bounding-spec", "sigmastar/plant") => {
+            "this command needs formulas, and a specification has bounds alone: `sigmastar new plant` writes a plant to begin with".to_owned()
+        }
+        ("sigmastar/study", _) => "`sigmastar sweep` is for studies".to_owned(),
+        ("sigmastar/controller", _) => "`sigmastar simulate PLANT --controller FILE` takes it".to_owned(),
+        _ => {
+            let near = nearest(found, FORMATS).filter(|near| *near != found)?;
+            format!("did you mean `{near}`?")
+        }
+    })
 }
 
 /// The name of a kind or family, out of those that are known.

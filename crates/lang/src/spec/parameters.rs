@@ -3,6 +3,7 @@
 use super::constant::{any_constant, whole};
 use super::document::Value;
 use super::error::{ErrorKind, Errors, Reported};
+use super::interval::no_list;
 use super::parts::Constant;
 use crate::expr::{DefinitionError, Definitions, MAX_INTERVALS, occurs};
 use rug::Rational;
@@ -173,6 +174,17 @@ impl Parameters {
         &self.unused
     }
 
+    /// That names occur nowhere, in words; `None` where all do.
+    #[must_use]
+    pub fn unused_in_words(&self) -> Option<String> {
+        let (noun, verb) = match self.unused() {
+            [] => return None,
+            [_] => ("parameter", "is"),
+            _ => ("parameters", "are"),
+        };
+        Some(format!("the {noun} {} {verb} used nowhere in the plant", self.unused().join(", ")))
+    }
+
     /// The same with those marked that occur in none of the texts of these members of the plant.
     #[must_use]
     pub fn used_in(mut self, members: &[&serde_json::Value]) -> Parameters {
@@ -242,6 +254,7 @@ fn read_one(
     if matches!(value.type_name(), "an object") {
         return read_interval(value, name, members, errors);
     }
+    no_list(value, errors)?;
     no_reference(value, name, members, errors)?;
     any_constant(value, errors).map(|constant| (constant, None))
 }

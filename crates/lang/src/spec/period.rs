@@ -4,6 +4,7 @@ use super::constant::{positive_constant_in, whole};
 use super::document::Value;
 use super::error::{ErrorKind, Errors, Reported};
 use super::input_gain::read_ordered;
+use super::interval::no_list;
 use super::parameters::Interval;
 use super::parts::Constant;
 use super::quantity::Quantity;
@@ -105,6 +106,7 @@ impl Period {
 /// # Errors
 /// Reports numbers that are not positive, fields that are missing or unknown, and an order that fails or is not decided.
 pub fn read_period(value: &Value<'_>, names: &Definitions, errors: &mut Errors) -> Result<Period, Reported> {
+    no_list(value, errors)?;
     if value.type_name() != "an object" {
         return positive_constant_in(value, names, errors).map(Period::from);
     }

@@ -297,7 +297,10 @@ fn prove_matched(
             whole(value, ErrorKind::Undecided, message).expected(format!("write it in multiples of pi, as `{right}`"))
         }
     };
-    Err(errors.report(error.help("or set `matched` to false: the gain does not need it")))
+    let own = frequency.exact.as_ref().and_then(|frequency| Monomial::pi().div(frequency));
+    let own = own.and_then(|half| half.as_rational().map(|half| write_exact(&Rational::from(half * 2))));
+    let own = own.map_or_else(String::new, |own| format!("state the period of this base frequency, {own}, or "));
+    Err(errors.report(error.help(format!("or {own}set `matched` to false: the gain does not need it"))))
 }
 
 fn read_relative_degree(value: &Value<'_>, errors: &mut Errors) -> Result<RelativeDegree, Reported> {

@@ -77,7 +77,7 @@ pub(super) fn read(
         Err(problem) => {
             let (kind, message) = problem.describe(period);
             let expected = format!("expected period / sampling_period to be a whole number from 2 to {MAX_SAMPLES}");
-            Err(errors.report(whole(value, kind, message).expected(expected).help(problem.way_out(period))))
+            Err(errors.report(whole(value, kind, message).expected(expected).help(problem.way_out(period, &step))))
         }
     }
 }
@@ -102,13 +102,28 @@ impl Problem {
         }
     }
 
-    fn way_out(&self, period: &Constant) -> String {
+    fn way_out(&self, period: &Constant, step: &Constant) -> String {
+        if let Some(time) = self.of_a_rate(period, step) {
+            return format!(
+                "it is the time between two samples: for {} samples in a unit of time write `{time}`",
+                step.text
+            );
+        }
         let share = |count: u32| period.divided_by(count).map_or_else(String::new, |share| share.text);
         match self {
             Problem::NotWhole(_, Some(near)) => format!("such as `{}`", share(*near)),
             Problem::NotWhole(_, None) | Problem::Range(_) => "take another sampling period".to_owned(),
             Problem::Undecided => format!("write it as a fraction of the period, as `{}`", share(100)),
         }
+    }
+}
+
+impl Problem {
+    /// The sampling period of a number that is longer than the period and would be right as samples in a unit of time.
+    fn of_a_rate(&self, period: &Constant, step: &Constant) -> Option<String> {
+        let rate = step.as_rational().filter(|rate| rate.to_f64() > period.to_f64())?;
+        let time = Constant::rational(&Rational::from(rate.recip_ref()));
+        samples(period, &time).is_ok().then(|| format!("1/{}", write_exact(rate)))
     }
 }
 

@@ -29,6 +29,7 @@ mod row_rates;
 mod sampled;
 mod sensitivity;
 mod smaller;
+mod start;
 mod verdict;
 
 pub use ball::{claimed_ball, covers_ball, inverse_norm, within_ball};
@@ -48,4 +49,5 @@ pub use rates::{NoRatesOfClaim, rate_counts};
 pub use refusal::{Refusal, WITHOUT_INPUT_GAIN, not_available_with_input_gain};
 pub use sampled::{SampledCertification, certify_sampled, certify_sampled_within, recheck_sampled, sampled_model};
 pub use smaller::SmallerChoice;
+pub use start::FarStart;
 pub use verdict::{Verdict, verdict_of_errors};

@@ -133,6 +133,8 @@ pub struct CoordinateSearch<'a> {
     pub ratio: f64,
     /// The path of the matrix inequality by which stability is sought; by norms without.
     pub by_matrix: Option<Path>,
+    /// Hears of each candidate.
+    pub count: Box<dyn Fn() + Sync + 'a>,
 }
 
 /// Coordinates, the model in them, and the smallest gain that was found.
@@ -247,11 +249,15 @@ impl CoordinateSearch<'_> {
         // The first one that has a gain leads to those of the others by local steps.
         let mut closest = Closest::default();
         let first = candidates.iter().find_map(|l| {
+            (self.count)();
             let found = search_sharp(&self.model(alone(l), &Density::Rough));
             found.map_err(|obstacle| closest.record(obstacle)).ok()
         });
         let first = closest.or(first)?;
-        let near = |l: &DMatrix<f64>| search_sharp_near(&self.model(alone(l), &Density::Coarse), &first);
+        let near = |l: &DMatrix<f64>| {
+            (self.count)();
+            search_sharp_near(&self.model(alone(l), &Density::Coarse), &first)
+        };
         let found: Vec<Result<SharpProposal, Obstacle>> = candidates.par_iter().map(near).collect();
         let mut closest = Closest::default();
         let mut best: Option<(SharpProposal, usize)> = None;
@@ -333,6 +339,7 @@ impl CoordinateSearch<'_> {
         // Where L stays, what was sampled serves again.
         let same = (of_l == 0).then(|| self.model(Shape { l, second: second.as_ref(), energy }, &density));
         let with = |p: &[f64]| {
+            (self.count)();
             let (shape, matrices) = p.split_at(of_shape);
             let mut parameters = proposal.parameters;
             if let [rho, eta] = shape {

@@ -38,6 +38,6 @@ pub use run::{Certified, Prepared, Run, StateStart};
 pub use sampled::{RestsOn, SampledPairs, reduce_sampled, with_sampled_pairs};
 pub use specification::specification;
 pub use study::{OrbitStudy, study};
-pub use subject::{Subject, at_samples};
+pub use subject::{SAMPLING_PERIOD, Subject, at_samples};
 pub use watch::{Stage, Unwatched, Watch};
 pub use witness::{FreeNumbers, Witness, WitnessData};

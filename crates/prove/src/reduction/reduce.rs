@@ -384,7 +384,8 @@ fn search<'a>(sampling: &'a Sampling<'a>, sampler: &'a Sampler<'a>, ratio: f64) 
     let frame = |l: &DMatrix<f64>, model: &FloatModel| in_frame(sampling.plant, l, model);
     let units = |l: &DMatrix<f64>| sampling.units(l);
     let (frame, units) = (Box::new(frame), Box::new(units));
-    CoordinateSearch { base: sampling.model, sampler, frame, units, ratio, by_matrix: None }
+    let count = Box::new(|| sampling.count());
+    CoordinateSearch { base: sampling.model, sampler, frame, units, ratio, by_matrix: None, count }
 }
 
 /// The initial set and the domain in the norm of y.

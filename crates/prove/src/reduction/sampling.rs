@@ -13,6 +13,7 @@ use sigmastar_lang::spec::{Bound, PeriodicMatrix};
 use sigmastar_plants::bounds::{Asked, FloatSuprema, Focus, Places, TABLE};
 use sigmastar_plants::orbit::lower_triangular;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// The points that are listed for each bound, where only the most extreme ones are looked at.
 const EXTREME: usize = 6;
@@ -44,6 +45,8 @@ pub(super) struct Sampling<'a> {
     unit_e: f64,
     /// X_0 and E_0 that were asked for; 0 where none was.
     asked: [f64; 2],
+    /// How many candidates were looked at.
+    tried: AtomicUsize,
 }
 
 impl<'a> Sampling<'a> {
@@ -64,7 +67,13 @@ impl<'a> Sampling<'a> {
             plain,
             unit_e: if unit_e > 0.0 { unit_e } else { 1.0 },
             asked: [x_0, e_0],
+            tried: AtomicUsize::new(0),
         }
+    }
+
+    /// One more candidate is looked at: tells who waits.
+    pub(super) fn count(&self) {
+        self.watch.tried(self.tried.fetch_add(1, Ordering::Relaxed) + 1);
     }
 
     /// Whether the derivatives depend on the states or on the error: else all paths are one.

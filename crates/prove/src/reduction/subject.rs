@@ -8,8 +8,8 @@ use crate::search::{SampledProposal, SharpProposal};
 use rug::Rational;
 use sigmastar_lang::plant::{self, Plant};
 use sigmastar_lang::spec::{
-    Actuator, Constant, Document, ErrorKind, InputGain, InternalModel, Period, Sampling, SpecErrors, Specification,
-    Value,
+    self, Actuator, Constant, Document, ErrorKind, InputGain, InternalModel, Period, Sampling, SpecErrors,
+    Specification, Value,
 };
 
 /// Where the search for a gain may start, and what it saw beside.
@@ -20,19 +20,25 @@ pub(super) struct Sought {
     pub(super) without_joint: Option<Box<WithoutJoint>>,
 }
 
-/// The document with another sampling period, which is called `name` in the label of the errors; itself where it has no internal
-/// model, for what is wrong with it is told as ever.
+/// Where documents have their sampling period.
+pub const SAMPLING_PERIOD: &str = "/internal_model/sampling_period";
+
+/// The document with another sampling period; itself where it has no internal model, for what is wrong with it is told as ever.
 ///
 /// # Errors
 /// A document that is too large with it.
-pub fn at_samples(document: &Document, step: &Constant, name: &str) -> Result<Document, SpecErrors> {
-    let mut value = document.root().to_json();
-    let Some(model) = value.get_mut("internal_model").and_then(serde_json::Value::as_object_mut) else {
-        return Ok(document.clone());
-    };
-    model.insert("sampling_period".to_owned(), step.text.clone().into());
-    let label = format!("{} with {name} {}", document.label(), step.text);
-    Document::parse(&label, &format!("{value:#}\n"))
+pub fn at_samples(document: &Document, step: &Constant) -> Result<Document, SpecErrors> {
+    document.with_field("/internal_model", "sampling_period", &step.text)
+}
+
+/// Whether a document is to be read as a plant: by its `format`, or where that is neither by what else it has.
+fn is_plant(value: &Value<'_>) -> bool {
+    let format = value.member("format");
+    match format.as_ref().and_then(Value::text) {
+        Some(plant::FORMAT) => true,
+        Some(spec::FORMAT) => false,
+        _ => value.member("q").is_some() && value.member("bounds").is_none(),
+    }
 }
 
 /// A document of either kind.
@@ -58,7 +64,7 @@ impl Subject {
     /// # Errors
     /// What is wrong with it.
     pub fn from_value(value: &Value<'_>) -> Result<Subject, SpecErrors> {
-        if value.member("format").is_some_and(|format| format.text() == Some(plant::FORMAT)) {
+        if is_plant(value) {
             return Ok(Subject::Plant(Box::new(Plant::from_value(value)?)));
         }
         Ok(Subject::Specification(Box::new(Specification::from_value(value)?)))

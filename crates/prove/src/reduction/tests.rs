@@ -3,12 +3,13 @@
 #[path = "../../../plants/src/bounds/tests/random_points.rs"]
 mod random_points;
 
-use super::{Unwatched, bounds_around, reduce};
+use super::{Stage, Unwatched, Watch, bounds_around, reduce};
 use random_points::random_points;
 use rayon::prelude::*;
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::ProvedValue;
 use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// A value may exceed what random points reach by this part of it; one of the error box beside a matrix inequality, which no
 /// condition uses, by as much as a proof tries.
@@ -58,4 +59,31 @@ fn values_are_above_random_points_and_near_them() {
             assert!(near, "{place}: {value} for {found}");
         }
     });
+}
+
+/// Hears how many candidates are tried.
+#[derive(Default)]
+struct Heard(AtomicUsize);
+
+impl Watch for Heard {
+    fn enter(&self, _: Stage) {}
+
+    fn part(&self, _: usize, _: usize) {}
+
+    fn tried(&self, count: usize) {
+        self.0.fetch_max(count, Ordering::Relaxed);
+    }
+}
+
+/// Coordinates, of which a state alone has none to choose, take most of the time: who waits hears that it goes on.
+#[test]
+fn candidates_are_counted() {
+    let tried = |name: &str| {
+        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../specs/plants").join(name);
+        let heard = Heard::default();
+        reduce(&Plant::load(&file).unwrap(), None, &heard).unwrap();
+        heard.0.into_inner()
+    };
+    let (few, many) = (tried("linear.json"), tried("duffing.json"));
+    assert!(few >= 1 && many > 50, "{few} {many}");
 }

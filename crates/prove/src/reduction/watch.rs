@@ -26,6 +26,9 @@ pub trait Watch: Sync {
 
     /// So many parts of it are done, of so many; they are done on several threads, so that a number may be told late.
     fn part(&self, done: usize, of: usize);
+
+    /// So many candidates are tried of a stage that does not know how many there will be; on several threads, as parts.
+    fn tried(&self, count: usize);
 }
 
 /// Nobody waits.
@@ -36,4 +39,6 @@ impl Watch for Unwatched {
     fn enter(&self, _: Stage) {}
 
     fn part(&self, _: usize, _: usize) {}
+
+    fn tried(&self, _: usize) {}
 }
