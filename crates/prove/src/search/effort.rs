@@ -6,9 +6,6 @@ use super::minimise::Descent;
 const TOLERANCE: f64 = 1e-11;
 const ROUGH: f64 = 1e-6;
 
-/// Every so many values of rho and of eta are scanned for what is only compared.
-const ROUGH_STEP: usize = 4;
-
 /// Operations of all bounding functions together up to which a search is thorough.
 const THOROUGH: usize = 600;
 
@@ -30,26 +27,6 @@ pub struct Effort {
     pub iterations: u64,
     /// The relative change at which a refinement has converged.
     pub tolerance: f64,
-    /// How closely least fixed points are approached.
-    pub fixed_point: FixedPoint,
-}
-
-/// How closely a least fixed point is approached.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FixedPoint {
-    /// The largest relative step at which it has converged.
-    pub near: f64,
-    /// Steps at most.
-    pub steps: usize,
-    /// Every so many steps, the limit of the linearised map is tried.
-    pub leap_every: usize,
-    /// Steps down from beyond the limit at most. Each of them leaves a point that the map takes below itself, so that none is needed.
-    pub steps_down: usize,
-}
-
-impl FixedPoint {
-    const CLOSE: FixedPoint = FixedPoint { near: 1e-14, steps: 1000, leap_every: 12, steps_down: 24 };
-    const ROUGH: FixedPoint = FixedPoint { near: 1e-9, steps: 200, leap_every: 5, steps_down: 3 };
 }
 
 impl Effort {
@@ -65,20 +42,13 @@ impl Effort {
             restarts_share: less,
             iterations: (400 / less as u64).max(40),
             tolerance: TOLERANCE,
-            fixed_point: FixedPoint::CLOSE,
         }
     }
 
     /// That of a search whose result is only compared with others.
     #[must_use]
     pub fn rough(self) -> Effort {
-        Effort {
-            shape_step: self.shape_step.max(ROUGH_STEP),
-            restarts_share: 4 * self.restarts_share,
-            tolerance: ROUGH,
-            fixed_point: FixedPoint::ROUGH,
-            ..self
-        }
+        Effort { restarts_share: 4 * self.restarts_share, tolerance: ROUGH, ..self }
     }
 
     /// A refinement, for which so many restarts are asked.

@@ -437,12 +437,6 @@ impl FloatModel {
         FloatModel { rough: true, ..self }
     }
 
-    /// Whether results are only compared.
-    #[must_use]
-    pub fn is_rough(&self) -> bool {
-        self.rough
-    }
-
     /// The same model with error boxes for something else.
     #[must_use]
     pub fn with_goal(&self, goal: Goal) -> FloatModel {

@@ -5,10 +5,8 @@
 //! left to choose: the iteration of G from below finds it.
 
 use super::by_energy::ByEnergy;
-use super::effort::FixedPoint;
 use super::model::FloatModel;
 use super::obstacle::{Failing, Obstacle};
-use nalgebra::{SMatrix, SVector};
 use sigmastar_exact::number::Portable;
 use sigmastar_exact::real::Real;
 use sigmastar_theory::data::Problem;
@@ -62,14 +60,20 @@ pub struct PeriodicSet {
     pub y_per: f64,
 }
 
-/// Steps of the refinement at most.
+/// Steps of the iteration at most.
 const STEPS: usize = 1000;
 
-/// The relative step of a difference quotient.
-const DIFFERENCE: f64 = 1e-7;
+/// Steps down from beyond the limit at most. Each of them leaves a point that G maps below itself, so that none of them is needed.
+const STEPS_DOWN: usize = 24;
+
+/// The largest relative step at which it has converged.
+const NEAR: f64 = 1e-14;
+
+/// Every so many steps, the limit of a geometric sequence is tried.
+const LEAP_EVERY: usize = 12;
 
 /// How far beyond the limit, as shares of the distance to it; the steps from there lead down to it.
-const BEYOND: [f64; 3] = [1e-9, 1e-6, 1e-3];
+const BEYOND: [f64; 4] = [1e-9, 1e-6, 1e-3, 0.1];
 
 /// Mean squares are at least this share of the suprema: they have to be positive.
 const SMALLEST_SHARE: f64 = 1e-12;
@@ -94,8 +98,6 @@ struct Iteration<'a> {
     floors: Floors,
     /// 1 + the room that is left between both sides of every inequality.
     enlarged: f64,
-    /// How closely the least fixed point is approached.
-    closely: FixedPoint,
 }
 
 impl Iteration<'_> {
@@ -206,72 +208,50 @@ impl Iteration<'_> {
         }
     }
 
-    /// The least fixed point; where it is approached slowly, a point above it that G maps below itself. It is looked for from `below`, a
-    /// set of a larger sigma, where there is one: G falls with sigma.
-    fn least(&self, below: Option<&PeriodicSet>) -> Result<Point, Obstacle> {
-        let start = match below {
-            Some(PeriodicSet { x_p, e_p, squares: MeanSquares { x, e, e_rate }, .. }) => [*x_p, *e_p, *x, *e, *e_rate],
-            None => [self.floors.x_p, self.floors.e_p, 0.0, 0.0, 0.0],
-        };
-        // The set of a larger sigma may be above this one.
-        if let Some(found) = below.and_then(|_| self.down(start)) {
-            return Ok(found);
-        }
-        let mut at = self.image(start)?;
-        for step in 1..self.closely.steps {
+    /// The least fixed point; where it is approached slowly, a point above it that G maps below itself.
+    fn least(&self) -> Result<Point, Obstacle> {
+        let mut at = self.image([self.floors.x_p, self.floors.e_p, 0.0, 0.0, 0.0])?;
+        let mut before: Option<Point> = None;
+        for step in 1..STEPS {
             let next = self.image(at)?;
-            if change(&at, &next) <= self.closely.near {
+            if change(&at, &next) <= NEAR {
                 return Ok(next);
             }
-            at = next;
-            if step % self.closely.leap_every == 0
-                && let Some(limit) = self.limit(at)
+            if let Some(before) = before.filter(|_| step % LEAP_EVERY == 0)
+                && let Some(found) = self.leap([before, at, next])
             {
-                // A little beyond the limit there may be a point that G maps below itself.
-                let beyond = |share: f64| {
-                    self.down(std::array::from_fn(|i| (limit[i] + (limit[i] - at[i]) * share) * (1.0 + 1e-13)))
-                };
-                if let Some(found) = BEYOND.into_iter().find_map(beyond) {
-                    return Ok(found);
-                }
-                // The limit itself may be below the fixed point, as it is of a convex G.
-                let image = self.image(limit)?;
-                if image.iter().zip(&limit).all(|(image, limit)| image >= limit) {
-                    at = image;
-                }
+                return Ok(found);
             }
+            before = Some(at);
+            at = next;
         }
         Err(Failing::Existence.at(at[0], at[1]))
     }
 
-    /// The fixed point of G as if it were linear near a point (Newton), where it is above that.
-    fn limit(&self, at: Point) -> Option<Point> {
-        let image = self.image(at).ok()?;
-        // In units of the point.
-        let mut columns = [[0.0; 5]; 5];
-        for (j, column) in columns.iter_mut().enumerate() {
-            let mut moved = at;
-            moved[j] *= 1.0 + DIFFERENCE;
-            let slope = self.image(moved).ok()?;
-            for (i, entry) in column.iter_mut().enumerate() {
-                *entry = f64::from(i == j) - (slope[i] - image[i]) / (DIFFERENCE * at[i]);
-            }
-        }
-        let matrix = SMatrix::<f64, 5, 5>::from_fn(|i, j| columns[j][i]);
-        let step = matrix.lu().solve(&SVector::<f64, 5>::from_fn(|i, _| (image[i] - at[i]) / at[i]))?;
-        let is_above = step.iter().all(|share| *share >= -DIFFERENCE && share.is_finite());
-        is_above.then(|| std::array::from_fn(|i| at[i] * (1.0 + step[i].max(0.0))))
+    /// A little beyond the limit of a geometric sequence through three points, if G maps it below itself.
+    fn leap(&self, points: [Point; 3]) -> Option<Point> {
+        BEYOND.into_iter().find_map(|beyond| self.leap_beyond(points, beyond))
     }
 
-    /// From a point that G maps below itself down, which removes what it is too large; every point on the way is as good. None from
-    /// another point.
-    fn down(&self, mut at: Point) -> Option<Point> {
-        for _ in 0..self.closely.steps_down {
+    /// The same, beyond the limit by a share of the distance to it.
+    fn leap_beyond(&self, [first, second, third]: [Point; 3], beyond: f64) -> Option<Point> {
+        let mut limit = third;
+        for (index, value) in limit.iter_mut().enumerate() {
+            let (older, newer) = (second[index] - first[index], third[index] - second[index]);
+            let ratio = newer / older;
+            if older > 0.0 && newer > 0.0 && ratio < 1.0 {
+                *value += newer * ratio / (1.0 - ratio) * (1.0 + beyond);
+            }
+            *value *= 1.0 + 1e-13;
+        }
+        // From there down, which removes what it is too large; every point on the way is as good.
+        let mut at = limit;
+        for _ in 0..STEPS_DOWN {
             let next = self.image(at).ok()?;
-            if next.iter().zip(&at).any(|(next, at)| *next > at * (1.0 + self.closely.near)) {
+            if next.iter().zip(&at).any(|(next, at)| *next > at * (1.0 + NEAR)) {
                 return None;
             }
-            let done = change(&at, &next) <= self.closely.near;
+            let done = change(&at, &next) <= NEAR;
             at = next;
             if done {
                 break;
@@ -289,7 +269,7 @@ impl Iteration<'_> {
             let next = at_the_solution(bounds, self.origin, gains, Some(&kap), &at);
             let next =
                 [(&next.x, x), (&next.e, e), (&next.e_rate, e_rate)].map(|(v, low)| (v * self.enlarged).max(low));
-            let done = change(&[at.x, at.e, at.e_rate], &next) <= self.closely.near;
+            let done = change(&[at.x, at.e, at.e_rate], &next) <= NEAR;
             let [x, e, e_rate] = next;
             at = MeanSquares { x, e, e_rate };
             if done {
@@ -317,28 +297,13 @@ impl PeriodicSet {
         model: &FloatModel,
         origin: &AtOrigin<f64>,
         sigma: f64,
-        at: (ExistenceForm, Floors),
-        room: f64,
-    ) -> Result<PeriodicSet, Obstacle> {
-        PeriodicSet::least_from(model, origin, sigma, at, (room, None))
-    }
-
-    /// The same, looked for from the set of a larger sigma where that is given.
-    ///
-    /// # Errors
-    /// The obstacle where there is none.
-    pub fn least_from(
-        model: &FloatModel,
-        origin: &AtOrigin<f64>,
-        sigma: f64,
         (form, floors): (ExistenceForm, Floors),
-        (room, below): (f64, Option<&PeriodicSet>),
+        room: f64,
     ) -> Result<PeriodicSet, Obstacle> {
         let gains = ErrorGains::new(model, &sigma);
         let regulated = Regulated::Continuous { gains: &gains, form };
-        let closely = model.effort().fixed_point;
-        let iteration = Iteration { model, origin, regulated, floors, enlarged: 1.0 + room, closely };
-        let at = iteration.least(below)?;
+        let iteration = Iteration { model, origin, regulated, floors, enlarged: 1.0 + room };
+        let at = iteration.least()?;
         match iteration.by_energy(&gains, [at[0], at[1]])? {
             // It has been found with all bounds together.
             Some(gains) => iteration.set(at, &gains, |_, _| None),
@@ -365,9 +330,8 @@ impl PeriodicSet {
     ) -> Result<PeriodicSet, Obstacle> {
         let gains = SampledGains::new(law, &sigma, &model.period);
         let regulated = Regulated::Sampled { gains: &gains, sigma };
-        let closely = model.effort().fixed_point;
-        let iteration = Iteration { model, origin, regulated, floors, enlarged: 1.0 + room, closely };
-        let at = iteration.least(None)?;
+        let iteration = Iteration { model, origin, regulated, floors, enlarged: 1.0 + room };
+        let at = iteration.least()?;
         let gains = iteration.at_samples(&gains, sigma, [at[0], at[1]])?;
         iteration.set(at, &gains, |_, _| None)
     }

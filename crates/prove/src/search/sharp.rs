@@ -14,7 +14,6 @@ use super::threshold::ByMatrix;
 use sigmastar_exact::number::Portable;
 use sigmastar_theory::derivation::control::Answer;
 use sigmastar_theory::derivation::harmonics::AtOrigin;
-use std::cell::RefCell;
 
 /// How existence is proved, and the shape of the error box: from these and sigma every other free number follows.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -56,6 +55,7 @@ const LARGEST: f64 = 1e250;
 const BRACKET: f64 = 0.1;
 
 /// One way to prove existence, for every sigma.
+#[derive(Clone)]
 struct Search<'a> {
     model: &'a FloatModel,
     origin: AtOrigin<f64>,
@@ -63,33 +63,12 @@ struct Search<'a> {
     floors: Floors,
     /// Where the shape of the error box is sought; everywhere without.
     near: Option<(f64, f64)>,
-    /// The sets of the sigma that were looked at, from which a rough search goes on.
-    known: RefCell<Vec<(f64, PeriodicSet)>>,
 }
 
-impl<'a> Search<'a> {
-    fn new(model: &'a FloatModel, (form, floors): (ExistenceForm, Floors), near: Option<(f64, f64)>) -> Search<'a> {
-        Search { model, origin: AtOrigin::new(model), form, floors, near, known: RefCell::default() }
-    }
-
-    /// The least set at sigma.
-    fn set(&self, sigma: f64, room: f64) -> Result<PeriodicSet, Obstacle> {
-        let least = |below: Option<&PeriodicSet>| {
-            PeriodicSet::least_from(self.model, &self.origin, sigma, (self.form, self.floors), (room, below))
-        };
-        if !self.model.is_rough() {
-            return least(None);
-        }
-        let mut known = self.known.borrow_mut();
-        let larger = known.iter().filter(|(other, _)| *other >= sigma).min_by(|a, b| a.0.total_cmp(&b.0));
-        let set = least(larger.map(|(_, set)| set))?;
-        known.push((sigma, set.clone()));
-        Ok(set)
-    }
-
+impl Search<'_> {
     /// The best error box at sigma.
     fn at(&self, sigma: f64, room: f64) -> Result<(PeriodicSet, AtSigma), Obstacle> {
-        let set = self.set(sigma, room)?;
+        let set = PeriodicSet::least(self.model, &self.origin, sigma, (self.form, self.floors), room)?;
         let distances = start_distances(self.model, &set);
         let periodic = (set.x_per, set.e_per);
         let evaluate = |rho: f64, eta: f64| {
@@ -114,7 +93,7 @@ impl<'a> Search<'a> {
         sigma: f64,
         worth: impl Fn(&Search<'_>, f64) -> Option<f64>,
     ) -> Result<SharpProposal, Obstacle> {
-        let with = |floors: Floors| Search::new(self.model, (self.form, floors), self.near);
+        let with = |floors: Floors| Search { floors, ..self.clone() };
         let size = |floors: Floors, sigma: &f64| with(floors).at(*sigma, ROOM).map(|(set, _)| [set.x_p, set.e_p]);
         let again = |floors: Floors, sigma: &f64| worth(&with(floors), *sigma);
         let (floors, sigma) = raised((self.floors, sigma), ordinary(self.model), size, again)?;
@@ -191,7 +170,7 @@ pub fn search_sharp(model: &FloatModel) -> Result<SharpProposal, Obstacle> {
     model.in_range()?;
     let tiny = tiny(model);
     let found = scan::evaluate_all(&forms(model), |form| {
-        let search = Search::new(model, (*form, tiny), None);
+        let search = Search { model, origin: AtOrigin::new(model), form: *form, floors: tiny, near: None };
         search.smallest(first_guess(model)).map(|sigma| (sigma, *form))
     });
     let mut closest = Closest::default();
@@ -204,7 +183,7 @@ pub fn search_sharp(model: &FloatModel) -> Result<SharpProposal, Obstacle> {
         }
     }
     let (sigma, form) = closest.or(best)?;
-    let search = Search::new(model, (form, tiny), None);
+    let search = Search { model, origin: AtOrigin::new(model), form, floors: tiny, near: None };
     search.with_ordinary_floors(sigma, |search, sigma| {
         // One that costs nothing.
         search.smallest(sigma).ok().filter(|found| *found <= sigma * (1.0 + 1e-7))
@@ -230,7 +209,7 @@ pub fn search_sharp_at(
     let mut closest = Closest::default();
     let mut best: Option<(f64, Search<'_>)> = None;
     for (form, floors, near) in searches {
-        let search = Search::new(model, (form, floors), near);
+        let search = Search { model, origin: AtOrigin::new(model), form, floors, near };
         match search.excess(sigma) {
             Ok(excess) if best.as_ref().is_none_or(|(least, _)| excess < *least) => best = Some((excess, search)),
             Ok(_) => {}
@@ -274,7 +253,7 @@ fn first_guess(model: &FloatModel) -> f64 {
 /// The obstacle, where they are not feasible here.
 pub fn search_sharp_near(model: &FloatModel, known: &SharpProposal) -> Result<SharpProposal, Obstacle> {
     let SharpParameters { form, floors, rho, eta } = known.parameters;
-    let search = Search::new(model, (form, floors), Some((rho, eta)));
+    let search = Search { model, origin: AtOrigin::new(model), form, floors, near: Some((rho, eta)) };
     let sigma = search.smallest(known.sigma)?;
     proposal(&search, sigma)
 }
@@ -284,7 +263,7 @@ pub fn search_sharp_near(model: &FloatModel, known: &SharpProposal) -> Result<Sh
 pub fn any_candidate(model: &FloatModel) -> bool {
     let floors = tiny(model);
     // The sets only shrink with sigma, and kap > 0 gains nothing where that is large.
-    let search = Search::new(model, (ExistenceForm::Plain, floors), None);
+    let search = Search { model, origin: AtOrigin::new(model), form: ExistenceForm::Plain, floors, near: None };
     model.in_range().is_ok() && search.at(LARGEST.sqrt(), ROOM).is_ok()
 }
 
@@ -311,7 +290,7 @@ pub fn at_sigma(
     room: f64,
 ) -> Result<(PeriodicSet, AtSigma), Obstacle> {
     let SharpParameters { form, floors, rho, eta } = *parameters;
-    Search::new(model, (form, floors), Some((rho, eta))).at(sigma, room)
+    Search { model, origin: AtOrigin::new(model), form, floors, near: Some((rho, eta)) }.at(sigma, room)
 }
 
 /// What is bounded at the gain of a proposal.
