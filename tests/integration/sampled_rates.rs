@@ -1,7 +1,7 @@
 //! Rates for given n_o at samples as a part of claims (derivation, 13.6): against the loops that the data allow, and along solutions.
 
 use crate::controller::{constant, example};
-use crate::support::{Shipped, certified, json, program};
+use crate::support::{Shipped, certified, every, json, program};
 use faer::Mat;
 use rug::Rational;
 use serde_json::Value;
@@ -139,7 +139,7 @@ fn farthest(members: Vec<Member>, sizes: [f64; 2], samples: usize) -> f64 {
 #[test]
 fn rates_at_samples_are_near_those_of_the_loops() {
     let mut shares: Vec<(f64, String)> = Vec::new();
-    for Shipped { name, spec, .. } in certified() {
+    for Shipped { name, spec, .. } in certified().iter().step_by(every(3)) {
         let found = SAMPLES.iter().find_map(|samples| {
             let mut document = spec.document.clone();
             document["internal_model"]["sampling_period"] =
