@@ -34,7 +34,7 @@ fn witness(run: &SampledCertification<'_>) -> SampledWitness {
 fn certified(folder: &Path, file: &Value, step: &str) -> (PathBuf, PathBuf, Value) {
     let [plant, certificate] = ["input.json", "certificate.json"].map(|name| folder.join(name));
     std::fs::write(&plant, file.to_string()).unwrap();
-    let call = ["--quiet", "--no-compare", "--force", "--format", "json", "--sampling-period", step, "-o"];
+    let call = ["--quiet", "--force", "--format", "json", "--sampling-period", step, "-o"];
     let output = program().arg("certify").arg(&plant).args(call).arg(&certificate).assert().code(0);
     (plant, certificate, json(&output.get_output().stdout))
 }
