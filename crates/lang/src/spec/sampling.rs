@@ -116,14 +116,13 @@ impl Problem {
             Problem::Undecided => format!("write it as a fraction of the period, as `{}`", share(100)),
         }
     }
-}
 
-impl Problem {
     /// The sampling period of a number that is longer than the period and would be right as samples in a unit of time.
     fn of_a_rate(&self, period: &Constant, step: &Constant) -> Option<String> {
         let rate = step.as_rational().filter(|rate| rate.to_f64() > period.to_f64())?;
         let time = Constant::rational(&Rational::from(rate.recip_ref()));
-        samples(period, &time).is_ok().then(|| format!("1/{}", write_exact(rate)))
+        let text = if rate.is_integer() { format!("1/{rate}") } else { time.text.clone() };
+        samples(period, &time).is_ok().then_some(text)
     }
 }
 
@@ -192,5 +191,22 @@ impl Sampling {
                 product.le(&Enclosure::one(PRECISION))
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Where samples in a unit of time stand in the place of the time between two: also such that are no whole number.
+    #[test]
+    fn a_rate_is_told_as_the_time_between_two_samples() {
+        let constant = |p: i32, q: i32| Constant::rational(&Rational::from((p, q)));
+        let told = |period: Constant, step: Constant| Problem::Undecided.of_a_rate(&period, &step);
+        assert_eq!(told(constant(1, 1), constant(500, 1)).as_deref(), Some("1/500"));
+        let time = told(constant(6, 1), constant(7, 1)).zip(told(constant(6, 7), constant(7, 3)));
+        assert_eq!(time.as_ref().map(|(whole, part)| (whole.as_str(), part.as_str())), Some(("1/7", "3/7")));
+        // Neither is one of these a rate of a whole number of samples, nor longer than the period.
+        assert_eq!((told(constant(1, 1), constant(3, 2)), told(constant(1, 1), constant(2, 7))), (None, None));
     }
 }
