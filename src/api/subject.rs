@@ -66,7 +66,11 @@ impl Subject {
     /// A sampling period that is no exact positive constant, or does not go with the document.
     pub fn at_samples(&self, sampling_period: &str) -> Result<Subject, Error> {
         let step = positive("sampling_period", sampling_period)?;
-        Subject::new(at_samples(&self.source, &step)?)
+        let document = at_samples(&self.source, &step)?;
+        let read = Read::read(&document)?;
+        // Errors have been told at the lines that were read; from here on the text has the field, too.
+        let source = Document::parse(document.label(), &json_text(&document.root().to_json()))?;
+        Ok(Subject { read, source })
     }
 
     /// The plant; what is none is told as such.

@@ -122,6 +122,16 @@ fn better_values_are_those_of_the_program() {
     let again = certified(document, &CertifyOptions::new());
     assert_eq!(report["after"]["sigma_star"], again.claim().sigma_star());
     assert_eq!(report["parameters"][0]["after"], subject_value(document, "/internal_model/mu"));
+    // With a sampling period beside it, it is the document that has it.
+    let mut stated: Value = serde_json::from_str(EXAMPLE_TEXT).unwrap();
+    stated["internal_model"]["sampling_period"] = "1/500".into();
+    let of = |subject: Subject| {
+        let tuned = tune(subject, &TuneOptions::new().over("mu=1/10..10").tries(8)).unwrap();
+        (json(tuned.report()), tuned.document().map(str::to_owned))
+    };
+    let beside = of(subject(EXAMPLE_TEXT).at_samples("1/500").unwrap());
+    assert_eq!(beside, of(subject(&stated.to_string())));
+    assert!(beside.1.is_some_and(|document| document.contains("\"sampling_period\"")));
     let kind = |text: &str, options| tune(subject(text), &options).unwrap_err().kind();
     let options = TuneOptions::new;
     assert_eq!(kind(LINEAR, options().tries(1)), ErrorKind::Range);
