@@ -134,8 +134,8 @@ fn the_words_of_a_claim_say_what_it_keeps_to() {
 
 #[test]
 fn another_gain_is_the_advice_where_one_is_given() {
-    const SMALLER: &str = "a smaller gain, which puts out less";
-    const LARGER: &str = "a larger gain, which leaves less of the error";
+    const SMALLER: &str = "another gain, where this one is far above sigma* a smaller one";
+    const LARGER: &str = "a larger gain, which may leave less of the error";
     for (flags, said) in [
         (&["--sigma", "60", "--max-control", "1"][..], Some(SMALLER)),
         (&["--sigma", "60", "--max-control", "1", "--sampling-period", "1/10000"], Some(SMALLER)),

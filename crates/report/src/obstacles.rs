@@ -229,14 +229,15 @@ pub(super) fn wider(which: Limited) -> &'static str {
     }
 }
 
-/// What another gain than the one that is given may do for a limit: the control grows with it, the error falls.
+/// What another gain than the one that is given may do for a limit: far above the smallest gain the control grows with it and the error falls;
+/// near that one the error box may be so large that both are smaller at a larger gain.
 pub(super) fn other_gain(which: Limited) -> &'static str {
     match which {
         Limited::Control | Limited::Actuator => {
-            "a smaller gain, which puts out less: without --sigma one with which the limit is kept is sought"
+            "another gain, where this one is far above sigma* a smaller one: without --sigma one with which the limit is kept is sought"
         }
         Limited::SteadyError | Limited::PeakError => {
-            "a larger gain, which leaves less of the error: without --sigma one with which the limit is kept is sought"
+            "a larger gain, which may leave less of the error: without --sigma one with which the limit is kept is sought"
         }
     }
 }
