@@ -84,7 +84,7 @@ struct Axis {
     below: Vec<usize>,
 }
 
-/// Numbers that agree in the bits above are within an eighth of each other.
+/// Doubles that agree in the bits from this one on, and are positive, are within an eighth of each other.
 const LEADING: u32 = 52 - 3;
 
 impl Axis {

@@ -4,7 +4,7 @@ mod seeking;
 
 use super::interval_costs::{costs_at_samples, interval_costs};
 use super::proofs::{WithoutJoint, bounds_around};
-use super::reduce::{reduce, reduce_by_norms_quickly};
+use super::reduce::{reduce, reduce_by_norms, reduce_by_norms_quickly};
 use super::subject::Sought;
 use super::watch::{Stage, Unwatched, Watch};
 use super::{FreeNumbers, RestsOn, Subject, Witness};
@@ -141,7 +141,7 @@ impl Prepared {
     pub fn within(self, limits: Limits) -> Prepared {
         let kept = !limits.is_empty() || self.spec.actuator.is_some();
         let plant = self.plant.as_ref().filter(|_| kept && matches!(self.start, Start::Continuous(_)));
-        let reduced = plant.and_then(|plant| reduce_by_norms_quickly(plant).ok());
+        let reduced = plant.and_then(|plant| reduce_by_norms(plant).ok());
         let by_norms = reduced.map(|reduced| Box::new((reduced.spec, reduced.proposal)));
         Prepared { limits, by_norms, ..self }
     }
