@@ -28,6 +28,12 @@ const WORTH_A_MATRIX: f64 = 0.99;
 const FAR: f64 = 1.3;
 const NEARLY: f64 = 0.98;
 
+/// The room between both sides of S1 and S2 of the last descent.
+const CLOSE: f64 = 1e-3;
+
+/// By what share the gain has to be larger at many samples for another inequality of existence to be sought.
+const WORTH_AN_INEQUALITY: f64 = 0.05;
+
 impl CoordinateSearch<'_> {
     /// From where a search by a matrix inequality starts: all candidates where L is not varied, else one of two, the best by norms and the
     /// one whose inequality asks for the least gain on the orbit, whichever does better with its own shape of the error box.
@@ -80,6 +86,7 @@ impl CoordinateSearch<'_> {
         let mut at = known.clone();
         // Where L is not varied, the third descent would repeat the second.
         let descents = if at.l.nrows() > MOST_STATES { TURNS } else { TURNS + 1 };
+        let mut best: Option<Start> = None;
         let mut helps = self.energy_helps(&at);
         for turn in 0..MOST_TURNS {
             let before = at.proposal.sigma;
@@ -92,16 +99,42 @@ impl CoordinateSearch<'_> {
             if hopeless || at.proposal.sigma > FAR * proposal.sigma {
                 return Err(too_large());
             }
+            if best.as_ref().is_none_or(|best| at.proposal.sigma < best.proposal.sigma) {
+                best = Some(at.clone());
+            }
             if turn + 1 >= descents && at.proposal.sigma > before * (1.0 - WORTH_A_TURN) {
                 break;
             }
             helps = helps || self.energy_helps(&at);
         }
+        let at = best.ok_or_else(too_large)?;
+        let closer = self.descend(&Start { room: CLOSE, ..at.clone() }, Varied::Coordinates);
+        let at = closer.filter(|closer| closer.proposal.sigma < at.proposal.sigma).unwrap_or(at);
         if at.proposal.sigma > WORTH_A_MATRIX * proposal.sigma {
             return Err(too_large());
         }
-        let found = self.with(at.shape(), Some(&at.proposal))?;
+        let found = self.at_many_samples(&at)?;
         Ok(self.with_second(found))
+    }
+
+    /// The choice at a start; where it asks for far more at many samples than at few, near other inequalities of existence for it.
+    fn at_many_samples(&self, start: &Start) -> Result<Chosen, Obstacle> {
+        let mut few = start.proposal.sigma;
+        let mut found = self.with(start.shape(), Some(&start.proposal))?;
+        for _ in 0..MOST_TURNS {
+            if found.proposal.sigma < few * (1.0 + WORTH_AN_INEQUALITY) {
+                break;
+            }
+            let again = self.with_energy(&Start::from(&found), &THRESHOLDS);
+            let again = self.descend(&Start { room: CLOSE, ..again }, Varied::Coordinates);
+            let Some(again) = again else { break };
+            let next = self.with(again.shape(), Some(&again.proposal))?;
+            if next.proposal.sigma > found.proposal.sigma * (1.0 - WORTH_A_TURN) {
+                break;
+            }
+            (few, found) = (again.proposal.sigma, next);
+        }
+        Ok(found)
     }
 
     /// The gain near a choice in its coordinates, of another search for the same plant; an estimate, at few samples.

@@ -5,7 +5,7 @@
 
 use super::grid::{Grid, RATE, RATE_EXISTENCE, Source, functions};
 use crate::search::{
-    ByEnergy, ByMatrix, Closest, Descent, EnergyMargin, FloatModel, Obstacle, PeriodicSet, SharpParameters,
+    ByEnergy, ByMatrix, Closest, Descent, EnergyMargin, FloatModel, Obstacle, PeriodicSet, ROOMY, SharpParameters,
     SharpProposal, Threshold, active_level, at_sigma, minimise, search_sharp, search_sharp_near, weight_h,
 };
 use nalgebra::{DMatrix, SymmetricEigen};
@@ -104,8 +104,9 @@ const KEPT: f64 = 1e-6;
 /// The first steps of ln (rho - 1) and of ln eta.
 pub(super) const SHAPE_STEP: f64 = 0.4;
 
-/// The shares of rho - 1 from which it is sought.
-const SHARES: [f64; 3] = [1.0, 0.5, 0.2];
+/// The shares of rho - 1 and of eta from which it is sought, in turn.
+const SHARES: [[f64; 2]; 8] =
+    [[1.0, 1.0], [0.5, 1.0], [0.2, 1.0], [0.2, 0.1], [1.0, 0.1], [1.0, 10.0], [0.05, 0.1], [0.05, 0.01]];
 
 /// A descent over the shape as well.
 const TOGETHER: Descent = Descent { restarts: 1, iterations: 120, tolerance: 1e-3 };
@@ -162,6 +163,8 @@ pub struct Start {
     pub energy: Option<EnergyWeights>,
     /// The free numbers.
     pub proposal: SharpProposal,
+    /// The room between both sides of S1 and S2.
+    pub room: f64,
 }
 
 /// What candidates promise at few samples: all of them, from where descents by norms start, which are all where L is not varied, and the
@@ -182,6 +185,7 @@ impl From<&Chosen> for Start {
             second: chosen.second.clone(),
             energy: chosen.energy.clone(),
             proposal: chosen.proposal,
+            room: ROOMY,
         }
     }
 }
@@ -266,7 +270,13 @@ impl CoordinateSearch<'_> {
             match found {
                 Ok(found) => {
                     starts.push(at);
-                    all.push(Start { l: candidates[at].clone(), second: None, energy: None, proposal: found });
+                    all.push(Start {
+                        l: candidates[at].clone(),
+                        second: None,
+                        energy: None,
+                        proposal: found,
+                        room: ROOMY,
+                    });
                     if best.as_ref().is_none_or(|(known, _)| found.sigma < known.sigma) {
                         best = Some((found, at));
                     }
@@ -281,7 +291,8 @@ impl CoordinateSearch<'_> {
             starts.sort_by_key(|other| (other.abs_diff(at), *other));
             starts.truncate(DESCENTS);
         }
-        let start = |at: &usize| Start { l: candidates[*at].clone(), second: None, energy: None, proposal };
+        let start =
+            |at: &usize| Start { l: candidates[*at].clone(), second: None, energy: None, proposal, room: ROOMY };
         Ok(Rough { all, starts: starts.iter().map(start).collect(), best: start(&at) })
     }
 
@@ -314,14 +325,14 @@ impl CoordinateSearch<'_> {
     fn energy_serves(&self, model: &FloatModel, proposal: &SharpProposal) -> bool {
         let SharpParameters { form, floors, .. } = proposal.parameters;
         let (origin, sigma) = (AtOrigin::new(model), proposal.sigma * (1.0 + NEAR));
-        let set = PeriodicSet::least(model, &origin, sigma, (form, floors), NEAR);
+        let set = PeriodicSet::least(model, &origin, sigma, (form, floors), model.effort().room);
         let Some((known, set)) = model.by_energy.as_ref().zip(set.ok()) else { return false };
         known.bounds([set.x_p, set.e_p], &origin, sigma).is_ok()
     }
 
     /// The best that is reached from there, at the points that are the most extreme ones there; `None` where there is no gain.
     pub(super) fn descend(&self, from: &Start, varied: Varied) -> Option<Start> {
-        let Start { l, second, energy, proposal } = from;
+        let Start { l, second, energy, proposal, room } = from;
         let energy = energy.as_ref();
         let n = l.nrows();
         let of_matrix = if (2..=MOST_STATES).contains(&n) { n * (n + 1) / 2 - 1 } else { 0 };
@@ -337,7 +348,8 @@ impl CoordinateSearch<'_> {
             .map_or(Density::Coarse, Density::Focused);
         let of_shape = if self.by_matrix.is_some() { 2 } else { 0 };
         // Where L stays, what was sampled serves again.
-        let same = (of_l == 0).then(|| self.model(Shape { l, second: second.as_ref(), energy }, &density));
+        let same =
+            (of_l == 0).then(|| self.model(Shape { l, second: second.as_ref(), energy }, &density).with_room(*room));
         let with = |p: &[f64]| {
             (self.count)();
             let (shape, matrices) = p.split_at(of_shape);
@@ -355,16 +367,16 @@ impl CoordinateSearch<'_> {
             let energy = energy.map(|energy| energy_in(energy, &first));
             let l = l * &first;
             let shape = Shape { l: &l, second: second.as_ref(), energy: energy.as_ref() };
-            let other = same.is_none().then(|| self.model(shape, &density));
+            let other = same.is_none().then(|| self.model(shape, &density).with_room(*room));
             let model = same.as_ref().or(other.as_ref())?;
             let found = search_sharp_near(model, &SharpProposal { parameters, ..*proposal }).ok()?;
-            Some(Start { l, second, energy, proposal: found })
+            Some(Start { l, second, energy, proposal: found, room: *room })
         };
         let cost = |p: &[f64]| with(p).map(|found| found.proposal.sigma.portable_ln());
         // The box of the norms may be too large.
-        let start = |share: f64| -> Vec<f64> {
+        let start = |[of_rho, of_eta]: [f64; 2]| -> Vec<f64> {
             let SharpParameters { rho, eta, .. } = proposal.parameters;
-            let shape = [((rho - 1.0) * share).portable_ln(), eta.portable_ln()];
+            let shape = [((rho - 1.0) * of_rho).portable_ln(), (eta * of_eta).portable_ln()];
             shape.into_iter().take(of_shape).chain(std::iter::repeat_n(0.0, of_l + of_second)).collect()
         };
         let shares = if of_shape > 0 { &SHARES[..] } else { &SHARES[..1] };
@@ -379,7 +391,8 @@ impl CoordinateSearch<'_> {
     pub(super) fn focus(&self, shape: Shape<'_>, known: &SharpProposal) -> Result<Focus, Obstacle> {
         let model = self.model(shape, &Density::Coarse);
         let estimates = (self.sampler)(shape, &Density::Coarse);
-        let near = |model: &FloatModel| at_sigma(model, &known.parameters, known.sigma * (1.0 + NEAR), NEAR);
+        let near =
+            |model: &FloatModel| at_sigma(model, &known.parameters, known.sigma * (1.0 + NEAR), model.effort().room);
         // What norms promise need not be there by the matrix inequality.
         let by_norms = |_| {
             let mut model = model.clone();
@@ -425,6 +438,7 @@ impl CoordinateSearch<'_> {
         let model = self.model(shape, &Density::Fine(focus.and_then(|focus| focus.corners)));
         let near = near.and_then(|known| search_sharp_near(&model, known).ok());
         let proposal = near.map_or_else(|| search_sharp(&model), Ok)?;
+        let proposal = if self.by_matrix.is_some() { best_shape_near(&model, proposal) } else { proposal };
         let Shape { l, second, energy } = shape;
         // Where it says nothing of the set, the search has gone on without it.
         let energy = energy.filter(|_| self.energy_serves(&model, &proposal));
@@ -432,6 +446,20 @@ impl CoordinateSearch<'_> {
         model.by_energy = model.by_energy.filter(|_| energy.is_some());
         Ok(Chosen { l: l.clone(), second: second.cloned(), energy: energy.cloned(), model, proposal })
     }
+}
+
+/// The proposal with the shape of the error box that is best beside it.
+fn best_shape_near(model: &FloatModel, proposal: SharpProposal) -> SharpProposal {
+    let SharpParameters { rho, eta, .. } = proposal.parameters;
+    let with = |p: &[f64]| {
+        let parameters =
+            SharpParameters { rho: 1.0 + p[0].portable_exp(), eta: p[1].portable_exp(), ..proposal.parameters };
+        search_sharp_near(model, &SharpProposal { parameters, ..proposal }).ok()
+    };
+    let cost = |p: &[f64]| with(p).map(|found| found.sigma.portable_ln());
+    let start = [(rho - 1.0).portable_ln(), eta.portable_ln()];
+    let best = minimise(cost, &start, &[0.5 * SHAPE_STEP; 2], TOGETHER);
+    best.and_then(|(best, _)| with(&best)).filter(|found| found.sigma < proposal.sigma).unwrap_or(proposal)
 }
 
 /// The same P for both.

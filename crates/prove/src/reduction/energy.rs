@@ -15,6 +15,10 @@ const WORTH_AN_ENERGY: f64 = 0.05;
 /// A gain that is so many times that without an inequality is none.
 const FAR: f64 = 1.3;
 
+/// The gains on whose sets an inequality is sought, in turn, as multiples of a known one: the set of the least gain that norms know may be too
+/// large for any.
+const FACTORS: [f64; 3] = [1.0, 2.0, 8.0];
+
 /// A least set with a periodic solution, and the points that were looked at.
 struct SampledSet {
     set: PeriodicSet,
@@ -24,17 +28,18 @@ struct SampledSet {
 impl CoordinateSearch<'_> {
     /// Whether a matrix inequality of existence makes the periodic solution that is proved smaller by a share that matters.
     pub(super) fn energy_helps(&self, at: &Start) -> bool {
-        let Some(sampled) = self.sampled(at) else { return false };
+        let at_larger = |factor: f64| self.sampled(at, factor).map(|sampled| (factor, sampled));
+        let Some((factor, sampled)) = FACTORS.into_iter().find_map(at_larger) else { return false };
         let SampledSet { set, density } = &sampled;
         let Some(energy) = self.energy(at, &sampled, 1.0) else { return false };
         let model = self.model(Shape { energy: Some(&energy), ..at.shape() }, density);
-        let sigma = at.proposal.sigma * (1.0 + NEAR);
+        let sigma = factor * at.proposal.sigma * (1.0 + NEAR);
         let smaller = PeriodicSet::least(
             &model,
             &AtOrigin::new(&model),
             sigma,
             (at.proposal.parameters.form, at.proposal.parameters.floors),
-            NEAR,
+            model.effort().room,
         );
         smaller.is_ok_and(|smaller| {
             let sizes = |set: &PeriodicSet| [set.x_per, set.e_per, set.z];
@@ -42,13 +47,14 @@ impl CoordinateSearch<'_> {
         })
     }
 
-    /// The least set of a start.
-    fn sampled(&self, at: &Start) -> Option<SampledSet> {
+    /// The least set of a start, at so many times its gain.
+    fn sampled(&self, at: &Start, factor: f64) -> Option<SampledSet> {
         let density = self.focus(at.shape(), &at.proposal).map_or(Density::Coarse, Density::Focused);
-        let model = self.model(at.shape(), &density);
+        let model = self.model(at.shape(), &density).with_room(at.room);
         let SharpParameters { form, floors, .. } = at.proposal.parameters;
-        let sigma = at.proposal.sigma * (1.0 + NEAR);
-        let set = PeriodicSet::least(&model, &AtOrigin::new(&model), sigma, (form, floors), NEAR).ok()?;
+        let sigma = factor * at.proposal.sigma * (1.0 + NEAR);
+        let set =
+            PeriodicSet::least(&model, &AtOrigin::new(&model), sigma, (form, floors), model.effort().room).ok()?;
         Some(SampledSet { set, density })
     }
 
@@ -60,12 +66,15 @@ impl CoordinateSearch<'_> {
     /// The same with another matrix inequality of existence, where the gain is smaller with it after the shape of the error box has been
     /// sought again.
     pub(super) fn with_energy(&self, at: &Start, shares: &[f64]) -> Start {
-        let Some(sampled) = self.sampled(at) else { return at.clone() };
-        let with = |share: &f64| {
-            let energy = self.energy(at, &sampled, *share)?;
-            self.descend(&Start { energy: Some(energy), ..at.clone() }, Varied::Shape)
+        let on_set = |factor: f64| {
+            let sampled = self.sampled(at, factor)?;
+            let with = |share: &f64| {
+                let energy = self.energy(at, &sampled, *share)?;
+                self.descend(&Start { energy: Some(energy), ..at.clone() }, Varied::Shape)
+            };
+            shares.iter().filter_map(with).min_by(|a, b| a.proposal.sigma.total_cmp(&b.proposal.sigma))
         };
-        let least = shares.iter().filter_map(with).min_by(|a, b| a.proposal.sigma.total_cmp(&b.proposal.sigma));
+        let least = FACTORS.into_iter().find_map(on_set);
         least.filter(|found| found.proposal.sigma < at.proposal.sigma * FAR).unwrap_or_else(|| at.clone())
     }
 }

@@ -29,10 +29,10 @@ use sigmastar_theory::derivation::paths::Path;
 /// the sampled ones, and close to the arguments.
 pub(super) const ENLARGED: [f64; 2] = [1e-2, 1e-5];
 
-/// The same for a gain that may become larger in return: at so much larger a gain (where the least set there is ceases to be one,
-/// the set of a somewhat larger gain has room for proved values), and so far beyond the arguments there, while the proved values
-/// lead to no gain near the proposal.
-const FURTHER: [(f64, f64); 6] = [(0.0, 5e-3), (0.0, 1e-2), (5e-2, 1e-2), (0.0, 0.1), (0.3, 3e-2), (0.0, 0.4)];
+/// The same for a gain that may become larger in return: the room between both sides of S1 and S2 that the proposal leaves (where the least
+/// set ceases to be one, that of a somewhat larger gain has room for proved values), and how far beyond the arguments there, while the
+/// proved values lead to no gain near the proposal.
+const FURTHER: [(f64, f64); 6] = [(1e-10, 5e-3), (1e-10, 1e-2), (2e-2, 5e-3), (5e-2, 1e-2), (0.1, 3e-2), (0.3, 0.1)];
 
 /// How often the arguments are taken again half way between the gain of samples and that of proved values, and how far beyond, in turn.
 const AGAIN: usize = 3;
@@ -436,8 +436,11 @@ fn best_periodic(candidates: &[&Coordinates], sampling: &Sampling<'_>) -> Result
 fn prove_bounds(proofs: &Proofs<'_>, chosen: &Chosen) -> Result<Reduced, PlantRefusal> {
     let (model, proposal) = (&chosen.model, &chosen.proposal);
     let (mut best, mut closest): (Option<(FloatModel, Reduced)>, _) = (None, Closest::default());
-    for (above, enlarged) in FURTHER {
-        match proofs.with_values(model, proposal, above, enlarged) {
+    for (room, enlarged) in FURTHER {
+        let model = &model.clone().with_room(room);
+        // None that leaves more room may be near.
+        let roomy = search_sharp_near(model, proposal).unwrap_or(*proposal);
+        match proofs.with_values(model, &roomy, 0.0, enlarged) {
             Ok(Ok(found)) if smaller(&found.1, best.as_ref()) => best = Some(found),
             Ok(Ok(_)) => {}
             Ok(Err(obstacle)) => closest.record(beyond_the_bounds(obstacle)),
@@ -501,7 +504,7 @@ fn arguments(
 ) -> Result<Needed, PlantRefusal> {
     let mut last = PlantRefusal::NoGain(Failing::NotFinite(None).into());
     for little in ABOVE {
-        match at_sigma(model, &proposal.parameters, proposal.sigma * (1.0 + above + little), ABOVE[0]) {
+        match at_sigma(model, &proposal.parameters, proposal.sigma * (1.0 + above + little), model.effort().room) {
             Ok((set, at)) => return needed(model, &set, &at, enlarged, (second, proposal.sigma)).ok_or(last),
             Err(obstacle) => last = PlantRefusal::NoGain(obstacle),
         }

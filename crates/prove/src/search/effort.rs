@@ -6,6 +6,13 @@ use super::minimise::Descent;
 const TOLERANCE: f64 = 1e-11;
 const ROUGH: f64 = 1e-6;
 
+/// The room between both sides of S1 and S2 that a search leaves: well below the digits of sigma*.
+pub(super) const ROOM: f64 = 1e-10;
+
+/// The same where results are compared: the set of the least gain at which there is one may be of any size, and needs values that no proof
+/// gives; with this room there is one of about the same gain that can be used.
+pub const ROOMY: f64 = 5e-2;
+
 /// Operations of all bounding functions together up to which a search is thorough.
 const THOROUGH: usize = 600;
 
@@ -27,6 +34,8 @@ pub struct Effort {
     pub iterations: u64,
     /// The relative change at which a refinement has converged.
     pub tolerance: f64,
+    /// The room between both sides of S1 and S2, relatively.
+    pub room: f64,
 }
 
 impl Effort {
@@ -42,13 +51,14 @@ impl Effort {
             restarts_share: less,
             iterations: (400 / less as u64).max(40),
             tolerance: TOLERANCE,
+            room: ROOM,
         }
     }
 
     /// That of a search whose result is only compared with others.
     #[must_use]
     pub fn rough(self) -> Effort {
-        Effort { restarts_share: 4 * self.restarts_share, tolerance: ROUGH, ..self }
+        Effort { restarts_share: 4 * self.restarts_share, tolerance: ROUGH, room: ROOMY, ..self }
     }
 
     /// A refinement, for which so many restarts are asked.

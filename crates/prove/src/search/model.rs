@@ -114,6 +114,8 @@ pub struct FloatModel {
     bounds: Vec<ScaledBound>,
     /// Whether what is found with it is only compared.
     rough: bool,
+    /// The room between both sides of S1 and S2, where it is not that of the effort.
+    room: Option<f64>,
     /// What the shape of an error box is chosen for.
     pub goal: Goal,
     /// What stands in the place of C5, if anything.
@@ -185,6 +187,7 @@ impl FloatModel {
                 })
                 .collect(),
             rough: false,
+            room: None,
             goal: Goal::default(),
             by_matrix: {
                 let values = spec.bounds.proved_values();
@@ -241,7 +244,14 @@ impl FloatModel {
     #[must_use]
     pub fn effort(&self) -> Effort {
         let effort = Effort::new(self.functions().map(FloatBound::operations).sum());
-        if self.rough { effort.rough() } else { effort }
+        let effort = if self.rough { effort.rough() } else { effort };
+        Effort { room: self.room.unwrap_or(effort.room), ..effort }
+    }
+
+    /// The same, for a search that leaves so much room between both sides of S1 and S2, relatively.
+    #[must_use]
+    pub fn with_room(self, room: f64) -> FloatModel {
+        FloatModel { room: Some(room), ..self }
     }
 
     /// dZ as C4 has it beside h: with an input gain times sqrt(b_hi), for the weight there is b_hi h.

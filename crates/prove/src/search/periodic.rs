@@ -69,8 +69,23 @@ const STEPS_DOWN: usize = 24;
 /// The largest relative step at which it has converged.
 const NEAR: f64 = 1e-14;
 
-/// Every so many steps, the limit of a geometric sequence is tried.
-const LEAP_EVERY: usize = 12;
+/// Every so many steps, many steps at once are tried.
+const STRIDE_EVERY: usize = 6;
+
+/// The first that are tried, as the logarithm to the base 2, and by how much more after they succeed.
+const FIRST_DOUBLINGS: u32 = 4;
+
+/// Of so many (the logarithm to the base 2), the sum is the limit if there is one.
+const DOUBLINGS: u32 = 30;
+
+/// The share of the first step that the last one has, where the sum of the steps is nearly the limit.
+const NEARLY_ALL: f64 = 1e-2;
+
+/// The way to the limit as a share of the point, from where one leaps beyond it.
+const NEAR_ENOUGH: f64 = 1e-3;
+
+/// How far beside a point the derivatives are taken, as a share of it.
+const BESIDE: f64 = 1e-6;
 
 /// How far beyond the limit, as shares of the distance to it; the steps from there lead down to it.
 const BEYOND: [f64; 4] = [1e-9, 1e-6, 1e-3, 0.1];
@@ -208,56 +223,82 @@ impl Iteration<'_> {
         }
     }
 
-    /// The least fixed point; where it is approached slowly, a point above it that G maps below itself.
+    /// The least fixed point; where it is approached slowly, a point a little above it that G maps below itself.
     fn least(&self) -> Result<Point, Obstacle> {
         let mut at = self.image([self.floors.x_p, self.floors.e_p, 0.0, 0.0, 0.0])?;
-        let mut before: Option<Point> = None;
+        let mut doublings = FIRST_DOUBLINGS;
         for step in 1..STEPS {
             let next = self.image(at)?;
             if change(&at, &next) <= NEAR {
                 return Ok(next);
             }
-            if let Some(before) = before.filter(|_| step % LEAP_EVERY == 0)
-                && let Some(found) = self.leap([before, at, next])
-            {
+            if step % STRIDE_EVERY != 0 {
+                at = next;
+                continue;
+            }
+            let Some(line) = Linear::of(self, at, next) else {
+                at = next;
+                continue;
+            };
+            if let Some(found) = self.leap(&line) {
                 return Ok(found);
             }
-            before = Some(at);
-            at = next;
+            match self.stride(&line, doublings) {
+                Some((reached, further)) => (doublings, at) = (reached + FIRST_DOUBLINGS, further),
+                None => (doublings, at) = (FIRST_DOUBLINGS, next),
+            }
         }
         Err(Failing::Existence.at(at[0], at[1]))
     }
 
-    /// A little beyond the limit of a geometric sequence through three points, if G maps it below itself.
-    fn leap(&self, points: [Point; 3]) -> Option<Point> {
-        BEYOND.into_iter().find_map(|beyond| self.leap_beyond(points, beyond))
+    /// Many steps from below at once, and how many (the logarithm to the base 2).
+    ///
+    /// Where w < G(w) all along a straight way up from a point below the least fixed point, its end is below it, too: at the last point of
+    /// the way that is below, G(w) would be as well, and with it more of the way. It is looked at half way and at the end.
+    fn stride(&self, line: &Linear, doublings: u32) -> Option<(u32, Point)> {
+        let below =
+            |at: Point| self.image(at).ok().filter(|image| image.iter().zip(&at).all(|(image, at)| image >= at));
+        (1..=doublings).rev().step_by(2).find_map(|doublings| {
+            let way = line.steps(doublings, NEARLY_ALL)?;
+            below(line.ahead(&way, 0.5))?;
+            Some((doublings, below(line.ahead(&way, 1.0))?))
+        })
     }
 
-    /// The same, beyond the limit by a share of the distance to it.
-    fn leap_beyond(&self, [first, second, third]: [Point; 3], beyond: f64) -> Option<Point> {
-        let mut limit = third;
-        for (index, value) in limit.iter_mut().enumerate() {
-            let (older, newer) = (second[index] - first[index], third[index] - second[index]);
-            let ratio = newer / older;
-            if older > 0.0 && newer > 0.0 && ratio < 1.0 {
-                *value += newer * ratio / (1.0 - ratio) * (1.0 + beyond);
-            }
-            *value *= 1.0 + 1e-13;
+    /// A point a little beyond the limit, if that is near and G maps the point below itself.
+    fn leap(&self, line: &Linear) -> Option<Point> {
+        let way = line.steps(DOUBLINGS, NEAR)?;
+        if way.iter().any(|way| way.abs() > NEAR_ENOUGH) {
+            return None;
         }
-        // From there down, which removes what it is too large; every point on the way is as good.
-        let mut at = limit;
-        for _ in 0..STEPS_DOWN {
-            let next = self.image(at).ok()?;
-            if next.iter().zip(&at).any(|(next, at)| *next > at * (1.0 + NEAR)) {
-                return None;
-            }
-            let done = change(&at, &next) <= NEAR;
-            at = next;
-            if done {
+        BEYOND.into_iter().find_map(|beyond| self.down(line.ahead(&way, 1.0 + beyond)))
+    }
+
+    /// From a point that G maps below itself down, which removes what it is too large; every point on the way is as good.
+    fn down(&self, from: Point) -> Option<Point> {
+        let below = |at: &Point| {
+            let next = self.image(*at).ok()?;
+            next.iter().zip(at).all(|(next, at)| *next <= at * (1.0 + NEAR)).then_some(next)
+        };
+        let mut at = from;
+        let mut next = below(&at)?;
+        for step in 1..STEPS_DOWN {
+            if change(&at, &next) <= NEAR {
                 break;
             }
+            if step % STRIDE_EVERY == 0
+                && let Some(line) = Linear::of(self, at, next)
+                && let Some(way) = line.steps(DOUBLINGS, NEARLY_ALL)
+                && let further = line.ahead(&way, 1.0)
+                && let Some(image) = below(&further)
+            {
+                (at, next) = (further, image);
+                continue;
+            }
+            let Some(image) = below(&next) else { break };
+            (at, next) = (next, image);
         }
-        Some(at)
+        Some(next)
     }
 
     /// The least mean squares with `(1 + room) G(r) = r` at fixed X_p, E_p and kap, from both forms together.
@@ -281,6 +322,60 @@ impl Iteration<'_> {
         let below = [(image.x, at.x), (image.e, at.e), (image.e_rate, at.e_rate)];
         below.into_iter().all(|(image, at)| image < at).then_some(at)
     }
+}
+
+/// G as it is near a point, in shares of the point.
+struct Linear {
+    at: Point,
+    /// G(w) - w.
+    step: Point,
+    /// The derivatives.
+    by: [Point; 5],
+}
+
+impl Linear {
+    /// From the point, its image, and those of points beside it.
+    fn of(iteration: &Iteration, at: Point, image: Point) -> Option<Linear> {
+        let mut by = [[0.0; 5]; 5];
+        for column in 0..5 {
+            let mut beside = at;
+            beside[column] *= 1.0 + BESIDE;
+            let moved = iteration.image(beside).ok()?;
+            for row in 0..5 {
+                by[row][column] = ((moved[row] - image[row]) / (BESIDE * at[row])).max(0.0);
+            }
+        }
+        let step = std::array::from_fn(|index| (image[index] - at[index]) / at[index]);
+        Some(Linear { at, step, by })
+    }
+
+    /// The sum of 2^doublings steps, if it is finite; of fewer, where the last one is so small a share of the first.
+    fn steps(&self, doublings: u32, last: f64) -> Option<Point> {
+        let (mut sum, mut power) = (self.step, self.by);
+        for _ in 0..doublings {
+            let more = product(&power, &sum);
+            sum = std::array::from_fn(|index| sum[index] + more[index]);
+            let step = product(&power, &self.step);
+            if step.iter().zip(&self.step).all(|(step, first)| step.abs() <= last * first.abs()) {
+                break;
+            }
+            let columns = power;
+            power = std::array::from_fn(|row| {
+                std::array::from_fn(|column| (0..5).map(|k| columns[row][k] * columns[k][column]).sum())
+            });
+        }
+        sum.iter().all(|value| value.is_finite()).then_some(sum)
+    }
+
+    /// A share of the way further.
+    fn ahead(&self, way: &Point, share: f64) -> Point {
+        std::array::from_fn(|index| self.at[index] * (1.0 + share * way[index]))
+    }
+}
+
+/// A matrix times a vector.
+fn product(matrix: &[Point; 5], vector: &Point) -> Point {
+    std::array::from_fn(|row| matrix[row].iter().zip(vector).map(|(a, b)| a * b).sum())
 }
 
 /// The largest relative change of a component.

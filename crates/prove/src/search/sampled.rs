@@ -5,6 +5,7 @@
 
 use super::box_at_samples::error_box_at_samples;
 use super::candidate::{AtSigma, PastShare, Shape};
+use super::effort::ROOM;
 use super::error_box::{best_shape, shape_near};
 use super::floors::{ordinary, raised, tiny};
 use super::model::FloatModel;
@@ -12,7 +13,7 @@ use super::obstacle::{Closest, Failing, Obstacle};
 use super::periodic::{Floors, PeriodicSet};
 use super::reach::{Largest, Law, largest, start_distances, weighed};
 use super::scan;
-use super::sharp::{ROOM, search_sharp};
+use super::sharp::search_sharp;
 use rug::Rational;
 use sigmastar_exact::number::Portable;
 use sigmastar_theory::derivation::harmonics::AtOrigin;

@@ -2,6 +2,7 @@
 
 use super::binding::Binding;
 use super::candidate::AtSigma;
+use super::effort::ROOM;
 use super::error_box::{best_shape, error_box, shape_near};
 use super::floors::{ordinary, raised, tiny};
 use super::model::{Datum, FloatModel, OptionalDatum};
@@ -38,9 +39,6 @@ pub struct SharpProposal {
     /// What sets sigma.
     pub binding: Binding,
 }
-
-/// The room between both sides of S1 and S2 that a search leaves: well below the digits of sigma*.
-pub(super) const ROOM: f64 = 1e-10;
 
 /// Shares of (b_qe - m)/2 that are tried as kap.
 const DAMPED: [f64; 2] = [1.0, 0.3];
@@ -94,7 +92,9 @@ impl Search<'_> {
         worth: impl Fn(&Search<'_>, f64) -> Option<f64>,
     ) -> Result<SharpProposal, Obstacle> {
         let with = |floors: Floors| Search { floors, ..self.clone() };
-        let size = |floors: Floors, sigma: &f64| with(floors).at(*sigma, ROOM).map(|(set, _)| [set.x_p, set.e_p]);
+        let size = |floors: Floors, sigma: &f64| {
+            with(floors).at(*sigma, self.model.effort().room).map(|(set, _)| [set.x_p, set.e_p])
+        };
         let again = |floors: Floors, sigma: &f64| worth(&with(floors), *sigma);
         let (floors, sigma) = raised((self.floors, sigma), ordinary(self.model), size, again)?;
         proposal(&with(floors), sigma)
@@ -102,7 +102,7 @@ impl Search<'_> {
 
     /// ln(threshold/sigma), to be at most 0.
     fn excess(&self, sigma: f64) -> Result<f64, Obstacle> {
-        self.at(sigma, ROOM).map(|(_, at)| (at.threshold / sigma).portable_ln())
+        self.at(sigma, self.model.effort().room).map(|(_, at)| (at.threshold / sigma).portable_ln())
     }
 
     /// No sigma below this one is sought: it is negligible beside every rate in the data, and where nothing in them needs a
@@ -268,9 +268,9 @@ pub fn any_candidate(model: &FloatModel) -> bool {
 }
 
 fn proposal(search: &Search<'_>, sigma: f64) -> Result<SharpProposal, Obstacle> {
-    let (set, at) = search.at(sigma, ROOM)?;
+    let (set, at) = search.at(sigma, search.model.effort().room)?;
     let parameters = SharpParameters { form: search.form, floors: search.floors, rho: at.rho, eta: at.eta };
-    let binding = match search.at(sigma * (1.0 - 1e-6), ROOM) {
+    let binding = match search.at(sigma * (1.0 - 1e-6), search.model.effort().room) {
         _ if matches!(search.model.by_matrix, Some(ByMatrix::Joint(_))) => Binding::JointMetrics,
         Err(Obstacle { failing: Failing::Existence, .. }) => Binding::Existence,
         _ if search.model.by_matrix.is_some() => Binding::MatrixInequality,
