@@ -451,15 +451,17 @@ impl CoordinateSearch<'_> {
 /// The proposal with the shape of the error box that is best beside it.
 fn best_shape_near(model: &FloatModel, proposal: SharpProposal) -> SharpProposal {
     let SharpParameters { rho, eta, .. } = proposal.parameters;
-    let with = |p: &[f64]| {
+    let with = |model: &FloatModel, p: &[f64]| {
         let parameters =
             SharpParameters { rho: 1.0 + p[0].portable_exp(), eta: p[1].portable_exp(), ..proposal.parameters };
         search_sharp_near(model, &SharpProposal { parameters, ..proposal }).ok()
     };
-    let cost = |p: &[f64]| with(p).map(|found| found.sigma.portable_ln());
+    let rough = model.clone().rough().with_room(model.effort().room);
+    let cost = |p: &[f64]| with(&rough, p).map(|found| found.sigma.portable_ln());
     let start = [(rho - 1.0).portable_ln(), eta.portable_ln()];
-    let best = minimise(cost, &start, &[0.5 * SHAPE_STEP; 2], TOGETHER);
-    best.and_then(|(best, _)| with(&best)).filter(|found| found.sigma < proposal.sigma).unwrap_or(proposal)
+    let best = minimise(cost, &start, &[0.5 * SHAPE_STEP; 2], DESCENT);
+    let best = best.and_then(|(best, _)| with(model, &best));
+    best.filter(|found| found.sigma < proposal.sigma).unwrap_or(proposal)
 }
 
 /// The same P for both.
