@@ -140,6 +140,6 @@ impl CoordinateSearch<'_> {
     /// The gain near a choice in its coordinates, of another search for the same plant; an estimate, at few samples.
     #[must_use]
     pub fn estimate_near(&self, known: &Start) -> Option<f64> {
-        self.descend(known, Varied::Shape).map(|found| found.proposal.sigma)
+        self.descend(&Start { room: CLOSE, ..known.clone() }, Varied::Shape).map(|found| found.proposal.sigma)
     }
 }
