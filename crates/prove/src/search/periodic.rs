@@ -439,3 +439,75 @@ fn cheapest_pair(model: &FloatModel, forcing: &Forcing<f64>) -> (f64, f64, u32) 
         model.numbers().kappas(&forcing.q_rms.portable_powi(2), &forcing.q_rate_rms.portable_powi(2));
     model.trade_off.best(by_size, by_rate)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::search::floors::tiny;
+    use sigmastar_lang::spec::Specification;
+    use sigmastar_theory::data::Data;
+    use sigmastar_theory::transfer::TradeOff;
+
+    fn model(text: &str) -> FloatModel {
+        let spec = Specification::from_json("example", text).unwrap();
+        let data = Data::new(&spec, 64);
+        FloatModel::new(&data, TradeOff::matched(&data))
+    }
+
+    /// The iteration without anything else, until it has converged or a bound is left: from below, so that a point that is not converged is
+    /// below the least fixed point.
+    fn by_steps(iteration: &Iteration<'_>, steps: usize) -> Result<(Point, bool), Obstacle> {
+        let mut at = iteration.image([iteration.floors.x_p, iteration.floors.e_p, 0.0, 0.0, 0.0])?;
+        for _ in 0..steps {
+            let next = iteration.image(at)?;
+            if change(&at, &next) <= NEAR {
+                return Ok((next, true));
+            }
+            at = next;
+        }
+        Ok((at, false))
+    }
+
+    /// The least one of the gains at which there is a set is approached from above; the steps of the iteration become as many as one likes there.
+    #[test]
+    fn many_steps_at_once_lead_to_the_least_set() {
+        let linear = include_str!("../../../../specs/linear.json").to_owned();
+        let cubic = linear.replace(r#""q_e": ""#, r#""q_e": "E^2/5 + "#);
+        assert_ne!(cubic, linear);
+        let (mut slow, mut none) = (0, 0);
+        for text in [linear, cubic, include_str!("../../../../specs/paper-example.json").to_owned()] {
+            let model = model(&text);
+            let origin = AtOrigin::new(&model);
+            let floors = tiny(&model);
+            for room in [1e-10, 5e-2] {
+                for exponent in 0..120 {
+                    let sigma = 0.5 * 1.05_f64.portable_powi(exponent);
+                    let gains = ErrorGains::new(&model, &sigma);
+                    let regulated = Regulated::Continuous { gains: &gains, form: ExistenceForm::Plain };
+                    let iteration =
+                        Iteration { model: &model, origin: &origin, regulated, floors, enlarged: 1.0 + room };
+                    match (iteration.least(), by_steps(&iteration, 30_000)) {
+                        (Ok(found), Ok((least, converged))) => {
+                            let image = iteration.image(found).unwrap();
+                            for (index, value) in found.iter().enumerate() {
+                                assert!(image[index] <= value * (1.0 + 1e-12), "{sigma} {found:?} {image:?}");
+                                assert!(*value >= least[index] * (1.0 - 1e-9), "{sigma} {found:?} {least:?}");
+                                assert!(
+                                    !converged || *value <= least[index] * (1.0 + 1e-6),
+                                    "{sigma} {found:?} {least:?}"
+                                );
+                            }
+                            slow += usize::from(by_steps(&iteration, 200).unwrap().1 != converged);
+                        }
+                        (Err(_), Err(_)) => none += 1,
+                        (Err(obstacle), Ok((least, converged))) => {
+                            assert!(!converged, "{sigma} {obstacle:?} {least:?}")
+                        }
+                        (Ok(found), Err(obstacle)) => panic!("{sigma} {found:?} {obstacle:?}"),
+                    }
+                }
+            }
+        }
+        assert!(slow > 0 && none > 0, "{slow} {none}");
+    }
+}
