@@ -148,7 +148,7 @@ pub fn condition(element: &Field<'_>, mine: &Condition) -> Outcome<()> {
     let mut fields: Fields<'_> = element.fields()?;
     text(&fields.required("id")?, mine.id)?;
     text(&fields.required("what")?, &mine.what)?;
-    text(&fields.required("relation")?, mine.symbol())?;
+    text(&fields.required("relation")?, mine.relation.symbol())?;
     span(&fields.required("lhs")?, &mine.lhs, &mine.lhs)?;
     span(&fields.required("rhs")?, &mine.rhs, &mine.rhs)?;
     let (field, margin) = (fields.required("margin")?, &mine.rhs - &mine.lhs);

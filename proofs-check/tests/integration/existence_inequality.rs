@@ -1,10 +1,10 @@
 //! The matrix inequality of existence: its question about formulas against thresholds by hand, and certificates that need one,
 //! with each of its parts and each of its conditions forged.
 
-use super::common::{accepted, assert_refused, certificate, drawn, every, fails, judged, open};
 use super::matrix_inequality::{at_rest, stored, times};
 use super::mutations::replacements;
 use super::plant_support::Parts;
+use crate::common::{accepted, assert_refused, certificate, drawn, every, fails, judged, open, rehash};
 use proofs_check::Report;
 use proofs_check::data::Data;
 use proofs_check::json::{Field, decimal, parse};
@@ -310,12 +310,6 @@ fn the_forcing_without_its_mean() {
         made["witness"][name] = value.into();
     }
     accepted(&made);
-}
-
-fn rehash(certificate: &mut Value) {
-    let mut canonical = String::new();
-    parse(certificate["plant"].to_string().as_bytes()).unwrap().canonical(&mut canonical);
-    certificate["plant_sha256"] = proofs_check::sha256::hex_digest(canonical.as_bytes()).into();
 }
 
 /// `x' = -x + e`, `q = x`: c = a_1 = b_fe = 1, so both sides of S1b and S1c are numbers without rounding.

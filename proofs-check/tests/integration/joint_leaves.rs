@@ -1,11 +1,11 @@
 //! Every leaf of the parts with joint metrics replaced: what is accepted is true, by eliminations in doubles.
 
-use super::common::every;
 use super::common::judged;
 use super::existence_inequality::number;
 use super::joint_inequality::{EXISTENCE, PARTS, PLACE};
 use super::matrix_inequality::stored;
 use super::mutations::replacements;
+use crate::common::every;
 use proofs_check::verdict::Verdict;
 use serde_json::{Value, json};
 

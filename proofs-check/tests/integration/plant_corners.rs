@@ -1,8 +1,8 @@
 //! Boxes reach out of the ball on which formulas are smooth. Corners, poles and ends of domains out there, of which nothing is
 //! demanded, must not make a false bound inside pass.
 
-use super::common::{drawn, every};
 use super::plant_support::Parts;
+use crate::common::{drawn, every};
 use proofs_check::verdict::Verdict;
 use serde_json::{Value, json};
 

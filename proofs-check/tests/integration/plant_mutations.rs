@@ -4,24 +4,16 @@
 //! of it is true. What may never pass: another claim for the same witness, a number that is certainly too good, and anything that
 //! is not read.
 
-use super::common::{every, folder};
 use super::mutations::{pointers, replacements};
-use proofs_check::json::{Json, parse};
+use crate::common::{deleted, every, folder, rehash};
+use proofs_check::check;
 use proofs_check::verdict::Verdict;
-use proofs_check::{check, sha256};
 use serde_json::Value;
 use std::collections::BTreeMap;
 
 fn stored(name: &str) -> Value {
     let text = std::fs::read_to_string(folder("").join(format!("{name}.json"))).unwrap();
     serde_json::from_str(&text).unwrap()
-}
-
-fn rehash(certificate: &mut Value) {
-    let mut canonical = String::new();
-    let plant: Json = parse(certificate["plant"].to_string().as_bytes()).unwrap();
-    plant.canonical(&mut canonical);
-    certificate["plant_sha256"] = sha256::hex_digest(canonical.as_bytes()).into();
 }
 
 /// Numbers of the witness that are too good whatever the rest is: a defect, a rest or a bound that is no more than 0, a rate that
@@ -123,14 +115,7 @@ pub fn alter(name: &str, stride: usize) {
                 judge(pointer, &format!("{kind}, re-hashed"), &mutant);
             }
         }
-        let (parent, last) = pointer.rsplit_once('/').unwrap();
-        let mut mutant = original.clone();
-        match mutant.pointer_mut(parent).unwrap() {
-            Value::Object(map) => drop(map.remove(last)),
-            Value::Array(list) => drop(list.remove(last.parse().unwrap())),
-            _ => unreachable!("a parent is an object or an array"),
-        }
-        judge(pointer, "deleted", &mutant);
+        judge(pointer, "deleted", &deleted(&original, pointer));
     }
     println!("{made} mutants, {} accepted", accepted.values().sum::<usize>());
     accepted.iter().for_each(|(class, count)| println!("  {count:5}  {class}"));

@@ -1,7 +1,7 @@
 //! The coordinates y of the deviation, `x = x_0 + L y`, exactly (docs/mathematics.md, sections 11 and 11.5).
 
-use crate::jacobian::Matrix;
 use crate::json::Field;
+use crate::matrix::{Matrix, is_semidefinite, shifted};
 use crate::verdict::{Outcome, bad, demand};
 use rug::Rational;
 
@@ -18,11 +18,7 @@ pub struct Coordinates {
 impl Coordinates {
     /// Reads `coordinates`, the rows of L, `[]` without states. L must be invertible.
     pub fn read_part(field: &Field<'_>, order: usize) -> Outcome<Coordinates> {
-        let row = |row: &Field<'_>| row.elements()?.iter().map(Field::rational).collect::<Outcome<Vec<_>>>();
-        let matrix = field.elements()?.iter().map(row).collect::<Outcome<Matrix>>()?;
-        if matrix.len() != order || matrix.iter().any(|row| row.len() != order) {
-            return bad(&field.pointer, format!("expected {order} rows of {order} numbers, one for each state"));
-        }
+        let matrix = field.matrix([order; 2], "one for each state")?;
         match inverse(&matrix) {
             Some(inverse) => Ok(Coordinates { matrix, inverse }),
             None => {
@@ -34,13 +30,14 @@ impl Coordinates {
 
     /// Whether `|x - x_0| <= ball` implies `|L^-1 (x - x_0)| <= size`: `size^2 L L' - ball^2 I >= 0`.
     pub fn covers_ball(&self, size: &Rational, ball: &Rational) -> bool {
-        semidefinite(shifted(&self.products(false), size, ball))
+        let [size, ball] = [size, ball].map(|value| Rational::from(value.square_ref()));
+        is_semidefinite(shifted(&self.products(false), &size, &ball))
     }
 
     /// Whether `|L^-1 (x - x_0)| <= size` implies `|x - x_0| <= domain`: `domain^2 I - size^2 L'L >= 0`.
     pub fn lies_within(&self, size: &Rational, domain: &Rational) -> bool {
-        let rows = shifted(&self.products(true), size, domain);
-        semidefinite(rows.into_iter().map(|row| row.into_iter().map(|entry| -entry).collect()).collect())
+        let [size, domain] = [size, domain].map(|value| -Rational::from(value.square_ref()));
+        is_semidefinite(shifted(&self.products(true), &size, &domain))
     }
 
     /// The products of the columns of L with each other, or of the rows.
@@ -52,36 +49,6 @@ impl Coordinates {
         };
         (0..order).map(|i| (0..order).map(|j| product(i, j)).collect()).collect()
     }
-}
-
-/// `factor^2 A - shift^2 I`.
-fn shifted(matrix: &Matrix, factor: &Rational, shift: &Rational) -> Matrix {
-    let (factor, shift) = (Rational::from(factor.square_ref()), Rational::from(shift.square_ref()));
-    let entry = |i: usize, j: usize, value: &Rational| {
-        let scaled = Rational::from(value * &factor);
-        if i == j { scaled - &shift } else { scaled }
-    };
-    let row = |(i, row): (usize, &Vec<Rational>)| row.iter().enumerate().map(|(j, value)| entry(i, j, value)).collect();
-    matrix.iter().enumerate().map(row).collect()
-}
-
-/// Whether a symmetric rational matrix is positive semidefinite: by its pivots, where a pivot of 0 stands alone.
-pub fn semidefinite(mut rows: Matrix) -> bool {
-    for k in 0..rows.len() {
-        let pivot = rows[k][k].clone();
-        if pivot < 0 || (pivot == 0 && (k + 1..rows.len()).any(|i| rows[i][k] != 0)) {
-            return false;
-        }
-        if pivot == 0 {
-            continue;
-        }
-        let above = rows[k].clone();
-        for row in &mut rows[k + 1..] {
-            let factor = Rational::from(&row[k] / &pivot);
-            row.iter_mut().zip(&above).for_each(|(entry, other)| *entry -= Rational::from(&factor * other));
-        }
-    }
-    true
 }
 
 /// The inverse, if there is one (Gauss and Jordan).
@@ -118,9 +85,10 @@ mod tests {
     #[test]
     fn definiteness_is_decided_exactly() {
         let quarter = |value: i32| matrix([[(1, 1), (1, 2)], [(1, 2), (value, 1_000_000)]]);
-        assert!(semidefinite(quarter(250_000)) && semidefinite(quarter(250_001)) && !semidefinite(quarter(249_999)));
-        assert!(semidefinite(matrix([[(0, 1), (0, 1)], [(0, 1), (3, 1)]])));
-        assert!(!semidefinite(matrix([[(0, 1), (1, 9)], [(1, 9), (3, 1)]])) && semidefinite(Vec::new()));
+        let [least, more, less] = [250_000, 250_001, 249_999].map(|value| is_semidefinite(quarter(value)));
+        assert!(least && more && !less);
+        assert!(is_semidefinite(matrix([[(0, 1), (0, 1)], [(0, 1), (3, 1)]])));
+        assert!(!is_semidefinite(matrix([[(0, 1), (1, 9)], [(1, 9), (3, 1)]])) && is_semidefinite(Vec::new()));
     }
 
     #[test]
