@@ -71,3 +71,34 @@ fn by_pivots(mut rows: Vec<Vec<Interval>>, zero_may_stand: bool) -> Option<bool>
     }
     Some(true)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn rows(rows: &[&[i64]]) -> Vec<Vec<Interval>> {
+        rows.iter().map(|row| row.iter().map(|value| Interval::int(*value, 64)).collect()).collect()
+    }
+
+    #[test]
+    fn a_pivot_of_0_is_semidefinite_alone_and_never_definite() {
+        for (matrix, definite, half) in [
+            (rows(&[&[2], &[1, 1]]), Some(true), Some(true)),
+            (rows(&[&[0], &[0, 1]]), None, Some(true)),
+            (rows(&[&[1], &[1, 1]]), None, Some(true)),
+            (rows(&[&[0], &[1, 5]]), None, None),
+            (rows(&[&[1], &[2, 1]]), Some(false), Some(false)),
+            (rows(&[&[-1], &[0, 1]]), Some(false), Some(false)),
+        ] {
+            assert_eq!(positive_definite(matrix.clone()), definite, "{matrix:?}");
+            assert_eq!(semidefinite(matrix.clone()), half, "{matrix:?}");
+        }
+    }
+
+    #[test]
+    fn a_matrix_is_symmetric_entry_by_entry() {
+        let with =
+            |last: i32| [[1, 2, 3], [2, 5, 6], [3, last, 9]].map(|row| row.map(Rational::from).to_vec()).to_vec();
+        assert!(is_symmetric(&with(6)) && !is_symmetric(&with(7)));
+    }
+}

@@ -529,8 +529,8 @@ fn is_true(certificate: &Value) -> bool {
 /// Whatever a leaf is replaced by: what is accepted is true.
 #[test]
 fn leaves_of_the_part() {
-    let mut counts = [0, 0];
-    for which in (0..3).step_by(every(3)) {
+    let (mut counts, stride) = ([0, 0], every(7));
+    for which in 0..3 {
         let original = tight(part(which), 1.01);
         assert!(is_true(&original));
         let leaves = ["X", "E", "P/0/0", "P/0/1", "P/1/0", "P/1/1", "k_p", "c_x", "c_y", "sigma"];
@@ -552,12 +552,12 @@ fn leaves_of_the_part() {
                 }
             }
         }
-        for (what, mutant) in mutants {
+        for (what, mutant) in mutants.into_iter().skip(which).step_by(stride) {
             let valid = judged(&mutant).verdict == Verdict::Valid;
             assert!(!valid || is_true(&mutant), "accepted and not true: {what}");
             counts[usize::from(valid)] += 1;
         }
     }
     println!("{} refused, {} accepted and true", counts[0], counts[1]);
-    assert!(counts[0] > 100 && counts[1] > 10);
+    assert!(counts[0] * stride > 300 && counts[1] * stride > 30);
 }

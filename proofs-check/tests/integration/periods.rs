@@ -346,8 +346,8 @@ fn forged_certificates_of_plants() {
 
 #[test]
 fn leaves_of_certificates_of_plants() {
-    alter("periods/motor-axis", every(9));
-    alter("periods/converter", every(19));
+    alter("periods/motor-axis", every(23));
+    alter("periods/converter", every(47));
 }
 
 /// The bounds of a claim about a plant grow with its longest period, and its harmonics with the shortest.

@@ -62,15 +62,15 @@ fn leaves_of_a_certificate_of_a_plant() {
 /// One whose stability rests on a matrix inequality.
 #[test]
 fn leaves_of_a_certificate_by_a_matrix_inequality() {
-    mutate("plants/pendulum.certificate", every(9));
-    mutate("plants/splitting.certificate", every(5));
+    mutate("plants/pendulum.certificate", every(13));
+    mutate("plants/splitting.certificate", every(9));
 }
 
 /// Two with an input gain, one of them with an inequality of existence besides: all that is said of the gain, and some of the rest.
 #[test]
 fn leaves_of_certificates_with_an_input_gain() {
-    mutate("gain/converter", every(7));
-    mutate("gain/splitting", every(11));
+    mutate("gain/converter", every(19));
+    mutate("gain/splitting", every(29));
 }
 
 /// Of a certificate all of whose figures agree.
