@@ -96,6 +96,6 @@ fn determinant(form: &[Vec<Interval>], columns: &[usize]) -> Interval {
     }
     columns.iter().enumerate().fold(Interval::int(0, form[0][0].precision()), |sum, (at, column)| {
         let part = entry(*column) * determinant(form, &[&columns[..at], &columns[at + 1..]].concat());
-        if (row + at) % 2 == 0 { sum + part } else { sum - part }
+        if (row + at).is_multiple_of(2) { sum + part } else { sum - part }
     })
 }
