@@ -28,9 +28,10 @@ impl Range {
         rule: &'static str,
         read: impl Fn(&mut Fields<'_>, &str) -> Outcome<Constant>,
     ) -> Outcome<Range> {
-        let [nominal, low, high] =
-            field.object(|fields| Ok(["nominal", "low", "high"].map(|name| read(fields, name))))?;
-        let range = Range { nominal: nominal?, low: low?, high: high? };
+        let range = field.object(|fields| {
+            let [nominal, low, high] = ["nominal", "low", "high"].map(|name| read(fields, name));
+            Ok(Range { nominal: nominal?, low: low?, high: high? })
+        })?;
         let in_order =
             |a: &Constant, b: &Constant, what| demand(a.number().le(&b.number()), rule, &field.pointer, what);
         in_order(&range.low, &range.nominal, "low <= nominal")?;

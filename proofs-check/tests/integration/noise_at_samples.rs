@@ -48,7 +48,8 @@ fn signs_are_demanded() {
         let certificate = stored(&name);
         let names = ["c", "e_low", "l_slope", "l_hold", "w", "l_x", "l_e", "l_y"].map(|name| ("witness", name));
         let all = names.into_iter().chain([("claim", "rate"), ("claim", "factor")]);
-        signs_are_demanded_at(&certificate, all.map(|(part, name)| format!("/{part}/for_n_o/0/{name}")));
+        let all = all.map(|(part, name)| format!("/{part}/for_n_o/0/{name}"));
+        signs_are_demanded_at(&certificate, all.filter(|pointer| certificate.pointer(pointer).is_some()));
     }
 }
 

@@ -99,14 +99,18 @@ pub fn alter(name: &str, stride: usize) {
     };
     // Figures are compared by code that is the same for every certificate, and whose tests are with those.
     let places = all.iter().skip(1).filter(|place| !place.starts_with("/con"));
-    let of_intervals = ["/input_gain", "/parameters", "/period/"];
-    let intervals = all.iter().filter(|place| of_intervals.iter().any(|part| place.contains(part)));
-    for pointer in places.step_by(stride).chain(intervals) {
+    let about_intervals =
+        |place: &str| ["/input_gain", "/parameters", "/period/"].iter().any(|part| place.contains(part));
+    let intervals = all.iter().filter(|place| about_intervals(place));
+    for (place, pointer) in places.step_by(stride).chain(intervals).enumerate() {
         let value = original.pointer(pointer).unwrap();
         if value.is_object() || value.is_array() {
             continue;
         }
-        for (kind, replacement) in replacements(value).into_iter().filter(|(_, new)| new != value) {
+        // What is said of intervals is altered everywhere, by turns in one half of the ways or the other.
+        let (turn, each) = if about_intervals(pointer) { (place % every(2), every(2)) } else { (0, 1) };
+        let all = replacements(value).into_iter().filter(|(_, new)| new != value);
+        for (kind, replacement) in all.skip(turn).step_by(each) {
             let mut mutant = original.clone();
             *mutant.pointer_mut(pointer).unwrap() = replacement;
             judge(pointer, kind, &mutant);
