@@ -31,23 +31,21 @@ impl Coordinates {
     /// Whether `|x - x_0| <= ball` implies `|L^-1 (x - x_0)| <= size`: `size^2 L L' - ball^2 I >= 0`.
     pub fn covers_ball(&self, size: &Rational, ball: &Rational) -> bool {
         let [size, ball] = [size, ball].map(|value| Rational::from(value.square_ref()));
-        is_semidefinite(shifted(&self.products(false), &size, &ball))
+        is_semidefinite(shifted(&self.products(), &size, &ball))
     }
 
     /// Whether `|L^-1 (x - x_0)| <= size` implies `|x - x_0| <= domain`: `domain^2 I - size^2 L'L >= 0`.
     pub fn lies_within(&self, size: &Rational, domain: &Rational) -> bool {
         let [size, domain] = [size, domain].map(|value| -Rational::from(value.square_ref()));
-        is_semidefinite(shifted(&self.products(true), &size, &domain))
+        is_semidefinite(shifted(&self.products(), &size, &domain))
     }
 
-    /// The products of the columns of L with each other, or of the rows.
-    fn products(&self, columns: bool) -> Matrix {
-        let order = self.matrix.len();
-        let entry = |i: usize, k: usize| if columns { &self.matrix[k][i] } else { &self.matrix[i][k] };
-        let product = |i: usize, j: usize| {
-            (0..order).fold(Rational::new(), |sum, k| sum + Rational::from(entry(i, k) * entry(j, k)))
+    /// L L', the products of the rows of L. L'L has the same eigenvalues, so that a multiple of I is below both or below none.
+    fn products(&self) -> Matrix {
+        let product = |a: &Vec<Rational>, b: &Vec<Rational>| {
+            a.iter().zip(b).fold(Rational::new(), |sum, (a, b)| sum + Rational::from(a * b))
         };
-        (0..order).map(|i| (0..order).map(|j| product(i, j)).collect()).collect()
+        self.matrix.iter().map(|a| self.matrix.iter().map(|b| product(a, b)).collect()).collect()
     }
 }
 
@@ -96,12 +94,19 @@ mod tests {
         // L has the singular values 1 and 3.
         let l = matrix([[(2, 1), (1, 1)], [(1, 1), (2, 1)]]);
         let found = Coordinates { inverse: inverse(&l).unwrap(), matrix: l };
+        // One that is not symmetric, with 1 and 4: it turns the axes.
+        let turned = matrix([[(0, 1), (-4, 1)], [(1, 1), (0, 1)]]);
+        let turned = Coordinates { inverse: inverse(&turned).unwrap(), matrix: turned };
         assert_eq!(found.inverse, matrix([[(2, 3), (-1, 3)], [(-1, 3), (2, 3)]]));
         let number = |value: (i32, i32)| Rational::from(value);
         assert!(found.covers_ball(&number((5, 2)), &number((5, 2))));
         assert!(!found.covers_ball(&number((5, 2)), &number((2_501, 1000))));
         assert!(found.lies_within(&number((1, 3)), &number((1, 1))));
         assert!(!found.lies_within(&number((1, 3)), &number((999, 1000))));
+        assert!(turned.covers_ball(&number((3, 1)), &number((3, 1))));
+        assert!(!turned.covers_ball(&number((3, 1)), &number((3_001, 1000))));
+        assert!(turned.lies_within(&number((3, 1)), &number((12, 1))));
+        assert!(!turned.lies_within(&number((3, 1)), &number((11_999, 1000))));
         assert!(inverse(&matrix([[(1, 1), (2, 1)], [(2, 1), (4, 1)]])).is_none());
         // A pivot that is 0 at first.
         assert!(inverse(&matrix([[(0, 1), (1, 1)], [(1, 1), (0, 1)]])).is_some());
