@@ -340,3 +340,87 @@ pub fn decimal(text: &str) -> Option<Rational> {
     let value = if scale < 0 { value / Integer::from(power) } else { value * Integer::from(power) };
     Some(if mantissa.starts_with('-') { -value } else { value })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read<T>(text: &str, read: impl FnOnce(&Field<'_>) -> Outcome<T>) -> Result<T, String> {
+        let json = parse(text.as_bytes()).map_err(|finding| finding.pointer)?;
+        read(&Field { json: &json, pointer: String::new() }).map_err(|finding| finding.pointer)
+    }
+
+    #[test]
+    fn the_canonical_form_has_one_text() {
+        let text = r#" { "b" : [1, "x", [ ], {"~" :null}], "a": { }, "B": [[2.0,3E1]] } "#;
+        let canonical = r#"{"B":[[2.0,3E1]],"a":{},"b":[1,"x",[],{"~":null}]}"#;
+        let mut found = String::new();
+        parse(text.as_bytes()).unwrap().canonical(&mut found);
+        assert_eq!(found, canonical);
+    }
+
+    #[test]
+    fn nothing_is_left_in_an_object() {
+        let number = |fields: &mut Fields<'_>| fields.number("a");
+        assert_eq!(read(r#"{"a":"1/2"}"#, |field| field.object(number)), Ok(Rational::from((1, 2))));
+        for (text, place) in [
+            (r#"{"a":1,"b":1}"#, "/b"),
+            (r#"{"a":1,"a":1}"#, ""),
+            (r#"{"a":null}"#, "/a"),
+            (r#"{"a":[1]}"#, "/a"),
+            (r#"{"a":"1/0"}"#, "/a"),
+            (r#"{"a":"inf"}"#, "/a"),
+            ("{}", ""),
+            ("[1]", ""),
+            ("null", ""),
+        ] {
+            assert_eq!(read(text, |field| field.object(number)), Err(place.to_owned()), "{text}");
+        }
+    }
+
+    #[test]
+    fn a_matrix_has_its_order() {
+        let of_two = |text| read(text, |field| field.matrix([2, 2], ""));
+        let [one, two] = [1, 2].map(Rational::from);
+        assert_eq!(of_two(r#"[[1,"2"],["2",1]]"#), Ok(vec![vec![one.clone(), two.clone()], vec![two, one]]));
+        for (text, place) in [
+            ("[[1,2]]", ""),
+            ("[[1,2],[2,1],[0,0]]", ""),
+            ("[[1,2],[2]]", ""),
+            ("[[1,2],[2,1,0]]", ""),
+            ("[]", ""),
+            ("[[],[]]", ""),
+            ("[[1,2],2]", "/1"),
+            ("[[1,2],[2,null]]", "/1/1"),
+            (r#"{"0":[1,2]}"#, ""),
+        ] {
+            assert_eq!(of_two(text), Err(place.to_owned()), "{text}");
+        }
+        assert_eq!(read("[[1,2,3]]", |field| field.matrix([1, 3], "")).map(|rows| rows[0].len()), Ok(3));
+        assert_eq!(read("[]", |field| field.matrix([0, 0], "")), Ok(Vec::new()));
+    }
+
+    #[test]
+    fn numbers_go_together_in_their_order() {
+        let both = |text| read(text, |field| field.object(|fields| fields.together(["a", "b"])));
+        assert_eq!(both("{}"), Ok(None));
+        assert_eq!(both(r#"{"b":2,"a":1}"#), Ok(Some([1, 2].map(Rational::from))));
+        for (text, place) in
+            [(r#"{"a":1}"#, ""), (r#"{"b":2}"#, ""), (r#"{"a":1,"b":null}"#, "/b"), (r#"{"c":1}"#, "/c")]
+        {
+            assert_eq!(both(text), Err(place.to_owned()), "{text}");
+        }
+        let all = |text| read(text, |field| field.object(|fields| fields.numbers(["a", "b"])));
+        assert_eq!(all(r#"{"b":2,"a":1}"#), Ok([1, 2].map(Rational::from)));
+        assert_eq!(all(r#"{"a":1}"#), Err(String::new()));
+    }
+
+    #[test]
+    fn a_part_is_read_where_it_is_there() {
+        let part = |text| read(text, |field| field.object(|fields| fields.part("a", Field::rational)));
+        assert_eq!(part("{}"), Ok(None));
+        assert_eq!(part(r#"{"a":3}"#), Ok(Some(Rational::from(3))));
+        assert_eq!(part(r#"{"a":null}"#), Err("/a".to_owned()));
+        assert_eq!(part(r#"{"b":3}"#), Err("/b".to_owned()));
+    }
+}

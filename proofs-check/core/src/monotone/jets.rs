@@ -177,3 +177,37 @@ pub(super) fn is_nondecreasing(
         .fold(start, |derivative, axis| derivative + changes[axis] * (sides[axis] - &from[axis]));
     derivative.is_nonnegative()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::expr::ARGUMENTS;
+    use rug::Rational;
+
+    fn at(text: &str, x: &Rational) -> [Interval; 3] {
+        let (x, zero) = (Interval::rational(x, 256), Interval::int(0, 256));
+        let Jet { value, first: [once, _], second: [twice, ..] } =
+            jet(&Expr::parse(text, ARGUMENTS).unwrap(), [&x, &zero]).unwrap();
+        [value, once, twice]
+    }
+
+    #[test]
+    fn derivatives_are_the_limits_of_difference_quotients() {
+        let step = Rational::from((1, 1 << 30));
+        for text in [
+            "-X", "sqrt(X)", "exp(X)", "log(X)", "sin(X)", "cos(X)", "tan(X)", "atan(X)", "tanh(X)", "abs(X)",
+            "abs(-X)", "X^0", "X^1", "X^2", "X^5", "X^(-3)", "X^1.5", "1/X",
+        ] {
+            for x in [(3, 10), (11, 10)].map(Rational::from) {
+                let found = at(text, &x);
+                let [before, after] = [at(text, &(x.clone() - &step)), at(text, &(x.clone() + &step))];
+                for order in [1, 2] {
+                    let quotient = (&after[order - 1] - &before[order - 1]) / 2 / Interval::rational(&step, 256);
+                    let apart = (quotient - &found[order]).abs();
+                    let small = Interval::rational(&Rational::from((1, 1_000_000)), 256);
+                    assert_eq!(apart.lt(&small), Some(true), "{text} at {x}, order {order}: {:?}", found[order]);
+                }
+            }
+        }
+    }
+}
