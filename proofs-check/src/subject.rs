@@ -186,7 +186,7 @@ const ROUNDING: &str = "where noise is said: the regulator computes in doubles a
 
 /// What it takes for granted of a continuous regulator; `noisy`: something is said of noise.
 fn regulator(spec: &Specification, noisy: bool) -> String {
-    let frequency = if spec.matched { ", with base_frequency exactly 2 pi/period" } else { "" };
+    let frequency = if spec.regulator.matched { ", with base_frequency exactly 2 pi/period" } else { "" };
     let output = spec.input_gain.as_ref().map_or_else(String::new, |gain| format!(", and{}", output(gain)));
     format!(
         "the regulator runs in continuous time with exactly the mu, weights and base frequency stated{frequency}{output}: no \

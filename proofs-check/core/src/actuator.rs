@@ -6,8 +6,8 @@
 use crate::constant::{Constant, positive_with};
 use crate::expr::Named;
 use crate::json::{Field, Fields};
-use crate::range::{both, is_same};
-use crate::verdict::{Outcome, demand};
+use crate::range::{both, states};
+use crate::verdict::Outcome;
 
 /// The name of the rule.
 pub const RULE: &str = "actuator";
@@ -19,35 +19,23 @@ pub struct Actuator {
     pub max: Constant,
 }
 
-impl Actuator {
-    fn read_part(field: &Field<'_>, constants: &[Named]) -> Outcome<Actuator> {
-        let mut fields = field.fields()?;
-        let max = positive_with(&fields.required("max")?, "max", constants)?;
-        fields.finish().map(|()| Actuator { max })
-    }
-}
-
 /// Takes `actuator` out of a file, if it is there. Names of a plant's constants may stand in its number.
 pub fn read(file: &mut Fields<'_>, constants: &[Named]) -> Outcome<Option<Actuator>> {
-    file.optional("actuator").map(|field| Actuator::read_part(&field, constants)).transpose()
+    let max = |fields: &mut Fields<'_>| positive_with(&fields.required("max")?, "max", constants);
+    file.part("actuator", |field| field.object(max).map(|max| Actuator { max }))
 }
 
 /// That a claim names the actuator of the file, and names none where the file has none.
 pub fn agrees(asked: Option<&Actuator>, claimed: Option<&Field<'_>>, claim: &str) -> Outcome<()> {
     let Some((asked, field)) = both(RULE, "actuator", asked, claimed, claim)? else { return Ok(()) };
-    let mut fields = field.fields()?;
-    let stated = fields.required("max")?;
-    let same = is_same(&Constant::read(&stated)?, &asked.max);
-    demand(Some(same), RULE, &stated.pointer, format!("it is that of the file, {}", asked.max.text))?;
-    fields.finish()
+    field.object(|fields| states(fields, "max", &asked.max, RULE))
 }
 
 /// What a claim is about besides, where there is one.
 pub fn in_words(actuator: Option<&Actuator>) -> String {
     actuator.map_or_else(String::new, |actuator| {
-        format!(
-            ", with an actuator that takes what is put out up to {} in size and cuts off what is beyond (which nothing is from the set below)",
-            actuator.max.text
-        )
+        let max = &actuator.max.text;
+        let beyond = "and cuts off what is beyond (which nothing is from the set below)";
+        format!(", with an actuator that takes what is put out up to {max} in size {beyond}")
     })
 }

@@ -35,8 +35,12 @@ impl<'s> Data<'s> {
     /// Encloses everything at `precision` bits.
     pub fn new(spec: &'s Specification, precision: u32) -> Data<'s> {
         let number = |constant: &crate::constant::Constant| constant.enclose(precision);
-        let (p_low, p_up, mu, w) =
-            (number(&spec.p_low), number(&spec.p_up), number(&spec.mu), number(&spec.base_frequency));
+        let (p_low, p_up, mu, w) = (
+            number(&spec.p_low),
+            number(&spec.p_up),
+            number(&spec.regulator.mu),
+            number(&spec.regulator.base_frequency),
+        );
         // P_low <= P_up holds, so c >= 1 does whatever the rounding.
         let root = |p_low: &Interval, p_up: &Interval| (p_up / p_low).sqrt().max(&Interval::int(1, precision));
         let (alpha, c) = (number(&spec.alpha), root(&p_low, &p_up));
@@ -52,9 +56,9 @@ impl<'s> Data<'s> {
             existence,
             nu: gain.as_ref().map_or_else(|| nu.clone(), |gain| &gain.low * &nu),
             gain,
-            n_0: spec.weights.weight(0, precision),
-            n_1: spec.weights.weight(1, precision),
-            n_bar: spec.weights.total(precision).sqrt(),
+            n_0: spec.regulator.weights.weight(0, precision),
+            n_1: spec.regulator.weights.weight(1, precision),
+            n_bar: spec.regulator.weights.total(precision).sqrt(),
             p_low,
             p_up,
             mu,
@@ -77,6 +81,11 @@ impl<'s> Data<'s> {
     /// A fraction.
     pub fn ratio(&self, numerator: i64, denominator: i64) -> Interval {
         self.number(&Rational::from((numerator, denominator)))
+    }
+
+    /// n_l.
+    pub fn weight(&self, l: u64) -> Interval {
+        self.spec.regulator.weights.weight(l, self.precision)
     }
 
     /// A number times an end of b, where there is a gain.

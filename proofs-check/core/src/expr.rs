@@ -33,6 +33,17 @@ pub enum Op {
     Add, Sub, Mul, Div, Pow, Min, Max,
 }
 
+impl Op {
+    /// How many operands it has.
+    pub fn operands(&self) -> usize {
+        match self {
+            Op::Number(_) | Op::Pi | Op::X | Op::E | Op::State(_) => 0,
+            Op::Add | Op::Sub | Op::Mul | Op::Div | Op::Pow | Op::Min | Op::Max => 2,
+            _ => 1,
+        }
+    }
+}
+
 #[rustfmt::skip]
 const FUNCTIONS: [(&str, Op); 11] = [
     ("sqrt", Op::Sqrt), ("exp", Op::Exp), ("log", Op::Log), ("sin", Op::Sin), ("cos", Op::Cos), ("tan", Op::Tan),
@@ -232,13 +243,8 @@ impl Parser<'_> {
 
 /// One operation on a stack of values. A well-formed expression never meets an empty stack.
 fn step<V: Clone>(op: &Op, stack: &mut Vec<V>, apply: &mut impl FnMut(&Op, Option<V>, Option<V>) -> V) {
-    let operands = match op {
-        Op::Number(_) | Op::Pi | Op::X | Op::E | Op::State(_) => 0,
-        Op::Add | Op::Sub | Op::Mul | Op::Div | Op::Pow | Op::Min | Op::Max => 2,
-        _ => 1,
-    };
-    let second = (operands == 2).then(|| stack.pop()).flatten();
-    let first = (operands >= 1).then(|| stack.pop()).flatten();
+    let second = (op.operands() == 2).then(|| stack.pop()).flatten();
+    let first = (op.operands() >= 1).then(|| stack.pop()).flatten();
     stack.push(apply(op, first, second));
 }
 
@@ -261,17 +267,8 @@ pub fn exact_op(op: &Op, a: Option<Option<Exact>>, b: Option<Option<Exact>>) -> 
             let first = (a.compare(&b)? == Ordering::Less) == (*op == Op::Min);
             Some(if first { a } else { b })
         }
-        Op::X
-        | Op::E
-        | Op::State(_)
-        | Op::Exp
-        | Op::Log
-        | Op::Sin
-        | Op::Cos
-        | Op::Tan
-        | Op::Atan
-        | Op::Tanh
-        | Op::Pow => None,
+        Op::X | Op::E | Op::State(_) | Op::Exp | Op::Log | Op::Pow => None,
+        Op::Sin | Op::Cos | Op::Tan | Op::Atan | Op::Tanh => None,
     }
 }
 
@@ -301,6 +298,23 @@ pub fn interval_op(op: &Op, a: &Interval, b: &Interval) -> Interval {
         // Variables have no value of their own.
         Op::X | Op::E | Op::State(_) => Interval::undefined(a.precision()),
     }
+}
+
+/// The derivative on the range u of an operation with one operand that is smooth wherever it is defined; `value` is its value there.
+pub fn slope_op(op: &Op, u: &Interval, value: &Interval) -> Option<Interval> {
+    Some(match op {
+        Op::Neg => Interval::int(-1, u.precision()),
+        Op::Exp => value.clone(),
+        Op::Log => u.recip(),
+        Op::Sin => u.cos(),
+        Op::Cos => -u.sin(),
+        Op::Tan => 1 + value.sqr(),
+        Op::Atan => (1 + u.sqr()).recip(),
+        Op::Tanh => 1 - value.sqr(),
+        Op::Power(0) => Interval::int(0, u.precision()),
+        Op::Power(n) => u.powi(n - 1) * i64::from(*n),
+        _ => return None,
+    })
 }
 
 /// A text with others in the given places of it, in parentheses but for digits and a point.

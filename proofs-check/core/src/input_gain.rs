@@ -20,7 +20,7 @@ pub const RULE: &str = "input gain";
 /// Takes `input_gain` out of a file, if it is there. Names of a plant's constants may stand in its numbers.
 pub fn read(file: &mut Fields<'_>, constants: &[Named]) -> Outcome<Option<Range>> {
     let positive = |fields: &mut Fields<'_>, name: &str| positive_with(&fields.required(name)?, name, constants);
-    file.optional("input_gain").map(|field| Range::read(&field, RULE, positive)).transpose()
+    file.part("input_gain", |field| Range::read(field, RULE, positive))
 }
 
 /// The same of a plant, where names of parameters of which intervals are given may stand too. In `nominal` these have their nominal
@@ -49,7 +49,7 @@ pub fn read_of_family(file: &mut Fields<'_>, constants: &[Named], intervals: &[P
         };
         Ok(Constant::standing_for(text, if name == "low" { low } else { high }))
     };
-    file.optional("input_gain").map(|field| Range::read(&field, RULE, positive)).transpose()
+    file.part("input_gain", |field| Range::read(field, RULE, positive))
 }
 
 /// Whether a name occurs in the text of an expression.

@@ -62,6 +62,20 @@ impl Interval {
         if lo <= hi { Interval { lo, hi } } else { Interval::undefined(hi.prec()) }
     }
 
+    /// One number.
+    pub fn point(value: &Float) -> Interval {
+        Interval::new(value.clone(), value.clone())
+    }
+
+    /// 1 or -1, where the sign is certain.
+    pub fn sign(&self) -> Interval {
+        match (self.is_positive(), (-self).is_positive()) {
+            (true, _) => Interval::int(1, self.precision()),
+            (_, true) => Interval::int(-1, self.precision()),
+            _ => Interval::undefined(self.precision()),
+        }
+    }
+
     /// Nothing known.
     pub fn undefined(precision: u32) -> Interval {
         let nan = || Float::with_val(precision, Special::Nan);

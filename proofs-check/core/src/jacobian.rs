@@ -3,7 +3,8 @@
 
 use crate::constant::Constant;
 use crate::expr::Expr;
-use crate::json::{Field, Json};
+use crate::json::{Field, Fields, Json};
+use crate::matrix::{Matrix, is_symmetric};
 use crate::period::Period;
 use crate::verdict::{Outcome, bad, demand};
 use rug::Rational;
@@ -27,9 +28,6 @@ pub enum Entry {
 /// The rows of F(t).
 pub type Jacobian = Vec<Vec<Entry>>;
 
-/// The rows of a symmetric matrix.
-pub type Matrix = Vec<Vec<Rational>>;
-
 /// Reads the rows of F(t).
 pub fn read(field: &Field<'_>, period: &Period) -> Outcome<Jacobian> {
     let rows = field.elements()?;
@@ -42,12 +40,8 @@ pub fn read(field: &Field<'_>, period: &Period) -> Outcome<Jacobian> {
         }
         let [lo, hi] = &field.elements()?[..] else { return bad(&field.pointer, "expected [lower end, upper end]") };
         let (lo, hi) = (Constant::read(lo)?, Constant::read(hi)?);
-        demand(
-            lo.number().le(&hi.number()),
-            "specification",
-            &field.pointer,
-            "the lower end is at most the upper end",
-        )?;
+        let truth = lo.number().le(&hi.number());
+        demand(truth, "specification", &field.pointer, "the lower end is at most the upper end")?;
         Ok(Entry::Between([lo, hi]))
     };
     let row = |row: &Field<'_>| {
@@ -71,16 +65,23 @@ pub struct Witness {
     pub numbers: [Rational; 3],
 }
 
+/// The list `harmonics` of an object, if it is there, of at most so many: what `cos` and `sin` are read as.
+pub fn harmonics<T>(
+    fields: &mut Fields<'_>,
+    most: usize,
+    read: impl Fn(&Field<'_>) -> Outcome<T>,
+) -> Outcome<Vec<[T; 2]>> {
+    let Some(list) = fields.optional("harmonics") else { return Ok(Vec::new()) };
+    if list.elements()?.len() > most {
+        return bad(&list.pointer, format!("expected at most {most} harmonics"));
+    }
+    list.list(|pair| pair.object(|pair| Ok([read(&pair.required("cos")?)?, read(&pair.required("sin")?)?])))
+}
+
 /// Reads a symmetric matrix of the order of the Jacobian.
 fn matrix(field: &Field<'_>, order: usize) -> Outcome<Matrix> {
-    let row = |row: &Field<'_>| row.elements()?.iter().map(Field::rational).collect::<Outcome<Vec<_>>>();
-    let rows = field.elements()?.iter().map(row).collect::<Outcome<Matrix>>()?;
-    if rows.len() != order || rows.iter().any(|row| row.len() != order) {
-        return bad(&field.pointer, format!("expected {order} rows of {order} numbers, as the Jacobian has"));
-    }
-    let symmetric = (0..order).all(|i| (0..i).all(|j| rows[i][j] == rows[j][i]));
-    demand(Some(symmetric), RULE, &field.pointer, "P is symmetric")?;
-    Ok(rows)
+    let rows = field.matrix([order; 2], "as the Jacobian has")?;
+    demand(Some(is_symmetric(&rows)), RULE, &field.pointer, "P is symmetric").map(|()| rows)
 }
 
 impl Witness {
@@ -88,30 +89,17 @@ impl Witness {
     pub fn read(field: &Field<'_>, order: usize) -> Outcome<(Witness, [Constant; 3])> {
         let mut fields = field.fields()?;
         let mean = matrix(&fields.required("P")?, order)?;
-        let mut harmonics = Vec::new();
-        if let Some(list) = fields.optional("harmonics") {
-            for element in list.elements()? {
-                let mut pair = element.fields()?;
-                let [cos, sin] = [pair.required("cos")?, pair.required("sin")?];
-                pair.finish()?;
-                harmonics.push([matrix(&cos, order)?, matrix(&sin, order)?]);
-            }
-            if harmonics.len() > MAX_HARMONIC {
-                return bad(&list.pointer, format!("expected at most {MAX_HARMONIC} harmonics"));
-            }
-        }
-        let mut triple = Vec::new();
-        let mut number = |name: &str| -> Outcome<Rational> {
+        let harmonics = harmonics(&mut fields, MAX_HARMONIC, |field| matrix(field, order))?;
+        let mut number = |name: &str| -> Outcome<(Rational, Constant)> {
             let field = fields.required(name)?;
             let value = field.rational()?;
             demand(Some(value > 0), RULE, &field.pointer, format!("{name} > 0"))?;
-            triple.push(Constant::read(&field)?);
-            Ok(value)
+            Ok((value, Constant::read(&field)?))
         };
-        let numbers = [number("p_low")?, number("p_up")?, number("alpha")?];
+        let [p_low, p_up, alpha] = ["p_low", "p_up", "alpha"].map(&mut number);
+        let [(p_low, low), (p_up, up), (alpha, rate)] = [p_low?, p_up?, alpha?];
         fields.finish()?;
-        let [p_low, p_up, alpha] = &triple[..] else { return bad(&field.pointer, "expected a triple") };
-        let triple = [p_low.clone(), p_up.clone(), alpha.clone()];
-        Ok((Witness { pointer: field.pointer.clone(), mean, harmonics, numbers }, triple))
+        let numbers = [p_low, p_up, alpha];
+        Ok((Witness { pointer: field.pointer.clone(), mean, harmonics, numbers }, [low, up, rate]))
     }
 }

@@ -42,10 +42,11 @@ pub fn parse(bytes: &[u8]) -> Outcome<Json> {
     }
     let Ok(text) = std::str::from_utf8(bytes) else { return bad("", "the file is not UTF-8") };
     limits(bytes)?;
-    match serde_json::from_str::<&RawValue>(text) {
-        Ok(raw) => value(raw.get(), ""),
-        Err(error) => bad("", format!("not JSON: {error}")),
-    }
+    value(parsed::<&RawValue>(text, "")?.get(), "")
+}
+
+fn parsed<'t, T: Deserialize<'t>>(text: &'t str, pointer: &str) -> Outcome<T> {
+    serde_json::from_str(text).or_else(|error| bad(pointer, format!("not JSON: {error}")))
 }
 
 fn limits(bytes: &[u8]) -> Outcome<()> {
@@ -107,26 +108,18 @@ impl<'de: 'a, 'a> Deserialize<'de> for Members<'a> {
 
 /// One value from its text. The recursion is as deep as the nesting, which is bounded.
 fn value(raw: &str, pointer: &str) -> Outcome<Json> {
-    let failed = |error: serde_json::Error| bad(pointer, format!("not JSON: {error}"));
     match raw.as_bytes().first() {
-        Some(b'{') => match serde_json::from_str::<Members<'_>>(raw) {
-            Err(error) => failed(error),
-            Ok(members) => {
-                let read = |(key, raw): (String, &RawValue)| {
-                    let child = value(raw.get(), &join(pointer, &key))?;
-                    Ok((key, child))
-                };
-                Ok(Json::Object(members.0.into_iter().map(read).collect::<Outcome<_>>()?))
-            }
-        },
-        Some(b'[') => match serde_json::from_str::<Vec<&RawValue>>(raw) {
-            Err(error) => failed(error),
-            Ok(list) => {
-                let read = |(index, raw): (usize, &RawValue)| value(raw.get(), &join(pointer, &index.to_string()));
-                Ok(Json::Array(list.into_iter().enumerate().map(read).collect::<Outcome<_>>()?))
-            }
-        },
-        Some(b'"') => serde_json::from_str(raw).map(Json::Text).or_else(failed),
+        Some(b'{') => {
+            let read = |(key, raw): (String, &RawValue)| Ok((key.clone(), value(raw.get(), &join(pointer, &key))?));
+            let members: Members<'_> = parsed(raw, pointer)?;
+            members.0.into_iter().map(read).collect::<Outcome<_>>().map(Json::Object)
+        }
+        Some(b'[') => {
+            let read = |(index, raw): (usize, &RawValue)| value(raw.get(), &join(pointer, &index.to_string()));
+            let list: Vec<&RawValue> = parsed(raw, pointer)?;
+            list.into_iter().enumerate().map(read).collect::<Outcome<_>>().map(Json::Array)
+        }
+        Some(b'"') => parsed(raw, pointer).map(Json::Text),
         Some(b't' | b'f') => Ok(Json::Bool(raw == "true")),
         Some(b'n') => Ok(Json::Null),
         _ => Ok(Json::Number(raw.to_owned())),
@@ -148,22 +141,23 @@ impl Json {
             Json::Number(text) => output.push_str(text),
             Json::Text(text) => output.push_str(&quoted(text)),
             Json::Array(list) => {
+                output.push('[');
                 for (index, element) in list.iter().enumerate() {
-                    output.push(if index == 0 { '[' } else { ',' });
+                    output.push_str(if index == 0 { "" } else { "," });
                     element.canonical(output);
                 }
-                output.push_str(if list.is_empty() { "[]" } else { "]" });
+                output.push(']');
             }
             Json::Object(members) => {
                 let mut sorted: Vec<_> = members.iter().collect();
                 sorted.sort_by(|a, b| a.0.cmp(&b.0));
+                output.push('{');
                 for (index, (key, value)) in sorted.into_iter().enumerate() {
-                    output.push(if index == 0 { '{' } else { ',' });
-                    output.push_str(&quoted(key));
-                    output.push(':');
+                    output.push_str(if index == 0 { "" } else { "," });
+                    output.push_str(&(quoted(key) + ":"));
                     value.canonical(output);
                 }
-                output.push_str(if members.is_empty() { "{}" } else { "}" });
+                output.push('}');
             }
         }
     }
@@ -192,6 +186,27 @@ impl<'a> Field<'a> {
             Json::Object(members) => Ok(Fields { members: members.iter().collect(), pointer: self.pointer.clone() }),
             _ => bad(&self.pointer, "expected an object"),
         }
+    }
+
+    /// What is read out of an object, in which nothing may be left.
+    pub fn object<T>(&self, read: impl FnOnce(&mut Fields<'a>) -> Outcome<T>) -> Outcome<T> {
+        let mut fields = self.fields()?;
+        let value = read(&mut fields)?;
+        fields.finish().map(|()| value)
+    }
+
+    /// What is read of each element of an array.
+    pub fn list<T>(&self, read: impl FnMut(&Field<'a>) -> Outcome<T>) -> Outcome<Vec<T>> {
+        self.elements()?.iter().map(read).collect()
+    }
+
+    /// The rows of a matrix of this order, `what` they are.
+    pub fn matrix(&self, [rows, columns]: [usize; 2], what: &str) -> Outcome<Vec<Vec<Rational>>> {
+        let matrix = self.list(|row| row.list(Field::rational))?;
+        if matrix.len() == rows && matrix.iter().all(|row| row.len() == columns) {
+            return Ok(matrix);
+        }
+        bad(&self.pointer, format!("expected {rows} rows of {columns} numbers, {what}"))
     }
 
     /// The elements of an array.
@@ -256,6 +271,38 @@ impl<'a> Fields<'a> {
         self.optional(name).map_or_else(|| bad(&self.pointer, format!("the field `{name}` is missing")), Ok)
     }
 
+    /// What is read of a field that may be absent.
+    pub fn part<T>(&mut self, name: &str, read: impl FnOnce(&Field<'a>) -> Outcome<T>) -> Outcome<Option<T>> {
+        self.optional(name).map(|field| read(&field)).transpose()
+    }
+
+    /// An exact rational.
+    pub fn number(&mut self, name: &str) -> Outcome<Rational> {
+        self.required(name)?.rational()
+    }
+
+    /// One after the other.
+    pub fn numbers<const N: usize>(&mut self, names: [&str; N]) -> Outcome<[Rational; N]> {
+        let mut numbers = [(); N].map(|()| Rational::new());
+        for (number, name) in numbers.iter_mut().zip(names) {
+            *number = self.number(name)?;
+        }
+        Ok(numbers)
+    }
+
+    /// The same, of which all are there or none.
+    pub fn together<const N: usize>(&mut self, names: [&str; N]) -> Outcome<Option<[Rational; N]>> {
+        match names.iter().filter(|name| self.has(name)).count() {
+            0 => Ok(None),
+            all if all == N => self.numbers(names).map(Some),
+            _ => {
+                let named = names.map(|name| format!("`{name}`")).join(", ");
+                let (before, last) = named.rsplit_once(", ").unwrap_or((&named, ""));
+                bad(&self.pointer, format!("{before} and {last} go together"))
+            }
+        }
+    }
+
     /// All that is left, with the keys.
     pub fn rest(self) -> impl Iterator<Item = (&'a str, Field<'a>)> {
         let pointer = self.pointer;
@@ -292,4 +339,88 @@ pub fn decimal(text: &str) -> Option<Rational> {
     let value = Rational::from(digits.parse::<Integer>().ok()?);
     let value = if scale < 0 { value / Integer::from(power) } else { value * Integer::from(power) };
     Some(if mantissa.starts_with('-') { -value } else { value })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read<T>(text: &str, read: impl FnOnce(&Field<'_>) -> Outcome<T>) -> Result<T, String> {
+        let json = parse(text.as_bytes()).map_err(|finding| finding.pointer)?;
+        read(&Field { json: &json, pointer: String::new() }).map_err(|finding| finding.pointer)
+    }
+
+    #[test]
+    fn the_canonical_form_has_one_text() {
+        let text = r#" { "b" : [1, "x", [ ], {"~" :null}], "a": { }, "B": [[2.0,3E1]] } "#;
+        let canonical = r#"{"B":[[2.0,3E1]],"a":{},"b":[1,"x",[],{"~":null}]}"#;
+        let mut found = String::new();
+        parse(text.as_bytes()).unwrap().canonical(&mut found);
+        assert_eq!(found, canonical);
+    }
+
+    #[test]
+    fn nothing_is_left_in_an_object() {
+        let number = |fields: &mut Fields<'_>| fields.number("a");
+        assert_eq!(read(r#"{"a":"1/2"}"#, |field| field.object(number)), Ok(Rational::from((1, 2))));
+        for (text, place) in [
+            (r#"{"a":1,"b":1}"#, "/b"),
+            (r#"{"a":1,"a":1}"#, ""),
+            (r#"{"a":null}"#, "/a"),
+            (r#"{"a":[1]}"#, "/a"),
+            (r#"{"a":"1/0"}"#, "/a"),
+            (r#"{"a":"inf"}"#, "/a"),
+            ("{}", ""),
+            ("[1]", ""),
+            ("null", ""),
+        ] {
+            assert_eq!(read(text, |field| field.object(number)), Err(place.to_owned()), "{text}");
+        }
+    }
+
+    #[test]
+    fn a_matrix_has_its_order() {
+        let of_two = |text| read(text, |field| field.matrix([2, 2], ""));
+        let [one, two] = [1, 2].map(Rational::from);
+        assert_eq!(of_two(r#"[[1,"2"],["2",1]]"#), Ok(vec![vec![one.clone(), two.clone()], vec![two, one]]));
+        for (text, place) in [
+            ("[[1,2]]", ""),
+            ("[[1,2],[2,1],[0,0]]", ""),
+            ("[[1,2],[2]]", ""),
+            ("[[1,2],[2,1,0]]", ""),
+            ("[]", ""),
+            ("[[],[]]", ""),
+            ("[[1,2],2]", "/1"),
+            ("[[1,2],[2,null]]", "/1/1"),
+            (r#"{"0":[1,2]}"#, ""),
+        ] {
+            assert_eq!(of_two(text), Err(place.to_owned()), "{text}");
+        }
+        assert_eq!(read("[[1,2,3]]", |field| field.matrix([1, 3], "")).map(|rows| rows[0].len()), Ok(3));
+        assert_eq!(read("[]", |field| field.matrix([0, 0], "")), Ok(Vec::new()));
+    }
+
+    #[test]
+    fn numbers_go_together_in_their_order() {
+        let both = |text| read(text, |field| field.object(|fields| fields.together(["a", "b"])));
+        assert_eq!(both("{}"), Ok(None));
+        assert_eq!(both(r#"{"b":2,"a":1}"#), Ok(Some([1, 2].map(Rational::from))));
+        for (text, place) in
+            [(r#"{"a":1}"#, ""), (r#"{"b":2}"#, ""), (r#"{"a":1,"b":null}"#, "/b"), (r#"{"c":1}"#, "/c")]
+        {
+            assert_eq!(both(text), Err(place.to_owned()), "{text}");
+        }
+        let all = |text| read(text, |field| field.object(|fields| fields.numbers(["a", "b"])));
+        assert_eq!(all(r#"{"b":2,"a":1}"#), Ok([1, 2].map(Rational::from)));
+        assert_eq!(all(r#"{"a":1}"#), Err(String::new()));
+    }
+
+    #[test]
+    fn a_part_is_read_where_it_is_there() {
+        let part = |text| read(text, |field| field.object(|fields| fields.part("a", Field::rational)));
+        assert_eq!(part("{}"), Ok(None));
+        assert_eq!(part(r#"{"a":3}"#), Ok(Some(Rational::from(3))));
+        assert_eq!(part(r#"{"a":null}"#), Err("/a".to_owned()));
+        assert_eq!(part(r#"{"b":3}"#), Err("/b".to_owned()));
+    }
 }

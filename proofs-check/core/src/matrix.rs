@@ -1,18 +1,67 @@
-//! Definiteness of symmetric matrices of intervals.
+//! Definiteness of symmetric matrices, of intervals and of rational numbers.
 
 use crate::interval::Interval;
+use rug::Rational;
+
+/// The rows of a matrix.
+pub type Matrix = Vec<Vec<Rational>>;
+
+/// `factor A - shift I`.
+pub fn shifted(matrix: &Matrix, factor: &Rational, shift: &Rational) -> Matrix {
+    let row = |(i, row): (usize, &Vec<Rational>)| {
+        let mut row: Vec<Rational> = row.iter().map(|value| Rational::from(value * factor)).collect();
+        row[i] -= shift;
+        row
+    };
+    matrix.iter().enumerate().map(row).collect()
+}
+
+/// Whether a square matrix is symmetric.
+pub fn is_symmetric(rows: &Matrix) -> bool {
+    (0..rows.len()).all(|i| (0..i).all(|j| rows[i][j] == rows[j][i]))
+}
+
+/// Whether a symmetric rational matrix is positive semidefinite: by its pivots, where a pivot of 0 stands alone.
+pub fn is_semidefinite(mut rows: Matrix) -> bool {
+    for k in 0..rows.len() {
+        let above = rows[k].clone();
+        let pivot = &above[k];
+        if *pivot < 0 || (*pivot == 0 && above[k + 1..].iter().any(|entry| *entry != 0)) {
+            return false;
+        }
+        for row in rows[k + 1..].iter_mut().filter(|_| *pivot != 0) {
+            let factor = Rational::from(&row[k] / pivot);
+            row.iter_mut().zip(&above).for_each(|(entry, other)| *entry -= Rational::from(&factor * other));
+        }
+    }
+    true
+}
 
 /// Whether a symmetric matrix is positive definite, by the pivots of LDL'; only the lower triangle is read.
 ///
 /// `Some(true)`: every symmetric matrix with entries in the intervals is. `Some(false)`: none is even
 /// semidefinite, since a pivot is negative after positive ones. `None`: not decided.
-pub fn positive_definite(mut rows: Vec<Vec<Interval>>) -> Option<bool> {
+pub fn positive_definite(rows: Vec<Vec<Interval>>) -> Option<bool> {
+    by_pivots(rows, false)
+}
+
+/// The same for positive semidefinite: a pivot that may be 0 is left out where nothing stands beside it.
+///
+/// `Some(true)`: every symmetric matrix with entries in the intervals is. `Some(false)`: none is. `None`: not decided.
+pub fn semidefinite(rows: Vec<Vec<Interval>>) -> Option<bool> {
+    by_pivots(rows, true)
+}
+
+fn by_pivots(mut rows: Vec<Vec<Interval>>, zero_may_stand: bool) -> Option<bool> {
     for k in 0..rows.len() {
         let pivot = rows[k][k].clone();
+        let column: Vec<Interval> = rows[k + 1..].iter().map(|row| row[k].clone()).collect();
         if !pivot.is_positive() {
+            if zero_may_stand && pivot.is_nonnegative() && column.iter().all(Interval::is_zero) {
+                continue;
+            }
             return (-pivot).is_positive().then_some(false);
         }
-        let column: Vec<Interval> = rows[k + 1..].iter().map(|row| row[k].clone()).collect();
         for (i, row) in rows[k + 1..].iter_mut().enumerate() {
             let factor = &column[i] / &pivot;
             for (entry, other) in row[k + 1..].iter_mut().zip(&column) {
@@ -23,28 +72,33 @@ pub fn positive_definite(mut rows: Vec<Vec<Interval>>) -> Option<bool> {
     Some(true)
 }
 
-/// The same for positive semidefinite: a pivot that may be 0 is left out where nothing stands beside it.
-///
-/// `Some(true)`: every symmetric matrix with entries in the intervals is. `Some(false)`: none is. `None`: not decided.
-pub fn semidefinite(mut rows: Vec<Vec<Interval>>) -> Option<bool> {
-    for k in 0..rows.len() {
-        let pivot = rows[k][k].clone();
-        let column: Vec<Interval> = rows[k + 1..].iter().map(|row| row[k].clone()).collect();
-        if !pivot.is_positive() {
-            if (-&pivot).is_positive() {
-                return Some(false);
-            }
-            if pivot.is_nonnegative() && column.iter().all(Interval::is_zero) {
-                continue;
-            }
-            return None;
-        }
-        for (i, row) in rows[k + 1..].iter_mut().enumerate() {
-            let factor = &column[i] / &pivot;
-            for (entry, other) in row[k + 1..].iter_mut().zip(&column) {
-                *entry = &*entry - &factor * other;
-            }
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn rows(rows: &[&[i64]]) -> Vec<Vec<Interval>> {
+        rows.iter().map(|row| row.iter().map(|value| Interval::int(*value, 64)).collect()).collect()
+    }
+
+    #[test]
+    fn a_pivot_of_0_is_semidefinite_alone_and_never_definite() {
+        for (matrix, definite, half) in [
+            (rows(&[&[2], &[1, 1]]), Some(true), Some(true)),
+            (rows(&[&[0], &[0, 1]]), None, Some(true)),
+            (rows(&[&[1], &[1, 1]]), None, Some(true)),
+            (rows(&[&[0], &[1, 5]]), None, None),
+            (rows(&[&[1], &[2, 1]]), Some(false), Some(false)),
+            (rows(&[&[-1], &[0, 1]]), Some(false), Some(false)),
+        ] {
+            assert_eq!(positive_definite(matrix.clone()), definite, "{matrix:?}");
+            assert_eq!(semidefinite(matrix.clone()), half, "{matrix:?}");
         }
     }
-    Some(true)
+
+    #[test]
+    fn a_matrix_is_symmetric_entry_by_entry() {
+        let with =
+            |last: i32| [[1, 2, 3], [2, 5, 6], [3, last, 9]].map(|row| row.map(Rational::from).to_vec()).to_vec();
+        assert!(is_symmetric(&with(6)) && !is_symmetric(&with(7)));
+    }
 }

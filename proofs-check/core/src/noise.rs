@@ -42,17 +42,16 @@ impl Noise {
     /// Takes `measurement`, `disturbance` and `arithmetic` out of a file, where they are.
     pub fn read(file: &mut Fields<'_>) -> Outcome<Noise> {
         let mut read = Noise::default();
-        if let Some(field) = file.optional("measurement") {
-            let mut fields = field.fields()?;
-            let mut size = |name| fields.optional(name).map(|field| Size::read(&field)).transpose();
-            (read.noise, read.quantum) = (size("noise")?, size("quantum")?);
-            if read.noise.is_none() && read.quantum.is_none() {
-                return bad(&field.pointer, "expected `noise`, `quantum` or both");
+        let measured = |fields: &mut Fields<'_>| {
+            let [noise, quantum] = ["noise", "quantum"].map(|name| fields.part(name, Size::read));
+            match (noise?, quantum?) {
+                (None, None) => bad(&fields.pointer, "expected `noise`, `quantum` or both"),
+                both => Ok(both),
             }
-            fields.finish()?;
-        }
-        read.disturbance = file.optional("disturbance").map(|field| Size::read(&field)).transpose()?;
-        read.doubles = file.optional("arithmetic").map_or(Ok(false), |field| in_doubles(&field))?;
+        };
+        (read.noise, read.quantum) = file.part("measurement", |field| field.object(measured))?.unwrap_or_default();
+        read.disturbance = file.part("disturbance", Size::read)?;
+        read.doubles = file.part("arithmetic", in_doubles)?.unwrap_or_default();
         Ok(read)
     }
 

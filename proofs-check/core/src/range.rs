@@ -28,10 +28,10 @@ impl Range {
         rule: &'static str,
         read: impl Fn(&mut Fields<'_>, &str) -> Outcome<Constant>,
     ) -> Outcome<Range> {
-        let mut fields = field.fields()?;
-        let [nominal, low, high] = ["nominal", "low", "high"].map(|name| read(&mut fields, name));
-        let range = Range { nominal: nominal?, low: low?, high: high? };
-        fields.finish()?;
+        let range = field.object(|fields| {
+            let [nominal, low, high] = ["nominal", "low", "high"].map(|name| read(fields, name));
+            Ok(Range { nominal: nominal?, low: low?, high: high? })
+        })?;
         let in_order =
             |a: &Constant, b: &Constant, what| demand(a.number().le(&b.number()), rule, &field.pointer, what);
         in_order(&range.low, &range.nominal, "low <= nominal")?;
@@ -51,15 +51,19 @@ impl Range {
 
     /// That a part of a claim names these numbers.
     pub fn agrees(&self, field: &Field<'_>, rule: &'static str) -> Outcome<()> {
-        let mut fields = field.fields()?;
-        for (name, end) in [("nominal", &self.nominal)].into_iter().chain(self.ends()) {
-            let stated = fields.required(name)?;
-            // Of an expression of parameters the text says what it is.
-            let same = stated.numeral()? == end.text || is_same(&Constant::read(&stated)?, end);
-            demand(Some(same), rule, &stated.pointer, format!("it is that of the file, {}", end.text))?;
-        }
-        fields.finish()
+        field.object(|fields| {
+            let mut all = [("nominal", &self.nominal)].into_iter().chain(self.ends());
+            all.try_for_each(|(name, end)| states(fields, name, end, rule))
+        })
     }
+}
+
+/// That a part of a claim has a number of the file under this name.
+pub fn states(fields: &mut Fields<'_>, name: &str, number: &Constant, rule: &'static str) -> Outcome<()> {
+    let stated = fields.required(name)?;
+    // Of an expression of parameters the text says what it is.
+    let same = stated.numeral()? == number.text || is_same(&Constant::read(&stated)?, number);
+    demand(Some(same), rule, &stated.pointer, format!("it is that of the file, {}", number.text))
 }
 
 /// That a claim has a part, `field`, exactly if the file has it; nothing to compare if neither has.

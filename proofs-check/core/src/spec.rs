@@ -14,7 +14,7 @@ use crate::interval::Interval;
 use crate::jacobian::{self, Jacobian};
 use crate::json::{Field, Fields, Json};
 use crate::noise::Noise;
-use crate::period::Period;
+use crate::period::{self, Period};
 use crate::plant::OfPlant;
 use crate::range::Range;
 use crate::verdict::{Outcome, bad, demand};
@@ -82,14 +82,7 @@ pub struct Specification {
     pub existence: Option<(jacobian::Witness, [Constant; 3])>,
     /// The contraction rate a(X, E), for the P of a triple that is given.
     pub rate: Option<Expr>,
-    pub mu: Constant,
-    pub base_frequency: Constant,
-    pub matched: bool,
-    /// N_s = T/h, where a sampling period is given: a claim in continuous time does not use it.
-    pub samples: Option<Integer>,
-    /// Whether a control is computed in the sample before it acts.
-    pub delayed: bool,
-    pub weights: Weights,
+    pub regulator: InternalModel,
     pub bounds: [Option<Expr>; BOUNDS],
     pub q_0: Option<Forcing>,
     pub domain: Option<[Constant; 2]>,
@@ -105,10 +98,12 @@ pub struct Specification {
 }
 
 /// The regulator, as far as it is given.
+#[derive(Clone, Debug)]
 pub struct InternalModel {
     pub mu: Constant,
     pub base_frequency: Constant,
     pub matched: bool,
+    /// N_s = T/h, where a sampling period is given: a claim in continuous time does not use it.
     pub samples: Option<Integer>,
     /// `delay_samples`: whether a control is computed in the sample before it acts.
     pub delayed: bool,
@@ -147,11 +142,10 @@ pub fn read_delay(field: &Field<'_>) -> Outcome<bool> {
     }
 }
 
-fn nonnegative(field: Field<'_>, constants: &[Named]) -> Outcome<Constant> {
-    let constant = Constant::read_with(&field, constants)?;
+fn nonnegative(field: &Field<'_>, constants: &[Named]) -> Outcome<Constant> {
+    let constant = Constant::read_with(field, constants)?;
     let truth = Number::rational(Rational::new()).le(&constant.number());
-    demand(truth, RULE, &field.pointer, "the number is nonnegative")?;
-    Ok(constant)
+    demand(truth, RULE, &field.pointer, "the number is nonnegative").map(|()| constant)
 }
 
 impl Specification {
@@ -160,8 +154,7 @@ impl Specification {
     pub fn read(field: &Field<'_>, witness: &mut Fields<'_>) -> Outcome<Specification> {
         let mut file = field.fields()?;
         header(&mut file, "sigmastar/bounding-spec")?;
-        file.required("name")?.text()?;
-        file.optional("description").map(|field| field.text().map(drop)).transpose()?;
+        words(&mut file)?;
         let period = Period::read(&mut file, &[])?;
 
         let mut fields = file.required("lyapunov")?.fields()?;
@@ -175,12 +168,14 @@ impl Specification {
         };
         let (p_low, p_up, alpha) = (p_low?, p_up?, alpha?);
         demand(p_low.number().le(&p_up.number()), RULE, &fields.pointer, "p_low <= p_up")?;
-        let second = if jacobian.is_some() { witness.optional("lyapunov_existence") } else { None };
-        let order = jacobian.as_ref().map_or(0, |(jacobian, _)| jacobian.len());
-        let existence = second.map(|field| jacobian::Witness::read(&field, order)).transpose()?;
         // The P that is found for a Jacobian is not known to whoever states a rate.
-        let rate = if jacobian.is_none() { fields.optional("rate") } else { None };
-        let rate = rate.map(|field| expression(&field, ARGUMENTS)).transpose()?;
+        let (existence, rate) = match &jacobian {
+            None => (None, fields.part("rate", |field| expression(field, ARGUMENTS))?),
+            Some((rows, _)) => {
+                let second = |field: &Field<'_>| jacobian::Witness::read(field, rows.len());
+                (witness.part("lyapunov_existence", second)?, None)
+            }
+        };
         fields.finish()?;
 
         let mut functions = file.required("bounds")?.fields()?;
@@ -190,24 +185,16 @@ impl Specification {
             *bound = field.map(|field| expression(&field, ARGUMENTS)).transpose()?;
         }
         functions.finish()?;
-        let q_0 = file.optional("q_0").map(|field| read_forcing(&field)).transpose()?;
-
-        let domain = file.optional("domain").map(|field| {
-            let mut fields = field.fields()?;
-            let ends = [positive(&mut fields, "X")?, positive(&mut fields, "E")?];
-            fields.finish().map(|()| ends)
-        });
-
-        let InternalModel { mu, base_frequency, matched, samples, delayed, weights } =
-            InternalModel::read(&file.required("internal_model")?, &period, &[])?;
-
+        let q_0 = file.part("q_0", read_forcing)?;
+        let ends = |fields: &mut Fields<'_>| Ok([positive(fields, "X")?, positive(fields, "E")?]);
+        let domain = file.part("domain", |field| field.object(ends))?;
+        let regulator = InternalModel::read(&file.required("internal_model")?, &period, &[])?;
         let (initial_set, _) = read_set(&file.required("initial_set")?, false, &[])?;
         let input_gain = input_gain::read(&mut file, &[])?;
         let actuator = actuator::read(&mut file, &[])?;
         let noise = Noise::read(&mut file)?;
-        file.optional("relative_degree").map(|field| filter(&field)).transpose()?;
+        file.part("relative_degree", filter)?;
         file.finish()?;
-        let domain = domain.transpose()?;
         Ok(Specification {
             period,
             p_low,
@@ -216,12 +203,7 @@ impl Specification {
             jacobian,
             existence,
             rate,
-            mu,
-            base_frequency,
-            matched,
-            samples,
-            delayed,
-            weights,
+            regulator,
             bounds,
             q_0,
             domain,
@@ -234,6 +216,20 @@ impl Specification {
     }
 }
 
+impl Specification {
+    /// What a claim says of the file besides the gain, for either regulator.
+    pub fn in_words(&self) -> String {
+        format!(
+            "{}{}, with {}, mu = {} and base frequency {}",
+            input_gain::in_words(self.input_gain.as_ref()),
+            actuator::in_words(self.actuator.as_ref()),
+            period::in_words(&self.period),
+            self.regulator.mu.text,
+            self.regulator.base_frequency.text,
+        )
+    }
+}
+
 impl InternalModel {
     /// Reads `internal_model`; `matched` only where base_frequency * period = 2 pi exactly. Names of a plant's constants may stand in
     /// mu, the base frequency and the sampling period.
@@ -241,13 +237,11 @@ impl InternalModel {
         let mut model = field.fields()?;
         let mut read = |name| positive_with(&model.required(name)?, name, constants);
         let (mu, base_frequency) = (read("mu")?, read("base_frequency")?);
-        let matched = match model.optional("matched") {
-            None => false,
-            Some(field) => match field.json {
-                Json::Bool(value) => *value,
-                _ => return bad(&field.pointer, "expected true or false"),
-            },
+        let truth = |field: &Field<'_>| match field.json {
+            Json::Bool(value) => Ok(*value),
+            _ => bad(&field.pointer, "expected true or false"),
         };
+        let matched = model.part("matched", truth)?.unwrap_or_default();
         let weights = Weights::read(&model.required("weights")?)?;
         if matched {
             let pointer = format!("{}/matched", model.pointer);
@@ -294,41 +288,46 @@ pub fn header(file: &mut Fields<'_>, format: &str) -> Outcome<()> {
     if field.whole()? == 1 { Ok(()) } else { bad(&field.pointer, "only version 1 is read") }
 }
 
+/// `name` and `description` of a file, of which nothing is used.
+pub fn words(file: &mut Fields<'_>) -> Outcome<()> {
+    file.required("name")?.text()?;
+    file.part("description", |field| field.text()).map(drop)
+}
+
 fn read_forcing(field: &Field<'_>) -> Outcome<Forcing> {
-    let mut fields = field.fields()?;
-    let list = fields.required("harmonics")?;
-    let elements = list.elements()?;
-    if elements.is_empty() || elements.len() > MAX_HARMONICS {
-        return bad(&list.pointer, format!("expected 1 to {MAX_HARMONICS} harmonics"));
-    }
-    let forcing = Forcing {
-        harmonics: elements.into_iter().map(size).collect::<Outcome<_>>()?,
-        rest_rms: size(fields.required("rest_rms")?)?,
-        rest_t_rms: fields.optional("rest_t_rms").map(size).transpose()?,
-    };
-    fields.finish()?;
-    Ok(forcing)
+    let size = |field: &Field<'_>| nonnegative(field, &[]).map(Size::Constant);
+    field.object(|fields| {
+        let list = fields.required("harmonics")?;
+        if !(1..=MAX_HARMONICS).contains(&list.elements()?.len()) {
+            return bad(&list.pointer, format!("expected 1 to {MAX_HARMONICS} harmonics"));
+        }
+        Ok(Forcing {
+            harmonics: list.list(size)?,
+            rest_rms: size(&fields.required("rest_rms")?)?,
+            rest_t_rms: fields.part("rest_t_rms", size)?,
+        })
+    })
 }
 
 /// Reads the set that is asked for; that of a plant may have `ball` in the place of `X0`: then it is returned too. Names of the
 /// plant's constants may stand in its numbers.
 pub fn read_set(field: &Field<'_>, of_plant: bool, constants: &[Named]) -> Outcome<(AskedSet, Option<Constant>)> {
-    let nonnegative = |field: Field<'_>| nonnegative(field, constants);
+    let nonnegative = |field: &Field<'_>| nonnegative(field, constants);
     let mut fields = field.fields()?;
     let kind = fields.required("kind")?;
     let name = kind.text()?;
     let takes_ball = of_plant && matches!(name, "at-rest" | "aligned" | "box");
-    let ball = if takes_ball { fields.optional("ball") } else { None }.map(nonnegative).transpose()?;
+    let ball = if takes_ball { fields.part("ball", nonnegative)? } else { None };
     let set = match name {
         "paper" => AskedSet::Paper,
         "at-rest" | "aligned" => {
-            let mut end = |name| fields.optional(name).map(nonnegative).transpose();
+            let mut end = |name| fields.part(name, nonnegative);
             // Where there is a ball, `X0` is left to be refused as unknown.
             let sizes = [if ball.is_some() { None } else { end("X0")? }, end("E0")?];
             if name == "aligned" { AskedSet::Aligned(sizes) } else { AskedSet::AtRest(sizes) }
         }
         "box" => {
-            let mut end = |name| fields.required(name).and_then(nonnegative);
+            let mut end = |name| nonnegative(&fields.required(name)?);
             let x0 = ball.clone().map_or_else(|| end("X0"), Ok)?;
             AskedSet::Box([x0, end("E0")?, end("Z0")?])
         }
@@ -338,16 +337,10 @@ pub fn read_set(field: &Field<'_>, of_plant: bool, constants: &[Named]) -> Outco
     Ok((set, ball))
 }
 
-fn size(field: Field<'_>) -> Outcome<Size> {
-    nonnegative(field, &[]).map(Size::Constant)
-}
-
 /// The filter e = xi_r + sum a_i xi_i: s^(r-1) + a_(r-1) s^(r-2) + ... + a_1 must be Hurwitz (docs/mathematics.md, section 6),
 /// decided by Routh's array in rationals.
 fn filter(field: &Field<'_>) -> Outcome<()> {
-    let mut fields = field.fields()?;
-    let list = fields.required("a")?;
-    fields.finish()?;
+    let list = field.object(|fields| fields.required("a"))?;
     let elements = list.elements()?;
     if elements.is_empty() || elements.len() > 20 {
         return bad(&list.pointer, "expected 1 to 20 coefficients");

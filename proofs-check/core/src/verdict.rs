@@ -88,6 +88,13 @@ pub enum Relation {
     AtMost,
 }
 
+impl Relation {
+    /// Its symbol.
+    pub fn symbol(self) -> &'static str {
+        if self == Relation::Less { "<" } else { "<=" }
+    }
+}
+
 /// A condition of a derivation with both sides enclosed.
 #[derive(Clone, Debug)]
 pub struct Condition {
@@ -122,11 +129,6 @@ impl Condition {
         }
     }
 
-    /// The relation's symbol.
-    pub fn symbol(&self) -> &'static str {
-        if self.relation == Relation::Less { "<" } else { "<=" }
-    }
-
     /// Demands that the condition holds.
     pub fn demand(&self, rule: &'static str, pointer: &str) -> Outcome<()> {
         demand(self.truth(), rule, pointer, format!("{}, {}", self.id, self.what)).map_err(|mut finding| {
@@ -139,7 +141,7 @@ impl Condition {
     pub fn line(&self) -> String {
         let (lhs, rhs, margin) = (shown(&self.lhs), shown(&self.rhs), shown(&(&self.rhs - &self.lhs)));
         let holds = self.truth().map_or("undecided", |truth| if truth { "holds" } else { "FAILS" });
-        format!("  {} {holds}: {}: {lhs} {} {rhs}, margin {margin}", self.id, self.what, self.symbol())
+        format!("  {} {holds}: {}: {lhs} {} {rhs}, margin {margin}", self.id, self.what, self.relation.symbol())
     }
 }
 

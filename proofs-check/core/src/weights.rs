@@ -7,7 +7,7 @@
 use crate::constant::{Constant, Number};
 use crate::exact::Exact;
 use crate::interval::Interval;
-use crate::json::Field;
+use crate::json::{Field, Fields};
 use crate::verdict::{Outcome, bad, demand};
 use rug::Rational;
 
@@ -38,16 +38,14 @@ impl Weights {
             }
             "explicit" => {
                 let list = fields.required("values")?;
-                let elements = list.elements()?;
-                if elements.is_empty() || elements.len() > MAX_WEIGHTS {
+                if !(1..=MAX_WEIGHTS).contains(&list.elements()?.len()) {
                     return bad(&list.pointer, format!("expected 1 to {MAX_WEIGHTS} weights"));
                 }
-                let values = elements.iter().map(Constant::read).collect::<Outcome<_>>()?;
-                let mut tail = fields.required("tail")?.fields()?;
-                let coefficient = Some(Constant::read(&tail.required("coefficient")?)?);
-                let exponent = Constant::read(&tail.required("exponent")?)?;
-                tail.finish()?;
-                Weights { values, coefficient, exponent }
+                let values = list.list(Constant::read)?;
+                let tail = |name, fields: &mut Fields<'_>| Constant::read(&fields.required(name)?);
+                let tail = |fields: &mut Fields<'_>| Ok((tail("coefficient", fields)?, tail("exponent", fields)?));
+                let (coefficient, exponent) = fields.required("tail")?.object(tail)?;
+                Weights { values, coefficient: Some(coefficient), exponent }
             }
             _ => return bad(&family.pointer, "expected `power` or `explicit`"),
         };

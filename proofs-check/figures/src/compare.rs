@@ -54,13 +54,9 @@ pub fn text(field: &Field<'_>, expected: &str) -> Outcome<()> {
 /// How far a stored figure of `digits` decimals may lie from the number: by its rounding, relatively 10^-digits, and by the
 /// width of the checker's own enclosure.
 pub fn tolerance(value: &Interval, digits: u32) -> Interval {
-    let width = point(value.hi()) - point(value.lo());
+    let width = Interval::point(value.hi()) - Interval::point(value.lo());
     let unit = Interval::rational(&Rational::from((1, Integer::from(Integer::u_pow_u(10, digits)))), PRECISION);
     (value.abs().ceiling() * unit + width * 4).ceiling()
-}
-
-fn point(end: &Float) -> Interval {
-    Interval::new(end.clone(), end.clone())
 }
 
 /// The decimals to which a figure must be known here before a stored one is compared with it.
@@ -71,7 +67,7 @@ const LAST_PRECISION: u32 = 1024;
 
 /// Demands that a figure is known well enough to tell a right one from a wrong one: else more bits are needed.
 pub fn precise(field: &Field<'_>, mine: &Interval) -> Outcome<()> {
-    let width = point(mine.hi()) - point(mine.lo());
+    let width = Interval::point(mine.hi()) - Interval::point(mine.lo());
     let unit = Interval::rational(&Rational::from((1, Integer::from(Integer::u_pow_u(10, PRECISE_DIGITS)))), PRECISION);
     let known = mine.is_bounded() && width.le(&(mine.abs().ceiling() * unit)) == Some(true);
     if known || mine.precision() >= LAST_PRECISION {
@@ -109,14 +105,14 @@ pub fn span(field: &Field<'_>, low: &Interval, high: &Interval) -> Outcome<()> {
     }
     // Each end lies on its side of the number, and no further from it than its digits make it.
     if let Some(value) = end(lo, low.lo())? {
-        let near = (point(low.lo()) - &value).le(&tolerance(low, DIGITS)) == Some(true);
-        if !near || point(low.hi()).lt(&value) == Some(true) {
+        let near = (Interval::point(low.lo()) - &value).le(&tolerance(low, DIGITS)) == Some(true);
+        if !near || Interval::point(low.hi()).lt(&value) == Some(true) {
             return Err(differs(lo, lo.text()?, low));
         }
     }
     if let Some(value) = end(hi, high.hi())? {
-        let near = (&value - point(high.hi())).le(&tolerance(high, DIGITS)) == Some(true);
-        if !near || value.lt(&point(high.lo())) == Some(true) {
+        let near = (&value - Interval::point(high.hi())).le(&tolerance(high, DIGITS)) == Some(true);
+        if !near || value.lt(&Interval::point(high.lo())) == Some(true) {
             return Err(differs(hi, hi.text()?, high));
         }
     }
@@ -138,7 +134,7 @@ pub fn tight(field: &Field<'_>, mine: &Interval) -> Outcome<()> {
         return Ok(());
     }
     precise(field, mine)?;
-    let above = stored - point(mine.hi());
+    let above = stored - Interval::point(mine.hi());
     let near = above.le(&tolerance(mine, CLAIM_DIGITS)) == Some(true);
     if near { Ok(()) } else { Err(differs(field, field.numeral()?, mine)) }
 }
@@ -148,13 +144,13 @@ pub fn condition(element: &Field<'_>, mine: &Condition) -> Outcome<()> {
     let mut fields: Fields<'_> = element.fields()?;
     text(&fields.required("id")?, mine.id)?;
     text(&fields.required("what")?, &mine.what)?;
-    text(&fields.required("relation")?, mine.symbol())?;
+    text(&fields.required("relation")?, mine.relation.symbol())?;
     span(&fields.required("lhs")?, &mine.lhs, &mine.lhs)?;
     span(&fields.required("rhs")?, &mine.rhs, &mine.rhs)?;
     let (field, margin) = (fields.required("margin")?, &mine.rhs - &mine.lhs);
     // The margin is rounded down, so it is the lower end of an enclosure.
     if let Some(value) = end(&field, margin.lo())? {
-        let apart = (value - point(margin.lo())).abs();
+        let apart = (value - Interval::point(margin.lo())).abs();
         if apart.le(&tolerance(&margin, DIGITS)) != Some(true) {
             return Err(differs(&field, field.text()?, &margin));
         }

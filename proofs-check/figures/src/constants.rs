@@ -105,7 +105,7 @@ fn common<'a>(d: &'a Data<'a>, input: &Input<'_>) -> Vec<Row<'a>> {
     row("second Jury quantity", COMMON, [slip, sound(&(1 - paper_det), label), of_sharp]);
 
     // The paper's transfer lemma is believed only where both its kappas dominate the closed form.
-    let third = d.spec.weights.weight(2, d.precision) * 3;
+    let third = d.weight(2) * 3;
     let s = &d.n_0 / &d.n_1 + &d.n_0 / third + d.ratio(10, 3);
     let a = ((d.int(2).sqrt() + 2) * &s).max(&d.ratio(25, 8));
     let varpi = ((&a + 2) * 48).recip();
@@ -155,7 +155,7 @@ fn common<'a>(d: &'a Data<'a>, input: &Input<'_>) -> Vec<Row<'a>> {
     let [psi_2_paper, psi_2] =
         [&ex.q, &proved.solution.rates[0]].map(|q| (d.period.only() / (Interval::pi(d.precision) * 2)).sqr() * q.sqr());
     let psi_2 = psi_2 * d.period.only();
-    let matched = |value: Interval| if d.spec.matched { sound(&value, "section 6, with T") } else { None };
+    let matched = |value: Interval| if d.spec.regulator.matched { sound(&value, "section 6, with T") } else { None };
     let label = "P:eq:theorem_2_bound_e2";
     row(
         "psi_2",

@@ -63,12 +63,10 @@ fn cell(fields: &mut Fields<'_>, order: usize, family: Vec<Span>) -> Outcome<Cel
 /// `low` and `high` for each parameter.
 fn sides(list: &Field<'_>, parameters: usize) -> Outcome<Box> {
     let side = |field: &Field<'_>| {
-        let mut fields = field.fields()?;
-        let [low, high] = [fields.required("low")?.rational()?, fields.required("high")?.rational()?];
-        fields.finish()?;
+        let [low, high] = field.object(|fields| fields.numbers(["low", "high"]))?;
         demand(Some(low <= high), RULE, &field.pointer, "low <= high").map(|()| [low, high])
     };
-    let sides = list.elements()?.iter().map(side).collect::<Outcome<Box>>()?;
+    let sides = list.list(side)?;
     if sides.len() == parameters {
         return Ok(sides);
     }

@@ -200,8 +200,8 @@ impl Formulas {
 
     /// An operation, simplified where an operand is 0 or 1.
     pub fn apply(&mut self, op: &Op, [a, b]: [Id; 2]) -> Id {
-        let (a, b) = (a, if operands(op) == 2 { b } else { 0 });
-        if operands(op) > 0
+        let (a, b) = (a, if op.operands() == 2 { b } else { 0 });
+        if op.operands() > 0
             && let Some(sum) = Linear::apply(op, self.linear.get(&a), self.linear.get(&b))
         {
             return self.sum(sum);
@@ -230,7 +230,7 @@ impl Formulas {
         if let Some(simpler) = simpler {
             return simpler;
         }
-        let count = operands(op);
+        let count = op.operands();
         let depends = [a, b].into_iter().take(count).fold(0, |all, id| all | self.depends(id));
         if depends != 0 {
             return self.insert(Kind::Apply(op.clone(), [a, b]), depends, None);
@@ -274,7 +274,7 @@ impl Formulas {
     }
 
     fn insert_operation(&mut self, op: Op, both: [Id; 2]) -> Id {
-        let depends = both.into_iter().take(operands(&op)).fold(0, |all, id| all | self.depends(id));
+        let depends = both.into_iter().take(op.operands()).fold(0, |all, id| all | self.depends(id));
         self.insert(Kind::Apply(op, both), depends, None)
     }
 
@@ -333,10 +333,10 @@ impl Formulas {
     }
 
     fn demand(&mut self, op: &Op, [a, b]: [Id; 2], value: Id, demands: &mut Vec<(Id, Demand)>) {
-        if operands(op) == 0 {
+        if op.operands() == 0 {
             return;
         }
-        let constant = [a, b].iter().take(operands(op)).all(|id| self.depends(*id) == 0);
+        let constant = [a, b].iter().take(op.operands()).all(|id| self.depends(*id) == 0);
         if constant {
             // A constant is smooth where it is a number: `sqrt(0)` and `abs(0)` are.
             demands.push((value, Demand::Finite));
@@ -398,17 +398,8 @@ impl Formulas {
         match &self.nodes[id].kind {
             Kind::Leaf(_) => Vec::new(),
             Kind::Sign(a) => vec![*a],
-            Kind::Apply(op, both) => both[..operands(op)].to_vec(),
+            Kind::Apply(op, both) => both[..op.operands()].to_vec(),
         }
-    }
-}
-
-/// How many operands an operation has.
-pub fn operands(op: &Op) -> usize {
-    match op {
-        Op::Number(_) | Op::Pi | Op::X | Op::E | Op::State(_) => 0,
-        Op::Add | Op::Sub | Op::Mul | Op::Div | Op::Pow | Op::Min | Op::Max => 2,
-        _ => 1,
     }
 }
 

@@ -80,7 +80,7 @@ fn of_stability_at<'i>(
     end: &End,
 ) -> Outcome<Vec<Said<'i>>> {
     let order = model.states();
-    let mu = constant(&mut model.formulas, &spec.mu);
+    let mu = constant(&mut model.formulas, &spec.regulator.mu);
     let form = Form {
         shift: end.shift,
         p: model.lyapunov[0].clone(),

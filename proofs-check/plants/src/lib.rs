@@ -228,7 +228,7 @@ fn largest(plant: &Plant, arguments: [&Float; 2], inequalities: Inequalities<'_>
 }
 
 fn end(value: &Float) -> Interval {
-    Interval::new(value.clone(), value.clone()).round(PRECISION)
+    Interval::point(value).round(PRECISION)
 }
 
 /// X + r.
@@ -275,12 +275,8 @@ fn drift(plant: &Plant, model: &Model, machine: &Machine<'_>, root: &Rc<Cell>, v
     let program = machine.program(&entries);
     let ball = vec![time::around(&r); plant.states()];
     let rest = Region::of_family(plant, PRECISION).whole(machine, root.clone()).intervals();
-    let mut cells = vec![root.clone()];
-    for _ in 0..DRIFT_CELLS_LOG {
-        cells = cells.iter().flat_map(|cell| cell.halves()).collect();
-    }
     let mut largest = zero.clone();
-    for cell in &cells {
+    for cell in &root.parts(DRIFT_CELLS_LOG) {
         machine.run(&program, machine::At::Box, cell, &ball, &rest, values);
         let value = |id: &formula::Id| machine.get(*id, machine::At::Box, cell, values);
         let square = entries.iter().fold(zero.clone(), |sum, id| sum + value(id).sqr());

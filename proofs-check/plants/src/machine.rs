@@ -1,7 +1,7 @@
 //! Formulas evaluated over intervals: what depends on t alone once for each cell of t, the rest for each box.
 
 use super::formula::{Axis, Formulas, Id, Kind, Leaf};
-use super::time::{Table, Wave, point, waves};
+use super::time::{Table, Wave, waves};
 use proofs_core::expr::interval_op;
 use proofs_core::interval::Interval;
 use rug::Float;
@@ -57,10 +57,15 @@ impl Cell {
         if self.depth < KEPT_DEPTH { self.halves.get_or_init(make).clone() } else { make() }
     }
 
+    /// It, halved so many times.
+    pub fn parts(self: &Rc<Cell>, times: u32) -> Vec<Rc<Cell>> {
+        (0..times).fold(vec![self.clone()], |cells, _| cells.iter().flat_map(|cell| cell.halves()).collect())
+    }
+
     /// At least half of its width, as an interval around the middle is.
     pub fn half_width(&self) -> Interval {
-        let middle = point(&self.middle);
-        (point(&self.hi) - &middle).max(&(middle - point(&self.lo))).ceiling()
+        let middle = Interval::point(&self.middle);
+        (Interval::point(&self.hi) - &middle).max(&(middle - Interval::point(&self.lo))).ceiling()
     }
 }
 
@@ -176,7 +181,7 @@ impl<'f> Machine<'f> {
                 Kind::Leaf(Leaf::Parameter(i)) => rest.get(1 + i).unwrap_or(&self.none).clone(),
                 Kind::Leaf(Leaf::Drift(_)) => self.drift.clone(),
                 Kind::Leaf(_) => self.none.clone(),
-                Kind::Sign(a) => self.sign(self.find(*a, &on_cell, values)),
+                Kind::Sign(a) => self.find(*a, &on_cell, values).sign(),
                 Kind::Apply(op, [a, b]) => {
                     interval_op(op, self.find(*a, &on_cell, values), self.find(*b, &on_cell, values))
                 }
@@ -205,8 +210,8 @@ impl<'f> Machine<'f> {
     fn apply(&self, id: Id, value: impl Fn(Id) -> Interval) -> Interval {
         match &self.formulas.node(id).kind {
             Kind::Leaf(_) => self.none.clone(),
-            Kind::Sign(a) => self.sign(&value(*a)),
-            Kind::Apply(op, [a, b]) => match super::formula::operands(op) {
+            Kind::Sign(a) => value(*a).sign(),
+            Kind::Apply(op, [a, b]) => match op.operands() {
                 0 => interval_op(op, &self.none, &self.none),
                 1 => interval_op(op, &value(*a), &self.none),
                 _ => interval_op(op, &value(*a), &value(*b)),
@@ -214,18 +219,10 @@ impl<'f> Machine<'f> {
         }
     }
 
-    fn sign(&self, value: &Interval) -> Interval {
-        match (value.is_positive(), (-value).is_positive()) {
-            (true, _) => Interval::int(1, self.precision),
-            (_, true) => Interval::int(-1, self.precision),
-            _ => self.none.clone(),
-        }
-    }
-
     /// A leaf that depends on t.
     fn timed(&self, leaf: Leaf, at: At, cell: &Cell) -> Interval {
         let (table, order) = match leaf {
-            Leaf::Time if at == At::Middle => return point(&cell.middle),
+            Leaf::Time if at == At::Middle => return Interval::point(&cell.middle),
             Leaf::Time => return Interval::new(cell.lo.clone(), cell.hi.clone()),
             Leaf::Orbit { state, order } => (self.orbit.get(state), order),
             Leaf::Lyapunov { which, entry: [i, j], order } => {
@@ -234,7 +231,7 @@ impl<'f> Machine<'f> {
             Leaf::State(_) | Leaf::Output | Leaf::Parameter(_) | Leaf::Drift(_) => (None, 0),
         };
         let Some(table) = table else { return self.none.clone() };
-        let waves = cell.waves.get_or_init(|| waves(&self.om, &point(&cell.middle), self.count));
+        let waves = cell.waves.get_or_init(|| waves(&self.om, &Interval::point(&cell.middle), self.count));
         let value = |order| table.at(order, waves, self.precision);
         if at == At::Middle {
             return value(order);

@@ -3,7 +3,7 @@
 use super::formula::Id;
 use super::machine::{At, Machine, Program, Values};
 use super::region::{Piece, axes};
-use super::time::point;
+use proofs_core::interval::Interval;
 
 /// A node with what has to be computed for it.
 pub struct Narrowing {
@@ -32,7 +32,7 @@ impl Narrowing {
             let at = if side.is_none() { At::Middle } else { At::Box };
             let mut sides = piece.intervals();
             if let Some(side) = side {
-                sides[side] = point(&piece.middle(side));
+                sides[side] = Interval::point(&piece.middle(side));
             }
             let (v, rest) = sides.split_at(states);
             machine.run(&self.program, at, &piece.cell, v, rest, values);

@@ -14,7 +14,7 @@ use super::read::Plant;
 use super::region::{Piece, Region};
 use proofs_core::interval::Interval;
 use proofs_core::jacobian::Witness;
-use proofs_core::plant::coordinates::semidefinite;
+use proofs_core::matrix::{self, is_semidefinite};
 use proofs_core::verdict::{Outcome, demand};
 use rug::Rational;
 
@@ -40,15 +40,8 @@ pub fn sizes(plant: &Plant, model: &mut Model) -> Outcome<Vec<(usize, &'static s
         let constant = w.harmonics.iter().flatten().flatten().flatten().all(Rational::is_zero);
         for (sign, end, what) in [(1, p_low, "p_low I <= P"), (-1, p_up, "P <= p_up I")] {
             if constant {
-                let shifted = |i: usize, j: usize, value: &Rational| {
-                    let moved = if i == j { Rational::from(value - end) } else { value.clone() };
-                    moved * sign
-                };
-                let row = |(i, row): (usize, &Vec<Rational>)| {
-                    row.iter().enumerate().map(|(j, value)| shifted(i, j, value)).collect()
-                };
-                let rows = w.mean.iter().enumerate().map(row).collect();
-                demand(Some(semidefinite(rows)), RULE, &w.pointer, what)?;
+                let rows = matrix::shifted(&w.mean, &Rational::from(sign), &Rational::from(end * sign));
+                demand(Some(is_semidefinite(rows)), RULE, &w.pointer, what)?;
                 continue;
             }
             let p = model.lyapunov[which].clone();

@@ -1,6 +1,7 @@
 //! The orbit and the forcing of a witness, as a file has them (docs/formats.md, "A certificate of a plant"): read and checked in form.
 
 use super::time::Wave;
+use proofs_core::jacobian::harmonics;
 use proofs_core::json::{Field, Fields};
 use proofs_core::verdict::{Outcome, bad, demand};
 use rug::Rational;
@@ -40,24 +41,9 @@ fn number(fields: &mut Fields<'_>, name: &str, least: Option<bool>) -> Outcome<R
     Ok(value)
 }
 
-/// A list of harmonics: what `cos` and `sin` are read as.
-fn harmonics<T>(fields: &mut Fields<'_>, read: impl Fn(&Field<'_>) -> Outcome<T>) -> Outcome<Vec<[T; 2]>> {
-    let Some(list) = fields.optional("harmonics") else { return Ok(Vec::new()) };
-    let elements = list.elements()?;
-    if elements.len() > MAX_HARMONICS {
-        return bad(&list.pointer, format!("expected at most {MAX_HARMONICS} harmonics"));
-    }
-    let pair = |element: &Field<'_>| {
-        let mut pair = element.fields()?;
-        let both = [read(&pair.required("cos")?)?, read(&pair.required("sin")?)?];
-        pair.finish().map(|()| both)
-    };
-    elements.iter().map(pair).collect()
-}
-
 /// `mean` and `harmonics` of an object.
 fn curve<T>(fields: &mut Fields<'_>, read: impl Fn(&Field<'_>) -> Outcome<T>) -> Outcome<(T, Vec<[T; 2]>)> {
-    Ok((read(&fields.required("mean")?)?, harmonics(fields, read)?))
+    Ok((read(&fields.required("mean")?)?, harmonics(fields, MAX_HARMONICS, read)?))
 }
 
 /// The same, and after it that of each of the `sensitivities`, one for each number of the family.
@@ -71,11 +57,7 @@ fn curves<T>(
         return Ok(all);
     }
     let list = fields.required("sensitivities")?;
-    for field in list.elements()? {
-        let mut fields = field.fields()?;
-        all.push(curve(&mut fields, &read)?);
-        fields.finish()?;
-    }
+    all.extend(list.list(|field| field.object(|fields| curve(fields, &read)))?);
     if all.len() == 1 + members {
         return Ok(all);
     }
@@ -86,7 +68,7 @@ fn curves<T>(
 pub fn orbit(field: &Field<'_>, order: usize, members: usize) -> Outcome<Orbit> {
     let mut fields = field.fields()?;
     let vector = |field: &Field<'_>| {
-        let list = field.elements()?.iter().map(Field::rational).collect::<Outcome<Vec<_>>>()?;
+        let list = field.list(Field::rational)?;
         let right = list.len() == order;
         if right { Ok(list) } else { bad(&field.pointer, format!("expected {order} numbers, one for each state")) }
     };

@@ -4,7 +4,7 @@ use super::formula::{Formulas, Id, Leaf};
 use super::machine::{Cell, Curves, Machine, Values};
 use super::region::Piece;
 use super::taylor::{Series, expand};
-use super::time::{Table, point, waves};
+use super::time::{Table, waves};
 use proofs_core::effort;
 use proofs_core::interval::Interval;
 use std::collections::VecDeque;
@@ -54,7 +54,7 @@ impl<'m, 'f> Path<'m, 'f> {
     /// The nodes of each group on a cell, each with its own parameters.
     pub fn expand(&self, cell: &Cell, parameters: &[&[Interval]], values: &Values) -> Vec<Vec<Polynomial>> {
         let p = self.machine.precision;
-        let (middle, half) = (point(&cell.middle), cell.half_width());
+        let (middle, half) = (Interval::point(&cell.middle), cell.half_width());
         let waves = waves(&self.om, &middle, self.count);
         let derivatives: Vec<Vec<Interval>> = self
             .orbit

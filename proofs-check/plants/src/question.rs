@@ -14,7 +14,7 @@ use super::formula::{Axis, Demand, Formulas, Id};
 use super::machine::{At, Cell, Machine, Program, Values};
 use super::narrowing::Narrowing;
 use super::region::{Piece, Region, axes, axis};
-use super::time::{around, point};
+use super::time::around;
 use proofs_core::effort;
 use proofs_core::interval::Interval;
 use proofs_core::matrix::semidefinite;
@@ -214,7 +214,7 @@ impl Decision<'_, '_> {
             }
         }
         self.region.inward(&mut place);
-        let points: Vec<Interval> = place.iter().map(point).collect();
+        let points: Vec<Interval> = place.iter().map(Interval::point).collect();
         let (v, rest) = points.split_at(states);
         self.machine.run(&self.programs[0], At::Middle, &piece.cell, v, rest, self.values);
         let there = self.read(&self.question.rows, At::Middle, &piece.cell);
@@ -281,9 +281,9 @@ impl Decision<'_, '_> {
         let (mut square, mut at_middle, mut rest) = (zero(), zero(), zero());
         for ((side, _), rate) in slopes.iter().zip(rates) {
             let Some(side) = side.filter(|side| *side < self.region.states) else { continue };
-            let number = point(&middle_of(rate));
+            let number = Interval::point(&middle_of(rate));
             square = square + number.sqr();
-            at_middle = at_middle + &number * point(&piece.middle(side));
+            at_middle = at_middle + &number * Interval::point(&piece.middle(side));
             rest = rest + (rate - number).abs() * piece.half_width(Some(side));
         }
         let by_ball = square.sqrt() * radius + at_middle + rest;
@@ -359,7 +359,7 @@ impl Basis {
         let entry = |x: &Float| match () {
             () if *x == 0 => Factor::Zero,
             () if *x == 1 => Factor::One,
-            () => Factor::Number(point(x)),
+            () => Factor::Number(Interval::point(x)),
         };
         Some(Basis(sorted.iter().map(|pivot| columns[*pivot].iter().map(entry).collect()).collect()))
     }

@@ -78,8 +78,7 @@ impl Plant {
 pub fn read(field: &Field<'_>, witness: &mut Fields<'_>) -> Outcome<(Specification, Vec<Plant>)> {
     let mut file = field.fields()?;
     header(&mut file, "sigmastar/plant")?;
-    file.required("name")?.text()?;
-    file.optional("description").map(|field| field.text().map(drop)).transpose()?;
+    spec::words(&mut file)?;
     let names = states(&file.required("states")?)?;
     let (constants, intervals) = match file.optional("parameters") {
         Some(field) => parameters(&field, &names)?,
@@ -94,27 +93,25 @@ pub fn read(field: &Field<'_>, witness: &mut Fields<'_>) -> Outcome<(Specificati
         Ok(Formula { pointer: field.pointer.clone(), expr })
     };
     let list = file.required("f")?;
-    let f: Vec<Formula> = list.elements()?.iter().map(formula).collect::<Outcome<_>>()?;
+    let f: Vec<Formula> = list.list(formula)?;
     if f.len() != names.len() {
         return bad(&list.pointer, format!("expected {} expressions, one for each state", names.len()));
     }
     let q = formula(&file.required("q")?)?;
-    file.optional("initial").map(|field| initial(&field, names.len(), &constants)).transpose()?;
+    file.part("initial", |field| initial(field, names.len(), &constants))?;
     let (initial_set, ball) = match file.optional("initial_set") {
         Some(field) => spec::read_set(&field, true, &constants)?,
         None => (AskedSet::AtRest([None, None]), None),
     };
-    let domain = file.optional("domain").map(|field| {
-        let mut fields = field.fields()?;
+    let ends = |fields: &mut Fields<'_>| {
         let mut end = |name| positive_with(&fields.required(name)?, name, &constants);
-        let ends = [end("x")?, end("e")?];
-        fields.finish().map(|()| ends)
-    });
-    let domain = domain.transpose()?;
+        Ok([end("x")?, end("e")?])
+    };
+    let domain = file.part("domain", |field| field.object(ends))?;
     let input_gain = input_gain::read_of_family(&mut file, &constants, &intervals)?;
     let actuator = actuator::read(&mut file, &constants)?;
     let noise = Noise::read(&mut file)?;
-    let model = spec::InternalModel::read(&file.required("internal_model")?, &period, &constants)?;
+    let regulator = spec::InternalModel::read(&file.required("internal_model")?, &period, &constants)?;
     file.finish()?;
 
     let has_clock = clock.is_some();
@@ -123,8 +120,7 @@ pub fn read(field: &Field<'_>, witness: &mut Fields<'_>) -> Outcome<(Specificati
     let coordinates = Coordinates::read_part(&witness.required("coordinates")?, order)?;
     let cells = cells::read(witness, order, family, intervals.len())?;
     let (first, [p_low, p_up, alpha]) = jacobian::Witness::read(&witness.required("lyapunov")?, order)?;
-    let second = witness.optional("lyapunov_existence").map(|field| jacobian::Witness::read(&field, order));
-    let existence = second.transpose()?;
+    let existence = witness.part("lyapunov_existence", |field| jacobian::Witness::read(field, order))?;
     let lyapunov: Vec<_> = [first].into_iter().chain(existence.iter().map(|(second, _)| second.clone())).collect();
     for w in &lyapunov {
         let [low, up, _] = &w.numbers;
@@ -141,12 +137,7 @@ pub fn read(field: &Field<'_>, witness: &mut Fields<'_>) -> Outcome<(Specificati
         jacobian: None,
         existence,
         rate: None,
-        mu: model.mu,
-        base_frequency: model.base_frequency,
-        matched: model.matched,
-        samples: model.samples,
-        delayed: model.delayed,
-        weights: model.weights,
+        regulator,
         bounds: Default::default(),
         q_0: Some(cells::largest(&cells)),
         domain: None,

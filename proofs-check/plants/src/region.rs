@@ -70,13 +70,8 @@ impl Region {
 
     /// Boxes that cover it, cut along t if something depends on t.
     pub fn pieces(&self, machine: &Machine<'_>, root: &Rc<Cell>, depends: u16) -> Vec<Piece> {
-        let mut cells = vec![root.clone()];
-        if depends & Axis::Time.bit() != 0 {
-            for _ in 0..FIRST_CELLS_LOG {
-                cells = cells.iter().flat_map(|cell| cell.halves()).collect();
-            }
-        }
-        cells.into_iter().map(|cell| self.whole(machine, cell)).collect()
+        let times = if depends & Axis::Time.bit() != 0 { FIRST_CELLS_LOG } else { 0 };
+        root.parts(times).into_iter().map(|cell| self.whole(machine, cell)).collect()
     }
 
     /// Whether a box has no point of the region.
@@ -91,7 +86,7 @@ impl Region {
         let nearest = |side: &[Float; 2]| {
             let end = if side[0] > 0 { &side[0] } else { &side[1] };
             let outside = side[0] > 0 || side[1] < 0;
-            outside.then(|| super::time::point(end).sqr())
+            outside.then(|| Interval::point(end).sqr())
         };
         let zero = Interval::int(0, radius.precision());
         let distance = piece.sides[..self.states].iter().filter_map(nearest).fold(zero, |sum, part| sum + part);
@@ -121,7 +116,7 @@ impl Region {
         }
         let Shape::Ball(radius) = &self.shape else { return };
         let p = radius.precision();
-        let distance = place.iter().fold(Interval::int(0, p), |sum, v| sum + super::time::point(v).sqr()).sqrt();
+        let distance = place.iter().fold(Interval::int(0, p), |sum, v| sum + Interval::point(v).sqr()).sqrt();
         if distance.lt(radius) != Some(true) && distance.is_positive() {
             let inward = Interval::rational(&Rational::from((999_999, 1_000_000)), p);
             let factor = (radius * inward / distance).lo().clone();
@@ -162,7 +157,7 @@ impl Piece {
 
     /// The middles of all sides.
     pub fn middles(&self) -> Vec<Interval> {
-        (0..self.sides.len()).map(|side| super::time::point(&self.middle(side))).collect()
+        (0..self.sides.len()).map(|side| Interval::point(&self.middle(side))).collect()
     }
 
     /// All sides.
@@ -179,8 +174,8 @@ impl Piece {
     /// A bound of the distance to the middle, along t (`None`) or a side.
     pub fn half_width(&self, side: Option<usize>) -> Interval {
         let Some(side) = side else { return self.cell.half_width() };
-        let ([lo, hi], middle) = (&self.sides[side], super::time::point(&self.middle(side)));
-        (super::time::point(hi) - &middle).max(&(middle - super::time::point(lo))).ceiling()
+        let ([lo, hi], middle) = (&self.sides[side], Interval::point(&self.middle(side)));
+        (Interval::point(hi) - &middle).max(&(middle - Interval::point(lo))).ceiling()
     }
 
     /// The two halves along t (`None`) or a side.

@@ -67,10 +67,7 @@ impl Still {
         let (root, mut values) = (machine.period(period), machine.values());
         let program = machine.program(&self.orbit);
         let rest = Region::of_family(plant, machine.precision).whole(&machine, root.clone()).intervals();
-        let mut cells = vec![root.clone()];
-        for _ in 0..RANGE_CELLS_LOG {
-            cells = cells.iter().flat_map(|cell| cell.halves()).collect();
-        }
+        let cells = root.parts(RANGE_CELLS_LOG);
         let mut range = |id: usize| {
             let on = |cell: &Rc<Cell>| {
                 machine.run(&program, At::Box, cell, &[], &rest, &mut values);

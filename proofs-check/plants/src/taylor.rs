@@ -28,7 +28,7 @@ pub fn expand(
         let series = match &node.kind {
             _ if node.depends == 0 => vec![numbers(*id)],
             Kind::Leaf(kind) => leaf(*kind),
-            Kind::Sign(a) => vec![sign(first(&all[*a]))],
+            Kind::Sign(a) => vec![first(&all[*a]).sign()],
             Kind::Apply(op, [a, b]) => apply(op, &all[*a], all.get(*b).map_or(&[], Vec::as_slice), length),
         };
         all[*id] = if is_defined(&series) { series } else { unknown(&series, length) };
@@ -48,14 +48,6 @@ fn unknown(a: &[Interval], length: usize) -> Series {
 /// The value.
 fn first(a: &[Interval]) -> Interval {
     a.first().cloned().unwrap_or_else(|| Interval::undefined(64))
-}
-
-fn sign(value: Interval) -> Interval {
-    match (value.is_positive(), (-&value).is_positive()) {
-        (true, _) => Interval::int(1, value.precision()),
-        (_, true) => Interval::int(-1, value.precision()),
-        _ => Interval::undefined(value.precision()),
-    }
 }
 
 fn is_zero(a: &[Interval]) -> bool {
@@ -110,9 +102,9 @@ pub fn apply(op: &Op, a: &[Interval], b: &[Interval], length: usize) -> Series {
                 _ => (at(a, k, &zero) - weighted(c, &w, k, k - 1, &zero) / k as i64) / &w[0],
             })
         }
-        Op::Abs => scaled(a, &sign(u)),
+        Op::Abs => scaled(a, &u.sign()),
         Op::Min | Op::Max => {
-            let first_is_larger = sign(&u - &v);
+            let first_is_larger = (&u - &v).sign();
             let first = if *op == Op::Max { first_is_larger } else { -first_is_larger };
             match (first.is_positive(), first.is_defined()) {
                 (true, _) => a.to_vec(),

@@ -1,7 +1,7 @@
 //! Trigonometric polynomials in t, enclosed at a time and around it (docs/mathematics.md, section 11.6).
 
 use proofs_core::interval::Interval;
-use rug::{Float, Rational};
+use rug::Rational;
 
 /// `mean + sum over k of a_k cos(k Om t) + b_k sin(k Om t)` with rational coefficients.
 #[derive(Clone, Debug)]
@@ -16,11 +16,6 @@ impl Wave {
     pub fn is_constant(&self) -> bool {
         self.harmonics.iter().flatten().all(Rational::is_zero)
     }
-}
-
-/// The number itself, as an interval.
-pub fn point(value: &Float) -> Interval {
-    Interval::new(value.clone(), value.clone())
 }
 
 /// All numbers that are at most `size` in magnitude.

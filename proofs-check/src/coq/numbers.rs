@@ -47,11 +47,11 @@ fn of_specification(parts: &Parts) -> Outcome<Fields> {
         "gain",
         option(spec.input_gain.as_ref().filter(|gain| !gain.is_nominal()).map(input_gain).transpose()?),
     ));
-    fields.push(("mu", constant(&spec.mu, &at("internal_model/mu"))?));
-    fields.push(("w", constant(&spec.base_frequency, &at("internal_model/base_frequency"))?));
+    fields.push(("mu", constant(&spec.regulator.mu, &at("internal_model/mu"))?));
+    fields.push(("w", constant(&spec.regulator.base_frequency, &at("internal_model/base_frequency"))?));
     let matched = matches!(parts.witness.transfer, Proof::Matched(_));
     fields.push(("matched", matched.to_string()));
-    fields.extend(weights(&spec.weights)?);
+    fields.extend(weights(&spec.regulator.weights)?);
     fields.push(("forcing", option(spec.q_0.as_ref().map(harmonics).transpose()?)));
     fields.extend(match &spec.plant {
         Some(plant) => plants::known(parts, plant)?,

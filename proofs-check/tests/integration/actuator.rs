@@ -1,21 +1,16 @@
 //! An actuator that saturates: certificates of each kind of claim with one, with each part of it forged. They are those of the paper's example
 //! with an `actuator` (and with a sampling period of 1/1000).
 
-use super::common::{edited, judged, open, text};
 use super::mutations::replacements;
-use proofs_check::json::parse;
+use crate::common::{about, edited, judged, open, parsed, rehash, text};
+use proofs_check::Report;
 use proofs_check::verdict::Verdict::{self, BadInput, Invalid, Undecided, Valid};
-use proofs_check::{Report, sha256};
 use serde_json::{Value, json};
 
 const STORED: [&str; 4] = ["specification", "samples", "plant", "gain"];
 
 fn stored(name: &str) -> Value {
-    serde_json::from_str(&text("actuator", name)).unwrap()
-}
-
-fn about(made: &Value) -> &'static str {
-    if made.get("plant").is_some() { "plant" } else { "specification" }
+    parsed("actuator", name)
 }
 
 /// The max of the file and of the claim, with the digest and the statement made right.
@@ -31,10 +26,7 @@ fn with_max(mut made: Value, max: &str) -> Value {
 }
 
 fn rehashed(mut made: Value) -> Value {
-    let about = about(&made);
-    let mut canonical = String::new();
-    parse(made[about].to_string().as_bytes()).unwrap().canonical(&mut canonical);
-    made[format!("{about}_sha256")] = sha256::hex_digest(canonical.as_bytes()).into();
+    rehash(&mut made);
     made
 }
 
@@ -131,7 +123,7 @@ fn another_number_anywhere() {
 #[test]
 fn of_infinitely_many_oscillators_nothing_is_claimed() {
     let made = stored("specification");
-    let mut donor: Value = serde_json::from_str(&text("certificates", "paper-example-rms-at-rest.sharp")).unwrap();
+    let mut donor = parsed("certificates", "paper-example-rms-at-rest.sharp");
     let regulation = donor["witness"]["exact_regulation"].take();
     assert!(regulation.is_object());
     let report = judged(&edited(made, &[("/witness/exact_regulation", regulation)]));

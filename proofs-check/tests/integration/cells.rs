@@ -169,7 +169,8 @@ fn cells_that_are_none() {
         ("/0/forcing", Value::Null),
         ("/0/more", json!("1")),
     ] {
-        with(at, value).refused(BadInput, "format", "/witness/cells/0");
+        let place = if at.ends_with("parameters") { at } else { "/0" };
+        with(at, value).refused(BadInput, "format", &format!("/witness/cells{place}"));
     }
     let turned = json!([{ "low": "1", "high": "0.9" }, { "low": "0.5", "high": "1.5" }]);
     with("/0/parameters", turned).refused(Invalid, "cells", "/witness/cells/0/parameters/0");

@@ -1,6 +1,5 @@
 //! Certificates to start from, and edits of them.
 
-use proofs_check::json::Json;
 use proofs_check::verdict::Verdict;
 use proofs_check::{Report, check, sha256};
 use serde_json::Value;
@@ -25,16 +24,25 @@ pub fn text(of: &str, name: &str) -> String {
     std::fs::read_to_string(folder(of).join(format!("{name}.json"))).unwrap()
 }
 
-pub fn certificate(name: &str) -> Value {
-    serde_json::from_str(&text("certificates", name)).unwrap()
+pub fn parsed(of: &str, name: &str) -> Value {
+    serde_json::from_str(&text(of, name)).unwrap()
 }
 
-/// Puts the right digest of the (changed) specification in.
+pub fn certificate(name: &str) -> Value {
+    parsed("certificates", name)
+}
+
+/// `specification` or `plant`.
+pub fn about(certificate: &Value) -> &'static str {
+    if certificate["plant"].is_null() { "specification" } else { "plant" }
+}
+
+/// Puts the right digest of what it is about, and was changed, in.
 pub fn rehash(certificate: &mut Value) {
+    let about = about(certificate);
     let mut canonical = String::new();
-    let json: Json = proofs_check::json::parse(certificate["specification"].to_string().as_bytes()).unwrap();
-    json.canonical(&mut canonical);
-    certificate["specification_sha256"] = sha256::hex_digest(canonical.as_bytes()).into();
+    proofs_check::json::parse(certificate[about].to_string().as_bytes()).unwrap().canonical(&mut canonical);
+    certificate[format!("{about}_sha256")] = sha256::hex_digest(canonical.as_bytes()).into();
 }
 
 /// The answer after a change at a JSON pointer, with the digest made right again.
@@ -81,16 +89,33 @@ pub fn open(report: &Report) -> Vec<String> {
 }
 
 /// The certificate with other values at JSON pointers; without a field where the value is null.
-pub fn edited(mut certificate: Value, changes: &[(&str, Value)]) -> Value {
+pub fn edited(mut certificate: Value, changes: &[(impl AsRef<str>, Value)]) -> Value {
     for (pointer, value) in changes {
-        let (parent, name) = pointer.rsplit_once('/').unwrap();
-        let parent = certificate.pointer_mut(parent).unwrap_or_else(|| panic!("{parent} exists"));
-        match value {
-            Value::Null => drop(parent.as_object_mut().unwrap().remove(name)),
-            _ => parent[name] = value.clone(),
+        let (parent, name) = pointer.as_ref().rsplit_once('/').unwrap();
+        match (certificate.pointer_mut(parent).unwrap_or_else(|| panic!("{parent} exists")), value) {
+            (Value::Array(list), _) => list[name.parse::<usize>().unwrap()] = value.clone(),
+            (parent, Value::Null) => drop(parent.as_object_mut().unwrap().remove(name)),
+            (parent, _) => parent[name] = value.clone(),
         }
     }
     certificate
+}
+
+/// Without what stands at a pointer, a field or an element.
+pub fn deleted(original: &Value, pointer: &str) -> Value {
+    let (parent, last) = pointer.rsplit_once('/').unwrap();
+    let mut mutant = original.clone();
+    match mutant.pointer_mut(parent).unwrap() {
+        Value::Object(map) => drop(map.remove(&last.replace("~1", "/").replace("~0", "~")).unwrap()),
+        Value::Array(list) => drop(list.remove(last.parse().unwrap())),
+        _ => unreachable!("a parent is an object or an array"),
+    }
+    mutant
+}
+
+/// Without these fields.
+pub fn without(certificate: &Value, pointers: impl IntoIterator<Item = impl AsRef<str>>) -> Value {
+    edited(certificate.clone(), &pointers.into_iter().map(|pointer| (pointer, Value::Null)).collect::<Vec<_>>())
 }
 
 /// The claim is proved, and every figure agrees.

@@ -1,13 +1,13 @@
 //! `--coq` of the certificates of plants: which values of the table are written, and, where coqc is installed, that Coq accepts what is
 //! true and refuses what is not.
 
-use crate::common::{names, text};
+use crate::common::{names, parsed};
 use crate::coq_support::{assert_accepted, assert_refused_at, coqc, every_case, plants, proofs, written};
 use proofs_check::verdict::Verdict;
 use serde_json::{Value, json};
 
 fn certificate(name: &str) -> Value {
-    serde_json::from_str(&text("plants", &format!("{name}.certificate"))).unwrap()
+    parsed("plants", &format!("{name}.certificate"))
 }
 
 #[test]
@@ -79,7 +79,7 @@ fn the_numbers_of_the_matrices_are_written() {
     ] {
         assert!(joint.contains(part), "{part}");
     }
-    let block: Value = serde_json::from_str(&text("gain", "converter")).unwrap();
+    let block = parsed("gain", "converter");
     let form = "tau_i := 1730.6784; form_i := one 0.0011692696 1.56 0.0000225823 |});";
     assert!(written(&block).contains(form) && written(&block).contains("gain := Some ({| low := (0.9 / 1); "));
     // Only a plant has formulas that a matrix could be about.
@@ -91,24 +91,21 @@ fn the_numbers_of_the_matrices_are_written() {
     }
 }
 
-/// The stored certificates that an ordinary run leaves out take some minutes.
 #[test]
 fn coq_accepts_plants() {
     let Some(proofs) = proofs() else { return };
-    let some = ["motor-axis.certificate", "joint.certificate"];
     let stored = plants().map(|name| ("plants", name)).chain(names("gain").into_iter().map(|name| ("gain", name)));
-    for (of, name) in stored.filter(|(_, name)| every_case() || some.contains(&name.as_str())) {
-        let made: Value = serde_json::from_str(&text(of, &name)).unwrap();
+    for (of, name) in stored.filter(|(_, name)| every_case() || name == "joint.certificate") {
+        let made = parsed(of, &name);
         assert_accepted(&name, coqc(proofs, &format!("{of}_{}", name.replace(['.', '-'], "_")), &made));
     }
 }
 
-/// Those that an ordinary run leaves out are alike.
 #[test]
 fn coq_refuses_of_plants_what_is_not() {
     let Some(proofs) = proofs() else { return };
     let refused = |of: &str, name: &str, edit: &dyn Fn(&mut Value), said: &str| {
-        if !every_case() && !["rate", "reach", "joint_lowered", "joint_near_P_up"].contains(&name) {
+        if !every_case() && name != "rate" {
             return;
         }
         let mut made = certificate(of);

@@ -1,10 +1,10 @@
 //! The matrix inequality of existence: its question about formulas against thresholds by hand, and certificates that need one,
 //! with each of its parts and each of its conditions forged.
 
-use super::common::{accepted, assert_refused, certificate, drawn, every, fails, judged, open};
 use super::matrix_inequality::{at_rest, stored, times};
 use super::mutations::replacements;
 use super::plant_support::Parts;
+use crate::common::{accepted, assert_refused, certificate, drawn, every, fails, judged, open, rehash};
 use proofs_check::Report;
 use proofs_check::data::Data;
 use proofs_check::json::{Field, decimal, parse};
@@ -312,12 +312,6 @@ fn the_forcing_without_its_mean() {
     accepted(&made);
 }
 
-fn rehash(certificate: &mut Value) {
-    let mut canonical = String::new();
-    parse(certificate["plant"].to_string().as_bytes()).unwrap().canonical(&mut canonical);
-    certificate["plant_sha256"] = proofs_check::sha256::hex_digest(canonical.as_bytes()).into();
-}
-
 /// `x' = -x + e`, `q = x`: c = a_1 = b_fe = 1, so both sides of S1b and S1c are numbers without rounding.
 #[test]
 fn equality_is_not_enough() {
@@ -535,8 +529,8 @@ fn is_true(certificate: &Value) -> bool {
 /// Whatever a leaf is replaced by: what is accepted is true.
 #[test]
 fn leaves_of_the_part() {
-    let mut counts = [0, 0];
-    for which in (0..3).step_by(every(3)) {
+    let (mut counts, stride) = ([0, 0], every(7));
+    for which in 0..3 {
         let original = tight(part(which), 1.01);
         assert!(is_true(&original));
         let leaves = ["X", "E", "P/0/0", "P/0/1", "P/1/0", "P/1/1", "k_p", "c_x", "c_y", "sigma"];
@@ -558,12 +552,12 @@ fn leaves_of_the_part() {
                 }
             }
         }
-        for (what, mutant) in mutants {
+        for (what, mutant) in mutants.into_iter().skip(which).step_by(stride) {
             let valid = judged(&mutant).verdict == Verdict::Valid;
             assert!(!valid || is_true(&mutant), "accepted and not true: {what}");
             counts[usize::from(valid)] += 1;
         }
     }
     println!("{} refused, {} accepted and true", counts[0], counts[1]);
-    assert!(counts[0] > 100 && counts[1] > 10);
+    assert!(counts[0] * stride > 300 && counts[1] * stride > 30);
 }

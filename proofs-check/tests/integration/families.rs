@@ -1,10 +1,10 @@
 //! Parameters in intervals: one certificate for every constant of a box, with each of its parts forged; and where it is not available.
 
-use super::common::{assert_refused, every};
 use super::coq_support::assert_refused_at;
 use super::plant_certificates::{changed, stored};
 use super::plant_mutations::mutate;
 use super::plant_support::{Parts, judged, read};
+use crate::common::{assert_refused, every};
 use proofs_check::verdict::Verdict::{BadInput, Invalid, Undecided, Valid};
 use proofs_check::{Report, spec};
 use rug::Rational;

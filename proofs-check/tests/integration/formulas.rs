@@ -214,7 +214,7 @@ fn compare(given: Given, sigma: Rational, kap: Rational, r: [Rational; 3], last:
         close(id, &condition.lhs, lhs);
         close(id, &condition.rhs, rhs);
         let strict = id == "S1" || id.starts_with("S3");
-        assert_eq!(condition.symbol(), if strict { "<" } else { "<=" }, "{id}");
+        assert_eq!(condition.relation.symbol(), if strict { "<" } else { "<=" }, "{id}");
     }
     let e_per = least(&[e_p, follows.sup_e]);
     close("e_per", &solution.e, e_per);

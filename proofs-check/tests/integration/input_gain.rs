@@ -1,12 +1,11 @@
 //! An input gain that is known to an interval: certificates with one, with each of its parts forged, and where it is not available.
 //! The one of a specification is made here, from one that leaves room, with a larger gain.
 
-use super::common::{PAPER, assert_refused, assert_valid, certificate, edited, judged, open, text};
 use super::coq_support::written;
 use super::matrix_inequality::{stored, times};
-use proofs_check::json::parse;
+use crate::common::{PAPER, about, assert_refused, assert_valid, certificate, edited, judged, open, parsed, rehash};
 use proofs_check::verdict::Verdict::{self, BadInput, Invalid, Undecided};
-use proofs_check::{Report, check_against, sha256};
+use proofs_check::{Report, check_against};
 use serde_json::{Value, json};
 
 const RULE: &str = "input gain";
@@ -19,10 +18,8 @@ pub fn words(gain: &Value) -> String {
 
 /// The digest made right, and the statement that of the gains of the claim and, in continuous time, of the period of the file.
 pub fn settle(made: &mut Value) {
-    let about = if made.get("plant").is_some() { "plant" } else { "specification" };
-    let mut canonical = String::new();
-    parse(made[about].to_string().as_bytes()).unwrap().canonical(&mut canonical);
-    made[format!("{about}_sha256")] = sha256::hex_digest(canonical.as_bytes()).into();
+    rehash(made);
+    let about = about(made);
     let statement = made["claim"]["statement"].as_str().unwrap();
     let gain = made[about].get("input_gain").map_or_else(String::new, words);
     if let Some((before, after)) = statement.split_once("sampling grid") {
@@ -53,7 +50,7 @@ pub fn set_gain(made: &mut Value, [nominal, low, high]: [&str; 3]) {
 
 /// b in [0.8, 1.25].
 pub fn made() -> Value {
-    let mut made: Value = serde_json::from_str(&text("roomy", "paper-example-rms-at-rest")).unwrap();
+    let mut made = parsed("roomy", "paper-example-rms-at-rest");
     ["constants", "comparison", "conditions"].iter().for_each(|part| drop(made.as_object_mut().unwrap().remove(*part)));
     let values = [("k0", "30.842515"), ("k1", "92.527543"), ("D_x", "0.85"), ("w_x", "4.2"), ("D_e", "1.75")];
     values.into_iter().for_each(|(name, value)| made["witness"][name] = value.into());
@@ -249,7 +246,7 @@ fn figures() {
 }
 
 fn of_plant(name: &str) -> Value {
-    serde_json::from_str(&text("gain", name)).unwrap()
+    parsed("gain", name)
 }
 
 /// A converter with both inequalities, and the paper's example with a splitting matrix.

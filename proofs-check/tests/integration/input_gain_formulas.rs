@@ -1,8 +1,8 @@
 //! What an input gain changes in the formulas, against what it is to bound; the questions about formulas against thresholds by hand.
 
-use super::common::{BOXES, PAPER, certificate, drawn};
 use super::matrix_inequality::at_rest;
 use super::plant_support::Parts;
+use crate::common::{BOXES, PAPER, certificate, drawn};
 use proofs_check::data::Data;
 use proofs_check::gain::Gain;
 use proofs_check::interval::Interval;

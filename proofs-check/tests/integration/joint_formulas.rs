@@ -1,10 +1,10 @@
 //! The two joint metrics: their questions about formulas against what is left for c_e by hand, for stability and for existence.
 
-use super::common::judged;
 use super::common::{PAPER, certificate, drawn};
 use super::existence_inequality::number;
 use super::matrix_inequality::{at_rest, stored};
 use super::plant_support::Parts;
+use crate::common::judged;
 use proofs_check::data::Data;
 use proofs_check::json::{Field, Json, parse};
 use proofs_check::rules::existence::Existence;

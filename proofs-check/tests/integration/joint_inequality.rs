@@ -1,8 +1,8 @@
 //! A certificate that rests on joint metrics, for existence and for stability, far below the gain of one metric without p: each of its
 //! parts and each of its conditions forged.
 
-use super::common::{PAPER, accepted, assert_refused, certificate, fails, judged, open, text};
 use super::matrix_inequality::{stored, times};
+use crate::common::{PAPER, accepted, assert_refused, certificate, fails, judged, open, parsed};
 use proofs_check::verdict::Verdict;
 use serde_json::{Value, json};
 
@@ -295,7 +295,7 @@ fn where_it_has_no_place() {
     let mut other = certificate(PAPER);
     other["witness"]["joint_inequality"] = part.clone();
     bad(&other, PLACE);
-    let mut sampled: Value = serde_json::from_str(&text("sampled", "plant-motor-axis")).unwrap();
+    let mut sampled = parsed("sampled", "plant-motor-axis");
     sampled["witness"]["joint_inequality"] = part.clone();
     bad(&sampled, "/witness");
     let mut regulation = stored("linear");

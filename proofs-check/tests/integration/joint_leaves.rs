@@ -1,11 +1,11 @@
 //! Every leaf of the parts with joint metrics replaced: what is accepted is true, by eliminations in doubles.
 
-use super::common::every;
 use super::common::judged;
 use super::existence_inequality::number;
 use super::joint_inequality::{EXISTENCE, PARTS, PLACE};
 use super::matrix_inequality::stored;
 use super::mutations::replacements;
+use crate::common::every;
 use proofs_check::verdict::Verdict;
 use serde_json::{Value, json};
 
@@ -93,10 +93,10 @@ fn is_true(certificate: &Value, place: &str) -> bool {
         })
 }
 
-/// Whatever a leaf is replaced by: what is accepted is true.
+/// Whatever a leaf is replaced by: what is accepted is true. Every leaf, and every kind of replacement, in an ordinary run not of every leaf.
 #[test]
 fn leaves_of_the_parts() {
-    let mut counts = [0, 0];
+    let (mut counts, stride) = ([0, 0], every(11));
     for (place, _) in PARTS {
         let original = stored("joint");
         assert!(is_true(&original, place));
@@ -107,13 +107,13 @@ fn leaves_of_the_parts() {
             let extents = ["P_up", "x_low", "e_low"].map(|leaf| format!("{metric}/{leaf}"));
             leaves.extend(extents.into_iter().filter(|_| place == PLACE));
         }
-        for leaf in leaves.into_iter().step_by(every(3)) {
+        for (offset, leaf) in leaves.into_iter().enumerate() {
             let at = format!("{place}/{leaf}");
             let mut all = replacements(original.pointer(&at).unwrap());
             let value = number(original.pointer(&at).unwrap());
             let factors = [0.5, 0.9, 0.99, 1.01, 1.1, 2.0];
             all.extend(factors.map(|factor| ("scaled", json!((value * factor).to_string()))));
-            for (kind, replacement) in all {
+            for (kind, replacement) in all.into_iter().skip(offset % stride).step_by(stride) {
                 let mut mutant = original.clone();
                 *mutant.pointer_mut(&at).unwrap() = replacement.clone();
                 let mirror = [("P/0/1", "P/1/0"), ("P/1/0", "P/0/1")].iter().find(|(one, _)| leaf.ends_with(one));
@@ -127,5 +127,5 @@ fn leaves_of_the_parts() {
         }
     }
     println!("{} refused, {} accepted and true", counts[0], counts[1]);
-    assert!(counts[0] > 100 && counts[1] > 10);
+    assert!(counts[0] * stride > 500 && counts[1] * stride > 50);
 }

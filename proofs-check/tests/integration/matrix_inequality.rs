@@ -1,8 +1,8 @@
 //! The matrix inequality of stability: its question about formulas against thresholds by hand, and a certificate that rests on one
 //! with each of its parts forged.
 
-use super::common::{assert_refused, folder};
 use super::plant_support::Parts;
+use crate::common::{assert_refused, parsed};
 use proofs_check::check;
 use proofs_check::json::decimal;
 use proofs_check::verdict::Verdict;
@@ -118,8 +118,7 @@ fn pendulum() -> Value {
 }
 
 pub fn stored(name: &str) -> Value {
-    let text = std::fs::read_to_string(folder("plants").join(format!("{name}.certificate.json"))).unwrap();
-    serde_json::from_str(&text).unwrap()
+    parsed("plants", &format!("{name}.certificate"))
 }
 
 pub fn times(certificate: &mut Value, pointer: &str, factor: f64) {

@@ -1,14 +1,14 @@
 //! Rules of section 10: existence by mean squares, one-sided dq/de, rates, the harmonics of q(t,0,0). The certificates are made
 //! here, from one that leaves room.
 
-use crate::common::{assert_refused, certificate, edited, open, rehash, text};
+use crate::common::{assert_refused, certificate, edited, open, parsed, rehash};
 use proofs_check::verdict::Verdict::{self, BadInput, Invalid, Undecided};
 use proofs_check::{Report, check};
 use serde_json::{Value, json};
 
 /// A certificate whose gain and boxes leave room, so that each condition can be broken by itself.
 fn made() -> Value {
-    let mut made: Value = serde_json::from_str(&text("roomy", "paper-example-rms-at-rest")).unwrap();
+    let mut made = parsed("roomy", "paper-example-rms-at-rest");
     // Larger than they need be, which is true.
     made["claim"]["periodic_solution"] = json!({ "x": "1", "e": "1", "zeta": "10", "z": "12" });
     made["specification"]["initial_set"] = json!({ "kind": "at-rest", "X0": "0.26201994", "E0": "0.36930028" });

@@ -1,8 +1,8 @@
 //! Rates and noise at samples (docs/mathematics.md, section 13.6, Proposition R_h): what is particular to them.
 
-use crate::common::{accepted, assert_refused, judged, names, text};
+use crate::common::{accepted, assert_refused, edited, judged, names, parsed, without};
 use crate::noise::stored;
-use crate::rates::{edited, refused, reworded, times};
+use crate::rates::{each_refused, refused, reworded, signs_are_demanded_at};
 use proofs_check::verdict::Verdict::{BadInput, Invalid};
 use serde_json::{Value, json};
 
@@ -37,10 +37,7 @@ fn each_number_of_a_rate_matters() {
                     changes.extend([30.0, 1.0 / 30.0].map(|factor| (pointer.clone(), factor, pi.clone())));
                 }
             }
-            for (pointer, factor, place) in changes {
-                let value = times(&certificate, &pointer, factor);
-                refused(edited(certificate.clone(), &[(&pointer, value)]), Invalid, "rates", &place);
-            }
+            each_refused(&certificate, &changes);
         }
     }
 }
@@ -50,14 +47,9 @@ fn signs_are_demanded() {
     for name in sampled() {
         let certificate = stored(&name);
         let names = ["c", "e_low", "l_slope", "l_hold", "w", "l_x", "l_e", "l_y"].map(|name| ("witness", name));
-        for (part, name) in names.into_iter().chain([("claim", "rate"), ("claim", "factor")]) {
-            let pointer = format!("/{part}/for_n_o/0/{name}");
-            if certificate.pointer(&pointer).is_some() {
-                for value in [json!("0"), times(&certificate, &pointer, -1.0)] {
-                    refused(edited(certificate.clone(), &[(&pointer, value)]), Invalid, "rates", &pointer);
-                }
-            }
-        }
+        let all = names.into_iter().chain([("claim", "rate"), ("claim", "factor")]);
+        let all = all.map(|(part, name)| format!("/{part}/for_n_o/0/{name}"));
+        signs_are_demanded_at(&certificate, all.filter(|pointer| certificate.pointer(pointer).is_some()));
     }
 }
 
@@ -66,11 +58,7 @@ fn signs_are_demanded() {
 fn x_is_left_out_where_it_has_no_part() {
     for (place, inputs) in [("/witness/for_n_o/0", None), ("/witness/for_n_o/0/noise", Some("g_r"))] {
         let certificate = stored("sampled");
-        let without = |names: &[&str]| {
-            let changes: Vec<_> = names.iter().map(|name| (format!("{place}/{name}"), Value::Null)).collect();
-            let changes: Vec<_> = changes.iter().map(|(pointer, value)| (pointer.as_str(), value.clone())).collect();
-            edited(certificate.clone(), &changes)
-        };
+        let without = |names: &[&str]| without(&certificate, names.iter().map(|name| format!("{place}/{name}")));
         refused(without(&["l_y"]), BadInput, "format", place);
         refused(without(&["w", "l_x"]), BadInput, "format", place);
         let all: Vec<&str> = ["w", "l_x", "l_e", "l_y"].into_iter().chain(inputs).collect();
@@ -121,7 +109,7 @@ fn other_claims_have_no_rates() {
         ("gain-inequalities", Some("/claim/for_n_o")),
         ("paper-example-delay", Some("/claim/for_n_o")),
     ] {
-        let other: Value = serde_json::from_str(&text("sampled", name)).unwrap();
+        let other = parsed("sampled", name);
         let changes = ["claim", "witness"].map(|part| {
             let mut list = rates[part]["for_n_o"].clone();
             list.as_array_mut()
@@ -130,7 +118,6 @@ fn other_claims_have_no_rates() {
                 .for_each(|entry| drop(entry.as_object_mut().unwrap().remove("noise")));
             (format!("/{part}/for_n_o"), list)
         });
-        let changes: Vec<_> = changes.iter().map(|(pointer, value)| (pointer.as_str(), value.clone())).collect();
         let report = judged(&reworded(edited(other, &changes)));
         match place {
             Some(place) => assert_refused(&report, BadInput, "format", place),

@@ -1,12 +1,12 @@
 //! A period that is known to an interval: claims about specifications and stored ones about plants, with each of their parts forged,
 //! and where it is not available.
 
-use super::common::{BOXES, assert_refused, assert_valid, certificate, edited, every, folder, judged, open};
 use super::coq_support::assert_refused_at;
 use super::families::interval;
 use super::input_gain::settle;
 use super::plant_certificates::stored;
 use super::plant_mutations::alter;
+use crate::common::{BOXES, assert_refused, assert_valid, certificate, edited, every, folder, judged, open};
 use proofs_check::Report;
 use proofs_check::constant::Constant;
 use proofs_check::data::Data;
@@ -346,8 +346,8 @@ fn forged_certificates_of_plants() {
 
 #[test]
 fn leaves_of_certificates_of_plants() {
-    alter("periods/motor-axis", every(9));
-    alter("periods/converter", every(19));
+    alter("periods/motor-axis", every(23));
+    alter("periods/converter", every(47));
 }
 
 /// The bounds of a claim about a plant grow with its longest period, and its harmonics with the shortest.

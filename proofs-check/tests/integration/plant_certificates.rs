@@ -1,16 +1,14 @@
 //! Whole certificates of plants: a linear one, one without states, the paper's example; and what must not pass.
 
-use super::common::folder;
-use proofs_check::json::{Json, parse};
+use crate::common::{parsed, rehash};
 use proofs_check::verdict::Verdict;
-use proofs_check::{Report, check, check_against, sha256};
+use proofs_check::{Report, check, check_against};
 use serde_json::{Value, json};
 
 const ALL: [&str; 3] = ["linear", "no-states", "paper-example"];
 
 pub fn stored(name: &str) -> Value {
-    let text = std::fs::read_to_string(folder("plants").join(format!("{name}.certificate.json"))).unwrap();
-    serde_json::from_str(&text).unwrap()
+    parsed("plants", &format!("{name}.certificate"))
 }
 
 /// The answer after changes at places, which need not be there yet, with the digest made right again; `null` takes away.
@@ -26,10 +24,7 @@ pub fn changed(name: &str, changes: &[(&str, Value)]) -> Report {
             (Err(_), _) => object[key] = value.clone(),
         }
     }
-    let mut canonical = String::new();
-    let plant: Json = parse(certificate["plant"].to_string().as_bytes()).unwrap();
-    plant.canonical(&mut canonical);
-    certificate["plant_sha256"] = sha256::hex_digest(canonical.as_bytes()).into();
+    rehash(&mut certificate);
     check(certificate.to_string().as_bytes())
 }
 

@@ -1,8 +1,8 @@
 //! Boxes reach out of the ball on which formulas are smooth. Corners, poles and ends of domains out there, of which nothing is
 //! demanded, must not make a false bound inside pass.
 
-use super::common::{drawn, every};
 use super::plant_support::Parts;
+use crate::common::{drawn, every};
 use proofs_check::verdict::Verdict;
 use serde_json::{Value, json};
 
@@ -152,7 +152,7 @@ fn relative(case: u64) -> (Parts, &'static str, String) {
 /// of q_x here would be called valid.
 #[test]
 fn no_relative_of_a_plant_with_a_corner_outside_is_believed() {
-    for case in 0..400 / every(10) as u64 {
+    for case in 0..400 / every(20) as u64 {
         let (parts, bound, value) = relative(case);
         let plant = parts.0["plant"].clone();
         let (verdict, rule) = parts.bounds(&[(bound, "1", "0", &value)]).verdict();

@@ -1,7 +1,7 @@
 //! The paper's example from its formulas: bounds with little room, and what it takes to decide them.
 
-use super::common::every;
 use super::plant_support::{Parts, judged, stored};
+use crate::common::every;
 use proofs_check::verdict::Verdict;
 
 #[test]

@@ -1,6 +1,6 @@
 //! Plants with the parts of a witness that are about their formulas, and what the rules of section 11 say of them.
 
-use super::common::folder;
+use crate::common::parsed;
 use proofs_check::effort;
 use proofs_check::json::{Field, Json, decimal, parse};
 use proofs_check::plants as plant;
@@ -18,8 +18,7 @@ use serde_json::{Value, json};
 
 /// A file of `tests/plants`: a plant, and parts of a witness.
 pub fn stored(name: &str) -> Value {
-    let text = std::fs::read_to_string(folder("plants").join(format!("{name}.json"))).unwrap();
-    serde_json::from_str(&text).unwrap()
+    parsed("plants", name)
 }
 
 pub fn read(parts: &Value) -> Outcome<(Specification, Vec<Plant>)> {

@@ -1,7 +1,7 @@
 //! Rates for given numbers of oscillators (docs/mathematics.md, section 13.6): accepted as they are written, and refused where anything
 //! of them is not what it is.
 
-use crate::common::{accepted, assert_refused, judged, names, rehash, text};
+use crate::common::{accepted, assert_refused, edited, judged, names, parsed, rehash};
 use proofs_check::verdict::Verdict;
 use rug::Rational;
 use serde_json::{Value, json};
@@ -10,20 +10,7 @@ use serde_json::{Value, json};
 const PAPER: &str = "paper-example-at-rest";
 
 fn stored(name: &str) -> Value {
-    serde_json::from_str(&text("rates", name)).unwrap()
-}
-
-/// The certificate with other values at JSON pointers; without a field where the value is null.
-pub fn edited(mut certificate: Value, changes: &[(&str, Value)]) -> Value {
-    for (pointer, value) in changes {
-        let (parent, name) = pointer.rsplit_once('/').unwrap();
-        match (certificate.pointer_mut(parent).unwrap_or_else(|| panic!("{parent} exists")), value) {
-            (Value::Array(list), _) => list[name.parse::<usize>().unwrap()] = value.clone(),
-            (parent, Value::Null) => drop(parent.as_object_mut().unwrap().remove(name)),
-            (parent, _) => parent[name] = value.clone(),
-        }
-    }
-    certificate
+    parsed("rates", name)
 }
 
 /// The claim in words with what the part `for_n_o` of the claim says.
@@ -85,6 +72,27 @@ pub fn times(certificate: &Value, pointer: &str, factor: f64) -> Value {
     json!(value.to_string())
 }
 
+/// Refused as soon as a number, here times a factor, is another one: at these places.
+#[track_caller]
+pub fn each_refused(certificate: &Value, changes: &[(String, f64, String)]) {
+    for (pointer, factor, place) in changes {
+        let made = edited(certificate.clone(), &[(pointer, times(certificate, pointer, *factor))]);
+        let report = judged(&reworded(made));
+        assert_eq!(report.verdict, Verdict::Invalid, "{pointer} {factor}");
+        assert_refused(&report, Verdict::Invalid, "rates", place);
+    }
+}
+
+/// Refused with 0 or its opposite in the place of each of these numbers.
+#[track_caller]
+pub fn signs_are_demanded_at(certificate: &Value, pointers: impl IntoIterator<Item = String>) {
+    for pointer in pointers {
+        for value in [json!("0"), times(certificate, &pointer, -1.0)] {
+            refused(edited(certificate.clone(), &[(&pointer, value)]), Verdict::Invalid, "rates", &pointer);
+        }
+    }
+}
+
 #[track_caller]
 pub fn refused(certificate: Value, verdict: Verdict, rule: &str, pointer: &str) {
     assert_refused(&judged(&reworded(certificate)), verdict, rule, pointer);
@@ -144,10 +152,7 @@ fn each_number_matters() {
                         .map(|(name, factor)| (format!("{witness}/{name}"), factor, format!("{witness}/Pi"))),
                 );
             }
-            for (pointer, factor, place) in changes {
-                let value = times(&certificate, &pointer, factor);
-                refused(edited(certificate.clone(), &[(&pointer, value)]), Verdict::Invalid, "rates", &place);
-            }
+            each_refused(&certificate, &changes);
         }
     }
 }
@@ -158,12 +163,7 @@ fn signs_are_demanded() {
     for (pointer, names) in
         [("/claim/for_n_o/0", &["rate", "factor"][..]), ("/witness/for_n_o/0", &["e_low", "w", "l"])]
     {
-        for name in names {
-            let pointer = format!("{pointer}/{name}");
-            for value in [json!("0"), times(&certificate, &pointer, -1.0)] {
-                refused(edited(certificate.clone(), &[(&pointer, value)]), Verdict::Invalid, "rates", &pointer);
-            }
-        }
+        signs_are_demanded_at(&certificate, names.iter().map(|name| format!("{pointer}/{name}")));
     }
 }
 
@@ -289,7 +289,7 @@ fn other_claims_have_no_rates_by_norms() {
         ("plants", "joint.certificate", "/witness/for_n_o/0/w"),
         ("plants", "splitting.certificate", "/witness/for_n_o/0/w"),
     ] {
-        let other: Value = serde_json::from_str(&text(folder, name)).unwrap();
+        let other = parsed(folder, name);
         let mut made = edited(other, &[("/claim/for_n_o", claim.clone()), ("/witness/for_n_o", witness.clone())]);
         if folder == "plants" {
             made = reworded(made);

@@ -1,29 +1,15 @@
 //! Certificates about sampled regulators as the program writes them: all of it is right, and every leaf altered in every way.
 
-use super::common::{every, folder, names, text};
+use crate::common::{about, every, folder, names, parsed, rehash, text};
 use crate::mutations::{pointers, replacements};
 use crate::sampled_support::words;
-use proofs_check::json::{Json, parse};
 use proofs_check::verdict::Verdict;
-use proofs_check::{check, check_against, sha256};
+use proofs_check::{check, check_against};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
 fn stored(name: &str) -> Value {
-    serde_json::from_str(&text("sampled", name)).unwrap()
-}
-
-/// `specification` or `plant`.
-fn about(certificate: &Value) -> &'static str {
-    if certificate["plant"].is_null() { "specification" } else { "plant" }
-}
-
-fn rehash(certificate: &mut Value) {
-    let about = about(certificate);
-    let mut canonical = String::new();
-    let json: Json = parse(certificate[about].to_string().as_bytes()).unwrap();
-    json.canonical(&mut canonical);
-    certificate[format!("{about}_sha256")] = sha256::hex_digest(canonical.as_bytes()).into();
+    parsed("sampled", name)
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! The law whose control is computed in the sample before it acts (docs/mathematics.md, section 13.4): each new field of a certificate,
 //! and what a forger would do with it.
 
-use crate::common::text;
+use crate::common::parsed;
 use crate::sampled_support::{answer, fails, holds, made, open, refuses};
 use proofs_check::verdict::Verdict::{BadInput, Invalid, Valid};
 use serde_json::{Value, json};
@@ -10,7 +10,7 @@ const LAW: &str = "sampled regulator";
 
 /// The paper's example with sigma = 75 at 200 samples a period.
 fn delayed() -> Value {
-    serde_json::from_str(&text("sampled", "paper-example-delay")).unwrap()
+    parsed("sampled", "paper-example-delay")
 }
 
 fn number(certificate: &Value, pointer: &str) -> f64 {

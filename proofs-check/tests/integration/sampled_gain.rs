@@ -1,9 +1,9 @@
 //! Claims at samples with an input gain that is known to an interval, and of families: each of their parts forged. The certificates were
 //! written by the other program, with numbers that just hold.
 
-use super::common::{accepted, assert_refused, assert_valid, edited, judged, open, text};
 use super::input_gain::{set_gain, settle};
 use super::matrix_inequality::{PLACE, RULE, times};
+use crate::common::{accepted, assert_refused, assert_valid, edited, judged, open, parsed};
 use proofs_check::Report;
 use proofs_check::verdict::Verdict::{BadInput, Invalid, Valid};
 use serde_json::{Value, json};
@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 const EXISTENCE_PLACE: &str = "/witness/existence_inequality";
 
 fn stored(name: &str) -> Value {
-    serde_json::from_str(&text("sampled", name)).unwrap()
+    parsed("sampled", name)
 }
 
 /// A specification, with b in [0.8, 1.25].

@@ -1,15 +1,13 @@
 //! Claims about a plant by its formulas under a sampled regulator: all of section 11 is proved as for a continuous one.
 
-use crate::common::{edited, folder};
-use proofs_check::json::{Json, parse};
+use crate::common::{edited, parsed, rehash};
 use proofs_check::verdict::Verdict::{self, BadInput, Invalid, Undecided, Valid};
-use proofs_check::{Report, check, sha256};
+use proofs_check::{Report, check};
 use serde_json::{Value, json};
 
 /// The plant without states with sigma = 20 and 50 samples a period, from its certificate in continuous time.
 fn made() -> Value {
-    let text = std::fs::read_to_string(folder("plants").join("no-states.certificate.json")).unwrap();
-    let mut made: Value = serde_json::from_str(&text).unwrap();
+    let mut made = parsed("plants", "no-states.certificate");
     let parts = made.as_object_mut().unwrap();
     ["constants", "comparison", "no_plant"].iter().for_each(|part| drop(parts.remove(*part)));
     made["conditions"] = json!([]);
@@ -51,10 +49,7 @@ fn made() -> Value {
 
 fn answer(changes: &[(&str, Value)]) -> Report {
     let mut made = edited(made(), changes);
-    let mut canonical = String::new();
-    let plant: Json = parse(made["plant"].to_string().as_bytes()).unwrap();
-    plant.canonical(&mut canonical);
-    made["plant_sha256"] = sha256::hex_digest(canonical.as_bytes()).into();
+    rehash(&mut made);
     check(made.to_string().as_bytes())
 }
 

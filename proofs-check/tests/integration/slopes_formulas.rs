@@ -1,8 +1,8 @@
 //! (D) of the rates of claims by a matrix inequality: its question about formulas against matrices by hand.
 
-use super::common::drawn;
 use super::matrix_inequality::at_rest;
 use super::plant_support::Parts;
+use crate::common::drawn;
 use proofs_check::verdict::Verdict;
 use serde_json::{Value, json};
 

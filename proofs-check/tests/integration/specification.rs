@@ -64,6 +64,16 @@ fn unknown_fields_and_missing_ones() {
     for object in ["", "/specification", "/specification/bounds", "/claim", "/witness", "/witness/transfer", "/tool"] {
         assert_refused(&with(PAPER, object, "extra", 1), BadInput, "format", &format!("{object}/extra"));
     }
+    // Nothing is used of its name, which has to be there.
+    assert_refused(
+        &judged(&without(&certificate(PAPER), ["/specification/name"])),
+        BadInput,
+        "format",
+        "/specification",
+    );
+    for (object, name) in [("/specification", "name"), ("/specification", "description")] {
+        assert_refused(&with(PAPER, object, name, 1), BadInput, "format", &format!("{object}/{name}"));
+    }
     assert_refused(
         &changed(PAPER, "/specification/initial_set/kind", "ball"),
         BadInput,

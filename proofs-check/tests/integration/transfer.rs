@@ -64,6 +64,11 @@ fn boxes_cover_the_region() {
     {
         assert_refused(&changed(BOXES, &format!("{AT}/{field}"), value), Invalid, RULE, AT);
     }
+    // Points in order, and too many.
+    let many = (0..=20_000).map(|k| json!(format!("{}/40000", (2 * m0 - 1) * k))).collect();
+    let report = with_list(0, many);
+    assert_refused(&report, Invalid, RULE, AT);
+    assert!(report.finding.unwrap().message.ends_with("at most 20000 boxes"));
     assert_refused(&changed(BOXES, "/witness/transfer/proof", "matched"), BadInput, "format", AT);
 }
 

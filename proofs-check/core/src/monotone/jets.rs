@@ -3,7 +3,7 @@
 //! Where a derivative is defined here the expression is twice continuously differentiable on the piece, and the interval
 //! contains the derivative at each of its points; everywhere else it is undefined, which spreads.
 
-use crate::expr::{Expr, Op, interval_op};
+use crate::expr::{Expr, Op, interval_op, slope_op};
 use crate::interval::Interval;
 
 /// The value, its derivatives in X and E, and those in XX, XE, EE.
@@ -73,44 +73,25 @@ impl Jet {
 
 /// f' and f'' on the range u of an operation with one operand; `value` is f there.
 fn derivatives(op: &Op, u: &Interval, value: &Interval) -> Option<[Interval; 2]> {
-    let one = Interval::int(1, u.precision());
-    let zero = Interval::int(0, u.precision());
-    Some(match op {
-        Op::Neg => [-one, zero],
-        Op::Sqrt => {
-            let once = (value * 2).recip();
-            let twice = -(&once / (u * 2));
-            [once, twice]
-        }
-        Op::Exp => [value.clone(), value.clone()],
-        Op::Log => [u.recip(), -u.sqr().recip()],
-        Op::Sin => [u.cos(), -value],
-        Op::Cos => [-u.sin(), -value],
-        Op::Tan => {
-            let once = 1 + value.sqr();
-            let twice = value * &once * 2;
-            [once, twice]
-        }
-        Op::Atan => {
-            let once = (1 + u.sqr()).recip();
-            let twice = -(u * once.sqr() * 2);
-            [once, twice]
-        }
-        Op::Tanh => {
-            let once = 1 - value.sqr();
-            let twice = -(value * &once * 2);
-            [once, twice]
-        }
-        Op::Abs if u.is_positive() => [one, zero],
-        Op::Abs if (-u).is_positive() => [-one, zero],
-        Op::Power(0) => [zero.clone(), zero],
-        Op::Power(1) => [one, zero],
-        Op::Power(n) => {
-            let m = i64::from(*n);
-            [u.powi(n - 1) * m, u.powi(n - 2) * (m * (m - 1))]
-        }
-        _ => return None,
-    })
+    let zero = || Interval::int(0, u.precision());
+    let once = match op {
+        Op::Sqrt => (value * 2).recip(),
+        Op::Abs if u.sign().is_defined() => u.sign(),
+        _ => slope_op(op, u, value)?,
+    };
+    let twice = match op {
+        Op::Sqrt => -(&once / (u * 2)),
+        Op::Exp => value.clone(),
+        Op::Log => -u.sqr().recip(),
+        Op::Sin | Op::Cos => -value,
+        Op::Tan => value * &once * 2,
+        Op::Atan => -(u * once.sqr() * 2),
+        Op::Tanh => -(value * &once * 2),
+        Op::Power(0 | 1) => zero(),
+        Op::Power(n) => u.powi(n - 2) * (i64::from(*n) * i64::from(n - 1)),
+        _ => zero(),
+    };
+    Some([once, twice])
 }
 
 fn apply(op: &Op, sides: [&Interval; 2], a: Option<Jet>, b: Option<Jet>) -> Jet {
@@ -180,7 +161,7 @@ pub(super) fn is_nondecreasing(
     let changes = [&whole.second[along], &whole.second[along + 1]];
     let from = [0, 1].map(|axis| {
         let side = sides[axis];
-        let ends = [side.lo(), side.hi()].map(|end| Interval::new(end.clone(), end.clone()));
+        let ends = [side.lo(), side.hi()].map(Interval::point);
         match (changes[axis].is_nonnegative(), changes[axis].is_nonpositive()) {
             (true, _) => ends[0].clone(),
             (_, true) => ends[1].clone(),
@@ -195,4 +176,38 @@ pub(super) fn is_nondecreasing(
         .filter(|axis| moved[*axis])
         .fold(start, |derivative, axis| derivative + changes[axis] * (sides[axis] - &from[axis]));
     derivative.is_nonnegative()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::expr::ARGUMENTS;
+    use rug::Rational;
+
+    fn at(text: &str, x: &Rational) -> [Interval; 3] {
+        let (x, zero) = (Interval::rational(x, 256), Interval::int(0, 256));
+        let Jet { value, first: [once, _], second: [twice, ..] } =
+            jet(&Expr::parse(text, ARGUMENTS).unwrap(), [&x, &zero]).unwrap();
+        [value, once, twice]
+    }
+
+    #[test]
+    fn derivatives_are_the_limits_of_difference_quotients() {
+        let step = Rational::from((1, 1 << 30));
+        for text in [
+            "-X", "sqrt(X)", "exp(X)", "log(X)", "sin(X)", "cos(X)", "tan(X)", "atan(X)", "tanh(X)", "abs(X)",
+            "abs(-X)", "X^0", "X^1", "X^2", "X^5", "X^(-3)", "X^1.5", "1/X",
+        ] {
+            for x in [(3, 10), (11, 10)].map(Rational::from) {
+                let found = at(text, &x);
+                let [before, after] = [at(text, &(x.clone() - &step)), at(text, &(x.clone() + &step))];
+                for order in [1, 2] {
+                    let quotient = (&after[order - 1] - &before[order - 1]) / 2 / Interval::rational(&step, 256);
+                    let apart = (quotient - &found[order]).abs();
+                    let small = Interval::rational(&Rational::from((1, 1_000_000)), 256);
+                    assert_eq!(apart.lt(&small), Some(true), "{text} at {x}, order {order}: {:?}", found[order]);
+                }
+            }
+        }
+    }
 }

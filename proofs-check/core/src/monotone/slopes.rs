@@ -7,7 +7,7 @@
 //! (so X^2/(1 + X) has growth 2 - [0, 1]); r >= 0 means nondecreasing, also where slopes cancel.
 
 use super::polynomials::{Polynomials, Rest};
-use crate::expr::{Expr, Op, interval_op};
+use crate::expr::{Expr, Op, interval_op, slope_op};
 use crate::interval::Interval;
 
 /// What is known of a part of an expression on a piece; the index is 0 along X, 1 along E.
@@ -29,24 +29,14 @@ fn at_least(lower: &Interval) -> Interval {
 fn quotients(op: &Op, u: &Interval, value: &Interval) -> Interval {
     let one = Interval::int(1, u.precision());
     match op {
-        Op::Neg => -one,
         // 1/(sqrt a + sqrt b); no upper bound where 0 is in the range.
         Op::Sqrt if value.is_positive() => (value * 2).recip(),
         Op::Sqrt if value.is_zero() => at_least(&Interval::int(0, u.precision())),
         Op::Sqrt => at_least(&(value.ceiling() * 2).recip()),
-        Op::Exp => value.clone(),
-        Op::Log => u.recip(),
-        Op::Sin => u.cos(),
-        Op::Cos => -u.sin(),
-        Op::Tan => 1 + value.sqr(),
-        Op::Atan => (1 + u.sqr()).recip(),
-        Op::Tanh => 1 - value.sqr(),
         Op::Abs if u.is_nonnegative() => one,
         Op::Abs if u.is_nonpositive() => -one,
         Op::Abs => (-&one).hull(&one),
-        Op::Power(0) => Interval::int(0, u.precision()),
-        Op::Power(n) => u.powi(n - 1) * i64::from(*n),
-        _ => Interval::undefined(u.precision()),
+        _ => slope_op(op, u, value).unwrap_or_else(|| Interval::undefined(u.precision())),
     }
 }
 

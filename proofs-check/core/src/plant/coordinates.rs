@@ -1,7 +1,7 @@
 //! The coordinates y of the deviation, `x = x_0 + L y`, exactly (docs/mathematics.md, sections 11 and 11.5).
 
-use crate::jacobian::Matrix;
 use crate::json::Field;
+use crate::matrix::{Matrix, is_semidefinite, shifted};
 use crate::verdict::{Outcome, bad, demand};
 use rug::Rational;
 
@@ -18,11 +18,7 @@ pub struct Coordinates {
 impl Coordinates {
     /// Reads `coordinates`, the rows of L, `[]` without states. L must be invertible.
     pub fn read_part(field: &Field<'_>, order: usize) -> Outcome<Coordinates> {
-        let row = |row: &Field<'_>| row.elements()?.iter().map(Field::rational).collect::<Outcome<Vec<_>>>();
-        let matrix = field.elements()?.iter().map(row).collect::<Outcome<Matrix>>()?;
-        if matrix.len() != order || matrix.iter().any(|row| row.len() != order) {
-            return bad(&field.pointer, format!("expected {order} rows of {order} numbers, one for each state"));
-        }
+        let matrix = field.matrix([order; 2], "one for each state")?;
         match inverse(&matrix) {
             Some(inverse) => Ok(Coordinates { matrix, inverse }),
             None => {
@@ -34,54 +30,23 @@ impl Coordinates {
 
     /// Whether `|x - x_0| <= ball` implies `|L^-1 (x - x_0)| <= size`: `size^2 L L' - ball^2 I >= 0`.
     pub fn covers_ball(&self, size: &Rational, ball: &Rational) -> bool {
-        semidefinite(shifted(&self.products(false), size, ball))
+        let [size, ball] = [size, ball].map(|value| Rational::from(value.square_ref()));
+        is_semidefinite(shifted(&self.products(), &size, &ball))
     }
 
     /// Whether `|L^-1 (x - x_0)| <= size` implies `|x - x_0| <= domain`: `domain^2 I - size^2 L'L >= 0`.
     pub fn lies_within(&self, size: &Rational, domain: &Rational) -> bool {
-        let rows = shifted(&self.products(true), size, domain);
-        semidefinite(rows.into_iter().map(|row| row.into_iter().map(|entry| -entry).collect()).collect())
+        let [size, domain] = [size, domain].map(|value| -Rational::from(value.square_ref()));
+        is_semidefinite(shifted(&self.products(), &size, &domain))
     }
 
-    /// The products of the columns of L with each other, or of the rows.
-    fn products(&self, columns: bool) -> Matrix {
-        let order = self.matrix.len();
-        let entry = |i: usize, k: usize| if columns { &self.matrix[k][i] } else { &self.matrix[i][k] };
-        let product = |i: usize, j: usize| {
-            (0..order).fold(Rational::new(), |sum, k| sum + Rational::from(entry(i, k) * entry(j, k)))
+    /// L L', the products of the rows of L. L'L has the same eigenvalues, so that a multiple of I is below both or below none.
+    fn products(&self) -> Matrix {
+        let product = |a: &Vec<Rational>, b: &Vec<Rational>| {
+            a.iter().zip(b).fold(Rational::new(), |sum, (a, b)| sum + Rational::from(a * b))
         };
-        (0..order).map(|i| (0..order).map(|j| product(i, j)).collect()).collect()
+        self.matrix.iter().map(|a| self.matrix.iter().map(|b| product(a, b)).collect()).collect()
     }
-}
-
-/// `factor^2 A - shift^2 I`.
-fn shifted(matrix: &Matrix, factor: &Rational, shift: &Rational) -> Matrix {
-    let (factor, shift) = (Rational::from(factor.square_ref()), Rational::from(shift.square_ref()));
-    let entry = |i: usize, j: usize, value: &Rational| {
-        let scaled = Rational::from(value * &factor);
-        if i == j { scaled - &shift } else { scaled }
-    };
-    let row = |(i, row): (usize, &Vec<Rational>)| row.iter().enumerate().map(|(j, value)| entry(i, j, value)).collect();
-    matrix.iter().enumerate().map(row).collect()
-}
-
-/// Whether a symmetric rational matrix is positive semidefinite: by its pivots, where a pivot of 0 stands alone.
-pub fn semidefinite(mut rows: Matrix) -> bool {
-    for k in 0..rows.len() {
-        let pivot = rows[k][k].clone();
-        if pivot < 0 || (pivot == 0 && (k + 1..rows.len()).any(|i| rows[i][k] != 0)) {
-            return false;
-        }
-        if pivot == 0 {
-            continue;
-        }
-        let above = rows[k].clone();
-        for row in &mut rows[k + 1..] {
-            let factor = Rational::from(&row[k] / &pivot);
-            row.iter_mut().zip(&above).for_each(|(entry, other)| *entry -= Rational::from(&factor * other));
-        }
-    }
-    true
 }
 
 /// The inverse, if there is one (Gauss and Jordan).
@@ -118,9 +83,10 @@ mod tests {
     #[test]
     fn definiteness_is_decided_exactly() {
         let quarter = |value: i32| matrix([[(1, 1), (1, 2)], [(1, 2), (value, 1_000_000)]]);
-        assert!(semidefinite(quarter(250_000)) && semidefinite(quarter(250_001)) && !semidefinite(quarter(249_999)));
-        assert!(semidefinite(matrix([[(0, 1), (0, 1)], [(0, 1), (3, 1)]])));
-        assert!(!semidefinite(matrix([[(0, 1), (1, 9)], [(1, 9), (3, 1)]])) && semidefinite(Vec::new()));
+        let [least, more, less] = [250_000, 250_001, 249_999].map(|value| is_semidefinite(quarter(value)));
+        assert!(least && more && !less);
+        assert!(is_semidefinite(matrix([[(0, 1), (0, 1)], [(0, 1), (3, 1)]])));
+        assert!(!is_semidefinite(matrix([[(0, 1), (1, 9)], [(1, 9), (3, 1)]])) && is_semidefinite(Vec::new()));
     }
 
     #[test]
@@ -128,12 +94,19 @@ mod tests {
         // L has the singular values 1 and 3.
         let l = matrix([[(2, 1), (1, 1)], [(1, 1), (2, 1)]]);
         let found = Coordinates { inverse: inverse(&l).unwrap(), matrix: l };
+        // One that is not symmetric, with 1 and 4: it turns the axes.
+        let turned = matrix([[(0, 1), (-4, 1)], [(1, 1), (0, 1)]]);
+        let turned = Coordinates { inverse: inverse(&turned).unwrap(), matrix: turned };
         assert_eq!(found.inverse, matrix([[(2, 3), (-1, 3)], [(-1, 3), (2, 3)]]));
         let number = |value: (i32, i32)| Rational::from(value);
         assert!(found.covers_ball(&number((5, 2)), &number((5, 2))));
         assert!(!found.covers_ball(&number((5, 2)), &number((2_501, 1000))));
         assert!(found.lies_within(&number((1, 3)), &number((1, 1))));
         assert!(!found.lies_within(&number((1, 3)), &number((999, 1000))));
+        assert!(turned.covers_ball(&number((3, 1)), &number((3, 1))));
+        assert!(!turned.covers_ball(&number((3, 1)), &number((3_001, 1000))));
+        assert!(turned.lies_within(&number((3, 1)), &number((12, 1))));
+        assert!(!turned.lies_within(&number((3, 1)), &number((11_999, 1000))));
         assert!(inverse(&matrix([[(1, 1), (2, 1)], [(2, 1), (4, 1)]])).is_none());
         // A pivot that is 0 at first.
         assert!(inverse(&matrix([[(0, 1), (1, 1)], [(1, 1), (0, 1)]])).is_some());

@@ -2,7 +2,7 @@
 //!
 //! An entry answers for arguments up to its own ones, rounded up; it is decided for these.
 
-use crate::bound::Bound;
+use crate::bound::{BOUND_NAMES, Bound};
 use crate::interval::{Interval, above};
 use crate::json::Field;
 use crate::verdict::{Outcome, bad, demand};
@@ -52,18 +52,9 @@ impl Name {
         !self.is_rate() && self != Name::QeMax
     }
 
-    /// The bound of sections 1 and 10.
+    /// The bound of sections 1 and 10, which has the same name in a file.
     fn of(which: Bound) -> Option<Name> {
-        match which {
-            Bound::Fx => Some(Name::Fx),
-            Bound::Fe => Some(Name::Fe),
-            Bound::Qx => Some(Name::Qx),
-            Bound::Qe => Some(Name::Qe),
-            Bound::QeMax => Some(Name::QeMax),
-            Bound::Qtx => Some(Name::Qtx),
-            Bound::Qte => Some(Name::Qte),
-            Bound::F | Bound::Fxx | Bound::Fex | Bound::Q | Bound::Qt | Bound::QRms | Bound::QtRms => None,
-        }
+        NAMES.iter().find(|(label, _)| *label == BOUND_NAMES[which as usize]).map(|(_, name)| *name)
     }
 }
 
@@ -90,8 +81,7 @@ pub struct Entries {
 impl Entries {
     /// Reads the list `bounds`.
     pub fn read(field: &Field<'_>, has_states: bool, two_matrices: bool) -> Outcome<Entries> {
-        let elements = field.elements()?;
-        if elements.len() > MAX_ENTRIES {
+        if field.elements()?.len() > MAX_ENTRIES {
             return bad(&field.pointer, format!("expected at most {MAX_ENTRIES} bounds"));
         }
         let entry = |element: &Field<'_>| {
@@ -119,7 +109,7 @@ impl Entries {
             demand(Some(!name.is_norm() || number >= 0), RULE, &value.pointer, "a bound of a norm is not negative")?;
             Ok(Entry { pointer: element.pointer.clone(), label, name: *name, written, arguments, value: number })
         };
-        Ok(Entries { list: elements.iter().map(entry).collect::<Outcome<_>>()?, has_states })
+        Ok(Entries { list: field.list(entry)?, has_states })
     }
 
     /// The entry with the best value among those that cover.
@@ -160,12 +150,9 @@ impl Entries {
 
     /// The largest arguments of all.
     pub fn largest(&self) -> [Float; 2] {
-        let zero = || Float::new(ARGUMENT_PRECISION);
-        self.list.iter().fold([zero(), zero()], |[x, e], entry| {
-            [
-                if entry.arguments[0] > x { entry.arguments[0].clone() } else { x },
-                if entry.arguments[1] > e { entry.arguments[1].clone() } else { e },
-            ]
+        [0, 1].map(|i| {
+            let ends = self.list.iter().map(|entry| &entry.arguments[i]);
+            ends.fold(Float::new(ARGUMENT_PRECISION), |most, end| if *end > most { end.clone() } else { most })
         })
     }
 }

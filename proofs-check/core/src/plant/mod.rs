@@ -44,7 +44,7 @@ impl OfPlant {
     /// The largest arguments that are used lie in the domain of a plant (section 11.5).
     pub fn lies_within(&self, [x, e]: [&Float; 2], pointer: &str) -> Outcome<()> {
         let Some(ends) = &self.domain else { return Ok(()) };
-        let exactly = |end: &Float| Interval::new(end.clone(), end.clone()).upper();
+        let exactly = |end: &Float| Interval::point(end).upper();
         // Constants that are not rational are rounded down.
         let [to_x, to_e] = ends.each_ref().map(|end| end.rational().or_else(|| end.enclose(DOMAIN_PRECISION).lower()));
         let x_lies_within = exactly(x).zip(to_x).map(|(x, to)| self.coordinates.lies_within(&x, &to));

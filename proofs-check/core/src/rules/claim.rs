@@ -167,8 +167,8 @@ impl<'a> Claim<'a> {
                 regulator.check(spec)?;
             }
         }
-        if !is_same(&Constant::read(&self.mu)?, &spec.mu) {
-            return reads(RULE, &self.mu, &spec.mu.text);
+        if !is_same(&Constant::read(&self.mu)?, &spec.regulator.mu) {
+            return reads(RULE, &self.mu, &spec.regulator.mu.text);
         }
         input_gain::agrees(spec.input_gain.as_ref(), self.input_gain.as_ref(), &self.pointer)?;
         actuator::agrees(spec.actuator.as_ref(), self.actuator.as_ref(), &self.pointer)?;
@@ -262,17 +262,10 @@ impl<'a> Claim<'a> {
             let off = |y_0| format!(", with a prediction of e there within h*{y_0} of it");
             return (regulator.in_words(spec), format!("sampling instant{}", y_0.map_or_else(String::new, off)));
         }
-        let reach = if spec.matched { "" } else { " (which need not match the period)" };
-        let words = format!(
-            "For every number of oscillators n_o >= 0 and {} {}{}{}, with {}, mu = {} and base frequency {}{reach}",
-            if spec.actuator.is_some() { "the gain sigma =" } else { "every gain sigma >=" },
-            self.sigma_text,
-            input_gain::in_words(spec.input_gain.as_ref()),
-            actuator::in_words(spec.actuator.as_ref()),
-            period::in_words(&spec.period),
-            spec.mu.text,
-            spec.base_frequency.text,
-        );
+        let reach = if spec.regulator.matched { "" } else { " (which need not match the period)" };
+        let gain = if spec.actuator.is_some() { "the gain sigma =" } else { "every gain sigma >=" };
+        let (sigma, setting) = (self.sigma_text, spec.in_words());
+        let words = format!("For every number of oscillators n_o >= 0 and {gain} {sigma}{setting}{reach}");
         (words, "initial time".to_owned())
     }
 

@@ -65,22 +65,11 @@ pub struct Evaluated {
 impl Free {
     /// Takes the free numbers out of a witness.
     pub fn read(fields: &mut Fields<'_>, set: ClaimedSet) -> Outcome<Free> {
-        let pointer = fields.pointer.clone();
-        let mut number = |name: &str| fields.required(name)?.rational();
-        Ok(Free {
-            r: [number("r_x")?, number("r_e")?, number("r_d")?],
-            x_p: number("X_p")?,
-            e_p: number("E_p")?,
-            d_x: number("D_x")?,
-            d_e: number("D_e")?,
-            w_x: number("w_x")?,
-            h: number("h")?,
-            k0: number("k0")?,
-            k1: number("k1")?,
-            paths: Paths::read(fields)?,
-            pointer,
-            set,
-        })
+        let r = fields.numbers(["r_x", "r_e", "r_d"])?;
+        let [x_p, e_p, d_x, d_e, w_x, h, k0, k1] =
+            fields.numbers(["X_p", "E_p", "D_x", "D_e", "w_x", "h", "k0", "k1"])?;
+        let (paths, pointer) = (Paths::read(fields)?, fields.pointer.clone());
+        Ok(Free { pointer, set, x_p, e_p, r, d_x, d_e, w_x, h, k0, k1, paths })
     }
 
     /// Demands the signs that both regulators need, and of these numbers besides.

@@ -48,8 +48,8 @@ impl Derivation {
     /// Takes the free numbers out of a witness; what is left there is the caller's to read or to refuse.
     pub fn read(fields: &mut Fields<'_>, sigma: Rational, set: ClaimedSet) -> Outcome<Derivation> {
         let witness = Witness::Sharp(Box::new(sharp::Witness::read(fields, sigma, set)?));
-        let regulation = fields.optional("exact_regulation").map(|field| regulation::Witness::read(&field));
-        Ok(Derivation { witness, regulation: regulation.transpose()?.map(Box::new) })
+        let regulation = fields.part("exact_regulation", regulation::Witness::read)?.map(Box::new);
+        Ok(Derivation { witness, regulation })
     }
 
     /// The same for a sampled regulator.

@@ -32,7 +32,7 @@ use super::metric::{Answer, Metric, Metrics};
 use crate::data::Data;
 use crate::interval::Interval;
 use crate::json::{Field, Fields};
-use crate::verdict::{Condition, Outcome};
+use crate::verdict::{Condition, Outcome, Relation};
 use rug::Rational;
 
 /// The name of the rule.
@@ -60,20 +60,19 @@ pub enum Form {
 impl Existence {
     /// Reads the part `existence_inequality`; it is joint where it has a near metric.
     pub fn read(field: &Field<'_>) -> Outcome<Existence> {
-        let mut fields = field.fields()?;
-        let form = match fields.has("near") {
-            true => Form::Joint(Box::new(Metrics::read(&mut fields, |_| Ok(()))?.0)),
-            false => Form::Block(block(&mut fields)?),
-        };
-        let existence = Existence {
-            x: number(&mut fields, "X", false)?,
-            e: number(&mut fields, "E", false)?,
-            threshold: number(&mut fields, "sigma", true)?,
-            form,
-            pointer: field.pointer.clone(),
-        };
-        fields.finish()?;
-        Ok(existence)
+        field.object(|fields| {
+            let form = match fields.has("near") {
+                true => Form::Joint(Box::new(Metrics::read(fields, |_| Ok(()))?.0)),
+                false => Form::Block(block(fields)?),
+            };
+            Ok(Existence {
+                x: number(fields, "X", false)?,
+                e: number(fields, "E", false)?,
+                threshold: number(fields, "sigma", true)?,
+                form,
+                pointer: field.pointer.clone(),
+            })
+        })
     }
 
     /// The place of two metrics, where there are two.
@@ -154,19 +153,25 @@ fn block(fields: &mut Fields<'_>) -> Outcome<Metric> {
 /// What is known of a solution at r, and what has to be above it: of sup|x|, rms(x), sup|e|, rms(e), rms(e').
 pub type Sides<'s> = [[&'s Interval; 2]; 5];
 
-/// S1b to S2c, strictly; `what`: the bounds that the last four are the least of.
-pub(super) fn strictly(sides: Sides<'_>, what: [String; 4]) -> impl Iterator<Item = Condition> {
+/// S1b to S2c; `what`: the left sides of the last four.
+pub(super) fn of_periodic(relation: Relation, sides: Sides<'_>, what: [String; 4]) -> impl Iterator<Item = Condition> {
     let [rms_x, sup_e, rms_e, rms_e_t] = what;
     let names = [
-        ("S1b", "(c/a_1) b_fe E_p, K2(a_1) b_fe r_e".to_owned(), "X_p"),
+        ("S1b", "min{(c/a_1) b_fe E_p, K2(a_1) b_fe r_e}".to_owned(), "X_p"),
         ("S1c", rms_x, "r_x"),
         ("S2", sup_e, "E_p"),
         ("S2b", rms_e, "r_e"),
         ("S2c", rms_e_t, "r_d"),
     ];
-    names.into_iter().zip(sides).map(|((id, bounds, end), [lhs, rhs])| {
-        Condition::less(id, format!("min{{{bounds}}} < {end}"), lhs.clone(), rhs.clone())
+    names.into_iter().zip(sides).map(move |((id, what, end), [lhs, rhs])| {
+        let what = format!("{what} {} {end}", relation.symbol());
+        Condition { id, what, lhs: lhs.clone(), relation, rhs: rhs.clone() }
     })
+}
+
+/// The same strictly, with the bounds that the last four are the least of.
+pub(super) fn strictly(sides: Sides<'_>, bounds: [String; 4]) -> impl Iterator<Item = Condition> {
+    of_periodic(Relation::Less, sides, bounds.map(|bounds| format!("min{{{bounds}}}")))
 }
 
 /// E1 and E2: X_p and E_p lie where an inequality is proved, at X and E.

@@ -13,6 +13,7 @@ use super::stability::ErrorBox;
 use crate::data::Data;
 use crate::interval::Interval;
 use crate::json::{Field, Fields};
+use crate::matrix::{Matrix, is_symmetric};
 use crate::verdict::{Condition, Outcome, bad};
 use rug::Rational;
 
@@ -39,27 +40,23 @@ pub struct Inequality {
 pub struct Splitting {
     pub x: Rational,
     pub e: Rational,
-    pub matrix: Vec<Vec<Rational>>,
+    pub matrix: Matrix,
 }
 
 impl Splitting {
     fn read(field: &Field<'_>) -> Outcome<Splitting> {
-        let mut fields = field.fields()?;
-        let matrix = symmetric(&fields.required("S")?)?;
-        let splitting = Splitting { x: number(&mut fields, "X", false)?, e: number(&mut fields, "E", false)?, matrix };
-        fields.finish()?;
-        Ok(splitting)
+        field.object(|fields| {
+            let matrix = symmetric(&fields.required("S")?)?;
+            Ok(Splitting { x: number(fields, "X", false)?, e: number(fields, "E", false)?, matrix })
+        })
     }
 }
 
 /// The rows of a symmetric matrix of any order.
-pub(super) fn symmetric(rows: &Field<'_>) -> Outcome<Vec<Vec<Rational>>> {
-    let row = |row: Field<'_>| row.elements()?.iter().map(Field::rational).collect::<Outcome<Vec<Rational>>>();
-    let matrix = rows.elements()?.into_iter().map(row).collect::<Outcome<Vec<_>>>()?;
-    let order = matrix.len();
-    let is_square = matrix.iter().all(|row| row.len() == order);
-    let is_symmetric = || (0..order).all(|i| (0..i).all(|j| matrix[i][j] == matrix[j][i]));
-    if is_square && is_symmetric() { Ok(matrix) } else { bad(&rows.pointer, "expected a symmetric matrix") }
+pub(super) fn symmetric(rows: &Field<'_>) -> Outcome<Matrix> {
+    let matrix = rows.list(|row| row.list(Field::rational))?;
+    let is_square = matrix.iter().all(|row| row.len() == matrix.len());
+    if is_square && is_symmetric(&matrix) { Ok(matrix) } else { bad(&rows.pointer, "expected a symmetric matrix") }
 }
 
 /// A number above 0, or one that is not negative.
@@ -102,19 +99,18 @@ pub(super) fn reaches(
 impl Inequality {
     /// Reads the part `matrix_inequality`; the weights are those of the witness that it is a part of.
     pub fn read(field: &Field<'_>, [w_x, h]: [&Rational; 2]) -> Outcome<Inequality> {
-        let mut fields = field.fields()?;
-        let inequality = Inequality {
-            x: number(&mut fields, "X", false)?,
-            e: number(&mut fields, "E", false)?,
-            rate: number(&mut fields, "rate", true)?,
-            sigma: number(&mut fields, "sigma", true)?,
-            splitting: fields.optional("splitting").map(|field| Splitting::read(&field)).transpose()?,
-            w_x: w_x.clone(),
-            h: h.clone(),
-            pointer: field.pointer.clone(),
-        };
-        fields.finish()?;
-        Ok(inequality)
+        field.object(|fields| {
+            Ok(Inequality {
+                x: number(fields, "X", false)?,
+                e: number(fields, "E", false)?,
+                rate: number(fields, "rate", true)?,
+                sigma: number(fields, "sigma", true)?,
+                splitting: fields.part("splitting", Splitting::read)?,
+                w_x: w_x.clone(),
+                h: h.clone(),
+                pointer: field.pointer.clone(),
+            })
+        })
     }
 
     /// Whether it is about these weights.

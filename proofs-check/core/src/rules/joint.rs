@@ -14,9 +14,8 @@ use super::metric::{Metric, Metrics};
 use super::stability::ErrorBox;
 use crate::data::Data;
 use crate::interval::Interval;
-use crate::jacobian::Matrix;
 use crate::json::{Field, Fields};
-use crate::plant::coordinates::semidefinite;
+use crate::matrix::{is_semidefinite, shifted};
 use crate::verdict::{Condition, Outcome, bad, demand};
 use rug::Rational;
 
@@ -51,48 +50,37 @@ impl Extent {
 
     /// Whether it is that of a metric, in exact arithmetic: the name of each of its numbers, and what that says.
     fn is_of(&self, metric: &Metric, cross: &[Rational]) -> [(&'static str, &'static str, bool); 3] {
-        let zero = Rational::new();
-        let below: Matrix = shifted(&metric.p, &self.p_up)
-            .into_iter()
-            .map(|row| row.into_iter().map(|entry| -entry).collect())
-            .collect();
+        let (zero, one) = (Rational::new(), Rational::from(1));
+        let below = shifted(&metric.p, &Rational::from(-1), &Rational::from(-&self.p_up));
         let above = |x_low: &Rational, e_low: &Rational| {
-            let mut rows = shifted(&metric.p, x_low);
+            let mut rows = shifted(&metric.p, &one, x_low);
             rows.iter_mut().zip(cross).for_each(|(row, entry)| row.push(entry.clone()));
             let last = cross.iter().cloned().chain([Rational::from(&metric.w - e_low)]);
             rows.push(last.collect());
-            semidefinite(rows)
+            is_semidefinite(rows)
         };
         [
-            ("P_up", "P <= P_up I", semidefinite(below)),
+            ("P_up", "P <= P_up I", is_semidefinite(below)),
             ("x_low", "Pi >= diag(x_low I, 0)", above(&self.x_low, &zero)),
             ("e_low", "Pi >= diag(0, e_low)", above(&zero, &self.e_low)),
         ]
     }
 }
 
-/// `A - shift I`.
-fn shifted(matrix: &Matrix, shift: &Rational) -> Matrix {
-    let mut rows = matrix.clone();
-    rows.iter_mut().enumerate().for_each(|(i, row)| row[i] -= shift);
-    rows
-}
-
 impl Joint {
     /// Reads the part.
     pub fn read(field: &Field<'_>) -> Outcome<Joint> {
-        let mut fields = field.fields()?;
-        let (metrics, extents) = Metrics::read(&mut fields, Extent::read)?;
-        let joint = Joint {
-            x: number(&mut fields, "X", false)?,
-            e: number(&mut fields, "E", false)?,
-            threshold: number(&mut fields, "sigma", true)?,
-            metrics,
-            extents,
-            pointer: field.pointer.clone(),
-        };
-        fields.finish()?;
-        Ok(joint)
+        field.object(|fields| {
+            let (metrics, extents) = Metrics::read(fields, Extent::read)?;
+            Ok(Joint {
+                x: number(fields, "X", false)?,
+                e: number(fields, "E", false)?,
+                threshold: number(fields, "sigma", true)?,
+                metrics,
+                extents,
+                pointer: field.pointer.clone(),
+            })
+        })
     }
 
     /// The names in the file of the metrics, each with its own p and extent.

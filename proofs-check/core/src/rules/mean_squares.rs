@@ -11,7 +11,7 @@
 //! l G(r') < l r' in every place, against the choice of l. Strictness matters.
 
 use super::control::{self, Along};
-use super::existence::Existence;
+use super::existence::{Existence, of_periodic};
 use super::forced::{Forced, twice_sum};
 use super::gains::{beta_s, bt, damped, tau};
 use super::metric::Answer;
@@ -21,7 +21,7 @@ use crate::data::Data;
 use crate::gain::Gain;
 use crate::interval::Interval;
 use crate::json::Field;
-use crate::verdict::{Condition, Outcome};
+use crate::verdict::{Condition, Outcome, Relation};
 use rug::Rational;
 
 /// The root mean squares of x, e and e'.
@@ -42,10 +42,7 @@ pub struct Witness {
 
 /// Reads r'_x, r'_e, r'_d.
 pub fn read(field: &Field<'_>) -> Outcome<Means> {
-    let mut fields = field.fields()?;
-    let mut number = |name: &str| fields.required(name)?.rational();
-    let means = [number("r_x")?, number("r_e")?, number("r_d")?];
-    fields.finish().map(|()| means)
+    field.object(|fields| fields.numbers(["r_x", "r_e", "r_d"]))
 }
 
 /// What a witness proves of the periodic solution.
@@ -149,17 +146,20 @@ impl<'a> Bounds<'a> {
         }
     }
 
-    /// S1: x+ stays in the set of the proof. The regulator has no part in it.
-    pub fn of_states(&self, [r_x, r_e, _]: &[Interval; 3]) -> Vec<Condition> {
-        let what = "min{(c/a_1) b_fe E_p, K2(a_1) b_fe r_e} <= X_p";
-        vec![
-            self.contracts(),
-            Condition::at_most("S1b", what, self.sup_x_in_box(r_e), self.x_p.clone()),
-            Condition::at_most("S1c", "(c/a_1) b_fe r_e <= r_x", &self.x_gain * r_e, r_x.clone()),
-        ]
+    /// S1 to S2c: x+ and e+, of which these are sup, rms and rms of the derivative, stay in the set of the proof.
+    pub(super) fn stay(
+        &self,
+        [r_x, r_e, r_d]: &[Interval; 3],
+        [sup_e, rms_e, rms_e_t]: &[Interval; 3],
+        [of_sup, of_rms, of_rms_t]: [&str; 3],
+    ) -> Vec<Condition> {
+        let (sup_x, rms_x) = (self.sup_x_in_box(r_e), &self.x_gain * r_e);
+        let sides = [[&sup_x, &self.x_p], [&rms_x, r_x], [sup_e, &self.e_p], [rms_e, r_e], [rms_e_t, r_d]];
+        let what = ["(c/a_1) b_fe r_e", of_sup, of_rms, of_rms_t].map(str::to_owned);
+        [self.contracts()].into_iter().chain(of_periodic(Relation::AtMost, sides, what)).collect()
     }
 
-    /// S1 alone.
+    /// S1.
     pub(super) fn contracts(&self) -> Condition {
         Condition::less("S1", "0 < a_1", self.d.int(0), self.rate.clone())
     }
@@ -236,26 +236,18 @@ impl<'a> Bounds<'a> {
         Follows { sup_e, rms_e, rms_e_t, rates: [r_q, r_1], apart: [d_0, d_1] }
     }
 
-    /// S2: e+ stays in the set of the proof, without `damping` by section 10.3, with it by 10.4 alone.
-    fn of_error(&self, r: &[Interval; 3], damping: Option<&[Interval; 3]>) -> Vec<Condition> {
-        let [_, r_e, r_d] = r;
-        let at_most = |id, what: &str, lhs, rhs: &Interval| Condition::at_most(id, what, lhs, rhs.clone());
+    /// S1 and S2, of e without `damping` by section 10.3, with it by 10.4 alone.
+    fn stays(&self, r: &[Interval; 3], damping: Option<&[Interval; 3]>) -> Vec<Condition> {
         if let Some(damping) = damping {
             let [rms_e, rms_e_t] = self.damped(r, damping);
-            return vec![
-                at_most("S2", "sqrt(T r_e r_d) <= E_p", (self.d.period.longest() * r_e * r_d).sqrt(), &self.e_p),
-                at_most("S2b", "g_k Rt <= r_e", rms_e, r_e),
-                at_most("S2c", "Rt + kap r_e <= r_d", rms_e_t, r_d),
-            ];
+            let sup_e = (self.d.period.longest() * &r[1] * &r[2]).sqrt();
+            return self.stay(r, &[sup_e, rms_e, rms_e_t], ["sqrt(T r_e r_d)", "g_k Rt", "Rt + kap r_e"]);
         }
-        let follows = self.at(r, None);
+        let Follows { sup_e, rms_e, rms_e_t, .. } = self.at(r, None);
         let forced = if self.forced.is_some() { ", q_0 form" } else { "" };
-        let what = format!("min{{bt R_q, tau R_1, sqrt(T r_e r_d){forced}}} <= E_p");
-        vec![
-            at_most("S2", &what, follows.sup_e, &self.e_p),
-            at_most("S2b", &format!("min{{R_q/sg, R_1/(Om sg){forced}}} <= r_e"), follows.rms_e, r_e),
-            at_most("S2c", "min{R_q, R_1/sg} <= r_d", follows.rms_e_t, r_d),
-        ]
+        let of_sup = format!("min{{bt R_q, tau R_1, sqrt(T r_e r_d){forced}}}");
+        let of_rms = format!("min{{R_q/sg, R_1/(Om sg){forced}}}");
+        self.stay(r, &[sup_e, rms_e, rms_e_t], [&of_sup, &of_rms, "min{R_q, R_1/sg}"])
     }
 
     /// G: the least of all bounds of rms(x), rms(e), rms(e') of an actual solution at (r_x, r_e, r_d), those of 10.4 with `damping`.
@@ -303,8 +295,8 @@ impl<'a> Bounds<'a> {
         let inverse = d.nu.sqr().recip();
         let transfer = |k: i64| {
             let bound = pair[0] + pair[1] * (d.period.fastest() * k / &d.w).sqr();
-            let pole = || &inverse * 2 / d.spec.weights.weight(k.unsigned_abs(), d.precision);
-            if d.spec.matched { bound.min(&pole()) } else { bound }
+            let pole = || &inverse * 2 / d.weight(k.unsigned_abs());
+            if d.spec.regulator.matched { bound.min(&pole()) } else { bound }
         };
         let mean_part = &inverse / &d.n_0 * forced.harmonics[0].sqr();
         let harmonics = mean_part + twice_sum(d, &forced.harmonics, |k, c| transfer(k) * c.sqr());
@@ -345,7 +337,7 @@ pub fn evaluate(
             let sides = [[&sup_x, x_p], [rms_x, r_x], [&follows.sup_e, e_p], [rms_e, r_e], [rms_e_t, r_d]];
             inequality.conditions(d, sigma, bounds.contracts(), sides, with_kap)
         }
-        None => [bounds.of_states(&r), bounds.of_error(&r, damping)].concat(),
+        None => bounds.stays(&r, damping),
     };
     if with_kap {
         conditions.extend(one_sided("(X_p, E_p)", &bounds.q_e, most.as_ref()));

@@ -14,8 +14,8 @@
 use super::inequality::{number, symmetric};
 use crate::data::Data;
 use crate::interval::Interval;
-use crate::jacobian::Matrix;
 use crate::json::{Field, Fields};
+use crate::matrix::Matrix;
 use crate::verdict::{Outcome, bad};
 use rug::Rational;
 
@@ -74,17 +74,20 @@ impl Metric {
 impl Metrics {
     /// Takes `near` and `far` out of a part; what else each has is read by `rest`.
     pub fn read<T>(part: &mut Fields<'_>, rest: impl Fn(&mut Fields<'_>) -> Outcome<T>) -> Outcome<(Metrics, [T; 2])> {
-        let mut fields = part.required("near")?.fields()?;
-        let w = fields.required("w")?.rational()?;
-        let near = Metric::read(&mut fields, w)?;
-        let cross = of_length(&fields.required("p")?, near.p.len())?;
-        let of_near = rest(&mut fields)?;
-        fields.finish()?;
-        let mut fields = part.required("far")?.fields()?;
-        let w = number(&mut fields, "w", false)?;
-        let far = Metric::read(&mut fields, w)?;
-        let of_far = rest(&mut fields)?;
-        fields.finish()?;
+        let (near, cross, of_near) = part.required("near")?.object(|fields| {
+            let w = fields.number("w")?;
+            let near = Metric::read(fields, w)?;
+            let cross = fields.required("p")?;
+            let numbers = cross.list(Field::rational)?;
+            if numbers.len() != near.p.len() {
+                return bad(&cross.pointer, "expected a number for each row of P");
+            }
+            Ok((near, numbers, rest(fields)?))
+        })?;
+        let (far, of_far) = part.required("far")?.object(|fields| {
+            let w = number(fields, "w", false)?;
+            Ok((Metric::read(fields, w)?, rest(fields)?))
+        })?;
         Ok((Metrics { near, far, cross }, [of_near, of_far]))
     }
 
@@ -105,9 +108,4 @@ impl Metrics {
             rms_y: near.rms_y.max(&far.rms_y),
         }
     }
-}
-
-fn of_length(field: &Field<'_>, length: usize) -> Outcome<Vec<Rational>> {
-    let numbers = field.elements()?.iter().map(Field::rational).collect::<Outcome<Vec<_>>>()?;
-    if numbers.len() == length { Ok(numbers) } else { bad(&field.pointer, "expected a number for each row of P") }
 }

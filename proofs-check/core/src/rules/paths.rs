@@ -52,9 +52,6 @@ impl Paths {
         let Some(field) = witness.optional("paths") else {
             return Ok(Paths { f: Path::StateFirst, q: Path::Straight });
         };
-        let mut fields = field.fields()?;
-        let paths = Paths { f: Path::read(&fields.required("f")?)?, q: Path::read(&fields.required("q")?)? };
-        fields.finish()?;
-        Ok(paths)
+        field.object(|paths| Ok(Paths { f: Path::read(&paths.required("f")?)?, q: Path::read(&paths.required("q")?)? }))
     }
 }

@@ -33,21 +33,13 @@ pub struct Witness {
 impl Witness {
     /// Reads the part `exact_regulation`.
     pub fn read(field: &Field<'_>) -> Outcome<Witness> {
-        let mut fields = field.fields()?;
-        let sigma = fields.required("sigma_star_oo")?;
-        let mut number = |name| -> Outcome<Rational> { fields.required(name)?.rational() };
-        let w = Witness {
-            sigma: sigma.rational()?,
-            sigma_text: sigma.numeral()?.to_owned(),
-            d_x: number("D_x")?,
-            d_e: number("D_e")?,
-            w_x: number("w_x")?,
-            h: number("h")?,
-            paths: Paths::read(&mut fields)?,
-            pointer: field.pointer.clone(),
-        };
-        fields.finish()?;
-        Ok(w)
+        field.object(|fields| {
+            let sigma = fields.required("sigma_star_oo")?;
+            let (sigma, sigma_text) = (sigma.rational()?, sigma.numeral()?.to_owned());
+            let [d_x, d_e, w_x, h] = fields.numbers(["D_x", "D_e", "w_x", "h"])?;
+            let (paths, pointer) = (Paths::read(fields)?, field.pointer.clone());
+            Ok(Witness { pointer, sigma, sigma_text, d_x, d_e, w_x, h, paths })
+        })
     }
 }
 
@@ -62,7 +54,7 @@ fn steady_state(d: &Data<'_>) -> Interval {
     let mu = d.gain.as_ref().map_or_else(|| d.mu.clone(), |gain| &gain.low * &d.mu);
     let Some(given) = &d.spec.q_0 else { return generic / mu };
     let (harmonics, [rest, rest_t]) = forcing(d, given);
-    let weight = |k: u64| d.spec.weights.weight(k, d.precision);
+    let weight = |k: u64| d.weight(k);
     let later = (1..).zip(&harmonics[1..]).fold(d.int(0), |sum, (k, c)| sum + c.sqr() * 4 / weight(k));
     let forced = (harmonics[0].sqr() / &d.n_0 + later).sqrt() + root(&rest, &rest_t);
     generic.least(&forced) / mu
@@ -76,7 +68,7 @@ pub fn evaluate(
     w: &Witness,
     (inequality, joint): (Option<&Inequality>, Option<&Joint>),
 ) -> Outcome<Vec<Condition>> {
-    if !d.spec.matched {
+    if !d.spec.regulator.matched {
         return invalid("exact regulation", &w.pointer, "it needs base_frequency = 2 pi/period, asserted by `matched`");
     }
     let named = [("sigma_star_oo", &w.sigma), ("D_x", &w.d_x), ("D_e", &w.d_e), ("w_x", &w.w_x), ("h", &w.h)];

@@ -92,9 +92,9 @@ impl Witness {
         let free = Free::read(fields, set)?;
         let existence = mean_squares::Witness {
             r: free.r.clone(),
-            kap: fields.required("kap")?.rational()?,
-            refined: fields.optional("refined").map(|field| mean_squares::read(&field)).transpose()?,
-            inequality: fields.optional("existence_inequality").map(|field| Existence::read(&field)).transpose()?,
+            kap: fields.number("kap")?,
+            refined: fields.part("refined", mean_squares::read)?,
+            inequality: fields.part("existence_inequality", Existence::read)?,
         };
         let transfer = Proof::read(&fields.required("transfer")?)?;
         let stability = Stability::read(fields, &free)?;

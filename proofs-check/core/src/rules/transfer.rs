@@ -37,22 +37,19 @@ pub enum Proof {
 impl Proof {
     /// Reads how the transfer bound is proved.
     pub fn read(field: &Field<'_>) -> Outcome<Proof> {
-        let mut fields = field.fields()?;
-        let kind = fields.required("proof")?;
-        let proof = match kind.text()? {
-            "closed-form" => Proof::ClosedForm,
-            "matched" => Proof::Matched(fields.required("K")?.whole()?),
-            "boxes" => {
-                let list =
-                    |field: Field<'_>| field.elements()?.iter().map(Field::rational).collect::<Outcome<Vec<_>>>();
-                let (m0, n0) = (fields.required("m0")?.whole()?, fields.required("N0")?.whole()?);
-                let breaks = fields.required("boxes")?.elements()?.into_iter().map(list).collect::<Outcome<_>>()?;
-                Proof::Boxes { m0, n0, breaks }
+        field.object(|fields| {
+            let kind = fields.required("proof")?;
+            match kind.text()? {
+                "closed-form" => Ok(Proof::ClosedForm),
+                "matched" => Ok(Proof::Matched(fields.required("K")?.whole()?)),
+                "boxes" => {
+                    let (m0, n0) = (fields.required("m0")?.whole()?, fields.required("N0")?.whole()?);
+                    let breaks = fields.required("boxes")?.list(|list| list.list(Field::rational))?;
+                    Ok(Proof::Boxes { m0, n0, breaks })
+                }
+                _ => bad(&kind.pointer, "expected `closed-form`, `matched` or `boxes`"),
             }
-            _ => return bad(&kind.pointer, "expected `closed-form`, `matched` or `boxes`"),
-        };
-        fields.finish()?;
-        Ok(proof)
+        })
     }
 }
 
@@ -84,16 +81,14 @@ pub fn check(d: &Data<'_>, k0: &Rational, k1: &Rational, proof: &Proof, pointer:
             let [least_0, least_1] = closed_form(d);
             ("closed-form", vec![step((least_0, "k0"), &pair[0]), step((least_1, "k1"), &pair[1])])
         }
-        Proof::Matched(_) if !d.spec.matched => return refuse("a matched proof needs `matched` in the specification"),
+        Proof::Matched(_) if !d.spec.regulator.matched => {
+            return refuse("a matched proof needs `matched` in the specification");
+        }
         Proof::Matched(k) if (1..=MAX_HARMONICS).contains(k) => ("matched", matched(d, &pair, *k)),
         Proof::Matched(_) => return refuse("K must lie between 1 and 4096"),
         Proof::Boxes { m0, n0, breaks } => {
-            if *m0 < 1
-                || m0 > n0
-                || *m0 > MAX_M0
-                || *n0 > MAX_N0
-                || breaks.iter().map(Vec::len).sum::<usize>() > MAX_BOXES
-            {
+            let count = breaks.iter().map(Vec::len).sum::<usize>();
+            if *m0 < 1 || m0 > n0 || *m0 > MAX_M0 || *n0 > MAX_N0 || count > MAX_BOXES {
                 return refuse("a proof by boxes needs 1 <= m0 <= N0, m0 <= 64, N0 <= 256, and at most 20000 boxes");
             }
             covers(*m0, *n0, breaks, pointer)?;
@@ -116,7 +111,7 @@ type Step = (String, Interval, Interval);
 /// Lemma T'': T_N(0) = 1/(nu^2 n_0) and T_N(k) <= 2/(nu^2 n_k) for k >= 1; by W3 n_k >= K^2 n_K/k^2 for k >= K.
 fn matched(d: &Data<'_>, [k0, k1]: &[Interval; 2], tail: u32) -> Vec<Step> {
     let inverse = d.nu.sqr().recip();
-    let weight = |k: u32| d.spec.weights.weight(u64::from(k), d.precision);
+    let weight = |k: u32| d.weight(u64::from(k));
     let square = |k: u32| d.int(i64::from(k)).sqr();
     let mut steps = vec![("k = 0: 1/(nu^2 n_0) <= k0".to_owned(), &inverse / &d.n_0, k0.clone())];
     for k in 1..tail {
@@ -136,11 +131,8 @@ fn edge(m0: u32) -> Rational {
 /// N0 lists, each of increasing points from 0 to m0 - 1/2.
 fn covers(m0: u32, n0: u32, breaks: &[Vec<Rational>], pointer: &str) -> Outcome<()> {
     if breaks.len() != n0 as usize {
-        return invalid(
-            RULE,
-            &format!("{pointer}/boxes"),
-            format!("{} lists of break points, not N0 = {n0}", breaks.len()),
-        );
+        let message = format!("{} lists of break points, not N0 = {n0}", breaks.len());
+        return invalid(RULE, &format!("{pointer}/boxes"), message);
     }
     for (index, list) in breaks.iter().enumerate() {
         let whole = list.first().is_some_and(|first| *first == 0) && list.last() == Some(&edge(m0));
@@ -157,7 +149,7 @@ fn covers(m0: u32, n0: u32, breaks: &[Vec<Rational>], pointer: &str) -> Outcome<
 fn scalar_test(d: &Data<'_>, [k0, k1]: &[Interval; 2], m0: u32) -> Vec<Step> {
     let (n_0, n_1) = (&d.n_0, &d.n_1);
     let (m, left) = (d.int(i64::from(m0)), d.number(&edge(m0)));
-    let weight = d.spec.weights.weight(u64::from(m0), d.precision);
+    let weight = d.weight(u64::from(m0));
     let slope = pi_part(d) + (n_0 - n_1 / 2) / left.sqr();
     let sum = (n_0 + n_1 * (d.ratio(47, 20) + d.ratio(3, 2) * m.log())) / &left + n_1 / (&m * (4 * &m - 1));
     let s = (slope - k0).max(&d.int(0));
@@ -172,11 +164,11 @@ fn scalar_test(d: &Data<'_>, [k0, k1]: &[Interval; 2], m0: u32) -> Vec<Step> {
 /// (i) Every box: [a, b] within |x - m| <= 1/2 of an integer m, and sup T <= k0 + k1 a^2 there in the pole-free form; a
 /// box [0, b] may instead be proved in the form divided by x^2.
 fn boxes(d: &Data<'_>, pair: &[Interval; 2], n0: u32, breaks: &[Vec<Rational>], pointer: &str) -> Outcome<()> {
-    let weights: Vec<_> = (0..=u64::from(n0)).map(|l| d.spec.weights.weight(l, d.precision)).collect();
+    let weights: Vec<_> = (0..=u64::from(n0)).map(|l| d.weight(l)).collect();
     let half = Rational::from((1, 2));
     for (index, list) in breaks.iter().enumerate() {
         let n = index as u32 + 1;
-        let tail = (n == n0).then(|| d.spec.weights.square_tail(n0, d.precision));
+        let tail = (n == n0).then(|| d.spec.regulator.weights.square_tail(n0, d.precision));
         let sums = Sums { d, weights: &weights[..(n as usize + usize::from(n < n0))], tail, n0: i64::from(n0) };
         for (position, ends) in list.windows(2).enumerate() {
             let (a, b) = (&ends[0], &ends[1]);

@@ -40,17 +40,10 @@ impl<'a> Rate<'a> {
             if rates.last().is_some_and(|before| before.n_o >= n_o) {
                 return bad(&format!("{}/n_o", field.pointer), "expected each n_o once, in rising order");
             }
-            let [rate, factor] = [fields.required("rate")?, fields.required("factor")?];
-            let noise = fields.optional("noise").map(|field| Limits::read(&field)).transpose()?;
+            let ([rate, factor], texts) = written(&mut fields, ["rate", "factor"])?;
+            let noise = fields.part("noise", Limits::read)?;
             fields.finish()?;
-            rates.push(Rate {
-                pointer: field.pointer.clone(),
-                n_o,
-                rate: rate.rational()?,
-                factor: factor.rational()?,
-                noise,
-                texts: [rate.numeral()?, factor.numeral()?],
-            });
+            rates.push(Rate { pointer: field.pointer.clone(), n_o, rate, factor, noise, texts });
         }
         Ok(rates)
     }
@@ -79,16 +72,16 @@ impl<'a> Rate<'a> {
 
 impl<'a> Limits<'a> {
     fn read(field: &Field<'a>) -> Outcome<Limits<'a>> {
-        let mut fields = field.fields()?;
-        let [limit, peak] = [fields.required("limit")?, fields.required("peak")?];
-        fields.finish()?;
-        Ok(Limits {
-            pointer: field.pointer.clone(),
-            limit: limit.rational()?,
-            peak: peak.rational()?,
-            texts: [limit.numeral()?, peak.numeral()?],
-        })
+        let ([limit, peak], texts) = field.object(|fields| written(fields, ["limit", "peak"]))?;
+        Ok(Limits { pointer: field.pointer.clone(), limit, peak, texts })
     }
+}
+
+/// Two numbers, and as they are written.
+fn written<'a>(fields: &mut Fields<'a>, names: [&str; 2]) -> Outcome<([Rational; 2], [&'a str; 2])> {
+    let [a, b] = names.map(|name| fields.required(name));
+    let (a, b) = (a?, b?);
+    Ok(([a.rational()?, b.rational()?], [a.numeral()?, b.numeral()?]))
 }
 
 /// An n_o that is not too large.

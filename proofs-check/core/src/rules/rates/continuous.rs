@@ -21,11 +21,14 @@ use super::noise::{added, of_states, weight};
 use super::norm::{Norm, Stored, no_part_of_x, positive};
 use crate::data::Data;
 use crate::interval::Interval;
-use crate::json::Fields;
+use crate::json::{Field, Fields};
 use crate::matrix::positive_definite;
 use crate::rules::stability::ErrorBox;
-use crate::verdict::{Outcome, bad, demand};
+use crate::verdict::{Outcome, demand};
 use rug::Rational;
+
+/// The multipliers of x by their names.
+const OF_X: [&str; 2] = ["w", "l"];
 
 /// A form with what proves that it is positive definite, but for the rate.
 pub struct Proof {
@@ -45,13 +48,7 @@ pub struct OfNoise {
 impl Proof {
     /// Takes it out of a part for this n_o.
     pub fn read(fields: &mut Fields<'_>, n_o: u32) -> Outcome<Proof> {
-        let stored = Stored::read(fields, n_o, 0)?;
-        let of_x = match (fields.optional("w"), fields.optional("l")) {
-            (None, None) => None,
-            (Some(w), Some(l)) => Some([w.rational()?, l.rational()?]),
-            _ => return bad(&fields.pointer, "`w` and `l` go together"),
-        };
-        Ok(Proof { stored, of_x })
+        Ok(Proof { stored: Stored::read(fields, n_o, 0)?, of_x: fields.together(OF_X)? })
     }
 }
 
@@ -59,9 +56,9 @@ impl OfNoise {
     /// The same for the part `noise`.
     pub fn read(fields: &mut Fields<'_>, n_o: u32) -> Outcome<OfNoise> {
         let proof = Proof::read(fields, n_o)?;
-        let lambda = fields.required("lambda")?.rational()?;
-        let mut optional = |name| fields.optional(name).map(|field| field.rational()).transpose();
-        Ok(OfNoise { proof, lambda, g_d: optional("g_d")?, g_v: optional("g_v")? })
+        let lambda = fields.number("lambda")?;
+        let [g_d, g_v] = ["g_d", "g_v"].map(|name| fields.part(name, Field::rational));
+        Ok(OfNoise { proof, lambda, g_d: g_d?, g_v: g_v? })
     }
 }
 
@@ -89,9 +86,7 @@ impl<'a> Loop<'a> {
         let pointer = proof.stored.pointer.as_str();
         let norm = Norm::new(d, &proof.stored)?;
         match &proof.of_x {
-            Some(both) => {
-                ["w", "l"].into_iter().zip(both).try_for_each(|(name, value)| positive(name, value, pointer))?
-            }
+            Some(both) => OF_X.into_iter().zip(both).try_for_each(|(name, value)| positive(name, value, pointer))?,
             None => no_part_of_x(&error_box.k_x, pointer)?,
         }
         norm.lies_above()?;

@@ -14,7 +14,6 @@ mod norm;
 mod rounding;
 mod sampled;
 pub mod slopes;
-mod stored;
 #[cfg(test)]
 mod tests;
 
@@ -134,7 +133,7 @@ impl Witness {
                 Proof::Slopes(Box::new(slopes::Proof::read(&mut fields, n_o, states, corner)?))
             }
         };
-        let ends = [fields.required("e_up")?.rational()?, fields.required("z_up")?.rational()?];
+        let ends = fields.numbers(["e_up", "z_up"])?;
         [noise, Some(fields)].into_iter().flatten().try_for_each(|fields| fields.finish())?;
         Ok(Witness { pointer: field.pointer.clone(), n_o, ends, proof })
     }

@@ -4,13 +4,11 @@
 //! Guarantee: with [`Norm::lies_above`] and [`Norm::start`] `e_low e^2 <= y'Pi y <= x_up |x|^2 + e_up e^2 + z_up |zeta|_N^2`.
 
 use super::claimed::RULE;
-use super::stored::triangle;
 use crate::data::Data;
 use crate::interval::Interval;
-use crate::jacobian::Matrix;
-use crate::json::Fields;
-use crate::matrix::positive_definite;
-use crate::verdict::{Outcome, demand, invalid};
+use crate::json::{Field, Fields};
+use crate::matrix::{Matrix, positive_definite};
+use crate::verdict::{Outcome, bad, demand, invalid};
 use rug::{Integer, Rational};
 
 /// Pi as a witness has it.
@@ -33,7 +31,7 @@ impl Stored {
             _ => "one for each state, one for e and one for each state of zeta",
         };
         let rows = triangle(&fields.required("Pi")?, states + 2 * n_o as usize + 2, what)?;
-        let e_low = fields.required("e_low")?.rational()?;
+        let e_low = fields.number("e_low")?;
         Ok(Stored { pointer: fields.pointer.clone(), n_o, states, rows, e_low })
     }
 }
@@ -57,7 +55,7 @@ impl Norm {
     /// Encloses it; e_low is demanded to be above 0.
     pub fn new(d: &Data<'_>, stored: &Stored) -> Outcome<Norm> {
         positive("e_low", &stored.e_low, &stored.pointer)?;
-        let root = |l: u32| d.spec.weights.weight(u64::from(l), d.precision).sqrt();
+        let root = |l: u32| d.weight(u64::from(l)).sqrt();
         let mut b = vec![d.int(1), root(0)];
         (1..=stored.n_o).for_each(|l| b.extend([root(l), d.int(0)]));
         let rows = enclosed(d, &stored.rows);
@@ -172,6 +170,19 @@ impl Norm {
         let terms = [x_up, &e_up, &z_up].into_iter().zip(reach).map(|(end, distance)| end * distance.sqr());
         Ok(terms.fold(d.int(0), |sum, term| sum + term))
     }
+}
+
+/// The lower triangle of a matrix of so many rows; `what` they are.
+pub fn triangle(rows: &Field<'_>, order: usize, what: &str) -> Outcome<Matrix> {
+    let list = rows.elements()?;
+    if list.len() != order {
+        return bad(&rows.pointer, format!("expected {order} rows, {what}"));
+    }
+    let matrix = rows.list(|row| row.list(Field::rational))?;
+    if let Some(i) = matrix.iter().enumerate().position(|(i, row)| row.len() != i + 1) {
+        return bad(&list[i].pointer, format!("expected {} numbers, up to the diagonal", i + 1));
+    }
+    Ok(matrix)
 }
 
 /// The rows of a matrix, enclosed.

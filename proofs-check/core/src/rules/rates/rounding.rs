@@ -26,7 +26,7 @@ use crate::data::Data;
 use crate::interval::Interval;
 use crate::json::Fields;
 use crate::rules::sampled::law::Law;
-use crate::verdict::{Condition, Outcome, bad, invalid};
+use crate::verdict::{Condition, Outcome, invalid};
 use rug::Rational;
 
 /// The numbers of a witness by their names.
@@ -42,14 +42,8 @@ pub struct Rounding {
 impl Rounding {
     /// Takes the numbers out of the part `noise` of a witness, all of them or none.
     pub fn read(fields: &mut Fields<'_>) -> Outcome<Option<Rounding>> {
-        match NAMES.map(|name| fields.optional(name)) {
-            [None, None, None, None] => Ok(None),
-            [Some(low), Some(up), Some(noise), Some(level)] => Ok(Some(Rounding {
-                pointer: fields.pointer.clone(),
-                numbers: [low.rational()?, up.rational()?, noise.rational()?, level.rational()?],
-            })),
-            _ => bad(&fields.pointer, "`z_low`, `z_up`, `z_noise` and `level` go together"),
-        }
+        let numbers = fields.together(NAMES)?;
+        Ok(numbers.map(|numbers| Rounding { pointer: fields.pointer.clone(), numbers }))
     }
 
     /// That they are there exactly where the file has a regulator that rounds, all above 0.
@@ -60,11 +54,10 @@ impl Rounding {
                 let mut named = NAMES.into_iter().zip(&rounding.numbers);
                 named.try_for_each(|(name, value)| positive(name, value, pointer)).map(|()| Some(rounding))
             }
-            (None, true) => invalid(
-                RULE,
-                pointer,
-                "`z_low`, `z_up`, `z_noise` and `level` are missing, and the file has the arithmetic `double`",
-            ),
+            (None, true) => {
+                let what = "`z_low`, `z_up`, `z_noise` and `level` are missing";
+                invalid(RULE, pointer, format!("{what}, and the file has the arithmetic `double`"))
+            }
             (Some(_), false) => {
                 invalid(RULE, &format!("{pointer}/level"), "the file has exact arithmetic: there is no rounding")
             }
@@ -123,7 +116,7 @@ pub(super) fn errors(law: &Law<'_>, n_o: u32, [w_b, m_b]: [&Interval; 2]) -> [In
 pub(super) fn ranges(law: &Law<'_>, n_o: u32, [z_b, w_b, m_b]: [&Interval; 3]) -> Vec<Condition> {
     let d = law.d;
     let [least, most, largest] = [-900, 900, 1000].map(|exponent| power(d, exponent));
-    let weights: Vec<Interval> = (0..=n_o).map(|l| d.spec.weights.weight(u64::from(l), d.precision)).collect();
+    let weights: Vec<Interval> = (0..=n_o).map(|l| d.weight(u64::from(l))).collect();
     let divisor = nominal(d);
     let named = [("sigma", &law.sigma), ("K", &law.gain), ("nominal", &divisor)];
     let of_weights = weights.iter().map(|weight| ("n_l", weight));

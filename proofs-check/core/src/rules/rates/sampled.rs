@@ -33,11 +33,11 @@ use super::noise::{Known, added, of_states, weight};
 use super::norm::{Norm, Stored, no_part_of_x, positive};
 use super::rounding::Rounding;
 use crate::interval::Interval;
-use crate::json::Fields;
+use crate::json::{Field, Fields};
 use crate::matrix::positive_definite;
 use crate::rules::sampled::law::Law;
 use crate::rules::stability::ErrorBox;
-use crate::verdict::{Condition, Outcome, bad, demand};
+use crate::verdict::{Condition, Outcome, demand};
 use rug::Rational;
 
 /// The multipliers by their names: of the slopes, and of x.
@@ -66,15 +66,7 @@ impl Proof {
     /// Takes it out of a part for this n_o.
     pub fn read(fields: &mut Fields<'_>, n_o: u32) -> Outcome<Proof> {
         let stored = Stored::read(fields, n_o, 0)?;
-        let mut number = |name: &str| fields.required(name)?.rational();
-        let [c, l_slope, l_hold] = OF_SLOPES.map(&mut number);
-        let of_slopes = [c?, l_slope?, l_hold?];
-        let of_x = match OF_X.map(|name| fields.optional(name)) {
-            [None, None, None, None] => None,
-            [Some(w), Some(x), Some(e), Some(y)] => Some([w.rational()?, x.rational()?, e.rational()?, y.rational()?]),
-            _ => return bad(&fields.pointer, "`w`, `l_x`, `l_e` and `l_y` go together"),
-        };
-        Ok(Proof { stored, of_slopes, of_x })
+        Ok(Proof { stored, of_slopes: fields.numbers(OF_SLOPES)?, of_x: fields.together(OF_X)? })
     }
 }
 
@@ -82,8 +74,7 @@ impl OfNoise {
     /// The same for the part `noise`.
     pub fn read(fields: &mut Fields<'_>, n_o: u32) -> Outcome<OfNoise> {
         let proof = Proof::read(fields, n_o)?;
-        let mut optional = |name| fields.optional(name).map(|field| field.rational()).transpose();
-        let [g_d, g_v, g_r] = ["g_d", "g_v", "g_r"].map(&mut optional);
+        let [g_d, g_v, g_r] = ["g_d", "g_v", "g_r"].map(|name| fields.part(name, Field::rational));
         Ok(OfNoise { proof, g_d: g_d?, g_v: g_v?, g_r: g_r?, rounding: Rounding::read(fields)? })
     }
 }

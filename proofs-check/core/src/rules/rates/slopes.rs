@@ -19,14 +19,11 @@
 //! W of a start is at most `x_up dX^2 + e_up dE^2 + z_up dZ^2`, which `factor^2 e_low` is not below.
 
 use super::claimed::{RULE, Rate};
-use super::norm::{Norm, Stored, enclosed};
-use super::stored::{numbers, triangle};
+use super::norm::{Norm, Stored, enclosed, triangle};
 use crate::data::Data;
 use crate::interval::Interval;
-use crate::jacobian::Matrix;
 use crate::json::{Field, Fields};
-use crate::matrix::positive_definite;
-use crate::plant::coordinates::semidefinite;
+use crate::matrix::{Matrix, is_semidefinite, positive_definite};
 use crate::verdict::{Outcome, bad, demand};
 use rug::Rational;
 use std::ops::Range;
@@ -86,18 +83,12 @@ impl Slopes {
             return fields.finish().map(|()| vec![all]);
         };
         if !corner {
-            return bad(
-                &of_states.pointer,
-                "the slopes of its parts need a path with a corner: a matrix inequality with a splitting",
-            );
+            let corner = "a path with a corner: a matrix inequality with a splitting";
+            return bad(&of_states.pointer, format!("the slopes of its parts need {corner}"));
         }
         let parts = [(of_states, Columns::States), (fields.required("error")?, Columns::Error)];
         fields.finish()?;
-        let part = |(field, columns): (Field<'_>, Columns)| {
-            let mut fields = field.fields()?;
-            let part = Slopes::take(&mut fields, columns, states)?;
-            fields.finish().map(|()| part)
-        };
+        let part = |(field, columns): (Field<'_>, _)| field.object(|fields| Slopes::take(fields, columns, states));
         parts.into_iter().map(part).collect()
     }
 
@@ -105,11 +96,7 @@ impl Slopes {
     fn take(fields: &mut Fields<'_>, columns: Columns, states: usize) -> Outcome<Slopes> {
         let (count, order, [what, _]) = (columns.places(states).len(), states + 1, columns.words());
         let q = triangle(&fields.required("Q")?, count, what)?;
-        let rows = fields.required("G")?;
-        let g = rows.elements()?.iter().map(numbers).collect::<Outcome<Matrix>>()?;
-        if g.len() != count || g.iter().any(|row| row.len() != order) {
-            return bad(&rows.pointer, format!("expected {count} rows of {order} numbers, {what} in rows"));
-        }
+        let g = fields.required("G")?.matrix([count, order], &format!("{what} in rows"))?;
         let h = triangle(&fields.required("H")?, order, Columns::All.words()[0])?;
         Ok(Slopes { pointer: fields.pointer.clone(), columns, q, g, h })
     }
@@ -124,7 +111,7 @@ impl Slopes {
     fn demand_concave(&self) -> Outcome<()> {
         let h = &self.h;
         let row = |i: usize| (0..h.len()).map(|j| h[i.max(j)][i.min(j)].clone()).collect();
-        let truth = semidefinite((0..h.len()).map(row).collect());
+        let truth = is_semidefinite((0..h.len()).map(row).collect());
         demand(Some(truth), RULE, &format!("{}/H", self.pointer), "H >= 0")
     }
 }
@@ -142,14 +129,12 @@ impl Proof {
     /// Takes it out of a part for this n_o, of a plant with so many states; `corner`: whether the claim rests on a path with a corner.
     pub fn read(fields: &mut Fields<'_>, n_o: u32, states: usize, corner: bool) -> Outcome<Proof> {
         if let Some(norms) = ["w", "l"].into_iter().find_map(|name| fields.optional(name)) {
-            return bad(
-                &norms.pointer,
-                "it is of a claim by norms: this one rests on a matrix inequality, and has `slopes`",
-            );
+            let own = "this one rests on a matrix inequality, and has `slopes`";
+            return bad(&norms.pointer, format!("it is of a claim by norms: {own}"));
         }
         let stored = Stored::read(fields, n_o, states)?;
         let parts = Slopes::read(&fields.required("slopes")?, states, corner)?;
-        let x_up = if states > 0 { Some(fields.required("x_up")?.rational()?) } else { None };
+        let x_up = if states > 0 { Some(fields.number("x_up")?) } else { None };
         Ok(Proof { stored, parts, x_up })
     }
 }

@@ -94,7 +94,7 @@ struct Oscillators {
 
 impl Oscillators {
     fn new(d: &Data<'_>, n_o: u32) -> Oscillators {
-        let weight = |l: u32| double(&d.spec.weights.weight(u64::from(l), 128));
+        let weight = |l: u32| double(&d.weight(u64::from(l)));
         let (mut weights, mut m) = (vec![weight(0)], vec![1.0]);
         for l in 1..=n_o {
             weights.extend([weight(l); 2]);

@@ -1,11 +1,8 @@
 //! What a claim about a sampled regulator says besides: the law, and its sampling period exactly (docs/mathematics.md, section 12).
 
 use super::law::RULE;
-use crate::actuator;
 use crate::constant::Constant;
-use crate::input_gain;
 use crate::json::Fields;
-use crate::period;
 use crate::spec::{Specification, read_delay, samples};
 use crate::verdict::{Outcome, bad, demand};
 use rug::Rational;
@@ -55,9 +52,9 @@ impl<'a> Regulator<'a> {
         let period = spec.period.demand_exact(&self.pointer, "a claim at samples")?;
         let exactly = samples(period, &self.sampling, &self.pointer)?;
         demand(Some(exactly == self.samples), RULE, &self.pointer, "period = samples * sampling_period")?;
-        let asked = spec.samples.as_ref().is_none_or(|asked| *asked == self.samples);
+        let asked = spec.regulator.samples.as_ref().is_none_or(|asked| *asked == self.samples);
         demand(Some(asked), RULE, &self.pointer, "it is the sampling period of the specification")?;
-        let asked = spec.samples.is_none() || self.delayed == spec.delayed;
+        let asked = spec.regulator.samples.is_none() || self.delayed == spec.regulator.delayed;
         demand(Some(asked), RULE, &self.pointer, "`delay_samples` is that of the specification")
     }
 
@@ -71,15 +68,10 @@ impl<'a> Regulator<'a> {
         let (samples, [sigma, gain]) = (self.samples, self.texts);
         format!(
             "For the digital regulator {}with the gain sigma = {sigma}, the sampling period h = {} ({samples} samples a period) and \
-             K = {gain}, for every number of oscillators n_o < {samples}/2 and every phase of the sampling grid{}{}, with {}, \
-             mu = {} and base frequency {}",
+             K = {gain}, for every number of oscillators n_o < {samples}/2 and every phase of the sampling grid{}",
             if self.delayed { "whose control is computed in the sample before it acts, " } else { "" },
             self.sampling.text,
-            input_gain::in_words(spec.input_gain.as_ref()),
-            actuator::in_words(spec.actuator.as_ref()),
-            period::in_words(&spec.period),
-            spec.mu.text,
-            spec.base_frequency.text,
+            spec.in_words(),
         )
     }
 

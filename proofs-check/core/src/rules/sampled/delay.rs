@@ -29,7 +29,7 @@ pub struct Past {
 impl Past {
     /// Takes them out of a witness.
     pub fn read(fields: &mut Fields<'_>) -> Outcome<Past> {
-        let gm = fields.required("gm")?.rational()?;
+        let gm = fields.number("gm")?;
         let y_0 = fields.required("Y_0")?;
         Ok(Past { gm, y_0: y_0.rational()?, text: y_0.numeral()?.to_owned() })
     }

@@ -71,11 +71,7 @@ pub fn evaluate(
         ];
         [bounds.contracts()].into_iter().chain(strictly(sides, what.map(str::to_owned))).collect()
     } else {
-        let mut conditions = bounds.of_states(&r);
-        conditions.push(Condition::at_most("S2", "sup|e| <= E_p", sup_e.clone(), e_p.clone()));
-        conditions.push(Condition::at_most("S2b", "rms(e) <= r_e", rms_e, r_e.clone()));
-        conditions.push(Condition::at_most("S2c", "rms(e') <= r_d", rms_e_t, r_d.clone()));
-        conditions
+        bounds.stay(&r, &[sup_e.clone(), rms_e, rms_e_t], ["sup|e|", "rms(e)", "rms(e')"])
     };
     let e = e_p.min(&sup_e);
     let w_squared = d.w.sqr();

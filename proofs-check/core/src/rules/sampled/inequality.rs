@@ -20,6 +20,7 @@
 use super::law::{Law, Terms};
 use crate::interval::Interval;
 use crate::json::Field;
+use crate::matrix::Matrix;
 use crate::rules::inequality::{number, symmetric};
 use crate::rules::metric::Answer;
 use crate::verdict::Outcome;
@@ -46,7 +47,7 @@ pub struct Existence {
     pub x: Rational,
     pub e: Rational,
     /// P, by rows. That it has one for each state is seen where the formulas are.
-    pub p: Vec<Vec<Rational>>,
+    pub p: Matrix,
     pub k_p: Rational,
     pub lambda: Rational,
     pub c_x: Rational,
@@ -66,41 +67,44 @@ pub struct Inequalities<'w> {
 impl Stability {
     /// Reads the part `matrix_inequality`; the weights are those of the witness that it is a part of.
     pub fn read(field: &Field<'_>, [w_x, eta]: [&Rational; 2]) -> Outcome<Stability> {
-        let mut fields = field.fields()?;
-        let stability = Stability {
-            x: number(&mut fields, "X", false)?,
-            e: number(&mut fields, "E", false)?,
-            lambda: number(&mut fields, "lambda", true)?,
-            rate: number(&mut fields, "rate", true)?,
-            c_e: number(&mut fields, "c_e", true)?,
-            c_y: number(&mut fields, "c_y", true)?,
-            w_x: w_x.clone(),
-            eta: eta.clone(),
-            pointer: field.pointer.clone(),
-        };
-        fields.finish()?;
-        Ok(stability)
+        field.object(|fields| {
+            let [x, e] = [number(fields, "X", false)?, number(fields, "E", false)?];
+            let mut above_0 = |name| number(fields, name, true);
+            Ok(Stability {
+                lambda: above_0("lambda")?,
+                rate: above_0("rate")?,
+                c_e: above_0("c_e")?,
+                c_y: above_0("c_y")?,
+                w_x: w_x.clone(),
+                eta: eta.clone(),
+                pointer: field.pointer.clone(),
+                x,
+                e,
+            })
+        })
     }
 }
 
 impl Existence {
     /// Reads the part `existence_inequality`.
     pub fn read(field: &Field<'_>) -> Outcome<Existence> {
-        let mut fields = field.fields()?;
-        let existence = Existence {
-            x: number(&mut fields, "X", false)?,
-            e: number(&mut fields, "E", false)?,
-            p: symmetric(&fields.required("P")?)?,
-            k_p: number(&mut fields, "k_p", true)?,
-            lambda: number(&mut fields, "lambda", true)?,
-            c_x: number(&mut fields, "c_x", true)?,
-            c_e: number(&mut fields, "c_e", true)?,
-            c_y: number(&mut fields, "c_y", true)?,
-            gamma: number(&mut fields, "gamma", true)?,
-            pointer: field.pointer.clone(),
-        };
-        fields.finish()?;
-        Ok(existence)
+        field.object(|fields| {
+            let [x, e] = [number(fields, "X", false)?, number(fields, "E", false)?];
+            let p = symmetric(&fields.required("P")?)?;
+            let mut above_0 = |name| number(fields, name, true);
+            Ok(Existence {
+                k_p: above_0("k_p")?,
+                lambda: above_0("lambda")?,
+                c_x: above_0("c_x")?,
+                c_e: above_0("c_e")?,
+                c_y: above_0("c_y")?,
+                gamma: above_0("gamma")?,
+                pointer: field.pointer.clone(),
+                x,
+                e,
+                p,
+            })
+        })
     }
 
     /// With Q_m: rms(x), rms(e), and the rms of y over the samples.

@@ -159,7 +159,8 @@ impl<'a> Law<'a> {
     /// S0, all of it decided here: what follows is not even defined without it.
     pub fn conditions(&self, pointer: &str) -> Outcome<Vec<Condition>> {
         let d = self.d;
-        demand(Some(d.spec.matched), RULE, pointer, "a sampled regulator needs `matched` in the specification")?;
+        let matched = Some(d.spec.regulator.matched);
+        demand(matched, RULE, pointer, "a sampled regulator needs `matched` in the specification")?;
         if self.samples > MAX_SAMPLES {
             let message = format!("more than {MAX_SAMPLES} samples in a period are not looked at");
             return Err(finding(Verdict::Undecided, RULE, pointer, message));

@@ -43,18 +43,16 @@ pub struct Witness {
 impl Witness {
     /// Takes the free numbers out of a witness.
     pub fn read(fields: &mut Fields<'_>, claimed: &claim::Regulator<'_>, set: ClaimedSet) -> Outcome<Witness> {
-        let mut proof = fields.required("transfer")?.fields()?;
-        let kind = proof.required("proof")?;
-        if kind.text()? != "sampled" {
-            return bad(&kind.pointer, "expected `sampled`, for a sampled regulator");
-        }
-        proof.finish()?;
+        fields.required("transfer")?.object(|proof| {
+            let kind = proof.required("proof")?;
+            let sampled = kind.text()? == "sampled";
+            if sampled { Ok(()) } else { bad(&kind.pointer, "expected `sampled`, for a sampled regulator") }
+        })?;
         let (sigma, gain, samples) = (claimed.sigma.clone(), claimed.gain.clone(), claimed.samples);
-        let weight_sum = fields.required("weight_sum")?.rational()?;
+        let weight_sum = fields.number("weight_sum")?;
         let free = Free::read(fields, set)?;
-        let stability = fields.optional("matrix_inequality");
-        let stability = stability.map(|field| Stability::read(&field, [&free.w_x, &free.h])).transpose()?;
-        let existence = fields.optional("existence_inequality").map(|field| Existence::read(&field)).transpose()?;
+        let stability = fields.part("matrix_inequality", |field| Stability::read(field, [&free.w_x, &free.h]))?;
+        let existence = fields.part("existence_inequality", Existence::read)?;
         let delayed = claimed.delayed;
         let by_matrix = stability.as_ref().map(|part: &Stability| &part.pointer);
         if let (true, Some(pointer)) = (delayed, by_matrix.or(existence.as_ref().map(|part| &part.pointer))) {

@@ -75,7 +75,7 @@ impl<'a> Pair<'a> {
 
     /// n_l.
     fn weight(&self, l: u32) -> Interval {
-        self.law.d.spec.weights.weight(u64::from(l), self.law.d.precision)
+        self.law.d.weight(u64::from(l))
     }
 
     /// `2/(nu^2 n_j)`, for n_o >= j: it increases with j by W2.

@@ -156,7 +156,7 @@ fn steps_in_doubles_are_within_the_bounds() {
             let (d, [_, _, _, _, nominal]) = (law.d, numbers(law, name));
             let oscillators = Oscillators::new(d, n_o);
             let [gain, sigma, kept] = [&law.gain, &law.sigma, &law.a].map(nearest);
-            let weights: Vec<Interval> = (0..=n_o).map(|l| d.spec.weights.weight(u64::from(l), 128)).collect();
+            let weights: Vec<Interval> = (0..=n_o).map(|l| d.weight(u64::from(l))).collect();
             let turns: Vec<[Interval; 2]> = (1..=n_o)
                 .map(|l| {
                     let angle = Interval::pi(128) * i64::from(2 * l) / i64::from(law.samples);
