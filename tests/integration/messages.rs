@@ -320,7 +320,7 @@ fn what_is_wrong_with_a_case_is_told_where_it_was_written() {
         std::fs::write(&path, content).unwrap();
         path
     };
-    let subject = write("subject.json", &plant("sin(2*pi*t)", Some("-x")).replace("\"period\"", "\n\"period\""));
+    let subject = write("subject.json", &plant("sin(2*pi*t)", Some("x")));
     let study = |values: &str, embedded: Option<&str>| {
         let subject = embedded.map_or_else(|| "\"subject.json\"".to_owned(), str::to_owned);
         write(

@@ -265,7 +265,7 @@ impl Edge {
             let stride = (points.len() / DRAWN).max(1);
             let mut label = format!("simulated, n_o = {}", run.n_o);
             match points.last() {
-                Some((_, last)) if *last < floor => label += &format!(", to {}", up(*last)),
+                Some((_, last)) if *last < floor => label += &format!(", to {}", number_short(*last)),
                 Some((_, last)) if last > bound => label += ", not settled yet",
                 _ => {}
             }
