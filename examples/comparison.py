@@ -12,7 +12,7 @@ LOW, HIGH = 172000 / MASS, 210000 / MASS * (1 + 6 * REACH**2 / GAP**2)
 MEAN, RADIUS, GAIN = (LOW + HIGH) / 2, (HIGH - LOW) / 2, 0.1
 
 
-def loop(sigma, n_o):
+def loop(sigma: float, n_o: int) -> ct.StateSpace:
     """The loop that two uncertainties of size 1 see, of the actuator's gain and of the slope."""
     weights = np.array([2.0] + [l**-1.5 for l in range(1, n_o + 1)])
     size = 2 * n_o + 1
@@ -33,18 +33,18 @@ def loop(sigma, n_o):
     b[1] = 1, 1
     c = np.zeros((2, size + 2))
     c[0], c[1, 0] = GAIN * u, RADIUS
-    return ct.ss(a, b, c, np.zeros((2, 2)))
+    return ct.StateSpace(a, b, c, np.zeros((2, 2)))
 
 
-def norm(sigma, n_o):
+def norm(sigma: float, n_o: int) -> float:
     """The least norm over constant scalings on the grid, below 1 where the test is passed; infinite where the loop is unstable."""
     system = loop(sigma, n_o)
-    if system.poles().real.max() >= 0:
+    if np.real(system.poles()).max() >= 0:
         return np.inf
     near = [l * OMEGA * (1 + s * 10.0**-k) for l in range(1, n_o + 1) for k in range(1, 5) for s in (-1, 1)]
     answer = np.moveaxis(system(1j * np.unique(np.concatenate([np.logspace(0, 5.5, 500), near]))), -1, 0)
     scalings = [np.array([[1, scale], [1 / scale, 1]]) for scale in np.logspace(-2, 2, 81)]
-    return min(np.linalg.norm(answer * scaling, 2, axis=(1, 2)).max() for scaling in scalings)
+    return min(float(np.linalg.norm(answer * scaling, 2, axis=(1, 2)).max()) for scaling in scalings)
 
 
 NUMBERS = (0, 1, 3, 10, 30)

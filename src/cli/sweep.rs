@@ -84,6 +84,10 @@ fn attempt(args: &SweepArgs) -> Result<u8, Failure> {
     if let Some(file) = &files.plot {
         draw(&sweep, &results, file)?;
     }
+    let wrong = sweep.errors_of(results.rows.values(), document.as_ref());
+    if !wrong.is_empty() {
+        output::diagnostics(&wrong);
+    }
     let mut text = summary(&results, args.minimise.is_some());
     text += &format!("taken over: {known}, computed: {}\n", missing.len());
     let verdict = match args.minimise.is_some() && best(&results).is_none() {

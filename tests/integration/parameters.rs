@@ -246,6 +246,24 @@ fn a_family_is_certified_and_decided_again() {
     assert_eq!(checked(&file)["verdict"], "valid");
 }
 
+/// Where the search finds less for all members than for the nominal one alone, that is no cost of the interval.
+#[test]
+fn an_interval_that_is_closed_never_costs_more() {
+    let folder = TempDir::new().unwrap();
+    let mut plant = shipped("linear");
+    plant["states"] = json!(["w", "i"]);
+    plant["f"] = json!(["-d*w + e", "w - 2*i"]);
+    plant["q"] = json!("i/2 - e + cos(2*pi*t)");
+    plant["parameters"] = json!({ "d": { "low": "0.9", "nominal": 1, "high": "1.1" } });
+    plant["initial"] = json!({ "x": ["0", "0"], "e": "0" });
+    plant["initial_set"] = json!({ "kind": "aligned" });
+    plant["internal_model"]["mu"] = json!(2);
+    let (_, report) = certified_with(&folder, &plant, &[]);
+    let number = |value: &Value| value.as_str().and_then(|text| text.parse::<f64>().ok()).expect("a number");
+    let cost = number(&report["sigma_star_without_interval_estimates"]["d"]);
+    assert!(cost <= 1.001 * number(&report["sigma_star"]), "{cost}");
+}
+
 /// An interval of one point is a number.
 #[test]
 fn a_family_of_one_point_is_its_plant() {

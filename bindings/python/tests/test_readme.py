@@ -1,5 +1,6 @@
 """The lines of the README: they run, and their types are right."""
 
+import importlib.util
 import os
 import re
 import subprocess
@@ -59,3 +60,16 @@ def test_their_types_are_right(tmp_path):
         assert (done := found(name, text)).returncode == 0, done.stdout + done.stderr
     done = found("misused.py", MISUSED)
     assert done.returncode == 1 and done.stdout.count(": error:") == 3, done.stdout
+
+
+def test_the_package_and_the_examples_state_their_types():
+    for name in ("mypy", "control", "distributed", "pandas", "sympy"):
+        pytest.importorskip(name)
+    folder = README.parent
+    called = ["python", "examples", str(ROOT / "examples" / "comparison.py")]
+    done = subprocess.run([sys.executable, "-m", "mypy", "--strict", *called], cwd=folder, capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
+    # Pyright brings a program of its own, which is not asked for.
+    if importlib.util.find_spec("pyright") is not None:
+        done = subprocess.run([sys.executable, "-m", "pyright", *called], cwd=folder, capture_output=True, text=True)
+        assert done.returncode == 0, done.stdout + done.stderr

@@ -200,7 +200,7 @@ fn obstacle_advice(run: &Certification<'_>, obstacle: Obstacle, add: &mut dyn Fn
         Failing::Delay { .. } => add("a shorter sampling period or a smaller mu"),
         Failing::Hold { .. } | Failing::Samples => add("a smaller gain or a shorter sampling period"),
         Failing::Sampling => add("a shorter sampling period, or a smaller mu"),
-        Failing::Bounds => add("a `domain` on which the bounding functions are valid"),
+        Failing::Bounds | Failing::Unproved(_) => add("a `domain` on which the bounding functions are valid"),
     }
     if let Some([x, e]) = run.largest_arguments().map(|arguments| arguments.each_ref().map(upper)) {
         add(&format!("the last witness used the bounding functions up to X = {x}, E = {e}"));

@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Dict, Tuple
 
 if TYPE_CHECKING:
-    import sympy  # type: ignore[import-untyped,import-not-found,unused-ignore]
+    import sympy
+    from typing_extensions import TypeGuard
 
 _FUNCTIONS = {
     "sin": "sin", "cos": "cos", "tan": "tan", "atan": "atan", "tanh": "tanh", "exp": "exp", "log": "log", "Abs": "abs", "Min": "min",
@@ -17,7 +18,7 @@ _SUM, _PRODUCT, _POWER, _ATOM = range(4)
 """How tightly an expression binds."""
 
 
-def is_sympy(value: Any) -> bool:
+def is_sympy(value: object) -> TypeGuard[sympy.Basic]:
     """Whether a value is of SymPy, which need not be installed."""
     return any(str(one.__module__).partition(".")[0] == "sympy" for one in type(value).__mro__)
 
@@ -49,7 +50,7 @@ def _written(value: Any) -> Tuple[str, int]:
         return (_name(value), _ATOM)
     if value.is_Integer:
         return (str(int(value)), _ATOM if value >= 0 else _SUM)
-    if value.is_Rational:
+    if isinstance(value, sympy.Rational):
         return (f"{int(value.p)}/{int(value.q)}", _PRODUCT if value.p >= 0 else _SUM)
     if value.is_Float:
         return _float(value)
@@ -61,7 +62,7 @@ def _written(value: Any) -> Tuple[str, int]:
         return (_sum(value), _SUM)
     if value.is_Pow and not _divides(value):
         base, exponent = value.args
-        if exponent.is_Rational and (exponent.p, exponent.q) == (1, 2):
+        if exponent == sympy.Rational(1, 2):
             return (f"sqrt({_within(base, _SUM)})", _ATOM)
         return (f"{_within(base, _ATOM)}^{_within(exponent, _ATOM)}", _POWER)
     if value.is_Mul or value.is_Pow:

@@ -3,31 +3,40 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Dict
+from typing import TYPE_CHECKING, Any, Dict, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 if TYPE_CHECKING:
-    from control import StateSpace  # type: ignore[import-untyped]
+    from control import StateSpace
 
 Matrix = NDArray[np.float64]
+
+
+class _Matrices(Protocol):
+    """What a linear system from the error e to the control u has, with the state z."""
+
+    @property
+    def A(self) -> Matrix: ...
+    @property
+    def B(self) -> Matrix: ...
+    @property
+    def C(self) -> Matrix: ...
+    @property
+    def D(self) -> Matrix: ...
+    @property
+    def step(self) -> float | None: ...
 
 
 class _System:
     """A linear system from the error e to the control u, with the state z."""
 
-    A: Matrix
-    B: Matrix
-    C: Matrix
-    D: Matrix
-    step: float | None
-
-    def control(self, z: Any, e: float) -> float:
+    def control(self: _Matrices, z: Any, e: float) -> float:
         """The control u for a state z and a measured error e."""
         return float(self.C[0] @ np.asarray(z, dtype=float) + self.D[0, 0] * e)
 
-    def to_control(self) -> StateSpace:
+    def to_control(self: _Matrices) -> StateSpace:
         """The system of python-control, which has to be installed: input `e`, output `u`."""
         try:
             import control
@@ -35,7 +44,7 @@ class _System:
             raise ImportError("to_control needs python-control: pip install control") from error
         names: Dict[str, Any] = {"inputs": ["e"], "outputs": ["u"], "name": "regulator"}
         time = 0 if self.step is None else self.step
-        return control.ss(self.A, self.B, self.C, self.D, time, **names)
+        return control.StateSpace(self.A, self.B, self.C, self.D, time, **names)
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,22 +70,22 @@ class Regulator(_System):
     """The nominal gain of the actuator, by which u is divided; 1 where the document states none."""
 
     @property
-    def A(self) -> Matrix:  # type: ignore[override]
+    def A(self) -> Matrix:
         """Phi."""
         return self.Phi
 
     @property
-    def B(self) -> Matrix:  # type: ignore[override]
+    def B(self) -> Matrix:
         """Gamma as a column."""
         return self.Gamma[:, np.newaxis]
 
     @property
-    def C(self) -> Matrix:  # type: ignore[override]
+    def C(self) -> Matrix:
         """mu M'N over the nominal gain, as a row."""
         return self.mu * (self.M * self.N)[np.newaxis, :] / self.nominal
 
     @property
-    def D(self) -> Matrix:  # type: ignore[override]
+    def D(self) -> Matrix:
         """-sigma - mu M'N M over the nominal gain, as a matrix of one entry."""
         return np.array([[(-self.sigma - self.mu * float(np.sum(self.M * self.N * self.M))) / self.nominal]])
 

@@ -16,7 +16,7 @@ from ._table import axes, dataframe
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from pandas import DataFrame  # type: ignore[import-untyped,unused-ignore]
+    from pandas import DataFrame
 
 
 @dataclass(frozen=True)

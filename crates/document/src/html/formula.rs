@@ -313,8 +313,9 @@ fn scripted(tokens: &[Token], at: &mut usize) -> Markup {
                 };
                 *at += 1;
                 if !ends {
-                    // The product of what is written without a space.
-                    let times = html! { mo { "\u{2062}" } };
+                    // The product of what is written without a space; two numbers side by side would be another number.
+                    let shown = if matches!(after, Some(Token::Number(_))) { "\u{b7}" } else { "\u{2062}" };
+                    let times = html! { mo { (shown) } };
                     return html! { (piece) (times) };
                 }
                 piece = html! { msup { (piece) mo { "*" } } };
@@ -399,6 +400,7 @@ mod tests {
         for (text, expected) in [
             ("with sigma = 39.81 (or any larger), mu = 1 and 2*pi,", "with [σ=39.81] (or any larger), [μ=1] and [2π],"),
             ("n_o >= 0, from |x| <= 0.1042, |z|_N <= 1.4e-3 on", "[no≥0], from [|x|≤0.1042], [|z|N≤1.4e-3] on"),
+            ("at 2*2*pi*t, 2*pi*3", "at [2·2πt], [2π·3]"),
             ("so from |x - x_0| <= 0.2262", "so from [|x−x0|≤0.2262]"),
             ("sigma* = 6.06 in 1/time; the same", "[σ*=6.06] in 1/time; the same"),
             ("min{w_x P_low D_x^2, D_e^2} < sigma", "[min{wx] [Plow] [Dx2,] [De2}]\u{a0}[<] [σ]"),

@@ -29,13 +29,14 @@ const POINTS: usize = 80;
 /// Points of a curve of the largest |e|, about.
 const DRAWN: usize = 400;
 
-/// A run is settled where the largest |e| of a period is below its bound by this share, or falls by less than this from one period to
-/// the next.
+/// A run is settled where the largest |e| of a period is below its bound by this share, or below it and falls by less than this from one
+/// period to the next.
 const SETTLED: [f64; 2] = [0.8, 0.01];
 
-/// How far below the smallest bound the axis of |e| goes, as a share; how much larger than what happens a bound may be to be drawn
-/// on a linear axis.
+/// How far below the smallest bound the axis of |e| goes, as a share, and how far at most, where a run ends there; how much larger
+/// than what happens a bound may be to be drawn on a linear axis.
 const BELOW: f64 = 0.03;
+const BELOW_AT_MOST: f64 = 1e-4;
 const FAR: f64 = 25.0;
 
 /// (t, e) and (t, u) of a run.
@@ -181,7 +182,7 @@ impl EdgeRun {
             }
             self.ends.push(self.error.len());
             let sup = self.error[from..].iter().fold(0.0_f64, |most, (_, e)| most.max(e.abs()));
-            let settled = sup <= SETTLED[0] * bound || (before - sup).abs() <= SETTLED[1] * sup;
+            let settled = sup <= SETTLED[0] * bound || sup <= bound && (before - sup).abs() <= SETTLED[1] * sup;
             if periods.is_none() && settled && index >= PERIODS[0] {
                 break;
             }
@@ -242,7 +243,9 @@ impl Edge {
     fn error(&self, proved: &ProvedBounds) -> Figure {
         let bounds: Vec<f64> = self.runs.iter().map(|run| run.limit.unwrap_or(proved.steady)).collect();
         let least = bounds.iter().copied().filter(|bound| *bound > 0.0).fold(proved.error, f64::min);
-        let floor = BELOW * least;
+        let ends = self.runs.iter().filter_map(|run| run.largest().last().map(|(_, e)| *e));
+        // A run that goes on below the axis ends at it, and its name says so.
+        let floor = ends.fold(BELOW * least, |floor, e| floor.min(0.5 * e)).max(BELOW_AT_MOST * least);
         let end = self.runs.iter().map(|run| run.ends.len()).max().unwrap_or(1).saturating_sub(1) as f64 * self.period;
         let mut curves = vec![line(format!("proved: at most {} at all times", up(proved.error)), end, proved.error)];
         let one = self.runs.iter().all(|run| run.limit.is_none());
@@ -258,10 +261,15 @@ impl Edge {
                     style: Style::Band,
                 });
             }
-            let label = format!("simulated, n_o = {}", run.n_o);
             let points = run.largest();
             let stride = (points.len() / DRAWN).max(1);
-            let points = points.into_iter().step_by(stride).collect();
+            let mut label = format!("simulated, n_o = {}", run.n_o);
+            match points.last() {
+                Some((_, last)) if *last < floor => label += &format!(", to {}", number_short(*last)),
+                Some((_, last)) if last > bound => label += ", not settled yet",
+                _ => {}
+            }
+            let points = points.into_iter().step_by(stride).take_while(|(_, e)| *e >= floor).collect();
             curves.push(Curve { label, points, style: Style::Line });
         }
         Figure {
@@ -359,6 +367,31 @@ mod tests {
             assert_eq!((control.curves.len(), control.scale), (5, Scale::LogY));
             let near = ProvedBounds { control: [10.0, 20.0], ..proved };
             assert_eq!(edge.figures(&near)[1].scale, Scale::Linear);
+        }
+    }
+
+    #[test]
+    fn a_run_says_where_it_ends_if_the_figure_does_not() {
+        let run = |last: f64| EdgeRun {
+            limit: Some(0.1),
+            error: vec![(0.0, 1.0), (1.0, 1.0), (2.0, last), (3.0, last), (4.0, last)],
+            ends: vec![1, 2, 3, 4, 5],
+            ..EdgeRun::default()
+        };
+        let proved = ProvedBounds { error: 10.0, control: [10.0, 10.0], steady: 0.1 };
+        for (last, says, floor) in [
+            (0.05, "simulated, n_o = 0", 0.003),
+            (0.11, "simulated, n_o = 0, not settled yet", 0.003),
+            (1e-3, "simulated, n_o = 0", 5e-4),
+            (1e-9, "simulated, n_o = 0, to 1e-9", 1e-5),
+        ] {
+            let edge = Edge { runs: vec![run(last)], period: 1.0, words: String::new() };
+            let figure = edge.error(&proved);
+            let curve = &figure.curves[2];
+            assert_eq!(curve.label, says);
+            assert!((figure.floor / floor - 1.0).abs() < 1e-9, "{}", figure.floor);
+            // Nothing is drawn at the floor in the place of what is below it.
+            assert!(curve.points.iter().all(|(_, e)| *e == 1.0 || *e == last && last > floor));
         }
     }
 }

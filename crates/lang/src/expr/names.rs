@@ -154,6 +154,10 @@ pub(super) fn suggest<S: Scope>(name: &str, scope: &S) -> Option<String> {
     if let Some((_, meant)) = ALIASES.iter().find(|(alias, _)| *alias == lower) {
         return Some(format!("write {meant}"));
     }
+    // Of a period where there is the time.
+    if name == "T" {
+        return Some("write the period as the number that it is".to_owned());
+    }
     if let Some(meant) = known(scope).find(|known| known.to_lowercase() == lower) {
         return Some(format!("write {meant}"));
     }
@@ -162,6 +166,12 @@ pub(super) fn suggest<S: Scope>(name: &str, scope: &S) -> Option<String> {
     }
     match lower.as_str() {
         "e" => return Some("Euler's number is exp(1)".to_owned()),
+        "asin" | "arcsin" => return Some("write atan(u/sqrt(1 - u^2)) for the arcsine of u".to_owned()),
+        "acos" | "arccos" => return Some("write pi/2 - atan(u/sqrt(1 - u^2)) for the arccosine of u".to_owned()),
+        "sinh" | "cosh" => {
+            let sign = if lower == "sinh" { '-' } else { '+' };
+            return Some(format!("write (exp(u) {sign} exp(-u))/2"));
+        }
         "pow" => return Some("write a power as u^v".to_owned()),
         "log10" => return Some("write log(u)/log(10)".to_owned()),
         "log2" => return Some("write log(u)/log(2)".to_owned()),
@@ -220,7 +230,15 @@ mod tests {
         for name in ["sign", "sgn", "SIGNUM"] {
             assert!(suggest(name).unwrap().contains("write tanh(20*x) for sign(x)"), "{name}");
         }
+        assert_eq!(super::suggest("T", &Variables::Time).as_deref(), Some("write the period as the number that it is"));
         assert_eq!(suggest("sinn").as_deref(), Some("did you mean sin?"));
+        for (name, meant) in
+            [("asin", "write atan(u/sqrt(1 - u^2)) for the arcsine of u"), ("cosh", "write (exp(u) + exp(-u))/2")]
+        {
+            assert_eq!(suggest(name).as_deref(), Some(meant));
+        }
+        // Nearly the arcsine.
+        assert_eq!(suggest("asqrt").as_deref(), Some("did you mean sqrt?"));
         assert_eq!(suggest("twp"), None);
         assert_eq!(suggest("q"), None);
         assert_eq!(suggest("velocity"), None);

@@ -228,7 +228,9 @@ impl<S: Scope> Parser<'_, S> {
         let open = self.start()..self.start() + 1;
         if !self.accept('(') {
             let kind = ExprErrorKind::FunctionWithoutArgument { name: name.to_owned() };
-            let help = Some(format!("write {name}(...)"));
+            let power = self.peek_symbol() == Some('^');
+            let help =
+                Some(format!("write {name}(...){}", if power { "^2, the power behind the parentheses" } else { "" }));
             return Err(ExprError { kind, span: span.clone(), expected: Some("an opening parenthesis"), help });
         }
         let mut arguments = 0;
@@ -300,6 +302,10 @@ impl<S: Scope> Parser<'_, S> {
             ']' | '}' => Some("write )"),
             '|' => Some("write abs(...)"),
             '√' => Some("write sqrt(...)"),
+            '<' | '>' | '=' | '?' => {
+                Some("there are no comparisons: min, max and abs have corners, tanh is a smooth step")
+            }
+            '\\' => Some("this is no LaTeX: write (...)/(...), sqrt(...), pi"),
             '²' => Some("write ^2"),
             '³' => Some("write ^3"),
             ',' if expected == OPERATOR
@@ -504,6 +510,25 @@ mod tests {
             ("1\u{0}", Kind::UnexpectedCharacter { character: '\u{0}' }, 1..2, None),
             ("1 + sin X", Kind::FunctionWithoutArgument { name: "sin".into() }, 4..7, Some("write sin(...)")),
             ("max", Kind::FunctionWithoutArgument { name: "max".into() }, 0..3, Some("write max(...)")),
+            (
+                "sin^2(X)",
+                Kind::FunctionWithoutArgument { name: "sin".into() },
+                0..3,
+                Some("write sin(...)^2, the power behind the parentheses"),
+            ),
+            (
+                "X > 1",
+                Kind::UnexpectedCharacter { character: '>' },
+                2..3,
+                Some("there are no comparisons: min, max and abs have corners, tanh is a smooth step"),
+            ),
+            (
+                "\\frac{X}{2}",
+                Kind::UnexpectedCharacter { character: '\\' },
+                0..1,
+                Some("this is no LaTeX: write (...)/(...), sqrt(...), pi"),
+            ),
+            ("X ! 1", Kind::UnexpectedCharacter { character: '!' }, 2..3, None),
             ("X^1001", Kind::ExponentTooLarge, 2..6, None),
             ("X^-(2000/2+1)", Kind::ExponentTooLarge, 2..13, None),
             ("2^2^2^2^2", Kind::ExponentTooLarge, 2..9, None),

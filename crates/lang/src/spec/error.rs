@@ -51,6 +51,28 @@ pub enum ErrorKind {
 }
 
 impl ErrorKind {
+    /// All of them.
+    pub const ALL: [ErrorKind; 18] = [
+        ErrorKind::Unreadable,
+        ErrorKind::Limit,
+        ErrorKind::Encoding,
+        ErrorKind::Syntax,
+        ErrorKind::TomlSyntax,
+        ErrorKind::DuplicateKey,
+        ErrorKind::Type,
+        ErrorKind::UnknownField,
+        ErrorKind::MissingField,
+        ErrorKind::Format,
+        ErrorKind::Version,
+        ErrorKind::UnknownName,
+        ErrorKind::Expression,
+        ErrorKind::Range,
+        ErrorKind::Matched,
+        ErrorKind::Weights,
+        ErrorKind::Undecided,
+        ErrorKind::NotAvailable,
+    ];
+
     /// The short name in diagnostics, as in `error[unknown-field]`.
     #[must_use]
     pub fn code(self) -> &'static str {
@@ -74,6 +96,12 @@ impl ErrorKind {
             ErrorKind::Undecided => "undecided",
             ErrorKind::NotAvailable => "not-available",
         }
+    }
+
+    /// The kind of a [`code`](ErrorKind::code).
+    #[must_use]
+    pub fn from_code(code: &str) -> Option<ErrorKind> {
+        ErrorKind::ALL.into_iter().find(|kind| kind.code() == code)
     }
 }
 

@@ -59,9 +59,10 @@ impl OrbitFailure {
                 "look with `simulate` whether x' = f(t,x,0) has a T-periodic response, and state the period of all right \
                  sides together",
             ),
-            OrbitFailure::NotStable { .. } => {
-                Some("the zero dynamics have to be stable: close a loop around them first, or choose another output e")
-            }
+            OrbitFailure::NotStable { .. } => Some(
+                "the zero dynamics have to be stable: close a loop around them first, or choose another output e; where they \
+                 have another periodic solution, which is stable, state an `initial` of the plant file that is near it",
+            ),
             OrbitFailure::Singular => Some("state an `initial` of the plant file that is near the periodic solution"),
             OrbitFailure::TooLarge { .. } => None,
             OrbitFailure::NotFinite => Some("write the plant in units in which its numbers are of ordinary size"),

@@ -489,7 +489,7 @@ impl Proofs<'_> {
 /// Where the values of a plant have none, they are not proved so far.
 pub(super) fn beyond_the_bounds(obstacle: Obstacle) -> Obstacle {
     match obstacle.failing {
-        Failing::NotFinite(Some(_)) => Obstacle { failing: Failing::Bounds, ..obstacle },
+        Failing::NotFinite(Some(bound)) => Obstacle { failing: Failing::Unproved(bound), ..obstacle },
         _ => obstacle,
     }
 }

@@ -5,6 +5,7 @@ use sigmastar_lang::plant::{PeriodicityFailure, Plant};
 use sigmastar_lang::spec::{ErrorKind, SpecErrors};
 use sigmastar_plants::bounds::SmoothnessFailure;
 use sigmastar_plants::orbit::{OrbitFailure, OrbitNotProved};
+use sigmastar_theory::data::Bound;
 use std::ops::Range;
 
 /// Why a plant comes to no run.
@@ -186,7 +187,7 @@ fn help(obstacle: &Obstacle) -> &'static str {
         Failing::DomainX | Failing::DomainE => {
             "a larger `domain`, or a smaller initial set (`at-rest` without sizes is the smallest)"
         }
-        Failing::Curvature => {
+        Failing::Curvature | Failing::Unproved(Bound::Rate) => {
             "a smaller initial set (`at-rest` without sizes is the smallest): on the error box around this one the zero \
              dynamics do not contract"
         }
@@ -205,6 +206,6 @@ fn help(obstacle: &Obstacle) -> &'static str {
         Failing::Hold { given: true, .. } => "a smaller gain, or a shorter sampling period",
         Failing::Hold { given: false, .. } | Failing::Samples => "a shorter sampling period, or a smaller gain",
         Failing::Sampling => "a shorter sampling period, a smaller mu, or another gain",
-        Failing::Bounds => "a smaller initial set, or a smoother plant",
+        Failing::Bounds | Failing::Unproved(_) => "a smaller initial set, or a smoother plant",
     }
 }

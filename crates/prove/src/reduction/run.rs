@@ -199,11 +199,12 @@ impl Prepared {
                         let nominal_gain = run.alternatives.nominal_gain.or(nominal_gain);
                         run.alternatives.nominal_gain = nominal_gain.filter(|nominal| *nominal < sigma);
                     }
-                    if let Some(plant) =
-                        self.plant.as_ref().filter(|_| smallest && options.compare && run.claim().is_some())
-                    {
-                        let gain =
-                            |plant: &Plant| reduce(plant, None, &Unwatched).ok().map(|found| found.proposal.sigma);
+                    let compared = self.plant.as_ref().filter(|_| smallest && options.compare && run.claim().is_some());
+                    if let (Some(plant), Some(sigma)) = (compared, run.sigma_star().map(Rational::to_f64)) {
+                        // The gain of all of them serves each.
+                        let gain = |plant: &Plant| {
+                            reduce(plant, None, &Unwatched).ok().map(|found| found.proposal.sigma.min(sigma))
+                        };
                         run.interval_costs = interval_costs(plant, gain);
                     }
                     if self.found_above.is_some() {

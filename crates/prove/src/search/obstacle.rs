@@ -89,6 +89,8 @@ pub enum Failing {
     },
     /// A proof was found, but the bounding functions are not proved up to its arguments.
     Bounds,
+    /// The same of a plant, with the first of its bounds that is not.
+    Unproved(Bound),
 }
 
 /// What a claim may have to keep to at its gain.
@@ -162,7 +164,7 @@ impl Failing {
             Failing::Hold { .. } | Failing::Delay { .. } => 8,
             Failing::Sampling => 9,
             Failing::Samples => 10,
-            Failing::Bounds => 11,
+            Failing::Bounds | Failing::Unproved(_) => 11,
             Failing::Limit { .. } | Failing::Rate { .. } | Failing::Start { .. } => 12,
             Failing::NotDecidedAgain { .. } => 13,
         }
@@ -278,6 +280,14 @@ impl Obstacle {
                 format!("the rate for n_o = {n_o} is not proved to be at least {}: {found}", short(asked))
             }
             Failing::Samples => "a period would need more samples than are taken".to_owned(),
+            Failing::Unproved(Bound::Rate) => format!(
+                "the zero dynamics are not proved to contract as far from the orbit as the arguments of the proof that was found{place}; \
+                 farther away, as between two wells, they need not"
+            ),
+            Failing::Unproved(bound) => format!(
+                "the bound {} is not proved up to the arguments of the proof that was found{place}",
+                bound.field()
+            ),
             Failing::Bounds => {
                 format!("the bounding functions are not proved up to the arguments of the proof that was found{place}")
             }

@@ -8,6 +8,7 @@ mod design;
 mod figure;
 mod header;
 mod parameter;
+mod places;
 mod results;
 mod row;
 mod run;
