@@ -510,4 +510,36 @@ mod tests {
         }
         assert!(slow > 0 && none > 0, "{slow} {none}");
     }
+
+    /// With sqrt(E) in dq/de G need not be convex, and its linear part leads too far: no step is accepted that ends above the least fixed point.
+    #[test]
+    fn a_step_that_leads_too_far_is_not_taken() {
+        let text =
+            include_str!("../../../../specs/linear.json").replace(r#""q_e": "1/4""#, r#""q_e": "1/4 + 8*sqrt(E)""#);
+        let model = model(&text);
+        let origin = AtOrigin::new(&model);
+        let floors = tiny(&model);
+        let (mut taken, mut too_far) = (0, 0);
+        for exponent in 0..80 {
+            let sigma = 0.5 * 1.1_f64.portable_powi(exponent);
+            let gains = ErrorGains::new(&model, &sigma);
+            let regulated = Regulated::Continuous { gains: &gains, form: ExistenceForm::Plain };
+            let iteration = Iteration { model: &model, origin: &origin, regulated, floors, enlarged: 1.0 };
+            let Ok((least, true)) = by_steps(&iteration, 30_000) else { continue };
+            let above = |at: Point| at.iter().zip(&least).any(|(at, least)| *at > least * (1.0 + 1e-9));
+            for steps in 0..30 {
+                let (at, _) = by_steps(&iteration, steps).unwrap();
+                let Some(line) = Linear::of(&iteration, at, iteration.image(at).unwrap()) else { continue };
+                for doublings in 1..20 {
+                    let way = line.steps(doublings, NEARLY_ALL);
+                    too_far += usize::from(way.is_some_and(|way| above(line.ahead(&way, 1.0))));
+                    if let Some((_, further)) = iteration.stride(&line, doublings) {
+                        assert!(!above(further), "{sigma} {further:?} {least:?}");
+                        taken += 1;
+                    }
+                }
+            }
+        }
+        assert!(taken > 0 && too_far > 0, "{taken} {too_far}");
+    }
 }
