@@ -30,9 +30,6 @@ const APPROACHES: [usize; 2] = [10, 100];
 /// Where x = 0 is singular, as a level's root is, these values of all components are tried, in the units of the field.
 const SIZES: [f64; 7] = [1.0, 0.1, 10.0, 0.01, 100.0, 1e-4, 1e4];
 
-/// Where all that is found is unstable, as the hill between two wells is, this of all components, in the units of the field, is beside it.
-const BESIDE: f64 = 0.01;
-
 /// Times of a period at which that is looked at.
 const TIMES: u8 = 16;
 
@@ -98,10 +95,8 @@ fn find_one(plant: &Plant) -> Result<FloatOrbit, OrbitFailure> {
     states.extend(SIZES.into_iter().filter(|_| singular).map(|size| vec![size; n]));
     let constant = states.iter().take(if singular { states.len() } else { 1 }).map(|start| (start, 0));
     let simulated = APPROACHES.into_iter().flat_map(|periods| states.iter().map(move |start| (start, periods)));
-    let beside = vec![BESIDE; n];
-    let left = APPROACHES.map(|periods| (&beside, periods));
     let mut first = None;
-    for (start, periods) in constant.chain(simulated).chain(left) {
+    for (start, periods) in constant.chain(simulated) {
         let curve = match periods {
             0 => Some(FloatSeries::constant(start)),
             _ => simulate(&mut field, start, periods),
