@@ -315,7 +315,8 @@ fn a_start_of_simulations_far_outside_of_the_set_is_told() {
 #[test]
 fn what_is_wrong_with_a_case_is_told_where_it_was_written() {
     let folder = tempfile::tempdir().unwrap();
-    let table = folder.path().join("table.csv").to_str().expect("a path in UTF-8").to_owned();
+    // Results of another study are not overwritten.
+    let table = |name: &str| folder.path().join(name).to_str().expect("a path in UTF-8").to_owned();
     let write = |name: &str, content: &str| {
         let path = folder.path().join(name);
         std::fs::write(&path, content).unwrap();
@@ -332,17 +333,17 @@ fn what_is_wrong_with_a_case_is_told_where_it_was_written() {
             ),
         )
     };
-    let (_, text) = told(&["sweep", "-o", &table], &study("[1, \"-1\", \"two\"]", None));
+    let (_, text) = told(&["sweep", "-o", &table("0.csv")], &study("[1, \"-1\", \"two\"]", None));
     assert!(text.contains("study.json:3:16") && text.contains("study.json:3:22"), "{text}");
     assert!(text.contains("in case 1 (mu = -1); `sweep --case 1` writes that document"), "{text}");
-    let (_, text) = told(&["sweep", "-o", &table], &study("[1, 2]", None));
+    let (_, text) = told(&["sweep", "-o", &table("1.csv")], &study("[1, 2]", None));
     assert!(!text.contains("error"), "{text}");
     // What stands in the subject is wrong in every case, and told once.
     let wrong = std::fs::read_to_string(&subject).unwrap().replace("sin(2*pi*t)", "sin(2*pi*t");
     write("subject.json", &wrong);
-    let (_, text) = told(&["sweep", "-o", &table], &study("[1, 2]", None));
+    let (_, text) = told(&["sweep", "-o", &table("2.csv")], &study("[1, 2]", None));
     assert!(text.contains("subject.json:") && text.contains("in case 0 (mu = 1) and in one more"), "{text}");
     assert_eq!(text.matches("error[").count(), 1, "{text}");
-    let (_, text) = told(&["sweep", "-o", &table], &study("[1, 2]", Some(&wrong)));
+    let (_, text) = told(&["sweep", "-o", &table("3.csv")], &study("[1, 2]", Some(&wrong)));
     assert!(text.contains("study.json:") && text.contains("at /subject/q"), "{text}");
 }
