@@ -305,7 +305,9 @@ impl<S: Scope> Parser<'_, S> {
             '<' | '>' | '=' | '?' => {
                 Some("there are no comparisons: min, max and abs have corners, tanh is a smooth step")
             }
-            '\\' => Some("this is no LaTeX: write (...)/(...), sqrt(...), pi"),
+            '\\' if self.text[span.end..].starts_with(|next: char| next.is_ascii_alphabetic()) => {
+                Some("this is no LaTeX: write (...)/(...), sqrt(...), pi")
+            }
             '²' => Some("write ^2"),
             '³' => Some("write ^3"),
             ',' if expected == OPERATOR
@@ -528,6 +530,7 @@ mod tests {
                 0..1,
                 Some("this is no LaTeX: write (...)/(...), sqrt(...), pi"),
             ),
+            ("X \\ 2", Kind::UnexpectedCharacter { character: '\\' }, 2..3, None),
             ("X ! 1", Kind::UnexpectedCharacter { character: '!' }, 2..3, None),
             ("X^1001", Kind::ExponentTooLarge, 2..6, None),
             ("X^-(2000/2+1)", Kind::ExponentTooLarge, 2..13, None),

@@ -163,7 +163,7 @@ pub struct Start {
     pub energy: Option<EnergyWeights>,
     /// The free numbers.
     pub proposal: SharpProposal,
-    /// The room between both sides of S1 and S2.
+    /// The room between both sides of S1 and S2 with which the gain is sought, relatively, in continuous time.
     pub room: f64,
 }
 

@@ -32,7 +32,7 @@ impl CoordinateSearch<'_> {
         let Some((factor, sampled)) = FACTORS.into_iter().find_map(at_larger) else { return false };
         let SampledSet { set, density } = &sampled;
         let Some(energy) = self.energy(at, &sampled, 1.0) else { return false };
-        let model = self.model(Shape { energy: Some(&energy), ..at.shape() }, density);
+        let model = self.model(Shape { energy: Some(&energy), ..at.shape() }, density).with_room(at.room);
         let sigma = factor * at.proposal.sigma * (1.0 + NEAR);
         let smaller = PeriodicSet::least(
             &model,

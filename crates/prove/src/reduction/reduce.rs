@@ -10,7 +10,7 @@ use super::refusal::{MAX_STATES, PlantRefusal};
 use super::sampling::{Sampling, float_matrix, rational_matrix, rational_symmetric};
 use super::watch::{Stage, Unwatched, Watch};
 use crate::certify::Alternatives;
-use crate::search::{Closest, Failing, FloatModel, Obstacle, SharpProposal, at_sigma, search_sharp_near};
+use crate::search::{Closest, Failing, FloatModel, Obstacle, ROOM, SharpProposal, at_sigma, search_sharp_near};
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 use rug::Rational;
@@ -32,7 +32,7 @@ pub(super) const ENLARGED: [f64; 2] = [1e-2, 1e-5];
 /// The same for a gain that may become larger in return: the room between both sides of S1 and S2 that the proposal leaves (where the least
 /// set ceases to be one, that of a somewhat larger gain has room for proved values), and how far beyond the arguments there, while the
 /// proved values lead to no gain near the proposal.
-const FURTHER: [(f64, f64); 6] = [(1e-10, 5e-3), (1e-10, 1e-2), (2e-2, 5e-3), (5e-2, 1e-2), (0.1, 3e-2), (0.3, 0.1)];
+const FURTHER: [(f64, f64); 6] = [(ROOM, 5e-3), (ROOM, 1e-2), (2e-2, 5e-3), (5e-2, 1e-2), (0.1, 3e-2), (0.3, 0.1)];
 
 /// How often the arguments are taken again half way between the gain of samples and that of proved values, and how far beyond, in turn.
 const AGAIN: usize = 3;

@@ -7,7 +7,7 @@ const TOLERANCE: f64 = 1e-11;
 const ROUGH: f64 = 1e-6;
 
 /// The room between both sides of S1 and S2 that a search leaves: well below the digits of sigma*.
-pub(super) const ROOM: f64 = 1e-10;
+pub const ROOM: f64 = 1e-10;
 
 /// The same where results are compared: the set of the least gain at which there is one may be of any size, and needs values that no proof
 /// gives; with this room there is one of about the same gain that can be used.

@@ -34,7 +34,7 @@ pub use at_samples::{AtSamples, BySampledEnergy, BySampledMatrix, SampledEnergyA
 pub use binding::Binding;
 pub use by_energy::{ByEnergy, EnergyMargin, SHARE};
 pub use candidate::{AtSigma, PastShare, active_level, weight_h};
-pub use effort::ROOMY;
+pub use effort::{ROOM, ROOMY};
 pub use exact::search_exact;
 pub use float_bound::FloatBound;
 pub use goal::Goal;
