@@ -21,6 +21,15 @@ pub struct MatrixArguments {
     pub error: [f64; 2],
 }
 
+impl MatrixArguments {
+    /// With so much more of x.
+    #[must_use]
+    pub fn beyond(self, radius: f64) -> MatrixArguments {
+        let larger = |[x, e]: [f64; 2]| [x + radius, e];
+        MatrixArguments { apart: self.apart, states: larger(self.states), error: larger(self.error) }
+    }
+}
+
 /// Points of either kind.
 #[derive(Clone, Debug)]
 pub struct Corners {

@@ -438,7 +438,7 @@ impl CoordinateSearch<'_> {
         let model = self.model(shape, &Density::Fine(focus.and_then(|focus| focus.corners)));
         let near = near.and_then(|known| search_sharp_near(&model, known).ok());
         let proposal = near.map_or_else(|| search_sharp(&model), Ok)?;
-        let proposal = if self.by_matrix.is_some() { best_shape_near(&model, proposal) } else { proposal };
+        let proposal = best_shape_near(&model, proposal);
         let Shape { l, second, energy } = shape;
         // Where it says nothing of the set, the search has gone on without it.
         let energy = energy.filter(|_| self.energy_serves(&model, &proposal));
@@ -449,7 +449,10 @@ impl CoordinateSearch<'_> {
 }
 
 /// The proposal with the shape of the error box that is best beside it.
-fn best_shape_near(model: &FloatModel, proposal: SharpProposal) -> SharpProposal {
+pub(super) fn best_shape_near(model: &FloatModel, proposal: SharpProposal) -> SharpProposal {
+    if model.by_matrix.is_none() {
+        return proposal;
+    }
     let SharpParameters { rho, eta, .. } = proposal.parameters;
     let with = |model: &FloatModel, p: &[f64]| {
         let parameters =

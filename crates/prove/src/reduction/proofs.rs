@@ -103,6 +103,11 @@ impl Along {
         specification(plant, of_plant, values)
     }
 
+    /// The largest r of the cells.
+    pub(super) fn radius(&self) -> f64 {
+        self.cells.iter().map(|cell| cell.orbit.radius.to_f64()).fold(0.0, f64::max)
+    }
+
     /// The P of existence, where there is one.
     pub(super) fn second(&self) -> Option<&PeriodicMatrix> {
         self.existence.as_ref().map(|(matrix, _)| matrix)

@@ -1,19 +1,20 @@
 //! The whole way from a plant to a specification whose data are proved, and decided again from a certificate.
 
 use super::cells::{Cell, Cells, NARROW, in_cell};
-use super::coordinates::{Chosen, CoordinateSearch, Density, Rough, Sampler, Shape, Start, energy_in};
+use super::coordinates::{Chosen, CoordinateSearch, Density, Rough, Sampler, Shape, Start, best_shape_near, energy_in};
 use super::cover::covers;
 use super::entries::{Needed, decide_all, needed};
 use super::joint::with_joint_metrics;
 use super::proofs::{Along, PRECISION, Proofs, ProvenCell, Reduced, along, trade_off};
 use super::refusal::{MAX_STATES, PlantRefusal};
-use super::sampling::{Sampling, float_matrix, rational_matrix, rational_symmetric};
+use super::sampling::{Sampling, TubeOfFamily, float_matrix, rational_matrix, rational_symmetric};
 use super::watch::{Stage, Unwatched, Watch};
 use crate::certify::Alternatives;
 use crate::search::{Closest, Failing, FloatModel, Obstacle, ROOM, SharpProposal, at_sigma, search_sharp_near};
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 use rug::Rational;
+use sigmastar_exact::number::Portable;
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::model::Constant;
 use sigmastar_lang::spec::{OfPlant, Parameters, PeriodicMatrix, ProvedCell, ProvedOrbit, ProvedValues, Specification};
@@ -32,10 +33,13 @@ pub(super) const ENLARGED: [f64; 2] = [1e-2, 1e-5];
 /// The same for a gain that may become larger in return: the room between both sides of S1 and S2 that the proposal leaves (where the least
 /// set ceases to be one, that of a somewhat larger gain has room for proved values), and how far beyond the arguments there, while the
 /// proved values lead to no gain near the proposal.
-const FURTHER: [(f64, f64); 6] = [(ROOM, 5e-3), (ROOM, 1e-2), (2e-2, 5e-3), (5e-2, 1e-2), (0.1, 3e-2), (0.3, 0.1)];
+const FURTHER: [(f64, f64); 6] =
+    [(ROOM, 5e-3), (ROOM, 1e-2), (2e-2, 5e-3), (5e-2, 1.25e-2), (0.1, 2.5e-2), (0.3, 7.5e-2)];
 
-/// How often the arguments are taken again half way between the gain of samples and that of proved values, and how far beyond, in turn.
-const AGAIN: usize = 3;
+/// How often the arguments are taken again between the gain of samples and that of proved values, first half way, and how far beyond, in
+/// turn; the share by which the gains have to be apart for less than half of the way to be tried where that is too far.
+const AGAIN: usize = 4;
+const APART: f64 = 1.02;
 const CLOSE: [f64; 2] = [1e-4, 2e-3];
 
 /// A gain from proved values that is at most so many times the proposal is near it.
@@ -197,10 +201,11 @@ fn with_cells<T>(
     prove: impl FnOnce(&Sampling<'_>) -> Result<T, PlantRefusal>,
 ) -> Result<T, PlantRefusal> {
     let first = candidates.first().ok_or(PlantRefusal::NoContraction)?;
-    let spec = along(&cells.list, first)?.specification(plant, ProvedValues::default())?;
+    let along = along(&cells.list, first)?;
+    let spec = along.specification(plant, ProvedValues::default())?;
     let data = Data::new(&spec, PRECISION);
     let model = FloatModel::new(&data, trade_off(&data));
-    let sampling = Sampling::new(plant, cells, &model, watch);
+    let sampling = Sampling::new(plant, cells, &model, watch, TubeOfFamily::new(cells, &along));
     watch.enter(Stage::Coordinates);
     prove(&sampling)
 }
@@ -282,7 +287,7 @@ fn aligned(sampling: &Sampling<'_>, chosen: &Chosen, path: Path) -> Option<f64> 
     }
     let plant = Plant { initial_set: set.clone().aligned(), ..sampling.plant.clone() };
     let model = sampling.model.with_set(sampling.model.set.aligned());
-    let sampling = Sampling::new(&plant, sampling.cells, &model, sampling.watch);
+    let sampling = Sampling::new(&plant, sampling.cells, &model, sampling.watch, sampling.tube.clone());
     let search = |search: &CoordinateSearch<'_>| Ok(search.estimate_near(&Start::from(chosen)));
     let sigma = with_search(&sampling, Some(path), search).ok().flatten()?;
     (sigma < chosen.proposal.sigma * (1.0 - WORTH_A_REMARK)).then_some(sigma)
@@ -295,7 +300,7 @@ fn with_nominal_gain(sampling: &Sampling<'_>, along: &Along, chosen: &Chosen, pa
     let spec = along.specification(&plant, ProvedValues::default()).ok()?;
     let data = Data::new(&spec, PRECISION);
     let model = FloatModel::new(&data, trade_off(&data));
-    let sampling = Sampling::new(&plant, sampling.cells, &model, sampling.watch);
+    let sampling = Sampling::new(&plant, sampling.cells, &model, sampling.watch, sampling.tube.clone());
     let search = |search: &CoordinateSearch<'_>| Ok(search.estimate_near(&Start::from(chosen)));
     with_search(&sampling, Some(path), search).ok().flatten()
 }
@@ -364,7 +369,8 @@ pub(super) fn with_constant(
     let second = base.existence.as_ref().map(|(p, _)| float_matrix(&p.mean));
     let energy = rotation.as_ref().zip(chosen.energy.as_ref()).map(|(rotation, energy)| energy_in(energy, rotation));
     let both = Shape { l: &rounded, second: second.as_ref(), energy: energy.as_ref() };
-    let chosen = with_search(sampling, by_matrix, |search| search.with(both, Some(&chosen.proposal)));
+    let in_tube = sampling.with_tube(TubeOfFamily::new(sampling.cells, &base));
+    let chosen = with_search(&in_tube, by_matrix, |search| search.with(both, Some(&chosen.proposal)));
     Ok((base, chosen.map_err(PlantRefusal::NoGain)?))
 }
 
@@ -436,32 +442,41 @@ fn best_periodic(candidates: &[&Coordinates], sampling: &Sampling<'_>) -> Result
 fn prove_bounds(proofs: &Proofs<'_>, chosen: &Chosen) -> Result<Reduced, PlantRefusal> {
     let (model, proposal) = (&chosen.model, &chosen.proposal);
     let (mut best, mut closest): (Option<(FloatModel, Reduced)>, _) = (None, Closest::default());
+    let mut refused = None;
     for (room, enlarged) in FURTHER {
         let model = &model.clone().with_room(room);
         // None that leaves more room may be near.
-        let roomy = search_sharp_near(model, proposal).unwrap_or(*proposal);
+        let roomy = search_sharp_near(model, proposal).map_or(*proposal, |roomy| best_shape_near(model, roomy));
         match proofs.with_values(model, &roomy, 0.0, enlarged) {
             Ok(Ok(found)) if smaller(&found.1, best.as_ref()) => best = Some(found),
             Ok(Ok(_)) => {}
             Ok(Err(obstacle)) => closest.record(beyond_the_bounds(obstacle)),
-            Err(refusal) if best.is_none() => return Err(refusal),
-            Err(_) => {}
+            Err(refusal) => refused = refused.or(Some(refusal)),
         }
         if best.as_ref().is_some_and(|(_, found)| found.proposal.sigma < proposal.sigma * NEAR) {
             break;
         }
     }
+    let mut way = 0.5;
     for _ in 0..AGAIN {
         let Some((values, found)) = &best else { break };
-        let between = (proposal.sigma / found.proposal.sigma).sqrt().min(1.0) - 1.0;
+        let whole = (proposal.sigma / found.proposal.sigma).min(1.0).portable_ln();
+        let between = (way * whole).portable_exp() - 1.0;
         let closer = CLOSE.into_iter().find_map(|close| {
             let closer = proofs.with_values(values, &found.proposal, between, close).ok()?.ok()?;
             smaller(&closer.1, best.as_ref()).then_some(closer)
         });
-        let Some(closer) = closer else { break };
-        best = Some(closer);
+        match closer {
+            Some(closer) => best = Some(closer),
+            None if found.proposal.sigma > proposal.sigma * APART => way *= 0.5,
+            None => break,
+        }
     }
-    closest.or(best.map(|(_, found)| found)).map_err(PlantRefusal::NoGain)
+    let best = best.map(|(_, found)| found);
+    if let (None, Some(refusal)) = (&best, refused) {
+        return Err(refusal);
+    }
+    closest.or(best).map_err(PlantRefusal::NoGain)
 }
 
 /// Whether a gain is smaller by what is worth it.

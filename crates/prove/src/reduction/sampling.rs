@@ -3,6 +3,7 @@
 use super::cells::Cells;
 use super::coordinates::{Density, Energies, Estimates, Extreme, ProposeEnergy};
 use super::grid::{RATE, Source, Values};
+use super::proofs::Along;
 use super::watch::Watch;
 use crate::search::{FloatModel, Threshold};
 use nalgebra::DMatrix;
@@ -31,6 +32,33 @@ const NEGLIGIBLE: f64 = 1e-9;
 /// The share of the changes along the axes that a rotation of y must leave at most.
 const WORTH_A_TURN: f64 = 0.9;
 
+/// The tube in which the orbits of all members are, as a ball of y in some coordinates.
+#[derive(Clone)]
+pub(super) struct TubeOfFamily {
+    /// L.
+    pub(super) l: DMatrix<f64>,
+    /// The largest r of the cells; 0 where there is one member.
+    pub(super) radius: f64,
+}
+
+impl TubeOfFamily {
+    /// What is proved along these cells.
+    pub(super) fn new(cells: &Cells, along: &Along) -> TubeOfFamily {
+        let is_family = cells.list.iter().any(|cell| cell.plant.parameters.intervals().next().is_some());
+        let radius = if is_family { along.radius() } else { 0.0 };
+        TubeOfFamily { l: float_matrix(&along.coordinates.l), radius }
+    }
+
+    /// r in other coordinates, at most.
+    fn radius_in(&self, l: &DMatrix<f64>) -> f64 {
+        if self.radius == 0.0 || l.nrows() == 0 {
+            return 0.0;
+        }
+        let change = l.clone().try_inverse().map(|inverse| inverse * &self.l);
+        change.map_or(f64::INFINITY, |change| self.radius * change.singular_values().max())
+    }
+}
+
 /// The suprema along one orbit, for any coordinates.
 pub(super) struct Sampling<'a> {
     pub(super) plant: &'a Plant,
@@ -39,6 +67,8 @@ pub(super) struct Sampling<'a> {
     pub(super) model: &'a FloatModel,
     /// Who hears of the stages.
     pub(super) watch: &'a dyn Watch,
+    /// What proofs are about beside the orbits.
+    pub(super) tube: TubeOfFamily,
     /// In the coordinates x themselves.
     plain: FloatSuprema,
     /// Of |e|.
@@ -51,7 +81,13 @@ pub(super) struct Sampling<'a> {
 
 impl<'a> Sampling<'a> {
     /// The ordinary size of e is what q makes of it over a period, or the initial set.
-    pub(super) fn new(plant: &'a Plant, cells: &'a Cells, model: &'a FloatModel, watch: &'a dyn Watch) -> Sampling<'a> {
+    pub(super) fn new(
+        plant: &'a Plant,
+        cells: &'a Cells,
+        model: &'a FloatModel,
+        watch: &'a dyn Watch,
+        tube: TubeOfFamily,
+    ) -> Sampling<'a> {
         let n = plant.states();
         let known = model.q_0.as_ref();
         let squares = known.map_or(1.0, |known| known.harmonics.iter().map(|c| c * c).sum());
@@ -64,11 +100,18 @@ impl<'a> Sampling<'a> {
             cells,
             model,
             watch,
+            tube,
             plain,
             unit_e: if unit_e > 0.0 { unit_e } else { 1.0 },
             asked: [x_0, e_0],
             tried: AtomicUsize::new(0),
         }
+    }
+
+    /// The same with what is proved of the tube in the coordinates that are taken.
+    pub(super) fn with_tube(&self, tube: TubeOfFamily) -> Sampling<'a> {
+        let tried = AtomicUsize::new(self.tried.load(Ordering::Relaxed));
+        Sampling { plain: self.plain.clone(), tube, tried, ..*self }
     }
 
     /// One more candidate is looked at: tells who waits.
@@ -101,7 +144,7 @@ impl<'a> Sampling<'a> {
         FloatSuprema::of_cells(self.plant, self.cells.in_doubles(), rows(l), matrices)
     }
 
-    /// The same as functions of (X, E).
+    /// The same as functions of (X, E), about the tube.
     pub(super) fn estimates(
         &self,
         l: &DMatrix<f64>,
@@ -109,6 +152,7 @@ impl<'a> Sampling<'a> {
         density: &Density,
     ) -> Estimates {
         let suprema = Arc::new(self.suprema(l, matrices));
+        let radius = self.tube.radius_in(l);
         let grid = |stride: usize| Focus { places: Places::Stride(stride), corners: None };
         let focus = match density {
             Density::Rough => grid(6),
@@ -121,9 +165,12 @@ impl<'a> Sampling<'a> {
         let of_inequality = suprema.clone();
         let all = suprema.clone();
         let suprema_again = suprema.clone();
-        let extreme: Arc<Extreme> = Arc::new(move |boxes, inequality| all.extreme(boxes, EXTREME, inequality));
+        let extreme: Arc<Extreme> = Arc::new(move |boxes, inequality| {
+            let boxes: Vec<[f64; 2]> = boxes.iter().map(|[x, e]| [x + radius, *e]).collect();
+            all.extreme(&boxes, EXTREME, inequality.map(|(at, weights)| (at.beyond(radius), weights)))
+        });
         let bounds: Arc<Source> = Arc::new(move |x, e, asked| -> Values {
-            let mut values: Values = suprema.survey(x, e, &places, asked);
+            let mut values: Values = suprema.survey(x + radius, e, &places, asked);
             if stateless {
                 // Without states every rate is as good as any other.
                 values[RATE] = 1.0;
@@ -132,9 +179,12 @@ impl<'a> Sampling<'a> {
         });
         let (of_existence, of_energy) = (suprema_again.clone(), suprema_again);
         let everywhere = focus.places.clone();
-        let energy_at: Arc<Energies> = Arc::new(move |at, weights| of_existence.energy_at(at, &everywhere, weights));
-        let energy: Arc<ProposeEnergy> = Arc::new(move |at, value| of_energy.propose_energy(at, value));
-        let threshold: Arc<Threshold> = Arc::new(move |at, weights| of_inequality.least_sigma(at, &focus, weights));
+        let energy_at: Arc<Energies> =
+            Arc::new(move |[x, e], weights| of_existence.energy_at([x + radius, e], &everywhere, weights));
+        let energy: Arc<ProposeEnergy> =
+            Arc::new(move |[x, e], value| of_energy.propose_energy([x + radius, e], value));
+        let threshold: Arc<Threshold> =
+            Arc::new(move |at, weights| of_inequality.least_sigma(at.beyond(radius), &focus, weights));
         Estimates { bounds, threshold, extreme, energy_at, energy }
     }
 
@@ -220,4 +270,24 @@ pub(super) fn rational_matrix(
         }
     }
     last
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// `|y| <= r` with `x = L y` is `|y'| <= r |L'^-1 L|` with `x = L' y'`: half of it in coordinates of twice the size, the same in turned ones,
+    /// and none where there is one member.
+    #[test]
+    fn the_tube_in_other_coordinates() {
+        let l = DMatrix::from_row_slice(2, 2, &[2.0, 0.0, 1.0, 3.0]);
+        let tube = TubeOfFamily { l: l.clone(), radius: 0.5 };
+        let turn = DMatrix::from_row_slice(2, 2, &[0.6, -0.8, 0.8, 0.6]);
+        let stretch = DMatrix::from_row_slice(2, 2, &[0.25, 0.0, 0.0, 1.0]);
+        for (change, radius) in [(2.0 * &turn, 0.25), (turn, 0.5), (stretch, 2.0)] {
+            assert!((tube.radius_in(&(&l * change)) - radius).abs() < 1e-14, "{radius}");
+        }
+        assert_eq!(TubeOfFamily { l: l.clone(), radius: 0.0 }.radius_in(&l), 0.0);
+        assert_eq!(tube.radius_in(&DMatrix::zeros(2, 2)), f64::INFINITY);
+    }
 }

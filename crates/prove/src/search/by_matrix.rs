@@ -10,6 +10,9 @@ use sigmastar_plants::bounds::FloatWeights;
 use sigmastar_theory::derivation::joint;
 use sigmastar_theory::derivation::paths::{Path, Paths};
 
+/// How far beyond its arguments a sampled inequality is taken, as a share of the room in S1 and S2.
+const SHARE_OF_ROOM: f64 = 0.25;
+
 /// Of the shape (rho, eta), or with the weights that are proved: the error box with the level condition active, and the threshold
 /// there.
 pub(super) fn error_box_by_matrix(
@@ -36,8 +39,13 @@ pub(super) fn error_box_by_matrix(
         k_p: 2.0 * weight_h(eta, dist_e, dist_z) / model.mu,
         rate: by_matrix.rate(),
     };
+    // Near the edge of where (M) holds at all a little of the box takes much of the gain.
+    let beyond = match by_matrix {
+        ByMatrix::Sampled { .. } => 1.0 + SHARE_OF_ROOM * model.effort().room,
+        ByMatrix::Proved(_) | ByMatrix::Joint(_) => 1.0,
+    };
     let on_path = |path: Path| {
-        let arguments = ByMatrix::arguments(path, [x_per, e_per], at);
+        let arguments = ByMatrix::arguments(path, [x_per * beyond, e_per * beyond], at.map(|end| end * beyond));
         by_matrix.threshold(arguments, weights).map(|threshold| (path, threshold))
     };
     // None where nothing is proved of them.
