@@ -7,6 +7,7 @@
 
 mod by_matrix;
 mod cells;
+mod closer;
 mod coordinates;
 mod cover;
 mod energy;

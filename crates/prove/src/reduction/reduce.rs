@@ -1,7 +1,9 @@
 //! The whole way from a plant to a specification whose data are proved, and decided again from a certificate.
 
 use super::cells::{Cell, Cells, NARROW, in_cell};
-use super::coordinates::{Chosen, CoordinateSearch, Density, Rough, Sampler, Shape, Start, best_shape_near, energy_in};
+use super::coordinates::{
+    Chosen, CoordinateSearch, Density, Rough, SHAPE_STEP, Sampler, Shape, Start, best_shape_near, energy_in,
+};
 use super::cover::covers;
 use super::entries::{Needed, decide_all, needed};
 use super::joint::with_joint_metrics;
@@ -10,7 +12,10 @@ use super::refusal::{MAX_STATES, PlantRefusal};
 use super::sampling::{Sampling, TubeOfFamily, float_matrix, rational_matrix, rational_symmetric};
 use super::watch::{Stage, Unwatched, Watch};
 use crate::certify::Alternatives;
-use crate::search::{Closest, Failing, FloatModel, Obstacle, ROOM, SharpProposal, at_sigma, search_sharp_near};
+use crate::search::{
+    AtSigma, Closest, Descent, Failing, FloatModel, Goal, Obstacle, ROOM, SharpParameters, SharpProposal, at_sigma,
+    minimise, search_sharp_near,
+};
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 use rug::Rational;
@@ -41,6 +46,11 @@ const FURTHER: [(f64, f64); 6] =
 const AGAIN: usize = 4;
 const APART: f64 = 1.02;
 const CLOSE: [f64; 2] = [1e-4, 2e-3];
+
+/// The search for the shape of the error box at a gain that is given, and what stays between samples and proofs, in turn: the
+/// room in S1, S2 and the box, and the share of the gain that the threshold is at most.
+const AT_GAIN: Descent = Descent { restarts: 1, iterations: 120, tolerance: 1e-3 };
+const BELOW_GAIN: [(f64, f64); 4] = [(ROOM, 0.99), (2e-2, 0.97), (0.1, 0.9), (0.2, 0.7)];
 
 /// A gain from proved values that is at most so many times the proposal is near it.
 const NEAR: f64 = 1.1;
@@ -263,7 +273,9 @@ impl FoundByMatrix {
         let proofs = Proofs::new(along, sampling)?;
         let proved = prove_bounds(&proofs, chosen)?;
         let proved = match gain {
-            Some(gain) if *gain >= proved.proposal.sigma => proved,
+            Some(gain) if *gain >= proved.proposal.sigma => {
+                proofs.for_gain(chosen, &proved, gain.to_f64()).unwrap_or(proved)
+            }
             // Joint metrics are not proved for an uncertain input gain.
             _ if chosen.model.input_gain.is_some() => proved,
             _ => {
@@ -498,6 +510,36 @@ impl Proofs<'_> {
         Ok(search_sharp_near(&with_values, proposal).map(|proposal| {
             (with_values, Reduced { spec, proposal, alternatives: Alternatives::default(), without_joint: None })
         }))
+    }
+}
+
+impl Proofs<'_> {
+    /// The values proved at the sets of a gain above the least one, with the shape of the error box with which the error goes the least far
+    /// there.
+    fn for_gain(&self, Chosen { model, proposal, .. }: &Chosen, proved: &Reduced, gain: f64) -> Option<Reduced> {
+        // With the weights that are proved the threshold is the same at every gain.
+        let data = Data::new(&proved.spec, PRECISION);
+        let inequality = FloatModel::new(&data, trade_off(&data)).by_matrix;
+        let known = model.with_inequalities(inequality, model.by_energy.clone());
+        let (_, AtSigma { rho, eta, .. }) = at_sigma(&known, &proved.proposal.parameters, gain, ROOM).ok()?;
+        let with = |p: &[f64]| SharpParameters {
+            rho: 1.0 + p[0].portable_exp(),
+            eta: p[1].portable_exp(),
+            ..proposal.parameters
+        };
+        let start = [(rho - 1.0).portable_ln(), eta.portable_ln()];
+        BELOW_GAIN.into_iter().find_map(|(room, below)| {
+            let model = &model.clone().with_room(room);
+            let peak = model.with_goal(Goal::Peak);
+            let cost = |p: &[f64]| {
+                let (_, at) = at_sigma(&peak, &with(p), gain, room).ok()?;
+                (at.threshold <= gain * below).then(|| at.cost.portable_ln())
+            };
+            let (best, _) = minimise(cost, &start, &[SHAPE_STEP; 2], AT_GAIN)?;
+            let there = SharpProposal { parameters: with(&best), sigma: gain, ..*proposal };
+            let (_, found) = self.with_values(model, &there, 0.0, ENLARGED[0]).ok()?.ok()?;
+            (found.proposal.sigma <= gain).then_some(found)
+        })
     }
 }
 

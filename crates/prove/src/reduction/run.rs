@@ -2,6 +2,7 @@
 
 mod seeking;
 
+use super::closer::closer;
 use super::interval_costs::{costs_at_samples, interval_costs};
 use super::proofs::{WithoutJoint, bounds_around};
 use super::reduce::{reduce, reduce_by_norms, reduce_by_norms_quickly};
@@ -22,6 +23,7 @@ use sigmastar_plants::bounds::{Engine, FloatSuprema};
 use sigmastar_theory::derivation::condition::Condition;
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
 use sigmastar_theory::derivation::sampled::SampledWitness;
+use std::sync::OnceLock;
 
 /// Where a search may start, of the regulator in continuous time or of the one at samples; or the numbers that stand in its place.
 enum Start {
@@ -42,6 +44,8 @@ pub struct Prepared {
     plant: Option<Box<Plant>>,
     /// The data of that plant by norms, where bounds are to be kept: of a larger gain than the least one they may say more.
     by_norms: Option<Box<WithoutJoint>>,
+    /// Those for a gain with which bounds are kept, once one is found.
+    closer: OnceLock<Option<Box<WithoutJoint>>>,
 }
 
 /// What a run found out. What it claims is about the regulator at samples where the subject asks for that.
@@ -123,7 +127,7 @@ impl Prepared {
 
     fn of(spec: Specification, start: Start, gain: Option<Rational>) -> Prepared {
         let limits = Limits::default();
-        Prepared { spec, start, gain, limits, found_above: None, plant: None, by_norms: None }
+        Prepared { spec, start, gain, limits, found_above: None, plant: None, by_norms: None, closer: OnceLock::new() }
     }
 
     /// The data of a subject as the witness of a certificate has them, each proved again: nothing is searched for.
@@ -177,7 +181,7 @@ impl Prepared {
                         (run, Err(_)) => run,
                     }
                 });
-                run.map(|mut run| {
+                run.and_then(|run| self.closer(run, options)).map(|mut run| {
                     watch.enter(Stage::Comparison);
                     if let Some((spec, proposal)) = other.filter(|_| smallest) {
                         run.with_gains_of(spec, proposal);
@@ -239,6 +243,24 @@ impl Prepared {
             }
         };
         run.map_err(|refusal: Refusal| refusal.errors(spec))
+    }
+}
+
+impl Prepared {
+    /// The run with a smaller gain that keeps to the limits by bounds that are proved for it, where there is one.
+    fn closer<'s>(&'s self, run: Certification<'s>, options: Options) -> Result<Certification<'s>, Refusal> {
+        let gains = run.smallest_gain.zip(run.sigma_star().map(Rational::to_f64));
+        let Some((plant, (least, found))) = self.plant.as_deref().zip(gains) else { return Ok(run) };
+        let wanted = (None, &self.limits);
+        let gain = |(spec, proposal): &WithoutJoint| {
+            let run = certify_within(spec, options, Some(proposal), wanted).ok()?;
+            run.sigma_star().map(Rational::to_f64)
+        };
+        let data = self.closer.get_or_init(|| closer(plant, [least, found], gain).map(Box::new));
+        match data.as_deref() {
+            Some((spec, proposal)) => better(run, certify_within(spec, options, Some(proposal), wanted)?),
+            None => Ok(run),
+        }
     }
 }
 
