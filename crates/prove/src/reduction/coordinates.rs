@@ -436,8 +436,20 @@ impl CoordinateSearch<'_> {
     pub fn with(&self, shape: Shape<'_>, near: Option<&SharpProposal>) -> Result<Chosen, Obstacle> {
         let focus = near.and_then(|known| self.focus(shape, known).ok());
         let model = self.model(shape, &Density::Fine(focus.and_then(|focus| focus.corners)));
-        let near = near.and_then(|known| search_sharp_near(&model, known).ok());
-        let proposal = near.map_or_else(|| search_sharp(&model), Ok)?;
+        let reshaped = |known: &SharpProposal, [of_rho, of_eta]: [f64; 2]| {
+            let SharpParameters { rho, eta, .. } = known.parameters;
+            let parameters = SharpParameters { rho: 1.0 + (rho - 1.0) * of_rho, eta: eta * of_eta, ..known.parameters };
+            search_sharp_near(&model, &SharpProposal { parameters, ..*known })
+        };
+        let proposal = match near {
+            // A scan of all shapes takes minutes there.
+            Some(known) if self.by_matrix.is_some() => {
+                let of = |share: &[f64; 2]| reshaped(known, *share).ok();
+                SHARES.iter().find_map(of).map_or_else(|| search_sharp_near(&model, known), Ok)?
+            }
+            Some(known) => search_sharp_near(&model, known).or_else(|_| search_sharp(&model))?,
+            None => search_sharp(&model)?,
+        };
         let proposal = best_shape_near(&model, proposal);
         let Shape { l, second, energy } = shape;
         // Where it says nothing of the set, the search has gone on without it.
