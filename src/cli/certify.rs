@@ -6,7 +6,7 @@ use super::edge::{Drawn, FIGURE_FILES};
 use super::failure::Failure;
 use super::files::{Input, OutputFile};
 use super::format::Format;
-use super::output::Shortened;
+use super::output::{Shortened, shown};
 use super::stages::{Stages, Step};
 use super::subject::{Asked, Subject, proving, with_sampling_period};
 use super::{input, output};
@@ -27,6 +27,11 @@ pub fn run(args: &CertifyArgs) -> u8 {
 
 fn attempt(args: &CertifyArgs) -> Result<u8, Failure> {
     // What is wrong with the call is said before any work is done.
+    let is_page = |path: &&Path| path.extension().is_some_and(|end| end == "html" || end == "htm");
+    if let Some(page) = args.output.as_deref().filter(is_page) {
+        let message = format!("`-o {}` would write the certificate, which is JSON, into a page", shown(page));
+        return Err(Failure::call(message, "the page goes to standard output: `--format html > report.html`"));
+    }
     let output = args.replace.asked(args.output.as_deref(), Input::Specification(&args.spec), "the certificate")?;
     if let Some(folder) = &args.plots {
         args.replace.folder(folder, &FIGURE_FILES)?;

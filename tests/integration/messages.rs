@@ -347,3 +347,50 @@ fn what_is_wrong_with_a_case_is_told_where_it_was_written() {
     let (_, text) = told(&["sweep", "-o", &table("3.csv")], &study("[1, 2]", Some(&wrong)));
     assert!(text.contains("study.json:") && text.contains("at /subject/q"), "{text}");
 }
+
+#[test]
+fn a_constant_that_divides_is_zero() {
+    let text = |zero: &str| {
+        let mut plant: Value = serde_json::from_str(&plant("-e/J + sin(2*pi*t)", None)).unwrap();
+        plant["parameters"] = serde_json::json!({ "J": zero });
+        plant.to_string()
+    };
+    let (_folder, path) = file("plant.json", &text("2 - 2"));
+    let (code, said) = told(&["certify"], &path);
+    assert!(
+        code == 2 && said.contains("`-e/J`: the divisor is 0") && said.contains("a parameter that divides"),
+        "{said}"
+    );
+    let (_folder, path) = file("plant.json", &text("2 - 1"));
+    assert_eq!(told(&["certify", "--no-compare"], &path).0, 0);
+    // One that is 0 at some states alone is told of those.
+    let (_folder, path) = file("plant.json", &plant("-e/(1 - e) + sin(2*pi*t)", None));
+    let (_, said) = told(&["certify"], &path);
+    assert!(!said.contains("the divisor is 0"), "{said}");
+}
+
+#[test]
+fn an_operation_by_entries() {
+    let (_folder, path) = file("plant.json", &plant("-e + sin(2*pi.*t)", None));
+    let (code, said) = told(&["certify"], &path);
+    assert!(code == 2 && said.contains("write *, / and ^ for .*, ./ and .^"), "{said}");
+    let (_folder, path) = file("plant.json", &plant("-e + sin(2*pi . t)", None));
+    let (code, said) = told(&["certify"], &path);
+    assert!(code == 2 && !said.contains("for .*"), "{said}");
+    let (_folder, path) = file("plant.json", &plant("-e + sin(2.*pi*t)", None));
+    assert_eq!(told(&["certify", "--no-compare"], &path).0, 0);
+}
+
+#[test]
+fn a_certificate_is_no_page() {
+    let (folder, path) = file("plant.json", &plant("-e + sin(2*pi*t)", None));
+    let certify = |name: &str| {
+        let target = folder.path().join(name);
+        let target = target.to_str().unwrap();
+        (told(&["certify", "--no-compare", "-o", target], &path), std::path::Path::new(target).exists())
+    };
+    let ((code, said), written) = certify("report.html");
+    assert!(code == 2 && !written && said.contains("--format html > report.html"), "{said}");
+    let ((code, said), written) = certify("html.json");
+    assert!(code == 0 && written, "{said}");
+}

@@ -95,6 +95,12 @@ pub enum ExprErrorKind {
     /// A numeral that is not a number or exceeds the limits of numbers.
     #[error(transparent)]
     Number(#[from] DecimalError),
+    /// A constant divisor that is 0.
+    #[error("`{operation}`: the divisor is 0")]
+    ZeroDivisor {
+        /// The quotient.
+        operation: String,
+    },
     /// A constant integer exponent that is too large.
     #[error("a constant integer exponent exceeds {MAX_EXPONENT} in magnitude")]
     ExponentTooLarge,

@@ -308,6 +308,7 @@ impl<S: Scope> Parser<'_, S> {
             '\\' if self.text[span.end..].starts_with(|next: char| next.is_ascii_alphabetic()) => {
                 Some("this is no LaTeX: write (...)/(...), sqrt(...), pi")
             }
+            '.' if self.text[span.end..].starts_with(['*', '/', '^']) => Some("write *, / and ^ for .*, ./ and .^"),
             '²' => Some("write ^2"),
             '³' => Some("write ^3"),
             ',' if expected == OPERATOR
@@ -383,6 +384,9 @@ impl<S: Scope> Parser<'_, S> {
     fn unexpected_after_operand(&self, token: &Token) -> ExprError {
         let text = |span: &Range<usize>| shortened(&self.text[span.clone()]);
         let right = text(&token.span);
+        if right == "." {
+            return self.misplaced('.', token.span.clone(), OPERATOR);
+        }
         match token.kind {
             TokenKind::Numeral | TokenKind::Name | TokenKind::Symbol('(') => {
                 let left = self.at.checked_sub(1).map_or_else(String::new, |at| text(&self.tokens[at].span));

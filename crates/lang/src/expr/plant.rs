@@ -1,12 +1,14 @@
 //! Expressions in the variables of a plant: t, the states and e.
 
-use super::ExprError;
 use super::definitions::{Definitions, is_name, is_reserved};
+use super::exact::{Constants, sign};
 use super::names::Scope;
 use super::parse::parse;
 use super::phase::{INSTEAD_OF_TIME, PHASE, Phase};
-use super::syntax::{Binary, Node, NodeKind};
+use super::syntax::{Binary, Node, NodeKind, step};
+use super::{ExprError, ExprErrorKind};
 use rug::Rational;
+use std::cmp::Ordering;
 use std::fmt;
 use std::sync::Arc;
 use thiserror::Error;
@@ -212,9 +214,10 @@ impl PlantExpr {
     /// Reads an expression, by the grammar of [`Expr::parse`](super::Expr::parse) with other variables.
     ///
     /// # Errors
-    /// Those of [`Expr::parse`](super::Expr::parse).
+    /// Those of [`Expr::parse`](super::Expr::parse), and a constant divisor that is 0.
     pub fn parse(text: &str, names: &PlantNames) -> Result<PlantExpr, ExprError> {
         let nodes = parse(text, names)?;
+        no_zero_divisor(text, &nodes)?;
         Ok(PlantExpr { text: text.into(), nodes: nodes.into() })
     }
 
@@ -257,6 +260,23 @@ impl PlantExpr {
     pub fn text(&self) -> &str {
         &self.text
     }
+}
+
+/// That no constant divides that is known to be 0, such as a parameter: everywhere else it would be told at a state.
+fn no_zero_divisor(text: &str, nodes: &[Node<PlantVariable>]) -> Result<(), ExprError> {
+    let mut stack = Vec::new();
+    for node in nodes {
+        let divides = matches!(node.kind, NodeKind::Binary(Binary::Div));
+        if divides && matches!(stack.last(), Some(Some(divisor)) if sign(divisor) == Some(Ordering::Equal)) {
+            let operation = text[node.span.clone()].to_owned();
+            let help =
+                Some("correct the numbers that make it 0; a parameter that divides has to be another one".to_owned());
+            let kind = ExprErrorKind::ZeroDivisor { operation };
+            return Err(ExprError { kind, span: node.span.clone(), expected: None, help });
+        }
+        step(node, &mut stack, &mut Constants);
+    }
+    Ok(())
 }
 
 impl fmt::Display for PlantExpr {
@@ -306,6 +326,16 @@ mod tests {
             ("vt", "`vt` is not a known name", Some("write v*t")),
             ("2t", "an operator is missing between `2` and `t`", Some("write 2*t")),
             ("v(t)", "an operator is missing between `v` and `(`", Some("write v*(")),
+            (
+                "cos(pi.*t)",
+                "the character '.' has no meaning in an expression",
+                Some("write *, / and ^ for .*, ./ and .^"),
+            ),
+            (
+                "v + e/(2 - 2)",
+                "`e/(2 - 2)`: the divisor is 0",
+                Some("correct the numbers that make it 0; a parameter that divides has to be another one"),
+            ),
         ] {
             let error = PlantExpr::parse(text, &names).map(|_| ()).unwrap_err();
             assert_eq!((error.to_string().as_str(), error.help.as_deref()), (message, help), "{text}");

@@ -28,6 +28,7 @@ mod study;
 mod subject;
 #[cfg(test)]
 mod tests;
+mod tube;
 mod watch;
 mod witness;
 

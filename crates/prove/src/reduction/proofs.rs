@@ -5,6 +5,7 @@ use super::entries::{Needed, prove_all};
 use super::refusal::PlantRefusal;
 use super::sampling::{Sampling, float_matrix};
 use super::specification::specification;
+use super::tube::TubeOfFamily;
 use super::watch::Watch;
 use crate::certify::Alternatives;
 use crate::search::{FloatModel, SharpProposal};
@@ -103,9 +104,11 @@ impl Along {
         specification(plant, of_plant, values)
     }
 
-    /// The largest r of the cells.
-    pub(super) fn radius(&self) -> f64 {
-        self.cells.iter().map(|cell| cell.orbit.radius.to_f64()).fold(0.0, f64::max)
+    /// The tube with the largest r of the cells.
+    pub(super) fn tube(&self) -> TubeOfFamily {
+        let is_family = self.cells.iter().any(|cell| cell.parameters.intervals().next().is_some());
+        let radius = self.cells.iter().map(|cell| cell.orbit.radius.to_f64()).fold(0.0, f64::max);
+        TubeOfFamily { l: float_matrix(&self.coordinates.l), radius: if is_family { radius } else { 0.0 } }
     }
 
     /// The P of existence, where there is one.

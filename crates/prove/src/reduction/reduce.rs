@@ -9,7 +9,7 @@ use super::entries::{Needed, decide_all, needed};
 use super::joint::with_joint_metrics;
 use super::proofs::{Along, PRECISION, Proofs, ProvenCell, Reduced, along, trade_off};
 use super::refusal::{MAX_STATES, PlantRefusal};
-use super::sampling::{Sampling, TubeOfFamily, float_matrix, rational_matrix, rational_symmetric};
+use super::sampling::{Sampling, float_matrix, rational_matrix, rational_symmetric};
 use super::watch::{Stage, Unwatched, Watch};
 use crate::certify::Alternatives;
 use crate::search::{
@@ -215,7 +215,7 @@ fn with_cells<T>(
     let spec = along.specification(plant, ProvedValues::default())?;
     let data = Data::new(&spec, PRECISION);
     let model = FloatModel::new(&data, trade_off(&data));
-    let sampling = Sampling::new(plant, cells, &model, watch, TubeOfFamily::new(cells, &along));
+    let sampling = Sampling::new(plant, cells, &model, watch, along.tube());
     watch.enter(Stage::Coordinates);
     prove(&sampling)
 }
@@ -381,7 +381,7 @@ pub(super) fn with_constant(
     let second = base.existence.as_ref().map(|(p, _)| float_matrix(&p.mean));
     let energy = rotation.as_ref().zip(chosen.energy.as_ref()).map(|(rotation, energy)| energy_in(energy, rotation));
     let both = Shape { l: &rounded, second: second.as_ref(), energy: energy.as_ref() };
-    let in_tube = sampling.with_tube(TubeOfFamily::new(sampling.cells, &base));
+    let in_tube = sampling.with_tube(base.tube());
     let chosen = with_search(&in_tube, by_matrix, |search| search.with(both, Some(&chosen.proposal)));
     Ok((base, chosen.map_err(PlantRefusal::NoGain)?))
 }
