@@ -444,8 +444,11 @@ impl CoordinateSearch<'_> {
         let proposal = match near {
             // A scan of all shapes takes minutes there.
             Some(known) if self.by_matrix.is_some() => {
-                let of = |share: &[f64; 2]| reshaped(known, *share).ok();
-                SHARES.iter().find_map(of).map_or_else(|| search_sharp_near(&model, known), Ok)?
+                let [same, others @ ..] = SHARES;
+                reshaped(known, same).or_else(|obstacle| {
+                    let found = others.into_iter().filter_map(|share| reshaped(known, share).ok());
+                    found.min_by(|a, b| a.sigma.total_cmp(&b.sigma)).ok_or(obstacle)
+                })?
             }
             Some(known) => search_sharp_near(&model, known).or_else(|_| search_sharp(&model))?,
             None => search_sharp(&model)?,
