@@ -78,8 +78,8 @@ const WORTH: f64 = 1e-4;
 ///
 /// Guarantee: every value of the specification holds for the plant, relative to its orbit and in the coordinates of its
 /// [`OfPlant`]; f and q have the period, and are smooth up to the largest arguments. That the gain comes out small is not
-/// claimed. For a gain that is given no smaller one is sought by joint metrics where it is large enough without: they are those of the
-/// least gain, and bound the periodic solution of a larger one less well.
+/// claimed. For a gain that is given and large enough without joint metrics none are sought, for they are those of the least gain and
+/// bound the periodic solution of a larger one less well: the values are proved for the sets of that gain, where they can be.
 ///
 /// # Errors
 /// What could not be proved or found.
