@@ -1,10 +1,10 @@
 //! A smaller gain with which a plant's loop keeps to limits, by bounds that are proved for the sets of that gain (derivation, 13.5).
 
-use super::proofs::WithoutJoint;
-use super::reduce::reduce;
+use super::coordinates::Chosen;
+use super::proofs::{Proofs, Reduced, WithoutJoint};
+use super::reduce::reduce_to;
 use super::watch::Unwatched;
-use rug::Rational;
-use sigmastar_exact::number::{Direction, round_f64};
+use sigmastar_exact::number::Portable;
 use sigmastar_lang::plant::Plant;
 
 /// Gains that are tried between the least one and what is found.
@@ -17,26 +17,29 @@ const WORTH: f64 = 0.02;
 /// which gain that is for given data, if there is one. `None` where none is found.
 pub(super) fn closer(
     plant: &Plant,
-    [mut least, mut found]: [f64; 2],
+    [least, found]: [f64; 2],
     within: impl Fn(&WithoutJoint) -> Option<f64>,
 ) -> Option<WithoutJoint> {
-    let mut best = None;
-    for _ in 0..STEPS {
-        if found < least * (1.0 + WORTH) {
-            break;
+    // The coordinates are the same for all gains.
+    let last = |proofs: &Proofs<'_>, chosen: &Chosen, proved: Reduced| {
+        let (mut least, mut found, mut best) = (least, found, None);
+        for _ in 0..STEPS {
+            if found < least * (1.0 + WORTH) {
+                break;
+            }
+            let middle = (0.5 * (least.portable_ln() + found.portable_ln())).portable_exp();
+            let data = proofs.for_gain(chosen, &proved, middle).map(|there| (there.spec, there.proposal));
+            match data.and_then(|data| within(&data).map(|sigma| (data, sigma))) {
+                Some((data, sigma)) if sigma < found => (best, found) = (Some(data), sigma),
+                _ => least = middle,
+            }
         }
-        let middle = round_f64((least * found).sqrt(), 6, Direction::Nearest)?;
-        let data = at_gain(plant, &middle);
-        match data.and_then(|data| within(&data).map(|sigma| (data, sigma))) {
-            Some((data, sigma)) if sigma < found => (best, found) = (Some(data), sigma),
-            _ => least = middle.to_f64(),
+        match best {
+            Some((spec, proposal)) => Reduced { spec, proposal, ..proved },
+            None => proved,
         }
-    }
-    best
-}
-
-/// The data proved at the sets of this gain.
-fn at_gain(plant: &Plant, sigma: &Rational) -> Option<WithoutJoint> {
-    let reduced = reduce(plant, Some(sigma), &Unwatched).ok()?;
-    (reduced.proposal.sigma <= *sigma).then_some((reduced.spec, reduced.proposal))
+    };
+    let reduced = reduce_to(plant, &last, &Unwatched).ok()?;
+    let data = (reduced.spec, reduced.proposal);
+    within(&data).is_some_and(|sigma| sigma < found).then_some(data)
 }

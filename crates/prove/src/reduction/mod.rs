@@ -5,8 +5,10 @@
 //! what a certificate says of a plant. A [`Subject`] is either of both, and [`Prepared`] goes the whole way with it: by a search,
 //! or with the [`Witness`] of a certificate.
 
+mod again;
 mod by_matrix;
 mod cells;
+mod choice;
 mod closer;
 mod coordinates;
 mod cover;
@@ -29,12 +31,14 @@ mod subject;
 #[cfg(test)]
 mod tests;
 mod tube;
+mod values;
 mod watch;
 mod witness;
 
+pub use again::decide_again;
 pub use proofs::{Reduced, bounds_around};
 pub use proved_at_samples::ReducedSampled;
-pub use reduce::{decide_again, reduce, reduce_by_norms};
+pub use reduce::{reduce, reduce_by_norms};
 pub use refusal::{MAX_STATES, PlantRefusal};
 pub use run::{Certified, Prepared, Run, StateStart};
 pub use sampled::{RestsOn, SampledPairs, reduce_sampled, with_sampled_pairs};

@@ -1,15 +1,15 @@
 //! The bounds of a plant at the arguments of a claim about the regulator at samples.
 
+use super::choice::{best_by_norms, starts};
 use super::coordinates::Chosen;
 use super::entries::{needed, prove_all};
 use super::proofs::{Along, PRECISION};
 use super::proved_at_samples::{ReducedSampled, beyond, found_again};
-use super::reduce::{
-    ENLARGED, FAR_BETTER, best_by_norms, beyond_the_bounds, starts, with_candidates, with_coordinates,
-};
+use super::reduce::{FAR_BETTER, with_candidates, with_coordinates};
 use super::refusal::PlantRefusal;
 use super::sampled_matrix::{MatrixAtSamples, straight_by_matrix};
 use super::sampling::Sampling;
+use super::values::{ENLARGED, beyond_the_bounds};
 use super::watch::Watch;
 use crate::search::{Failing, SampledSearch};
 use rug::Rational;

@@ -2,12 +2,12 @@
 //! (derivation, 13.7, (Ms), and (E) at samples): in the coordinates of the inequality in continuous time, the gain is raised from the one
 //! there until both hold with some room, and they are proved at it.
 
+use super::choice::{with_constant, with_search};
 use super::coordinates::{Chosen, Rough};
 use super::entries::{needed, prove_all};
 use super::grid::Grid;
 use super::proofs::{Along, PRECISION};
 use super::proved_at_samples::{ReducedSampled, found_again};
-use super::reduce::{with_constant, with_search};
 use super::refusal::PlantRefusal;
 use super::sampling::{Sampling, float_matrix};
 use crate::search::{

@@ -3,11 +3,15 @@
 #[path = "../../../plants/src/bounds/tests/random_points.rs"]
 mod random_points;
 
-use super::{Stage, Unwatched, Watch, bounds_around, reduce};
+use super::closer::closer;
+use super::{Reduced, Stage, Unwatched, Watch, bounds_around, reduce};
+use crate::certify::{Limits, Options, certify_within};
+use crate::search::SharpProposal;
 use random_points::random_points;
 use rayon::prelude::*;
+use rug::Rational;
 use sigmastar_lang::plant::Plant;
-use sigmastar_lang::spec::ProvedValue;
+use sigmastar_lang::spec::{ProvedValue, Specification};
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -19,11 +23,15 @@ const SLACK_BESIDE: f64 = 0.11;
 /// What no relative comparison can see: q_tx and q_te where they vanish but for the radius of the orbit.
 const NOTHING: f64 = 1e-5;
 
+fn shipped(name: &str) -> Plant {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../specs/plants");
+    Plant::load(&folder.join(name).with_extension("json")).unwrap()
+}
+
 /// No value is below what 20,000 points reach (with `SIGMASTAR_CASES=all` 100,000, and of every plant), and none is more than 5 % above, but for those
 /// that vanish on the orbit, and those that no condition uses.
 #[test]
 fn values_are_above_random_points_and_near_them() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../specs/plants");
     let all = std::env::var_os("SIGMASTAR_CASES").is_some_and(|cases| cases == "all");
     let names = [
         "chain",
@@ -37,7 +45,7 @@ fn values_are_above_random_points_and_near_them() {
         "relative-degree-2-domain",
     ];
     names.par_iter().step_by(if all { 1 } else { 3 }).for_each(|name| {
-        let plant = Plant::load(&folder.join(name).with_extension("json")).unwrap();
+        let plant = shipped(name);
         let reduced = reduce(&plant, None, &Unwatched).unwrap();
         let (_, samples) = bounds_around(&plant, reduced.spec.plant().unwrap()).unwrap();
         let radius = reduced.spec.plant().unwrap().largest(|cell| &cell.orbit.radius).to_f64();
@@ -79,11 +87,54 @@ impl Watch for Heard {
 #[test]
 fn candidates_are_counted() {
     let tried = |name: &str| {
-        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../specs/plants").join(name);
         let heard = Heard::default();
-        reduce(&Plant::load(&file).unwrap(), None, &heard).unwrap();
+        reduce(&shipped(name), None, &heard).unwrap();
         heard.0.into_inner()
     };
-    let (few, many) = (tried("linear.json"), tried("duffing.json"));
+    let (few, many) = (tried("linear"), tried("duffing"));
     assert!(few >= 1 && many > 50, "{few} {many}");
+}
+
+/// The gain that data lead to, and the proved bound of |e| on the way with it; of the gain that is given, where one is.
+fn gain_and_peak(data: &(Specification, SharpProposal), gain: Option<&Rational>, limits: &Limits) -> Option<[f64; 2]> {
+    let (spec, proposal) = data;
+    let run = certify_within(spec, Options::default(), Some(proposal), (gain, limits)).unwrap();
+    let (_, peak, _) = run.bounds()?;
+    Some([run.sigma_star()?.to_f64(), peak.upper().to_f64()])
+}
+
+fn data_for(plant: &Plant, gain: Option<&Rational>) -> (Specification, SharpProposal) {
+    let Reduced { spec, proposal, .. } = reduce(plant, gain, &Unwatched).unwrap();
+    (spec, proposal)
+}
+
+/// The values for the least gain say of a larger one less than those for its own sets.
+#[test]
+fn a_given_gain_is_proved_with_values_for_its_own_sets() {
+    let plant = shipped("relative-degree-2");
+    let gain = Rational::from(8);
+    let [least, own] = [None, Some(&gain)].map(|asked| {
+        let [sigma, peak] = gain_and_peak(&data_for(&plant, asked), Some(&gain), &Limits::default()).unwrap();
+        assert_eq!(sigma, 8.0);
+        peak
+    });
+    assert!(own < 0.95 * least, "{own} {least}");
+    // A gain that is too small has no sets: the data are those of the least one.
+    let small = Rational::from((1, 2));
+    let [of_small, of_least] = [Some(&small), None].map(|asked| data_for(&plant, asked).1.sigma);
+    assert_eq!(of_small, of_least);
+}
+
+/// A limit of |e| is kept with a smaller gain by values for the sets of that gain; nothing is found between gains that are the same.
+#[test]
+fn a_limit_is_kept_with_a_smaller_gain_by_values_of_its_own() {
+    let plant = shipped("relative-degree-2");
+    let limits = Limits { peak_error: Some(Rational::from(4)), ..Limits::default() };
+    let least = data_for(&plant, None);
+    let [found, _] = gain_and_peak(&least, None, &limits).unwrap();
+    let within = |data: &(Specification, SharpProposal)| gain_and_peak(data, None, &limits).map(|[sigma, _]| sigma);
+    let smaller = closer(&plant, [least.1.sigma, found], within).unwrap();
+    let [sigma, peak] = gain_and_peak(&smaller, None, &limits).unwrap();
+    assert!(sigma < 0.98 * found && peak <= 4.0, "{sigma} {found} {peak}");
+    assert!(closer(&plant, [sigma, sigma], within).is_none());
 }
