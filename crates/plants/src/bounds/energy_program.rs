@@ -27,7 +27,7 @@ impl FloatSuprema {
     pub fn energy_at(&self, at: [f64; 2], places: &Places, weights: &EnergyWeights) -> Vec<EnergyAt> {
         let mut found = Vec::new();
         self.derivatives_at_points(at, places, |_, derivatives, _| found.push(weights.at(derivatives, self.moves)));
-        found
+        EnergyAt::front(found)
     }
 
     /// The largest c_y that serves at all points, by a longer search.

@@ -51,12 +51,15 @@ impl FloatSuprema {
     pub fn corners(&self, at: MatrixArguments, places: &Places, weights: FloatWeights, each: usize) -> Corners {
         let mut states = self.where_largest(at.states, places, [Bound::Rate, Bound::Qx]);
         let mut error = self.where_largest(at.error, places, [Bound::Fe, Bound::QeMax]);
+        let mut solved = Vec::new();
         for _ in 0..TURNS {
             let columns = self.columns(at.error, &listed(&error), weights);
             let mut best = Vec::new();
             self.derivatives_at_points(at.states, places, |place, derivatives, matrix| {
-                let value = Root::new(&weights.of_states(derivatives, matrix))
-                    .map_or_else(|without| without, |root| largest(&columns, |column| root.threshold(column)));
+                let value = Root::new(&weights.of_states(derivatives, matrix)).map_or_else(
+                    |without| without,
+                    |root| largest(&columns, |column| root.threshold(column, &mut solved)),
+                );
                 keep(&mut best, each, value, place);
             });
             states.extend(best.into_iter().map(|(_, place)| place));
@@ -64,7 +67,7 @@ impl FloatSuprema {
             let mut best = Vec::new();
             self.derivatives_at_points(at.error, places, |place, derivatives, _| {
                 let column = weights.of_error(derivatives, self.moves);
-                keep(&mut best, each, largest(&roots, |root| root.threshold(&column)), place);
+                keep(&mut best, each, largest(&roots, |root| root.threshold(&column, &mut solved)), place);
             });
             error.extend(best.into_iter().map(|(_, place)| place));
         }
@@ -77,8 +80,11 @@ impl FloatSuprema {
         let columns = self.columns(at.error, &corners.error, weights);
         match self.roots(at.states, &corners.states, weights) {
             Ok(roots) => {
-                let pairs = roots.iter().flat_map(|root| columns.iter().map(|column| root.thresholds(column)));
-                let value = pairs.fold(Thresholds::ALL, Thresholds::and).value();
+                let mut solved = Vec::new();
+                let pairs = roots.iter().flat_map(|root| columns.iter().map(move |column| (root, column)));
+                let all =
+                    pairs.fold(Thresholds::ALL, |all, (root, column)| all.and(root.thresholds(column, &mut solved)));
+                let value = all.value();
                 // What is not a number counts as infinite.
                 if value.is_nan() { f64::INFINITY } else { value }
             }
@@ -122,7 +128,7 @@ impl FloatSuprema {
 }
 
 /// What is not a number counts as infinite.
-fn largest<T>(of: &[T], value: impl Fn(&T) -> f64) -> f64 {
+fn largest<T>(of: &[T], value: impl FnMut(&T) -> f64) -> f64 {
     of.iter().map(value).fold(f64::NEG_INFINITY, |a, b| if b.is_nan() { f64::INFINITY } else { a.max(b) })
 }
 

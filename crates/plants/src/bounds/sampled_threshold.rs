@@ -117,7 +117,7 @@ impl FloatSuprema {
 /// Those of one point.
 fn thresholds(at: &Derivatives<'_>, matrix: &MatrixAt, weights: FloatWeights, moves: Option<[f64; 2]>) -> Thresholds {
     match Root::new(&weights.of_states(at, matrix)) {
-        Ok(root) => root.thresholds(&weights.of_error(at, moves)),
+        Ok(root) => root.thresholds(&weights.of_error(at, moves), &mut Vec::new()),
         Err(without) => Thresholds::from(without),
     }
 }

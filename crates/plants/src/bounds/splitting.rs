@@ -94,7 +94,7 @@ impl FloatSuprema {
             });
             let so_far = program.threshold;
             self.derivatives_at_points(at.error, &all, |place, derivatives, _| {
-                let needed = cholesky.threshold(&weights.of_error(derivatives, self.moves));
+                let needed = cholesky.threshold(&weights.of_error(derivatives, self.moves), &mut Vec::new());
                 keep(&mut of_error, POINTS, needed / so_far, place);
             });
             let beyond = |list: Vec<(f64, Place)>| {
@@ -124,8 +124,9 @@ impl FloatSuprema {
     /// The least sigma for a given S, by a longer search.
     fn refined_threshold_with(&self, s: &[Vec<f64>], at: [f64; 2], weights: FloatWeights) -> Option<f64> {
         let root = Root::new(&lower(s)).ok()?;
-        let found = self
-            .refined_of_derivatives(at, |derivatives, _| root.threshold(&weights.of_error(derivatives, self.moves)));
+        let found = self.refined_of_derivatives(at, |derivatives, _| {
+            root.threshold(&weights.of_error(derivatives, self.moves), &mut Vec::new())
+        });
         (found.is_finite() && found > 0.0).then_some(found)
     }
 }

@@ -185,6 +185,26 @@ impl EnergyAt {
         };
         if left > 0.0 || left.is_nan() { margin } else { f64::NEG_INFINITY }
     }
+
+    /// Those of which one has the least margin, whatever k_p and the threshold are: the others are no larger in any entry than one of
+    /// these, and no operation of [`EnergyAt::margin`] turns that around by rounding. With an input gain, all.
+    #[must_use]
+    pub fn front(mut all: Vec<EnergyAt>) -> Vec<EnergyAt> {
+        let sizes = |at: &EnergyAt| [at.of_y, at.between.abs(), at.of_e];
+        if all.iter().any(|at| at.moves.is_some() || sizes(at).iter().any(|size| size.is_nan())) {
+            return all;
+        }
+        // The largest ones first: what is beyond many is among them.
+        all.sort_by(|a, b| sizes(b).iter().sum::<f64>().total_cmp(&sizes(a).iter().sum()));
+        let mut front: Vec<EnergyAt> = Vec::new();
+        for at in all {
+            let beyond = |other: &EnergyAt| sizes(other).iter().zip(sizes(&at)).all(|(other, own)| *other >= own);
+            if !front.iter().any(beyond) {
+                front.push(at);
+            }
+        }
+        front
+    }
 }
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {
@@ -218,15 +238,20 @@ impl Root {
         Ok(Root(rows))
     }
 
-    /// The solution of `R s = v` for the factor R, of which `|s|^2 = v' G^-1 v`.
-    fn solved(&self, v: &[f64]) -> Vec<f64> {
-        let mut solved = Vec::with_capacity(v.len());
+    /// The solution of `R s = v` for the factor R, of which `|s|^2 = v' G^-1 v`, in the place of what is in `solved`.
+    fn solve(&self, v: &[f64], solved: &mut Vec<f64>) {
+        solved.clear();
         let mut rows = self.0.as_slice();
         for (i, value) in v.iter().enumerate() {
             let (row, rest) = rows.split_at(i + 1);
-            solved.push((value - dot(row, &solved)) / row[i]);
+            solved.push((value - dot(row, solved)) / row[i]);
             rows = rest;
         }
+    }
+
+    fn solved(&self, v: &[f64]) -> Vec<f64> {
+        let mut solved = Vec::with_capacity(v.len());
+        self.solve(v, &mut solved);
         solved
     }
 
@@ -236,10 +261,11 @@ impl Root {
         0.5 * dot(&solved, &solved)
     }
 
-    /// Half of `v' G^-1 v`; with an input gain the sigma with `v(sigma)' G^-1 v(sigma) <= 2 sigma` at both ends.
-    pub(super) fn thresholds(&self, column: &Column) -> Thresholds {
-        let solved = self.solved(&column.fixed);
-        let square = dot(&solved, &solved);
+    /// Half of `v' G^-1 v`; with an input gain the sigma with `v(sigma)' G^-1 v(sigma) <= 2 sigma` at both ends. A search looks
+    /// some million times: `solved` is room for what is solved, and holds nothing.
+    pub(super) fn thresholds(&self, column: &Column, solved: &mut Vec<f64>) -> Thresholds {
+        self.solve(&column.fixed, solved);
+        let square = dot(solved, solved);
         let Some(moved) = column.moved else { return Thresholds::from(0.5 * square) };
         // Of the last unit vector the last entry alone is left: one over the last one of the factor.
         let last = self.0.last().map_or(f64::NAN, |last| last.recip());
@@ -259,7 +285,35 @@ impl Root {
     }
 
     /// The least of them.
-    pub(super) fn threshold(&self, column: &Column) -> f64 {
-        self.thresholds(column).value()
+    pub(super) fn threshold(&self, column: &Column, solved: &mut Vec<f64>) -> f64 {
+        self.thresholds(column, solved).value()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of many points a few are left, and the least margin is the same to the last bit, at any k_p and threshold.
+    #[test]
+    fn points_that_others_are_beyond_change_no_margin() {
+        let mut state = 1_u64;
+        let mut random = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 11) as f64 / (1_u64 << 53) as f64
+        };
+        let mut point = || EnergyAt { of_y: random(), between: random() - 0.5, of_e: random() - 0.5, moves: None };
+        let all: Vec<EnergyAt> = (0..500).map(|_| point()).collect();
+        let front = EnergyAt::front(all.clone());
+        assert!(front.len() > 1 && front.len() < 100, "{}", front.len());
+        let least = |points: &[EnergyAt], k_p: f64, value: f64| {
+            points.iter().map(|point| point.margin(k_p, value)).fold(f64::INFINITY, f64::min)
+        };
+        for (k_p, value) in [(0.5, 0.1), (2.0, 0.3), (2.0, 1.0), (1.0, 20.0)] {
+            assert_eq!(least(&front, k_p, value), least(&all, k_p, value), "{k_p} {value}");
+        }
+        // With an input gain neither sign of what is between says more than the other.
+        let moved = |at: &EnergyAt| EnergyAt { moves: Some([-0.1, 0.2]), ..*at };
+        assert_eq!(EnergyAt::front(all.iter().map(moved).collect()).len(), all.len());
     }
 }
