@@ -6,10 +6,10 @@ use proofs_check::expr::ARGUMENTS;
 use proofs_check::verdict::Verdict;
 use rug::Rational;
 use serde_json::{Value, json};
-use sigmastar::{CertifyOptions, ErrorKind, Subject, certify};
+use sigmastar::{CertifyOptions, Subject, certify};
 use sigmastar_lang::expr::{Expr, ProofSettings, Variables, prove_bounding};
 use sigmastar_lang::plant::Plant;
-use sigmastar_lang::spec::TrigonometricVector;
+use sigmastar_lang::spec::{ErrorKind, TrigonometricVector};
 use sigmastar_plants::bounds::{Engine, Region};
 
 /// Terms that are defined nowhere; `V` is a variable. One for each way in which an operand may be left out: products with 0,
