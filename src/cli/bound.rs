@@ -21,7 +21,7 @@ fn attempt(args: &BoundArgs) -> Result<u8, Failure> {
     let asked = args.domain.as_deref().map(domain).transpose()?;
     let plant = Asked::read(&args.plant)?.plant("`bound`")?;
     let audience = if args.quiet { Audience::Nobody } else { Audience::Everywhere };
-    let working = Working::new("finding the orbit and proving the plant's bounds", audience);
+    let working = Working::new("finding the orbit and proving the plant's bounds", "", audience);
     let refused = |refusal: sigmastar_prove::reduction::PlantRefusal| Failure::Documents(refusal.errors(&plant));
     let reduced = reduce_by_norms(&plant).map_err(refused)?;
     let bounded = bounding_specification(&plant, &reduced.spec, asked).map_err(refused)?;

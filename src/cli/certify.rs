@@ -11,14 +11,20 @@ use super::stages::{Stages, Step};
 use super::subject::{Asked, Subject, proving, with_sampling_period};
 use super::{input, output};
 use proofs_check::verdict::Verdict as Checked;
+use sigmastar_document::number::estimate;
+use sigmastar_exact::number::write_exact;
 use sigmastar_lang::plant::Plant;
+use sigmastar_lang::spec::{ErrorKind, SpecErrors};
 use sigmastar_prove::certificate::{certificate_of, is_sampled, read_for};
-use sigmastar_prove::certify::{FarStart, Limits, NoRatesOfClaim, rate_counts};
+use sigmastar_prove::certify::{FarStart, Limits, NoRatesOfClaim, rate_counts, unusual_mu};
 use sigmastar_prove::rate::bound::MAX_OSCILLATORS;
-use sigmastar_prove::reduction::{Prepared, Run, Stage, Unwatched, Watch};
+use sigmastar_prove::reduction::{INITIAL_SET, Prepared, Run, Shrunk, Stage, Unwatched, Watch, shrunk};
 use sigmastar_report::RunReport;
 use sigmastar_theory::derivation::targets::{Target, TargetKind};
 use std::path::Path;
+
+/// How to hear of the stages where standard error is no terminal.
+const TOLD_MORE: &str = "; `--progress` tells how far it is";
 
 /// Runs the command and returns the exit code.
 pub fn run(args: &CertifyArgs) -> u8 {
@@ -78,10 +84,13 @@ fn attempt(args: &CertifyArgs) -> Result<u8, Failure> {
         // The search may take long.
         output::remark(&unused);
     }
+    if let Some(unusual) = unusual_mu(subject.internal_model(), subject.period()).filter(|_| !args.quiet) {
+        output::remark(&unusual);
+    }
     let stages = Stages::new(steps(args, &subject), args.progress, args.quiet);
-    let working = (!stages.are_told()).then(|| proving(&subject, args.quiet)).flatten();
+    let working = (!stages.are_told()).then(|| proving(&subject, TOLD_MORE, args.quiet)).flatten();
     let prepared = match &witness {
-        None => Prepared::seeking(&subject, gain, (&limits, &counts), args.options(), &stages),
+        None => Prepared::seeking(&subject, gain.clone(), (&limits, &counts), args.options(), &stages),
         Some(certificate) => {
             let witness = read_for(certificate, &subject)?;
             if witness.of_another && !args.quiet {
@@ -94,8 +103,17 @@ fn attempt(args: &CertifyArgs) -> Result<u8, Failure> {
             Prepared::again(&subject, witness)
         }
     };
-    let prepared = prepared.map_err(Failure::Documents)?;
+    let prepared = match prepared {
+        Err(errors) if witness.is_none() && !args.no_compare && is_of_set(&errors) => {
+            let found = shrunk(&document, gain.as_ref(), (&limits, &counts), args.options(), &stages);
+            Err(found.map_or(errors.clone(), |found| {
+                errors.into_iter().map(|errors| errors.with_more_help(&in_words(&found))).collect()
+            }))
+        }
+        prepared => prepared,
+    };
     drop(working);
+    let prepared = prepared.map_err(Failure::Documents)?;
     let watch: &dyn Watch = match &witness {
         None => &stages,
         Some(_) => {
@@ -136,10 +154,32 @@ fn attempt(args: &CertifyArgs) -> Result<u8, Failure> {
     Ok(code)
 }
 
-/// The start of simulations, where it is far outside of what is certified.
+/// The start of simulations that the plant states, where it is far outside of what is certified.
 fn far_start(run: &Run<'_>, plant: &Plant) -> Option<FarStart> {
+    plant.document.get("initial")?;
     let set = run.certified()?.set;
     FarStart::of(run.spec().plant()?, &plant.initial, [&set.x0, &set.e0])
+}
+
+/// Whether the initial set that the file states is all that is in the way.
+fn is_of_set(errors: &[SpecErrors]) -> bool {
+    let mut all = errors.iter().flat_map(SpecErrors::errors);
+    all.all(|error| error.kind == ErrorKind::Undecided && error.pointer == INITIAL_SET)
+}
+
+/// What was found with smaller sizes of the initial set.
+fn in_words(Shrunk { divisor, sizes, sigma }: &Shrunk) -> String {
+    let sizes: Vec<String> = sizes.iter().map(|(name, size)| format!("`{name}` {}", estimate(size.to_f64()))).collect();
+    let sizes = sizes.join(", ");
+    match sigma {
+        Some(sigma) => format!(
+            "with all sizes divided by {divisor} ({sizes}) the gain {} is certified, with twice them none was found",
+            write_exact(sigma)
+        ),
+        None => format!(
+            "with all sizes divided by {divisor} ({sizes}) no gain is found either: something else is in the way, too"
+        ),
+    }
 }
 
 /// The stages that the call will have.

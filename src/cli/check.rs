@@ -26,13 +26,6 @@ pub fn run(args: &CheckArgs) -> u8 {
 }
 
 fn answer(args: &CheckArgs) -> Result<proofs_check::Report, Failure> {
-    if let Some(path) = args.spec.as_deref().filter(|path| Notation::of(path) != Notation::Json) {
-        let name = shown(path);
-        let message = format!("the independent checker reads JSON alone, and `{name}` is not JSON");
-        let help =
-            format!("`sigmastar convert {name} -o FILE.json` writes it as JSON; look at that file, and name it here");
-        return Err(Failure::call(message, help));
-    }
     let mut certificate = open(&args.certificate, "name a certificate that was written with `certify -o`")?;
     let mut specification = args.spec.as_deref().map(|path| specification(path, args)).transpose()?;
     let specification = specification.as_mut().map(|file| file as &mut dyn Read);
@@ -48,10 +41,23 @@ fn answer(args: &CheckArgs) -> Result<proofs_check::Report, Failure> {
     Ok(report)
 }
 
-/// The specification to compare with: the file as it is, or what `certify` made of it with `--sampling-period`.
+/// The specification to compare with: the file as it is, or what `convert` makes of it where it is no JSON, and `certify` with
+/// `--sampling-period`.
 fn specification(path: &Path, args: &CheckArgs) -> Result<Box<dyn Read>, Failure> {
-    let Some(text) = &args.sampling_period else { return open(path, "name the specification that you have") };
-    let document = with_sampling_period(&input::document(path)?, text)?;
+    let is_json = Notation::of(path) == Notation::Json;
+    if is_json && args.sampling_period.is_none() {
+        return open(path, "name the specification that you have");
+    }
+    let mut document = input::document(path)?;
+    if let Some(text) = &args.sampling_period {
+        document = with_sampling_period(&document, text)?;
+    }
+    if !is_json {
+        let name = shown(path);
+        output::remark(&format!(
+            "the independent checker reads JSON alone: what it compares is what `sigmastar convert {name}` writes"
+        ));
+    }
     Ok(Box::new(Cursor::new(json_text(&document.root().to_json()))))
 }
 

@@ -23,7 +23,7 @@ fn attempt(args: &LyapunovArgs) -> Result<u8, Failure> {
         let message = "this specification gives its Lyapunov triple, and there is no Jacobian to find one for";
         Failure::call(message, "write \"lyapunov\": { \"jacobian\": [[...], ...] } in it")
     };
-    let working = seeking_triple(false);
+    let working = seeking_triple("", false);
     let resolution = resolve(&spec).ok_or_else(given)?;
     drop(working);
     let resolution =

@@ -17,6 +17,7 @@ mod given;
 mod input;
 mod lyapunov;
 mod merge;
+mod misuse;
 mod output;
 mod pages;
 mod parameters;
@@ -48,6 +49,7 @@ pub fn run() -> ExitCode {
         Ok(cli) => cli,
         Err(error) => {
             let choice = colour::in_arguments(std::env::args_os().skip(1));
+            let error = misuse::with_advice(error, std::env::args_os().skip(1));
             let error = error.format(&mut command().color(choice));
             // A closed stream is no reason to fail differently.
             let _ = error.print();

@@ -65,8 +65,8 @@ pub enum Audience {
 }
 
 impl Working {
-    /// Starts to wait; `what` completes "sigmastar: ...".
-    pub fn new(what: &'static str, audience: Audience) -> Working {
+    /// Starts to wait; `what` completes "sigmastar: ...", and of work that may take long `more` says how to hear of its parts.
+    pub fn new(what: &'static str, more: &'static str, audience: Audience) -> Working {
         let terminal = stderr().is_terminal();
         if audience == Audience::Nobody {
             return Working { stop: None, thread: None };
@@ -77,7 +77,7 @@ impl Working {
                 return;
             }
             if !terminal {
-                output::remark(&format!("{what}; this may take a minute"));
+                output::remark(&format!("{what}; this may take minutes{more}"));
                 return;
             }
             let spinner = ProgressBar::new_spinner().with_message(what).with_elapsed(PATIENCE);
@@ -125,7 +125,7 @@ mod tests {
 
     #[test]
     fn quiet_work_starts_no_thread() {
-        assert!(Working::new("testing", Audience::Nobody).thread.is_none());
-        assert!(Working::new("testing", Audience::Everywhere).thread.is_some());
+        assert!(Working::new("testing", "", Audience::Nobody).thread.is_none());
+        assert!(Working::new("testing", "", Audience::Everywhere).thread.is_some());
     }
 }

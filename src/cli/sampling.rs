@@ -32,14 +32,14 @@ fn attempt(args: &SamplingArgs) -> Result<u8, Failure> {
     let audience = if args.quiet { Audience::Nobody } else { Audience::Everywhere };
     let study = match subject {
         Subject::Plant(plant) => {
-            let _working = Working::new("finding the orbit, proving the bounds of every pair", audience);
+            let _working = Working::new("finding the orbit, proving the bounds of every pair", "", audience);
             let study =
                 with_sampled_pairs(&plant, |pairs| SamplingStudy::new(&OfPlant { pairs }, &period, steps, gains));
             study.map_err(|refusal| Failure::Documents(refusal.errors(&plant)))?
         }
         specification @ Subject::Specification(_) => {
             let spec = proved(specification, args.quiet)?.0;
-            let _working = Working::new("certifying pairs of a gain and a sampling period", audience);
+            let _working = Working::new("certifying pairs of a gain and a sampling period", "", audience);
             SamplingStudy::new(&OfSpecification { spec: &spec }, &period, steps, gains)
         }
     };

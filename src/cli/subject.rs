@@ -91,25 +91,25 @@ pub fn has_format(document: &Document, format: &str) -> bool {
 /// # Errors
 /// What keeps the data from being proved, at its place.
 pub fn proved(subject: Subject, quiet: bool) -> Result<(Specification, Option<SharpProposal>), Failure> {
-    let _working = proving(&subject, quiet);
+    let _working = proving(&subject, "", quiet);
     subject.proved().map_err(Failure::Documents)
 }
 
-/// Says what takes long of a subject's data, if anything does.
-pub fn proving(subject: &Subject, quiet: bool) -> Option<Working> {
+/// Says what takes long of a subject's data, if anything does, and `more` of how to hear of it.
+pub fn proving(subject: &Subject, more: &'static str, quiet: bool) -> Option<Working> {
     match subject {
-        Subject::Specification(spec) => spec.lyapunov.triple().is_none().then(|| seeking_triple(quiet)),
+        Subject::Specification(spec) => spec.lyapunov.triple().is_none().then(|| seeking_triple(more, quiet)),
         Subject::Plant(_) => {
             let audience = if quiet { Audience::Nobody } else { Audience::Everywhere };
-            Some(Working::new("finding the orbit and proving the plant's bounds", audience))
+            Some(Working::new("finding the orbit and proving the plant's bounds", more, audience))
         }
     }
 }
 
 /// Says that a triple is sought, where that takes long.
-pub fn seeking_triple(quiet: bool) -> Working {
+pub fn seeking_triple(more: &'static str, quiet: bool) -> Working {
     let audience = if quiet { Audience::Nobody } else { Audience::Everywhere };
-    Working::new("finding and proving the Lyapunov triple of the Jacobian", audience)
+    Working::new("finding and proving the Lyapunov triple of the Jacobian", more, audience)
 }
 
 /// The document with another sampling period, or itself where it has no internal model: what is wrong with it is told as ever.

@@ -29,6 +29,7 @@ mod errata_list;
 mod expr_properties;
 mod expr_prove;
 mod families_random;
+mod first_use;
 mod formats;
 mod front_door;
 mod front_door_beside;

@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 use sigmastar::{CertifyOptions, ErrorKind, Subject, certify};
 use sigmastar_lang::expr::{Expr, ProofSettings, Variables, prove_bounding};
 use sigmastar_lang::plant::Plant;
-use sigmastar_lang::spec::TrigonometricVector;
+use sigmastar_lang::spec::{self, TrigonometricVector};
 use sigmastar_plants::bounds::{Engine, Region};
 
 /// Terms that are defined nowhere; `V` is a variable. One for each way in which an operand may be left out: products with 0,
@@ -135,7 +135,7 @@ fn what_is_undefined_in_a_plant_is_never_smooth() {
                     Ok(plant) => plant,
                     Err(refused) => {
                         let [error] = refused.errors() else { panic!("{f}{q}: {refused}") };
-                        assert_eq!(error.kind, ErrorKind::Expression, "{f}{q}: {error}");
+                        assert_eq!(error.kind, spec::ErrorKind::Expression, "{f}{q}: {error}");
                         assert!(term.contains("0/0") || term.contains("1/0"), "{f}{q}: {error}");
                         read[0] += 1;
                         continue;

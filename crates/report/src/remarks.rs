@@ -2,15 +2,17 @@
 
 use super::gains;
 use rug::Rational;
-use sigmastar_document::number::{estimate, exact};
+use sigmastar_document::number::{estimate, exact, upper};
 use sigmastar_exact::number::Direction;
 use sigmastar_lang::spec::{ProvedValue, Specification};
-use sigmastar_prove::certify::{Certification, ExceededBy, NoPlant, SampledCertification};
+use sigmastar_prove::certify::{Certification, ExceededBy, NoPlant, SampledCertification, unusual_mu};
 
 /// One sentence or two for each.
 pub fn remarks(run: &Certification<'_>) -> Vec<String> {
     let mut remarks = of(run.no_plant.as_ref(), run.has_force_at_origin());
     remarks.extend(unused_parameters(run.spec));
+    remarks.extend(mu(run.spec));
+    remarks.extend(no_worth_of_oscillators(run));
     if let Some(sigma) = run.sigma_star().filter(|_| run.is_smallest())
         && sigma.to_f64() * run.spec.period.longest().to_f64() > LARGE
     {
@@ -24,6 +26,12 @@ pub fn remarks(run: &Certification<'_>) -> Vec<String> {
     }
     remarks.extend(gains::remark(run));
     remarks.extend(unused_disturbances(run.spec, run.claim().is_some() && run.for_n_o.is_empty()));
+    let asked = run.claim().is_some() && run.is_smallest() && !run.for_n_o.is_empty();
+    remarks.extend(by_norms(
+        run.spec,
+        asked && run.spec.disturbances.any(),
+        "what noise does with given numbers of oscillators is",
+    ));
     remarks.extend(run.spec.disturbances.in_doubles().then(|| {
         "Remark: `arithmetic` does not enter this claim, which is about the regulator in continuous time. It counts in what is said of given \
          numbers of oscillators at samples: ask with `--sampling-period H --n-o LIST`."
@@ -78,14 +86,62 @@ fn far_above_its_samples(entries: &[ProvedValue]) -> Option<String> {
 pub fn sampled_remarks(run: &SampledCertification<'_>) -> Vec<String> {
     let mut remarks = of(run.no_plant.as_ref(), run.has_force_at_origin());
     remarks.extend(unused_parameters(run.spec));
+    remarks.extend(mu(run.spec));
     remarks.extend(unused_disturbances(run.spec, run.claim().is_some() && run.for_n_o.is_empty()));
     remarks.extend(unused_arithmetic(run));
+    let asked = run.claim().is_some() && run.given_gain.is_none() && !run.for_n_o.is_empty();
+    remarks.extend(by_norms(run.spec, asked && !run.sampling.delayed, "rates at samples are"));
     remarks
 }
 
 /// That parameters of a plant are used nowhere.
 fn unused_parameters(spec: &Specification) -> Option<String> {
     Some(format!("Remark: {}.", spec.plant()?.parameters.unused_in_words()?))
+}
+
+/// That mu is far from the scale of the period.
+fn mu(spec: &Specification) -> Option<String> {
+    Some(format!("Remark: {}.", unusual_mu(&spec.internal_model, &spec.period)?))
+}
+
+/// That a claim about a plant rests on norms because of what was asked for `--n-o`, where a matrix inequality might have given a smaller gain.
+fn by_norms(spec: &Specification, asked: bool, what: &str) -> Option<String> {
+    let values = spec.bounds.proved_values();
+    let by_matrix =
+        values.inequality().is_some() || values.joint_stability().is_some() || values.sampled().stability.is_some();
+    (asked && spec.plant().is_some() && !by_matrix).then(|| {
+        format!(
+            "Remark: with `--n-o` the claim rests on norms, from which {what} proved; without it a matrix inequality may serve for a smaller gain."
+        )
+    })
+}
+
+/// So many oscillators are held against none, and the share of the bound with none that they leave at least where they are not worth it.
+const MANY: u64 = 100;
+const LEFT: f64 = 0.9;
+
+/// That the bound of the steady error hardly falls with the number of oscillators.
+fn no_worth_of_oscillators(run: &Certification<'_>) -> Option<String> {
+    let [none, many] = [0, MANY].map(|n_o| run.error_with(n_o).map(|bounds| bounds.sup));
+    let (none, many) = (none?, many?);
+    if many.upper_f64() <= LEFT * none.upper_f64() {
+        return None;
+    }
+    let advice = match (run.spec.period.interval(), run.spec.internal_model.matched) {
+        (Some(_), _) => {
+            "the oscillators are not at the harmonics where the period is known by an interval alone. A narrower interval"
+        }
+        (None, false) => {
+            "`matched` is false, so that the oscillators are not at the harmonics. A `base_frequency` of 2*pi/period, exactly, with `matched`"
+        }
+        (None, true) => "at this gain it is the size of the loop that bounds the error. A smaller load",
+    };
+    Some(format!(
+        "Remark: the bound of the steady error hardly falls with the number of oscillators, {} with none and {} with {MANY}: {advice} lets it \
+         fall; a larger gain lowers all of them (`--steady-error V` seeks one).",
+        upper(&none),
+        upper(&many)
+    ))
 }
 
 fn of(no_plant: Option<&NoPlant>, force_at_origin: bool) -> Vec<String> {

@@ -85,7 +85,8 @@ pub struct CertifyArgs {
           value_parser = clap::value_parser!(u32).range(i64::from(DEFAULT_PRECISION)..=4096))]
     pub precision_limit: u32,
 
-    /// Do not work out the printed and the repaired derivation for comparison
+    /// Do not work out the printed and the repaired derivation for comparison, nor, where a plant is not certified, a smaller
+    /// initial set
     #[arg(long)]
     pub no_compare: bool,
 
@@ -193,7 +194,8 @@ pub struct CheckArgs {
     #[arg(value_name = "CERTIFICATE", value_hint = ValueHint::FilePath)]
     pub certificate: PathBuf,
 
-    /// Specification or plant (JSON) that the certificate has to be about: other data make it invalid
+    /// Specification or plant (.json; of .jsonc and .toml what `convert` writes) that the certificate has to be about: other data
+    /// make it invalid
     #[arg(long, value_name = "SPEC", value_hint = ValueHint::FilePath)]
     pub spec: Option<PathBuf>,
 

@@ -1,7 +1,7 @@
 //! Whether the right sides have the stated period: as far as points can tell, and by proof.
 
 use super::Plant;
-use crate::expr::{Evaluator, NotPeriodic, PeriodicityReason, Program};
+use crate::expr::{Evaluator, NotPeriodic, PeriodicityReason, PlantExpr, Program};
 use crate::spec::Constant;
 use sigmastar_exact::number::told_apart;
 use std::fmt;
@@ -78,14 +78,17 @@ impl Plant {
     /// # Errors
     /// The first part that has not the form which is asked for there; it says nothing against the period.
     pub fn prove_periodic(&self) -> Result<(), PeriodicityFailure> {
-        for (index, expr) in self.right_sides().into_iter().enumerate() {
-            expr.prove_periodic(self.period.nominal().exact.as_ref()).map_err(|NotPeriodic { span, reason }| {
-                let part = expr.text().get(span.clone()).unwrap_or_default().to_owned();
-                PeriodicityFailure { index, span, part, reason }
-            })?;
-        }
-        Ok(())
+        let mut all = self.right_sides().into_iter().enumerate();
+        all.try_for_each(|(index, expr)| decide(expr, index, self.period.nominal()))
     }
+}
+
+/// The same of one right side.
+pub(super) fn decide(expr: &PlantExpr, index: usize, period: &Constant) -> Result<(), PeriodicityFailure> {
+    expr.prove_periodic(period.exact.as_ref()).map_err(|NotPeriodic { span, reason }| {
+        let part = expr.text().get(span.clone()).unwrap_or_default().to_owned();
+        PeriodicityFailure { index, span, part, reason }
+    })
 }
 
 #[cfg(test)]

@@ -102,11 +102,16 @@ fn read(value: &Value<'_>, errors: &mut Errors) -> Result<Plant, Reported> {
         _ => None,
     };
     let periodic = match (&broken, &f, &q) {
-        (Some(broken), Ok((f_values, _)), Ok((q_value, _))) => {
-            let value = f_values.get(broken.index).unwrap_or(q_value);
-            let message = format!("this is not periodic in t with the stated period: {broken}");
+        (Some(broken), Ok((f_values, f)), Ok((q_value, q))) => {
+            let (value, expr) = f_values.get(broken.index).zip(f.get(broken.index)).unwrap_or((q_value, q));
+            let period = period.as_ref().map(Period::nominal);
+            let first = period.ok().and_then(|period| periodicity::decide(expr, broken.index, period).err());
             let length = value.text().or_else(|| value.numeral()).map_or(0, str::len);
-            let error = value.error_in(ErrorKind::Range, &(0..length), message);
+            let span = first.as_ref().map_or(0..length, |first| first.span.clone());
+            let first = first
+                .map_or_else(String::new, |first| format!("; the first part that is not seen to have it is {first}"));
+            let message = format!("this is not periodic in t with the stated period: {broken}{first}");
+            let error = value.error_in(ErrorKind::Range, &span, message);
             let help = "correct the expression, or state the period of all right sides together";
             Err(errors.report(error.help(help)))
         }

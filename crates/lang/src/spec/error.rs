@@ -183,6 +183,15 @@ impl SpecErrors {
         SpecErrors { in_full, ..self }
     }
 
+    /// The same, with more to do about an error that stands alone.
+    #[must_use]
+    pub fn with_more_help(mut self, more: &str) -> SpecErrors {
+        if let [error] = self.errors.as_mut_slice() {
+            error.help = Some(error.help.take().map_or_else(|| more.to_owned(), |help| format!("{help}; {more}")));
+        }
+        self
+    }
+
     /// The sentence of one of these errors with every digit of its numbers.
     #[must_use]
     pub fn in_full<'e>(&'e self, error: &'e SpecError) -> &'e str {

@@ -33,6 +33,20 @@ pub enum OrbitFailure {
         /// The exponents (real, imaginary) in 1/time, the largest real part first.
         floquet: Vec<[f64; 2]>,
     },
+    /// A combination of the states on which no state acts.
+    #[error(
+        "no T-periodic solution of x' = f(t,x,0) attracts its neighbours: no state acts on {sum}, which only adds up its right side{} (floating \
+         point)",
+        mean.map_or_else(String::new, |mean| format!(", and the mean of that over a period is {}, not 0, so that it grows for ever", short(mean)))
+    )]
+    AddsUp {
+        /// The combination, in words.
+        sum: String,
+        /// The state with the largest part in it.
+        largest: usize,
+        /// The mean of its right side over a period, where it is not 0.
+        mean: Option<f64>,
+    },
     /// Too many states.
     #[error("{states} states; the orbit of at most {MAX_STATES} is sought")]
     TooLarge {
@@ -62,6 +76,14 @@ impl OrbitFailure {
             OrbitFailure::NotStable { .. } => Some(
                 "the zero dynamics have to be stable: close a loop around them first, or choose another output e; where they \
                  have another periodic solution, which is stable, state an `initial` of the plant file that is near it",
+            ),
+            OrbitFailure::AddsUp { mean: None, .. } => Some(
+                "no other orbit is stable either: give it a term that pulls it back, close a loop around it first, or leave out a state that \
+                 neither q nor another state needs",
+            ),
+            OrbitFailure::AddsUp { mean: Some(_), .. } => Some(
+                "a load that acts where u does stands in q, where the regulator takes up its mean; else give what adds up a term that pulls it \
+                 back, or leave out a state that neither q nor another state needs",
             ),
             OrbitFailure::Singular => Some("state an `initial` of the plant file that is near the periodic solution"),
             OrbitFailure::TooLarge { .. } => None,

@@ -1,9 +1,10 @@
 //! The periodic solution of x' = f(t, x, 0) in doubles: from 0 or from a simulation, with as many harmonics as it needs.
 
 use super::collocation::collocate;
+use super::drift::drift;
 use super::failure::{MAX_STATES, OrbitFailure};
 use super::field::Field;
-use super::floquet::{floquet_exponents, is_stable};
+use super::floquet::{floquet_exponents, is_neutral, is_stable};
 use super::series::{FloatSeries, Turn};
 use nalgebra::DVector;
 use rug::Rational;
@@ -113,6 +114,14 @@ fn find_one(plant: &Plant) -> Result<FloatOrbit, OrbitFailure> {
     }
     match first {
         Some(OrbitFailure::NotFinite | OrbitFailure::NotFound { .. }) | None if singular => Err(OrbitFailure::Singular),
+        // What the exponents are of, or why there is no solution.
+        Some(OrbitFailure::NotStable { floquet }) if is_neutral(&floquet, field.period) => {
+            let named = drift(&mut field, plant.names.states(), false);
+            Err(named.unwrap_or(OrbitFailure::NotStable { floquet }))
+        }
+        Some(failure @ OrbitFailure::NotFound { .. }) => {
+            Err(drift(&mut field, plant.names.states(), true).unwrap_or(failure))
+        }
         first => Err(first.unwrap_or(OrbitFailure::NotFinite)),
     }
 }

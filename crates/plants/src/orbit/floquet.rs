@@ -92,6 +92,14 @@ pub(super) fn is_stable(exponents: &[[f64; 2]], period: f64) -> bool {
     exponents.first().is_some_and(|first| first[0] * period < -ROUNDING)
 }
 
+/// A multiplier of several states that add each other up is known to the root of that.
+const NEUTRAL: f64 = 1e-4;
+
+/// Whether that is 0, as far as doubles can tell.
+pub(super) fn is_neutral(exponents: &[[f64; 2]], period: f64) -> bool {
+    exponents.first().is_some_and(|first| (first[0] * period).abs() <= NEUTRAL)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -2,7 +2,7 @@
 //! coordinates in which the zero dynamics contract (derivation, 11.2, 11.4, 11.5).
 //!
 //! - `balance`, `modes`: units and axes that do not depend on how a plant is written;
-//! - `field`, `series`, `collocation`, `floquet`, `find`: the orbit in doubles;
+//! - `field`, `series`, `collocation`, `floquet`, `drift`, `find`: the orbit in doubles;
 //! - `round`, `shape`, `least_gain`, `coordinates`, `sampled`: short rationals for it, L and P(t), and what to ask of the proofs;
 //! - `recurrences`, `taylor`, `cells`, `curve`: Taylor series of formulas along a curve, over enclosures;
 //! - `members`: the members of a family of plants along it;
@@ -15,6 +15,7 @@ mod collocation;
 mod coordinates;
 mod curve;
 mod defect;
+mod drift;
 mod failure;
 mod field;
 mod find;

@@ -27,6 +27,7 @@ mod room;
 mod round;
 mod row_rates;
 mod sampled;
+mod scale;
 mod sensitivity;
 mod smaller;
 mod start;
@@ -48,6 +49,7 @@ pub use proof::{Decidable, Decided, GivenWitness, Outcome, Proof, RepairedProof,
 pub use rates::{NoRatesOfClaim, rate_counts};
 pub use refusal::{Refusal, WITHOUT_INPUT_GAIN, not_available_with_input_gain};
 pub use sampled::{SampledCertification, certify_sampled, certify_sampled_within, recheck_sampled, sampled_model};
+pub use scale::unusual_mu;
 pub use smaller::SmallerChoice;
 pub use start::FarStart;
 pub use verdict::{Verdict, verdict_of_errors};

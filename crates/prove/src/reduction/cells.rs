@@ -2,6 +2,7 @@
 //! (derivation, 13.2).
 
 use super::refusal::PlantRefusal;
+use super::watch::Watch;
 use rayon::prelude::*;
 use rug::Rational;
 use sigmastar_exact::number::{Direction, Portable, round_f64, write_exact};
@@ -12,6 +13,7 @@ use sigmastar_plants::orbit::{
     Coordinates, OrbitFailure, OrbitProof, defects_by_parameter, find_orbit, prove_forcing, prove_orbit_at, round_orbit,
 };
 use std::f64::consts::{SQRT_2, TAU};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// The most cells.
 pub(super) const MAX_CELLS: usize = 64;
@@ -140,7 +142,12 @@ impl Cells {
     ///
     /// # Errors
     /// What is not proved in one of them, or of the whole box where a corner is not proved by itself.
-    pub(super) fn new(whole: &Cell, candidates: &[Coordinates], narrow: f64) -> Result<Cells, PlantRefusal> {
+    pub(super) fn new(
+        whole: &Cell,
+        candidates: &[Coordinates],
+        narrow: f64,
+        watch: &dyn Watch,
+    ) -> Result<Cells, PlantRefusal> {
         let coordinates = candidates.first().filter(|_| whole.can_be_cut());
         let first = coordinates.map(|coordinates| (coordinates, whole.width(coordinates, None)));
         let first = first.filter(|(_, width)| width.as_ref().map_or(true, |(width, _)| *width > narrow));
@@ -151,10 +158,15 @@ impl Cells {
         };
         let why = reason(whole, first);
         let (mut level, mut done, mut count) = (vec![(whole.clone(), f64::INFINITY)], Vec::new(), 1);
+        let looked_at = AtomicUsize::new(0);
         while !level.is_empty() {
-            let widths =
-                level.par_iter().map(|(cell, _)| cell.width(coordinates, rate.as_ref()).map(|(width, _)| width));
-            let widths: Vec<Result<f64, PlantRefusal>> = widths.collect();
+            let width = |(cell, _): &(Cell, f64)| {
+                let width = cell.width(coordinates, rate.as_ref()).map(|(width, _)| width);
+                // So many with those that were halved, as far as is known yet.
+                watch.part(looked_at.fetch_add(1, Ordering::Relaxed) + 1, 2 * count - 1);
+                width
+            };
+            let widths: Vec<Result<f64, PlantRefusal>> = level.par_iter().map(width).collect();
             let mut cells: Vec<_> = std::mem::take(&mut level).into_iter().zip(widths).collect();
             cells.sort_by_key(|(_, width)| width.is_ok());
             for ((cell, before), width) in cells {

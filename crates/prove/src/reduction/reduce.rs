@@ -62,10 +62,10 @@ pub fn reduce(plant: &Plant, gain: Option<&Rational>, watch: &dyn Watch) -> Resu
 pub(super) fn reduce_to(plant: &Plant, last: &Last<'_>, watch: &dyn Watch) -> Result<Reduced, PlantRefusal> {
     let (whole, candidates) = with_whole(plant, watch)?;
     let [narrow, narrower] = NARROW;
-    let cells = Cells::new(&whole, &candidates, narrow)?;
+    let cells = Cells::new(&whole, &candidates, narrow, watch)?;
     in_cells(plant, &cells, &candidates, last, watch).or_else(|refusal| {
         // The tube may take what the initial set needs, and be too wide in other coordinates.
-        let finer = refusal.may_be_of_tube().then(|| Cells::new(&whole, &candidates, narrower));
+        let finer = refusal.may_be_of_tube().then(|| Cells::new(&whole, &candidates, narrower, watch));
         match finer {
             Some(Ok(finer)) if finer.list.len() > cells.list.len() => {
                 in_cells(plant, &finer, &candidates, last, watch).map_err(|_| refusal)
@@ -156,7 +156,7 @@ pub(super) fn with_candidates<T>(
     prove: impl FnOnce(&[Coordinates], &Sampling<'_>) -> Result<T, PlantRefusal>,
 ) -> Result<T, PlantRefusal> {
     let (whole, candidates) = with_whole(plant, watch)?;
-    let cells = Cells::new(&whole, &candidates, NARROW[0])?;
+    let cells = Cells::new(&whole, &candidates, NARROW[0], watch)?;
     with_cells(plant, &cells, &candidates, watch, |sampling| prove(&candidates, sampling))
 }
 

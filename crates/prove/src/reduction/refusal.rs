@@ -1,8 +1,9 @@
 //! What keeps a plant from being certified, as errors at their places in its file.
 
+use super::shrunk::INITIAL_SET;
 use crate::search::{Failing, Obstacle};
 use sigmastar_lang::plant::{PeriodicityFailure, Plant};
-use sigmastar_lang::spec::{ErrorKind, SpecErrors};
+use sigmastar_lang::spec::{ErrorKind, InitialSet, SpecErrors};
 use sigmastar_plants::bounds::SmoothnessFailure;
 use sigmastar_plants::orbit::{OrbitFailure, OrbitNotProved};
 use sigmastar_theory::data::Bound;
@@ -104,6 +105,9 @@ impl PlantRefusal {
                 let help = "leave out states that do not act on e, or give a bounding specification";
                 vec![plant.errors_at("/states", &(0..0), ErrorKind::Range, message, Some(help.into()))]
             }
+            PlantRefusal::NoOrbit(failure @ OrbitFailure::AddsUp { largest, .. }) => {
+                undecided(&field(*largest), failure.to_string(), failure.way_out())
+            }
             PlantRefusal::NoOrbit(failure) => undecided("/f", failure.to_string(), failure.way_out()),
             PlantRefusal::OrbitNotProved(failure) if plant.is_family() => undecided(
                 "/parameters",
@@ -126,6 +130,9 @@ impl PlantRefusal {
                     "they have to be stable with a margin: close a loop around them first, or choose another output e",
                 ),
             ),
+            PlantRefusal::NoGain(obstacle) if is_of_set(obstacle) => {
+                undecided(place_of_set(plant), no_gain(obstacle), Some(help_of_set(plant, obstacle)))
+            }
             PlantRefusal::NoGain(obstacle) => undecided("", no_gain(obstacle), Some(help(obstacle))),
             PlantRefusal::OfAnother(refusal) => {
                 let all = refusal.errors(plant);
@@ -144,7 +151,7 @@ impl PlantRefusal {
                 )
             }
             PlantRefusal::NotProved { bound, at: [x, e] } => undecided(
-                "",
+                place_of_set(plant),
                 format!("the bound `{bound}` is not proved for |y| <= {x:.6}, |e| <= {e:.6} within the effort"),
                 Some("a smaller initial set, or a smoother plant"),
             ),
@@ -169,6 +176,35 @@ impl PlantRefusal {
 
 fn no_gain(obstacle: &Obstacle) -> String {
     format!("no gain was found for this initial set in floating point. {}", obstacle.describe())
+}
+
+/// Whether a smaller initial set may be all that it takes.
+fn is_of_set(obstacle: &Obstacle) -> bool {
+    use Failing::{Bounds, Coupling, Curvature, DomainE, DomainX, NotFinite, Unproved};
+    matches!(obstacle.failing, NotFinite(Some(_)) | DomainX | DomainE | Curvature | Coupling | Bounds | Unproved(_))
+}
+
+/// The initial set, where the plant states one.
+fn place_of_set(plant: &Plant) -> &'static str {
+    if plant.document.get("initial_set").is_some() { INITIAL_SET } else { "" }
+}
+
+/// What helps against such an obstacle: a smaller set, or where its sizes are left open, which makes it the smallest, something else.
+fn help_of_set(plant: &Plant, obstacle: &Obstacle) -> &'static str {
+    match &plant.initial_set {
+        InitialSet::AtRest { x0: None, e0: None } | InitialSet::Aligned { x0: None, e0: None } => {
+            match obstacle.failing {
+                Failing::DomainX | Failing::DomainE => {
+                    "a larger `domain`: the initial set is the smallest of its kind already"
+                }
+                _ => {
+                    "the initial set is the smallest of its kind already, twice the periodic solution: the kind `aligned` asks for less than \
+                 `at-rest`, and so do a smaller load, a larger rate of the zero dynamics and less coupling between e and x"
+                }
+            }
+        }
+        _ => help(obstacle),
+    }
 }
 
 /// What helps where no gain was found, for the very reason.

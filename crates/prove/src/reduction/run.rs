@@ -209,7 +209,7 @@ impl Prepared {
                         let gain = |plant: &Plant| {
                             reduce(plant, None, &Unwatched).ok().map(|found| found.proposal.sigma.min(sigma))
                         };
-                        run.interval_costs = interval_costs(plant, gain);
+                        run.interval_costs = interval_costs(plant, gain, watch);
                     }
                     if self.found_above.is_some() {
                         (run.given_gain, run.smallest_gain) = (None, self.found_above);
@@ -224,7 +224,7 @@ impl Prepared {
                     if let Some(sigma) = claimed.filter(|_| options.compare && smallest) {
                         watch.enter(Stage::Comparison);
                         let subject = (spec, self.plant.as_deref());
-                        run.interval_costs = costs_at_samples(subject, (sampling, sigma), options.ladder);
+                        run.interval_costs = costs_at_samples(subject, (sampling, sigma), options.ladder, watch);
                     }
                     if options.compare {
                         run.set_gains(start.as_ref(), options.ladder);

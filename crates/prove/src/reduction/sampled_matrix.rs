@@ -262,6 +262,7 @@ impl<'a> MatrixAtSamples<'a> {
 
     /// The best that is found at a gain: of the inequalities of existence the one with which the known shape does best, and then the shape.
     fn at(&self, from: &At) -> Option<Found> {
+        self.sampled.count();
         let of = self.numbers(from.sigma);
         let with = |energy: Option<SampledEnergy>| {
             let model = self.model(from.sigma, &from.places, energy.as_ref());

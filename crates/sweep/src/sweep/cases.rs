@@ -3,6 +3,7 @@
 use super::row::Row;
 use super::study::{Study, SubjectSource};
 use serde_json::Value;
+use sigmastar_document::clean;
 use sigmastar_lang::plant;
 use sigmastar_lang::spec::{self, Document, ErrorKind, Errors, SpecErrors};
 
@@ -142,10 +143,31 @@ fn fits(study: &Study, base: &Value) -> Result<(), SpecErrors> {
         let named = ["pointer", "parameter"].map(|field| study.source.at(&format!("/parameters/{index}/{field}")));
         let place = named.into_iter().flatten().next().unwrap_or_else(|| study.source.root());
         let error = place.error(ErrorKind::UnknownName, message);
-        errors.report(error.help(
-            "name a number, a string or a Boolean that the subject has; a field that may be left out \
-                                  has to be there",
-        ));
+        let known = known(base, &parameter.pointer).map_or_else(String::new, |known| format!(": {known}"));
+        errors.report(error.help(format!(
+            "name a number, a string or a Boolean that the subject has{known}; a field that may be left out has to be there"
+        )));
     }
     errors.conclude(&study.source, Ok(()))
+}
+
+/// The names beside a place that is not there, or below one that is no single value: `in /lyapunov there are alpha, p_up`.
+fn known(base: &Value, pointer: &str) -> Option<String> {
+    let mut place = pointer;
+    let mut value = base.pointer(place);
+    while !matches!(value, Some(Value::Object(_) | Value::Array(_))) {
+        place = &place[..place.rfind('/')?];
+        value = base.pointer(place);
+    }
+    let place = if place.is_empty() { "it" } else { place };
+    match value? {
+        Value::Object(fields) if !fields.is_empty() => {
+            let names: Vec<&str> = fields.keys().map(String::as_str).collect();
+            Some(format!("in {place} there are {}", clean(&names.join(", "))))
+        }
+        Value::Array(entries) if !entries.is_empty() => {
+            Some(format!("in {place} there are 0 to {}", entries.len() - 1))
+        }
+        _ => Some(format!("there is nothing in {place}")),
+    }
 }
