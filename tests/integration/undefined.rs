@@ -135,7 +135,7 @@ fn what_is_undefined_in_a_plant_is_never_smooth() {
                     Ok(plant) => plant,
                     Err(refused) => {
                         let [error] = refused.errors() else { panic!("{f}{q}: {refused}") };
-                        assert_eq!(error.kind, ErrorKind::Expression, "{f}{q}: {error}");
+                        assert_eq!(error.kind, sigmastar_lang::spec::ErrorKind::Expression, "{f}{q}: {error}");
                         assert!(term.contains("0/0") || term.contains("1/0"), "{f}{q}: {error}");
                         read[0] += 1;
                         continue;
