@@ -36,8 +36,8 @@ pub fn page(path: &Path, certificate: Document, words: String) -> Result<Option<
         Block::says(format!("The independent checker decided this certificate, `{}`; its words:", shown(path))),
         Block::Code(words),
         Block::says(
-            "What follows is proved again from the certificate. What only the search knows is not in it: what sets the gain, what would lower \
-             it, and the comparison with the paper.",
+            "What follows is proved again from the certificate. What only the search knows is not in it: what sets the gain, and what would \
+             lower it.",
         ),
     ];
     blocks.splice(place..place, decided);

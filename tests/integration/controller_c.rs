@@ -217,8 +217,9 @@ fn two_regulators_of_one_prefix_share_a_program_and_no_file() {
     gcc(&[&few, &many, &user("1"), &user("9"), &main], &program);
     let printed = utf8(Process::new(&program).output().unwrap().stdout);
     let spec = specification("linear");
+    let sigma = constant("2");
     let expected = [1, 9].map(|n_o| {
-        let design = Design::new(&spec.internal_model, &constant("2"), n_o);
+        let design = Design::new(&spec.internal_model, &sigma, n_o);
         let mut stepper = Stepper::new(design.regulator(), design.discretise(&constant("1/100")).unwrap());
         let last = (0..7).map(|_| stepper.step(1.0)).last().unwrap();
         format!("{:x}\n", last.to_bits())

@@ -14,7 +14,7 @@ pub(super) fn facts(spec: &Specification, sampling: Option<&Sampling>) -> Block 
     };
     let kind = if spec.plant().is_some() { "plant" } else { "specification" };
     Block::facts([
-        ("law", format!("{law}; `sigmastar controller` writes its matrices")),
+        ("law", format!("`{law}`; `sigmastar controller` writes its matrices")),
         (kind, format!("SHA-256 {}, as `sigmastar check` has it", spec.sha256)),
     ])
 }
