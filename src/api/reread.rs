@@ -6,7 +6,7 @@ use super::error::{Error, ErrorKind};
 use super::json_text;
 use super::subject::Subject;
 use sigmastar_lang::spec::{self, Document};
-use sigmastar_prove::certificate::{certificate_of, embedded, read_for};
+use sigmastar_prove::certificate::{embedded, is_stated, read_for, stated_counts};
 use sigmastar_prove::certify::{Options, rate_counts};
 use sigmastar_prove::reduction::Prepared;
 
@@ -31,17 +31,14 @@ pub fn reread(name: &str, bytes: &[u8]) -> Result<Certificate, Error> {
     let kind = if document.at("/plant").is_some() { "plant" } else { "specification" };
     let subject = Subject::new(Document::parse(&format!("{kind} of {name}"), &json_text(&copy.to_json()))?)?;
     let witness = read_for(&document, &subject.read)?;
-    let stored = document.at("/claim").map(|claim| claim.to_json()).unwrap_or_default();
     let of_another = witness.of_another;
     let prepared = Prepared::again(&subject.read, witness).map_err(|all| Error::documents(&all))?;
     let options = Options { compare: false, ..Options::default() };
     let mut run = prepared.certify(options).map_err(|all| Error::documents(&all))?;
-    let counts = stored["for_n_o"].as_array().into_iter().flatten();
-    let counts = counts.filter_map(|one| one["n_o"].as_u64().and_then(|n_o| u32::try_from(n_o).ok()));
-    let counts = rate_counts(&counts.collect::<Vec<u32>>()).map_err(Error::no_rates)?;
+    let counts = rate_counts(&stated_counts(&document)).map_err(Error::no_rates)?;
     run.prove_rates(&counts).map_err(Error::no_rates)?;
     let certificate = Certificate::new(&run, &subject, true).ok_or_else(|| not_certified(&run))?;
-    if of_another || certificate_of(&run).is_none_or(|made| made["claim"] != stored) {
+    if of_another || !is_stated(&run, &document) {
         let message = format!("{name}: the claim that is stored is not the one that its witness proves");
         let help = "`check` says what is wrong with it; `certify` makes a new certificate";
         return Err(Error::new(ErrorKind::Claim, message, help));

@@ -2,9 +2,12 @@
 
 use super::args::CheckArgs;
 use super::failure::Failure;
-use super::input;
+use super::format::Format;
 use super::output::{self, json_text, reason, shown};
 use super::subject::{has_format, with_sampling_period};
+use super::{input, stored};
+use proofs_check::json::MAX_BYTES;
+use proofs_check::verdict::Verdict;
 use sigmastar_document::{Block, Made, clean};
 use sigmastar_lang::spec::{Document, Notation};
 use sigmastar_prove::certificate::FORMAT as CERTIFICATE;
@@ -15,9 +18,10 @@ use std::path::Path;
 /// Runs the command and returns the exit code: that of the independent checker.
 pub fn run(args: &CheckArgs) -> u8 {
     match answer(args) {
-        Ok(report) => {
+        Ok((report, page)) => {
             // The words of the checker's report are its own.
-            let answer = Made::new(vec![Block::Code(report.text(args.verbose))], report.json());
+            let words = || Made::new(vec![Block::Code(report.text(args.verbose))], report.json());
+            let answer = page.unwrap_or_else(words);
             let text = output::report(&answer, args.format);
             output::data(&text).map_or_else(|code| code, |()| report.verdict.exit_code())
         }
@@ -25,20 +29,41 @@ pub fn run(args: &CheckArgs) -> u8 {
     }
 }
 
-fn answer(args: &CheckArgs) -> Result<proofs_check::Report, Failure> {
+/// The answer, and of a valid certificate the page where one is asked for.
+fn answer(args: &CheckArgs) -> Result<(proofs_check::Report, Option<Made>), Failure> {
     let mut certificate = open(&args.certificate, "name a certificate that was written with `certify -o`")?;
     let mut specification = args.spec.as_deref().map(|path| specification(path, args)).transpose()?;
     let specification = specification.as_mut().map(|file| file as &mut dyn Read);
-    let report = proofs_check::check_reader(&mut certificate, specification).map_err(|error| {
+    let mut bytes = Vec::new();
+    let read = certificate.by_ref().take(MAX_BYTES as u64 + 1).read_to_end(&mut bytes);
+    let report = read.and_then(|_| proofs_check::check_reader(&mut &bytes[..], specification)).map_err(|error| {
         let message = format!("cannot read `{}`: {}", shown(&args.certificate), reason(&error));
         Failure::call(message, "name files, not folders")
     })?;
     match report.verdict {
-        proofs_check::verdict::Verdict::Invalid => tell_difference(args),
-        proofs_check::verdict::Verdict::BadInput => tell_no_certificate(&args.certificate),
+        Verdict::Invalid => tell_difference(args),
+        Verdict::BadInput => tell_no_certificate(&args.certificate),
+        Verdict::Valid if args.format == Format::Html => {
+            let page = page(args, &bytes, &report);
+            return Ok((report, page));
+        }
         _ => {}
     }
-    Ok(report)
+    Ok((report, None))
+}
+
+/// The page of a valid certificate; where the same claim is not proved from it here, there is none, and a remark says what tells more.
+fn page(args: &CheckArgs, bytes: &[u8], report: &proofs_check::Report) -> Option<Made> {
+    let certificate = Document::from_bytes_as(&shown(&args.certificate), bytes, Notation::Json).map_err(Failure::from);
+    let words = report.text(args.verbose);
+    let page = certificate.and_then(|certificate| stored::page(&args.certificate, certificate, words)).ok().flatten();
+    if page.is_none() {
+        output::remark(
+            "the page has the words of the checker alone: this version does not prove the same claim, in the same words, from the \
+             certificate; `certify FILE --witness FILE` says what it proves",
+        );
+    }
+    page
 }
 
 /// The specification to compare with: the file as it is, or what `convert` makes of it where it is no JSON, and `certify` with

@@ -30,6 +30,7 @@ mod simulate_call;
 mod simulate_gain;
 mod simulate_sampled;
 mod stages;
+mod stored;
 mod subject;
 mod sweep;
 mod temporary;

@@ -28,7 +28,14 @@ impl Asked {
     /// # Errors
     /// What cannot be read of the file, and a certificate whose document is not the one that its digest is of.
     pub fn read(path: &Path) -> Result<Asked, Failure> {
-        let document = input::document(path)?;
+        Asked::of(path, input::document(path)?)
+    }
+
+    /// The same of a document that was read from the path.
+    ///
+    /// # Errors
+    /// A certificate whose document is not the one that its digest is of.
+    pub fn of(path: &Path, document: Document) -> Result<Asked, Failure> {
         if !has_format(&document, CERTIFICATE) {
             return Ok(Asked { document, given: None });
         }

@@ -1,7 +1,7 @@
 //! The exported C code: the operations of the Rust stepper, bit for bit, and names that two regulators can share a program with.
 
 use crate::controller::{constant, controller, example, installed, signal};
-use crate::support::{ROOT, process, utf8};
+use crate::support::{ROOT, process, specification, utf8};
 use sigmastar_regulator::{Design, Stepper};
 use std::path::{Path, PathBuf};
 use std::process::Command as Process;
@@ -10,8 +10,24 @@ use std::process::Command as Process;
 const STRICT: [&str; 6] = ["-std=c99", "-O2", "-Wall", "-Wextra", "-pedantic", "-Werror"];
 
 pub fn gcc(arguments: &[&Path], program: &Path) {
+    build(arguments, program).unwrap_or_else(|said| panic!("{said}"));
+}
+
+/// What compiler or linker say where they refuse.
+fn build(arguments: &[&Path], program: &Path) -> Result<(), String> {
     let gcc = Process::new("gcc").args(STRICT).arg("-o").arg(program).args(arguments).output().unwrap();
-    assert!(gcc.status.success(), "{}", String::from_utf8_lossy(&gcc.stderr));
+    if gcc.status.success() { Ok(()) } else { Err(String::from_utf8_lossy(&gcc.stderr).into_owned()) }
+}
+
+/// The exports of `specs/linear.json` with these numbers of oscillators and the same prefix, each in a folder of its own.
+fn exported(folder: &Path, counts: [&str; 2]) -> [PathBuf; 2] {
+    counts.map(|n_o| {
+        std::fs::create_dir(folder.join(n_o)).unwrap();
+        let source = folder.join(n_o).join("reg.c");
+        let call = ["specs/linear.json", "--sigma", "2", "--n-o", n_o, "--discretise", "1/100", "--format", "c", "-o"];
+        controller(&call).arg(&source).assert().success();
+        source
+    })
 }
 
 /// Runs the exported C code over the signal and returns the bits of every output.
@@ -149,29 +165,68 @@ fn the_header_stays_where_the_source_cannot_be_written() {
 }
 
 #[test]
-fn a_source_does_not_compile_with_the_header_of_another() {
+fn a_source_is_not_built_with_the_header_of_another() {
     if !installed("gcc", &["--version"]) {
         return;
     }
     let folder = tempfile::tempdir().unwrap();
-    let source = folder.path().join("regulator.c");
-    let write = |sigma: &str| {
-        let call =
-            ["specs/linear.json", "--sigma", sigma, "--n-o", "1", "--discretise", "1/100", "--format", "c", "-o"];
-        controller(&call).arg(&source).arg("--force").assert().success();
+    let [few, many] = exported(folder.path(), ["1", "9"]);
+    let program = folder.path().join("main");
+    let with_header_of = |n_o: &str| {
+        let main = folder.path().join("main.c");
+        let text = format!(
+            "#include \"{n_o}/reg.h\"\n\
+             int main(void) {{ sigmastar_controller c; sigmastar_reset(&c); return !(sigmastar_step(&c, 1.0) < -2.0); }}\n"
+        );
+        std::fs::write(&main, text).unwrap();
+        main
     };
-    let compiles = || {
-        let gcc = Process::new("gcc")
-            .args(["-std=c99", "-Wall", "-pedantic", "-Werror", "-fsyntax-only"])
-            .arg(&source)
-            .output();
-        gcc.unwrap().status.success()
+    for (source, n_o, other) in [(&few, "1", "9"), (&many, "9", "1")] {
+        gcc(&[source, &with_header_of(n_o)], &program);
+        assert!(Process::new(&program).status().unwrap().success());
+        let said = build(&[source, &with_header_of(other)], &program).unwrap_err();
+        assert!(said.contains("undefined reference to `sigmastar_step_"), "{said}");
+    }
+    std::fs::copy(many.with_extension("h"), few.with_extension("h")).unwrap();
+    let said = build(&[&few, &with_header_of("1")], &program).unwrap_err();
+    assert!(said.contains("this source and its header are of different regulators"), "{said}");
+}
+
+#[test]
+fn two_regulators_of_one_prefix_share_a_program_and_no_file() {
+    if !installed("gcc", &["--version"]) {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let [few, many] = exported(folder.path(), ["1", "9"]);
+    let (program, main) = (folder.path().join("main"), folder.path().join("main.c"));
+    let user = |n_o: &str| {
+        let file = folder.path().join(format!("user_{n_o}.c"));
+        let text = format!(
+            "#include \"{n_o}/reg.h\"\n#include \"{n_o}/reg.h\"\ndouble run_{n_o}(void);\n\
+             double run_{n_o}(void) {{ sigmastar_controller c; double u = 0.0; int i; sigmastar_reset(&c);\n\
+             for (i = 0; i < 7; i++) {{ u = sigmastar_step(&c, 1.0); }} return u; }}\n"
+        );
+        std::fs::write(&file, text).unwrap();
+        file
     };
-    write("2");
-    assert!(compiles());
-    let old = std::fs::read(&source).unwrap();
-    write("3");
-    assert!(compiles());
-    std::fs::write(&source, old).unwrap();
-    assert!(!compiles());
+    let text = "#include <stdio.h>\n#include <string.h>\ndouble run_1(void);\ndouble run_9(void);\n\
+        static void put(double u) { unsigned long long bits; memcpy(&bits, &u, 8); printf(\"%llx\\n\", bits); }\n\
+        int main(void) { put(run_1()); put(run_9()); return 0; }\n";
+    std::fs::write(&main, text).unwrap();
+    gcc(&[&few, &many, &user("1"), &user("9"), &main], &program);
+    let printed = utf8(Process::new(&program).output().unwrap().stdout);
+    let spec = specification("linear");
+    let sigma = constant("2");
+    let expected = [1, 9].map(|n_o| {
+        let design = Design::new(&spec.internal_model, &sigma, n_o);
+        let mut stepper = Stepper::new(design.regulator(), design.discretise(&constant("1/100")).unwrap());
+        let last = (0..7).map(|_| stepper.step(1.0)).last().unwrap();
+        format!("{:x}\n", last.to_bits())
+    });
+    assert_eq!(printed, expected.concat());
+
+    std::fs::write(&main, "#include \"1/reg.h\"\n#include \"9/reg.h\"\nint main(void) { return 0; }\n").unwrap();
+    let said = build(&[&main], &program).unwrap_err();
+    assert!(said.contains("another regulator has this prefix; export this one with --prefix"), "{said}");
 }

@@ -188,8 +188,52 @@ fn reports_on_certificates_are_pages() {
     assert_eq!(count(&falsified, "svg") + 1, count(&falsified, "tr"));
     let checked = page(&["check", certificate], 0);
     let found = sound(&checked);
-    assert_eq!([count(&found, "h1"), count(&found, "pre")], [0, 1]);
-    assert!(checked.contains("<pre tabindex=\"0\">valid"), "{checked}");
+    assert_eq!(["h1", "pre", "figure"].map(|name| count(&found, name)), [1, 1, 4]);
+    assert!(checked.contains("<pre tabindex=\"0\">valid") && checked.contains("SHA-256"), "{checked}");
+    // Through standard input too.
+    let text = std::fs::read_to_string(certificate).unwrap();
+    let piped = |text: &str| program().args(["check", "-", "--format", "html"]).write_stdin(text).assert();
+    let output = piped(&text).code(0).get_output().clone();
+    assert_eq!(utf8(output.stdout).replace("<code>-</code>", &format!("<code>{certificate}</code>")), checked);
+    // The page trusts nothing that the checker refuses, nor words that its numbers do not give here.
+    let refused = utf8(piped(&text.replacen("\"E0\": \"", "\"E0\": \"9", 1)).code(1).get_output().stdout.clone());
+    assert_eq!([count(&sound(&refused), "h1"), count(&sound(&refused), "pre")], [0, 1]);
+    let older = "proofs-check/tests/certificates/paper-example.sharp.json";
+    let output = program().args(["check", older, "--format", "html"]).assert().code(0).get_output().clone();
+    assert_eq!(count(&sound(&utf8(output.stdout)), "h1"), 0);
+    assert!(utf8(output.stderr).contains("the page has the words of the checker alone"));
+}
+
+/// The page of a certificate of every kind says what the one of its claim says, and its digest.
+#[test]
+fn a_stored_certificate_has_a_page() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, call) in [
+        ("sampled", &["certify", AT_REST, "--sampling-period", "1/1000"][..]),
+        ("plant", &["certify", "specs/plants/pendulum.json", "--n-o", "0,2"]),
+        ("family", &["certify", "specs/machines/quarter-car.toml"]),
+    ] {
+        let file = folder.path().join(name);
+        let file = file.to_str().expect("a plain name");
+        program().args(call).args(["-q", "-o", file]).assert().success();
+        let text = |arguments: &[&str]| utf8(program().args(arguments).assert().success().get_output().stdout.clone());
+        let claimed = text(&[call, &["-q", "--format", "html"]].concat());
+        let stored = page(&["check", file], 0);
+        let found = sound(&stored);
+        assert_eq!(count(&found, "h1"), 1, "{name}");
+        let verdict = |page: &str| {
+            page.split("<p class=\"verdict\">").nth(1).expect("a verdict").split("</p>").next().unwrap().to_owned()
+        };
+        assert_eq!(verdict(&stored), verdict(&claimed), "{name}");
+        let said: serde_json::Value = serde_json::from_str(&text(&["check", file, "--format", "json"])).unwrap();
+        let kind = if name == "sampled" { "specification_sha256" } else { "plant_sha256" };
+        let digest = said[kind].as_str().expect("a digest");
+        // Once by the checker and once by the report.
+        assert_eq!(stored.matches(digest).count(), 2, "{name}");
+        assert!(claimed.contains(digest), "{name}");
+        let law = if name == "sampled" { "z_next" } else { "z'" };
+        assert!(stored.contains("<dt>law</dt>") && stored.contains(law), "{name}");
+    }
 }
 
 /// Names and texts of files are text, in titles, figures and anchors too.

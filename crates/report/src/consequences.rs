@@ -17,13 +17,17 @@ pub(super) fn section(spec: &Specification, consequences: &Consequences) -> Vec<
     for (n_o, bounds) in &consequences.by_n_o {
         table.push([n_o.to_string(), upper(&bounds.rms), upper(&bounds.sup)]);
     }
-    let at = match spec.actuator {
-        None => "at sigma* and for every larger sigma",
-        Some(_) => "at the gain of the claim",
+    let (at, which) = match spec.actuator {
+        None => (
+            "at sigma* and for every larger sigma",
+            " psi_1/sigma says how sup|e| falls with sigma whatever n_o is, the table what each n_o is worth at sigma*: both hold, and the \
+             smaller bound counts.",
+        ),
+        Some(_) => ("at the gain of the claim", ""),
     };
     blocks.push(Block::says(format!(
-        "Bounds of the error along the periodic solution, {at}, by the number of oscillators. They follow from the claim, are computed \
-         with enclosures, and have no independent check:"
+        "Bounds of the error along the periodic solution, {at}, by the number of oscillators.{which} They follow from the claim, are \
+         computed with enclosures, and have no independent check:"
     )));
     blocks.push(Block::Table(table));
     blocks.extend(consequences.mistuned.as_ref().map(|mistuned| Block::says(mistuned_words(spec, mistuned))));

@@ -8,6 +8,7 @@
 // What tests compare with need not be the same on every machine.
 #![cfg_attr(test, allow(clippy::disallowed_methods))]
 
+mod about;
 mod brief;
 mod certification;
 mod conditions;

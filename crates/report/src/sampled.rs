@@ -10,7 +10,7 @@ use super::remarks::sampled_remarks;
 use super::sets::{Boxes, Sizes};
 use super::verdict::of_the_data;
 use super::words;
-use super::{brief, conditions, gains, of_plant};
+use super::{about, brief, conditions, gains, of_plant};
 use rug::Rational;
 use serde_json::{Value, json};
 use sigmastar_document::number::{estimate, exact, full, upper};
@@ -284,6 +284,7 @@ impl Readable for SampledReport<'_> {
             blocks.extend(sampled_section(run));
             blocks.extend(gains::sampled_section(run));
             blocks.push(Block::heading("What the claim rests on"));
+            blocks.push(about::facts(run.spec, Some(&run.sampling)));
             blocks.push(Block::List(self.basis()));
         } else {
             let failing: Vec<String> = match &run.outcome {

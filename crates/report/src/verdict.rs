@@ -1,5 +1,6 @@
 //! The verdict in one sentence, and what it rests on.
 
+use super::about;
 use super::limits;
 use super::obstacles;
 use super::remarks::remarks;
@@ -54,6 +55,7 @@ pub(super) fn detail(run: &Certification<'_>) -> Vec<Block> {
     let mut blocks = Vec::new();
     if run.verdict == Verdict::Certified {
         blocks.push(Block::heading("What the claim rests on"));
+        blocks.push(about::facts(run.spec, None));
         if run.spec.actuator.is_some() {
             blocks.push(Block::says(
                 "The claim is about this gain alone: the bounds of the control, which the actuator has to take, grow with it. From the set \

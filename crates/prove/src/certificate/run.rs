@@ -18,6 +18,21 @@ pub fn certificate_of(run: &Run<'_>) -> Option<Value> {
     }
 }
 
+/// Whether the claim of a run is, to the letter, the one that a certificate states.
+#[must_use]
+pub fn is_stated(run: &Run<'_>, certificate: &Document) -> bool {
+    let stated = certificate.at("/claim").map(|claim| claim.to_json());
+    certificate_of(run).is_some_and(|made| stated.is_some_and(|stated| made["claim"] == stated))
+}
+
+/// The numbers of oscillators of which a certificate states rates.
+#[must_use]
+pub fn stated_counts(certificate: &Document) -> Vec<u32> {
+    let rates = certificate.at("/claim/for_n_o").map(|rates| rates.to_json()).unwrap_or_default();
+    let counts = rates.as_array().into_iter().flatten().filter_map(|one| one["n_o"].as_u64());
+    counts.filter_map(|n_o| u32::try_from(n_o).ok()).collect()
+}
+
 /// Reads the free numbers of a certificate about either regulator.
 ///
 /// # Errors

@@ -19,7 +19,7 @@ pub fn json(export: &Export<'_>) -> Value {
     let discrete = export.discrete.map(|(discrete, sampled)| {
         let mut law = object!({
             "hold": "zero-order",
-            "law": sampled_law(regulator, discrete),
+            "law": sampled_law(discrete.prediction.is_some(), regulator.nominal.is_some()),
             "step": discrete.step,
             "K": discrete.gain,
             "weight_sum": discrete.weight_sum,
@@ -55,7 +55,7 @@ pub fn json(export: &Export<'_>) -> Value {
         "frequencies": regulator.frequencies,
         "weights": regulator.weights,
         "start": if export.aligned { "z = M e" } else { "z = 0" },
-        "law": continuous_law(regulator),
+        "law": continuous_law(regulator.nominal.is_some()),
         "Phi": rows(&regulator.phi()),
         "Gamma": regulator.gamma(),
         "M": regulator.m(),

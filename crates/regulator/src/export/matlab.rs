@@ -41,7 +41,7 @@ pub fn matlab(export: &Export<'_>) -> String {
     let start = if export.aligned { "M*e" } else { "0*M" };
     script.push_str(&format!("z_start = @(e) {start};\n"));
     if let Some((discrete, sampled)) = export.discrete {
-        let law = sampled_law(regulator, discrete);
+        let law = sampled_law(discrete.prediction.is_some(), regulator.nominal.is_some());
         script.push_str(&match discrete.prediction {
             None => format!(
                 "% At samples, with Phi for Phi_d: {law},\n\

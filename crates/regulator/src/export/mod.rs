@@ -31,23 +31,25 @@ pub struct Export<'r> {
     pub certificate: Option<&'r Provenance>,
 }
 
-/// The law in continuous time, as exports write it.
-fn continuous_law(regulator: &Regulator) -> &'static str {
-    match regulator.nominal {
-        None => "z' = Phi z + Gamma e, u = -sigma e + mu M'N(z - M e)",
-        Some(_) => "z' = Phi z + Gamma e, u = (-sigma e + mu M'N(z - M e))/nominal",
+/// The law in continuous time, as exports write it; `divided` by the nominal gain of an actuator.
+#[must_use]
+pub fn continuous_law(divided: bool) -> &'static str {
+    match divided {
+        false => "z' = Phi z + Gamma e, u = -sigma e + mu M'N(z - M e)",
+        true => "z' = Phi z + Gamma e, u = (-sigma e + mu M'N(z - M e))/nominal",
     }
 }
 
-/// The law at samples.
-fn sampled_law(regulator: &Regulator, discrete: &Discrete) -> String {
-    let (law, control) = match discrete.prediction {
-        None => (SAMPLED_LAW, "-sigma e + K v"),
-        Some(_) => (DELAYED_LAW, "-sigma e1 + K v"),
+/// The law at samples, as exports write it, with or without a delay.
+#[must_use]
+pub fn sampled_law(delayed: bool, divided: bool) -> String {
+    let (law, control) = match delayed {
+        false => (SAMPLED_LAW, "-sigma e + K v"),
+        true => (DELAYED_LAW, "-sigma e1 + K v"),
     };
-    match regulator.nominal {
-        None => law.to_owned(),
-        Some(_) => law.replace(control, &format!("({control})/nominal")),
+    match divided {
+        false => law.to_owned(),
+        true => law.replace(control, &format!("({control})/nominal")),
     }
 }
 

@@ -59,9 +59,12 @@ pub(super) fn header(
     };
     format!(
         "/*\n{}\x20*/\n\
-         #ifndef {upper}_CONTROLLER_H\n\
-         #define {upper}_CONTROLLER_H\n\n\
-         #define {upper}_CONTROLLER_ID {id}\n\
+         #ifndef {upper}_CONTROLLER_ID\n\
+         #define {upper}_CONTROLLER_ID 0x{id}UL\n\n\
+         /* The names end in the number of this regulator, so that the linker takes none of another for them. */\n\
+         #define {prefix}_controller {prefix}_controller_{id}\n\
+         #define {prefix}_reset {prefix}_reset_{id}\n\
+         #define {prefix}_step {prefix}_step_{id}\n\n\
          #define {upper}_OSCILLATORS {n_o}\n\
          #define {upper}_STATES {dimension}\n\
          #define {upper}_SAMPLING_TIME {} /* {} */\n{macros}{saturation}\n\
@@ -71,7 +74,9 @@ pub(super) fn header(
          void {prefix}_reset({prefix}_controller *controller{argument});\n\n\
          /* {returned} */\n\
          double {prefix}_step({prefix}_controller *controller, double e);\n\n\
-         #ifdef __cplusplus\n}}\n#endif\n\n#endif\n",
+         #ifdef __cplusplus\n}}\n#endif\n\n\
+         #elif {upper}_CONTROLLER_ID != 0x{id}UL\n\
+         #error \"another regulator has this prefix; export this one with --prefix\"\n#endif\n",
         comment(&words, " * "),
         hexadecimal(discrete.step),
         decimal(discrete.step),

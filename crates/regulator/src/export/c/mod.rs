@@ -44,7 +44,7 @@ pub fn c_sources(export: &Export<'_>, names: &CNames) -> Option<CSources> {
     let source = source::source(export, discrete, &names.prefix);
     let id = identity(&source);
     let top = format!(
-        "/* Regulator for: {} */\n#include \"{}\"\n\n#if {upper}_CONTROLLER_ID != {id}\n\
+        "/* Regulator for: {} */\n#include \"{}\"\n\n#if {upper}_CONTROLLER_ID != 0x{id}UL\n\
          #error \"this source and its header are of different regulators\"\n#endif\n\n",
         harmless(export.name),
         names.header
@@ -56,11 +56,10 @@ pub fn c_sources(export: &Export<'_>, names: &CNames) -> Option<CSources> {
     })
 }
 
-/// A number that the header and the source share, so that two which do not belong together do not compile.
+/// A number that the header, the source and the linked names share, in hexadecimal digits: what does not belong together does not
+/// build.
 fn identity(source: &str) -> String {
-    let digest = Sha256::digest(source);
-    let word = digest.iter().take(4).fold(0_u32, |word, byte| (word << 8) | u32::from(*byte));
-    format!("0x{word:08x}UL")
+    Sha256::digest(source).iter().take(4).map(|byte| format!("{byte:02x}")).collect()
 }
 
 /// Text as it may stand in a comment, which it could close, or end in a line splice.
