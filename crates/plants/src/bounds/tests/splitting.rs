@@ -52,7 +52,7 @@ fn a_proved_splitting_holds_at_random_pairs() {
             0.0
         });
         let pairs = roots.iter().zip(&columns).chain(roots.iter().rev().zip(&columns));
-        let met = pairs.map(|(root, column)| root.threshold(column)).fold(0.0, f64::max);
+        let met = pairs.map(|(root, column)| root.threshold(column, &mut Vec::new())).fold(0.0, f64::max);
         let value = proved.value.to_f64();
         assert!(met <= value && value < 1.3 * met, "{f:?}: {value} over {met}");
         // Neither a smaller threshold nor a larger S, and no other region of either kind, is what was proved.
