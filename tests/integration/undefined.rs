@@ -136,7 +136,7 @@ fn what_is_undefined_in_a_plant_is_never_smooth() {
                     Err(refused) => {
                         let [error] = refused.errors() else { panic!("{f}{q}: {refused}") };
                         assert_eq!(error.kind, spec::ErrorKind::Expression, "{f}{q}: {error}");
-                        assert!(term.contains("0/0") || term.contains("1/0"), "{f}{q}: {error}");
+                        assert!(error.message.contains("the divisor is 0"), "{f}{q}: {error}");
                         read[0] += 1;
                         continue;
                     }
