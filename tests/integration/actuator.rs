@@ -1,7 +1,7 @@
 //! An actuator that saturates, limits of the error and the control, and the rows of larger gains (docs/mathematics.md, 13.5): what is certified,
 //! that no member of a claim saturates, and what a regulator and a simulation make of it.
 
-use crate::support::{count, json, options, program, specification_text, utf8};
+use crate::support::{count, every, json, options, program, specification_text, utf8};
 use proofs_check::verdict::Verdict as Answer;
 use serde_json::{Value, json as object};
 use sigmastar_document::progress::Silent;
@@ -287,7 +287,7 @@ fn rows_have_the_rates_that_are_asked_for() {
                 rows[0]["rates"].as_array().unwrap().contains(&object!({ "n_o": own["n_o"], "rate": own["rate"] }))
             );
         }
-        for row in &rows[1..at_least] {
+        for row in rows[1..at_least].iter().step_by(every(3)) {
             let (code, own) = report(&[&asked[..], &["--sigma", row["sigma"].as_str().unwrap()]].concat());
             assert_eq!(code, 0);
             for (i, n_o) in [0, 4].into_iter().enumerate() {

@@ -123,7 +123,7 @@ fn pages_load_nothing_and_print_what_is_folded() {
     let frames: Vec<_> = every_page().iter().map(|page| (page.clone(), 1400, 900)).collect();
     let (_, console) = framed(&browser, &frames);
     assert!(console.is_empty(), "{console:?}");
-    for page in every_page().iter().step_by(every(3)) {
+    for page in every_page().iter().step_by(every(6)) {
         let (pages, console) = printed(&browser, page);
         assert!(console.is_empty(), "{}: {console:?}", page.display());
         assert!(pages > 0, "{}", page.display());

@@ -137,7 +137,9 @@ type Case = (Vec<&'static str>, i32, [usize; 2]);
 #[track_caller]
 fn every(cases: &[Case]) {
     for (arguments, code, expected) in cases {
-        let found = sound(&page(arguments, *code));
+        let page = answer(&[arguments, &["--format", "html"][..]].concat());
+        assert_eq!(page.status.code(), Some(*code), "{arguments:?}");
+        let found = sound(&utf8(page.stdout));
         assert_eq!(["figure", "details"].map(|name| count(&found, name)), *expected, "{arguments:?}");
         // A page is whole.
         let full = if ["certify", "transfer", "lyapunov"].contains(&arguments[0]) { &["--full"][..] } else { &[] };
