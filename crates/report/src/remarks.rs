@@ -109,7 +109,7 @@ fn by_norms(spec: &Specification, asked: bool, what: &str) -> Option<String> {
     let values = spec.bounds.proved_values();
     let by_matrix =
         values.inequality().is_some() || values.joint_stability().is_some() || values.sampled().stability.is_some();
-    (asked && spec.plant().is_some() && !by_matrix).then(|| {
+    (asked && spec.plant().is_some_and(|plant| plant.states() > 0) && !by_matrix).then(|| {
         format!(
             "Remark: with `--n-o` the claim rests on norms, from which {what} proved; without it a matrix inequality may serve for a smaller gain."
         )

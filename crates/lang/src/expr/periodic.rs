@@ -2,7 +2,7 @@
 
 use super::exact::Constants;
 use super::monomial::Monomial;
-use super::syntax::{Algebra, Binary, Node, Unary, evaluate};
+use super::syntax::{Algebra, Binary, Node, NodeKind, Unary, evaluate};
 use super::{PlantExpr, PlantVariable};
 use rug::Rational;
 use std::ops::Range;
@@ -51,6 +51,8 @@ struct Prover<'a> {
     /// Why the operation just met was refused.
     reason: Option<PeriodicityReason>,
     failure: Option<NotPeriodic>,
+    /// Of each value that waits for its operation, where it is a line, the term in which t stands.
+    terms: Vec<Option<Range<usize>>>,
 }
 
 impl Prover<'_> {
@@ -138,12 +140,24 @@ impl Algebra<PlantVariable> for Prover<'_> {
         }
     }
 
-    fn note(&mut self, node: &Node<PlantVariable>, _value: &Part) {
+    fn note(&mut self, node: &Node<PlantVariable>, value: &Part) {
+        let operands = match node.kind {
+            NodeKind::Number(_) | NodeKind::Pi | NodeKind::Variable(_) => 0,
+            NodeKind::Unary(_) | NodeKind::Power(_) => 1,
+            NodeKind::Binary(_) => 2,
+        };
+        let mut lines = self.terms.split_off(self.terms.len().saturating_sub(operands)).into_iter().flatten();
+        // Of a sum the term at fault, where it is one.
+        let term = match (&node.kind, lines.next(), lines.next()) {
+            (NodeKind::Binary(Binary::Add | Binary::Sub), Some(only), None) => only,
+            _ => node.span.clone(),
+        };
         if let Some(reason) = self.reason.take()
             && self.failure.is_none()
         {
-            self.failure = Some(NotPeriodic { span: node.span.clone(), reason });
+            self.failure = Some(NotPeriodic { span: term.clone(), reason });
         }
+        self.terms.push(matches!(value, Part::Line(_)).then_some(term));
     }
 }
 
@@ -157,13 +171,16 @@ impl PlantExpr {
     /// The first operation, in the order of evaluation, that leaves this form. It says nothing against the period.
     pub fn prove_periodic(&self, period: Option<&Monomial>) -> Result<(), NotPeriodic> {
         let unit = Monomial::rational(Rational::from(1));
-        let mut prover = Prover { period: period.unwrap_or(&unit), reason: None, failure: None };
+        let mut prover = Prover { period: period.unwrap_or(&unit), reason: None, failure: None, terms: Vec::new() };
         let part = evaluate(&self.nodes, &mut prover);
         let whole = 0..self.text().len();
         match part {
             Part::Free(_) => Ok(()),
             Part::Wave if period.is_some() => Ok(()),
-            Part::Line(_) => Err(NotPeriodic { span: whole, reason: PeriodicityReason::Outside }),
+            Part::Line(_) => {
+                let term = prover.terms.pop().flatten();
+                Err(NotPeriodic { span: term.unwrap_or(whole), reason: PeriodicityReason::Outside })
+            }
             Part::Wave => Err(NotPeriodic { span: whole, reason: PeriodicityReason::Period }),
             Part::Refused if period.is_none() => Err(NotPeriodic { span: whole, reason: PeriodicityReason::Period }),
             Part::Refused => {
@@ -234,13 +251,14 @@ mod tests {
             ("sin(t*t)", "2*pi", "t*t", Outside),
             ("sin(1/t)", "2*pi", "1/t", Outside),
             ("exp(t)", "1", "exp(t)", Outside),
-            ("2 + t", "1", "2 + t", Outside),
+            ("2 + t", "1", "t", Outside),
+            ("1 + t/10 - cos(2*pi*t)", "1", "t/10", Outside),
             ("t - t", "1", "t - t", Outside),
-            ("x + 0*t", "1", "x + 0*t", Outside),
+            ("x + 0*t", "1", "0*t", Outside),
             ("atan(t) + t", "1", "atan(t)", Outside),
             ("min(t, 1)", "1", "min(t, 1)", Outside),
             ("x^t", "1", "x^t", Outside),
-            ("sin(2*pi*t + cos(2*pi*t))", "1", "2*pi*t + cos(2*pi*t)", Outside),
+            ("sin(2*pi*t + cos(2*pi*t))", "1", "2*pi*t", Outside),
             ("t*sin(2*pi*t)", "1", "t*sin(2*pi*t)", Outside),
             ("sin(2*pi*t)", "exp(0)", "sin(2*pi*t)", Period),
         ] {

@@ -4,15 +4,16 @@
 mod random_points;
 
 use super::closer::closer;
-use super::{Reduced, Stage, Unwatched, Watch, bounds_around, reduce};
+use super::{Prepared, Reduced, Stage, Subject, Unwatched, Watch, bounds_around, reduce};
 use crate::certify::{Limits, Options, certify_within};
 use crate::search::SharpProposal;
 use random_points::random_points;
 use rayon::prelude::*;
 use rug::Rational;
 use sigmastar_lang::plant::Plant;
-use sigmastar_lang::spec::{ProvedValue, Specification};
+use sigmastar_lang::spec::{Document, ProvedValue, Specification};
 use std::path::Path;
+use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// A value may exceed what random points reach by this part of it; one of the error box beside a matrix inequality, which no
@@ -69,17 +70,26 @@ fn values_are_above_random_points_and_near_them() {
     });
 }
 
-/// Hears how many candidates are tried.
+/// Hears how many candidates are tried, and of how many parts each stage is.
 #[derive(Default)]
-struct Heard(AtomicUsize);
+struct Heard {
+    tried: AtomicUsize,
+    parts: Mutex<(Option<Stage>, Vec<(Stage, usize)>)>,
+}
 
 impl Watch for Heard {
-    fn enter(&self, _: Stage) {}
+    fn enter(&self, stage: Stage) {
+        self.parts.lock().unwrap().0 = Some(stage);
+    }
 
-    fn part(&self, _: usize, _: usize) {}
+    fn part(&self, done: usize, of: usize) {
+        let (at, heard) = &mut *self.parts.lock().unwrap();
+        assert!(1 <= done && done <= of, "{done} of {of}");
+        heard.extend(at.map(|stage| (stage, of)));
+    }
 
     fn tried(&self, count: usize) {
-        self.0.fetch_max(count, Ordering::Relaxed);
+        self.tried.fetch_max(count, Ordering::Relaxed);
     }
 }
 
@@ -89,10 +99,30 @@ fn candidates_are_counted() {
     let tried = |name: &str| {
         let heard = Heard::default();
         reduce(&shipped(name), None, &heard).unwrap();
-        heard.0.into_inner()
+        heard.tried.into_inner()
     };
     let (few, many) = (tried("linear"), tried("duffing"));
     assert!(few >= 1 && many > 50, "{few} {many}");
+}
+
+/// Of a family at samples: the cells, the gains of the scan, the intervals that are closed in turn.
+#[test]
+fn cells_gains_and_comparisons_are_counted() {
+    let text = r#"{
+        "format": "sigmastar/plant", "version": 1, "name": "One state", "period": "1", "states": ["x"],
+        "parameters": { "a": { "nominal": "2", "low": "1.7", "high": "2.3" } },
+        "f": ["-a*x - x^3/20 + e/5 + 2 + sin(2*pi*t)"], "q": "x + sin(2*pi*t)",
+        "internal_model": { "mu": "1", "base_frequency": "2*pi", "matched": true, "sampling_period": "1/1000",
+            "weights": { "family": "power", "n0": "2", "epsilon": "1/2" } } }"#;
+    let subject = Subject::read(&Document::parse("family", text).unwrap()).unwrap();
+    let heard = Heard::default();
+    let prepared = Prepared::watched(subject, None, &heard).unwrap();
+    let tried = heard.tried.load(Ordering::Relaxed);
+    assert!(tried > 0, "{tried}");
+    prepared.certify_watched(Options::default(), &heard).unwrap();
+    let (_, parts) = heard.parts.into_inner().unwrap();
+    assert!(parts.iter().any(|(stage, of)| *stage == Stage::Orbit && *of > 2), "{parts:?}");
+    assert!(parts.contains(&(Stage::Comparison, 1)), "{parts:?}");
 }
 
 /// The gain that data lead to, and the proved bound of |e| on the way with it; of the gain that is given, where one is.

@@ -62,6 +62,21 @@ fn plants_of_other_sizes_in_doubles() {
 }
 
 #[test]
+fn what_only_adds_up_is_told_as_that() {
+    let adds_up = |states: &[&str], f: &[&str]| match find_orbit(&plant("1", states, f, "cos(2*pi*t)")).unwrap_err() {
+        OrbitFailure::AddsUp { sum, largest, mean } => (sum, largest, mean),
+        other => panic!("{f:?} {other:?}"),
+    };
+    let one = |sum: &str, largest: usize| (sum.to_owned(), largest, None);
+    assert_eq!(adds_up(&["x"], &["cos(2*pi*t)"]), one("x", 0));
+    assert_eq!(adds_up(&["x", "y"], &["sin(2*pi*t)", "-y"]), one("x", 0));
+    assert_eq!(adds_up(&["x", "y"], &["x*y - x", "x - x*y"]).0, "x + y");
+    let (sum, _, mean) = adds_up(&["x", "y", "z"], &["0", "2 - z", "z - 1"]);
+    assert_eq!(sum, "y + z");
+    assert!((mean.unwrap() - 1.0).abs() < 1e-12, "{mean:?}");
+}
+
+#[test]
 fn plants_without_a_stable_orbit_are_answered_with_exponents() {
     for (f, real) in [
         (vec!["x + cos(2*pi*t)", "-y"], 1.0),
