@@ -4,9 +4,9 @@
 mod random_points;
 
 use super::closer::closer;
-use super::{Prepared, Reduced, Stage, Subject, Unwatched, Watch, bounds_around, reduce};
+use super::{PlantRefusal, Prepared, Reduced, Stage, Subject, Unwatched, Watch, bounds_around, reduce};
 use crate::certify::{Limits, Options, certify_within};
-use crate::search::SharpProposal;
+use crate::search::{Failing, SharpProposal};
 use random_points::random_points;
 use rayon::prelude::*;
 use rug::Rational;
@@ -168,4 +168,39 @@ fn a_limit_is_kept_with_a_smaller_gain_by_values_of_its_own() {
     let [sigma, peak] = gain_and_peak(&smaller, None, &limits).unwrap();
     assert!(sigma < 0.98 * found && peak <= 4.0, "{sigma} {found} {peak}");
     assert!(closer(&plant, [sigma, sigma], within).is_none());
+}
+
+/// What is in the way of an initial set is told at it; of a set whose sizes are open, which is the smallest, nothing smaller is asked for.
+#[test]
+fn a_set_in_the_way_is_told_at_its_place() {
+    let told = |set: &str, failing: Failing| {
+        let text = plant_with(set);
+        let plant = Plant::from_json("plant", &text).unwrap();
+        let [errors] = &PlantRefusal::NoGain(failing.into()).errors(&plant)[..] else { panic!("{set}") };
+        let error = errors.errors()[0].clone();
+        (error.pointer, error.help.unwrap())
+    };
+    let sized = r#""initial_set":{"kind":"box","ball":"1","E0":"1","Z0":"0"},"#;
+    let smallest = "smallest of its kind already";
+    let (pointer, help) = told(sized, Failing::Curvature);
+    assert!(pointer == "/initial_set" && !help.contains(smallest), "{pointer}: {help}");
+    for set in [r#""initial_set":{"kind":"at-rest"},"#, r#""initial_set":{"kind":"aligned"},"#] {
+        for failing in [Failing::Curvature, Failing::DomainE] {
+            let (pointer, help) = told(set, failing);
+            assert!(pointer == "/initial_set" && help.contains(smallest), "{pointer}: {help}");
+            assert_eq!(help.contains("`domain`"), failing == Failing::DomainE, "{help}");
+        }
+    }
+    // Where nothing is stated there is no such place, and what is no matter of the set is not told there.
+    let (pointer, help) = told("", Failing::Curvature);
+    assert!(pointer.is_empty() && help.contains(smallest), "{pointer}: {help}");
+    let (pointer, _) = told(sized, Failing::NotFinite(None));
+    assert_eq!(pointer, "");
+}
+
+fn plant_with(set: &str) -> String {
+    format!(
+        r#"{{"format":"sigmastar/plant","version":1,"name":"p","period":"1","states":["x"],"f":["-x + e"],"q":"x + cos(2*pi*t)",{set}
+        "internal_model":{{"mu":"1","base_frequency":"2*pi","matched":true,"weights":{{"family":"power","n0":"2","epsilon":"1/2"}}}}}}"#
+    )
 }
