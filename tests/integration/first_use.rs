@@ -76,6 +76,9 @@ fn an_initial_set_that_is_too_large_is_told_with_one_that_is_not() {
     assert!(code == 0 && text.contains(&format!("sigma* = {sigma} in 1/time")), "{sigma}: {text}");
     let (code, text) = with(&["--no-compare"], set(share / 2));
     assert!(code == 3 && text.contains("at /initial_set") && !text.contains("divided by"), "{text}");
+    // A gain that is too small for a set says nothing about the set.
+    let (code, text) = with(&["--sigma", "1/100"], set(share));
+    assert!(code == 3 && !text.contains("at /initial_set") && !text.contains("divided by"), "{text}");
 }
 
 #[test]
