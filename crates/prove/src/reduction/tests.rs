@@ -74,8 +74,11 @@ fn values_are_above_random_points_and_near_them() {
 #[derive(Default)]
 struct Heard {
     tried: AtomicUsize,
-    parts: Mutex<(Option<Stage>, Vec<(Stage, usize)>)>,
+    parts: Mutex<Parts>,
 }
+
+/// The stage that it is in, and each part that was heard: its stage, and of how many.
+type Parts = (Option<Stage>, Vec<(Stage, usize)>);
 
 impl Watch for Heard {
     fn enter(&self, stage: Stage) {

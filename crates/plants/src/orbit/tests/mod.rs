@@ -89,10 +89,8 @@ fn plants_without_a_stable_orbit_are_answered_with_exponents() {
         assert!(failure.to_string().contains("no certificate of this kind"));
     }
     // x' = x^2 + 1 has no periodic solution.
-    for f in ["x^2 + 1"] {
-        let failure = find_orbit(&plant("1", &["x"], &[f], "x")).unwrap_err();
-        assert!(matches!(failure, OrbitFailure::NotFound { .. }), "{f} {failure:?}");
-    }
+    let failure = find_orbit(&plant("1", &["x"], &["x^2 + 1"], "x")).unwrap_err();
+    assert!(matches!(failure, OrbitFailure::NotFound { .. }), "{failure:?}");
     // Around 0 there is an unstable orbit, and a simulation finds a stable one.
     let orbit = find_orbit(&plant("1", &["x"], &["x - x^3 + cos(2*pi*t)/10"], "x")).unwrap();
     assert!(orbit.series.mean[0].abs() > 0.9 && orbit.floquet[0][0] < -1.9);
