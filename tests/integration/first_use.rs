@@ -144,12 +144,12 @@ fn the_term_without_the_period_is_named() {
 fn what_rates_at_samples_cost_is_told() {
     const REMARK: &str = "with `--n-o` the claim rests on norms, from which rates at samples are proved";
     let with = |flags: &[&str]| {
-        let call = [&CERTIFY, &["--sampling-period", "1/1000"][..], flags].concat();
-        told(&call, "specs/plants/duffing.json", |_| {})
+        let call = [&CERTIFY, &["--sampling-period", "1/10000"][..], flags].concat();
+        told(&call, "specs/plants/motor-axis.json", |_| {})
     };
     let (code, text) = with(&["--n-o", "0"]);
     assert!(code == 0 && text.contains(REMARK), "{text}");
-    for flags in [&[][..], &["--n-o", "0", "--sigma", "50"]] {
+    for flags in [&[][..], &["--n-o", "0", "--sigma", "500"]] {
         let (code, text) = with(flags);
         assert!(code == 0 && !text.contains(REMARK), "{flags:?}: {text}");
     }
