@@ -71,5 +71,5 @@ def test_the_package_and_the_examples_state_their_types():
     assert done.returncode == 0, done.stdout + done.stderr
     # Pyright brings a program of its own, which is not asked for.
     if importlib.util.find_spec("pyright") is not None:
-        done = subprocess.run([sys.executable, "-m", "pyright", *called], cwd=folder, capture_output=True, text=True)
+        done = subprocess.run([sys.executable, "-m", "pyright", "--pythonpath", sys.executable, *called], cwd=folder, capture_output=True, text=True)
         assert done.returncode == 0, done.stdout + done.stderr
