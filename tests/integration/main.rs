@@ -48,6 +48,7 @@ mod mutated_specifications;
 mod no_plant;
 mod noise;
 mod notations;
+mod notations_random;
 mod obstacles;
 mod packages;
 mod parameters;

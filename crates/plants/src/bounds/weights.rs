@@ -187,11 +187,11 @@ impl EnergyAt {
     }
 
     /// Those of which one has the least margin, whatever k_p and the threshold are: the others are no larger in any entry than one of
-    /// these, and no operation of [`EnergyAt::margin`] turns that around by rounding. With an input gain, all.
+    /// these, and no operation of [`EnergyAt::margin`] turns that around by rounding. All, with an input gain or where one is not finite.
     #[must_use]
     pub fn front(mut all: Vec<EnergyAt>) -> Vec<EnergyAt> {
         let sizes = |at: &EnergyAt| [at.of_y, at.between.abs(), at.of_e];
-        if all.iter().any(|at| at.moves.is_some() || sizes(at).iter().any(|size| size.is_nan())) {
+        if all.iter().any(|at| at.moves.is_some() || sizes(at).iter().any(|size| !size.is_finite())) {
             return all;
         }
         // The largest ones first: what is beyond many is among them.
@@ -315,5 +315,10 @@ mod tests {
         // With an input gain neither sign of what is between says more than the other.
         let moved = |at: &EnergyAt| EnergyAt { moves: Some([-0.1, 0.2]), ..*at };
         assert_eq!(EnergyAt::front(all.iter().map(moved).collect()).len(), all.len());
+        let [undefined, infinite] = [f64::NAN, f64::INFINITY].map(|of_y| {
+            let one = EnergyAt { of_y, ..all[0] };
+            EnergyAt::front(all.iter().copied().chain([one]).collect()).len()
+        });
+        assert_eq!([undefined, infinite], [all.len() + 1; 2]);
     }
 }

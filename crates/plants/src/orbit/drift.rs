@@ -14,7 +14,8 @@ const SIZES: [f64; 3] = [0.0, 0.7, -1.3];
 /// By how much one state is larger than the one before it, so that none is as large as another.
 const APART: f64 = 0.37;
 
-/// A share of the largest below which a number is 0, and the same of a mean.
+/// A share of the largest below which a number is 0, of a rate one over the period where that is less: beside a fast state a slow one is not
+/// without any. The same of a mean.
 const NOTHING: f64 = 1e-10;
 const NO_MEAN: f64 = 1e-6;
 
@@ -43,7 +44,7 @@ pub(super) fn drift(field: &mut Field, names: &[String], wanted: bool) -> Option
     if !all.iter().chain(&mean).all(|entry| entry.is_finite()) {
         return None;
     }
-    let scale = all.amax();
+    let scale = all.amax().min(field.period.recip());
     let decomposed = all.svd(true, false);
     let (left, values) = (decomposed.u?, decomposed.singular_values);
     let free: Vec<usize> = (0..n).filter(|i| values[*i] <= NOTHING * scale).collect();

@@ -74,6 +74,10 @@ fn what_only_adds_up_is_told_as_that() {
     let (sum, _, mean) = adds_up(&["x", "y", "z"], &["0", "2 - z", "z - 1"]);
     assert_eq!(sum, "y + z");
     assert!((mean.unwrap() - 1.0).abs() < 1e-12, "{mean:?}");
+    // Beside what is very fast a slow state is none of these: there is no orbit because y has none.
+    let fast = ["-x/20 + 100", "10^10*y^2 + 1000"];
+    let failure = find_orbit(&plant("1", &["x", "y"], &fast, "cos(2*pi*t)")).unwrap_err();
+    assert!(!matches!(failure, OrbitFailure::AddsUp { .. }), "{failure:?}");
 }
 
 #[test]
