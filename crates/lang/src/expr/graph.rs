@@ -115,28 +115,6 @@ pub(super) fn operands(term: Term) -> impl Iterator<Item = Id> {
     first.into_iter().chain(second)
 }
 
-/// Marks everything that a node needs.
-fn mark(terms: &[Term], needed: &mut [bool], id: Id) {
-    let mut open = vec![id];
-    while let Some(id) = open.pop() {
-        for operand in operands(terms[id]) {
-            if !std::mem::replace(&mut needed[operand], true) {
-                open.push(operand);
-            }
-        }
-    }
-}
-
-/// Everything that some nodes need, themselves included.
-pub(super) fn reachable(terms: &[Term], outputs: &[Id]) -> Vec<bool> {
-    let mut needed = vec![false; terms.len()];
-    for &output in outputs {
-        needed[output] = true;
-        mark(terms, &mut needed, output);
-    }
-    needed
-}
-
 impl Operations for Graph {
     type Value = Id;
 

@@ -2,7 +2,7 @@
 
 use super::float::{binary, unary};
 use super::formulas::{Formula, Formulas};
-use super::graph::{Graph, Id, Term, operands, reachable, step};
+use super::graph::{Graph, Id, Term, operands, step};
 use super::syntax::{Binary, Unary};
 use super::{MAX_VARIED, PlantExpr, PlantVariable};
 use std::sync::Arc;
@@ -67,6 +67,8 @@ pub struct Program {
     /// The slots computed from the time alone that `code` or the outputs read.
     time_results: Vec<u32>,
     outputs: Vec<u32>,
+    /// How much of `code` the first outputs take: none of them, the first one, the first two, ...
+    lengths: Vec<usize>,
 }
 
 impl Program {
@@ -102,7 +104,8 @@ impl Program {
 
     fn compile(graph: &Graph, outputs: &[Id], states: usize) -> Program {
         let terms = graph.terms();
-        let needed = reachable(terms, outputs);
+        let first = first_output(terms, outputs);
+        let needed: Vec<bool> = first.iter().map(|output| *output < outputs.len()).collect();
         let mut timely = vec![true; terms.len()];
         for (id, &term) in terms.iter().enumerate() {
             timely[id] = match term {
@@ -133,7 +136,10 @@ impl Program {
         slots.resize(time + states + 2 + MAX_VARIED, 0.0);
         let [time_code, code] = [true, false].map(|wanted| {
             let mut code = Vec::new();
-            for id in (0..terms.len()).filter(|&id| needed[id] && timely[id] == wanted) {
+            // What the first outputs take comes first; no operand of it comes later.
+            let mut own: Vec<Id> = (0..terms.len()).filter(|&id| needed[id] && timely[id] == wanted).collect();
+            own.sort_by_key(|&id| first[id]);
+            for id in own {
                 let instruction = match terms[id] {
                     Term::Number(_) | Term::Variable(_) => continue,
                     Term::Unary(operation, a) => (Operation::of_one(operation), a, a),
@@ -153,8 +159,13 @@ impl Program {
             read.chain(outputs.iter().copied()).filter(computed).map(|id| slot[id]).collect();
         time_results.sort_unstable();
         time_results.dedup();
+        let is_code =
+            |id: &Id| needed[*id] && !timely[*id] && !matches!(terms[*id], Term::Number(_) | Term::Variable(_));
+        let mut of_code: Vec<usize> = (0..terms.len()).filter(is_code).map(|id| first[id]).collect();
+        of_code.sort_unstable();
+        let lengths = (0..=outputs.len()).map(|count| of_code.partition_point(|first| *first < count)).collect();
         let outputs = outputs.iter().map(|&output| slot[output]).collect();
-        Program { states, slots, time, time_code, code, time_results, outputs }
+        Program { states, slots, time, time_code, code, time_results, outputs, lengths }
     }
 
     /// The same program with these values of the parameters, at which it is evaluated unless others are set; 0 without.
@@ -187,6 +198,20 @@ impl Program {
     pub fn time_values(&self) -> usize {
         self.time_results.len()
     }
+}
+
+/// The first of the outputs that needs each term; that after the last one where none does.
+fn first_output(terms: &[Term], outputs: &[Id]) -> Vec<usize> {
+    let mut first = vec![outputs.len(); terms.len()];
+    for (index, &output) in outputs.iter().enumerate().rev() {
+        first[output] = index;
+    }
+    for id in (0..terms.len()).rev() {
+        for operand in operands(terms[id]) {
+            first[operand] = first[operand].min(first[id]);
+        }
+    }
+    first
 }
 
 /// A program with the memory that it works in.
@@ -233,7 +258,7 @@ impl Evaluator {
     }
 
     /// Evaluates at a state and an error, at the time set before. `states` has the plant's dimension, `outputs` the
-    /// length [`Program::outputs`].
+    /// length [`Program::outputs`], or less where the first outputs alone are asked for.
     #[inline]
     pub fn evaluate(&mut self, states: &[f64], e: f64, outputs: &mut [f64]) {
         let program = &*self.program;
@@ -241,7 +266,8 @@ impl Evaluator {
         self.slots[first..first + program.states].copy_from_slice(states);
         self.slots[first + program.states] = e;
         let results = first + program.states + 1 + MAX_VARIED + program.time_code.len();
-        run(&program.code, results, &mut self.slots);
+        let length = program.lengths.get(outputs.len()).copied().unwrap_or(program.code.len());
+        run(&program.code[..length], results, &mut self.slots);
         for (output, &slot) in outputs.iter_mut().zip(&program.outputs) {
             *output = self.slots[slot as usize];
         }
@@ -365,6 +391,27 @@ mod tests {
         first.evaluate(&[1.5, 0.0], -0.5, &mut a);
         second.evaluate(&[1.5, 0.0], -0.5, &mut b);
         assert_eq!(a, b);
+    }
+
+    /// Those that are left out are not computed, and the others are the same.
+    #[test]
+    fn the_first_outputs_alone() {
+        let parsed: Vec<PlantExpr> = EXPRESSIONS.iter().map(|text| expr(text)).collect();
+        let parsed: Vec<&PlantExpr> = parsed.iter().collect();
+        let program = Arc::new(Program::with_derivatives(&parsed, 2));
+        let mut evaluator = Evaluator::new(program.clone());
+        evaluator.set_time(0.3);
+        let mut all = vec![0.0; program.outputs()];
+        evaluator.evaluate(&[0.7, -1.2], 0.4, &mut all);
+        for count in 0..=program.outputs() {
+            let mut evaluator = Evaluator::new(program.clone());
+            evaluator.set_time(0.3);
+            let mut first = vec![f64::NAN; count];
+            evaluator.evaluate(&[0.7, -1.2], 0.4, &mut first);
+            assert_eq!(first, all[..count]);
+        }
+        assert_eq!((program.lengths[0], program.lengths[program.outputs()]), (0, program.code.len()));
+        assert!(program.lengths.is_sorted() && program.lengths[1] < program.code.len());
     }
 
     #[test]

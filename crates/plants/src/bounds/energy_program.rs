@@ -1,7 +1,7 @@
 //! The free numbers of the matrix inequality (E) of existence (derivation, 13.7), proposed by semidefinite programs over sampled points.
 
-use super::pointwise::Derivatives;
-use super::suprema::{FloatSuprema, Place, Places, keep};
+use super::pointwise::{Derivatives, MatrixAt};
+use super::suprema::{FloatSuprema, Place, Places};
 use super::weights::{EnergyAt, EnergyWeights};
 use sigmastar_lang::spec::Bound;
 use sigmastar_matrix::AffineMatrix;
@@ -25,9 +25,7 @@ impl FloatSuprema {
     /// c_y at points of the grid, as functions of the threshold.
     #[must_use]
     pub fn energy_at(&self, at: [f64; 2], places: &Places, weights: &EnergyWeights) -> Vec<EnergyAt> {
-        let mut found = Vec::new();
-        self.derivatives_at_points(at, places, |_, derivatives, _| found.push(weights.at(derivatives, self.moves)));
-        EnergyAt::front(found)
+        EnergyAt::front(self.of_derivatives(at, places, |derivatives, _| weights.at(derivatives, self.moves)))
     }
 
     /// The largest c_y that serves at all points, by a longer search.
@@ -44,10 +42,8 @@ impl FloatSuprema {
         program.add(self, at, first);
         let mut found = program.solve()?;
         for _ in 0..ROUNDS {
-            let mut worst: Vec<(f64, Place)> = Vec::new();
-            self.derivatives_at_points(at, &all, |place, derivatives, _| {
-                keep(&mut worst, POINTS, -found.0.margin(derivatives, self.moves), place);
-            });
+            let worst = self
+                .largest_of_derivatives(at, &all, POINTS, |derivatives, _| -found.0.margin(derivatives, self.moves));
             let expected = found.1 - TOLERANCE * found.0.k_p;
             let beyond: Vec<Place> =
                 worst.into_iter().filter(|(value, _)| -value < expected).map(|(_, place)| place).collect();
@@ -81,12 +77,14 @@ impl Program {
     fn add(&mut self, samples: &FloatSuprema, at: [f64; 2], mut places: Vec<Place>) {
         places.sort_unstable();
         places.dedup();
-        samples.derivatives_at_points(at, &Places::Listed(Arc::new(places)), |_, Derivatives { j, g, r, d }, _| {
+        let point = |Derivatives { j, g, r, d }: &Derivatives<'_>, _: &MatrixAt| {
             // (1-b) sigma, at both ends, has its place beside d.
             let slopes = self.moves.map_or_else(|| vec![*d], |moves| moves.map(|share| d + share * self.value).into());
             let at = |d: f64| Point { j: j.to_vec(), g: g.to_vec(), r: r.to_vec(), d };
-            self.points.extend(slopes.into_iter().map(at));
-        });
+            slopes.into_iter().map(at).collect::<Vec<Point>>()
+        };
+        let points = samples.of_derivatives(at, &Places::Listed(Arc::new(places)), point);
+        self.points.extend(points.into_iter().flatten());
     }
 
     /// The unit of y in which g and r are of one size.

@@ -2,7 +2,7 @@
 
 use super::eigen::largest;
 use super::pointwise::Derivatives;
-use super::suprema::{FloatSuprema, Place, Places, keep};
+use super::suprema::{FloatSuprema, Place, Places};
 use super::weights::Root;
 use sigmastar_lang::spec::Bound;
 use sigmastar_matrix::AffineMatrix;
@@ -126,15 +126,11 @@ impl FloatSuprema {
     ) -> Option<([FloatMetric; 2], Vec<f64>)> {
         let mut found = solve(program)?;
         for _ in 0..ROUNDS {
-            let mut worst: Vec<(f64, Place)> = Vec::new();
             let (variables, margins) = &found;
-            self.derivatives_at_points(at, &Places::Stride(1), |place, derivatives, _| {
-                let point = program.point(derivatives);
-                let below = program.lack(&point, variables, margins);
-                if below > 0.0 {
-                    keep(&mut worst, POINTS, below, place);
-                }
+            let mut worst = self.largest_of_derivatives(at, &Places::Stride(1), POINTS, |derivatives, _| {
+                program.lack(&program.point(derivatives), variables, margins)
             });
+            worst.retain(|(below, _)| *below > 0.0);
             if worst.is_empty() {
                 break;
             }
@@ -172,10 +168,9 @@ impl Program {
     fn add(&mut self, samples: &FloatSuprema, at: [f64; 2], mut places: Vec<Place>) {
         places.sort_unstable();
         places.dedup();
-        samples.derivatives_at_points(at, &Places::Listed(Arc::new(places)), |_, derivatives, _| {
-            let point = self.point(derivatives);
-            self.points.push(point);
-        });
+        let places = Places::Listed(Arc::new(places));
+        let points = samples.of_derivatives(at, &places, |derivatives, _| self.point(derivatives));
+        self.points.extend(points);
     }
 
     fn point(&self, Derivatives { j, g, r, d }: &Derivatives<'_>) -> Point {
@@ -253,7 +248,7 @@ impl Program {
                 row[i] -= LEFT * margins[(i + 1).saturating_sub(self.n).min(2)];
             }
             let lower: Vec<f64> = form.iter().enumerate().flat_map(|(i, row)| row[..=i].to_vec()).collect();
-            match Root::new(&lower) {
+            match Root::new(lower) {
                 Ok(_) => 0.0,
                 Err(_) => {
                     let negative = form.iter().map(|row| row.iter().map(|entry| -entry).collect()).collect();

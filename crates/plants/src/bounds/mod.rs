@@ -33,6 +33,7 @@ mod joint_program;
 mod majorant;
 mod metric_form;
 mod narrow;
+mod points;
 mod pointwise;
 mod prove_value;
 mod quantity;

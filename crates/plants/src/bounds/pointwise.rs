@@ -44,6 +44,10 @@ impl Asked {
     const RATE_EXISTENCE: Asked = Asked(16);
     /// Everything.
     pub const ALL: Asked = Asked(31);
+    /// Nothing.
+    pub(super) const NOTHING: Asked = Asked(0);
+    /// What takes all first derivatives.
+    pub(super) const FIRST: Asked = Asked(Asked::NORM.0 | Asked::SLOPES.0 | Asked::RATE.0);
     /// What a set with a periodic solution asks for at the same (X, E) is of one group.
     pub const GROUPS: [Asked; 3] =
         [Asked(Asked::NORM.0 | Asked::RATE.0), Asked(Asked::SLOPES.0 | Asked::IN_TIME.0), Asked::RATE_EXISTENCE];
@@ -72,6 +76,21 @@ impl Asked {
 
     fn has(self, other: Asked) -> bool {
         self.0 & other.0 != 0
+    }
+
+    /// Both.
+    pub(super) fn and(self, other: Asked) -> Asked {
+        Asked(self.0 | other.0)
+    }
+
+    /// The number of the first outputs that it takes, with n states.
+    pub(super) fn outputs(self, n: usize) -> usize {
+        let blocks = Blocks::new(n);
+        match self {
+            _ if self.has(Asked::IN_TIME) => blocks.q_xe + n,
+            _ if self.has(Asked::SLOPES) => blocks.q_e + 1,
+            _ => blocks.f_e,
+        }
     }
 }
 

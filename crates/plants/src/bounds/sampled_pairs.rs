@@ -3,9 +3,7 @@
 //!
 //! The points of a pair may have different times: that is what a constant S of [`super::splitting`] allows for.
 
-use super::entry::of_table;
-use super::pointwise::Asked;
-use super::suprema::{FloatSuprema, Place, Places, keep};
+use super::suprema::{FloatSuprema, Place, Places};
 use super::weights::{Column, FloatWeights, Root, Thresholds};
 use sigmastar_lang::spec::Bound;
 use std::sync::Arc;
@@ -39,9 +37,6 @@ pub struct Corners {
     pub(super) error: Places,
 }
 
-/// Where single bounds are largest, so many points each: a list that serves at other weights too.
-const OF_A_BOUND: usize = 4;
-
 /// How often the points of the one kind are sought for those of the other.
 const TURNS: usize = 2;
 
@@ -51,23 +46,20 @@ impl FloatSuprema {
     pub fn corners(&self, at: MatrixArguments, places: &Places, weights: FloatWeights, each: usize) -> Corners {
         let mut states = self.where_largest(at.states, places, [Bound::Rate, Bound::Qx]);
         let mut error = self.where_largest(at.error, places, [Bound::Fe, Bound::QeMax]);
-        let mut solved = Vec::new();
         for _ in 0..TURNS {
             let columns = self.columns(at.error, &listed(&error), weights);
-            let mut best = Vec::new();
-            self.derivatives_at_points(at.states, places, |place, derivatives, matrix| {
-                let value = Root::new(&weights.of_states(derivatives, matrix)).map_or_else(
+            let best = self.largest_of_derivatives(at.states, places, each, |derivatives, matrix| {
+                let mut solved = Vec::new();
+                Root::new(weights.of_states(derivatives, matrix)).map_or_else(
                     |without| without,
                     |root| largest(&columns, |column| root.threshold(column, &mut solved)),
-                );
-                keep(&mut best, each, value, place);
+                )
             });
             states.extend(best.into_iter().map(|(_, place)| place));
             let roots = self.roots(at.states, &listed(&states), weights).unwrap_or_default();
-            let mut best = Vec::new();
-            self.derivatives_at_points(at.error, places, |place, derivatives, _| {
-                let column = weights.of_error(derivatives, self.moves);
-                keep(&mut best, each, largest(&roots, |root| root.threshold(&column, &mut solved)), place);
+            let best = self.largest_of_derivatives(at.error, places, each, |derivatives, _| {
+                let (column, mut solved) = (weights.of_error(derivatives, self.moves), Vec::new());
+                largest(&roots, |root| root.threshold(&column, &mut solved))
             });
             error.extend(best.into_iter().map(|(_, place)| place));
         }
@@ -93,37 +85,13 @@ impl FloatSuprema {
     }
 
     fn roots(&self, at: [f64; 2], places: &Places, weights: FloatWeights) -> Result<Vec<Root>, f64> {
-        let mut roots = Vec::new();
-        self.derivatives_at_points(at, places, |_, derivatives, matrix| {
-            roots.push(Root::new(&weights.of_states(derivatives, matrix)));
-        });
+        let roots =
+            self.of_derivatives(at, places, |derivatives, matrix| Root::new(weights.of_states(derivatives, matrix)));
         roots.into_iter().collect()
     }
 
     fn columns(&self, at: [f64; 2], places: &Places, weights: FloatWeights) -> Vec<Column> {
-        let mut columns = Vec::new();
-        self.derivatives_at_points(at, places, |_, derivatives, _| {
-            columns.push(weights.of_error(derivatives, self.moves));
-        });
-        columns
-    }
-
-    /// The places where these of the table are largest, and where the last of them is least.
-    pub(super) fn where_largest<const N: usize>(
-        &self,
-        at: [f64; 2],
-        places: &Places,
-        bounds: [Bound; N],
-    ) -> Vec<Place> {
-        let mut best = vec![Vec::new(); N + 1];
-        self.at_points(at, places, Asked::ALL, |place, values| {
-            let values = bounds.map(|bound| of_table(bound, &values));
-            let least = values.last().map(|value| -value);
-            best.iter_mut()
-                .zip(values.into_iter().chain(least))
-                .for_each(|(best, value)| keep(best, OF_A_BOUND, value, place));
-        });
-        best.into_iter().flatten().map(|(_, place)| place).collect()
+        self.of_derivatives(at, places, |derivatives, _| weights.of_error(derivatives, self.moves))
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::pointwise::{Derivatives, MatrixAt};
 use super::sampled_form::{Doubles, End, FormNumbers, Less, LoopNumbers, Parts, form};
-use super::suprema::{FloatSuprema, Place, Places, keep};
+use super::suprema::{FloatSuprema, Place, Places};
 use super::weights::Root;
 use rug::Rational;
 use sigmastar_exact::number::Portable;
@@ -123,7 +123,7 @@ impl SampledWeights {
             let numbers = FormNumbers { of: &self.of, end, moved: *moved, weight: 1.0, k_p, lambda, less, gamma: None };
             let Bordered { before, mut last } = bordered(&form(&Doubles, numbers, parts), &order);
             let own = last.pop().unwrap_or(f64::NAN);
-            match Root::new(&before) {
+            match Root::new(before) {
                 Ok(root) => 2.0 * root.half_square(&last) / own,
                 Err(without) => without,
             }
@@ -180,7 +180,7 @@ impl SampledEnergy {
             let numbers = FormNumbers { of, end, moved, weight: 1.0, k_p, lambda, less, gamma: Some(0.0) };
             let Bordered { before, mut last } = bordered(&form(&Doubles, numbers, parts), &order);
             last.pop();
-            match Root::new(&before) {
+            match Root::new(before) {
                 Ok(root) => 2.0 * root.half_square(&last),
                 Err(without) => without,
             }
@@ -203,10 +203,8 @@ impl FloatSuprema {
     /// The places of the whole grid where the radius is largest, beside those that are known.
     #[must_use]
     pub fn with_worst(&self, at: [f64; 2], known: &Places, weights: &SampledWeights, lambda: f64) -> Places {
-        let mut worst = Vec::new();
-        self.derivatives_at_points(at, &Places::Stride(1), |place, derivatives, _| {
-            keep(&mut worst, POINTS, weights.at(&Slopes::from(derivatives), lambda), place);
-        });
+        let value = |derivatives: &Derivatives<'_>, _: &MatrixAt| weights.at(&Slopes::from(derivatives), lambda);
+        let worst = self.largest_of_derivatives(at, &Places::Stride(1), POINTS, value);
         let mut listed: Vec<Place> = worst.into_iter().map(|(_, place)| place).collect();
         if let Places::Listed(known) = known {
             listed.extend(known.iter());
@@ -219,11 +217,8 @@ impl FloatSuprema {
     /// The least gamma of the inequality of existence at these points of the grid.
     #[must_use]
     pub fn sampled_gamma(&self, at: [f64; 2], places: &Places, energy: &SampledEnergy, of: &LoopNumbers<f64>) -> f64 {
-        let mut largest: f64 = 0.0;
-        self.derivatives_at_points(at, places, |_, derivatives, _| {
-            largest = larger(largest, energy.gamma(&Slopes::from(derivatives), of));
-        });
-        largest
+        let gamma = |derivatives: &Derivatives<'_>, _: &MatrixAt| energy.gamma(&Slopes::from(derivatives), of);
+        self.of_derivatives(at, places, gamma).into_iter().fold(0.0, larger)
     }
 
     /// The same by a longer search.
@@ -233,11 +228,10 @@ impl FloatSuprema {
 
     /// The derivatives; none where P is not the identity.
     fn slopes(&self, at: [f64; 2], places: &Places) -> Option<Vec<Slopes>> {
-        let (mut points, mut is_identity) = (Vec::new(), true);
-        self.derivatives_at_points(at, places, |_, derivatives, matrix| {
-            is_identity &= derivatives.r.is_empty() || matches!(matrix, MatrixAt::Identity);
-            points.push(Slopes::from(derivatives));
+        let slopes = self.of_derivatives(at, places, |derivatives, matrix| {
+            let is_identity = derivatives.r.is_empty() || matches!(matrix, MatrixAt::Identity);
+            is_identity.then(|| Slopes::from(derivatives))
         });
-        is_identity.then_some(points)
+        slopes.into_iter().collect()
     }
 }

@@ -1,9 +1,10 @@
 //! The free numbers of the inequality of existence of the regulator at samples (derivation, 13.7, (E) at samples), proposed by
 //! semidefinite programs over sampled points.
 
+use super::pointwise::{Derivatives, MatrixAt};
 use super::sampled_form::{Doubles, End, FormNumbers, Less, LoopNumbers, form};
 use super::sampled_point::{SampledEnergy, Slopes};
-use super::suprema::{FloatSuprema, Place, Places, keep};
+use super::suprema::{FloatSuprema, Place, Places};
 use sigmastar_lang::spec::Bound;
 use sigmastar_matrix::AffineMatrix;
 use sigmastar_matrix::semidefinite::propose;
@@ -66,10 +67,8 @@ impl FloatSuprema {
         let mut found = program.solve()?;
         for _ in 0..ROUNDS {
             let expected = program.gamma(&found) * (1.0 + TOLERANCE);
-            let mut worst: Vec<(f64, Place)> = Vec::new();
-            self.derivatives_at_points(at, &all, |place, derivatives, _| {
-                keep(&mut worst, POINTS, found.gamma(&Slopes::from(derivatives), of), place);
-            });
+            let gamma = |derivatives: &Derivatives<'_>, _: &MatrixAt| found.gamma(&Slopes::from(derivatives), of);
+            let worst = self.largest_of_derivatives(at, &all, POINTS, gamma);
             let beyond: Vec<Place> =
                 worst.into_iter().filter(|(gamma, _)| *gamma > expected).map(|(_, place)| place).collect();
             if beyond.is_empty() {
@@ -86,9 +85,8 @@ impl Program<'_> {
     fn add(&mut self, samples: &FloatSuprema, at: [f64; 2], mut places: Vec<Place>) {
         places.sort_unstable();
         places.dedup();
-        samples.derivatives_at_points(at, &Places::Listed(Arc::new(places)), |_, derivatives, _| {
-            self.points.push(Slopes::from(derivatives));
-        });
+        let places = Places::Listed(Arc::new(places));
+        self.points.extend(samples.of_derivatives(at, &places, |derivatives, _| Slopes::from(derivatives)));
     }
 
     /// The least gamma at the points.

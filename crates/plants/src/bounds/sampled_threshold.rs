@@ -3,7 +3,7 @@
 use super::entry::TABLE;
 use super::pointwise::{Asked, Derivatives, MatrixAt};
 use super::sampled_pairs::{Corners, MatrixArguments};
-use super::suprema::{FloatSuprema, Place, Places, keep};
+use super::suprema::{FloatSuprema, Place, Places};
 use super::weights::{FloatWeights, Root, Thresholds};
 use std::sync::Arc;
 
@@ -35,11 +35,8 @@ impl FloatSuprema {
     ) -> Focus {
         let mut kept: Vec<Vec<(f64, Place)>> = Vec::new();
         for at in boxes {
-            let mut best = vec![Vec::new(); TABLE.len()];
-            self.at_points(*at, &Places::Stride(1), Asked::ALL, |place, values| {
-                best.iter_mut().zip(values).for_each(|(best, value)| keep(best, each, value, place));
-            });
-            kept.append(&mut best);
+            let all = (Asked::ALL, each, TABLE.len());
+            kept.extend(self.largest_of_bounds(*at, &Places::Stride(1), all, |list, values| values[list]));
         }
         let mut corners = None;
         match inequality {
@@ -47,9 +44,9 @@ impl FloatSuprema {
                 corners = Some(self.corners(at, &Places::Stride(1), weights, OF_PAIRS * each));
             }
             Some((at, weights)) => {
-                let mut best = Vec::new();
-                self.thresholds_at_points(at.states, &Places::Stride(1), weights, |place, at| {
-                    keep(&mut best, OF_THRESHOLD * each, at.value(), place);
+                let count = OF_THRESHOLD * each;
+                let best = self.largest_of_derivatives(at.states, &Places::Stride(1), count, |derivatives, matrix| {
+                    thresholds(derivatives, matrix, weights, self.moves).value()
                 });
                 kept.push(best);
             }
@@ -78,22 +75,9 @@ impl FloatSuprema {
     /// the identity.
     #[must_use]
     pub fn threshold(&self, at: [f64; 2], places: &Places, weights: FloatWeights) -> f64 {
-        let mut all = Thresholds::ALL;
-        self.thresholds_at_points(at, places, weights, |_, at| all = all.and(at));
-        all.value()
-    }
-
-    /// Calls `see` with every place and the least sigma there.
-    pub(super) fn thresholds_at_points(
-        &self,
-        at: [f64; 2],
-        places: &Places,
-        weights: FloatWeights,
-        mut see: impl FnMut(Place, Thresholds),
-    ) {
-        self.derivatives_at_points(at, places, |place, derivatives, matrix| {
-            see(place, thresholds(derivatives, matrix, weights, self.moves));
-        });
+        let at =
+            self.of_derivatives(at, places, |derivatives, matrix| thresholds(derivatives, matrix, weights, self.moves));
+        at.into_iter().fold(Thresholds::ALL, Thresholds::and).value()
     }
 
     /// The same at these points: t/T, y in the unit ball, e/E.
@@ -116,7 +100,7 @@ impl FloatSuprema {
 
 /// Those of one point.
 fn thresholds(at: &Derivatives<'_>, matrix: &MatrixAt, weights: FloatWeights, moves: Option<[f64; 2]>) -> Thresholds {
-    match Root::new(&weights.of_states(at, matrix)) {
+    match Root::new(weights.of_states(at, matrix)) {
         Ok(root) => root.thresholds(&weights.of_error(at, moves), &mut Vec::new()),
         Err(without) => Thresholds::from(without),
     }

@@ -11,7 +11,7 @@ use super::eigen::largest;
 use super::engine::{Engine, is_symmetric};
 use super::pointwise::{Derivatives, product, roots};
 use super::quantity::Part;
-use super::suprema::{FloatSuprema, Place, Places, keep};
+use super::suprema::{FloatSuprema, Place, Places};
 use rug::Rational;
 use sigmastar_exact::enclosure::{Enclosure, Truth};
 use sigmastar_exact::number::{Direction, round_f64};
@@ -210,11 +210,7 @@ impl FloatSuprema {
         let mut places = places.to_vec();
         places.sort_unstable();
         places.dedup();
-        let mut found = Vec::new();
-        self.derivatives_at_points(at, &Places::Listed(Arc::new(places)), |_, derivatives, _| {
-            found.push(matrix_of(derivatives, part));
-        });
-        found
+        self.of_derivatives(at, &Places::Listed(Arc::new(places)), |derivatives, _| matrix_of(derivatives, part))
     }
 
     /// The places, so many at most, where a value of this part of D is largest of those where it is positive.
@@ -224,16 +220,12 @@ impl FloatSuprema {
         part: Part,
         at: [f64; 2],
         count: usize,
-        value: impl Fn(&[Vec<f64>]) -> f64,
+        value: impl Fn(&[Vec<f64>]) -> f64 + Sync,
     ) -> Vec<Place> {
-        let mut worst = Vec::new();
-        self.derivatives_at_points(at, &Places::Stride(1), |place, derivatives, _| {
-            let value = value(&matrix_of(derivatives, part));
-            if value > 0.0 {
-                keep(&mut worst, count, value, place);
-            }
+        let worst = self.largest_of_derivatives(at, &Places::Stride(1), count, |derivatives, _| {
+            value(&matrix_of(derivatives, part))
         });
-        worst.into_iter().map(|(_, place)| place).collect()
+        worst.into_iter().filter(|(value, _)| *value > 0.0).map(|(_, place)| place).collect()
     }
 }
 

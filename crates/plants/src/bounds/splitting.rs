@@ -5,7 +5,7 @@ use super::eigen::largest as largest_eigenvalue;
 use super::engine::Engine;
 use super::pointwise::{product, roots};
 use super::sampled_pairs::MatrixArguments;
-use super::suprema::{FloatSuprema, Place, Places, keep};
+use super::suprema::{FloatSuprema, Place, Places};
 use super::weights::{FloatWeights, Root};
 use rug::Rational;
 use sigmastar_exact::number::{Direction, round_f64};
@@ -86,16 +86,13 @@ impl FloatSuprema {
         program.add(self, at, weights, [&corners.states, &corners.error]);
         let mut s = program.solve()?;
         for _ in 0..ROUNDS {
-            let (Some(root), Ok(cholesky)) = (inverse_root(&s), Root::new(&lower(&s))) else { return None };
-            let (mut of_states, mut of_error): (Vec<(f64, Place)>, Vec<_>) = (Vec::new(), Vec::new());
-            self.derivatives_at_points(at.states, &all, |place, derivatives, matrix| {
-                let need = share(&root, &weights.of_states(derivatives, matrix));
-                keep(&mut of_states, POINTS, need, place);
+            let (Some(root), Ok(cholesky)) = (inverse_root(&s), Root::new(lower(&s))) else { return None };
+            let of_states = self.largest_of_derivatives(at.states, &all, POINTS, |derivatives, matrix| {
+                share(&root, &weights.of_states(derivatives, matrix))
             });
             let so_far = program.threshold;
-            self.derivatives_at_points(at.error, &all, |place, derivatives, _| {
-                let needed = cholesky.threshold(&weights.of_error(derivatives, self.moves), &mut Vec::new());
-                keep(&mut of_error, POINTS, needed / so_far, place);
+            let of_error = self.largest_of_derivatives(at.error, &all, POINTS, |derivatives, _| {
+                cholesky.threshold(&weights.of_error(derivatives, self.moves), &mut Vec::new()) / so_far
             });
             let beyond = |list: Vec<(f64, Place)>| {
                 let mut places: Vec<Place> =
@@ -123,7 +120,7 @@ impl FloatSuprema {
 
     /// The least sigma for a given S, by a longer search.
     fn refined_threshold_with(&self, s: &[Vec<f64>], at: [f64; 2], weights: FloatWeights) -> Option<f64> {
-        let root = Root::new(&lower(s)).ok()?;
+        let root = Root::new(lower(s)).ok()?;
         let found = self.refined_of_derivatives(at, |derivatives, _| {
             root.threshold(&weights.of_error(derivatives, self.moves), &mut Vec::new())
         });
@@ -147,12 +144,14 @@ impl Program {
     }
 
     fn add(&mut self, samples: &FloatSuprema, at: MatrixArguments, weights: FloatWeights, places: [&Places; 2]) {
-        samples.derivatives_at_points(at.states, places[0], |_, derivatives, matrix| {
-            self.above.push(full(&weights.of_states(derivatives, matrix), derivatives.r.len() + 1));
+        let above = samples.of_derivatives(at.states, places[0], |derivatives, matrix| {
+            full(&weights.of_states(derivatives, matrix), derivatives.r.len() + 1)
         });
-        samples.derivatives_at_points(at.error, places[1], |_, derivatives, _| {
-            self.columns.extend(weights.of_error(derivatives, samples.moves).at(self.threshold));
+        self.above.extend(above);
+        let columns = samples.of_derivatives(at.error, places[1], |derivatives, _| {
+            weights.of_error(derivatives, samples.moves).at(self.threshold)
         });
+        self.columns.extend(columns.into_iter().flatten());
     }
 
     /// S with the least threshold.

@@ -2,10 +2,12 @@
 
 use super::climb::{Point, ball_points, climb};
 use super::engine::moves;
-use super::entry::{TABLE, of_table};
+use super::entry::of_table;
 use super::float_waves::{FloatCurve, FloatMatrix};
 use super::narrow::extreme_errors;
+use super::points::{Outputs, keep, merged};
 use super::pointwise::{Asked, Derivatives, MatrixAt, Pointwise};
+use rayon::prelude::*;
 use rug::Rational;
 use sigmastar_lang::expr::{Evaluator, Formulas, PlantVariable, Program};
 use sigmastar_lang::plant::Plant;
@@ -48,11 +50,11 @@ pub struct Sampled {
 
 /// What depends on t alone at one time.
 #[derive(Clone, Debug)]
-struct Moment {
+pub(super) struct Moment {
     time: f64,
-    orbit: Vec<f64>,
+    pub(super) orbit: Vec<f64>,
     /// f(t, xb, 0).
-    velocity: Vec<f64>,
+    pub(super) velocity: Vec<f64>,
     /// What the program computes from t alone.
     kept: Vec<f64>,
     /// Of which member of the family.
@@ -79,12 +81,12 @@ pub struct FloatSuprema {
     matrix: Vec<Vec<f64>>,
     inverse: Vec<Vec<f64>>,
     matrices: [Option<FloatMatrix>; 2],
-    program: Arc<Program>,
-    moments: Arc<Vec<Moment>>,
+    pub(super) program: Arc<Program>,
+    pub(super) moments: Arc<Vec<Moment>>,
     /// The nominal member, and the corners of the box; the middles of cells.
     members: Arc<Vec<Member>>,
     /// Points of the unit ball.
-    ball: Arc<Vec<Vec<f64>>>,
+    pub(super) ball: Arc<Vec<Vec<f64>>>,
     /// Whether anything depends on e.
     by_error: bool,
     /// At each time the errors at which dq/de is largest and least, where it is so at others than 0 and the largest ones: a friction that
@@ -220,7 +222,7 @@ impl FloatSuprema {
     }
 
     /// The error at a place.
-    fn error(&self, [i, _, k]: Place, e: f64) -> f64 {
+    pub(super) fn error(&self, [i, _, k]: Place, e: f64) -> f64 {
         match (ERRORS.get(k), &self.narrow) {
             (Some(share), _) => share * e,
             (None, Some(narrow)) => narrow[i][k - ERRORS.len()].max(-e).min(e),
@@ -263,7 +265,7 @@ impl FloatSuprema {
     }
 
     /// Makes ready for evaluations at a moment.
-    fn load(&self, moment: &Moment, evaluator: &mut Evaluator) {
+    pub(super) fn load(&self, moment: &Moment, evaluator: &mut Evaluator) {
         evaluator.set_parameters(&self.members[moment.member].parameters);
         evaluator.load_time_values(&moment.kept);
     }
@@ -274,21 +276,8 @@ impl FloatSuprema {
         self.search(kind, reach, e, ROUGH, 1).value
     }
 
-    /// The suprema of the bounds that are asked for, in the order of [`TABLE`], at points of the grid.
-    #[must_use]
-    pub fn survey(&self, reach: f64, e: f64, places: &Places, asked: Asked) -> [f64; TABLE.len()] {
-        let mut largest = [f64::NEG_INFINITY; TABLE.len()];
-        self.at_points([reach, e], places, asked, |_, values| {
-            for (largest, value) in largest.iter_mut().zip(values) {
-                // Where a value is undefined, so is the supremum.
-                *largest = if value.is_nan() || largest.is_nan() { f64::NAN } else { largest.max(value) };
-            }
-        });
-        std::array::from_fn(|index| if TABLE[index].is_rate() { -largest[index] } else { largest[index] })
-    }
-
     /// The places of the grid that are looked at for these sizes, in the order of their times.
-    fn places(&self, e: f64, places: &Places) -> Vec<Place> {
+    pub(super) fn places(&self, e: f64, places: &Places) -> Vec<Place> {
         let errors: &[usize] = match places {
             _ if e == 0.0 || !self.by_error => &[1],
             Places::Stride(1) | Places::Listed(_) if self.narrow.is_some() => &[0, 1, 2, 3, 4],
@@ -314,45 +303,6 @@ impl FloatSuprema {
         }
     }
 
-    /// Calls `see` with the place and the values of every point.
-    pub(super) fn at_points(
-        &self,
-        at: [f64; 2],
-        places: &Places,
-        asked: Asked,
-        mut see: impl FnMut(Place, [f64; TABLE.len()]),
-    ) {
-        let mut pointwise = self.pointwise();
-        self.outputs_at_points(at, places, |place, outputs, moment, matrices| {
-            see(place, pointwise.at(outputs, &moment.velocity, matrices, asked));
-        });
-    }
-
-    /// Calls `see` with every place, the derivatives there, and what depends on t alone.
-    fn outputs_at_points(
-        &self,
-        [reach, e]: [f64; 2],
-        places: &Places,
-        mut see: impl FnMut(Place, &[f64], &Moment, &[MatrixAt; 2]),
-    ) {
-        let mut evaluator = Evaluator::new(self.program.clone());
-        let mut outputs = vec![0.0; self.program.outputs()];
-        let mut x = vec![0.0; self.order];
-        let mut last = None;
-        let mut matrices = [MatrixAt::Missing, MatrixAt::Missing];
-        for place @ [i, j, _] in self.places(e, places) {
-            let moment = &self.moments[i];
-            if last != Some(i) {
-                self.load(moment, &mut evaluator);
-                matrices = self.matrices_at(moment);
-                last = Some(i);
-            }
-            self.place(&moment.orbit, &self.ball[j], reach, &mut x);
-            evaluator.evaluate(&x, self.error(place, e), &mut outputs);
-            see(place, &outputs, moment, &matrices);
-        }
-    }
-
     /// The 1 - b at both ends of an input gain; none where it is 1.
     #[must_use]
     pub fn moves(&self) -> Option<[f64; 2]> {
@@ -370,32 +320,19 @@ impl FloatSuprema {
         self.order
     }
 
-    /// Calls `see` with every place, the first derivatives in the coordinates y, and P.
-    pub(super) fn derivatives_at_points(
-        &self,
-        at: [f64; 2],
-        places: &Places,
-        mut see: impl FnMut(Place, &Derivatives<'_>, &MatrixAt),
-    ) {
-        let mut pointwise = self.pointwise();
-        self.outputs_at_points(at, places, |place, outputs, _, matrices| {
-            see(place, &pointwise.derivatives(outputs), &matrices[0]);
-        });
-    }
-
     /// The largest value of them by a longer search.
     pub(super) fn refined_of_derivatives(
         &self,
         at: [f64; 2],
-        mut value: impl FnMut(&Derivatives<'_>, &MatrixAt) -> f64,
+        value: impl Fn(&Derivatives<'_>, &MatrixAt) -> f64 + Sync,
     ) -> f64 {
-        let mut pointwise = self.pointwise();
-        let [largest, _] = self
-            .climbed(at, (FINE, STARTS), |outputs, _, matrices| value(&pointwise.derivatives(outputs), &matrices[0]));
+        let [largest, _] = self.climbed(at, (FINE, STARTS), Asked::FIRST, |pointwise, at| {
+            value(&pointwise.derivatives(at.outputs), &at.matrices[0])
+        });
         largest
     }
 
-    fn pointwise(&self) -> Pointwise {
+    pub(super) fn pointwise(&self) -> Pointwise {
         Pointwise::new(&self.matrix, &self.inverse, self.drift)
     }
 
@@ -408,10 +345,9 @@ impl FloatSuprema {
     /// The largest value at these points of the nominal member: t/T, y in the unit ball, e/E; of a rate the negative.
     #[must_use]
     pub fn largest_at(&self, kind: Bound, at: [f64; 2], points: &[(f64, Vec<f64>, f64)]) -> f64 {
-        let mut pointwise = self.pointwise();
         let asked = Asked::only(kind);
-        self.largest_of(at, points, |outputs, moment, matrices| {
-            of_table(kind, &pointwise.at(outputs, &moment.velocity, matrices, asked))
+        self.largest_of(at, points, asked, |pointwise, at| {
+            of_table(kind, &pointwise.at(at.outputs, &at.moment.velocity, at.matrices, asked))
         })
     }
 
@@ -422,25 +358,21 @@ impl FloatSuprema {
         points: &[(f64, Vec<f64>, f64)],
         mut value: impl FnMut(&Derivatives<'_>, &MatrixAt) -> f64,
     ) -> f64 {
-        let mut pointwise = self.pointwise();
-        self.largest_of(at, points, |outputs, _, matrices| value(&pointwise.derivatives(outputs), &matrices[0]))
+        self.largest_of(at, points, Asked::FIRST, |pointwise, at| {
+            value(&pointwise.derivatives(at.outputs), &at.matrices[0])
+        })
     }
 
     fn largest_of(
         &self,
-        [reach, e]: [f64; 2],
+        at: [f64; 2],
         points: &[(f64, Vec<f64>, f64)],
-        mut value_of: impl FnMut(&[f64], &Moment, &[MatrixAt; 2]) -> f64,
+        asked: Asked,
+        mut value_of: impl FnMut(&mut Pointwise, Outputs<'_>) -> f64,
     ) -> f64 {
-        let mut evaluator = Evaluator::new(self.program.clone());
-        let mut slow = Evaluator::new(self.velocity.clone());
-        let (mut x, mut outputs) = (vec![0.0; self.order], vec![0.0; self.program.outputs()]);
-        let value = |(time, y, part): &(f64, Vec<f64>, f64)| {
-            let moment = self.moment(*time, 0, &mut evaluator, &mut slow);
-            self.load(&moment, &mut evaluator);
-            self.place(&moment.orbit, y, reach, &mut x);
-            evaluator.evaluate(&x, part * e, &mut outputs);
-            value_of(&outputs, &moment, &self.matrices_at(&moment))
+        let mut single = Single::new(self, at, asked);
+        let value = |(time, y, e): &(f64, Vec<f64>, f64)| {
+            single.value(&Point { time: *time, y: y.clone(), e: *e, member: 0 }, &mut value_of)
         };
         points.iter().map(value).fold(f64::NEG_INFINITY, f64::max)
     }
@@ -448,9 +380,8 @@ impl FloatSuprema {
     /// The largest value at the points of the grid, and a local search from the best of them.
     fn search(&self, kind: Bound, reach: f64, e: f64, halvings: u32, starts: usize) -> Sampled {
         let asked = Asked::only(kind);
-        let mut pointwise = self.pointwise();
-        let [largest, least] = self.climbed([reach, e], (halvings, starts), |outputs, moment, matrices| {
-            of_table(kind, &pointwise.at(outputs, &moment.velocity, matrices, asked))
+        let [largest, least] = self.climbed([reach, e], (halvings, starts), asked, |pointwise, at| {
+            of_table(kind, &pointwise.at(at.outputs, &at.moment.velocity, at.matrices, asked))
         });
         Sampled { value: if kind.is_rate() { -largest } else { largest }, spread: largest - least }
     }
@@ -458,51 +389,39 @@ impl FloatSuprema {
     /// The largest value that a local search from the best points of the grid finds, and the least one on the grid.
     fn climbed(
         &self,
-        [reach, e]: [f64; 2],
+        at @ [_, e]: [f64; 2],
         (halvings, starts): (u32, usize),
-        mut value_of: impl FnMut(&[f64], &Moment, &[MatrixAt; 2]) -> f64,
+        asked: Asked,
+        value_of: impl Fn(&mut Pointwise, Outputs<'_>) -> f64 + Sync,
     ) -> [f64; 2] {
         // The best values with their points, and the least value.
-        let (mut best, mut least): (Vec<(f64, Place)>, f64) = (Vec::new(), f64::INFINITY);
-        self.outputs_at_points([reach, e], &Places::Stride(1), |at, outputs, moment, matrices| {
-            let value = value_of(outputs, moment, matrices);
-            least = least.min(value);
-            keep(&mut best, starts, value, at);
+        let nothing = || (Vec::new(), f64::INFINITY);
+        let pieces = self.in_pieces(at, &Places::Stride(1), asked, nothing, |(best, least), pointwise, place, at| {
+            let value = value_of(pointwise, at);
+            *least = least.min(value);
+            keep(best, starts, value, place);
         });
-        let mut evaluator = Evaluator::new(self.program.clone());
-        let mut slow = Evaluator::new(self.velocity.clone());
-        let mut outputs = vec![0.0; self.program.outputs()];
-        let mut x = vec![0.0; self.order];
-        // Most steps leave the time as it is.
-        let mut moment = self.moment(0.0, 0, &mut evaluator, &mut slow);
-        let mut value_at = |point: &Point| {
-            if point.time != moment.time || point.member != moment.member {
-                moment = self.moment(point.time, point.member, &mut evaluator, &mut slow);
-            }
-            self.load(&moment, &mut evaluator);
-            self.place(&moment.orbit, &point.y, reach, &mut x);
-            evaluator.evaluate(&x, point.e * e, &mut outputs);
-            value_of(&outputs, &moment, &self.matrices_at(&moment))
-        };
-        // Where the bound has no value anywhere, as a rate without a P, the answer is not a number.
-        let mut largest = f64::NAN;
-        for (value, place @ [i, j, _]) in &best {
+        let (best, least): (Vec<_>, Vec<f64>) = pieces.into_iter().unzip();
+        let from = |(value, place @ [i, j, _]): &(f64, Place)| {
             let share = if e > 0.0 { self.error(*place, e) / e } else { 0.0 };
             let Moment { time, member, .. } = self.moments[*i];
             let point = Point { time, y: self.ball[*j].clone(), e: share, member };
-            largest = largest.max(climb(point, *value, halvings, e != 0.0, &mut value_at));
-        }
-        [largest, least]
+            let mut single = Single::new(self, at, asked);
+            climb(point, *value, halvings, e != 0.0, |point| single.value(point, &value_of))
+        };
+        let climbed: Vec<f64> = merged(best, starts).par_iter().map(from).collect();
+        // Where the bound has no value anywhere, as a rate without a P, the answer is not a number.
+        [climbed.into_iter().fold(f64::NAN, f64::max), least.into_iter().fold(f64::INFINITY, f64::min)]
     }
 
     /// xb + (X + r) L y.
-    fn place(&self, orbit: &[f64], y: &[f64], reach: f64, x: &mut [f64]) {
+    pub(super) fn place(&self, orbit: &[f64], y: &[f64], reach: f64, x: &mut [f64]) {
         for ((x, orbit), row) in x.iter_mut().zip(orbit).zip(&self.matrix) {
             *x = orbit + reach * row.iter().zip(y).map(|(l, y)| l * y).sum::<f64>();
         }
     }
 
-    fn matrices_at(&self, moment: &Moment) -> [MatrixAt; 2] {
+    pub(super) fn matrices_at(&self, moment: &Moment) -> [MatrixAt; 2] {
         let period = self.period / self.members[moment.member].clock;
         self.matrices.each_ref().map(|matrix| match matrix {
             None => MatrixAt::Missing,
@@ -511,14 +430,48 @@ impl FloatSuprema {
     }
 }
 
-/// Keeps the largest values.
-pub(super) fn keep(best: &mut Vec<(f64, Place)>, count: usize, value: f64, at: Place) {
-    if value.is_nan() || (best.len() == count && best.last().is_some_and(|(least, _)| value <= *least)) {
-        return;
+/// Values at single points, anywhere.
+struct Single<'a> {
+    suprema: &'a FloatSuprema,
+    at: [f64; 2],
+    pointwise: Pointwise,
+    evaluator: Evaluator,
+    slow: Evaluator,
+    /// Most steps leave the time as it is.
+    moment: Option<Moment>,
+    x: Vec<f64>,
+    outputs: Vec<f64>,
+}
+
+impl<'a> Single<'a> {
+    fn new(suprema: &'a FloatSuprema, at: [f64; 2], asked: Asked) -> Single<'a> {
+        Single {
+            suprema,
+            at,
+            pointwise: suprema.pointwise(),
+            evaluator: Evaluator::new(suprema.program.clone()),
+            slow: Evaluator::new(suprema.velocity.clone()),
+            moment: None,
+            x: vec![0.0; suprema.order],
+            outputs: vec![0.0; asked.outputs(suprema.order)],
+        }
     }
-    let place = best.iter().position(|(other, _)| value > *other).unwrap_or(best.len());
-    best.insert(place, (value, at));
-    best.truncate(count);
+
+    fn value(
+        &mut self,
+        Point { time, y, e, member }: &Point,
+        value_of: impl FnOnce(&mut Pointwise, Outputs<'_>) -> f64,
+    ) -> f64 {
+        let Single { suprema, at: [reach, largest], pointwise, evaluator, slow, moment, x, outputs } = self;
+        let known = moment.take().filter(|known| known.time == *time && known.member == *member);
+        let known = known.unwrap_or_else(|| suprema.moment(*time, *member, evaluator, slow));
+        suprema.load(&known, evaluator);
+        suprema.place(&known.orbit, y, *reach, x);
+        evaluator.evaluate(x, e * *largest, outputs);
+        let value = value_of(pointwise, Outputs { outputs, moment: &known, matrices: &suprema.matrices_at(&known) });
+        *moment = Some(known);
+        value
+    }
 }
 
 /// The inverse in doubles, by Gauss and Jordan with pivots; without one, entries that are not numbers. Rows may be in units of

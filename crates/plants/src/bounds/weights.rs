@@ -140,12 +140,12 @@ impl EnergyWeights {
         for i in 0..n {
             rows.extend((0..=i).map(|k| -(moved(i, k) + moved(k, i)) - if i == k { *c_x } else { 0.0 }));
         }
-        let root = match Root::new(&rows) {
+        let root = match Root::new(rows) {
             Ok(root) => root,
             Err(without) => return EnergyAt { of_y: without, between: 0.0, of_e: 0.0, moves },
         };
-        let of_e = root.solved(&(0..n).map(|i| -(0..n).map(|m| p[i][m] * at.g[m]).sum::<f64>()).collect::<Vec<f64>>());
-        let of_y = root.solved(&at.r.iter().map(|slope| -0.5 * k_p * slope).collect::<Vec<f64>>());
+        let of_e = root.solved((0..n).map(|i| -(0..n).map(|m| p[i][m] * at.g[m]).sum::<f64>()));
+        let of_y = root.solved(at.r.iter().map(|slope| -0.5 * k_p * slope));
         EnergyAt {
             between: -1.0 - 0.5 * k_p * at.d - dot(&of_e, &of_y),
             of_e: dot(&of_e, &of_e),
@@ -187,24 +187,44 @@ impl EnergyAt {
     }
 
     /// Those of which one has the least margin, whatever k_p and the threshold are: the others are no larger in any entry than one of
-    /// these, and no operation of [`EnergyAt::margin`] turns that around by rounding. All, with an input gain or where one is not finite.
+    /// these, and no operation of [`EnergyAt::margin`] turns that around by rounding. All, where an entry is not finite.
+    ///
+    /// With an input gain a larger `between` makes the margin smaller at the end that moves it least, and a smaller one at the other end,
+    /// where the square is the larger one: those are left that have the least margin of one kind or the other.
     #[must_use]
-    pub fn front(mut all: Vec<EnergyAt>) -> Vec<EnergyAt> {
-        let sizes = |at: &EnergyAt| [at.of_y, at.between.abs(), at.of_e];
-        if all.iter().any(|at| at.moves.is_some() || sizes(at).iter().any(|size| !size.is_finite())) {
+    pub fn front(all: Vec<EnergyAt>) -> Vec<EnergyAt> {
+        let finite = |at: &EnergyAt| [at.of_y, at.between, at.of_e].iter().all(|entry| entry.is_finite());
+        if !all.iter().all(finite) {
             return all;
         }
-        // The largest ones first: what is beyond many is among them.
-        all.sort_by(|a, b| sizes(b).iter().sum::<f64>().total_cmp(&sizes(a).iter().sum()));
-        let mut front: Vec<EnergyAt> = Vec::new();
-        for at in all {
-            let beyond = |other: &EnergyAt| sizes(other).iter().zip(sizes(&at)).all(|(other, own)| *other >= own);
-            if !front.iter().any(beyond) {
-                front.push(at);
-            }
-        }
-        front
+        let kinds = match all.iter().any(|at| at.moves.is_some()) {
+            false => vec![behind(&all, |at| [at.of_y, at.between.abs(), at.of_e])],
+            true => [1.0, -1.0].map(|sign| behind(&all, |at| [at.of_y, sign * at.between, at.of_e])).into(),
+        };
+        let left = |index: usize| kinds.iter().any(|behind| !behind[index]);
+        all.into_iter().enumerate().filter(|(index, _)| left(*index)).map(|(_, at)| at).collect()
     }
+}
+
+/// So many of the foremost are compared with: a few leave out nearly all that all would.
+const FOREMOST: usize = 24;
+
+/// Which of them one of the foremost reaches in all sizes, none of these themselves.
+fn behind(all: &[EnergyAt], sizes: impl Fn(&EnergyAt) -> [f64; 3]) -> Vec<bool> {
+    let sized: Vec<[f64; 3]> = all.iter().map(sizes).collect();
+    let sum = |index: usize| sized[index].iter().sum::<f64>();
+    // The largest ones first: what is beyond many is among them.
+    let mut order: Vec<usize> = (0..all.len()).collect();
+    order.sort_by(|a, b| sum(*b).total_cmp(&sum(*a)));
+    let (mut foremost, mut behind): (Vec<[f64; 3]>, _) = (Vec::new(), vec![false; all.len()]);
+    for index in order {
+        let own = sized[index];
+        behind[index] = foremost.iter().any(|other| other.iter().zip(&own).all(|(other, own)| other >= own));
+        if !behind[index] && foremost.len() < FOREMOST {
+            foremost.push(own);
+        }
+    }
+    behind
 }
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {
@@ -219,8 +239,8 @@ impl Root {
     ///
     /// # Errors
     /// What stands for the threshold of a matrix that is not positive definite: infinity, or what is not a number.
-    pub(super) fn new(lower: &[f64]) -> Result<Root, f64> {
-        let mut rows = lower.to_vec();
+    pub(super) fn new(lower: Vec<f64>) -> Result<Root, f64> {
+        let mut rows = lower;
         let at = |i: usize, k: usize| i * (i + 1) / 2 + k;
         let mut i = 0;
         while at(i, 0) < rows.len() {
@@ -239,32 +259,32 @@ impl Root {
     }
 
     /// The solution of `R s = v` for the factor R, of which `|s|^2 = v' G^-1 v`, in the place of what is in `solved`.
-    fn solve(&self, v: &[f64], solved: &mut Vec<f64>) {
+    fn solve(&self, v: impl Iterator<Item = f64>, solved: &mut Vec<f64>) {
         solved.clear();
         let mut rows = self.0.as_slice();
-        for (i, value) in v.iter().enumerate() {
+        for (i, value) in v.enumerate() {
             let (row, rest) = rows.split_at(i + 1);
             solved.push((value - dot(row, solved)) / row[i]);
             rows = rest;
         }
     }
 
-    fn solved(&self, v: &[f64]) -> Vec<f64> {
-        let mut solved = Vec::with_capacity(v.len());
+    fn solved(&self, v: impl Iterator<Item = f64>) -> Vec<f64> {
+        let mut solved = Vec::with_capacity(v.size_hint().0);
         self.solve(v, &mut solved);
         solved
     }
 
     /// Half of `v' G^-1 v` of a column that does not change with sigma.
     pub(super) fn half_square(&self, column: &[f64]) -> f64 {
-        let solved = self.solved(column);
+        let solved = self.solved(column.iter().copied());
         0.5 * dot(&solved, &solved)
     }
 
     /// Half of `v' G^-1 v`; with an input gain the sigma with `v(sigma)' G^-1 v(sigma) <= 2 sigma` at both ends. A search looks
     /// some million times: `solved` is room for what is solved, and holds nothing.
     pub(super) fn thresholds(&self, column: &Column, solved: &mut Vec<f64>) -> Thresholds {
-        self.solve(&column.fixed, solved);
+        self.solve(column.fixed.iter().copied(), solved);
         let square = dot(solved, solved);
         let Some(moved) = column.moved else { return Thresholds::from(0.5 * square) };
         // Of the last unit vector the last entry alone is left: one over the last one of the factor.
@@ -312,9 +332,15 @@ mod tests {
         for (k_p, value) in [(0.5, 0.1), (2.0, 0.3), (2.0, 1.0), (1.0, 20.0)] {
             assert_eq!(least(&front, k_p, value), least(&all, k_p, value), "{k_p} {value}");
         }
-        // With an input gain neither sign of what is between says more than the other.
-        let moved = |at: &EnergyAt| EnergyAt { moves: Some([-0.1, 0.2]), ..*at };
-        assert_eq!(EnergyAt::front(all.iter().map(moved).collect()).len(), all.len());
+        // With an input gain, whichever side of 1 its ends are on.
+        for moves in [[-0.1, 0.2], [0.2, -0.1], [0.1, 0.2], [-0.2, -0.1]] {
+            let moved: Vec<EnergyAt> = all.iter().map(|at| EnergyAt { moves: Some(moves), ..*at }).collect();
+            let front = EnergyAt::front(moved.clone());
+            assert!(front.len() > 1 && front.len() < 250, "{}", front.len());
+            for (k_p, value) in [(0.5, 0.1), (2.0, 0.3), (2.0, 1.0), (1.0, 20.0), (3.0, 5.0)] {
+                assert_eq!(least(&front, k_p, value), least(&moved, k_p, value), "{moves:?} {k_p} {value}");
+            }
+        }
         let [undefined, infinite] = [f64::NAN, f64::INFINITY].map(|of_y| {
             let one = EnergyAt { of_y, ..all[0] };
             EnergyAt::front(all.iter().copied().chain([one]).collect()).len()

@@ -14,7 +14,7 @@ use sigmastar_exact::number::Portable;
 use sigmastar_plants::bounds::{Asked, Corners, EnergyAt, EnergyWeights, FloatWeights, Focus, MatrixArguments};
 use sigmastar_theory::derivation::harmonics::AtOrigin;
 use sigmastar_theory::derivation::paths::Path;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// How densely suprema are sampled.
 #[derive(Clone, Debug)]
@@ -233,12 +233,9 @@ impl CoordinateSearch<'_> {
         if let Some(energy) = energy {
             let weights = Arc::new(energy.clone());
             let (known, k_p) = (weights.clone(), weights.k_p);
-            let grid = Grid::new(move |x, e| energy_at([x, e], &known), units, ratio);
-            let least = move |points: &Vec<EnergyAt>, value: f64| {
-                points.iter().map(|point| point.margin(k_p, value)).fold(f64::INFINITY, f64::min)
-            };
+            let grid = Grid::new(move |x, e| LeastMargin::new(k_p, energy_at([x, e], &known)), units, ratio);
             let margin: Arc<EnergyMargin> =
-                Arc::new(move |at, value| grid.at(at, |points| least(points, value)).unwrap_or(f64::NAN));
+                Arc::new(move |at, value| grid.at(at, |node| node.at(value)).unwrap_or(f64::NAN));
             model.by_energy = Some(ByEnergy::Sampled { weights, margin });
         }
         let model = (self.frame)(l, &model);
@@ -460,6 +457,29 @@ impl CoordinateSearch<'_> {
         let mut model = model;
         model.by_energy = model.by_energy.filter(|_| energy.is_some());
         Ok(Chosen { l: l.clone(), second: second.cloned(), energy: energy.cloned(), model, proposal })
+    }
+}
+
+/// The least c_y of some points as a function of the threshold, which stays as it is while a set is sought.
+struct LeastMargin {
+    k_p: f64,
+    points: Vec<EnergyAt>,
+    /// The last threshold, and what it was there.
+    last: Mutex<[f64; 2]>,
+}
+
+impl LeastMargin {
+    fn new(k_p: f64, points: Vec<EnergyAt>) -> LeastMargin {
+        LeastMargin { k_p, points, last: Mutex::new([f64::NAN; 2]) }
+    }
+
+    fn at(&self, value: f64) -> f64 {
+        let mut last = self.last.lock().unwrap_or_else(PoisonError::into_inner);
+        if last[0] != value {
+            let least = self.points.iter().map(|point| point.margin(self.k_p, value)).fold(f64::INFINITY, f64::min);
+            *last = [value, least];
+        }
+        last[1]
     }
 }
 

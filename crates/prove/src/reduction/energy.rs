@@ -2,6 +2,7 @@
 
 use super::coordinates::{CoordinateSearch, Density, NEAR, Shape, Start, Varied};
 use crate::search::{PeriodicSet, SharpParameters};
+use rayon::prelude::*;
 use sigmastar_plants::bounds::EnergyWeights;
 use sigmastar_theory::derivation::harmonics::AtOrigin;
 
@@ -72,7 +73,8 @@ impl CoordinateSearch<'_> {
                 let energy = self.energy(at, &sampled, *share)?;
                 self.descend(&Start { energy: Some(energy), ..at.clone() }, Varied::Shape)
             };
-            shares.iter().filter_map(with).min_by(|a, b| a.proposal.sigma.total_cmp(&b.proposal.sigma))
+            let found: Vec<Start> = shares.par_iter().filter_map(with).collect();
+            found.into_iter().min_by(|a, b| a.proposal.sigma.total_cmp(&b.proposal.sigma))
         };
         let least = FACTORS.into_iter().find_map(on_set);
         least.filter(|found| found.proposal.sigma < at.proposal.sigma * FAR).unwrap_or_else(|| at.clone())

@@ -72,7 +72,13 @@ impl<V> Grid<V> {
     fn node(&self, [i, j]: [usize; 2]) -> &V {
         let [xs, es] = &self.axes;
         let row = self.nodes[i].get_or_init(|| empty(es.nodes.len()));
-        row[j].get_or_init(|| Box::new((self.source)(xs.nodes[i], es.nodes[j])))
+        let place = &row[j];
+        if let Some(node) = place.get() {
+            return node;
+        }
+        // Not while the place waits for it: a thread that helps others in the meantime may come back to this very place.
+        let made = Box::new((self.source)(xs.nodes[i], es.nodes[j]));
+        place.get_or_init(|| made)
     }
 }
 
