@@ -21,14 +21,14 @@ pub(super) struct Point {
     pub(super) member: usize,
 }
 
-/// A search along the coordinates with steps that are halved when none of them helps.
+/// A search along the coordinates with steps that are halved when none of them helps: where it ends, and the value there.
 pub(super) fn climb(
     mut point: Point,
     mut value: f64,
     halvings: u32,
     errors: bool,
     mut value_at: impl FnMut(&Point) -> f64,
-) -> f64 {
+) -> (Point, f64) {
     let mut step = FIRST_STEP;
     for _ in 0..halvings {
         for _ in 0..MOVES {
@@ -60,7 +60,7 @@ pub(super) fn climb(
         }
         step /= 2.0;
     }
-    value
+    (point, value)
 }
 
 /// Points of the unit ball: its centre, the axes and the corners of the cube on the sphere, and points spread evenly.

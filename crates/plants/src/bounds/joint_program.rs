@@ -64,6 +64,15 @@ pub struct LevelAsked {
     pub margin: f64,
 }
 
+/// Which points a proposal is made for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LookedAt {
+    /// Those of a grid.
+    Grid,
+    /// Those between them too, as far as a local search finds some: for a proof.
+    Between,
+}
+
 impl FloatSuprema {
     /// Metrics of existence on `|y| <= X`, `|e| <= E` at a threshold, near and far: with a large share of the largest c_y/k_p. `places` are
     /// points of a program like it, and become those that this one needed besides its own.
@@ -72,10 +81,10 @@ impl FloatSuprema {
         &self,
         at: [f64; 2],
         value: f64,
-        places: &mut Vec<Place>,
+        (looked, places): (LookedAt, &mut Vec<Place>),
     ) -> Option<[FloatMetric; 2]> {
         let mut program = self.program(at, value, None, places)?;
-        self.settled(at, &mut program, places, |program| {
+        self.settled(at, &mut program, (looked, places), |program| {
             let (_, largest) = program.of_existence(None)?;
             let kept = KEPT * (largest > 0.0).then_some(largest)?;
             let (variables, room) = program.of_existence(Some(kept))?;
@@ -93,11 +102,12 @@ impl FloatSuprema {
         at: [f64; 2],
         value: f64,
         asked: &LevelAsked,
-        places: &mut Vec<Place>,
+        (looked, places): (LookedAt, &mut Vec<Place>),
     ) -> Option<([FloatMetric; 2], [FloatLevel; 2], f64)> {
         let [d_x, d_e] = asked.radii;
         let mut program = self.program(at, value, Some([d_x, d_e]), places)?;
-        let (metrics, variables) = self.settled(at, &mut program, places, |program| program.of_stability(asked))?;
+        let (metrics, variables) =
+            self.settled(at, &mut program, (looked, places), |program| program.of_stability(asked))?;
         let (share, p_up) = program.shares(&variables);
         let level =
             |p_up: f64| FloatLevel { p_up: p_up / (d_x * d_x), x_low: (d_x * d_x).recip(), e_low: (d_e * d_e).recip() };
@@ -121,14 +131,17 @@ impl FloatSuprema {
         &self,
         at: [f64; 2],
         program: &mut Program,
-        places: &mut Vec<Place>,
+        (looked, places): (LookedAt, &mut Vec<Place>),
         solve: impl Fn(&Program) -> Option<(Vec<f64>, [[f64; 3]; 2])>,
     ) -> Option<([FloatMetric; 2], Vec<f64>)> {
         let mut found = solve(program)?;
         for _ in 0..ROUNDS {
             let (variables, margins) = &found;
-            let mut worst = self.largest_of_derivatives(at, &Places::Stride(1), POINTS, |derivatives, _| {
-                program.lack(&program.point(derivatives), variables, margins)
+            let mut worst = self.largest_of_derivatives(at, &Places::Stride(1), POINTS, |derivatives, _| match program
+                .holds(&program.point(derivatives), variables, margins)
+            {
+                true => f64::NAN,
+                false => program.lack(&program.point(derivatives), variables, margins),
             });
             worst.retain(|(below, _)| *below > 0.0);
             if worst.is_empty() {
@@ -137,6 +150,17 @@ impl FloatSuprema {
             let worst: Vec<Place> = worst.into_iter().map(|(_, place)| place).collect();
             places.extend(&worst);
             program.add(self, at, worst);
+            found = solve(program)?;
+        }
+        for _ in 0..if looked == LookedAt::Between { ROUNDS } else { 0 } {
+            let (variables, margins) = &found;
+            let lack = |derivatives: &Derivatives<'_>| program.lack(&program.point(derivatives), variables, margins);
+            let mut worst = self.refined_points(at, lack, |derivatives| program.point(derivatives));
+            worst.retain(|(below, _)| *below > 0.0);
+            if worst.is_empty() {
+                break;
+            }
+            program.points.extend(worst.into_iter().map(|(_, point)| point));
             found = solve(program)?;
         }
         places.drain(..places.len().saturating_sub(LEFT_OVER));
@@ -240,23 +264,28 @@ impl Program {
         })
     }
 
-    /// By how much the matrices at a point are not above the margins; 0 where they are.
-    fn lack(&self, point: &Point, variables: &[f64], margins: &[[f64; 3]; 2]) -> f64 {
-        let forms = self.forms(point, variables);
-        let lacks = forms.into_iter().zip(margins).map(|(mut form, margins)| {
+    /// The matrices at a point less what is left of the margins.
+    fn less_margins(&self, point: &Point, variables: &[f64], margins: &[[f64; 3]; 2]) -> [Matrix; 2] {
+        let mut forms = self.forms(point, variables);
+        for (form, margins) in forms.iter_mut().zip(margins) {
             for (i, row) in form.iter_mut().enumerate() {
                 row[i] -= LEFT * margins[(i + 1).saturating_sub(self.n).min(2)];
             }
-            let lower: Vec<f64> = form.iter().enumerate().flat_map(|(i, row)| row[..=i].to_vec()).collect();
-            match Root::new(lower) {
-                Ok(_) => 0.0,
-                Err(_) => {
-                    let negative = form.iter().map(|row| row.iter().map(|entry| -entry).collect()).collect();
-                    largest(negative).max(0.0)
-                }
-            }
-        });
-        lacks.fold(0.0, f64::max)
+        }
+        forms
+    }
+
+    /// Whether they are positive definite.
+    fn holds(&self, point: &Point, variables: &[f64], margins: &[[f64; 3]; 2]) -> bool {
+        let lower = |form: Matrix| form.iter().enumerate().flat_map(|(i, row)| row[..=i].to_vec()).collect();
+        self.less_margins(point, variables, margins).into_iter().all(|form| Root::new(lower(form)).is_ok())
+    }
+
+    /// By how much they are not: negative where they are.
+    fn lack(&self, point: &Point, variables: &[f64], margins: &[[f64; 3]; 2]) -> f64 {
+        let negative = |form: Matrix| form.iter().map(|row| row.iter().map(|entry| -entry).collect()).collect();
+        let lacks = self.less_margins(point, variables, margins).map(|form| largest(negative(form)));
+        lacks.into_iter().fold(f64::NEG_INFINITY, f64::max)
     }
 
     /// The metrics of variables, in the units of the plant.

@@ -60,7 +60,7 @@ pub use directions::Directions;
 pub use engine::Engine;
 pub use entry::{Entry, TABLE};
 pub use float_waves::FloatCurve;
-pub use joint_program::{FloatLevel, FloatMetric, LevelAsked};
+pub use joint_program::{FloatLevel, FloatMetric, LevelAsked, LookedAt};
 pub use majorant::{Majorant, Term};
 pub use pointwise::Asked;
 pub use prove_value::ProvedValue;

@@ -326,10 +326,25 @@ impl FloatSuprema {
         at: [f64; 2],
         value: impl Fn(&Derivatives<'_>, &MatrixAt) -> f64 + Sync,
     ) -> f64 {
-        let [largest, _] = self.climbed(at, (FINE, STARTS), Asked::FIRST, |pointwise, at| {
+        let found = self.climbed(at, (FINE, STARTS), Asked::FIRST, |pointwise, at| {
             value(&pointwise.derivatives(at.outputs), &at.matrices[0])
         });
-        largest
+        found.largest()
+    }
+
+    /// The points where that search ends, with the values there, and what a function makes of the first derivatives there.
+    pub(super) fn refined_points<T>(
+        &self,
+        at: [f64; 2],
+        value: impl Fn(&Derivatives<'_>) -> f64 + Sync,
+        of: impl Fn(&Derivatives<'_>) -> T,
+    ) -> Vec<(f64, T)> {
+        let found =
+            self.climbed(at, (FINE, STARTS), Asked::FIRST, |pointwise, at| value(&pointwise.derivatives(at.outputs)));
+        let mut single = Single::new(self, at, Asked::FIRST);
+        let seen =
+            |(point, value)| (value, single.value(&point, |pointwise, at| of(&pointwise.derivatives(at.outputs))));
+        found.ends.into_iter().map(seen).collect()
     }
 
     pub(super) fn pointwise(&self) -> Pointwise {
@@ -380,20 +395,21 @@ impl FloatSuprema {
     /// The largest value at the points of the grid, and a local search from the best of them.
     fn search(&self, kind: Bound, reach: f64, e: f64, halvings: u32, starts: usize) -> Sampled {
         let asked = Asked::only(kind);
-        let [largest, least] = self.climbed([reach, e], (halvings, starts), asked, |pointwise, at| {
+        let found = self.climbed([reach, e], (halvings, starts), asked, |pointwise, at| {
             of_table(kind, &pointwise.at(at.outputs, &at.moment.velocity, at.matrices, asked))
         });
-        Sampled { value: if kind.is_rate() { -largest } else { largest }, spread: largest - least }
+        let largest = found.largest();
+        Sampled { value: if kind.is_rate() { -largest } else { largest }, spread: largest - found.least }
     }
 
-    /// The largest value that a local search from the best points of the grid finds, and the least one on the grid.
+    /// Where local searches from the best points of the grid end, and the least value on the grid.
     fn climbed(
         &self,
         at @ [_, e]: [f64; 2],
         (halvings, starts): (u32, usize),
         asked: Asked,
         value_of: impl Fn(&mut Pointwise, Outputs<'_>) -> f64 + Sync,
-    ) -> [f64; 2] {
+    ) -> Climbed {
         // The best values with their points, and the least value.
         let nothing = || (Vec::new(), f64::INFINITY);
         let pieces = self.in_pieces(at, &Places::Stride(1), asked, nothing, |(best, least), pointwise, place, at| {
@@ -409,9 +425,10 @@ impl FloatSuprema {
             let mut single = Single::new(self, at, asked);
             climb(point, *value, halvings, e != 0.0, |point| single.value(point, &value_of))
         };
-        let climbed: Vec<f64> = merged(best, starts).par_iter().map(from).collect();
-        // Where the bound has no value anywhere, as a rate without a P, the answer is not a number.
-        [climbed.into_iter().fold(f64::NAN, f64::max), least.into_iter().fold(f64::INFINITY, f64::min)]
+        Climbed {
+            ends: merged(best, starts).par_iter().map(from).collect(),
+            least: least.into_iter().fold(f64::INFINITY, f64::min),
+        }
     }
 
     /// xb + (X + r) L y.
@@ -427,6 +444,21 @@ impl FloatSuprema {
             None => MatrixAt::Missing,
             Some(matrix) => matrix.steady.clone().unwrap_or_else(|| MatrixAt::Moving(matrix.at(moment.time, period))),
         })
+    }
+}
+
+/// What local searches find.
+struct Climbed {
+    /// Where each of them ends, and the value there.
+    ends: Vec<(Point, f64)>,
+    /// The least value on the grid.
+    least: f64,
+}
+
+impl Climbed {
+    /// Where there is no value anywhere, as of a rate without a P, not a number.
+    fn largest(&self) -> f64 {
+        self.ends.iter().map(|(_, value)| *value).fold(f64::NAN, f64::max)
     }
 }
 
@@ -457,11 +489,11 @@ impl<'a> Single<'a> {
         }
     }
 
-    fn value(
+    fn value<T>(
         &mut self,
         Point { time, y, e, member }: &Point,
-        value_of: impl FnOnce(&mut Pointwise, Outputs<'_>) -> f64,
-    ) -> f64 {
+        value_of: impl FnOnce(&mut Pointwise, Outputs<'_>) -> T,
+    ) -> T {
         let Single { suprema, at: [reach, largest], pointwise, evaluator, slow, moment, x, outputs } = self;
         let known = moment.take().filter(|known| known.time == *time && known.member == *member);
         let known = known.unwrap_or_else(|| suprema.moment(*time, *member, evaluator, slow));

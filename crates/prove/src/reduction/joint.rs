@@ -11,7 +11,7 @@ use crate::search::{
 use rug::Rational;
 use sigmastar_exact::number::{Direction, Portable, round_f64};
 use sigmastar_lang::spec::{JointInequality, JointStability, Level, Metric, ProvedValues};
-use sigmastar_plants::bounds::{FloatLevel, FloatMetric, LevelAsked, Place};
+use sigmastar_plants::bounds::{FloatLevel, FloatMetric, LevelAsked, LookedAt, Place};
 use sigmastar_theory::derivation::harmonics::AtOrigin;
 use std::cell::RefCell;
 use std::sync::Arc;
@@ -102,17 +102,17 @@ impl JointSearch<'_> {
     /// The least gain below one that is known.
     fn least(&self, above: f64) -> Option<Found> {
         let (set, at) = at_sigma(self.model, &self.known.parameters, self.known.sigma * (1.0 + NEAR), NEAR).ok()?;
-        let mut best = self.at(above * FIRST, [set.x_p, set.e_p], radii(&at))?;
+        let mut best = self.at(above * FIRST, [set.x_p, set.e_p], radii(&at), LookedAt::Grid)?;
         let mut low = loop {
             let next = best.sigma * STEP;
-            match self.at(next, [best.set.x_p, best.set.e_p], best.radii) {
+            match self.at(next, [best.set.x_p, best.set.e_p], best.radii, LookedAt::Grid) {
                 Some(found) => best = found,
                 None => break next,
             }
         };
         for _ in 0..HALVED {
             let middle = (low * best.sigma).sqrt();
-            match self.at(middle, [best.set.x_p, best.set.e_p], best.radii) {
+            match self.at(middle, [best.set.x_p, best.set.e_p], best.radii, LookedAt::Grid) {
                 Some(found) => best = found,
                 None => low = middle,
             }
@@ -121,12 +121,12 @@ impl JointSearch<'_> {
     }
 
     /// Metrics at a gain, near a set and an error box.
-    fn at(&self, sigma: f64, sizes: [f64; 2], radii: [f64; 2]) -> Option<Found> {
+    fn at(&self, sigma: f64, sizes: [f64; 2], radii: [f64; 2], looked: LookedAt) -> Option<Found> {
         let by_norms = self.model.with_inequalities(None, None);
         let plain = self.set(&by_norms, sigma).map(|set| (by_norms.clone(), set));
-        let joint = self.existence(&by_norms, sigma, sizes);
+        let joint = self.existence(&by_norms, sigma, sizes, looked);
         let (model, set) = [plain, joint].into_iter().flatten().min_by(|a, b| a.1.e_per.total_cmp(&b.1.e_per))?;
-        let (radii, stability) = self.stability(&model, &set, sigma, radii)?;
+        let (radii, stability) = self.stability(&model, &set, sigma, (radii, looked))?;
         Some(Found { sigma, model, set, radii, stability })
     }
 
@@ -138,10 +138,19 @@ impl JointSearch<'_> {
     }
 
     /// The model with metrics of existence, and its set.
-    fn existence(&self, model: &FloatModel, sigma: f64, sizes: [f64; 2]) -> Option<(FloatModel, PeriodicSet)> {
+    fn existence(
+        &self,
+        model: &FloatModel,
+        sigma: f64,
+        sizes: [f64; 2],
+        looked: LookedAt,
+    ) -> Option<(FloatModel, PeriodicSet)> {
         let with = |region: [f64; 2]| {
-            let metrics =
-                self.proofs.suprema.propose_joint_existence(region, sigma, &mut self.places[0].borrow_mut())?;
+            let metrics = self.proofs.suprema.propose_joint_existence(
+                region,
+                sigma,
+                (looked, &mut self.places[0].borrow_mut()),
+            )?;
             let joint = Arc::new(inequality(region, sigma, &metrics, 1.0)?);
             let model = model.with_inequalities(None, Some(ByEnergy::Joint(joint)));
             let set = self.set(&model, sigma);
@@ -166,7 +175,7 @@ impl JointSearch<'_> {
         model: &FloatModel,
         set: &PeriodicSet,
         sigma: f64,
-        start: [f64; 2],
+        (start, looked): ([f64; 2], LookedAt),
     ) -> Option<([f64; 2], JointStability)> {
         let distances = start_distances(model, set);
         let metrics = |radii: [f64; 2]| {
@@ -174,7 +183,8 @@ impl JointSearch<'_> {
             model.contains(at).ok()?;
             let asked = LevelAsked { radii, distances, mu: model.mu, rate: model.alpha, margin: MARGIN };
             let places = &mut self.places[1].borrow_mut();
-            let (metrics, levels, share) = self.proofs.suprema.propose_joint_stability(at, sigma, &asked, places)?;
+            let (metrics, levels, share) =
+                self.proofs.suprema.propose_joint_stability(at, sigma, &asked, (looked, places))?;
             Some((at, radii, metrics, levels, share))
         };
         let decode = |p: &[f64]| [p[0].portable_exp(), p[1].portable_exp()];
@@ -209,7 +219,7 @@ impl JointSearch<'_> {
     fn proved(&self, found: &Found) -> Option<Reduced> {
         ABOVE.into_iter().find_map(|above| {
             let sigma = found.sigma * (1.0 + above);
-            let found = self.at(sigma, [found.set.x_p, found.set.e_p], found.radii)?;
+            let found = self.at(sigma, [found.set.x_p, found.set.e_p], found.radii, LookedAt::Between)?;
             self.decided(&found)
         })
     }

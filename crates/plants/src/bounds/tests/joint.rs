@@ -40,8 +40,9 @@ fn inequality([x, e]: [f64; 2], metrics: &[FloatMetric; 2]) -> JointInequality {
 
 fn stability(samples: &FloatSuprema) -> JointStability {
     let at = [4.3, 3.2];
-    let (metrics, levels, share) =
-        samples.propose_joint_stability(at, VALUE, &asked(), &mut Vec::new()).expect("metrics at this gain");
+    let (metrics, levels, share) = samples
+        .propose_joint_stability(at, VALUE, &asked(), (LookedAt::Grid, &mut Vec::new()))
+        .expect("metrics at this gain");
     assert!(share < 1.0, "{share}");
     JointStability { inequality: inequality(at, &metrics), levels: levels.map(level) }
 }
@@ -82,7 +83,7 @@ fn it_holds_at_every_larger_gain() {
 fn existence_is_proposed_and_decided() {
     let Case { engine, samples } = filter();
     let at = [1.0, 1.0];
-    let metrics = samples.propose_joint_existence(at, VALUE, &mut Vec::new()).unwrap();
+    let metrics = samples.propose_joint_existence(at, VALUE, (LookedAt::Grid, &mut Vec::new())).unwrap();
     let joint = inequality(at, &metrics);
     assert!(engine.decide_joint(&joint, EFFORT).truth.is_true());
     let mut more = joint.clone();
