@@ -46,7 +46,7 @@ fn numbers_become_rationals_of_bounded_size() {
         let [lower, upper] = [value.lower_rational().unwrap(), value.upper_rational().unwrap()];
         assert!(bits(&lower) <= limit && bits(&upper) <= limit, "{text}");
         // Still on the outer sides.
-        assert!(*value.lower() >= lower && *value.upper() <= upper && lower < upper, "{text}");
+        assert!(value.lower() >= lower && value.upper() <= upper && lower < upper, "{text}");
         assert_eq!((lower < 0, upper > 0), (text.starts_with('-'), !text.starts_with('-')), "{text}");
     }
     // What has an ordinary size stays exact, up to the largest product of numerals.

@@ -143,7 +143,7 @@ fn plain_transfer(weights: &[Float], nu: &Float, x: &Rational) -> Float {
 }
 
 fn holds(value: &Enclosure, truth: &Float) -> bool {
-    *value.lower() <= *truth && *value.upper() >= *truth
+    value.lower() <= *truth && value.upper() >= *truth
 }
 
 fn relative_width(value: &Enclosure) -> f64 {
@@ -303,12 +303,11 @@ fn huge_numbers_of_oscillators_approach_the_limit() {
                 let most = Float::with_val(BITS, power(few, 1) - &cut) * &family.coefficient / &squeeze;
                 let (low, high) = (Float::with_val(BITS, &least * &x_float), Float::with_val(BITS, &most * &x_float));
                 assert!(
-                    *g.upper() >= Float::with_val(BITS, &head + low)
-                        && *g.lower() <= Float::with_val(BITS, &head + high)
+                    g.upper() >= Float::with_val(BITS, &head + low) && g.lower() <= Float::with_val(BITS, &head + high)
                 );
                 let high = most * 2u32 / &squeeze;
-                assert!(*slope.upper() >= Float::with_val(BITS, &head_slope + least));
-                assert!(*slope.lower() <= Float::with_val(BITS, &head_slope + high));
+                assert!(slope.upper() >= Float::with_val(BITS, &head_slope + least));
+                assert!(slope.lower() <= Float::with_val(BITS, &head_slope + high));
                 assert!(relative_width(&sums.transfer_at(&thin(&x))) < 1e-25, "x = {x}, N = {last:?}");
                 assert!(relative_width(&g) < 1e-25, "{g:?}");
             }
@@ -437,8 +436,8 @@ fn the_phase_is_the_arc_tangent_between_the_poles() {
             let whole = sums.phase(&Enclosure::between(&Rational::new(), &Rational::from(1_000_000), 128));
             assert!(holds(&whole, &(Float::with_val(BITS, &pi / 2u32) * -1)));
             assert!(
-                *whole.upper() <= Float::with_val(BITS, &pi * n)
-                    && *whole.upper() > Float::with_val(BITS, &pi * n) - 0.01f64
+                whole.upper() <= Float::with_val(BITS, &pi * n)
+                    && whole.upper() > Float::with_val(BITS, &pi * n) - 0.01f64
             );
         }
     }

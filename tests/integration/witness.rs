@@ -137,8 +137,8 @@ fn encloses(condition: &Condition, plain: &Plain) -> bool {
         let slack = Float::with_val(BITS, value.0.abs_ref()) >> 250;
         // Differences of nearly equal numbers (`set`) lose digits relative to the numbers themselves.
         let slack = slack + (Float::with_val(BITS, 1) >> 250);
-        *side.lower() <= Float::with_val(BITS, &value.0 + &slack)
-            && *side.upper() >= Float::with_val(BITS, &value.0 - &slack)
+        side.lower() <= Float::with_val(BITS, &value.0 + &slack)
+            && side.upper() >= Float::with_val(BITS, &value.0 - &slack)
     };
     near(&condition.lhs, &plain.lhs) && near(&condition.rhs, &plain.rhs)
 }

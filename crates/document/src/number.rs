@@ -59,7 +59,7 @@ pub fn pair(value: &Enclosure) -> String {
 /// The nearest number of few digits, where the enclosure is far narrower than these digits; else the enclosure.
 #[must_use]
 pub fn compact(value: &Enclosure) -> String {
-    if *value.lower() < 0 && *value.upper() > 0 {
+    if value.lower() < 0 && value.upper() > 0 {
         // Perhaps 0: no digit is known.
         return format!("[{}, {}]", shorter(value.lower_decimal(2)), shorter(value.upper_decimal(2)));
     }

@@ -93,7 +93,7 @@ impl ScaledMatrix {
                 let scaled = Float::with_val(value.prec(), value << shift);
                 scaled.to_integer_round(round).and_then(|(units, _)| units.to_i128()).filter(|units| within(*units))
             };
-            let (low, up) = (units(entry.lower(), Round::Down)?, units(entry.upper(), Round::Up)?);
+            let (low, up) = (units(&entry.lower(), Round::Down)?, units(&entry.upper(), Round::Up)?);
             let middle = (low + up) >> 1;
             Some((middle, up - middle))
         })

@@ -1,154 +1,156 @@
 //! Addition, subtraction, multiplication, division, absolute value, minimum and maximum.
 
-use super::Enclosure;
+use super::ends::{End, SHORT, fits};
+use super::{Enclosure, Ends};
 use rug::Float;
 use rug::float::Round;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-fn add(a: &Float, b: &Float, precision: u32, round: Round) -> Float {
-    Float::with_val_round(precision, a + b, round).0
+/// Two ends.
+type Pair<'a, E> = [&'a E; 2];
+
+#[inline]
+fn sum<E: End>([a1, a2]: Pair<'_, E>, [b1, b2]: Pair<'_, E>, p: u32) -> [E; 2] {
+    [a1.add(b1, p, Round::Down), a2.add(b2, p, Round::Up)]
 }
 
-fn sub(a: &Float, b: &Float, precision: u32, round: Round) -> Float {
-    Float::with_val_round(precision, a - b, round).0
+#[inline]
+fn difference<E: End>([a1, a2]: Pair<'_, E>, [b1, b2]: Pair<'_, E>, p: u32) -> [E; 2] {
+    [a1.sub(b2, p, Round::Down), a2.sub(b1, p, Round::Up)]
 }
 
-/// End-point product. An infinite end is a bound, not a value, so `0 * inf` is 0 here.
-fn mul(a: &Float, b: &Float, precision: u32, round: Round) -> Float {
-    if a.is_zero() || b.is_zero() {
-        return Float::new(precision);
+// Which end points give the product, with a = [a1, a2] and b = [b1, b2]:
+//
+//              b1 >= 0          b2 <= 0          b1 < 0 < b2
+// a1 >= 0      a1 b1, a2 b2     a2 b1, a1 b2     a2 b1, a2 b2
+// a2 <= 0      a1 b2, a2 b1     a2 b2, a1 b1     a1 b2, a1 b1
+// a1 < 0 < a2  a1 b2, a2 b2     a2 b1, a1 b1     min(a1 b2, a2 b1), max(a1 b1, a2 b2)
+#[inline]
+fn product<E: End>([a1, a2]: Pair<'_, E>, [b1, b2]: Pair<'_, E>, p: u32) -> [E; 2] {
+    let down = |x: &E, y: &E| x.mul(y, p, Round::Down);
+    let up = |x: &E, y: &E| x.mul(y, p, Round::Up);
+    if a1.is_nonnegative() {
+        if b1.is_nonnegative() {
+            [down(a1, b1), up(a2, b2)]
+        } else if b2.is_nonpositive() {
+            [down(a2, b1), up(a1, b2)]
+        } else {
+            [down(a2, b1), up(a2, b2)]
+        }
+    } else if a2.is_nonpositive() {
+        if b1.is_nonnegative() {
+            [down(a1, b2), up(a2, b1)]
+        } else if b2.is_nonpositive() {
+            [down(a2, b2), up(a1, b1)]
+        } else {
+            [down(a1, b2), up(a1, b1)]
+        }
+    } else if b1.is_nonnegative() {
+        [down(a1, b2), up(a2, b2)]
+    } else if b2.is_nonpositive() {
+        [down(a2, b1), up(a1, b1)]
+    } else {
+        [down(a1, b2).smaller(&down(a2, b1), p), up(a1, b1).larger(&up(a2, b2), p)]
     }
-    Float::with_val_round(precision, a * b, round).0
 }
 
-/// End-point quotient with `b != 0`. `inf / inf` only meets as "bound over bound" and gives the trivial bound,
-/// which for the lower end of a nonnegative quotient is 0 and for the upper end infinity.
-fn div(a: &Float, b: &Float, precision: u32, round: Round) -> Float {
-    if a.is_zero() {
-        return Float::new(precision);
+// Which end points give the quotient, with a = [a1, a2] and b = [b1, b2], 0 not in b:
+//
+//              b1 > 0           b2 < 0
+// a1 >= 0      a1/b2, a2/b1     a2/b2, a1/b1
+// a2 <= 0      a1/b1, a2/b2     a2/b1, a1/b2
+// a1 < 0 < a2  a1/b1, a2/b1     a2/b2, a1/b2
+#[inline]
+fn quotient<E: End>([a1, a2]: Pair<'_, E>, [b1, b2]: Pair<'_, E>, p: u32) -> [E; 2] {
+    let down = |x: &E, y: &E| x.div(y, p, Round::Down);
+    let up = |x: &E, y: &E| x.div(y, p, Round::Up);
+    if b1.is_nonnegative() {
+        if a1.is_nonnegative() {
+            [down(a1, b2), up(a2, b1)]
+        } else if a2.is_nonpositive() {
+            [down(a1, b1), up(a2, b2)]
+        } else {
+            [down(a1, b1), up(a2, b1)]
+        }
+    } else if a1.is_nonnegative() {
+        [down(a2, b2), up(a1, b1)]
+    } else if a2.is_nonpositive() {
+        [down(a2, b1), up(a1, b2)]
+    } else {
+        [down(a2, b2), up(a1, b2)]
     }
-    if a.is_infinite() && b.is_infinite() {
-        let positive = a.is_sign_positive() == b.is_sign_positive();
-        let trivial = match (positive, round) {
-            (true, Round::Down) | (false, Round::Up) => rug::float::Special::Zero,
-            (true, _) => rug::float::Special::Infinity,
-            (false, _) => rug::float::Special::NegInfinity,
-        };
-        return Float::with_val(precision, trivial);
-    }
-    Float::with_val_round(precision, a / b, round).0
 }
 
-/// The smaller of two end points, exactly: the precision is at least that of either. (`Float::min` rounds to nearest at
-/// the precision of its receiver, which need not be outward.)
-pub(super) fn smaller(a: &Float, b: &Float, precision: u32) -> Float {
-    Float::with_val(precision, if a <= b { a } else { b })
+#[inline]
+fn both_smaller<E: End>([a1, a2]: Pair<'_, E>, [b1, b2]: Pair<'_, E>, p: u32) -> [E; 2] {
+    [a1.smaller(b1, p), a2.smaller(b2, p)]
 }
 
-/// The larger of two end points, exactly, in the same way.
-pub(super) fn larger(a: &Float, b: &Float, precision: u32) -> Float {
-    Float::with_val(precision, if a >= b { a } else { b })
+#[inline]
+fn both_larger<E: End>([a1, a2]: Pair<'_, E>, [b1, b2]: Pair<'_, E>, p: u32) -> [E; 2] {
+    [a1.larger(b1, p), a2.larger(b2, p)]
+}
+
+#[inline]
+fn outer<E: End>([a1, a2]: Pair<'_, E>, [b1, b2]: Pair<'_, E>, p: u32) -> [E; 2] {
+    [a1.smaller(b1, p), a2.larger(b2, p)]
+}
+
+#[inline]
+fn inner<E: End>([a1, a2]: Pair<'_, E>, [b1, b2]: Pair<'_, E>, p: u32) -> [E; 2] {
+    [a1.larger(b1, p), a2.smaller(b2, p)]
 }
 
 impl Enclosure {
-    fn add_enclosure(&self, other: &Enclosure) -> Enclosure {
+    /// The operation on the ends, at the larger of the two precisions; undefined if one of both is.
+    #[inline]
+    fn with(
+        &self,
+        other: &Enclosure,
+        short: impl Fn(Pair<'_, f64>, Pair<'_, f64>, u32) -> [f64; 2],
+        long: impl Fn(Pair<'_, Float>, Pair<'_, Float>, u32) -> [Float; 2],
+    ) -> Enclosure {
+        if let (Ends::Short([a1, a2]), Ends::Short([b1, b2])) = (&self.ends, &other.ends) {
+            let ends @ [lower, upper] = short([a1, a2], [b1, b2], SHORT);
+            if fits(lower) && fits(upper) && lower <= upper {
+                return Enclosure { ends: Ends::Short(ends) };
+            }
+        }
         let p = self.precision().max(other.precision());
         if !self.is_defined() || !other.is_defined() {
             return Enclosure::undefined(p);
         }
-        Enclosure {
-            lower: add(&self.lower, &other.lower, p, Round::Down),
-            upper: add(&self.upper, &other.upper, p, Round::Up),
-        }
+        let ([a1, a2], [b1, b2]) = (self.long(), other.long());
+        let [lower, upper] = long([&a1, &a2], [&b1, &b2], p);
+        Enclosure::new(lower, upper)
+    }
+
+    fn add_enclosure(&self, other: &Enclosure) -> Enclosure {
+        self.with(other, sum, sum)
     }
 
     fn sub_enclosure(&self, other: &Enclosure) -> Enclosure {
-        let p = self.precision().max(other.precision());
-        if !self.is_defined() || !other.is_defined() {
-            return Enclosure::undefined(p);
-        }
-        Enclosure {
-            lower: sub(&self.lower, &other.upper, p, Round::Down),
-            upper: sub(&self.upper, &other.lower, p, Round::Up),
-        }
+        self.with(other, difference, difference)
     }
 
-    // Which end points give the product, with a = [a1, a2] and b = [b1, b2]:
-    //
-    //              b1 >= 0          b2 <= 0          b1 < 0 < b2
-    // a1 >= 0      a1 b1, a2 b2     a2 b1, a1 b2     a2 b1, a2 b2
-    // a2 <= 0      a1 b2, a2 b1     a2 b2, a1 b1     a1 b2, a1 b1
-    // a1 < 0 < a2  a1 b2, a2 b2     a2 b1, a1 b1     min(a1 b2, a2 b1), max(a1 b1, a2 b2)
     fn mul_enclosure(&self, other: &Enclosure) -> Enclosure {
-        let p = self.precision().max(other.precision());
-        if !self.is_defined() || !other.is_defined() {
-            return Enclosure::undefined(p);
-        }
-        let (a1, a2, b1, b2) = (&self.lower, &self.upper, &other.lower, &other.upper);
-        let down = |x: &Float, y: &Float| mul(x, y, p, Round::Down);
-        let up = |x: &Float, y: &Float| mul(x, y, p, Round::Up);
-        let (lower, upper) = if *a1 >= 0 {
-            if *b1 >= 0 {
-                (down(a1, b1), up(a2, b2))
-            } else if *b2 <= 0 {
-                (down(a2, b1), up(a1, b2))
-            } else {
-                (down(a2, b1), up(a2, b2))
-            }
-        } else if *a2 <= 0 {
-            if *b1 >= 0 {
-                (down(a1, b2), up(a2, b1))
-            } else if *b2 <= 0 {
-                (down(a2, b2), up(a1, b1))
-            } else {
-                (down(a1, b2), up(a1, b1))
-            }
-        } else if *b1 >= 0 {
-            (down(a1, b2), up(a2, b2))
-        } else if *b2 <= 0 {
-            (down(a2, b1), up(a1, b1))
-        } else {
-            (smaller(&down(a1, b2), &down(a2, b1), p), larger(&up(a1, b1), &up(a2, b2), p))
-        };
-        Enclosure { lower, upper }
+        self.with(other, product, product)
     }
 
-    // Which end points give the quotient, with a = [a1, a2] and b = [b1, b2], 0 not in b:
-    //
-    //              b1 > 0           b2 < 0
-    // a1 >= 0      a1/b2, a2/b1     a2/b2, a1/b1
-    // a2 <= 0      a1/b1, a2/b2     a2/b1, a1/b2
-    // a1 < 0 < a2  a1/b1, a2/b1     a2/b2, a1/b2
     fn div_enclosure(&self, other: &Enclosure) -> Enclosure {
-        let p = self.precision().max(other.precision());
-        if !self.is_defined() || !other.is_defined() || other.contains_zero() {
-            return Enclosure::undefined(p);
+        if other.contains_zero() {
+            return Enclosure::undefined(self.precision().max(other.precision()));
         }
-        let (a1, a2, b1, b2) = (&self.lower, &self.upper, &other.lower, &other.upper);
-        let down = |x: &Float, y: &Float| div(x, y, p, Round::Down);
-        let up = |x: &Float, y: &Float| div(x, y, p, Round::Up);
-        let (lower, upper) = if *b1 > 0 {
-            if *a1 >= 0 {
-                (down(a1, b2), up(a2, b1))
-            } else if *a2 <= 0 {
-                (down(a1, b1), up(a2, b2))
-            } else {
-                (down(a1, b1), up(a2, b1))
-            }
-        } else if *a1 >= 0 {
-            (down(a2, b2), up(a1, b1))
-        } else if *a2 <= 0 {
-            (down(a2, b1), up(a1, b2))
-        } else {
-            (down(a2, b2), up(a1, b2))
-        };
-        Enclosure { lower, upper }
+        self.with(other, quotient, quotient)
     }
 
     /// The opposite.
     #[must_use]
     pub fn negate(&self) -> Enclosure {
-        Enclosure { lower: -self.upper.clone(), upper: -self.lower.clone() }
+        match &self.ends {
+            Ends::Short([lower, upper]) => Enclosure { ends: Ends::Short([upper.opposite(), lower.opposite()]) },
+            Ends::Long([lower, upper]) => Enclosure { ends: Ends::Long([upper.opposite(), lower.opposite()]) },
+        }
     }
 
     /// The reciprocal; undefined if 0 lies in the interval.
@@ -160,34 +162,41 @@ impl Enclosure {
     /// The absolute value.
     #[must_use]
     pub fn abs(&self) -> Enclosure {
-        if !self.is_defined() || self.lower >= 0 {
-            self.clone()
-        } else if self.upper <= 0 {
-            self.negate()
+        if !self.is_defined() || self.is_nonnegative().is_true() {
+            return self.clone();
+        }
+        let opposite = self.negate();
+        if opposite.is_nonnegative().is_true() {
+            opposite
         } else {
-            let (p, opposite) = (self.precision(), self.negate());
-            Enclosure { lower: Float::new(p), upper: larger(&self.upper, &opposite.upper, p) }
+            self.max(&opposite).max(&Enclosure::zero(self.precision()))
         }
     }
 
     /// The smaller of two quantities.
     #[must_use]
     pub fn min(&self, other: &Enclosure) -> Enclosure {
-        let p = self.precision().max(other.precision());
-        if !self.is_defined() || !other.is_defined() {
-            return Enclosure::undefined(p);
-        }
-        Enclosure { lower: smaller(&self.lower, &other.lower, p), upper: smaller(&self.upper, &other.upper, p) }
+        self.with(other, both_smaller, both_smaller)
     }
 
     /// The larger of two quantities.
     #[must_use]
     pub fn max(&self, other: &Enclosure) -> Enclosure {
-        let p = self.precision().max(other.precision());
-        if !self.is_defined() || !other.is_defined() {
-            return Enclosure::undefined(p);
-        }
-        Enclosure { lower: larger(&self.lower, &other.lower, p), upper: larger(&self.upper, &other.upper, p) }
+        self.with(other, both_larger, both_larger)
+    }
+
+    /// The smallest interval containing both; undefined if one of them is.
+    #[must_use]
+    pub fn hull(&self, other: &Enclosure) -> Enclosure {
+        self.with(other, outer, outer)
+    }
+
+    /// The common part of two enclosures of the *same* quantity.
+    ///
+    /// Undefined if either is undefined or if they are disjoint (which would mean that one of them is wrong).
+    #[must_use]
+    pub fn intersect(&self, other: &Enclosure) -> Enclosure {
+        self.with(other, inner, inner)
     }
 }
 
@@ -220,7 +229,7 @@ macro_rules! binary_operator {
         impl $trait<i64> for &Enclosure {
             type Output = Enclosure;
             fn $method(self, other: i64) -> Enclosure {
-                self.$implementation(&Enclosure::from_integer(other, self.precision().max(64)))
+                self.$implementation(&Enclosure::from_integer(other, self.precision().max(SHORT)))
             }
         }
         impl $trait<i64> for Enclosure {
@@ -232,7 +241,7 @@ macro_rules! binary_operator {
         impl $trait<&Enclosure> for i64 {
             type Output = Enclosure;
             fn $method(self, other: &Enclosure) -> Enclosure {
-                Enclosure::from_integer(self, other.precision().max(64)).$implementation(other)
+                Enclosure::from_integer(self, other.precision().max(SHORT)).$implementation(other)
             }
         }
         impl $trait<Enclosure> for i64 {

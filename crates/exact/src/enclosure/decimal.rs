@@ -44,13 +44,13 @@ impl Enclosure {
     /// The lower end as a decimal with `digits` significant digits, rounded down.
     #[must_use]
     pub fn lower_decimal(&self, digits: usize) -> String {
-        decimal(&self.lower, digits, Round::Down)
+        decimal(&self.long()[0], digits, Round::Down)
     }
 
     /// The upper end as a decimal with `digits` significant digits, rounded up.
     #[must_use]
     pub fn upper_decimal(&self, digits: usize) -> String {
-        decimal(&self.upper, digits, Round::Up)
+        decimal(&self.long()[1], digits, Round::Up)
     }
 
     /// Both ends as outward-rounded decimals with [`DIGITS`] significant digits.

@@ -1,6 +1,7 @@
 //! Square, square root, powers, exponential, logarithm, hyperbolic tangent and cotangent.
 
-use super::Enclosure;
+use super::ends::square_root;
+use super::{Enclosure, Ends};
 use rug::float::{Round, Special};
 use rug::ops::Pow;
 use rug::{Float, Integer};
@@ -12,22 +13,28 @@ impl Enclosure {
         if !self.is_defined() {
             return Enclosure::undefined(p);
         }
-        Enclosure { lower: f(&self.lower, p, Round::Down), upper: f(&self.upper, p, Round::Up) }
+        let [lower, upper] = self.long();
+        Enclosure::new(f(&lower, p, Round::Down), f(&upper, p, Round::Up))
     }
 
     /// The square; tighter than a product because both factors are the same number.
     #[must_use]
     pub fn sqr(&self) -> Enclosure {
-        self.abs().nondecreasing(|x, p, round| Float::with_val_round(p, x.square_ref(), round).0)
+        // A product of the magnitude with itself takes the same ends.
+        let magnitude = self.abs();
+        &magnitude * &magnitude
     }
 
     /// The square root; undefined if a part of the interval is negative.
     #[must_use]
     pub fn sqrt(&self) -> Enclosure {
-        if self.is_nonnegative().is_true() {
-            self.nondecreasing(|x, p, round| Float::with_val_round(p, x.sqrt_ref(), round).0)
-        } else {
-            Enclosure::undefined(self.precision())
+        match &self.ends {
+            _ if !self.is_nonnegative().is_true() => Enclosure::undefined(self.precision()),
+            // The root of an end is one.
+            Ends::Short([lower, upper]) => {
+                Enclosure { ends: Ends::Short([square_root(*lower, Round::Down), square_root(*upper, Round::Up)]) }
+            }
+            Ends::Long(_) => self.nondecreasing(|x, p, round| Float::with_val_round(p, x.sqrt_ref(), round).0),
         }
     }
 
@@ -60,10 +67,11 @@ impl Enclosure {
         if !self.is_defined() || self.contains_zero() {
             return Enclosure::undefined(p);
         }
-        Enclosure {
-            lower: Float::with_val_round(p, self.upper.coth_ref(), Round::Down).0,
-            upper: Float::with_val_round(p, self.lower.coth_ref(), Round::Up).0,
-        }
+        let [lower, upper] = self.long();
+        Enclosure::new(
+            Float::with_val_round(p, upper.coth_ref(), Round::Down).0,
+            Float::with_val_round(p, lower.coth_ref(), Round::Up).0,
+        )
     }
 
     // The integer power x^n by the sign of x = [x1, x2] and the parity of n:
@@ -84,6 +92,9 @@ impl Enclosure {
         }
         if *exponent < 0 {
             return self.pow_integer(&Integer::from(-exponent)).recip();
+        }
+        if *exponent == 2 {
+            return self.sqr();
         }
         let base = if exponent.is_even() { self.abs() } else { self.clone() };
         base.nondecreasing(|x, p, round| Float::with_val_round(p, Pow::pow(x, exponent), round).0)
@@ -113,12 +124,8 @@ impl Enclosure {
                 (true, _) => Float::with_val(p, Special::Infinity),
             }
         };
-        let corners = [
-            (&self.lower, &exponent.lower),
-            (&self.lower, &exponent.upper),
-            (&self.upper, &exponent.lower),
-            (&self.upper, &exponent.upper),
-        ];
+        let ([x1, x2], [y1, y2]) = (self.long(), exponent.long());
+        let corners = [(&*x1, &*y1), (&*x1, &*y2), (&*x2, &*y1), (&*x2, &*y2)];
         let extreme = |round: Round, choose: fn(Float, &Float) -> Float| {
             corners
                 .iter()

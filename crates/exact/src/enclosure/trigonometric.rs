@@ -1,7 +1,7 @@
 //! Pi, sine, cosine, tangent and arc tangent.
 
 use super::Enclosure;
-use super::arithmetic::{larger, smaller};
+use super::ends::End;
 use rug::Float;
 use rug::float::{Constant, Round};
 
@@ -14,16 +14,15 @@ impl Enclosure {
     /// The constant pi.
     #[must_use]
     pub fn pi(precision: u32) -> Enclosure {
-        Enclosure {
-            lower: Float::with_val_round(precision, Constant::Pi, Round::Down).0,
-            upper: Float::with_val_round(precision, Constant::Pi, Round::Up).0,
-        }
+        Enclosure::new(
+            Float::with_val_round(precision, Constant::Pi, Round::Down).0,
+            Float::with_val_round(precision, Constant::Pi, Round::Up).0,
+        )
     }
 
     /// Whether both ends are finite and small enough to be reduced modulo pi.
     fn is_reducible(&self) -> bool {
-        self.is_bounded()
-            && [&self.lower, &self.upper].iter().all(|x| x.get_exp().is_none_or(|e| e <= MAX_REDUCED_EXPONENT))
+        self.is_bounded() && self.long().iter().all(|x| x.get_exp().is_none_or(|e| e <= MAX_REDUCED_EXPONENT))
     }
 
     /// Whether `offset * pi/2 + k * period * pi/2` may lie in the interval for some integer k.
@@ -41,21 +40,18 @@ impl Enclosure {
         if !self.is_defined() {
             return Enclosure::undefined(p);
         }
-        let full = Enclosure { lower: Float::with_val(p, -1), upper: Float::with_val(p, 1) };
+        let [least, most] = [-1, 1].map(|end| Float::with_val(p, end));
         if !self.is_reducible() {
-            return full;
+            return Enclosure::new(least, most);
         }
+        let [lower, upper] = self.long();
         let at = |x: &Float, round| Float::with_val_round(p, x.sin_ref(), round).0;
         let crest = self.may_contain_phase(1, 4);
         let trough = self.may_contain_phase(-1, 4);
-        Enclosure {
-            lower: if trough {
-                full.lower
-            } else {
-                smaller(&at(&self.lower, Round::Down), &at(&self.upper, Round::Down), p)
-            },
-            upper: if crest { full.upper } else { larger(&at(&self.lower, Round::Up), &at(&self.upper, Round::Up), p) },
-        }
+        Enclosure::new(
+            if trough { least } else { at(&lower, Round::Down).smaller(&at(&upper, Round::Down), p) },
+            if crest { most } else { at(&lower, Round::Up).larger(&at(&upper, Round::Up), p) },
+        )
     }
 
     /// The cosine, in the same way as the sine.
@@ -65,21 +61,18 @@ impl Enclosure {
         if !self.is_defined() {
             return Enclosure::undefined(p);
         }
-        let full = Enclosure { lower: Float::with_val(p, -1), upper: Float::with_val(p, 1) };
+        let [least, most] = [-1, 1].map(|end| Float::with_val(p, end));
         if !self.is_reducible() {
-            return full;
+            return Enclosure::new(least, most);
         }
+        let [lower, upper] = self.long();
         let at = |x: &Float, round| Float::with_val_round(p, x.cos_ref(), round).0;
         let crest = self.may_contain_phase(0, 4);
         let trough = self.may_contain_phase(2, 4);
-        Enclosure {
-            lower: if trough {
-                full.lower
-            } else {
-                smaller(&at(&self.lower, Round::Down), &at(&self.upper, Round::Down), p)
-            },
-            upper: if crest { full.upper } else { larger(&at(&self.lower, Round::Up), &at(&self.upper, Round::Up), p) },
-        }
+        Enclosure::new(
+            if trough { least } else { at(&lower, Round::Down).smaller(&at(&upper, Round::Down), p) },
+            if crest { most } else { at(&lower, Round::Up).larger(&at(&upper, Round::Up), p) },
+        )
     }
 
     /// The tangent, increasing between its poles; undefined if a pole may lie in the interval.

@@ -103,7 +103,7 @@ mod tests {
         assert_eq!(unary(Unary::Tanh, &interval(-3, -1)), interval(-3, 0));
         assert_eq!(unary(Unary::Log, &a), Enclosure::entire(64));
         let rising = unary(Unary::Exp, &b);
-        assert!(*rising.lower() == 0 && rising.upper().is_infinite());
+        assert!(rising.lower() == 0 && rising.upper().is_infinite());
     }
 
     #[test]
@@ -122,7 +122,7 @@ mod tests {
         assert_eq!(from_slope(&side, &interval(1, 4), &interval(-1, 3)), interval(-2, 6));
         assert_eq!(from_slope(&side, &interval(1, 4), &interval(1, 3)), interval(0, 6));
         let touching = from_slope(&side, &interval(0, 4), &interval(1, 3));
-        assert!(*touching.lower() == 0 && touching.upper().is_infinite());
+        assert!(touching.lower() == 0 && touching.upper().is_infinite());
         assert_eq!(from_slope(&side, &interval(0, 4), &interval(-1, 3)), Enclosure::entire(64));
     }
 

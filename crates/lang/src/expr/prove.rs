@@ -256,7 +256,7 @@ fn derivative_is_nonnegative(expr: &Expr, sides: [&Enclosure; 2], jet: &Jet, of:
     let rates = [&jet.second[of], &jet.second[of + 1]];
     // Where the derivative is least as far as its own derivative tells, else the middle.
     let centre = [0, 1].map(|along| {
-        let ends = [sides[along].lower().clone(), sides[along].upper().clone()];
+        let ends = [sides[along].lower(), sides[along].upper()];
         let [lower, upper] = ends.map(|end| Enclosure::new(end.clone(), end));
         if is_nonnegative(rates[along]) {
             lower

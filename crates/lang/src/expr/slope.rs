@@ -62,7 +62,7 @@ impl Slopes {
 
 /// `[lower, +inf]`, with the lower end taken from an enclosure.
 fn at_least(lower: &Enclosure) -> Enclosure {
-    Enclosure::new(lower.lower().clone(), Float::with_val(lower.precision(), Special::Infinity))
+    Enclosure::new(lower.lower(), Float::with_val(lower.precision(), Special::Infinity))
 }
 
 /// The upper end of an interval as a point; `None` when it is infinite.

@@ -352,7 +352,7 @@ mod tests {
                 let angle = Enclosure::pi(128) * 2 * step / 7;
                 let (direct, by_terms) = (expr.enclose(&time, &time), polynomial.at(&angle));
                 assert!(direct.intersect(&by_terms).is_defined(), "{text} at {step}/7: {direct:?} {by_terms:?}");
-                let width = by_terms.upper() - by_terms.lower().clone();
+                let width = by_terms.upper() - by_terms.lower();
                 assert!(width <= 1e-25, "{text}: {width}");
             }
         }

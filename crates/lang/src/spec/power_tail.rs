@@ -39,8 +39,8 @@ pub fn power_tail(first: u64, exponent: &Enclosure, precision: u32) -> Enclosure
         let (p, first) = (Float::with_val(work, p), Float::with_val(work, first));
         euler_maclaurin(&first, &p, work / 8 + 16, work as usize / 5 + 8).intersect(&integral_test(&first, &p))
     };
-    let smallest = at(exponent.upper());
-    let largest = if exponent.is_exact() { smallest.clone() } else { at(exponent.lower()) };
+    let smallest = at(&exponent.upper());
+    let largest = if exponent.is_exact() { smallest.clone() } else { at(&exponent.lower()) };
     Enclosure::new(
         Float::with_val_round(precision, smallest.lower(), Round::Down).0,
         Float::with_val_round(precision, largest.upper(), Round::Up).0,
@@ -105,7 +105,7 @@ fn euler_maclaurin(first: &Float, p: &Float, start: u32, corrections: usize) -> 
 /// Whether a term is below the last bits of the sum: adding more of them would not make the result narrower.
 fn negligible(term: &Enclosure, sum: &Enclosure, work: u32) -> bool {
     let scaled = Float::with_val_round(work, sum.lower() >> work, Round::Down).0;
-    *term.upper() <= scaled
+    term.upper() <= scaled
 }
 
 #[cfg(test)]

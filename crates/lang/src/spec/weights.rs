@@ -197,7 +197,7 @@ mod tests {
                 let p = constant(epsilon).enclose(256) + 1;
                 Float::with_val_round(192, p.lower().zeta_ref(), round).0 + 2u32
             };
-            assert!(*total.lower() <= zeta(Round::Up) && *total.upper() >= zeta(Round::Down), "{epsilon}");
+            assert!(total.lower() <= zeta(Round::Up) && total.upper() >= zeta(Round::Down), "{epsilon}");
         }
         // n_0 + zeta(2) = 2 + pi^2/6.
         let total = power("2", "1").total(128);

@@ -9,11 +9,11 @@ use super::PRECISION;
 use super::centred::{Centred, Frame};
 use super::chart::Ball;
 use super::eigen::eigen;
-use rug::{Float, Rational};
+use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::Portable;
 
-/// Entries of K are whole multiples of this.
+/// Entries of K, which are at most 1, are whole multiples of one over this.
 const GRID: f64 = 1_048_576.0;
 
 /// Steps of the bisection for the multiplier of the ball.
@@ -84,13 +84,9 @@ impl Blame {
 
 /// A lower bound of the value over the box, or over its part in the ball.
 fn lower_bound(frame: &Frame, value: &Centred, ball: &Ball) -> Enclosure {
-    let natural = floor(&value.range);
+    let natural = value.range.floor();
     let Some(linear) = lower_bound_in_ball(frame, value, ball) else { return natural };
     if !natural.is_defined() || !linear.is_defined() { natural } else { natural.max(&linear) }
-}
-
-fn floor(value: &Enclosure) -> Enclosure {
-    Enclosure::new(value.lower().clone(), value.lower().clone())
 }
 
 /// `min sum g_i (s_i - c_i)` over box and ball, from below by duality: for every multiplier m >= 0 it is at least
@@ -113,15 +109,11 @@ fn lower_bound_in_ball(frame: &Frame, value: &Centred, ball: &Ball) -> Option<En
     }
     let ends: Vec<[f64; 3]> = ball.ends.iter().map(|ends| ends.each_ref().map(Enclosure::midpoint_f64)).collect();
     let multiplier = multiplier(&slopes, &ends, &ball.member)?;
-    let exact = |value: f64| {
-        let value = Float::with_val(PRECISION, value);
-        Enclosure::new(value.clone(), value)
-    };
-    let weight = exact(multiplier);
-    let mut sum = floor(&value.centre) - &weight;
+    let weight = Enclosure::exactly(multiplier);
+    let mut sum = value.centre.floor() - &weight;
     for (i, slope) in value.slopes.iter().enumerate() {
         let [low, middle, high] = &ball.ends[i];
-        let taken = exact(slopes[i]);
+        let taken = Enclosure::exactly(slopes[i]);
         if let Some(slope) = slope {
             sum = sum - (slope - &taken).abs() * &frame.halves[i];
         }
@@ -141,7 +133,7 @@ fn lower_bound_in_ball(frame: &Frame, value: &Centred, ball: &Ball) -> Option<En
                 (&taken * middle).negate() - taken.sqr() / (&weight * 4)
             };
     }
-    Some(floor(&sum))
+    Some(sum.floor())
 }
 
 /// A multiplier near the best: where the minimiser meets the sphere. `None` if the ball does not bind, or never is met.
@@ -215,21 +207,22 @@ pub(super) fn definite(frame: &Frame, matrix: &SymmetricValues, ball: &Ball) -> 
     // The least eigenvalue last, so that it is met when all others have been eliminated.
     let mut places: Vec<usize> = (0..order).collect();
     places.sort_by(|&a, &b| values[b].total_cmp(&values[a]));
-    let whole = |entry: f64| Rational::from_f64((entry * GRID).round()).unwrap_or_default();
-    let columns: Vec<Vec<Rational>> =
-        places.iter().map(|&k| (0..order).map(|row| whole(vectors[row][k]) / GRID as u32).collect()).collect();
+    // So that products of two entries, and their sums, are doubles.
+    let short = |entry: f64| ((entry * GRID).round() / GRID).clamp(-1.0, 1.0);
+    let columns: Vec<Vec<f64>> =
+        places.iter().map(|&k| (0..order).map(|row| short(vectors[row][k])).collect()).collect();
     // Entry (a, b) of K^T S K.
     let transformed = |a: usize, b: usize| {
         let zero = frame.constant(Enclosure::zero(PRECISION));
         let sum = matrix.entries.iter().fold(zero, |sum, (i, j, value)| {
-            let mut factor = Rational::from(&columns[a][*i] * &columns[b][*j]);
+            let mut factor = columns[a][*i] * columns[b][*j];
             if i != j {
-                factor += Rational::from(&columns[a][*j] * &columns[b][*i]);
+                factor += columns[a][*j] * columns[b][*i];
             }
-            if leaves_out(&factor, value) {
-                sum
-            } else {
-                plus(&sum, &frame.scale(value, &Enclosure::from_rational(&factor, PRECISION)))
+            // 0 times what may be undefined is undefined.
+            match factor == 0.0 && value.range.is_defined() {
+                true => sum,
+                false => plus(&sum, &frame.scale(value, &Enclosure::exactly(factor))),
             }
         });
         frame.tightened(sum)

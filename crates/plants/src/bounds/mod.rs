@@ -76,4 +76,4 @@ pub use suprema::{FloatSuprema, Place, Places};
 pub use weights::{EnergyAt, EnergyWeights, FloatWeights};
 
 /// The precision of the enclosures on boxes, in bits: a bound is wanted to a few digits, and boxes are many.
-const PRECISION: u32 = 64;
+const PRECISION: u32 = 53;

@@ -224,7 +224,7 @@ mod tests {
                 let terms = expansion.polynomial.iter().enumerate();
                 let sum = terms.fold(rest, |sum, (j, c)| sum + c * power.pow_integer(&j.into()));
                 assert!(sum.lower() <= at[0].upper() && at[0].lower() <= sum.upper(), "{text} {d}");
-                assert!((sum.upper().clone() - sum.lower()) < 1e-6, "{text}: {sum:?}");
+                assert!((sum.upper() - sum.lower()) < 1e-6, "{text}: {sum:?}");
                 let half = Enclosure::from_rational(&half, 128);
                 assert!(at[0].abs().le(&expansion.bound(&half)).is_true(), "{text}");
                 let slope = at.get(1).unwrap_or(&zero).abs();

@@ -216,7 +216,7 @@ fn largest_column(data: &Data<'_>, jacobian: &Jacobian) -> Option<ExceededBy> {
                 };
                 // The least magnitude.
                 let size = entry.abs();
-                Enclosure::new(size.lower().clone(), size.lower().clone()).sqr()
+                Enclosure::new(size.lower(), size.lower()).sqr()
             });
             let norm = squares.fold(data.zero(), |sum, square| sum + square).sqrt();
             let least = norm.lower_f64();

@@ -134,8 +134,7 @@ mod tests {
     }
 
     fn relative_width(value: &Enclosure) -> f64 {
-        let ends = Enclosure::new(value.upper().clone(), value.upper().clone())
-            - Enclosure::new(value.lower().clone(), value.lower().clone());
+        let ends = Enclosure::new(value.upper(), value.upper()) - Enclosure::new(value.lower(), value.lower());
         (ends / value).upper_f64()
     }
 

@@ -84,7 +84,7 @@ fn pairwise(a: &[Enclosure; 2], b: &[Enclosure; 2], f: impl Fn(&Enclosure, &Encl
 
 /// Whether a term is below the last bits of the sum: more of them would not make the result narrower.
 fn is_negligible(term: &Enclosure, sum: &Enclosure, work: u32) -> bool {
-    *term.abs().upper() <= Float::with_val_round(work, sum.lower() >> work, Round::Down).0
+    term.abs().upper() <= Float::with_val_round(work, sum.lower() >> work, Round::Down).0
 }
 
 /// `int_L^N f ds = x sum_j I_j` and `int_L^N f_x ds = sum_j (2j+1) I_j`, where

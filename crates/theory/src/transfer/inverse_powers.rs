@@ -77,7 +77,7 @@ impl InversePowers {
         let at = |p: &Float, round| {
             Float::with_val_round(precision, Pow::pow(&base, &Float::with_val(p.prec(), -p)), round).0
         };
-        Enclosure::new(at(self.exponent.upper(), Round::Down), at(self.exponent.lower(), Round::Up))
+        Enclosure::new(at(&self.exponent.upper(), Round::Down), at(&self.exponent.lower(), Round::Up))
     }
 }
 

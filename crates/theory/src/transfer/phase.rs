@@ -22,8 +22,8 @@ impl PoleSums {
             Some((nearest, _)) => self.phase_at(&point(end), nearest),
             None => Enclosure::undefined(x.precision()),
         };
-        let left = at(x.lower());
-        if x.is_exact() { left } else { left.hull(&at(x.upper())) }
+        let left = at(&x.lower());
+        if x.is_exact() { left } else { left.hull(&at(&x.upper())) }
     }
 
     fn phase_at(&self, x: &Enclosure, nearest: u64) -> Enclosure {

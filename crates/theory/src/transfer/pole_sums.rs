@@ -185,7 +185,7 @@ impl PoleSums {
     /// (they shrink to exp(-2 pi (L - x))) and so much larger than x that the geometric series converge quickly.
     fn first_of_tail(&self, x: &Enclosure) -> Option<u64> {
         // Compared first: an integer of a huge number would need as many bits as its exponent says.
-        if *x.upper() > MAX_DIRECT_POLES {
+        if x.upper() > MAX_DIRECT_POLES {
             return None;
         }
         let above = x.upper().to_integer_round(Round::Up)?.0.to_u64()?;
@@ -259,10 +259,10 @@ impl PoleSums {
     pub fn around(&self, x: &Enclosure, nearest: u64) -> AroundPole {
         let residue = self.residue(nearest);
         let applies = x.is_bounded()
-            && *x.lower() >= 0
+            && x.lower() >= 0
             && match self.count {
-                OscillatorCount::Finite(n) if residue.is_none() => *x.lower() > n,
-                _ => (nearest == 0 || *x.lower() > nearest - 1) && nearest < u64::MAX && *x.upper() < nearest + 1,
+                OscillatorCount::Finite(n) if residue.is_none() => x.lower() > n,
+                _ => (nearest == 0 || x.lower() > nearest - 1) && nearest < u64::MAX && x.upper() < nearest + 1,
             };
         let skip = residue.is_some().then_some(nearest);
         let sums = if !applies {
@@ -270,7 +270,7 @@ impl PoleSums {
         } else if self.is_narrow(x) {
             self.sums(x, skip)
         } else {
-            let (left, right) = (self.sums(&point(x.lower()), skip), self.sums(&point(x.upper()), skip));
+            let (left, right) = (self.sums(&point(&x.lower()), skip), self.sums(&point(&x.upper()), skip));
             let whole = self.sums(x, skip);
             let greatest = left.slope.max(&right.slope);
             Sums {
@@ -342,7 +342,7 @@ impl PoleSums {
         let piece = |m: u64| {
             let left = if m == first { None } else { Some(Float::with_val(bits, half(m - 1))) };
             let right = if m == last { None } else { Some(Float::with_val(bits, half(m))) };
-            let piece = Enclosure::new(left.unwrap_or(x.lower().clone()), right.unwrap_or(x.upper().clone()));
+            let piece = Enclosure::new(left.unwrap_or(x.lower()), right.unwrap_or(x.upper()));
             self.transfer(&piece, m)
         };
         (first..=last).skip(1).fold(piece(first), |hull, m| hull.hull(&piece(m)))

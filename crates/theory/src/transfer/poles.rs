@@ -109,7 +109,7 @@ pub fn internal_model_poles(data: &Data<'_>, n: u64) -> Result<Vec<PoleDisc>, Po
         let steps = corrections(&centres, &residues, sums.nu());
         centres = centres.iter().zip(&steps).map(|(centre, step)| middle(&centre.sub(step), work)).collect();
     }
-    let order = |a: &Enclosure, b: &Enclosure| a.lower().partial_cmp(b.lower()).unwrap_or(Ordering::Equal);
+    let order = |a: &Enclosure, b: &Enclosure| a.lower().partial_cmp(&b.lower()).unwrap_or(Ordering::Equal);
     centres.sort_by(|a, b| order(&a.re, &b.re).then(order(&a.im, &b.im)));
     let radius = |step: &Complex| (step.norm_squared().sqrt() * degree as i64).ceiling();
     let radii: Vec<Enclosure> = corrections(&centres, &residues, sums.nu()).iter().map(radius).collect();

@@ -125,7 +125,7 @@ fn sup_ratio(
         })
     };
     let upper = known.or_else(find).unwrap_or_else(|| Enclosure::one(data.precision));
-    let ratio = Enclosure::new(best.lower().clone(), upper.upper().clone());
+    let ratio = Enclosure::new(best.lower(), upper.upper());
     SupRatio { n_o, ratio, x: place }
 }
 
@@ -246,7 +246,7 @@ mod tests {
                 let value = PoleSums::new(&finer, n_o).transfer_at(&finer.rational(&found.x));
                 let bound = finer.rational(&pair.k0) + finer.rational(&pair.k1) * finer.rational(&found.x).sqr();
                 let excess = value / bound / finer.rational(&attained) - 1;
-                assert!(*excess.lower() >= 0 && *excess.upper() < 1e-30, "mu = {mu}, N = {n_o}: {excess:?}");
+                assert!(excess.lower() >= 0 && excess.upper() < 1e-30, "mu = {mu}, N = {n_o}: {excess:?}");
                 for percent in [1, 30, 60, 90, 99] {
                     let height = &attained * Rational::from((percent, 100));
                     let scaled = [&pair.k0, &pair.k1].map(|k| Rational::from(k * &height));

@@ -184,7 +184,7 @@ impl Response {
             let exponent = h.checked_mul(k as i32)?;
             coefficients.push(rounded(&scale(value, exponent), self.polynomial_bits) / &factorial);
         }
-        let tolerance = Tolerance { size: rate.lower().clone(), area: scale(rate, -5).lower().clone() };
+        let tolerance = Tolerance { size: rate.lower(), area: scale(rate, -5).lower() };
         let area = Perturbed::new(&coefficients, &error, self.polynomial_bits).integral(&tolerance);
         Some((scale(&area, h), level))
     }

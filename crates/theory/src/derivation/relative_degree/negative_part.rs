@@ -105,11 +105,11 @@ impl Perturbed {
         while let Some(mut piece) = pieces.pop() {
             examined += 1;
             let range = self.range(&mut piece);
-            if *range.lower() >= 0 {
+            if range.lower() >= 0 {
                 continue;
             }
             let length = point(&piece.right) - point(&piece.left);
-            if *range.upper() <= 0 {
+            if range.upper() <= 0 {
                 let integral = self.at(&self.primitive, &piece.right) - self.at(&self.primitive, &piece.left)
                     + self.rounding.negate().hull(&self.rounding) * 2
                     + &self.error * &length;
@@ -118,9 +118,9 @@ impl Perturbed {
                 continue;
             }
             // The negative part lies between 0 and this size; it is infinite if nothing is known.
-            let size = if range.is_defined() { -range.lower().clone() } else { Float::with_val(64, f64::INFINITY) };
+            let size = if range.is_defined() { -range.lower() } else { Float::with_val(64, f64::INFINITY) };
             let area = length * Enclosure::new(Float::new(self.precision), size.clone());
-            let small = size <= tolerance.size || *area.upper() <= tolerance.area;
+            let small = size <= tolerance.size || area.upper() <= tolerance.area;
             if small || piece.depth >= MAX_DEPTH || examined >= MAX_PIECES {
                 total = total + area;
             } else {
@@ -140,7 +140,7 @@ impl Perturbed {
             return ends();
         }
         let direct = horner(&self.coefficients, &piece.left, &piece.right, self.precision) + &self.error;
-        if *direct.lower() >= 0 || *direct.upper() <= 0 {
+        if direct.lower() >= 0 || direct.upper() <= 0 {
             return direct;
         }
         // Mean-value forms: of q' about the middle, then of q.
@@ -151,7 +151,7 @@ impl Perturbed {
             let curvature = horner(&self.curvature, &piece.left, &piece.right, self.precision);
             slope = slope.intersect(&(self.at(&self.slope, &middle) + curvature * &offset));
         }
-        if *slope.lower() >= 0 || *slope.upper() <= 0 {
+        if slope.lower() >= 0 || slope.upper() <= 0 {
             let range = ends();
             piece.shape = Shape::Monotone;
             return range;

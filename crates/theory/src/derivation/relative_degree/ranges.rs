@@ -34,7 +34,7 @@ impl Ranges {
 }
 
 /// The end of a positive factor that makes its product with x extreme in the given direction.
-pub(super) fn factor<'a>(positive: &'a Enclosure, x: &Float, direction: Round) -> &'a Float {
+pub(super) fn factor(positive: &Enclosure, x: &Float, direction: Round) -> Float {
     if (*x >= 0) == (direction == Round::Up) { positive.upper() } else { positive.lower() }
 }
 
@@ -82,5 +82,5 @@ pub(super) fn split(entries: &[Enclosure], precision: u32) -> (Vec<Float>, Enclo
 
 /// x 2^exponent, exactly.
 pub(super) fn scale(x: &Enclosure, exponent: i32) -> Enclosure {
-    Enclosure::new(x.lower().clone() << exponent, x.upper().clone() << exponent)
+    Enclosure::new(x.lower() << exponent, x.upper() << exponent)
 }

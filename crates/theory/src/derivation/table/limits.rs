@@ -72,7 +72,7 @@ fn threshold(data: &Data<'_>, limit: Option<Rational>, holds: impl Fn(&Enclosure
     // threshold itself, which may be a number that is met, neither is certain.
     let last = halve(low.clone(), high.clone(), |middle| at(middle).is_true());
     let first = halve(low, high, |middle| !at(middle).is_false());
-    Some(Value::Number(Enclosure::new(data.rational(&last.0).lower().clone(), data.rational(&first.1).upper().clone())))
+    Some(Value::Number(Enclosure::new(data.rational(&last.0).lower(), data.rational(&first.1).upper())))
 }
 
 /// Sixty-four halvings of [low, high], in which `below` is true below a number and false above.
