@@ -76,11 +76,12 @@ impl CoordinateSearch<'_> {
         best.map_or(f64::INFINITY, |(_, least)| least.portable_exp())
     }
 
-    /// The best choice near a known one, of another search for the same plant.
+    /// The best choice near a known one, of another search for the same plant. A search that is at a gain above `limit` before it looks at
+    /// many samples is given up.
     ///
     /// # Errors
     /// The obstacle, where no gain is found, or none that is smaller by what is worth it.
-    pub fn choose_near(&self, known: &Start) -> Result<Chosen, Obstacle> {
+    pub fn choose_near(&self, known: &Start, limit: f64) -> Result<Chosen, Obstacle> {
         let proposal = &known.proposal;
         let too_large = || Obstacle::from(Failing::Gain { given: proposal.sigma, smallest: None });
         let mut at = known.clone();
@@ -110,7 +111,7 @@ impl CoordinateSearch<'_> {
         let at = best.ok_or_else(too_large)?;
         let closer = self.descend(&Start { room: CLOSE, ..at.clone() }, Varied::Coordinates);
         let at = closer.filter(|closer| closer.proposal.sigma < at.proposal.sigma).unwrap_or(at);
-        if at.proposal.sigma > WORTH_A_MATRIX * proposal.sigma {
+        if at.proposal.sigma > limit.min(WORTH_A_MATRIX * proposal.sigma) {
             return Err(too_large());
         }
         let found = self.at_many_samples(&at)?;

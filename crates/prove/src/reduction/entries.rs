@@ -179,24 +179,28 @@ pub(super) fn prove_all(
     engine: &Engine,
     suprema: &FloatSuprema,
     needed: &Needed,
-    mu: &Constant,
+    (mu, tried): (&Constant, &AtomicUsize),
     watch: &dyn Watch,
 ) -> Result<ProvedValues, PlantRefusal> {
     watch.enter(Stage::Bounds);
-    let inequality = match &needed.inequality {
-        None => None,
+    let inequality = || match &needed.inequality {
+        None => Ok(None),
         Some(wanted) => {
-            let proved = engine.prove_inequality(suprema, wanted, mu);
-            Some(proved.ok_or_else(|| not_proved("stability", [&wanted.x, &wanted.e]))?)
+            let mut failed = tried.load(Ordering::Relaxed);
+            let proved = engine.prove_inequality(suprema, wanted, mu, &mut failed);
+            tried.store(failed, Ordering::Relaxed);
+            proved.map(Some).ok_or_else(|| not_proved("stability", [&wanted.x, &wanted.e]))
         }
     };
-    let existence = match &needed.existence {
-        None => None,
+    let existence = || match &needed.existence {
+        None => Ok(None),
         Some(wanted) => {
             let proved = engine.prove_existence(suprema, wanted);
-            Some(proved.ok_or_else(|| not_proved("existence", [&wanted.x, &wanted.e]))?)
+            proved.map(Some).ok_or_else(|| not_proved("existence", [&wanted.x, &wanted.e]))
         }
     };
+    let (inequality, existence) = rayon::join(inequality, existence);
+    let (inequality, existence) = (inequality?, existence?);
     let at_samples = prove_at_samples(engine, suprema, &needed.at_samples)?;
     let asked = needed.list().into_iter().map(|entry| (entry, true));
     let by_norms = inequality.is_none() && !needed.by_joint && at_samples.stability.is_none();

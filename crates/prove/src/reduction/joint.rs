@@ -91,7 +91,8 @@ pub(super) fn with_joint_metrics(
         return reduced;
     }
     let search = JointSearch { proofs, model, known, places: Default::default() };
-    let found = search.least(reduced.proposal.sigma).and_then(|found| search.proved(&found));
+    let known = reduced.proposal.sigma;
+    let found = search.least(known).and_then(|found| search.proved(&found, known));
     match found.filter(|found| found.proposal.sigma < reduced.proposal.sigma) {
         Some(found) => Reduced { without_joint: Some(Box::new((reduced.spec, reduced.proposal))), ..found },
         None => reduced,
@@ -215,10 +216,10 @@ impl JointSearch<'_> {
         Some((radii, JointStability { inequality, levels: [near?, far?] }))
     }
 
-    /// The data of what was found, proved.
-    fn proved(&self, found: &Found) -> Option<Reduced> {
-        ABOVE.into_iter().find_map(|above| {
-            let sigma = found.sigma * (1.0 + above);
+    /// The data of what was found, proved below a gain.
+    fn proved(&self, found: &Found, known: f64) -> Option<Reduced> {
+        let above = ABOVE.into_iter().map(|above| found.sigma * (1.0 + above)).filter(|sigma| *sigma < known);
+        above.into_iter().find_map(|sigma| {
             let found = self.at(sigma, [found.set.x_p, found.set.e_p], found.radii, LookedAt::Between)?;
             self.decided(&found)
         })

@@ -21,6 +21,7 @@ use sigmastar_plants::bounds::{Engine, FloatCurve, FloatSuprema, Region};
 use sigmastar_plants::orbit::{Coordinates, OrbitProof, SecondTriple, prove_forcing, prove_orbits};
 use sigmastar_theory::data::Data;
 use sigmastar_theory::transfer::TradeOff;
+use std::sync::atomic::AtomicUsize;
 
 /// Bits at which the numbers of a search are enclosed before they are rounded to doubles.
 pub(super) const PRECISION: u32 = 64;
@@ -164,6 +165,8 @@ pub(super) struct Proofs<'a> {
     pub(super) engine: Engine,
     pub(super) suprema: FloatSuprema,
     pub(super) watch: &'a dyn Watch,
+    /// How many attempts failed at the inequality of stability before the last one.
+    tried: AtomicUsize,
 }
 
 impl<'a> Proofs<'a> {
@@ -175,6 +178,7 @@ impl<'a> Proofs<'a> {
             engine: along.engine(plant)?,
             suprema: along.suprema(sampling),
             watch: sampling.watch,
+            tried: AtomicUsize::new(0),
         })
     }
 
@@ -195,7 +199,8 @@ impl<'a> Proofs<'a> {
     ) -> Result<(FloatModel, Specification), PlantRefusal> {
         let [x, e] = needed.largest();
         self.engine.smooth(&x, &e)?;
-        let values = prove_all(&self.engine, &self.suprema, needed, &self.plant.internal_model.mu, self.watch)?;
+        let values =
+            prove_all(&self.engine, &self.suprema, needed, (&self.plant.internal_model.mu, &self.tried), self.watch)?;
         let spec = self.along.specification(self.plant, joint(values))?;
         let data = Data::new(&spec, PRECISION);
         Ok((FloatModel::new(&data, trade_off(&data)), spec))

@@ -25,6 +25,9 @@ const AS_GOOD_AS_NONE: f64 = 1e-6;
 /// What a path with a corner must take from the gain of the straight one: a splitting costs room in proofs and in certificates.
 const WORTH_A_CORNER: f64 = 5e-3;
 
+/// How far above the gain of the straight path one with a corner may be before it has been looked at closely.
+const FURTHER: f64 = 1.02;
+
 /// By what share of the gain of norms, at few samples, one by a matrix inequality is far better.
 pub(super) const FAR_BETTER: f64 = 0.9;
 
@@ -256,25 +259,22 @@ fn best_by_matrix(p: &PeriodicMatrix, starts: &[Start], sampling: &Sampling<'_>)
     if !p.harmonics.is_empty() || starts.iter().any(is_small) {
         return None;
     }
-    let near = |start: &Start, path: Path| {
-        let (along, chosen) = with_constant(p, sampling, Some(path), |search| search.choose_near(start)).ok()?;
+    let near = |start: &Start, path: Path, limit: f64| {
+        let (along, chosen) = with_constant(p, sampling, Some(path), |search| search.choose_near(start, limit)).ok()?;
         Some(FoundByMatrix { along, chosen, path })
     };
     let smaller = |a: &FoundByMatrix, b: &FoundByMatrix| a.cost().total_cmp(&b.cost());
-    let found: Vec<Option<FoundByMatrix>> = match starts {
-        [start] if !sampling.varies() => vec![near(start, Path::Straight)],
-        [start] => Path::ALL.into_par_iter().map(|path| near(start, path)).collect(),
-        // The straight one says which of the starts is the best.
-        _ => {
-            let straight: Vec<_> = starts.par_iter().filter_map(|start| near(start, Path::Straight)).collect();
-            let best = straight.into_iter().min_by(smaller);
-            if !sampling.varies() {
-                return best;
-            }
-            let start = best.as_ref().map(|found| Start::from(&found.chosen)).or_else(|| starts.first().cloned())?;
-            let others = Path::CHOICE.into_par_iter().map(|path| near(&start, path));
-            others.chain(rayon::iter::once(best)).collect()
-        }
+    // The straight one says which of the starts is the best.
+    let straight: Vec<_> = starts.par_iter().filter_map(|start| near(start, Path::Straight, f64::INFINITY)).collect();
+    let straight = straight.into_iter().min_by(smaller);
+    if !sampling.varies() {
+        return straight;
+    }
+    let start = match (starts, &straight) {
+        ([_, _, ..], Some(found)) => Start::from(&found.chosen),
+        _ => starts.first()?.clone(),
     };
-    found.into_iter().flatten().min_by(smaller)
+    let limit = straight.as_ref().map_or(f64::INFINITY, |found| FURTHER * found.chosen.proposal.sigma);
+    let others: Vec<_> = Path::CHOICE.into_par_iter().filter_map(|path| near(&start, path, limit)).collect();
+    others.into_iter().chain(straight).min_by(smaller)
 }

@@ -17,6 +17,7 @@ use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{self, ProvedValues, Specification};
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::sampled::{SampledLaw, sampled_trade_off};
+use std::sync::atomic::AtomicUsize;
 
 /// How much further the bounds are proved where these arguments were too small for a gain that is given: it cannot become larger
 /// to make up for what proved values are above sampled ones.
@@ -164,7 +165,13 @@ impl<'p> SampledPairs<'p> {
                 .ok_or(PlantRefusal::NoGain(Failing::NotFinite(None).into()))?;
             let [x, e] = at.largest();
             engine.smooth(&x, &e)?;
-            let values = match prove_all(&engine, &suprema, &at, &self.plant.internal_model.mu, self.sampled.watch) {
+            let values = match prove_all(
+                &engine,
+                &suprema,
+                &at,
+                (&self.plant.internal_model.mu, &AtomicUsize::new(0)),
+                self.sampled.watch,
+            ) {
                 Ok(values) => values,
                 Err(error) => {
                     refusal = error;

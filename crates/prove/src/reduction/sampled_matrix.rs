@@ -26,6 +26,7 @@ use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::paths::Path;
 use sigmastar_theory::derivation::sampled::{SampledEnergyNumbers, SampledLaw, sampled_trade_off};
 use std::sync::Arc;
+use std::sync::atomic::AtomicUsize;
 
 /// How much larger the next gain of the scan is, how many there are at most, and the steps of the bisection after it.
 const NEXT: f64 = 1.06;
@@ -82,8 +83,9 @@ pub(super) fn straight_by_matrix(
     let (p, rough) = starts.as_ref().ok()?;
     let path = Some(Path::Straight);
     let starts = with_search(sampling, path, |search| Ok(search.for_matrix(rough))).ok()?;
-    let found =
-        starts.iter().filter_map(|start| with_constant(p, sampling, path, |search| search.choose_near(start)).ok());
+    let found = starts
+        .iter()
+        .filter_map(|start| with_constant(p, sampling, path, |search| search.choose_near(start, f64::INFINITY)).ok());
     found.min_by(|(_, a), (_, b)| a.proposal.sigma.total_cmp(&b.proposal.sigma))
 }
 
@@ -334,7 +336,14 @@ impl<'a> MatrixAtSamples<'a> {
             let at = at.with_sampled(wanted.clone());
             let [x, e] = at.largest();
             engine.smooth(&x, &e).ok()?;
-            let values = prove_all(&engine, &self.suprema, &at, &plant.internal_model.mu, self.sampled.watch).ok()?;
+            let values = prove_all(
+                &engine,
+                &self.suprema,
+                &at,
+                (&plant.internal_model.mu, &AtomicUsize::new(0)),
+                self.sampled.watch,
+            )
+            .ok()?;
             let spec = self.along.specification(plant, values).ok()?;
             let proposal = found_again(&spec, self.sampling, &proposal, Some(found.sigma)).ok()?;
             Some(ReducedSampled { spec, proposal })

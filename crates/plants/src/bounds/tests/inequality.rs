@@ -28,7 +28,7 @@ fn a_proved_threshold_holds_at_random_points() {
     {
         let weights = ["0.5", "0.4"];
         let wanted = inequality(x, e, weights, 0.0);
-        let proved = engine.prove_inequality(&samples, &wanted, &one()).unwrap_or_else(|| panic!("{name}"));
+        let proved = engine.prove_inequality(&samples, &wanted, &one(), &mut 0).unwrap_or_else(|| panic!("{name}"));
         let at = [Rational::from(&wanted.x + engine.region().radius()), wanted.e.clone()].map(|end| end.to_f64());
         let weights = FloatWeights { w_x: 0.5, k_p: 0.8, rate: 0.001 };
         let met = samples.threshold_at(at, &random_points(engine.states(), 20_000), weights);
@@ -85,6 +85,6 @@ fn what_holds_at_samples_alone_is_not_proved() {
     let sampled = samples.threshold([1.0, 1.0], &Places::Stride(1), weights);
     let asked = inequality("1", "1", ["0.7", "0.6"], 1.01 * sampled);
     assert!(engine.decide_inequality(&asked, &one(), 10_000).truth.is_false());
-    let proved = engine.prove_inequality(&samples, &asked, &one());
+    let proved = engine.prove_inequality(&samples, &asked, &one(), &mut 0);
     assert!(proved.is_none_or(|proved| proved.value.to_f64() > 1.3 * sampled));
 }

@@ -83,7 +83,7 @@ fn stability_at_both_ends() {
     let nominal = linear(["2", "2"]).engine;
     let known = |value: f64| nominal.decide_inequality(&inequality(value, None), &one(), EFFORT).truth;
     assert!(known(0.97 * least).is_true() && known(1.5 * largest).is_true());
-    let proved = engine.prove_inequality(&samples, &inequality(0.0, None), &one()).unwrap();
+    let proved = engine.prove_inequality(&samples, &inequality(0.0, None), &one(), &mut 0).unwrap();
     // What is found serves every larger gain too, (B): 4 ht sigma >= (1 + ht (1-b) sigma)^2.
     assert!(least < any_larger() && any_larger() < largest);
     assert!((proved.value.to_f64() / any_larger() - 1.0).abs() < 1e-3, "{}", proved.value.to_f64());
@@ -94,7 +94,7 @@ fn stability_with_a_corner() {
     let Case { engine, samples } = uncertain();
     let [x, e] = ["0.2", "0.5"].map(rational);
     let asked = inequality(0.0, Some(Splitting { x, e, matrix: Vec::new() }));
-    let proved = engine.prove_inequality(&samples, &asked, &one()).unwrap();
+    let proved = engine.prove_inequality(&samples, &asked, &one(), &mut 0).unwrap();
     let [least, _] = thresholds();
     let value = proved.value.to_f64();
     assert!(value >= any_larger() && value < 1.05 * any_larger(), "{value} {least}");

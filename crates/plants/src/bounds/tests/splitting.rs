@@ -39,7 +39,7 @@ fn a_proved_splitting_holds_at_random_pairs() {
     ] {
         let Case { engine, samples } = at_zero(f, q);
         let wanted = split(at, other, Vec::new(), 0.0);
-        let proved = engine.prove_inequality(&samples, &wanted, &one()).unwrap_or_else(|| panic!("{f:?}"));
+        let proved = engine.prove_inequality(&samples, &wanted, &one(), &mut 0).unwrap_or_else(|| panic!("{f:?}"));
         let [of_states, of_error] = proved.arguments().map(|ends| ends.map(Rational::to_f64));
         let points = random_points(f.len(), 4000);
         let (mut roots, mut columns) = (Vec::new(), Vec::new());
