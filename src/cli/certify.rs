@@ -19,7 +19,7 @@ use sigmastar_prove::certificate::{certificate_of, is_sampled, read_for};
 use sigmastar_prove::certify::{FarStart, Limits, NoRatesOfClaim, rate_counts, unusual_mu};
 use sigmastar_prove::rate::bound::MAX_OSCILLATORS;
 use sigmastar_prove::reduction::{INITIAL_SET, Prepared, Run, Shrunk, Stage, Unwatched, Watch, shrunk};
-use sigmastar_report::RunReport;
+use sigmastar_report::{Origin, RunReport};
 use sigmastar_theory::derivation::targets::{Target, TargetKind};
 use std::path::Path;
 
@@ -129,7 +129,8 @@ fn attempt(args: &CertifyArgs) -> Result<u8, Failure> {
         stages.begin(Step::Checked);
         decide_again(&mut run);
     }
-    let report = RunReport::new(&run, &targets, witness.is_some());
+    let origin = if witness.is_some() { Origin::Witness } else { Origin::Search };
+    let report = RunReport::new(&run, &targets, origin);
     let page = args.format == Format::Html;
     stages.begin(Step::Figures);
     let drawn = (page || args.plots.is_some()).then(|| Drawn::of(&run)).flatten();

@@ -1,9 +1,8 @@
 //! The first lines of a report on a certified claim: the gain, from where, what to do next, what sets the gain, what is
 //! assumed. The sections below say more of each.
 
-use super::sensitivity;
 use super::verdict::assumed;
-use super::words;
+use super::{Origin, sensitivity, words};
 use rug::Rational;
 use sigmastar_document::number::{estimate, exact, upper};
 use sigmastar_document::{Block, clean};
@@ -23,7 +22,7 @@ use sigmastar_theory::derivation::targets::Consequences;
 const SHOWN: [u64; 3] = [0, 10, 100];
 
 /// Of a claim about the regulator in continuous time; nothing without one.
-pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences>, rechecked: bool) -> Vec<Block> {
+pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences>, origin: Origin) -> Vec<Block> {
     let (Some(sigma), Some(set), Some(periodic), Some(error_box)) =
         (run.sigma_star(), run.claimed_set(), run.periodic_solution(), run.error_box())
     else {
@@ -52,16 +51,8 @@ pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences
         }
         (None, None) => format!("sigma* = {sigma} in 1/time, or any larger; the same for every n_o"),
     };
-    let next = match rechecked {
-        true => {
-            "`sigmastar check FILE` decides the certificate with other code; `controller FILE --n-o N` writes the regulator"
-        }
-        false => {
-            "`-o FILE` writes the certificate; `sigmastar check FILE` decides it again with other code; `sigmastar controller \
-             FILE --n-o N` writes the regulator"
-        }
-    };
-    let mut facts = vec![("gain", gain), ("from", from(run.spec, set, "any time")), ("next", next.to_owned())];
+    let mut facts =
+        vec![("gain", gain), ("from", from(run.spec, set, "any time")), ("next", next(run.spec, origin, false))];
     facts.extend(set_by(run).map(|said| ("set by", said)));
     facts.extend(
         run.alternatives
@@ -121,22 +112,13 @@ fn for_n_o_at_samples(run: &SampledCertification<'_>) -> Option<String> {
 }
 
 /// Of a claim about the regulator at samples; nothing without one.
-pub(super) fn of_samples(run: &SampledCertification<'_>, rechecked: bool) -> Vec<Block> {
+pub(super) fn of_samples(run: &SampledCertification<'_>, origin: Origin) -> Vec<Block> {
     let (Some(proof), Some(periodic)) = (run.claim(), run.periodic_solution()) else { return Vec::new() };
     let witness = &proof.witness;
     // That gain stands exactly in the sentence above: the claim is about no other.
     let gain =
         "exactly that sigma, in 1/time, for this sampling period alone: no threshold, neither for larger gains nor for faster samples"
             .to_owned();
-    let next = match rechecked {
-        true => {
-            "`sigmastar check FILE` decides the certificate with other code; `controller FILE --n-o N` writes the code"
-        }
-        false => {
-            "`-o FILE` writes the certificate; `sigmastar check FILE` decides it again; `sigmastar controller FILE --n-o N \
-             --format c -o FILE.c` writes the code"
-        }
-    };
     let when = witness.delay.as_ref().map_or_else(
         || "a sampling instant".to_owned(),
         |delay| {
@@ -144,7 +126,8 @@ pub(super) fn of_samples(run: &SampledCertification<'_>, rechecked: bool) -> Vec
             format!("a sampling instant, with a prediction of e there that is off by at most h Y_0, Y_0 = {y_0}")
         },
     );
-    let mut facts = vec![("gain", gain), ("from", from(run.spec, &witness.set, &when)), ("next", next.to_owned())];
+    let mut facts =
+        vec![("gain", gain), ("from", from(run.spec, &witness.set, &when)), ("next", next(run.spec, origin, true))];
     facts.extend(run.found.map(|(_, limit)| ("set by", format!("{} (an estimate)", limit.describe()))));
     facts.extend(for_n_o_at_samples(run).map(|said| ("convergence", said)));
     let radii = [&witness.d_x, &witness.d_e].map(|radius| exact(radius, Direction::Up));
@@ -167,6 +150,35 @@ pub(super) fn of_samples(run: &SampledCertification<'_>, rechecked: bool) -> Vec
     };
     facts.push(("assumed", format!("{}; {of_the_computer}{beside}", assumed(run.spec, run.largest_arguments(), None))));
     vec![Block::facts(facts), Block::says(norms(run.spec, "law"))]
+}
+
+/// What to do with the claim next; `at_samples` where its law is one.
+fn next(spec: &Specification, origin: Origin, at_samples: bool) -> String {
+    let said = match (origin, at_samples) {
+        (Origin::Search, false) => {
+            "`-o FILE` writes the certificate; `sigmastar check FILE` decides it again with other code; `sigmastar controller \
+             FILE --n-o N` writes the regulator"
+        }
+        (Origin::Search, true) => {
+            "`-o FILE` writes the certificate; `sigmastar check FILE` decides it again; `sigmastar controller FILE --n-o N \
+             --format c -o FILE.c` writes the code"
+        }
+        (Origin::Witness, false) => {
+            "`sigmastar check FILE` decides the certificate with other code; `controller FILE --n-o N` writes the regulator"
+        }
+        (Origin::Witness, true) => {
+            "`sigmastar check FILE` decides the certificate with other code; `controller FILE --n-o N` writes the code"
+        }
+        (Origin::Checked, _) => {
+            let writes = if at_samples { " --format c -o FILE.c` writes the code" } else { "` writes the regulator" };
+            // A simulation takes a plant.
+            let runs = spec.plant().map_or("", |_| "`simulate FILE --n-o N` runs it with the plant; ");
+            return format!(
+                "`sigmastar controller FILE --n-o N{writes}; {runs}`falsify FILE` tries to break the claim by simulation"
+            );
+        }
+    };
+    said.to_owned()
 }
 
 /// What the norms are of, and whom a gain or a law serves.

@@ -10,7 +10,7 @@ use super::remarks::sampled_remarks;
 use super::sets::{Boxes, Sizes};
 use super::verdict::of_the_data;
 use super::words;
-use super::{about, brief, conditions, gains, of_plant};
+use super::{Origin, about, brief, conditions, gains, of_plant};
 use rug::Rational;
 use serde_json::{Value, json};
 use sigmastar_document::number::{estimate, exact, full, upper};
@@ -24,14 +24,14 @@ use sigmastar_prove::search::{Failing, Obstacle};
 /// Everything that the report is made from.
 pub struct SampledReport<'r> {
     run: &'r SampledCertification<'r>,
-    rechecked: bool,
+    origin: Origin,
 }
 
 impl<'r> SampledReport<'r> {
-    /// The report of a run; `rechecked` where it decided a given witness again.
+    /// The report of a run.
     #[must_use]
-    pub fn new(run: &'r SampledCertification<'r>, rechecked: bool) -> SampledReport<'r> {
-        SampledReport { run, rechecked }
+    pub fn new(run: &'r SampledCertification<'r>, origin: Origin) -> SampledReport<'r> {
+        SampledReport { run, origin }
     }
 
     /// The verdict in one sentence.
@@ -119,7 +119,7 @@ impl<'r> SampledReport<'r> {
             }
             Outcome::NotProved { failing, .. } => {
                 let undecided = failing.iter().all(|condition| condition.truth() == Truth::Undecided);
-                items.push(match (undecided, self.rechecked) {
+                items.push(match (undecided, self.origin.is_given()) {
                     (true, _) => "raise --precision-limit".to_owned(),
                     (false, true) => "search again (without --witness): another witness may exist".to_owned(),
                     (false, false) => {
@@ -279,7 +279,7 @@ impl Readable for SampledReport<'_> {
         let mut blocks = vec![Block::Title(format!("{name}: {}", run.verdict)), Block::Verdict(self.sentence())];
         blocks.extend(sampled_remarks(run).into_iter().map(Block::says));
         if run.claim().is_some() {
-            blocks.extend(brief::of_samples(run, self.rechecked));
+            blocks.extend(brief::of_samples(run, self.origin));
             blocks.push(Block::Detail);
             blocks.extend(sampled_section(run));
             blocks.extend(gains::sampled_section(run));
