@@ -296,6 +296,7 @@ fn a_page_has_the_words_of_the_text() {
         ("μ", "mu"),
         ("Φ", "Phi"),
         ("ζ", "zeta"),
+        ("κ", "kappa"),
     ]
     .iter()
     .fold(shown, |text, (reference, character)| text.replace(reference, character));
