@@ -169,13 +169,17 @@ fn is_of_set(errors: &[SpecErrors]) -> bool {
 }
 
 /// What was found with smaller sizes of the initial set.
-fn in_words(Shrunk { divisor, sizes, sigma }: &Shrunk) -> String {
+fn in_words(Shrunk { divisor, fails, sizes, sigma }: &Shrunk) -> String {
     let sizes: Vec<String> = sizes.iter().map(|(name, size)| format!("`{name}` {}", estimate(size.to_f64()))).collect();
     let sizes = sizes.join(", ");
     match sigma {
         Some(sigma) => format!(
-            "with all sizes divided by {divisor} ({sizes}) the gain {} is certified, with twice them none was found",
-            write_exact(sigma)
+            "with all sizes divided by {divisor} ({sizes}) the gain {} is certified, with {} none was found",
+            write_exact(sigma),
+            match divisor / fails {
+                2 => "twice them".to_owned(),
+                times => format!("{times} times them"),
+            }
         ),
         None => format!(
             "with all sizes divided by {divisor} ({sizes}) no gain is found either: something else is in the way, too"

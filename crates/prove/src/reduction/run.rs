@@ -103,7 +103,7 @@ impl Prepared {
     }
 
     /// The same of a claim that may be asked to rest on norms; in continuous time the data are those of the smallest gain then.
-    fn resting(
+    pub(super) fn resting(
         subject: Subject,
         (gain, on): (Option<Rational>, RestsOn),
         watch: &dyn Watch,
