@@ -62,13 +62,6 @@ fn attempt(args: &CertifyArgs) -> Result<u8, Failure> {
     if let Some(misfit) = args.options().misfit(sampled) {
         return Err(Failure::misfit(misfit));
     }
-    if let (true, Some(target)) = (sampled, targets.first()) {
-        let flag = flag(target.kind);
-        let message = format!(
-            "{flag} is not for the regulator at samples: bounds by the number of oscillators are of continuous time"
-        );
-        return Err(Failure::call(message, format!("leave {flag} or the sampling period out")));
-    }
     let counts = counts(args)?;
     if given.is_some() && witness.is_none() && !args.quiet {
         let kind = subject.kind();

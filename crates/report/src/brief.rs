@@ -14,9 +14,10 @@ use sigmastar_prove::rate::found::RateForCount;
 use sigmastar_prove::rate::noise::NoNoiseBound;
 use sigmastar_prove::rate::sampled::bound::SampledRateBound;
 use sigmastar_prove::rate::sampled::found::SampledRateForCount;
+use sigmastar_theory::derivation::consequences::ErrorBounds;
 use sigmastar_theory::derivation::control::Control;
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
-use sigmastar_theory::derivation::targets::Consequences;
+use sigmastar_theory::derivation::targets::{Consequences, SampledConsequences};
 
 /// The numbers of oscillators of which the error is said.
 const SHOWN: [u64; 3] = [0, 10, 100];
@@ -63,7 +64,8 @@ pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences
     facts.extend(input_gain(run).map(|said| ("input gain", said)));
     facts.extend(interval_costs(&run.interval_costs, "sigma*").map(|said| ("intervals", said)));
     // Where targets were given, their answers are above.
-    facts.extend(consequences.filter(|all| all.targets.is_empty()).and_then(error).map(|said| ("steady error", said)));
+    let unasked = consequences.filter(|all| all.targets.is_empty());
+    facts.extend(unasked.and_then(|all| error(&all.by_n_o)).map(|said| ("steady error", said)));
     facts.extend(for_n_o(run).map(|said| ("convergence", said)));
     // It grows with the gain, of which the claim says "or any larger".
     let control = run.control().map(|bounds| (bounds, " (both at this gain)"));
@@ -112,7 +114,11 @@ fn for_n_o_at_samples(run: &SampledCertification<'_>) -> Option<String> {
 }
 
 /// Of a claim about the regulator at samples; nothing without one.
-pub(super) fn of_samples(run: &SampledCertification<'_>, origin: Origin) -> Vec<Block> {
+pub(super) fn of_samples(
+    run: &SampledCertification<'_>,
+    consequences: Option<&SampledConsequences>,
+    origin: Origin,
+) -> Vec<Block> {
     let (Some(proof), Some(periodic)) = (run.claim(), run.periodic_solution()) else { return Vec::new() };
     let witness = &proof.witness;
     // That gain stands exactly in the sentence above: the claim is about no other.
@@ -129,6 +135,8 @@ pub(super) fn of_samples(run: &SampledCertification<'_>, origin: Origin) -> Vec<
     let mut facts =
         vec![("gain", gain), ("from", from(run.spec, &witness.set, &when)), ("next", next(run.spec, origin, true))];
     facts.extend(run.found.map(|(_, limit)| ("set by", format!("{} (an estimate)", limit.describe()))));
+    let unasked = consequences.filter(|all| all.targets.is_empty());
+    facts.extend(unasked.and_then(|all| error(&all.by_n_o)).map(|said| ("steady error", said)));
     facts.extend(for_n_o_at_samples(run).map(|said| ("convergence", said)));
     let radii = [&witness.d_x, &witness.d_e].map(|radius| exact(radius, Direction::Up));
     facts.push(("to", to(run.spec, &periodic, radii, run.control().map(|bounds| (bounds, "")))));
@@ -258,8 +266,8 @@ fn interval_costs(all: &[(String, Option<f64>)], gain: &str) -> Option<String> {
 }
 
 /// The bounds of the error for a few n_o.
-fn error(consequences: &Consequences) -> Option<String> {
-    let shown = consequences.by_n_o.iter().filter(|(n_o, _)| SHOWN.contains(n_o));
+fn error(by_n_o: &[(u64, ErrorBounds)]) -> Option<String> {
+    let shown = by_n_o.iter().filter(|(n_o, _)| SHOWN.contains(n_o));
     let shown: Vec<String> = shown.map(|(n_o, bounds)| format!("{} with {n_o}", upper(&bounds.sup))).collect();
     (!shown.is_empty()).then(|| format!("sup|e| at most {} oscillators", shown.join(", ")))
 }

@@ -7,6 +7,7 @@ use super::{
 use sigmastar_document::{Block, Readable, clean};
 use sigmastar_lang::spec::InputGain;
 use sigmastar_prove::certify::Certification;
+use sigmastar_theory::derivation::consequences::MAX_OSCILLATORS;
 use sigmastar_theory::derivation::targets::{Consequences, Target};
 
 /// Everything that a report is made from.
@@ -38,9 +39,9 @@ impl Readable for Report<'_> {
         let mut blocks = vec![Block::Title(format!("{name}: {}", run.verdict))];
         blocks.extend(verdict::section(run, rechecked));
         if self.unanswered {
-            blocks.push(Block::says("The targets are not answered: without a certified gain there is no error bound."));
+            blocks.push(Block::says(consequences::UNANSWERED));
         }
-        blocks.extend(self.consequences.iter().flat_map(consequences::answers));
+        blocks.extend(self.consequences.iter().flat_map(|all| consequences::answers(&all.targets, MAX_OSCILLATORS)));
         blocks.extend(brief::of_run(run, self.consequences.as_ref(), self.origin));
         blocks.push(Block::Detail);
         blocks.extend(for_n_o::section(run));

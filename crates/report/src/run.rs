@@ -17,12 +17,12 @@ pub enum RunReport<'r> {
 }
 
 impl<'r> RunReport<'r> {
-    /// The report, with answers to the targets where the regulator is in continuous time.
+    /// The report, with answers to the targets.
     #[must_use]
     pub fn new(run: &'r Run<'r>, targets: &[Target], origin: Origin) -> RunReport<'r> {
         match run {
             Run::Continuous(run) => RunReport::Continuous(Box::new(Report::new(run, targets, origin))),
-            Run::Sampled(run) => RunReport::Sampled(SampledReport::new(run, origin)),
+            Run::Sampled(run) => RunReport::Sampled(SampledReport::new(run, targets, origin)),
         }
     }
 }
@@ -48,7 +48,7 @@ impl Readable for RunReport<'_> {
 pub fn run_sentence(run: &Run<'_>) -> String {
     match run {
         Run::Continuous(run) => sentence(run),
-        Run::Sampled(run) => SampledReport::new(run, Origin::Search).sentence(),
+        Run::Sampled(run) => SampledReport::sentence_of(run),
     }
 }
 
