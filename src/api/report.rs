@@ -2,7 +2,7 @@
 
 use sigmastar_document::{Extent, Made, Readable};
 use sigmastar_prove::reduction::Run;
-use sigmastar_report::RunReport;
+use sigmastar_report::{Origin, RunReport};
 use std::fmt;
 
 /// The form of a report. The content is the same in each.
@@ -32,7 +32,8 @@ impl Report {
 
     /// That of `sigmastar certify`; `again` where a witness was decided again.
     pub(super) fn of_run(run: &Run<'_>, again: bool) -> Report {
-        Report::of(&RunReport::new(run, &[], again))
+        let origin = if again { Origin::Witness } else { Origin::Search };
+        Report::of(&RunReport::new(run, &[], origin))
     }
 
     pub(super) fn new(made: Made) -> Report {

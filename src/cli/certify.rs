@@ -19,7 +19,7 @@ use sigmastar_prove::certificate::{certificate_of, is_sampled, read_for};
 use sigmastar_prove::certify::{FarStart, Limits, NoRatesOfClaim, rate_counts, unusual_mu};
 use sigmastar_prove::rate::bound::MAX_OSCILLATORS;
 use sigmastar_prove::reduction::{INITIAL_SET, Prepared, Run, Shrunk, Stage, Unwatched, Watch, shrunk};
-use sigmastar_report::RunReport;
+use sigmastar_report::{Origin, RunReport};
 use sigmastar_theory::derivation::targets::{Target, TargetKind};
 use std::path::Path;
 
@@ -61,13 +61,6 @@ fn attempt(args: &CertifyArgs) -> Result<u8, Failure> {
     let sampled = witness.as_ref().map_or(subject.sampling().is_some(), is_sampled);
     if let Some(misfit) = args.options().misfit(sampled) {
         return Err(Failure::misfit(misfit));
-    }
-    if let (true, Some(target)) = (sampled, targets.first()) {
-        let flag = flag(target.kind);
-        let message = format!(
-            "{flag} is not for the regulator at samples: bounds by the number of oscillators are of continuous time"
-        );
-        return Err(Failure::call(message, format!("leave {flag} or the sampling period out")));
     }
     let counts = counts(args)?;
     if given.is_some() && witness.is_none() && !args.quiet {
@@ -129,7 +122,8 @@ fn attempt(args: &CertifyArgs) -> Result<u8, Failure> {
         stages.begin(Step::Checked);
         decide_again(&mut run);
     }
-    let report = RunReport::new(&run, &targets, witness.is_some());
+    let origin = if witness.is_some() { Origin::Witness } else { Origin::Search };
+    let report = RunReport::new(&run, &targets, origin);
     let page = args.format == Format::Html;
     stages.begin(Step::Figures);
     let drawn = (page || args.plots.is_some()).then(|| Drawn::of(&run)).flatten();
@@ -168,13 +162,17 @@ fn is_of_set(errors: &[SpecErrors]) -> bool {
 }
 
 /// What was found with smaller sizes of the initial set.
-fn in_words(Shrunk { divisor, sizes, sigma }: &Shrunk) -> String {
+fn in_words(Shrunk { divisor, fails, sizes, sigma }: &Shrunk) -> String {
     let sizes: Vec<String> = sizes.iter().map(|(name, size)| format!("`{name}` {}", estimate(size.to_f64()))).collect();
     let sizes = sizes.join(", ");
     match sigma {
         Some(sigma) => format!(
-            "with all sizes divided by {divisor} ({sizes}) the gain {} is certified, with twice them none was found",
-            write_exact(sigma)
+            "with all sizes divided by {divisor} ({sizes}) the gain {} is certified, with {} none was found",
+            write_exact(sigma),
+            match divisor / fails {
+                2 => "twice them".to_owned(),
+                times => format!("{times} times them"),
+            }
         ),
         None => format!(
             "with all sizes divided by {divisor} ({sizes}) no gain is found either: something else is in the way, too"

@@ -182,6 +182,10 @@ impl Watch for Stages {
     fn tried(&self, count: usize) {
         self.within(&format!("{count} candidates tried"));
     }
+
+    fn searched(&self, done: usize, of: usize, steps: usize) {
+        self.within(&format!("{done} of {of}, {steps} steps"));
+    }
 }
 
 impl Drop for Stages {
@@ -214,6 +218,7 @@ mod tests {
         assert_eq!(told(&stages), "stage 2 of 4: proposing and proving joint metrics");
         stages.part(1, 2);
         stages.tried(3);
+        stages.searched(1, 2, 3);
         // What this call does not have is not told.
         stages.enter(Stage::Triple);
         stages.begin(Step::Figures);

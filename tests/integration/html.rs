@@ -206,7 +206,7 @@ fn reports_on_certificates_are_pages() {
     assert!(utf8(output.stderr).contains("the page has the words of the checker alone"));
 }
 
-/// The page of a certificate of every kind says what the one of its claim says, and its digest.
+/// The page of a certificate of every kind says what the one of its claim says, its digest, and what is to be done after a check.
 #[test]
 fn a_stored_certificate_has_a_page() {
     let folder = tempfile::tempdir().unwrap();
@@ -235,6 +235,14 @@ fn a_stored_certificate_has_a_page() {
         assert!(claimed.contains(digest), "{name}");
         let law = if name == "sampled" { "z_next" } else { "z'" };
         assert!(stored.contains("<dt>law</dt>") && stored.contains(law), "{name}");
+        let next = |page: &str| {
+            let (_, said) = page.split_once("<dt>next</dt>").expect("what is next");
+            ["check", "controller", "simulate", "falsify"]
+                .map(|command| said.split("</dd>").next().unwrap().contains(command))
+        };
+        assert_eq!(next(&claimed), [true, true, false, false], "{name}");
+        // A simulation takes a plant.
+        assert_eq!(next(&stored), [false, true, name != "sampled", true], "{name}");
     }
 }
 
@@ -288,6 +296,7 @@ fn a_page_has_the_words_of_the_text() {
         ("μ", "mu"),
         ("Φ", "Phi"),
         ("ζ", "zeta"),
+        ("κ", "kappa"),
     ]
     .iter()
     .fold(shown, |text, (reference, character)| text.replace(reference, character));

@@ -301,9 +301,6 @@ fn the_program_certifies_checks_its_file_and_exports_the_law() {
     program().args(["certify", AT_REST, "-q", "-o", &continuous]).assert().code(0);
     let other = "the regulator at samples is asked for, and the certificate is about the one in continuous time";
     refused(&[AT_REST, "--sampling-period", "1/1000", "--witness", &continuous], other);
-    let targets =
-        "--target-sup is not for the regulator at samples: bounds by the number of oscillators are of continuous time";
-    refused(&[AT_REST, "--target-sup", "1", "--witness", &certificate], targets);
     refused(&["specs/plants/linear.json", "--witness", &continuous], "the field `plant` is missing");
 
     let source = path("axis.c");
@@ -337,11 +334,50 @@ fn the_program_certifies_checks_its_file_and_exports_the_law() {
     assert_eq!(told["certificate"]["covers_law"], object!(false));
 }
 
+/// The smallest number of oscillators whose bound is at most the target; none where what is between samples is above it.
+#[test]
+fn targets_are_answered_at_samples() {
+    let report = |targets: &[&str]| {
+        let call =
+            [&["certify", AT_REST, "--sampling-period", "1/100", "--no-compare", "--format", "json"], targets].concat();
+        json(&program().args(call).assert().code(0).get_output().stdout)
+    };
+    let number = |value: &Value| value.as_str().expect("a number").parse::<f64>().unwrap();
+    let plain = report(&[])["consequences"].clone();
+    assert_eq!((&plain["most"], &plain["targets"]), (&object!(49), &object!([])));
+    let rows = plain["error_bounds"].as_array().expect("rows");
+    let sup: Vec<f64> = rows.iter().map(|row| number(&row["sup"])).collect();
+    assert_eq!(rows.last().expect("rows")["n_o"], object!(49));
+    assert!(sup.windows(2).all(|pair| pair[0] >= pair[1]) && sup[3] < 0.5 * sup[0], "{sup:?}");
+    assert!(rows.iter().all(|row| number(&row["rms"]) <= number(&row["sup"])), "{rows:?}");
+    // Of the table n_o = 2 is the third row; a little below its bound takes one more.
+    for (target, answer, n_o) in [
+        (sup[2] * (1.0 + 1e-9), "reached", object!(2)),
+        (sup[2] * (1.0 - 1e-9), "reached", object!(3)),
+        (sup[sup.len() - 1] * 0.9, "not reached", Value::Null),
+    ] {
+        let asked = report(&["--target-sup", &format!("{target:e}")])["consequences"]["targets"][0].clone();
+        assert_eq!(
+            (&asked["norm"], &asked["answer"], &asked["n_o"]),
+            (&object!("sup"), &object!(answer), &n_o),
+            "{target}"
+        );
+    }
+    let text = program()
+        .args(["certify", AT_REST, "-q", "--sampling-period", "1/100", "--target-rms", "1e-9"])
+        .assert()
+        .code(0);
+    let text = utf8(text.get_output().stdout.clone());
+    assert!(text.contains("not certified with any number of oscillators up to 49"), "{text}");
+    let undecided =
+        program().args(["certify", AT_REST, "-q", "--sampling-period", "1/2", "--target-sup", "1"]).assert().code(3);
+    assert!(utf8(undecided.get_output().stdout.clone()).contains("The targets are not answered"));
+}
+
 #[test]
 fn flags_that_make_no_sense_are_refused() {
     for wrong in [
         &["--sampling-period", "1/100", "--transfer", "boxes"][..],
-        &["--sampling-period", "1/100", "--target-sup", "1"],
         &["--sampling-period", "3/1000"],
         &["--sampling-period", "-1"],
         &["--sigma", "0"],

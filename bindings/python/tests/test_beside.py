@@ -89,7 +89,8 @@ def test_a_rate_that_is_asked_for_and_one_number_of_oscillators():
         sigmastar.certify(motor, rate=3)
 
 
-def test_a_sampled_claim_has_no_figure_of_bounds():
+def test_a_sampled_claim_has_bounds_by_the_number_of_oscillators():
     sampled = sigmastar.certify(ROOT / "specs" / "paper-example-at-rest.json", sampling_period="1/1000")
-    with pytest.raises(ValueError, match="continuous time"):
-        sampled.plot()
+    bounds = sampled.error_bounds
+    assert bounds[0].n_o == 0 and bounds[-1].n_o == 499
+    assert all(one.sup >= other.sup for one, other in zip(bounds, bounds[1:])) and bounds[3].sup < bounds[0].sup / 2

@@ -1,9 +1,8 @@
 //! The first lines of a report on a certified claim: the gain, from where, what to do next, what sets the gain, what is
 //! assumed. The sections below say more of each.
 
-use super::sensitivity;
 use super::verdict::assumed;
-use super::words;
+use super::{Origin, sensitivity, words};
 use rug::Rational;
 use sigmastar_document::number::{estimate, exact, upper};
 use sigmastar_document::{Block, clean};
@@ -15,15 +14,16 @@ use sigmastar_prove::rate::found::RateForCount;
 use sigmastar_prove::rate::noise::NoNoiseBound;
 use sigmastar_prove::rate::sampled::bound::SampledRateBound;
 use sigmastar_prove::rate::sampled::found::SampledRateForCount;
+use sigmastar_theory::derivation::consequences::ErrorBounds;
 use sigmastar_theory::derivation::control::Control;
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
-use sigmastar_theory::derivation::targets::Consequences;
+use sigmastar_theory::derivation::targets::{Consequences, SampledConsequences};
 
 /// The numbers of oscillators of which the error is said.
 const SHOWN: [u64; 3] = [0, 10, 100];
 
 /// Of a claim about the regulator in continuous time; nothing without one.
-pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences>, rechecked: bool) -> Vec<Block> {
+pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences>, origin: Origin) -> Vec<Block> {
     let (Some(sigma), Some(set), Some(periodic), Some(error_box)) =
         (run.sigma_star(), run.claimed_set(), run.periodic_solution(), run.error_box())
     else {
@@ -52,16 +52,8 @@ pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences
         }
         (None, None) => format!("sigma* = {sigma} in 1/time, or any larger; the same for every n_o"),
     };
-    let next = match rechecked {
-        true => {
-            "`sigmastar check FILE` decides the certificate with other code; `controller FILE --n-o N` writes the regulator"
-        }
-        false => {
-            "`-o FILE` writes the certificate; `sigmastar check FILE` decides it again with other code; `sigmastar controller \
-             FILE --n-o N` writes the regulator"
-        }
-    };
-    let mut facts = vec![("gain", gain), ("from", from(run.spec, set, "any time")), ("next", next.to_owned())];
+    let mut facts =
+        vec![("gain", gain), ("from", from(run.spec, set, "any time")), ("next", next(run.spec, origin, false))];
     facts.extend(set_by(run).map(|said| ("set by", said)));
     facts.extend(
         run.alternatives
@@ -72,7 +64,8 @@ pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences
     facts.extend(input_gain(run).map(|said| ("input gain", said)));
     facts.extend(interval_costs(&run.interval_costs, "sigma*").map(|said| ("intervals", said)));
     // Where targets were given, their answers are above.
-    facts.extend(consequences.filter(|all| all.targets.is_empty()).and_then(error).map(|said| ("steady error", said)));
+    let unasked = consequences.filter(|all| all.targets.is_empty());
+    facts.extend(unasked.and_then(|all| error(&all.by_n_o)).map(|said| ("steady error", said)));
     facts.extend(for_n_o(run).map(|said| ("convergence", said)));
     // It grows with the gain, of which the claim says "or any larger".
     let control = run.control().map(|bounds| (bounds, " (both at this gain)"));
@@ -121,22 +114,17 @@ fn for_n_o_at_samples(run: &SampledCertification<'_>) -> Option<String> {
 }
 
 /// Of a claim about the regulator at samples; nothing without one.
-pub(super) fn of_samples(run: &SampledCertification<'_>, rechecked: bool) -> Vec<Block> {
+pub(super) fn of_samples(
+    run: &SampledCertification<'_>,
+    consequences: Option<&SampledConsequences>,
+    origin: Origin,
+) -> Vec<Block> {
     let (Some(proof), Some(periodic)) = (run.claim(), run.periodic_solution()) else { return Vec::new() };
     let witness = &proof.witness;
     // That gain stands exactly in the sentence above: the claim is about no other.
     let gain =
         "exactly that sigma, in 1/time, for this sampling period alone: no threshold, neither for larger gains nor for faster samples"
             .to_owned();
-    let next = match rechecked {
-        true => {
-            "`sigmastar check FILE` decides the certificate with other code; `controller FILE --n-o N` writes the code"
-        }
-        false => {
-            "`-o FILE` writes the certificate; `sigmastar check FILE` decides it again; `sigmastar controller FILE --n-o N \
-             --format c -o FILE.c` writes the code"
-        }
-    };
     let when = witness.delay.as_ref().map_or_else(
         || "a sampling instant".to_owned(),
         |delay| {
@@ -144,8 +132,11 @@ pub(super) fn of_samples(run: &SampledCertification<'_>, rechecked: bool) -> Vec
             format!("a sampling instant, with a prediction of e there that is off by at most h Y_0, Y_0 = {y_0}")
         },
     );
-    let mut facts = vec![("gain", gain), ("from", from(run.spec, &witness.set, &when)), ("next", next.to_owned())];
+    let mut facts =
+        vec![("gain", gain), ("from", from(run.spec, &witness.set, &when)), ("next", next(run.spec, origin, true))];
     facts.extend(run.found.map(|(_, limit)| ("set by", format!("{} (an estimate)", limit.describe()))));
+    let unasked = consequences.filter(|all| all.targets.is_empty());
+    facts.extend(unasked.and_then(|all| error(&all.by_n_o)).map(|said| ("steady error", said)));
     facts.extend(for_n_o_at_samples(run).map(|said| ("convergence", said)));
     let radii = [&witness.d_x, &witness.d_e].map(|radius| exact(radius, Direction::Up));
     facts.push(("to", to(run.spec, &periodic, radii, run.control().map(|bounds| (bounds, "")))));
@@ -167,6 +158,35 @@ pub(super) fn of_samples(run: &SampledCertification<'_>, rechecked: bool) -> Vec
     };
     facts.push(("assumed", format!("{}; {of_the_computer}{beside}", assumed(run.spec, run.largest_arguments(), None))));
     vec![Block::facts(facts), Block::says(norms(run.spec, "law"))]
+}
+
+/// What to do with the claim next; `at_samples` where its law is one.
+fn next(spec: &Specification, origin: Origin, at_samples: bool) -> String {
+    let said = match (origin, at_samples) {
+        (Origin::Search, false) => {
+            "`-o FILE` writes the certificate; `sigmastar check FILE` decides it again with other code; `sigmastar controller \
+             FILE --n-o N` writes the regulator"
+        }
+        (Origin::Search, true) => {
+            "`-o FILE` writes the certificate; `sigmastar check FILE` decides it again; `sigmastar controller FILE --n-o N \
+             --format c -o FILE.c` writes the code"
+        }
+        (Origin::Witness, false) => {
+            "`sigmastar check FILE` decides the certificate with other code; `controller FILE --n-o N` writes the regulator"
+        }
+        (Origin::Witness, true) => {
+            "`sigmastar check FILE` decides the certificate with other code; `controller FILE --n-o N` writes the code"
+        }
+        (Origin::Checked, _) => {
+            let writes = if at_samples { " --format c -o FILE.c` writes the code" } else { "` writes the regulator" };
+            // A simulation takes a plant.
+            let runs = spec.plant().map_or("", |_| "`simulate FILE --n-o N` runs it with the plant; ");
+            return format!(
+                "`sigmastar controller FILE --n-o N{writes}; {runs}`falsify FILE` tries to break the claim by simulation"
+            );
+        }
+    };
+    said.to_owned()
 }
 
 /// What the norms are of, and whom a gain or a law serves.
@@ -246,8 +266,8 @@ fn interval_costs(all: &[(String, Option<f64>)], gain: &str) -> Option<String> {
 }
 
 /// The bounds of the error for a few n_o.
-fn error(consequences: &Consequences) -> Option<String> {
-    let shown = consequences.by_n_o.iter().filter(|(n_o, _)| SHOWN.contains(n_o));
+fn error(by_n_o: &[(u64, ErrorBounds)]) -> Option<String> {
+    let shown = by_n_o.iter().filter(|(n_o, _)| SHOWN.contains(n_o));
     let shown: Vec<String> = shown.map(|(n_o, bounds)| format!("{} with {n_o}", upper(&bounds.sup))).collect();
     (!shown.is_empty()).then(|| format!("sup|e| at most {} oscillators", shown.join(", ")))
 }

@@ -1,19 +1,20 @@
 //! The report on a certification: what a person, or a script, reads about a run.
 
 use super::{
-    brief, conditions, consequences, constants, exact_regulation, for_n_o, gains, json, matrix_checks, of_plant,
-    printed, relative_degree, sensitivity, sets, verdict,
+    Origin, brief, conditions, consequences, constants, exact_regulation, for_n_o, gains, json, matrix_checks,
+    of_plant, printed, relative_degree, sensitivity, sets, verdict,
 };
 use sigmastar_document::{Block, Readable, clean};
 use sigmastar_lang::spec::InputGain;
 use sigmastar_prove::certify::Certification;
+use sigmastar_theory::derivation::consequences::MAX_OSCILLATORS;
 use sigmastar_theory::derivation::targets::{Consequences, Target};
 
 /// Everything that a report is made from.
 pub struct Report<'r> {
     run: &'r Certification<'r>,
     consequences: Option<Consequences>,
-    rechecked: bool,
+    origin: Origin,
     unanswered: bool,
 }
 
@@ -23,32 +24,25 @@ impl<'r> Report<'r> {
     /// Guarantee: the certified figures in it follow from the conditions that the run proved; without a certified
     /// claim there are none.
     #[must_use]
-    pub fn new(run: &'r Certification<'r>, targets: &[Target]) -> Report<'r> {
+    pub fn new(run: &'r Certification<'r>, targets: &[Target], origin: Origin) -> Report<'r> {
         let consequences = run.consequences(targets);
         let unanswered = consequences.is_none() && !targets.is_empty();
-        Report { run, consequences, rechecked: false, unanswered }
-    }
-
-    /// The same report, of a run that decided a given witness again and searched for nothing.
-    #[must_use]
-    pub fn rechecked(mut self, rechecked: bool) -> Report<'r> {
-        self.rechecked = rechecked;
-        self
+        Report { run, consequences, origin, unanswered }
     }
 }
 
 impl Readable for Report<'_> {
     fn blocks(&self) -> Vec<Block> {
-        let run = self.run;
+        let (run, rechecked) = (self.run, self.origin.is_given());
         let name = clean(&run.spec.name);
         let name = if name.is_empty() { "(no name)" } else { &name };
         let mut blocks = vec![Block::Title(format!("{name}: {}", run.verdict))];
-        blocks.extend(verdict::section(run, self.rechecked));
+        blocks.extend(verdict::section(run, rechecked));
         if self.unanswered {
-            blocks.push(Block::says("The targets are not answered: without a certified gain there is no error bound."));
+            blocks.push(Block::says(consequences::UNANSWERED));
         }
-        blocks.extend(self.consequences.iter().flat_map(consequences::answers));
-        blocks.extend(brief::of_run(run, self.consequences.as_ref(), self.rechecked));
+        blocks.extend(self.consequences.iter().flat_map(|all| consequences::answers(&all.targets, MAX_OSCILLATORS)));
+        blocks.extend(brief::of_run(run, self.consequences.as_ref(), self.origin));
         blocks.push(Block::Detail);
         blocks.extend(for_n_o::section(run));
         blocks.extend(verdict::detail(run));
@@ -60,18 +54,18 @@ impl Readable for Report<'_> {
         // The printed formulas need data that are not computed from a plant's formulas, and know of no input gain.
         let known_gain = run.spec.input_gain.as_ref().is_none_or(InputGain::is_nominal);
         if run.spec.plant().is_none() && known_gain {
-            blocks.extend(printed::section(run, self.rechecked));
+            blocks.extend(printed::section(run, rechecked));
         }
         blocks.extend(sensitivity::section(run));
         blocks.extend(self.consequences.iter().flat_map(|all| consequences::section(run.spec, all)));
         blocks.extend(gains::section(run));
-        blocks.extend(exact_regulation::section(run, self.rechecked));
+        blocks.extend(exact_regulation::section(run, rechecked));
         blocks.extend(relative_degree::section(run));
         blocks
     }
 
     /// As JSON: `{"format": "sigmastar/report", "version": 1, ...}`.
     fn json(&self) -> serde_json::Value {
-        json::report(self.run, self.consequences.as_ref(), self.rechecked)
+        json::report(self.run, self.consequences.as_ref(), self.origin.is_given())
     }
 }

@@ -6,17 +6,18 @@ use sigmastar_document::plot::{Curve, Figure, Scale, Style};
 use sigmastar_document::{Block, Table, clean};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_lang::spec::Specification;
-use sigmastar_theory::derivation::consequences::{ErrorBounds, MAX_OSCILLATORS, Psi};
+use sigmastar_theory::derivation::consequences::{ErrorBounds, Psi};
 use sigmastar_theory::derivation::mistuned::MAX_TUNED;
-use sigmastar_theory::derivation::targets::{Consequences, MistunedSummary, Target, TargetOutcome};
+use sigmastar_theory::derivation::targets::{
+    Consequences, MistunedSummary, SampledConsequences, Target, TargetOutcome,
+};
+
+/// Where there is no claim.
+pub(super) const UNANSWERED: &str = "The targets are not answered: without a certified gain there is no error bound.";
 
 /// The section of the report.
 pub(super) fn section(spec: &Specification, consequences: &Consequences) -> Vec<Block> {
     let mut blocks = vec![Block::heading("The regulated error"), Block::List(psi_items(spec, consequences))];
-    let mut table = Table::new(&["n_o", "rms(e) at most", "sup|e| at most"]);
-    for (n_o, bounds) in &consequences.by_n_o {
-        table.push([n_o.to_string(), upper(&bounds.rms), upper(&bounds.sup)]);
-    }
     let (at, which) = match spec.actuator {
         None => (
             "at sigma* and for every larger sigma",
@@ -29,7 +30,7 @@ pub(super) fn section(spec: &Specification, consequences: &Consequences) -> Vec<
         "Bounds of the error along the periodic solution, {at}, by the number of oscillators.{which} They follow from the claim, are \
          computed with enclosures, and have no independent check:"
     )));
-    blocks.push(Block::Table(table));
+    blocks.push(Block::Table(table(&consequences.by_n_o)));
     blocks.extend(consequences.mistuned.as_ref().map(|mistuned| Block::says(mistuned_words(spec, mistuned))));
     blocks.push(Block::Drawing(figure(spec, consequences)));
     blocks
@@ -61,9 +62,25 @@ fn mistuned_words(spec: &Specification, mistuned: &MistunedSummary) -> String {
     format!("{distance} {worth}")
 }
 
-/// The answers to the targets, if there are any.
-pub(super) fn answers(consequences: &Consequences) -> Option<Block> {
-    let answers: Vec<String> = consequences.targets.iter().map(|(target, outcome)| answer(target, *outcome)).collect();
+/// The section of the report on the regulator at samples.
+pub(super) fn sampled_section(consequences: &SampledConsequences) -> Vec<Block> {
+    let says = "Bounds of the error along the periodic solution, between samples too, at this gain and sampling period alone, by the number of \
+                oscillators, up to the largest that the samples can tell apart. They follow from the claim, are computed with enclosures, and have \
+                no independent check:";
+    vec![Block::heading("The regulated error"), Block::says(says), Block::Table(table(&consequences.by_n_o))]
+}
+
+fn table(by_n_o: &[(u64, ErrorBounds)]) -> Table {
+    let mut table = Table::new(&["n_o", "rms(e) at most", "sup|e| at most"]);
+    for (n_o, bounds) in by_n_o {
+        table.push([n_o.to_string(), upper(&bounds.rms), upper(&bounds.sup)]);
+    }
+    table
+}
+
+/// The answers to the targets, if there are any, where so many oscillators were looked at.
+pub(super) fn answers(targets: &[(Target, TargetOutcome)], most: u64) -> Option<Block> {
+    let answers: Vec<String> = targets.iter().map(|(target, outcome)| answer(target, *outcome, most)).collect();
     (!answers.is_empty()).then_some(Block::List(answers))
 }
 
@@ -106,14 +123,14 @@ fn psi_items(spec: &Specification, consequences: &Consequences) -> Vec<String> {
     items
 }
 
-fn answer(target: &Target, outcome: TargetOutcome) -> String {
+fn answer(target: &Target, outcome: TargetOutcome, most: u64) -> String {
     let wanted = format!("{} <= {}", target.kind.name(), clean(&target.value.text));
     match outcome {
         TargetOutcome::Reached(n_o) => {
             format!("Target {wanted}: certified with n_o = {n_o} oscillators (the smallest number for these bounds)")
         }
         TargetOutcome::NotReached => {
-            format!("Target {wanted}: not certified with any number of oscillators up to {MAX_OSCILLATORS}")
+            format!("Target {wanted}: not certified with any number of oscillators up to {most}")
         }
     }
 }

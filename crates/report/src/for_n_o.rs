@@ -20,7 +20,7 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
     if run.for_n_o.is_empty() {
         return Vec::new();
     }
-    let mut table = Table::new(&["n_o", "rate in 1/time", "factor in the unit of e", "limited by"]);
+    let mut table = Table::new(&["n_o", "rate in 1/time", "factor in the unit of e", "<limited by"]);
     for RateForCount { n_o, bound, .. } in &run.for_n_o {
         table.push(match bound {
             None => [n_o.to_string(), "not proved".to_owned(), String::new(), String::new()],
@@ -183,7 +183,7 @@ pub(super) fn sampled_section(run: &SampledCertification<'_>) -> Vec<Block> {
     if run.for_n_o.is_empty() {
         return Vec::new();
     }
-    let mut table = Table::new(&["n_o", "rate in 1/time", "factor in the unit of e", "limited by"]);
+    let mut table = Table::new(&["n_o", "rate in 1/time", "factor in the unit of e", "<limited by"]);
     for SampledRateForCount { n_o, bound, .. } in &run.for_n_o {
         table.push(match bound {
             None => [n_o.to_string(), "not proved".to_owned(), String::new(), String::new()],

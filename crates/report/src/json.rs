@@ -21,8 +21,9 @@ use sigmastar_prove::certificate::{conditions_json, constants_json, no_plant_jso
 use sigmastar_prove::certify::{Certification, Outcome, Verdict};
 use sigmastar_prove::search::{Binding, OptionalDatum};
 use sigmastar_theory::derivation::condition::Condition;
+use sigmastar_theory::derivation::consequences::ErrorBounds;
 use sigmastar_theory::derivation::control::Control;
-use sigmastar_theory::derivation::targets::{Consequences, TargetKind, TargetOutcome};
+use sigmastar_theory::derivation::targets::{Consequences, Target, TargetKind, TargetOutcome};
 
 /// The whole report: the same content as the text.
 pub(super) fn report(run: &Certification<'_>, consequences: Option<&Consequences>, rechecked: bool) -> Value {
@@ -172,27 +173,31 @@ fn sensitivities(run: &Certification<'_>) -> Value {
         .collect()
 }
 
-fn consequences_json(consequences: &Consequences) -> Value {
-    let rows: Vec<Value> = consequences
-        .by_n_o
+/// Bounds of the error by the number of oscillators.
+pub(super) fn bounds_json(by_n_o: &[(u64, ErrorBounds)]) -> Value {
+    by_n_o
         .iter()
         .map(|(n_o, bounds)| json!({ "n_o": n_o, "rms": full(&bounds.rms), "sup": full(&bounds.sup) }))
-        .collect();
-    let targets: Vec<Value> = consequences
-        .targets
-        .iter()
-        .map(|(target, outcome)| {
-            let norm = match target.kind {
-                TargetKind::Sup => "sup",
-                TargetKind::Rms => "rms",
-            };
-            let (answer, n_o) = match outcome {
-                TargetOutcome::Reached(n_o) => ("reached", Some(n_o)),
-                TargetOutcome::NotReached => ("not reached", None),
-            };
-            json!({ "norm": norm, "target": target.value.text, "answer": answer, "n_o": n_o })
-        })
-        .collect();
+        .collect()
+}
+
+/// The answers to targets.
+pub(super) fn targets_json(targets: &[(Target, TargetOutcome)]) -> Value {
+    let one = |(target, outcome): &(Target, TargetOutcome)| {
+        let norm = match target.kind {
+            TargetKind::Sup => "sup",
+            TargetKind::Rms => "rms",
+        };
+        let (answer, n_o) = match outcome {
+            TargetOutcome::Reached(n_o) => ("reached", Some(n_o)),
+            TargetOutcome::NotReached => ("not reached", None),
+        };
+        json!({ "norm": norm, "target": target.value.text, "answer": answer, "n_o": n_o })
+    };
+    targets.iter().map(one).collect()
+}
+
+fn consequences_json(consequences: &Consequences) -> Value {
     let psi = &consequences.psi;
     // psi_2 speaks about matched base frequencies only.
     let psi_2 = if consequences.mistuned.is_some() { Value::Null } else { json!(full(&psi.psi_2)) };
@@ -203,7 +208,8 @@ fn consequences_json(consequences: &Consequences) -> Value {
     });
     json!({
         "psi_1": full(&psi.psi_1), "psi_x": full(&psi.psi_x), "psi_2": psi_2,
-        "error_bounds": rows, "mistuned": mistuned, "targets": targets,
+        "error_bounds": bounds_json(&consequences.by_n_o), "mistuned": mistuned,
+        "targets": targets_json(&consequences.targets),
     })
 }
 

@@ -2,7 +2,7 @@
 
 use super::remarks::{remarks, sampled_remarks};
 use super::verdict::sentence;
-use super::{Report, SampledReport};
+use super::{Origin, Report, SampledReport};
 use serde_json::Value;
 use sigmastar_document::{Block, Readable};
 use sigmastar_prove::reduction::Run;
@@ -17,13 +17,12 @@ pub enum RunReport<'r> {
 }
 
 impl<'r> RunReport<'r> {
-    /// The report, with answers to the targets where the regulator is in continuous time; `rechecked` of a run that decided a given
-    /// witness again.
+    /// The report, with answers to the targets.
     #[must_use]
-    pub fn new(run: &'r Run<'r>, targets: &[Target], rechecked: bool) -> RunReport<'r> {
+    pub fn new(run: &'r Run<'r>, targets: &[Target], origin: Origin) -> RunReport<'r> {
         match run {
-            Run::Continuous(run) => RunReport::Continuous(Box::new(Report::new(run, targets).rechecked(rechecked))),
-            Run::Sampled(run) => RunReport::Sampled(SampledReport::new(run, rechecked)),
+            Run::Continuous(run) => RunReport::Continuous(Box::new(Report::new(run, targets, origin))),
+            Run::Sampled(run) => RunReport::Sampled(SampledReport::new(run, targets, origin)),
         }
     }
 }
@@ -49,7 +48,7 @@ impl Readable for RunReport<'_> {
 pub fn run_sentence(run: &Run<'_>) -> String {
     match run {
         Run::Continuous(run) => sentence(run),
-        Run::Sampled(run) => SampledReport::new(run, false).sentence(),
+        Run::Sampled(run) => SampledReport::sentence_of(run),
     }
 }
 

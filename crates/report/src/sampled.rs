@@ -2,7 +2,7 @@
 
 use super::failures::{FORMAT, VERSION, errors_json};
 use super::for_n_o::{sampled_json, sampled_section};
-use super::json::{actuator, conditions_with_truth, control, input_gain, interval_costs};
+use super::json::{actuator, bounds_json, conditions_with_truth, control, input_gain, interval_costs, targets_json};
 use super::limits;
 use super::obstacles::{SLOWER, SMALLER_START, again, describe, first_of, other_gain, rest_of, wider};
 use super::of_plant::plant_json;
@@ -10,7 +10,7 @@ use super::remarks::sampled_remarks;
 use super::sets::{Boxes, Sizes};
 use super::verdict::of_the_data;
 use super::words;
-use super::{about, brief, conditions, gains, of_plant};
+use super::{Origin, about, brief, conditions, consequences, gains, of_plant};
 use rug::Rational;
 use serde_json::{Value, json};
 use sigmastar_document::number::{estimate, exact, full, upper};
@@ -20,18 +20,29 @@ use sigmastar_exact::number::{Direction, write_exact};
 use sigmastar_prove::certificate::{no_plant_json, set_fields};
 use sigmastar_prove::certify::{Outcome, SampledCertification, SampledProof, Verdict};
 use sigmastar_prove::search::{Failing, Obstacle};
+use sigmastar_theory::derivation::targets::{SampledConsequences, Target};
 
 /// Everything that the report is made from.
 pub struct SampledReport<'r> {
     run: &'r SampledCertification<'r>,
-    rechecked: bool,
+    consequences: Option<SampledConsequences>,
+    origin: Origin,
+    unanswered: bool,
 }
 
 impl<'r> SampledReport<'r> {
-    /// The report of a run; `rechecked` where it decided a given witness again.
+    /// The report of a run, with answers to the targets.
     #[must_use]
-    pub fn new(run: &'r SampledCertification<'r>, rechecked: bool) -> SampledReport<'r> {
-        SampledReport { run, rechecked }
+    pub fn new(run: &'r SampledCertification<'r>, targets: &[Target], origin: Origin) -> SampledReport<'r> {
+        let consequences = run.consequences(targets);
+        let unanswered = consequences.is_none() && !targets.is_empty();
+        SampledReport { run, consequences, origin, unanswered }
+    }
+
+    /// The verdict of a run in one sentence.
+    #[must_use]
+    pub fn sentence_of(run: &'r SampledCertification<'r>) -> String {
+        SampledReport { run, consequences: None, origin: Origin::Search, unanswered: false }.sentence()
     }
 
     /// The verdict in one sentence.
@@ -119,7 +130,7 @@ impl<'r> SampledReport<'r> {
             }
             Outcome::NotProved { failing, .. } => {
                 let undecided = failing.iter().all(|condition| condition.truth() == Truth::Undecided);
-                items.push(match (undecided, self.rechecked) {
+                items.push(match (undecided, self.origin.is_given()) {
                     (true, _) => "raise --precision-limit".to_owned(),
                     (false, true) => "search again (without --witness): another witness may exist".to_owned(),
                     (false, false) => {
@@ -278,10 +289,15 @@ impl Readable for SampledReport<'_> {
         let name = if name.is_empty() { "(no name)" } else { &name };
         let mut blocks = vec![Block::Title(format!("{name}: {}", run.verdict)), Block::Verdict(self.sentence())];
         blocks.extend(sampled_remarks(run).into_iter().map(Block::says));
+        if self.unanswered {
+            blocks.push(Block::says(consequences::UNANSWERED));
+        }
+        blocks.extend(self.consequences.iter().flat_map(|all| consequences::answers(&all.targets, all.most)));
         if run.claim().is_some() {
-            blocks.extend(brief::of_samples(run, self.rechecked));
+            blocks.extend(brief::of_samples(run, self.consequences.as_ref(), self.origin));
             blocks.push(Block::Detail);
             blocks.extend(sampled_section(run));
+            blocks.extend(self.consequences.iter().flat_map(consequences::sampled_section));
             blocks.extend(gains::sampled_section(run));
             blocks.push(Block::heading("What the claim rests on"));
             blocks.push(about::facts(run.spec, Some(&run.sampling)));
@@ -334,6 +350,10 @@ impl Readable for SampledReport<'_> {
             report["control"] = control(run.control());
             if let Some(rates) = sampled_json(run) {
                 report["for_n_o"] = rates;
+            }
+            if let Some(SampledConsequences { by_n_o, targets, most }) = &self.consequences {
+                report["consequences"] =
+                    json!({ "error_bounds": bounds_json(by_n_o), "targets": targets_json(targets), "most": most });
             }
             report["gains"] = gains::rows_json(&run.gains);
             if let Some(kept) = limits::sampled_json(run) {

@@ -133,8 +133,8 @@ class Certificate(Reported):
 
     @property
     def error_bounds(self) -> List[ErrorBound]:
-        """Bounds of the error by the number of oscillators, at the gain and at every larger one that is certified; none of the regulator at
-        samples."""
+        """Bounds of the error by the number of oscillators, at the gain and at every larger one that is certified; of the regulator at samples at
+        its gain alone."""
         rows = (self.data.get("consequences") or {}).get("error_bounds", [])
         return [ErrorBound(row["n_o"], stated(row["sup"], "up"), stated(row["rms"], "up")) for row in rows]
 
@@ -145,13 +145,8 @@ class Certificate(Reported):
         return [ClaimedRate(row["n_o"], stated(row["rate"], "down"), stated(row["factor"], "up")) for row in rows]
 
     def plot(self, ax: Optional[Axes] = None) -> Axes:
-        """The bounds of the error against the number of oscillators, with matplotlib, which has to be installed.
-
-        Raises ValueError for a claim that has none: they are of the regulator in continuous time.
-        """
+        """The bounds of the error against the number of oscillators, with matplotlib, which has to be installed."""
         bounds = self.error_bounds
-        if not bounds:
-            raise ValueError("this claim has no bounds of the error by n_o: they are of the regulator in continuous time")
         ax = axes(ax, "n_o + 1", "bound of e")
         for label, values in (("sup|e|", [one.sup for one in bounds]), ("rms(e)", [one.rms for one in bounds])):
             ax.loglog([one.n_o + 1 for one in bounds], values, "o-", label=label)

@@ -7,7 +7,7 @@ use crate::text::RELATIONS;
 use maud::{Markup, PreEscaped, html};
 
 /// Names of letters, and the letters.
-const GREEK: [(&str, &str); 16] = [
+const GREEK: [(&str, &str); 18] = [
     ("sigma", "σ"),
     ("mu", "μ"),
     ("zeta", "ζ"),
@@ -17,11 +17,13 @@ const GREEK: [(&str, &str); 16] = [
     ("gamma", "γ"),
     ("lambda", "λ"),
     ("theta", "θ"),
+    ("kappa", "κ"),
     ("rho", "ρ"),
     ("tau", "τ"),
     ("nu", "ν"),
     ("pi", "π"),
     ("Phi", "Φ"),
+    ("Upsilon", "Υ"),
     ("eta", "η"),
     ("xi", "ξ"),
 ];
@@ -31,13 +33,16 @@ const FUNCTIONS: [&str; 13] =
     ["sqrt", "min", "max", "exp", "sup", "rms", "Nbar", "sin", "cos", "tan", "atan", "tanh", "log"];
 
 /// Names that are one symbol although they have more than one letter.
-const NAMES: [&str; 15] = ["xb", "X0", "E0", "Z0", "K2", "dX", "dE", "dZ", "df", "dq", "dx", "de", "sg", "Om", "Nz"];
+const NAMES: [&str; 21] = [
+    "xb", "X0", "E0", "Z0", "K2", "k0", "k1", "bt", "dX", "dE", "dZ", "df", "dq", "dx", "de", "d2q", "dtdx", "dtde",
+    "sg", "Om", "Nz",
+];
 
 /// Letters that are symbols when they stand alone; no word of English is among them.
 const ALONE: &str = "xeuzyqfth";
 
 /// Indices that are words.
-const INDICES: [&str; 7] = ["up", "low", "per", "oo", "fe", "inf", "tx"];
+const INDICES: [&str; 8] = ["up", "low", "per", "oo", "fe", "inf", "tx", "alpha2"];
 
 /// The deepest parentheses of what is typeset.
 const DEEPEST: usize = 20;
@@ -82,13 +87,26 @@ pub(super) fn typeset(text: &str) -> Markup {
     html! { @for (text, formula) in &pieces { (kept(text)) @if let Some(formula) = formula { (formula) } } }
 }
 
-/// A text whose relations are not parted from their sides at the end of a line.
+/// A text whose relations look as in formulas, and are not parted from their sides at the end of a line.
 fn kept(text: &str) -> String {
     RELATIONS.iter().fold(text.to_owned(), |text, relation| {
+        let shown = sign_of(relation);
+        if text == *relation {
+            return shown.to_owned();
+        }
         // A line may end behind a bar even before such a space.
         let text = text.replace(&format!("| {relation} "), &format!("|\u{2060} {relation} "));
-        text.replace(&format!(" {relation} "), &format!("\u{a0}{relation}\u{a0}"))
+        text.replace(&format!(" {relation} "), &format!("\u{a0}{shown}\u{a0}"))
     })
+}
+
+/// A relation as it is shown.
+fn sign_of<'r>(relation: &'r str) -> &'r str {
+    match relation {
+        "<=" => "≤",
+        ">=" => "≥",
+        other => other,
+    }
 }
 
 /// A formula with the punctuation behind it, at which no line ends.
@@ -102,7 +120,7 @@ fn followed(parts: &[Markup], after: &str) -> Markup {
     }
 }
 
-/// A formula, in pieces between which a line may end where it is long.
+/// A formula, in pieces between which a line may end where it is long, but not before a relation or a sum.
 fn parts(tokens: &[Token]) -> Vec<Markup> {
     if tokens.len() <= UNBROKEN {
         return vec![math(tokens)];
@@ -114,11 +132,12 @@ fn parts(tokens: &[Token]) -> Vec<Markup> {
             Token::Sign('(') => open += 1,
             Token::Sign(')') => open = open.saturating_sub(1),
             Token::Sign('|') => bars += 1,
-            Token::Space if open == 0 && bars % 2 == 0 => {
-                parts.push(math(&tokens[from..at]));
-                // A relation stays with what is before it.
-                let relation = matches!(tokens.get(at + 1), Some(Token::Relation(_)));
-                parts.push(html! { (if relation { "\u{a0}" } else { " " }) });
+            Token::Space if open == 0 && bars % 2 == 0 && !is_between(tokens, at + 1) => {
+                // A space of a product is a part of what is before it.
+                let spaced = !is_between(tokens, at - 1) && tokens[at - 1] != Token::Sign(',');
+                parts.push(math(&tokens[from..at + usize::from(spaced)]));
+                // A line may end there, and nothing is seen otherwise.
+                parts.push(html! { "\u{200b}" });
                 from = at + 1;
             }
             _ => {}
@@ -139,7 +158,7 @@ fn run(word: &str, next: &[&str]) -> Option<Run> {
     let mut tokens: Vec<Token> = Vec::new();
     let words = std::iter::once(&word[open.len()..]).chain(next.iter().rev().copied());
     for (used, word) in words.enumerate() {
-        let (whole, last) = (tokenise(word), cut(word));
+        let (whole, last) = (tokenise(word), cut(word, unclosed(&tokens)));
         if let Some((inside, punctuation)) = last
             && let Some(more) = tokenise(inside)
         {
@@ -166,18 +185,37 @@ fn joined(before: &[Token], more: Vec<Token>) -> Vec<Token> {
     before.iter().cloned().chain(space).chain(more).collect()
 }
 
-/// A word without the punctuation at its end.
-fn cut(word: &str) -> Option<(&str, &str)> {
+/// How many parentheses wait for their end.
+fn unclosed(tokens: &[Token]) -> usize {
+    let count = |sign: char| tokens.iter().filter(|token| **token == Token::Sign(sign)).count();
+    count('(').saturating_sub(count(')'))
+}
+
+/// A word without the punctuation at its end, where so many parentheses were opened before it.
+fn cut(word: &str, unclosed: usize) -> Option<(&str, &str)> {
     let inside = word.trim_end_matches([',', '.', ';', ':', '?']);
-    let surplus = inside.matches(')').count().saturating_sub(inside.matches('(').count());
+    let surplus = inside.matches(')').count().saturating_sub(inside.matches('(').count() + unclosed);
     let inside = (0..surplus).try_fold(inside, |inside, _| inside.strip_suffix(')')).unwrap_or(inside);
     (inside.len() < word.len() && !inside.is_empty()).then(|| (inside, &word[inside.len()..]))
 }
 
-/// Whether every parenthesis and brace is closed.
+/// Whether every parenthesis and brace is closed, and none before it is opened.
 fn is_closed(tokens: &[Token]) -> bool {
     let count = |sign: char| tokens.iter().filter(|token| **token == Token::Sign(sign)).count();
-    count('(') == count(')') && count('{') == count('}') && count('(') <= DEEPEST
+    let mut open = 0_usize;
+    let in_order = tokens.iter().all(|token| match token {
+        Token::Sign('(') => {
+            open += 1;
+            true
+        }
+        Token::Sign(')') if open == 0 => false,
+        Token::Sign(')') => {
+            open -= 1;
+            true
+        }
+        _ => true,
+    });
+    in_order && open == 0 && count('{') == count('}') && count('(') <= DEEPEST
 }
 
 /// Whether tokens are certainly a formula: balanced, with a symbol, and with no sign that waits for something.
@@ -292,44 +330,55 @@ fn row(tokens: &[Token], at: &mut usize, end: Option<char>) -> Markup {
 
 /// A piece with what stands below and above it.
 fn scripted(tokens: &[Token], at: &mut usize) -> Markup {
+    let bar = tokens.get(*at) == Some(&Token::Sign('|'));
     let mut piece = atom(tokens, at);
-    loop {
-        let sign = match tokens.get(*at) {
-            Some(Token::Sign(sign @ ('_' | '^' | '\'' | '*'))) => *sign,
-            _ => return piece,
-        };
-        let after = tokens.get(*at + 1);
+    let (mut below, mut above, mut times) = (Vec::new(), Vec::new(), None);
+    while let Some(Token::Sign(sign @ ('_' | '^' | '\'' | '*'))) = tokens.get(*at) {
+        *at += 1;
         match sign {
-            '\'' => {
-                *at += 1;
-                piece = html! { msup { (piece) mo { "′" } } };
-            }
+            '_' => below.push(script(tokens, at)),
+            '^' => above.push(script(tokens, at)),
+            // It is raised in every font.
+            '\'' => piece = html! { mrow { (piece) mo form="postfix" lspace="0" rspace="0" { "′" } } },
             // A star at the end of a name is a part of it.
-            '*' => {
-                let ends = match after {
-                    None | Some(Token::Space | Token::Relation(_)) => true,
-                    Some(Token::Sign(next)) => "/),}_".contains(*next),
-                    Some(Token::Number(_) | Token::Name(_)) => false,
-                };
-                *at += 1;
-                if !ends {
-                    // The product of what is written without a space; two numbers side by side would be another number.
-                    let shown = if matches!(after, Some(Token::Number(_))) { "\u{b7}" } else { "\u{2062}" };
-                    let times = html! { mo { (shown) } };
-                    return html! { (piece) (times) };
-                }
-                piece = html! { msup { (piece) mo { "*" } } };
-            }
+            _ if ends_a_name(tokens.get(*at)) => above.push(html! { mo { "*" } }),
             _ => {
-                *at += 1;
-                let script = script(tokens, at);
-                piece = if sign == '_' {
-                    html! { msub { (piece) (script) } }
-                } else {
-                    html! { msup { (piece) (script) } }
-                };
+                // The product of what is written without a space; two numbers side by side would be another number.
+                let number = matches!(tokens.get(*at), Some(Token::Number(_)));
+                times = Some(html! { mo { (if number { "\u{b7}" } else { "\u{2062}" }) } });
+                break;
             }
         }
+    }
+    // A bar reaches below the line, and what is below it would be lower than below a letter.
+    let (before, base) = if bar { (Some(piece), html! { mrow {} }) } else { (None, piece) };
+    html! {
+        @if let Some(bar) = &before { (bar) }
+        @match (one_script(&below), one_script(&above)) {
+            (None, None) => { @if before.is_none() { (base) } }
+            (Some(below), None) => { msub { (base) (below) } }
+            (None, Some(above)) => { msup { (base) (above) } }
+            (Some(below), Some(above)) => { msubsup { (base) (below) (above) } }
+        }
+        @if let Some(times) = &times { (times) }
+    }
+}
+
+/// Whether a star ends a name, by what follows.
+fn ends_a_name(after: Option<&Token>) -> bool {
+    match after {
+        None | Some(Token::Space | Token::Relation(_)) => true,
+        Some(Token::Sign(next)) => "/),}_".contains(*next),
+        Some(Token::Number(_) | Token::Name(_)) => false,
+    }
+}
+
+/// What stands at one place beside a piece.
+fn one_script(all: &[Markup]) -> Option<Markup> {
+    match all {
+        [] => None,
+        [one] => Some(html! { (one) }),
+        [first, rest @ ..] => Some(html! { mrow { (first) @for next in rest { mspace width="0.2em" {} (next) } } }),
     }
 }
 
@@ -338,9 +387,52 @@ fn script(tokens: &[Token], at: &mut usize) -> Markup {
     if tokens.get(*at) == Some(&Token::Sign('-')) {
         *at += 1;
         let piece = atom(tokens, at);
-        return html! { mrow { mo { "-" } (piece) } };
+        return html! { mrow { mo form="prefix" { "−" } (piece) } };
     }
     atom(tokens, at)
+}
+
+/// Whether a relation or a sum stands there.
+fn is_between(tokens: &[Token], at: usize) -> bool {
+    match tokens.get(at) {
+        Some(Token::Relation(_)) => true,
+        Some(Token::Sign('+' | '-')) => is_binary(tokens, at),
+        _ => false,
+    }
+}
+
+/// Whether a sum stands there, and no sign of a number.
+fn is_binary(tokens: &[Token], at: usize) -> bool {
+    match at.checked_sub(1).and_then(|before| tokens.get(before)) {
+        None | Some(Token::Relation(_)) => false,
+        Some(Token::Space) => tokens.get(at + 1).is_none_or(|after| *after == Token::Space),
+        Some(Token::Sign(before)) => !"(+-*/^_{,".contains(*before),
+        Some(Token::Number(_) | Token::Name(_)) => true,
+    }
+}
+
+/// A name: a letter, a letter with a digit, which is its index, a product, or a word, which is upright.
+fn named(name: &str) -> Markup {
+    if name == "Nz" {
+        return html! { mi { "N" } mi { "z" } };
+    }
+    if name == "xb" {
+        return html! { mover { mi { "x" } mo stretchy="false" { "¯" } } };
+    }
+    if name == "Om" {
+        return html! { mi { "Ω" } };
+    }
+    let (word, index) = name.split_at(name.len() - usize::from(name.ends_with(|c: char| c.is_ascii_digit())));
+    let letter = match GREEK.iter().find(|(known, _)| *known == word) {
+        Some((_, letter)) => html! { mi { (letter) } },
+        None if word.len() > 1 => html! { mi mathvariant="normal" { (word) } },
+        None => html! { mi { (word) } },
+    };
+    if index.is_empty() {
+        letter
+    } else {
+        html! { msub { (letter) mn { (index) } } }
+    }
 }
 
 fn atom(tokens: &[Token], at: &mut usize) -> Markup {
@@ -349,7 +441,7 @@ fn atom(tokens: &[Token], at: &mut usize) -> Markup {
     match token {
         Token::Number(digits) => html! { mn { (digits) } },
         Token::Space => html! { mspace width="0.2em" {} },
-        Token::Relation(relation) => html! { mo { (match *relation { "<=" => "≤", ">=" => "≥", other => other }) } },
+        Token::Relation(relation) => html! { mo form="infix" { (sign_of(relation)) } },
         Token::Name(name) if name == "sqrt" && tokens.get(*at) == Some(&Token::Sign('(')) => {
             *at += 1;
             let inside = row(tokens, at, Some(')'));
@@ -357,19 +449,17 @@ fn atom(tokens: &[Token], at: &mut usize) -> Markup {
             html! { msqrt { (inside) } }
         }
         Token::Name(name) if name == "oo" => html! { mn { "∞" } },
-        Token::Name(name) => {
-            let letter = GREEK.iter().find(|(word, _)| word == name).map_or(name.as_str(), |(_, letter)| letter);
-            match name.len() > 1 && letter == name {
-                true => html! { mi mathvariant="normal" { (name) } },
-                false => html! { mi { (letter) } },
-            }
-        }
+        Token::Name(name) => named(name),
         Token::Sign('(') => {
             let inside = row(tokens, at, Some(')'));
             *at += 1;
             html! { mrow { mo stretchy="false" { "(" } (inside) mo stretchy="false" { ")" } } }
         }
-        Token::Sign('-') => html! { mo { "−" } },
+        Token::Sign(sign @ ('+' | '-')) => {
+            // At the end of a piece too.
+            let form = if is_binary(tokens, *at - 1) { "infix" } else { "prefix" };
+            html! { mo form=(form) { (if *sign == '-' { '−' } else { '+' }) } }
+        }
         Token::Sign('|') => html! { mo stretchy="false" form="prefix" lspace="0" rspace="0" { "|" } },
         Token::Sign(sign) => html! { mo stretchy="false" { (PreEscaped(sign.to_string())) } },
     }
@@ -379,7 +469,7 @@ fn atom(tokens: &[Token], at: &mut usize) -> Markup {
 mod tests {
     use super::*;
 
-    /// The text of a sentence, with what is typeset in brackets and without tags.
+    /// The text of a sentence, with what is typeset in brackets, without tags, and with a tilde where a line may end in a formula.
     fn seen(text: &str) -> String {
         let markup = typeset(text).into_string().replace("<math>", "[").replace("</math>", "]");
         let mut shown = String::new();
@@ -392,7 +482,7 @@ mod tests {
                 _ => {}
             }
         }
-        shown.replace("&lt;", "<").replace(['\u{2062}', '\u{2060}'], "")
+        shown.replace("&lt;", "<").replace(['\u{2062}', '\u{2060}'], "").replace('\u{200b}', "~")
     }
 
     #[test]
@@ -403,8 +493,8 @@ mod tests {
             ("at 2*2*pi*t, 2*pi*3", "at [2·2πt], [2π·3]"),
             ("so from |x - x_0| <= 0.2262", "so from [|x−x0|≤0.2262]"),
             ("sigma* = 6.06 in 1/time; the same", "[σ*=6.06] in 1/time; the same"),
-            ("min{w_x P_low D_x^2, D_e^2} < sigma", "[min{wx] [Plow] [Dx2,] [De2}]\u{a0}[<] [σ]"),
-            ("(h/mu) k_x^2 < 4 w_x a_2", "[(h/μ)] [kx2]\u{a0}[<] [4] [wx] [a2]"),
+            ("min{w_x P_low D_x^2, D_e^2} < sigma", "[min{wx]~[Plow]~[Dx2,]~[De2}<]~[σ]"),
+            ("(h/mu) k_x^2 < 4 w_x a_2", "[(h/μ)]~[kx2<]~[4]~[wx]~[a2]"),
             ("|z|_N = sqrt(z'Nz).", "[|z|N=z′Nz]."),
             ("(((((((((((((((((((((x_1)))))))))))))))))))))", "(((((((((((((((((((((x_1)))))))))))))))))))))"),
             ("a sigma* that", "a [σ*] that"),
@@ -413,7 +503,11 @@ mod tests {
             ("(with e and z alone)", "(with [e] and [z] alone)"),
             ("at most 0.1667 with 0 oscillators - none", "at most 0.1667 with 0 oscillators - none"),
             ("<b> & x_", "&lt;b> &amp; x_"),
-            ("of |length| <= 1, width = b", "of |length|\u{a0}<=\u{a0}1, width\u{a0}=\u{a0}b"),
+            ("of |length| <= 1, width = b", "of |length|\u{a0}≤\u{a0}1, width\u{a0}=\u{a0}b"),
+            (
+                "n_o = 0: 10.2 exp(-0.5 (t - t_0)); n_o = 2: 6 exp(-t))",
+                "[no=0]: [10.2exp(−0.5(t−t0))]; [no=2]: 6 exp(-t))",
+            ),
             ("", ""),
         ] {
             assert_eq!(seen(text).replace("&gt;", ">").replace("<b>", "&lt;b>"), expected, "{text}");
@@ -424,7 +518,14 @@ mod tests {
     fn formulas_are_markup_with_indices_and_roots() {
         let text = typeset("psi_1 <= sqrt(k_2) e^-1").into_string();
         assert!(text.contains("<msub><mi>ψ</mi><mn>1</mn></msub>"), "{text}");
+        // What is beside a bar is as low as beside a letter, and what has an index and a power has them one above the other.
+        let text = typeset("|z|_N <= K2 a_2^2 - q_e_max, -1").into_string() + &text;
+        assert!(text.contains("|</mo><msub><mrow></mrow><mi>N</mi></msub>"), "{text}");
+        assert!(text.contains("<msub><mi>K</mi><mn>2</mn></msub>"), "{text}");
+        assert!(text.contains("<msubsup><mi>a</mi><mn>2</mn><mn>2</mn></msubsup><mo form=\"infix\">−</mo>"), "{text}");
+        let both = "<msub><mi>q</mi><mrow><mi>e</mi><mspace width=\"0.2em\"></mspace><mi mathvariant=\"normal\">max";
+        assert!(text.contains(both), "{text}");
         assert!(text.contains("<msqrt><mrow><msub><mi>k</mi><mn>2</mn></msub></mrow></msqrt>"), "{text}");
-        assert!(text.contains("<msup><mi>e</mi><mrow><mo>-</mo><mn>1</mn></mrow></msup>"), "{text}");
+        assert!(text.contains("<msup><mi>e</mi><mrow><mo form=\"prefix\">−</mo><mn>1</mn></mrow></msup>"), "{text}");
     }
 }

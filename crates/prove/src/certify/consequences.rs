@@ -2,12 +2,13 @@
 //! error box, the regulated output behind a filter.
 
 use super::certification::{Certification, RelativeDegreeGains};
+use super::sampled::SampledCertification;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_theory::data::{Bound, Data, Problem};
 use sigmastar_theory::derivation::consequences::{ErrorBounds, Excitation, error_bounds};
 use sigmastar_theory::derivation::control::Control;
 use sigmastar_theory::derivation::mistuned::Mistuning;
-use sigmastar_theory::derivation::targets::{Consequences, Target};
+use sigmastar_theory::derivation::targets::{Consequences, SampledConsequences, Target};
 
 impl Certification<'_> {
     /// Certified bounds of the periodic error, with answers to the targets; `None` without a certified claim.
@@ -86,5 +87,17 @@ impl Certification<'_> {
     pub fn has_force_at_origin(&self) -> bool {
         let data = Data::new(self.spec, self.precision);
         data.bound(Bound::F, &data.zero(), &data.zero()).is_positive().is_true()
+    }
+}
+
+impl SampledCertification<'_> {
+    /// Certified bounds of the periodic error by the number of oscillators, with answers to the targets; `None` without a certified claim.
+    ///
+    /// Guarantee: they hold for exactly the gain and the sampling period of the claim, along the periodic solution, between samples too.
+    #[must_use]
+    pub fn consequences(&self, targets: &[Target]) -> Option<SampledConsequences> {
+        let proof = self.claim()?;
+        let bounds = proof.evaluation.errors(&Data::new(self.spec, proof.precision), &proof.witness);
+        Some(SampledConsequences::new(&bounds, proof.precision, targets))
     }
 }

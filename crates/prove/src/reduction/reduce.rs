@@ -61,6 +61,14 @@ pub fn reduce(plant: &Plant, gain: Option<&Rational>, watch: &dyn Watch) -> Resu
     reduce_to(plant, &last, watch)
 }
 
+/// The same of the smallest gain without joint metrics, which may be larger.
+///
+/// # Errors
+/// Those of [`reduce`].
+pub(super) fn reduce_without_joint(plant: &Plant, watch: &dyn Watch) -> Result<Reduced, PlantRefusal> {
+    reduce_to(plant, &|_, _, proved| proved, watch)
+}
+
 /// The same with what is proved at last.
 pub(super) fn reduce_to(plant: &Plant, last: &Last<'_>, watch: &dyn Watch) -> Result<Reduced, PlantRefusal> {
     let (whole, candidates) = with_whole(plant, watch)?;

@@ -103,7 +103,7 @@ impl Prepared {
     }
 
     /// The same of a claim that may be asked to rest on norms; in continuous time the data are those of the smallest gain then.
-    fn resting(
+    pub(super) fn resting(
         subject: Subject,
         (gain, on): (Option<Rational>, RestsOn),
         watch: &dyn Watch,
@@ -206,8 +206,8 @@ impl Prepared {
                     let compared = self.plant.as_ref().filter(|_| smallest && options.compare && run.claim().is_some());
                     if let (Some(plant), Some(sigma)) = (compared, run.sigma_star().map(Rational::to_f64)) {
                         // The gain of all of them serves each.
-                        let gain = |plant: &Plant| {
-                            reduce(plant, None, &Unwatched).ok().map(|found| found.proposal.sigma.min(sigma))
+                        let gain = |plant: &Plant, watch: &dyn Watch| {
+                            reduce(plant, None, watch).ok().map(|found| found.proposal.sigma.min(sigma))
                         };
                         run.interval_costs = interval_costs(plant, gain, watch);
                     }

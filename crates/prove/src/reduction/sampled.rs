@@ -39,11 +39,13 @@ pub struct SampledPairs<'p> {
     empty: Specification,
 }
 
-/// What a claim at samples may rest on.
+/// What a claim may rest on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RestsOn {
     /// What serves for the smaller gain.
     Either,
+    /// The same but for joint metrics, which take long, and which only make a gain smaller that is found without them.
+    WithoutJoint,
     /// Norms of the error system, without which there are no rates.
     Norms,
 }

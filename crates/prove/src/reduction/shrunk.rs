@@ -1,7 +1,7 @@
 //! How much smaller the initial set of a plant may have to be, where no gain is found for the one that is asked for.
 
 use super::watch::{Stage, Unwatched, Watch};
-use super::{Prepared, Subject};
+use super::{Prepared, RestsOn, Subject};
 use crate::certify::{Limits, Options};
 use rug::Rational;
 use sigmastar_lang::spec::{Constant, Document, InitialSet, SIZES};
@@ -9,54 +9,76 @@ use sigmastar_lang::spec::{Constant, Document, InitialSet, SIZES};
 /// Where documents have their initial set.
 pub const INITIAL_SET: &str = "/initial_set";
 
-/// How often the sizes are halved at most.
-const HALVINGS: u32 = 15;
+/// How often the sizes may be halved: three tries decide between these, closer where a set is more likely to be wanted.
+const HALVINGS: [u32; 7] = [1, 2, 3, 4, 6, 8, 15];
 
 /// The initial set with all of its sizes divided by the same number.
 #[derive(Clone, Debug)]
 pub struct Shrunk {
     /// By what: a power of two.
     pub divisor: u64,
+    /// The next smaller number, with which no gain was found; 1 is the set that is asked for.
+    pub fails: u64,
     /// The fields of the file, and what they are then.
     pub sizes: Vec<(&'static str, Constant)>,
-    /// The gain that is certified of the file with these sizes; without one the divisor is the largest that was tried.
+    /// A gain that is certified of the file with these sizes, which may have a smaller one; without one the divisor is the largest that was
+    /// tried.
     pub sigma: Option<Rational>,
 }
 
-/// The smallest divisor that is found with which the plant is certified, each tried as a file with these sizes is certified; where the
-/// largest does not do, that one. `None` of a document that is no plant or states no sizes.
+/// The smallest of a few divisors with which the plant is found to be certified, in three searches, each as a file with these sizes is
+/// certified, but without joint metrics where nothing is asked for; where the largest does not do, that one. `None` of a document that is no
+/// plant or states no sizes. Hypothesis: with its own sizes no gain is found.
 ///
 /// Guarantee: what has a gain is certified with it.
 #[must_use]
 pub fn shrunk(
     document: &Document,
     gain: Option<&Rational>,
-    (limits, counts): (&Limits, &[u32]),
+    asked: (&Limits, &[u32]),
     options: Options,
     watch: &dyn Watch,
 ) -> Option<Shrunk> {
     watch.enter(Stage::Comparison);
-    let mut tries = 0;
-    let mut with = |halvings: u32| {
+    let options = Options { compare: false, ..options };
+    let (mut below, mut rungs, mut tries) = (0, &HALVINGS[..], 0);
+    let mut best = None;
+    while !rungs.is_empty() {
+        let (smaller, rest) = rungs.split_at((rungs.len() - 1) / 2);
+        let (halvings, larger) = rest.split_first()?;
         tries += 1;
         watch.tried(tries);
-        let divisor = 1_u64 << halvings;
-        let (subject, sizes) = divided(document, divisor)?;
-        let options = Options { compare: false, ..options };
-        let prepared = Prepared::seeking(&subject, gain.cloned(), (limits, counts), options, &Unwatched).ok();
-        let sigma = prepared.and_then(|prepared| Some(prepared.certify(options).ok()?.certified()?.sigma.clone()));
-        Some(Shrunk { divisor, sizes, sigma })
-    };
-    let mut best = with(HALVINGS)?;
-    let (mut fails, mut serves) = (0, HALVINGS);
-    while best.sigma.is_some() && serves - fails > 1 {
-        let middle = (fails + serves) / 2;
-        match with(middle).filter(|found| found.sigma.is_some()) {
-            Some(found) => (best, serves) = (found, middle),
-            None => fails = middle,
+        let (subject, sizes) = divided(document, 1 << halvings)?;
+        let sigma = certified(subject, gain, asked, options);
+        // Where nothing has a gain this is the last one.
+        let serves = sigma.is_some();
+        if serves || best.as_ref().is_none_or(|best: &Shrunk| best.sigma.is_none()) {
+            best = Some(Shrunk { divisor: 1 << halvings, fails: 1, sizes, sigma });
+        }
+        if serves {
+            rungs = smaller;
+        } else {
+            (below, rungs) = (*halvings, larger);
         }
     }
-    Some(best)
+    best.map(|best| Shrunk { fails: 1 << below, ..best })
+}
+
+/// A gain that is certified of a plant.
+fn certified(
+    subject: Subject,
+    gain: Option<&Rational>,
+    (limits, counts): (&Limits, &[u32]),
+    options: Options,
+) -> Option<Rational> {
+    let plain = gain.is_none() && limits.is_empty() && counts.is_empty() && subject.actuator().is_none();
+    let prepared = match plain {
+        true => Prepared::resting(subject, (None, RestsOn::WithoutJoint), &Unwatched),
+        false => Prepared::seeking(&subject, gain.cloned(), (limits, counts), options, &Unwatched),
+    };
+    let prepared = prepared.ok()?;
+    let run = prepared.certify(options).ok()?;
+    Some(run.certified()?.sigma.clone())
 }
 
 /// The plant of the document with its sizes divided, and these.

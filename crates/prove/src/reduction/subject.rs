@@ -1,6 +1,7 @@
 //! What is certified: a bounding specification, or a plant by its formulas.
 
 use super::proofs::{Reduced, WithoutJoint};
+use super::reduce::reduce_without_joint;
 use super::watch::{Stage, Unwatched, Watch};
 use super::{RestsOn, reduce, reduce_by_norms, reduce_sampled};
 use crate::certify::{Alternatives, WITHOUT_INPUT_GAIN, not_available_with_input_gain, with_triple};
@@ -209,6 +210,7 @@ impl Subject {
             Subject::Plant(plant) => {
                 let reduced = match on {
                     RestsOn::Either => reduce(&plant, gain, watch),
+                    RestsOn::WithoutJoint => reduce_without_joint(&plant, watch),
                     RestsOn::Norms => reduce_by_norms(&plant),
                 };
                 let reduced = reduced.map_err(|refusal| refusal.errors(&plant))?;

@@ -70,10 +70,11 @@ fn values_are_above_random_points_and_near_them() {
     });
 }
 
-/// Hears how many candidates are tried, and of how many parts each stage is.
+/// Hears how many candidates are tried, of how many parts each stage is, and how far whole searches are.
 #[derive(Default)]
 struct Heard {
     tried: AtomicUsize,
+    searched: Mutex<Vec<[usize; 3]>>,
     parts: Mutex<Parts>,
 }
 
@@ -93,6 +94,11 @@ impl Watch for Heard {
 
     fn tried(&self, count: usize) {
         self.tried.fetch_max(count, Ordering::Relaxed);
+    }
+
+    fn searched(&self, done: usize, of: usize, steps: usize) {
+        assert_eq!(self.parts.lock().unwrap().0, Some(Stage::Comparison));
+        self.searched.lock().unwrap().push([done, of, steps]);
     }
 }
 
@@ -125,7 +131,11 @@ fn cells_gains_and_comparisons_are_counted() {
     prepared.certify_watched(Options::default(), &heard).unwrap();
     let (_, parts) = heard.parts.into_inner().unwrap();
     assert!(parts.iter().any(|(stage, of)| *stage == Stage::Orbit && *of > 2), "{parts:?}");
-    assert!(parts.contains(&(Stage::Comparison, 1)), "{parts:?}");
+    let mut searched = heard.searched.into_inner().unwrap();
+    searched.sort_unstable();
+    // The first of them is heard of long before it is done.
+    assert!(searched.starts_with(&[[0, 1, 1], [0, 1, 2]]) && searched.len() > 10, "{searched:?}");
+    assert_eq!(searched.last(), Some(&[1, 1, searched.len() - 1]));
 }
 
 /// The gain that data lead to, and the proved bound of |e| on the way with it; of the gain that is given, where one is.

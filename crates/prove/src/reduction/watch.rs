@@ -1,5 +1,7 @@
 //! What a run is at, for whoever waits for it. Nothing that is worked out depends on it.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 /// A part of the way from a document to a decided claim.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stage {
@@ -29,6 +31,9 @@ pub trait Watch: Sync {
 
     /// So many candidates are tried of a stage that does not know how many there will be; on several threads, as parts.
     fn tried(&self, count: usize);
+
+    /// So many whole searches of so many are done, and so many steps in all of them; on several threads, as parts.
+    fn searched(&self, done: usize, of: usize, steps: usize);
 }
 
 /// Nobody waits.
@@ -41,4 +46,48 @@ impl Watch for Unwatched {
     fn part(&self, _: usize, _: usize) {}
 
     fn tried(&self, _: usize) {}
+
+    fn searched(&self, _: usize, _: usize, _: usize) {}
+}
+
+/// What whole searches within one stage are watched by: it is told of each of their steps, for the first of them may take long.
+pub(super) struct Searches<'w> {
+    watch: &'w dyn Watch,
+    of: usize,
+    done: AtomicUsize,
+    steps: AtomicUsize,
+}
+
+impl Searches<'_> {
+    /// So many searches.
+    pub(super) fn new(of: usize, watch: &dyn Watch) -> Searches<'_> {
+        Searches { watch, of, done: AtomicUsize::new(0), steps: AtomicUsize::new(0) }
+    }
+
+    /// One of them is done.
+    pub(super) fn one_is_done(&self) {
+        let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
+        self.watch.searched(done, self.of, self.steps.load(Ordering::Relaxed));
+    }
+
+    fn step(&self) {
+        let steps = self.steps.fetch_add(1, Ordering::Relaxed) + 1;
+        self.watch.searched(self.done.load(Ordering::Relaxed), self.of, steps);
+    }
+}
+
+impl Watch for Searches<'_> {
+    fn enter(&self, _: Stage) {}
+
+    fn part(&self, _: usize, _: usize) {
+        self.step();
+    }
+
+    fn tried(&self, _: usize) {
+        self.step();
+    }
+
+    fn searched(&self, _: usize, _: usize, _: usize) {
+        self.step();
+    }
 }

@@ -72,6 +72,41 @@ pub struct Consequences {
     pub mistuned: Option<MistunedSummary>,
 }
 
+/// Bounds of the periodic error at samples.
+#[derive(Clone, Debug)]
+pub struct SampledConsequences {
+    /// Bounds for several n_o, the largest one among them.
+    pub by_n_o: Vec<(u64, ErrorBounds)>,
+    /// The answers to the targets.
+    pub targets: Vec<(Target, TargetOutcome)>,
+    /// The largest n_o that the samples can tell apart.
+    pub most: u64,
+}
+
+impl SampledConsequences {
+    /// Answers from bounds for every number of oscillators from 0 on.
+    ///
+    /// Guarantee: the bound at the number of an answer is proved to be at most the target, and that at no smaller number is.
+    #[must_use]
+    pub fn new(bounds: &[ErrorBounds], precision: u32, targets: &[Target]) -> SampledConsequences {
+        let most = bounds.len().saturating_sub(1) as u64;
+        let all = (0_u64..).zip(bounds);
+        let shown = |n_o: u64| N_O.contains(&n_o) || n_o == most;
+        let by_n_o = all.clone().filter(|(n_o, _)| shown(*n_o)).map(|(n_o, bounds)| (n_o, bounds.clone())).collect();
+        let answer = |target: &Target| {
+            let value = target.value.enclose(precision);
+            let of = |bounds: &ErrorBounds| match target.kind {
+                TargetKind::Sup => bounds.sup.le(&value).is_true(),
+                TargetKind::Rms => bounds.rms.le(&value).is_true(),
+            };
+            let reached = all.clone().find(|(_, bounds)| of(bounds));
+            reached.map_or(TargetOutcome::NotReached, |(n_o, _)| TargetOutcome::Reached(n_o))
+        };
+        let targets = targets.iter().map(|target| (target.clone(), answer(target))).collect();
+        SampledConsequences { by_n_o, targets, most }
+    }
+}
+
 impl Consequences {
     /// Evaluates the bounds for the excitation of a proved witness at sigma, e_per a bound of sup|e|.
     ///

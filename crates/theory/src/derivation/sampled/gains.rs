@@ -76,15 +76,8 @@ where
         let nothing = &largest * R::int(0);
         let (mut sup, mut sup_by_rate, mut sup_of_means) = (nothing.clone(), nothing.clone(), nothing);
         for (j, sine) in (1_u32..).zip(law.sines.iter()) {
-            let cosine = &one - sine;
             let size = share(sine);
-            let gain = if let Some(worst) = &mut worst {
-                worst.take(law, sigma, [sine, &size])
-            } else if !law.delayed && law.samples <= SHARP_SAMPLES && cosine.is_certainly_positive() {
-                largest.min(&(&one / cosine))
-            } else {
-                largest.clone()
-            };
+            let gain = of_harmonic(law, &mut worst, sigma, [sine, &size, &largest]);
             let times = if 2 * j == law.samples { one.clone() } else { R::int(2) };
             let own = times / size;
             let term = gain * &own;
@@ -154,6 +147,27 @@ where
     #[must_use]
     pub fn has_energy(&self) -> bool {
         self.energy.is_some()
+    }
+}
+
+/// The bound of |y_j|^2 over |qb_j|^2, of a harmonic by its sine and |D_j|^2, from that of all of them; with an input gain it is
+/// taken into account for the worst ones.
+fn of_harmonic<R: Real>(
+    law: &SampledLaw<R>,
+    worst: &mut Option<Worst<'_, R>>,
+    sigma: &R,
+    [sine, size, largest]: [&R; 3],
+) -> R
+where
+    for<'a> &'a R: Operand<R>,
+{
+    if let Some(worst) = worst {
+        return worst.take(law, sigma, [sine, size]);
+    }
+    let cosine = R::int(1) - sine;
+    match !law.delayed && law.samples <= SHARP_SAMPLES && cosine.is_certainly_positive() {
+        true => largest.min(&(R::int(1) / cosine)),
+        false => largest.clone(),
     }
 }
 
@@ -296,5 +310,6 @@ where
     }
 }
 
+mod by_count;
 #[cfg(test)]
 mod tests;

@@ -25,6 +25,7 @@ pub use stability::{DecayForms, DecayNumbers, Form, Part, Past};
 pub use witness::{DelayWitness, SampledWitness};
 
 use super::condition::{self, Condition};
+use super::consequences::ErrorBounds;
 use super::control::{self, Control};
 use super::harmonics::AtOrigin;
 use super::initial_set::{claimed_distances, set_conditions};
@@ -153,6 +154,23 @@ impl SampledEvaluation {
         }
         conditions.extend(control.condition(data));
         SampledEvaluation { product, law, bounds, size, z, error_box, forms, control, peak, conditions }
+    }
+
+    /// Bounds of rms(e) and sup|e| along the periodic solution with n_o oscillators, for each n_o < N_s/2, from 0 on (derivation, 12.2).
+    ///
+    /// Hypotheses: the evaluation is that of the witness at the precision of `data`, and is proved. Guarantee: they hold for this sigma and h,
+    /// between samples too, and do not increase with n_o up to rounding.
+    #[must_use]
+    pub fn errors(&self, data: &Data<'_>, witness: &SampledWitness) -> Vec<ErrorBounds> {
+        let (sigma, origin) = (data.rational(&witness.sigma), AtOrigin::new(data));
+        let known = if self.law.delayed { None } else { energy::proved(data, &origin, witness) };
+        let e_per = &self.size.e_per;
+        let gains = SampledGains::new(&self.law, &sigma, &data.period).with_energy(known);
+        gains.by_count(&self.law, &sigma, |gains| {
+            let response = gains.response(&origin, &self.size.forcing);
+            let [rms, sup] = [response.rms, response.sup].map(|bound| e_per.min(&bound).ceiling());
+            ErrorBounds { rms, sup }
+        })
     }
 
     /// The truth of all conditions together.

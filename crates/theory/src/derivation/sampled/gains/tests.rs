@@ -113,6 +113,7 @@ fn answers_of_the_law_stay_within_their_bounds() {
         state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (state >> 40) as f64 / 2f64.powi(23) - 1.0
     };
+    let (mut own_worst, mut own_gain) = (0.0_f64, 1.0_f64);
     let (mut worst, mut with_gain, mut with_delay, mut seen) = ([0.0_f64; 6], [0.0_f64; 6], [0.0_f64; 6], 0);
     let models = [(2, "1"), (3, "1"), (12, "1"), (25, "1"), (25, "30")];
     let intervals = [[1.0, 1.0], [0.8, 1.25], [0.5, 1.1], [0.95, 1.8]];
@@ -143,6 +144,8 @@ fn answers_of_the_law_stay_within_their_bounds() {
                 continue;
             }
             seen += 1;
+            let by_count = gains.by_count(&law, &sigma, Clone::clone);
+            assert_eq!(by_count.len(), samples as usize / 2 + samples as usize % 2);
             for trial in 0..24 {
                 let b = match trial % 4 {
                     0 | 2 => low,
@@ -176,6 +179,26 @@ fn answers_of_the_law_stay_within_their_bounds() {
                     of_answer.mean * mean.abs() + of_answer.by_rate * rate,
                 ];
                 let found = answer(&data, &law, (sigma, b, n_o), (mean, &q));
+                // The bounds for these oscillators alone.
+                let own = &by_count[n_o as usize];
+                let own_at_samples = least(own.sup, own.sup_by_rate);
+                let own_bounds = [
+                    own_at_samples,
+                    own_at_samples + own.between * rate,
+                    least(own.rms, own.rms_by_rate) + own.between_rms * rate,
+                ];
+                for ((found, own), bound) in found.iter().zip(own_bounds).zip(bounds) {
+                    // Where no harmonic is left e vanishes at the samples, up to rounding.
+                    assert!(
+                        *found <= own * (1.0 + 1e-3) + 1e-9,
+                        "{samples} {mu} {low} {high} {product} {trial}: {found} {own}"
+                    );
+                    assert!(own <= bound * (1.0 + 1e-12), "{own} {bound}");
+                    if n_o > 0 && !delayed {
+                        own_worst = own_worst.max(found / own);
+                        own_gain = own_gain.min(own / bound);
+                    }
+                }
                 for ((found, bound), worst) in found.iter().zip(bounds).zip(&mut *worst) {
                     assert!(
                         found <= &(bound * (1.0 + 1e-3)),
@@ -186,7 +209,8 @@ fn answers_of_the_law_stay_within_their_bounds() {
             }
         }
     }
-    // None of the bounds is idle.
+    // None of the bounds is idle, and more oscillators lower them.
+    assert!(own_worst > 0.6 && own_gain < 0.3, "{own_worst} {own_gain}");
     assert!(seen >= 40, "{seen}");
     for worst in [worst, with_gain] {
         let least = [0.6, 0.6, 0.6, 0.6, 0.6, 0.3];
