@@ -1,7 +1,8 @@
 //! The free numbers of the matrix inequality (E) of existence (derivation, 13.7), proposed by semidefinite programs over sampled points.
 
+use super::place::{Place, Places};
 use super::pointwise::{Derivatives, MatrixAt};
-use super::suprema::{FloatSuprema, Place, Places};
+use super::suprema::FloatSuprema;
 use super::weights::{EnergyAt, EnergyWeights};
 use sigmastar_lang::spec::Bound;
 use sigmastar_matrix::AffineMatrix;

@@ -1,8 +1,9 @@
 //! The metrics of the joint inequality (Jm) (derivation, 13.7), proposed by semidefinite programs over sampled points.
 
 use super::eigen::largest;
+use super::place::{Place, Places};
 use super::pointwise::Derivatives;
-use super::suprema::{FloatSuprema, Place, Places};
+use super::suprema::FloatSuprema;
 use super::weights::Root;
 use sigmastar_lang::spec::Bound;
 use sigmastar_matrix::AffineMatrix;

@@ -33,6 +33,7 @@ mod joint_program;
 mod majorant;
 mod metric_form;
 mod narrow;
+mod place;
 mod points;
 mod pointwise;
 mod prove_value;
@@ -62,6 +63,7 @@ pub use entry::{Entry, TABLE};
 pub use float_waves::FloatCurve;
 pub use joint_program::{FloatLevel, FloatMetric, LevelAsked, LookedAt};
 pub use majorant::{Majorant, Term};
+pub use place::{Place, Places};
 pub use pointwise::Asked;
 pub use prove_value::ProvedValue;
 pub use quantity::Part;
@@ -72,7 +74,7 @@ pub use sampled_point::{SampledEnergy, SampledRadius, SampledWeights};
 pub use sampled_threshold::Focus;
 pub use slopes::{FloatSlopes, Slopes};
 pub use smooth::SmoothnessFailure;
-pub use suprema::{FloatSuprema, Place, Places};
+pub use suprema::FloatSuprema;
 pub use weights::{EnergyAt, EnergyWeights, FloatWeights};
 
 /// The precision of the enclosures on boxes, in bits: a bound is wanted to a few digits, and boxes are many.

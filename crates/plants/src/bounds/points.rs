@@ -1,8 +1,9 @@
 //! The points of a grid, looked at in pieces, so that several threads may: what is found does not depend on who looks.
 
 use super::entry::{TABLE, of_table};
+use super::place::{Outputs, Place, Places, keep, merged};
 use super::pointwise::{Asked, Derivatives, MatrixAt, Pointwise};
-use super::suprema::{FloatSuprema, Moment, Place, Places};
+use super::suprema::FloatSuprema;
 use rayon::prelude::*;
 use sigmastar_lang::expr::Evaluator;
 use sigmastar_lang::spec::Bound;
@@ -12,14 +13,6 @@ const PIECE: usize = 1024;
 
 /// Where single bounds are largest, so many points each: a list that serves at other weights too.
 const OF_A_BOUND: usize = 4;
-
-/// The derivatives at a point, in the order of the program, and what depends on t alone there.
-#[derive(Clone, Copy)]
-pub(super) struct Outputs<'a> {
-    pub(super) outputs: &'a [f64],
-    pub(super) moment: &'a Moment,
-    pub(super) matrices: &'a [MatrixAt; 2],
-}
 
 impl FloatSuprema {
     /// What `see` makes of all points, in pieces, in the order of the points; `asked` says which derivatives there are.
@@ -135,21 +128,4 @@ impl FloatSuprema {
         let best = self.largest_of_bounds(at, places, (asked, OF_A_BOUND, N + 1), value);
         best.into_iter().flatten().map(|(_, place)| place).collect()
     }
-}
-
-/// Keeps the largest values, the largest first, and of equal ones those that come first.
-pub(super) fn keep(best: &mut Vec<(f64, Place)>, count: usize, value: f64, at: Place) {
-    if value.is_nan() || (best.len() == count && best.last().is_some_and(|(least, _)| value <= *least)) {
-        return;
-    }
-    let place = best.iter().position(|(other, _)| value > *other).unwrap_or(best.len());
-    best.insert(place, (value, at));
-    best.truncate(count);
-}
-
-/// The largest values of all pieces.
-pub(super) fn merged(pieces: impl IntoIterator<Item = Vec<(f64, Place)>>, count: usize) -> Vec<(f64, Place)> {
-    let mut best = Vec::new();
-    pieces.into_iter().flatten().for_each(|(value, place)| keep(&mut best, count, value, place));
-    best
 }

@@ -3,7 +3,8 @@
 //!
 //! The points of a pair may have different times: that is what a constant S of [`super::splitting`] allows for.
 
-use super::suprema::{FloatSuprema, Place, Places};
+use super::place::{Place, Places};
+use super::suprema::FloatSuprema;
 use super::weights::{Column, FloatWeights, Root, Thresholds};
 use sigmastar_lang::spec::Bound;
 use std::sync::Arc;

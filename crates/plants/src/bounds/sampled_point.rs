@@ -1,8 +1,9 @@
 //! The matrix inequalities of the regulator at samples at sampled points, in doubles: they propose, and nothing rests on them.
 
+use super::place::{Place, Places};
 use super::pointwise::{Derivatives, MatrixAt};
 use super::sampled_form::{Doubles, End, FormNumbers, Less, LoopNumbers, Parts, form};
-use super::suprema::{FloatSuprema, Place, Places};
+use super::suprema::FloatSuprema;
 use super::weights::Root;
 use rug::Rational;
 use sigmastar_exact::number::Portable;

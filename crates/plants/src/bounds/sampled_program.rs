@@ -1,10 +1,11 @@
 //! The free numbers of the inequality of existence of the regulator at samples (derivation, 13.7, (E) at samples), proposed by
 //! semidefinite programs over sampled points.
 
+use super::place::{Place, Places};
 use super::pointwise::{Derivatives, MatrixAt};
 use super::sampled_form::{Doubles, End, FormNumbers, Less, LoopNumbers, form};
 use super::sampled_point::{SampledEnergy, Slopes};
-use super::suprema::{FloatSuprema, Place, Places};
+use super::suprema::FloatSuprema;
 use sigmastar_lang::spec::Bound;
 use sigmastar_matrix::AffineMatrix;
 use sigmastar_matrix::semidefinite::propose;

@@ -1,9 +1,10 @@
 //! The least sigma of the matrix inequality (M) at sampled points, in doubles: it proposes, and nothing rests on it.
 
 use super::entry::TABLE;
+use super::place::{Place, Places};
 use super::pointwise::{Asked, Derivatives, MatrixAt};
 use super::sampled_pairs::{Corners, MatrixArguments};
-use super::suprema::{FloatSuprema, Place, Places};
+use super::suprema::FloatSuprema;
 use super::weights::{FloatWeights, Root, Thresholds};
 use std::sync::Arc;
 

@@ -3,9 +3,10 @@
 
 use super::eigen::largest as largest_eigenvalue;
 use super::engine::Engine;
+use super::place::{Place, Places};
 use super::pointwise::{product, roots};
 use super::sampled_pairs::MatrixArguments;
-use super::suprema::{FloatSuprema, Place, Places};
+use super::suprema::FloatSuprema;
 use super::weights::{FloatWeights, Root};
 use rug::Rational;
 use sigmastar_exact::number::{Direction, round_f64};

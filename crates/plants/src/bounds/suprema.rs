@@ -5,7 +5,7 @@ use super::engine::moves;
 use super::entry::of_table;
 use super::float_waves::{FloatCurve, FloatMatrix};
 use super::narrow::extreme_errors;
-use super::points::{Outputs, keep, merged};
+use super::place::{Moment, Outputs, Place, Places, keep, merged};
 use super::pointwise::{Asked, Derivatives, MatrixAt, Pointwise};
 use rayon::prelude::*;
 use rug::Rational;
@@ -27,18 +27,6 @@ const STARTS: usize = 6;
 /// The shares of E that are looked at.
 const ERRORS: [f64; 3] = [-1.0, 0.0, 1.0];
 
-/// A place in the grid: of the time, of the point of the ball, and of the share of E, or of the errors of a narrowed grid.
-pub type Place = [usize; 3];
-
-/// Which points of the grid are looked at.
-#[derive(Clone, Debug)]
-pub enum Places {
-    /// Every so many times; where that is above 1, fewer points at each time.
-    Stride(usize),
-    /// Those of a list, as [`FloatSuprema::extreme`] makes it.
-    Listed(Arc<Vec<Place>>),
-}
-
 /// A sampled supremum.
 #[derive(Clone, Copy, Debug)]
 pub struct Sampled {
@@ -46,19 +34,6 @@ pub struct Sampled {
     pub value: f64,
     /// The difference between the largest and the smallest value that was met.
     pub spread: f64,
-}
-
-/// What depends on t alone at one time.
-#[derive(Clone, Debug)]
-pub(super) struct Moment {
-    time: f64,
-    pub(super) orbit: Vec<f64>,
-    /// f(t, xb, 0).
-    pub(super) velocity: Vec<f64>,
-    /// What the program computes from t alone.
-    kept: Vec<f64>,
-    /// Of which member of the family.
-    member: usize,
 }
 
 /// A member of a family.

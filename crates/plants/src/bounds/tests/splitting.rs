@@ -44,7 +44,7 @@ fn a_proved_splitting_holds_at_random_pairs() {
         let points = random_points(f.len(), 4000);
         let (mut roots, mut columns) = (Vec::new(), Vec::new());
         samples.largest_of_derivatives_at(of_states, &points, |derivatives, matrix| {
-            roots.push(Root::new(&WEIGHTS.of_states(derivatives, matrix)).unwrap());
+            roots.push(Root::new(WEIGHTS.of_states(derivatives, matrix)).unwrap());
             0.0
         });
         samples.largest_of_derivatives_at(of_error, &points, |derivatives, _| {
