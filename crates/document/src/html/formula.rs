@@ -101,7 +101,7 @@ fn kept(text: &str) -> String {
 }
 
 /// A relation as it is shown.
-fn sign_of<'r>(relation: &'r str) -> &'r str {
+fn sign_of(relation: &str) -> &str {
     match relation {
         "<=" => "≤",
         ">=" => "≥",
