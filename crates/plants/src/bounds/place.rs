@@ -11,7 +11,7 @@ pub type Place = [usize; 3];
 pub enum Places {
     /// Every so many times; where that is above 1, fewer points at each time.
     Stride(usize),
-    /// Those of a list, as [`FloatSuprema::extreme`] makes it.
+    /// Those of a list, as [`FloatSuprema::extreme`](super::FloatSuprema::extreme) makes it.
     Listed(Arc<Vec<Place>>),
 }
 
