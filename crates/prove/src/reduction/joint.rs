@@ -56,8 +56,9 @@ const SHAPE_STEP: f64 = 0.2;
 /// Digits of the numbers of a metric.
 const DIGITS: u32 = 9;
 
-/// Boxes of a proof.
+/// Boxes of a proof; from three states on fewer, for another program, which may need many times as many, is to decide it again.
 const EFFORT: usize = 30_000;
+const MODEST_EFFORT: usize = 3_000;
 
 /// What is found at one gain.
 #[derive(Clone)]
@@ -227,7 +228,8 @@ impl JointSearch<'_> {
 
     fn decided(&self, Found { sigma, model, stability, .. }: &Found) -> Option<Reduced> {
         let Proofs { engine, .. } = self.proofs;
-        if !engine.decide_joint_stability(stability, EFFORT).truth.is_true() {
+        let effort = if self.proofs.states() > 2 { MODEST_EFFORT } else { EFFORT };
+        if !engine.decide_joint_stability(stability, effort).truth.is_true() {
             return None;
         }
         let by_matrix = ByMatrix::Joint(Arc::new(stability.clone()));
@@ -236,7 +238,7 @@ impl JointSearch<'_> {
         if let Some(ByEnergy::Joint(known)) = &model.by_energy {
             let proved = GIVEN_UP.into_iter().find_map(|share| {
                 let weaker = weakened(known, 1.0 - share)?;
-                engine.decide_joint(&weaker, EFFORT).truth.is_true().then_some(weaker)
+                engine.decide_joint(&weaker, effort).truth.is_true().then_some(weaker)
             })?;
             model.by_energy = Some(ByEnergy::Joint(Arc::new(proved.clone())));
             existence = Some(proved);
