@@ -515,6 +515,17 @@ mod tests {
     }
 
     #[test]
+    fn what_is_closed_before_it_is_opened_is_no_formula() {
+        let closed = |text: &str| tokenise(text).is_some_and(|tokens| is_closed(&tokens));
+        for text in ["(x_1)", "(x_1)+(x_2)", "((x_1))", "x_1"] {
+            assert!(closed(text), "{text}");
+        }
+        for text in ["x_1)+(x_2", "(x_1))+((x_2)", ")x_1(", "(x_1", "x_1)"] {
+            assert!(!closed(text), "{text}");
+        }
+    }
+
+    #[test]
     fn formulas_are_markup_with_indices_and_roots() {
         let text = typeset("psi_1 <= sqrt(k_2) e^-1").into_string();
         assert!(text.contains("<msub><mi>ψ</mi><mn>1</mn></msub>"), "{text}");

@@ -118,7 +118,7 @@ fn rest_of_sum(a: f64, b: f64, s: f64) -> f64 {
     (a - (s - part)) + (b - part)
 }
 
-/// The upper 26 bits of a number that [`fits`], and the rest of it (Veltkamp).
+/// The upper 26 bits of a number below 2^900 (an end, or a quotient of two), and the rest of it (Veltkamp).
 #[inline]
 fn halves(a: f64) -> [f64; 2] {
     let scaled = 134_217_729.0 * a;

@@ -204,19 +204,6 @@ impl Enclosure {
         }
     }
 
-    /// The interval with end points of so many bits, rounded outward.
-    #[must_use]
-    pub fn rounded(&self, precision: u32) -> Enclosure {
-        if self.precision() == precision {
-            return self.clone();
-        }
-        let [lower, upper] = self.long();
-        Enclosure::new(
-            Float::with_val_round(precision, &*lower, Round::Down).0,
-            Float::with_val_round(precision, &*upper, Round::Up).0,
-        )
-    }
-
     /// Whether the quantity is proved to exist.
     #[must_use]
     pub fn is_defined(&self) -> bool {

@@ -138,11 +138,13 @@ impl FloatSuprema {
         let mut found = solve(program)?;
         for _ in 0..ROUNDS {
             let (variables, margins) = &found;
-            let mut worst = self.largest_of_derivatives(at, &Places::Stride(1), POINTS, |derivatives, _| match program
-                .holds(&program.point(derivatives), variables, margins)
-            {
-                true => f64::NAN,
-                false => program.lack(&program.point(derivatives), variables, margins),
+            let mut worst = self.largest_of_derivatives(at, &Places::Stride(1), POINTS, |derivatives, _| {
+                let point = program.point(derivatives);
+                // Where it holds nobody asks by how much.
+                if program.holds(&point, variables, margins) {
+                    return f64::NAN;
+                }
+                program.lack(&point, variables, margins)
             });
             worst.retain(|(below, _)| *below > 0.0);
             if worst.is_empty() {

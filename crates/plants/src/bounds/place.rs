@@ -52,3 +52,29 @@ pub(super) fn merged(pieces: impl IntoIterator<Item = Vec<(f64, Place)>>, count:
     pieces.into_iter().flatten().for_each(|(value, place)| keep(&mut best, count, value, place));
     best
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// In pieces the same values are kept, of equal ones the same places, and none that is no number.
+    #[test]
+    fn pieces_keep_what_all_would() {
+        let values = [2.0, 5.0, f64::NAN, 5.0, 1.0, 5.0, 3.0, 5.0, 2.0, 4.0, f64::NEG_INFINITY, 5.0];
+        let listed = |from: usize, to: usize, count: usize| {
+            let mut best = Vec::new();
+            (from..to).for_each(|i| keep(&mut best, count, values[i], [i, 0, 0]));
+            best
+        };
+        for count in [1, 3, 6, 20] {
+            let all = listed(0, values.len(), count);
+            assert_eq!(all.len(), count.min(11));
+            assert!(all.iter().zip([1, 3, 5, 7, 11]).all(|((_, place), i)| *place == [i, 0, 0]), "{all:?}");
+            for size in 1..values.len() {
+                let starts = (0..values.len()).step_by(size);
+                let pieces = starts.map(|from| listed(from, values.len().min(from + size), count));
+                assert_eq!(merged(pieces, count), all, "{count} {size}");
+            }
+        }
+    }
+}

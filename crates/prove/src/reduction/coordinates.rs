@@ -233,7 +233,12 @@ impl CoordinateSearch<'_> {
         if let Some(energy) = energy {
             let weights = Arc::new(energy.clone());
             let (known, k_p) = (weights.clone(), weights.k_p);
-            let grid = Grid::new(move |x, e| LeastMargin::new(k_p, energy_at([x, e], &known)), units, ratio);
+            let least = move |points: Vec<EnergyAt>| {
+                let least =
+                    move |value: f64| points.iter().map(|point| point.margin(k_p, value)).fold(f64::INFINITY, f64::min);
+                Remembered::new(least)
+            };
+            let grid = Grid::new(move |x, e| least(energy_at([x, e], &known)), units, ratio);
             let margin: Arc<EnergyMargin> =
                 Arc::new(move |at, value| grid.at(at, |node| node.at(value)).unwrap_or(f64::NAN));
             model.by_energy = Some(ByEnergy::Sampled { weights, margin });
@@ -460,24 +465,21 @@ impl CoordinateSearch<'_> {
     }
 }
 
-/// The least c_y of some points as a function of the threshold, which stays as it is while a set is sought.
-struct LeastMargin {
-    k_p: f64,
-    points: Vec<EnergyAt>,
-    /// The last threshold, and what it was there.
+/// A function that knows its last argument and value: the threshold stays as it is while a set is sought.
+struct Remembered<F> {
+    of: F,
     last: Mutex<[f64; 2]>,
 }
 
-impl LeastMargin {
-    fn new(k_p: f64, points: Vec<EnergyAt>) -> LeastMargin {
-        LeastMargin { k_p, points, last: Mutex::new([f64::NAN; 2]) }
+impl<F: Fn(f64) -> f64> Remembered<F> {
+    fn new(of: F) -> Remembered<F> {
+        Remembered { of, last: Mutex::new([f64::NAN; 2]) }
     }
 
-    fn at(&self, value: f64) -> f64 {
+    fn at(&self, argument: f64) -> f64 {
         let mut last = self.last.lock().unwrap_or_else(PoisonError::into_inner);
-        if last[0] != value {
-            let least = self.points.iter().map(|point| point.margin(self.k_p, value)).fold(f64::INFINITY, f64::min);
-            *last = [value, least];
+        if last[0] != argument {
+            *last = [argument, (self.of)(argument)];
         }
         last[1]
     }
@@ -541,6 +543,19 @@ fn exponential(n: usize, entries: &[f64]) -> DMatrix<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// It is evaluated where the argument is another one, and only there.
+    #[test]
+    fn the_last_value_is_remembered() {
+        let count = std::cell::Cell::new(0);
+        let square = Remembered::new(|x: f64| {
+            count.set(count.get() + 1);
+            x * x
+        });
+        let found = [2.0, 2.0, 3.0, 2.0, 2.0, f64::NAN].map(|x| square.at(x));
+        assert_eq!(found[..5], [4.0, 4.0, 9.0, 4.0, 4.0]);
+        assert!(found[5].is_nan() && count.get() == 4);
+    }
 
     /// Symmetric, positive, of determinant 1, and with all of its parameters.
     #[test]

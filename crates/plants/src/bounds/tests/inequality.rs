@@ -28,7 +28,17 @@ fn a_proved_threshold_holds_at_random_points() {
     {
         let weights = ["0.5", "0.4"];
         let wanted = inequality(x, e, weights, 0.0);
-        let proved = engine.prove_inequality(&samples, &wanted, &one(), &mut 0).unwrap_or_else(|| panic!("{name}"));
+        let mut failed = 0;
+        let proved =
+            engine.prove_inequality(&samples, &wanted, &one(), &mut failed).unwrap_or_else(|| panic!("{name}"));
+        // What failed, but for the last of it, is not tried again, and nothing else changes; without the next attempts the threshold is larger.
+        let tried = failed;
+        assert_eq!(engine.prove_inequality(&samples, &wanted, &one(), &mut failed).as_ref(), Some(&proved), "{name}");
+        assert_eq!(failed, tried);
+        if tried > 0 {
+            let later = engine.prove_inequality(&samples, &wanted, &one(), &mut 5).unwrap_or_else(|| panic!("{name}"));
+            assert!(later.value > proved.value, "{name}");
+        }
         let at = [Rational::from(&wanted.x + engine.region().radius()), wanted.e.clone()].map(|end| end.to_f64());
         let weights = FloatWeights { w_x: 0.5, k_p: 0.8, rate: 0.001 };
         let met = samples.threshold_at(at, &random_points(engine.states(), 20_000), weights);

@@ -39,10 +39,13 @@ fn inequality([x, e]: [f64; 2], metrics: &[FloatMetric; 2]) -> JointInequality {
 }
 
 fn stability(samples: &FloatSuprema) -> JointStability {
+    stability_for(samples, LookedAt::Grid)
+}
+
+fn stability_for(samples: &FloatSuprema, looked: LookedAt) -> JointStability {
     let at = [4.3, 3.2];
-    let (metrics, levels, share) = samples
-        .propose_joint_stability(at, VALUE, &asked(), (LookedAt::Grid, &mut Vec::new()))
-        .expect("metrics at this gain");
+    let (metrics, levels, share) =
+        samples.propose_joint_stability(at, VALUE, &asked(), (looked, &mut Vec::new())).expect("metrics at this gain");
     assert!(share < 1.0, "{share}");
     JointStability { inequality: inequality(at, &metrics), levels: levels.map(level) }
 }
@@ -75,6 +78,19 @@ fn it_holds_at_every_larger_gain() {
             let least = minus_derivative(between, VALUE / share, d, [x, e_of, y * VALUE]);
             assert!(least > 0.0, "{share} {x} {e_of} {y}: {least}");
         }
+    }
+}
+
+/// What is proposed for the points of a grid alone does not hold between them where derivatives are largest there.
+#[test]
+fn metrics_for_a_proof_hold_between_the_points_of_the_grid() {
+    for bump in ["exp(-4*(e - 8/5)^2)/20", "exp(-(e - 8/5)^2)/10"] {
+        let q = format!("-4*x - e/2 + tanh(e) + x*{bump}");
+        let plant = plant(&["x"], &["-x/2 + 4*e + cos(2*pi*t)"], &q);
+        let Case { engine, samples } = case(&plant, &[vec![1.0]], curve(&["0"], &[["0.1", "0"]]), "0.01");
+        let decided = |looked: LookedAt| engine.decide_joint_stability(&stability_for(&samples, looked), EFFORT).truth;
+        assert!(!decided(LookedAt::Grid).is_true(), "{bump}");
+        assert!(decided(LookedAt::Between).is_true(), "{bump}");
     }
 }
 
