@@ -151,12 +151,12 @@ fn prove(
     lines.push(
         "claim: verdict, n_o, mu, set, periodic solution, control and statement follow from what is proved".to_owned(),
     );
-    let mut largest = proved.arguments.each_ref().map(|argument| argument.hi().clone());
+    let mut largest = proved.arguments.each_ref().map(|argument| argument.hi().into_owned());
     if let Some(plant) = &d.spec.plant {
         // Those of exact regulation, which has no figures of them, count as well.
         for (end, other) in largest.iter_mut().zip(derivation.regulated(d).into_iter().flatten()) {
-            if other.hi() > end {
-                end.clone_from(other.hi());
+            if *other.hi() > *end {
+                end.clone_from(&other.hi());
             }
         }
         plant.lies_within(largest.each_ref(), "/witness")?;

@@ -8,7 +8,10 @@ use std::cell::Cell;
 
 /// What the claim may cost, and again what the figures may: a few seconds of arithmetic. A certificate by boxes takes two
 /// hundredths of it.
-pub const LIMIT: u64 = 100_000_000;
+pub const LIMIT: u64 = 800_000_000;
+
+/// What an operation of MPFR costs for each word of the precision, where one of doubles costs 1.
+const WORD: u64 = 8;
 
 thread_local! {
     /// What is left; unlimited outside of [`limited`], for whoever uses an interval by itself.
@@ -21,20 +24,25 @@ fn words(precision: u32) -> u64 {
     u64::from(precision).div_ceil(64)
 }
 
-/// Pays for a sum, product or quotient, one step a word of the precision; `false` when nothing is left.
+/// Pays for a sum, product or quotient of doubles, one step; `false` when nothing is left.
+pub fn short() -> bool {
+    spend(1)
+}
+
+/// Pays for a sum, product or quotient of MPFR.
 pub fn arithmetic(precision: u32) -> bool {
-    spend(words(precision))
+    spend(WORD * words(precision))
 }
 
 /// Pays for an elementary function at both ends, whose cost grows with the square of the precision.
 pub fn elementary(precision: u32) -> bool {
     let words = words(precision);
-    spend(20 * words + 24 * words * words)
+    spend(WORD * (20 * words + 24 * words * words))
 }
 
 /// Pays for what the zeta function costs more: its cost grows with the cube.
 pub fn zeta(precision: u32) -> bool {
-    spend(400 * words(precision).pow(3))
+    spend(WORD * 400 * words(precision).pow(3))
 }
 
 fn spend(steps: u64) -> bool {
@@ -85,13 +93,26 @@ mod tests {
     fn what_is_spent_proves_nothing() {
         let two = Interval::int(2, 128);
         let (sum, steps) = limited(LIMIT, || &two + &two);
-        assert!(sum.is_point() && steps == 2, "{steps}");
-        let ((first, second, done), steps) = limited(3, || (&two + &two, &two * &two, exhausted()));
+        assert!(sum.is_point() && steps == 2 * WORD, "{steps}");
+        let enough = 3 * WORD;
+        let ((first, second, done), steps) = limited(enough, || (&two + &two, &two * &two, exhausted()));
         assert!(first.is_point() && !second.is_defined() && done);
-        assert_eq!(steps, 3);
+        assert_eq!(steps, enough);
         assert_eq!(second.lt(&first), None);
         // Outside, nothing is limited.
         assert!(!exhausted() && (&two * &two).is_point());
+    }
+
+    #[test]
+    fn doubles_are_paid_for_too() {
+        let two = Interval::int(2, 53);
+        let operations: [fn(&Interval) -> Interval; 7] =
+            [|x| x + x, |x| x * x, |x| x / x, |x| x - 1, Interval::sqr, Interval::sqrt, |x| x.powi(3)];
+        for f in operations {
+            let ((first, second), steps) = limited(2, || (f(&two), f(&two)));
+            assert!(first.is_defined() && !second.is_defined());
+            assert_eq!(steps, 2);
+        }
     }
 
     #[test]

@@ -151,6 +151,6 @@ pub fn shown(value: &Interval) -> String {
         return "undefined".to_owned();
     }
     let digits = |end: &rug::Float| if *end == 0 { "0".to_owned() } else { format!("{:.9e}", end.to_f64()) };
-    let (lo, hi) = (digits(value.lo()), digits(value.hi()));
+    let (lo, hi) = (digits(&value.lo()), digits(&value.hi()));
     if lo == hi { lo } else { format!("[{lo}, {hi}]") }
 }

@@ -54,7 +54,7 @@ pub fn text(field: &Field<'_>, expected: &str) -> Outcome<()> {
 /// How far a stored figure of `digits` decimals may lie from the number: by its rounding, relatively 10^-digits, and by the
 /// width of the checker's own enclosure.
 pub fn tolerance(value: &Interval, digits: u32) -> Interval {
-    let width = Interval::point(value.hi()) - Interval::point(value.lo());
+    let width = value.ceiling() - value.floor();
     let unit = Interval::rational(&Rational::from((1, Integer::from(Integer::u_pow_u(10, digits)))), PRECISION);
     (value.abs().ceiling() * unit + width * 4).ceiling()
 }
@@ -67,7 +67,7 @@ const LAST_PRECISION: u32 = 1024;
 
 /// Demands that a figure is known well enough to tell a right one from a wrong one: else more bits are needed.
 pub fn precise(field: &Field<'_>, mine: &Interval) -> Outcome<()> {
-    let width = Interval::point(mine.hi()) - Interval::point(mine.lo());
+    let width = mine.ceiling() - mine.floor();
     let unit = Interval::rational(&Rational::from((1, Integer::from(Integer::u_pow_u(10, PRECISE_DIGITS)))), PRECISION);
     let known = mine.is_bounded() && width.le(&(mine.abs().ceiling() * unit)) == Some(true);
     if known || mine.precision() >= LAST_PRECISION {
@@ -104,15 +104,15 @@ pub fn span(field: &Field<'_>, low: &Interval, high: &Interval) -> Outcome<()> {
         return text(lo, "undefined").and_then(|()| text(hi, "undefined"));
     }
     // Each end lies on its side of the number, and no further from it than its digits make it.
-    if let Some(value) = end(lo, low.lo())? {
-        let near = (Interval::point(low.lo()) - &value).le(&tolerance(low, DIGITS)) == Some(true);
-        if !near || Interval::point(low.hi()).lt(&value) == Some(true) {
+    if let Some(value) = end(lo, &low.lo())? {
+        let near = (low.floor() - &value).le(&tolerance(low, DIGITS)) == Some(true);
+        if !near || low.ceiling().lt(&value) == Some(true) {
             return Err(differs(lo, lo.text()?, low));
         }
     }
-    if let Some(value) = end(hi, high.hi())? {
-        let near = (&value - Interval::point(high.hi())).le(&tolerance(high, DIGITS)) == Some(true);
-        if !near || value.lt(&Interval::point(high.lo())) == Some(true) {
+    if let Some(value) = end(hi, &high.hi())? {
+        let near = (&value - high.ceiling()).le(&tolerance(high, DIGITS)) == Some(true);
+        if !near || value.lt(&high.floor()) == Some(true) {
             return Err(differs(hi, hi.text()?, high));
         }
     }
@@ -134,7 +134,7 @@ pub fn tight(field: &Field<'_>, mine: &Interval) -> Outcome<()> {
         return Ok(());
     }
     precise(field, mine)?;
-    let above = stored - Interval::point(mine.hi());
+    let above = stored - mine.ceiling();
     let near = above.le(&tolerance(mine, CLAIM_DIGITS)) == Some(true);
     if near { Ok(()) } else { Err(differs(field, field.numeral()?, mine)) }
 }
@@ -149,8 +149,8 @@ pub fn condition(element: &Field<'_>, mine: &Condition) -> Outcome<()> {
     span(&fields.required("rhs")?, &mine.rhs, &mine.rhs)?;
     let (field, margin) = (fields.required("margin")?, &mine.rhs - &mine.lhs);
     // The margin is rounded down, so it is the lower end of an enclosure.
-    if let Some(value) = end(&field, margin.lo())? {
-        let apart = (value - Interval::point(margin.lo())).abs();
+    if let Some(value) = end(&field, &margin.lo())? {
+        let apart = (value - margin.floor()).abs();
         if apart.le(&tolerance(&margin, DIGITS)) != Some(true) {
             return Err(differs(&field, field.text()?, &margin));
         }

@@ -70,9 +70,9 @@ impl Rest {
         let (ball, zero) = (vec![around(&r); plant.states()], Interval::int(0, p));
         let origin = vec![zero.clone(); plant.states()];
         let judge = |piece: &Piece| {
-            let (expanded, half) = (Expanded::new(&path, piece, &values), piece.cell.half_width());
+            let (expanded, half) = (Expanded::new(&path, piece, &values), piece.cell.all.half_width());
             let polynomial = &expanded.at_middle[0];
-            let (mut sides, middles) = (piece.intervals(), piece.middles());
+            let (mut sides, middles) = (piece.sides.clone(), piece.middles());
             // The polynomials are of s: the second is in t by the clock, which stands after e and the parameters.
             let clock =
                 |sides: &[Interval]| plant.clock().map_or_else(|| Interval::int(1, p), |i| sides[1 + i].clone());

@@ -47,7 +47,7 @@ use rug::{Float, Rational};
 use std::rc::Rc;
 
 /// The precision, in bits, of the boxes.
-const PRECISION: u32 = 64;
+const PRECISION: u32 = 53;
 /// Those of Taylor arithmetic and of the Jacobian over time, each tried where the one before does not decide.
 const TAYLOR_PRECISIONS: [u32; 2] = [128, 320];
 /// The precision, in bits, at which the ends of a region are rounded up.
@@ -274,7 +274,7 @@ fn drift(plant: &Plant, model: &Model, machine: &Machine<'_>, root: &Rc<Cell>, v
     let entries: Vec<_> = model.jacobian.iter().flatten().copied().collect();
     let program = machine.program(&entries);
     let ball = vec![time::around(&r); plant.states()];
-    let rest = Region::of_family(plant, PRECISION).whole(machine, root.clone()).intervals();
+    let rest = Region::of_family(plant, PRECISION).whole(machine, root.clone()).sides;
     let mut largest = zero.clone();
     for cell in &root.parts(DRIFT_CELLS_LOG) {
         machine.run(&program, machine::At::Box, cell, &ball, &rest, values);

@@ -4,7 +4,6 @@ use super::formula::{Axis, Formulas, Id, Kind, Leaf};
 use super::time::{Table, Wave, waves};
 use proofs_core::expr::interval_op;
 use proofs_core::interval::Interval;
-use rug::Float;
 use std::cell::{OnceCell, RefCell};
 use std::rc::Rc;
 
@@ -31,9 +30,8 @@ impl Curves {
 
 /// An interval of t with what has been computed on it.
 pub struct Cell {
-    pub lo: Float,
-    pub hi: Float,
-    pub middle: Float,
+    pub all: Interval,
+    pub middle: Interval,
     depth: u32,
     waves: OnceCell<Vec<[Interval; 2]>>,
     /// Values at the middle, and on the cell, by the places of nodes that depend on t alone.
@@ -42,30 +40,20 @@ pub struct Cell {
 }
 
 impl Cell {
-    fn new(lo: Float, hi: Float, depth: u32) -> Rc<Cell> {
-        let middle = Float::with_val(lo.prec(), &lo + &hi) / 2u32;
+    fn new(all: Interval, depth: u32) -> Rc<Cell> {
         let values = [RefCell::new(Vec::new()), RefCell::new(Vec::new())];
-        Rc::new(Cell { middle, lo, hi, depth, waves: OnceCell::new(), values, halves: OnceCell::new() })
+        Rc::new(Cell { middle: all.middle(), all, depth, waves: OnceCell::new(), values, halves: OnceCell::new() })
     }
 
     /// The two halves, which are the same ones whenever they are asked for, unless they are very small.
     pub fn halves(&self) -> [Rc<Cell>; 2] {
-        let make = || {
-            let half = |lo: &Float, hi: &Float| Cell::new(lo.clone(), hi.clone(), self.depth + 1);
-            [half(&self.lo, &self.middle), half(&self.middle, &self.hi)]
-        };
+        let make = || self.all.halves().map(|half| Cell::new(half, self.depth + 1));
         if self.depth < KEPT_DEPTH { self.halves.get_or_init(make).clone() } else { make() }
     }
 
     /// It, halved so many times.
     pub fn parts(self: &Rc<Cell>, times: u32) -> Vec<Rc<Cell>> {
         (0..times).fold(vec![self.clone()], |cells, _| cells.iter().flat_map(|cell| cell.halves()).collect())
-    }
-
-    /// At least half of its width, as an interval around the middle is.
-    pub fn half_width(&self) -> Interval {
-        let middle = Interval::point(&self.middle);
-        (Interval::point(&self.hi) - &middle).max(&(middle - Interval::point(&self.lo))).ceiling()
     }
 }
 
@@ -126,7 +114,7 @@ impl<'f> Machine<'f> {
 
     /// A whole period.
     pub fn period(&self, period: &Interval) -> Rc<Cell> {
-        Cell::new(Float::new(self.precision), period.hi().clone(), 0)
+        Cell::new(Interval::int(0, self.precision).hull(&period.ceiling()), 0)
     }
 
     /// Numbers, evaluated.
@@ -222,8 +210,8 @@ impl<'f> Machine<'f> {
     /// A leaf that depends on t.
     fn timed(&self, leaf: Leaf, at: At, cell: &Cell) -> Interval {
         let (table, order) = match leaf {
-            Leaf::Time if at == At::Middle => return Interval::point(&cell.middle),
-            Leaf::Time => return Interval::new(cell.lo.clone(), cell.hi.clone()),
+            Leaf::Time if at == At::Middle => return cell.middle.clone(),
+            Leaf::Time => return cell.all.clone(),
             Leaf::Orbit { state, order } => (self.orbit.get(state), order),
             Leaf::Lyapunov { which, entry: [i, j], order } => {
                 (self.lyapunov.get(which).and_then(|rows| rows.get(i)?.get(j)), order)
@@ -231,12 +219,12 @@ impl<'f> Machine<'f> {
             Leaf::State(_) | Leaf::Output | Leaf::Parameter(_) | Leaf::Drift(_) => (None, 0),
         };
         let Some(table) = table else { return self.none.clone() };
-        let waves = cell.waves.get_or_init(|| waves(&self.om, &Interval::point(&cell.middle), self.count));
+        let waves = cell.waves.get_or_init(|| waves(&self.om, &cell.middle, self.count));
         let value = |order| table.at(order, waves, self.precision);
         if at == At::Middle {
             return value(order);
         }
         let values: Vec<Interval> = (order..order + TERMS).map(value).collect();
-        table.around(order, &values, &cell.half_width())
+        table.around(order, &values, &cell.all.half_width())
     }
 }

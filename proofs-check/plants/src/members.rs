@@ -29,7 +29,7 @@ impl Expanded {
     /// From a path for these nodes.
     pub fn new(path: &Path<'_, '_>, piece: &Piece, values: &Values) -> Expanded {
         // The first side is that of e.
-        let (middle, on_box) = (piece.middles(), piece.intervals());
+        let (middle, on_box) = (piece.middles(), &piece.sides);
         let mut parameters = vec![&on_box[1..]; on_box.len()];
         parameters[0] = &middle[1..];
         let mut groups = path.expand(&piece.cell, &parameters, values).into_iter();

@@ -3,7 +3,6 @@
 use super::formula::Id;
 use super::machine::{At, Machine, Program, Values};
 use super::region::{Piece, axes};
-use proofs_core::interval::Interval;
 
 /// A node with what has to be computed for it.
 pub struct Narrowing {
@@ -30,9 +29,9 @@ impl Narrowing {
         let depends = machine.formulas.depends(self.id);
         let mut width = |side: Option<usize>| {
             let at = if side.is_none() { At::Middle } else { At::Box };
-            let mut sides = piece.intervals();
+            let mut sides = piece.sides.clone();
             if let Some(side) = side {
-                sides[side] = Interval::point(&piece.middle(side));
+                sides[side] = sides[side].middle();
             }
             let (v, rest) = sides.split_at(states);
             machine.run(&self.program, at, &piece.cell, v, rest, values);

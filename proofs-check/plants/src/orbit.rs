@@ -79,7 +79,7 @@ pub fn defect(
     let family = Region::of_family(plant, p);
     let most = Interval::rational(&plant.orbit.defect, p);
     let judge = |piece: &Piece| {
-        let (expanded, half) = (Expanded::new(&path, piece, &values), piece.cell.half_width());
+        let (expanded, half) = (Expanded::new(&path, piece, &values), piece.cell.all.half_width());
         let norm = |parts: &[Interval]| parts.iter().fold(Interval::int(0, p), |sum, part| sum + part.sqr()).sqrt();
         let in_t = bound_of_norm(&expanded.at_middle, &half);
         let moves = expanded.moves(|slope| bound(slope, &half));

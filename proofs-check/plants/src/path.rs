@@ -54,7 +54,7 @@ impl<'m, 'f> Path<'m, 'f> {
     /// The nodes of each group on a cell, each with its own parameters.
     pub fn expand(&self, cell: &Cell, parameters: &[&[Interval]], values: &Values) -> Vec<Vec<Polynomial>> {
         let p = self.machine.precision;
-        let (middle, half) = (Interval::point(&cell.middle), cell.half_width());
+        let (middle, half) = (cell.middle.clone(), cell.all.half_width());
         let waves = waves(&self.om, &middle, self.count);
         let derivatives: Vec<Vec<Interval>> = self
             .orbit
@@ -63,7 +63,7 @@ impl<'m, 'f> Path<'m, 'f> {
             .collect();
         let none = || vec![Interval::undefined(p)];
         let leaf = |leaf: Leaf, parameters: &[Interval], on_cell: bool, length: usize| match leaf {
-            Leaf::Time if on_cell => vec![Interval::new(cell.lo.clone(), cell.hi.clone()), Interval::int(1, p)],
+            Leaf::Time if on_cell => vec![cell.all.clone(), Interval::int(1, p)],
             Leaf::Time => vec![middle.clone(), Interval::int(1, p)],
             Leaf::State(_) | Leaf::Output => vec![Interval::int(0, p)],
             Leaf::Parameter(i) => parameters.get(i).map_or_else(none, |value| vec![value.clone()]),

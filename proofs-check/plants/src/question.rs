@@ -123,10 +123,10 @@ impl Question {
 fn place(region: &Region, piece: &Piece) -> String {
     let states = region.states;
     let listed = |sides: std::ops::Range<usize>| {
-        let list: Vec<String> = sides.map(|i| format!("{:.6}", piece.middle(i).to_f64())).collect();
+        let list: Vec<String> = sides.map(|i| format!("{:.6}", piece.sides[i].to_f64())).collect();
         list.join(", ")
     };
-    let (t, e) = (piece.cell.middle.to_f64(), piece.middle(states).to_f64());
+    let (t, e) = (piece.cell.middle.to_f64(), piece.sides[states].to_f64());
     let of_family = match region.parameters.len() {
         0 => String::new(),
         count => format!(", p = ({})", listed(states + 1..states + 1 + count)),
@@ -168,8 +168,7 @@ impl Decision<'_, '_> {
             return Judgement::Proved;
         }
         let rows = &self.question.rows;
-        let sides = piece.intervals();
-        let (v, rest) = sides.split_at(states);
+        let (v, rest) = piece.sides.split_at(states);
         self.machine.run(&self.programs[1], At::Box, &piece.cell, v, rest, self.values);
         let on_box = self.read(rows, At::Box, &piece.cell);
         if semidefinite(on_box.clone()) == Some(true) {
@@ -204,21 +203,20 @@ impl Decision<'_, '_> {
         let states = self.region.states;
         let Some(basis) = Basis::new(middle) else { return false };
         let last = middle.len() - 1;
-        let mut place: Vec<Float> = (0..piece.sides.len()).map(|side| piece.middle(side)).collect();
+        let mut place = piece.middles();
         for (side, matrix) in slopes {
             let Some(side) = *side else { continue };
-            let rate = middle_of(&basis.form(matrix, last, last));
-            let end = usize::from(rate < 0);
-            if rate != 0 {
-                place[side].clone_from(&piece.sides[side][end]);
+            let rate = basis.form(matrix, last, last).middle();
+            if !rate.is_zero() {
+                place[side] =
+                    if rate.is_nonpositive() { piece.sides[side].ceiling() } else { piece.sides[side].floor() };
             }
         }
         self.region.inward(&mut place);
-        let points: Vec<Interval> = place.iter().map(Interval::point).collect();
-        let (v, rest) = points.split_at(states);
+        let (v, rest) = place.split_at(states);
         self.machine.run(&self.programs[0], At::Middle, &piece.cell, v, rest, self.values);
         let there = self.read(&self.question.rows, At::Middle, &piece.cell);
-        self.region.has(&points) && semidefinite(there) == Some(false)
+        self.region.has(&place) && semidefinite(there) == Some(false)
     }
 
     fn by_mean_value(&self, piece: &Piece, middle: &Matrix, slopes: &[(Option<usize>, Matrix)]) -> Judgement {
@@ -247,7 +245,7 @@ impl Decision<'_, '_> {
             let own = rates(i);
             row.push(basis.form(middle, i, i) - self.fall(piece, slopes, &own, &moves(&own), radius));
             for ((score, rate), width) in scores.iter_mut().zip(&own).zip(&widths) {
-                *score += Float::with_val(53, rate.hi() - rate.lo()).to_f64() * width.hi().to_f64();
+                *score += 2.0 * rate.half_width().hi().to_f64() * width.hi().to_f64();
             }
             enclosed.push(row);
         }
@@ -281,18 +279,14 @@ impl Decision<'_, '_> {
         let (mut square, mut at_middle, mut rest) = (zero(), zero(), zero());
         for ((side, _), rate) in slopes.iter().zip(rates) {
             let Some(side) = side.filter(|side| *side < self.region.states) else { continue };
-            let number = Interval::point(&middle_of(rate));
+            let number = rate.middle();
             square = square + number.sqr();
-            at_middle = at_middle + &number * Interval::point(&piece.middle(side));
+            at_middle = at_middle + &number * piece.sides[side].middle();
             rest = rest + (rate - number).abs() * piece.half_width(Some(side));
         }
         let by_ball = square.sqrt() * radius + at_middle + rest;
         if by_ball.is_defined() { others + by_box.ceiling().min(&by_ball.ceiling()) } else { others + by_box }
     }
-}
-
-fn middle_of(value: &Interval) -> Float {
-    Float::with_val(value.precision(), value.lo() + value.hi()) / 2u32
 }
 
 /// The size of a pivot, not 0; a hint.
@@ -328,23 +322,21 @@ impl Basis {
         if !matrix.iter().flatten().all(Interval::is_bounded) {
             return None;
         }
-        let mut a: Vec<Vec<Float>> = (0..order)
-            .map(|i| (0..order).map(|j| middle_of(if i >= j { &matrix[i][j] } else { &matrix[j][i] })).collect())
-            .collect();
-        let one = || Float::with_val(p, 1);
-        let unit = |i: usize| (0..order).map(|j| if i == j { one() } else { Float::new(p) }).collect::<Vec<_>>();
-        let mut columns: Vec<Vec<Float>> = (0..order).map(unit).collect();
+        let middle = |i: usize, j: usize| matrix[i.max(j)][i.min(j)].to_f64();
+        let mut a: Vec<Vec<f64>> = (0..order).map(|i| (0..order).map(|j| middle(i, j)).collect()).collect();
+        let unit = |i: usize| (0..order).map(|j| f64::from(u8::from(i == j))).collect::<Vec<_>>();
+        let mut columns: Vec<Vec<f64>> = (0..order).map(unit).collect();
         let mut left: Vec<usize> = (0..order).collect();
         let mut sorted = Vec::new();
         while let Some(best) = (0..left.len()).max_by(|i, j| a[left[*i]][left[*i]].total_cmp(&a[left[*j]][left[*j]])) {
             let pivot = left.remove(best);
             for other in &left {
-                if a[pivot][pivot] == 0 || a[*other][pivot] == 0 {
+                if a[pivot][pivot] == 0.0 || a[*other][pivot] == 0.0 {
                     continue;
                 }
-                let factor = Float::with_val(p, &a[*other][pivot] / &a[pivot][pivot]);
-                let less = |from: &mut Vec<Float>, row: &[Float]| {
-                    from.iter_mut().zip(row).for_each(|(entry, of)| *entry -= Float::with_val(p, &factor * of));
+                let factor = a[*other][pivot] / a[pivot][pivot];
+                let less = |from: &mut Vec<f64>, row: &[f64]| {
+                    from.iter_mut().zip(row).for_each(|(entry, of)| *entry -= factor * of);
                 };
                 let (column, row) = (columns[pivot].clone(), a[pivot].clone());
                 less(&mut columns[*other], &column);
@@ -353,13 +345,13 @@ impl Basis {
             sorted.push(pivot);
         }
         // S is triangular in the order of the pivots with 1 on its diagonal, whatever was rounded: so it is invertible.
-        if !columns.iter().flatten().all(Float::is_finite) {
+        if !columns.iter().flatten().all(|entry| entry.is_finite()) {
             return None;
         }
-        let entry = |x: &Float| match () {
-            () if *x == 0 => Factor::Zero,
-            () if *x == 1 => Factor::One,
-            () => Factor::Number(Interval::point(x)),
+        let entry = |x: &f64| match () {
+            () if *x == 0.0 => Factor::Zero,
+            () if *x == 1.0 => Factor::One,
+            () => Factor::Number(Interval::point(&Float::with_val(p, x))),
         };
         Some(Basis(sorted.iter().map(|pivot| columns[*pivot].iter().map(entry).collect()).collect()))
     }

@@ -8,9 +8,9 @@ use super::around::Around;
 use super::formula::Axis;
 use super::machine::{Cell, Machine};
 use super::read::{MAX_INTERVALS, Plant};
+use super::time::around;
 use proofs_core::interval::Interval;
-use rug::float::Round;
-use rug::{Float, Rational};
+use rug::Rational;
 use std::rc::Rc;
 
 /// How many cells of t there are before anything is halved for a reason.
@@ -31,15 +31,15 @@ pub enum Shape {
     /// `|v| <= radius`.
     Ball(Interval),
     /// Each component between two ends, and all around a middle that moves.
-    Sides(Vec<[Float; 2]>, Around),
+    Sides(Vec<Interval>, Around),
 }
 
 /// A box: those axes on which nothing depends have the whole range.
 #[derive(Clone)]
 pub struct Piece {
     pub cell: Rc<Cell>,
-    /// The ends of v_1, ..., v_n, of e, and of the parameters, with the clock the last of them.
-    pub sides: Vec<[Float; 2]>,
+    /// Of v_1, ..., v_n, of e, and of the parameters, with the clock the last of them.
+    pub sides: Vec<Interval>,
 }
 
 impl Region {
@@ -52,19 +52,13 @@ impl Region {
 
     /// The box of everything, over one cell of t.
     pub fn whole(&self, machine: &Machine<'_>, cell: Rc<Cell>) -> Piece {
-        let ends = |size: &Interval| {
-            let end = Float::with_val_round(machine.precision, size.hi(), Round::Up).0;
-            [Float::with_val(machine.precision, -&end), end]
-        };
+        let around = |size: &Interval| around(&size.round(machine.precision));
         let mut sides = match &self.shape {
-            Shape::Ball(radius) => vec![ends(radius); self.states],
+            Shape::Ball(radius) => vec![around(radius); self.states],
             Shape::Sides(sides, _) => sides.clone(),
         };
-        sides.push(ends(&self.output));
-        sides.extend(self.parameters.iter().map(|[lo, hi]| {
-            let all = Interval::between(lo, hi, machine.precision);
-            [all.lo().clone(), all.hi().clone()]
-        }));
+        sides.push(around(&self.output));
+        sides.extend(self.parameters.iter().map(|[lo, hi]| Interval::between(lo, hi, machine.precision)));
         Piece { cell, sides }
     }
 
@@ -79,48 +73,38 @@ impl Region {
         let radius = match &self.shape {
             Shape::Ball(radius) => radius,
             Shape::Sides(_, around) => {
-                let sides: Vec<Interval> = (0..self.states).map(|state| piece.side(state)).collect();
-                return around.excludes(&sides);
+                return around.excludes(&piece.sides[..self.states]);
             }
         };
-        let nearest = |side: &[Float; 2]| {
-            let end = if side[0] > 0 { &side[0] } else { &side[1] };
-            let outside = side[0] > 0 || side[1] < 0;
-            outside.then(|| Interval::point(end).sqr())
-        };
+        let nearest = |side: &Interval| side.abs().floor().sqr();
         let zero = Interval::int(0, radius.precision());
-        let distance = piece.sides[..self.states].iter().filter_map(nearest).fold(zero, |sum, part| sum + part);
+        let distance = piece.sides[..self.states].iter().map(nearest).fold(zero, |sum, part| sum + part);
         radius.sqr().lt(&distance) == Some(true)
     }
 
     /// The radius of the ball, where a box is not certainly within it.
     pub fn reaches_out(&self, piece: &Piece) -> Option<&Interval> {
         let Shape::Ball(radius) = &self.shape else { return None };
-        let farthest = |[lo, hi]: &[Float; 2]| Interval::new(lo.clone(), hi.clone()).sqr();
         let zero = Interval::int(0, radius.precision());
-        let distance = piece.sides[..self.states].iter().map(farthest).fold(zero, |sum, part| sum + part);
+        let distance = piece.sides[..self.states].iter().map(Interval::sqr).fold(zero, |sum, part| sum + part);
         (distance.ceiling().le(&radius.sqr()) != Some(true)).then_some(radius)
     }
 
     /// A place of v, e and the parameters with v moved towards the origin, to lie within the ball where it is outside, and the
     /// parameters between their ends. A hint.
-    pub fn inward(&self, place: &mut [Float]) {
+    pub fn inward(&self, place: &mut [Interval]) {
         let (place, rest) = place.split_at_mut(self.states);
         for (value, [lo, hi]) in rest.iter_mut().skip(1).zip(&self.parameters) {
-            let p = value.prec();
-            *value = match () {
-                () if *value < *lo => Float::with_val_round(p, lo, Round::Up).0,
-                () if *value > *hi => Float::with_val_round(p, hi, Round::Down).0,
-                () => continue,
-            };
+            let [lo, hi] = [lo, hi].map(|end| Interval::rational(end, value.precision()));
+            *value = value.max(&lo.ceiling()).min(&hi.floor());
         }
         let Shape::Ball(radius) = &self.shape else { return };
         let p = radius.precision();
-        let distance = place.iter().fold(Interval::int(0, p), |sum, v| sum + Interval::point(v).sqr()).sqrt();
+        let distance = place.iter().fold(Interval::int(0, p), |sum, v| sum + v.sqr()).sqrt();
         if distance.lt(radius) != Some(true) && distance.is_positive() {
             let inward = Interval::rational(&Rational::from((999_999, 1_000_000)), p);
-            let factor = (radius * inward / distance).lo().clone();
-            place.iter_mut().for_each(|v| *v *= &factor);
+            let factor = radius * inward / distance;
+            place.iter_mut().for_each(|v| *v = (&*v * &factor).middle());
         }
     }
 
@@ -131,7 +115,7 @@ impl Region {
 
     /// Whether v_1, ..., v_n, e and the parameters certainly belong to it.
     pub fn has(&self, place: &[Interval]) -> bool {
-        let lies_within = |value: &Interval, end: &Interval| value.hi() <= end.lo();
+        let lies_within = |value: &Interval, end: &Interval| value.le(end) == Some(true);
         let within = match &self.shape {
             Shape::Ball(radius) => {
                 let zero = Interval::int(0, radius.precision());
@@ -139,43 +123,24 @@ impl Region {
                 lies_within(&distance, &radius.sqr())
             }
             Shape::Sides(sides, around) => {
-                place.iter().zip(sides).all(|(v, [lo, hi])| v.lo() >= lo && v.hi() <= hi) && !around.excludes(place)
+                place.iter().zip(sides).all(|(v, side)| side.contains(v)) && !around.excludes(place)
             }
         };
-        let between = |(value, [lo, hi]): (&Interval, &[Rational; 2])| value.lo() >= lo && value.hi() <= hi;
+        let between = |(value, [lo, hi]): (&Interval, &[Rational; 2])| *value.lo() >= *lo && *value.hi() <= *hi;
         let rest = &place[self.states..];
         within && lies_within(&rest[0].abs(), &self.output) && rest[1..].iter().zip(&self.parameters).all(between)
     }
 }
 
 impl Piece {
-    /// The middle of a side.
-    pub fn middle(&self, side: usize) -> Float {
-        let [lo, hi] = &self.sides[side];
-        Float::with_val(lo.prec(), lo + hi) / 2u32
-    }
-
     /// The middles of all sides.
     pub fn middles(&self) -> Vec<Interval> {
-        (0..self.sides.len()).map(|side| Interval::point(&self.middle(side))).collect()
-    }
-
-    /// All sides.
-    pub fn intervals(&self) -> Vec<Interval> {
-        (0..self.sides.len()).map(|side| self.side(side)).collect()
-    }
-
-    /// A side.
-    pub fn side(&self, side: usize) -> Interval {
-        let [lo, hi] = &self.sides[side];
-        Interval::new(lo.clone(), hi.clone())
+        self.sides.iter().map(Interval::middle).collect()
     }
 
     /// A bound of the distance to the middle, along t (`None`) or a side.
     pub fn half_width(&self, side: Option<usize>) -> Interval {
-        let Some(side) = side else { return self.cell.half_width() };
-        let ([lo, hi], middle) = (&self.sides[side], Interval::point(&self.middle(side)));
-        (Interval::point(hi) - &middle).max(&(middle - Interval::point(lo))).ceiling()
+        side.map_or(&self.cell.all, |side| &self.sides[side]).half_width()
     }
 
     /// The two halves along t (`None`) or a side.
@@ -183,10 +148,9 @@ impl Piece {
         let Some(side) = side else {
             return self.cell.halves().map(|cell| Piece { cell, sides: self.sides.clone() });
         };
-        let middle = self.middle(side);
-        [1, 0].map(|end| {
+        self.sides[side].halves().map(|part| {
             let mut half = self.clone();
-            half.sides[side][end] = middle.clone();
+            half.sides[side] = part;
             half
         })
     }

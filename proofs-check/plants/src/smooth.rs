@@ -49,8 +49,7 @@ pub fn prove(
             continue;
         }
         count += 1;
-        let sides = piece.intervals();
-        let (v, rest) = sides.split_at(states);
+        let (v, rest) = piece.sides.split_at(states);
         machine.run(&program, At::Box, &piece.cell, v, rest, values);
         let open = varying.iter().position(|(id, what)| !what.holds(&machine.get(*id, At::Box, &piece.cell, values)));
         let Some(open) = open else { continue };

@@ -66,7 +66,7 @@ impl Still {
         let machine = Machine::new(&self.model.formulas, curves, om);
         let (root, mut values) = (machine.period(period), machine.values());
         let program = machine.program(&self.orbit);
-        let rest = Region::of_family(plant, machine.precision).whole(&machine, root.clone()).intervals();
+        let rest = Region::of_family(plant, machine.precision).whole(&machine, root.clone()).sides;
         let cells = root.parts(RANGE_CELLS_LOG);
         let mut range = |id: usize| {
             let on = |cell: &Rc<Cell>| {
@@ -105,13 +105,13 @@ impl Prepared<'_> {
     }
 
     /// `|x_i - xb_i| <= |row i of L| (X + r)`.
-    fn sides(&self, plant: &Plant, x: &Float) -> Option<Vec<[Float; 2]>> {
+    fn sides(&self, plant: &Plant, x: &Float) -> Option<Vec<Interval>> {
         let (p, radius) = (self.machine.precision, radius(plant, x));
         let side = |(range, row): (&Interval, &Vec<rug::Rational>)| {
             let number = |value: &rug::Rational| Interval::rational(value, p);
             let size = row.iter().fold(Interval::int(0, p), |sum, value| sum + number(value).sqr()).sqrt();
             let side = range + around(&(size * &radius));
-            side.is_bounded().then(|| [side.lo().clone(), side.hi().clone()])
+            side.is_bounded().then_some(side)
         };
         self.ranges.iter().zip(&plant.known.coordinates.matrix).map(side).collect()
     }

@@ -15,6 +15,7 @@ mod control;
 mod coq;
 mod coq_plants;
 mod coq_support;
+mod doubles;
 mod existence_inequality;
 mod families;
 mod forged;

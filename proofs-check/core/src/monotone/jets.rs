@@ -161,7 +161,7 @@ pub(super) fn is_nondecreasing(
     let changes = [&whole.second[along], &whole.second[along + 1]];
     let from = [0, 1].map(|axis| {
         let side = sides[axis];
-        let ends = [side.lo(), side.hi()].map(Interval::point);
+        let ends = [side.floor(), side.ceiling()];
         match (changes[axis].is_nonnegative(), changes[axis].is_nonpositive()) {
             (true, _) => ends[0].clone(),
             (_, true) => ends[1].clone(),

@@ -123,7 +123,7 @@ impl Entries {
     fn best(&self, name: Name, x: &Interval, e: &Interval) -> Option<&Rational> {
         let covers = |entry: &Entry| {
             let [to_x, to_e] = &entry.arguments;
-            (!self.has_states || x.hi() <= to_x) && e.hi() <= to_e
+            (!self.has_states || *x.hi() <= *to_x) && *e.hi() <= *to_e
         };
         self.best_of(name, covers).map(|entry| &entry.value)
     }

@@ -142,7 +142,7 @@ fn exact(value: f64) -> Float {
 
 /// The double nearest to what is enclosed.
 fn nearest(value: &Interval) -> f64 {
-    let [low, high] = [value.lo(), value.hi()].map(Float::to_f64);
+    let [low, high] = [value.lo(), value.hi()].map(|end| end.to_f64());
     assert!((high - low).abs() <= 2.0 * U0 * low.abs());
     low
 }
@@ -163,7 +163,7 @@ fn steps_in_doubles_are_within_the_bounds() {
                     [angle.cos(), angle.sin()]
                 })
                 .collect();
-            let mid = |value: &Interval| Float::with_val(400, value.lo());
+            let mid = |value: &Interval| Float::with_val(400, &*value.lo());
             let mut draw = drawn();
             let mut largest = [0.0_f64; 2];
             for case in 0..20_000 {
@@ -206,7 +206,7 @@ fn steps_in_doubles_are_within_the_bounds() {
                 let within = |value: &Float| Interval::new(value.clone(), value.clone()).round(128);
                 let bounds = errors(law, n_o, [&within(&square.sqrt()), &within(&exact(m.abs()))]);
                 for ((found, bound), largest) in found.iter().zip(&bounds).zip(&mut largest) {
-                    assert!(found <= bound.lo(), "{name} {n_o} {size}: {found} {}", double(bound));
+                    assert!(*found <= *bound.lo(), "{name} {n_o} {size}: {found} {}", double(bound));
                     if size == 1.0 {
                         *largest = largest.max(found.to_f64() / double(bound));
                     }

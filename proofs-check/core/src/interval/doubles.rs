@@ -1,0 +1,113 @@
+//! Intervals whose ends are doubles: what an interval is at 53 bits while its ends are 0 or of moderate size.
+//!
+//! A sum, a product, a quotient and a root of doubles are rounded to nearest (IEEE 754). What such a value is away from the exact one
+//! has a sign that doubles give exactly (Knuth, Dekker), so the next double on that side is the other bound of the exact value. Nothing
+//! here is so small that anything would be rounded to 0. Each operation gives `None` where an end leaves the range; MPFR computes it then.
+
+#[cfg(all(target_arch = "x86", not(target_feature = "sse2")))]
+compile_error!("intervals need doubles that are rounded to 53 bits: build with the target feature sse2");
+
+/// The bits of a double.
+pub const BITS: u32 = f64::MANTISSA_DIGITS;
+
+/// The magnitudes of ends that are not 0. Products and quotients of two, and what these are away from the exact ones, are far from the
+/// ends of the range of doubles.
+const MAGNITUDES: std::ops::RangeInclusive<f64> = 1e-120..=1e120;
+
+/// The lower and the upper end, in order, each 0 or of moderate size.
+pub type Ends = [f64; 2];
+
+/// These two as the ends of an interval. 0 has one sign.
+pub fn ends(lo: f64, hi: f64) -> Option<Ends> {
+    let fits = |x: f64| x == 0.0 || MAGNITUDES.contains(&x.abs());
+    (lo <= hi && fits(lo) && fits(hi)).then_some([lo + 0.0, hi + 0.0])
+}
+
+/// A value rounded to nearest, and what has to be added to it to have the exact one: by its sign.
+#[derive(Clone, Copy)]
+struct Nearest {
+    value: f64,
+    rest: f64,
+}
+
+impl Nearest {
+    fn down(self) -> f64 {
+        if self.rest < 0.0 { self.value.next_down() } else { self.value }
+    }
+
+    fn up(self) -> f64 {
+        if self.rest > 0.0 { self.value.next_up() } else { self.value }
+    }
+}
+
+/// `a + b` (Knuth).
+fn add(a: f64, b: f64) -> Nearest {
+    let value = a + b;
+    let of_b = value - a;
+    Nearest { value, rest: (a - (value - of_b)) + (b - of_b) }
+}
+
+/// `a b` (Dekker).
+fn multiply(a: f64, b: f64) -> Nearest {
+    // The upper 26 bits of a number, and the rest of it.
+    let parts = |x: f64| {
+        let scaled = 134_217_729.0 * x;
+        let upper = scaled - (scaled - x);
+        [upper, x - upper]
+    };
+    let (value, [a, low_a], [b, low_b]) = (a * b, parts(a), parts(b));
+    Nearest { value, rest: (((a * b - value) + a * low_b) + low_a * b) + low_a * low_b }
+}
+
+/// `a - b`, for a product that is nearly a: a double.
+fn missing(a: f64, Nearest { value, rest }: Nearest) -> f64 {
+    (a - value) - rest
+}
+
+/// `a/b`; what is missing is `(a - value b)/b`.
+fn divide(a: f64, b: f64) -> Nearest {
+    let value = a / b;
+    Nearest { value, rest: missing(a, multiply(value, b)) * b.signum() }
+}
+
+/// From the least to the greatest of what an operation, which rounding does not put out of order, gives for these pairs.
+fn extremes(pairs: [[f64; 2]; 4], operation: fn(f64, f64) -> Nearest) -> Option<Ends> {
+    let all = pairs.map(|[x, y]| operation(x, y));
+    ends(
+        all.iter().fold(f64::INFINITY, |least, one| least.min(one.down())),
+        all.iter().fold(f64::NEG_INFINITY, |most, one| most.max(one.up())),
+    )
+}
+
+pub fn opposite([lo, hi]: Ends) -> Ends {
+    [0.0 - hi, 0.0 - lo]
+}
+
+pub fn sum([a, b]: Ends, [c, d]: Ends) -> Option<Ends> {
+    ends(add(a, c).down(), add(b, d).up())
+}
+
+/// The extremes are at the ends.
+pub fn product([a, b]: Ends, [c, d]: Ends) -> Option<Ends> {
+    extremes([[a, c], [a, d], [b, c], [b, d]], multiply)
+}
+
+/// By what certainly is not 0; the extremes are at the ends.
+pub fn quotient([a, b]: Ends, [c, d]: Ends) -> Option<Ends> {
+    if c > 0.0 || d < 0.0 { extremes([[a, c], [a, d], [b, c], [b, d]], divide) } else { None }
+}
+
+/// x^n for n > 0 and an x that is not negative, or an odd n: it increases.
+pub fn power([lo, hi]: Ends, n: i32) -> Option<Ends> {
+    let at = |x: f64| (1..n).try_fold([x, x], |power, _| product(power, [x, x]));
+    Some([at(lo)?[0], at(hi)?[1]])
+}
+
+/// Of what is not negative; what is missing has the sign of `a - value^2`.
+pub fn root([lo, hi]: Ends) -> Option<Ends> {
+    let root = |a: f64| {
+        let value = a.sqrt();
+        Nearest { value, rest: missing(a, multiply(value, value)) }
+    };
+    ends(root(lo).down(), root(hi).up())
+}
