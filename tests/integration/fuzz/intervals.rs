@@ -142,7 +142,7 @@ impl Arithmetic for Interval {
     }
 
     fn ends(&self) -> [Float; 2] {
-        [self.lo().clone(), self.hi().clone()]
+        [self.lo().into_owned(), self.hi().into_owned()]
     }
 
     fn one(&self, operation: usize) -> Interval {

@@ -17,7 +17,7 @@ const GRID: u32 = 240;
 const LINES: u32 = 3;
 
 /// Steps of interval arithmetic that the checker may take.
-const STEPS: u64 = 400_000;
+const STEPS: u64 = 3_200_000;
 
 /// Nondecreasing functions, and some that nearly are: a dip, an edge, a pole or an end of a domain at a random place.
 fn leaf(random: &mut StdRng) -> String {

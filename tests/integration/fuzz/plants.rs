@@ -25,7 +25,7 @@ const BETWEEN: [&str; 2] = ["0.65", "1.35"];
 const WAVE: f64 = 0.05;
 
 /// Steps of interval arithmetic that the checker may take.
-const STEPS: u64 = 3_000_000;
+const STEPS: u64 = 24_000_000;
 
 /// A plant with everything that is known of it.
 pub struct Drawn {
