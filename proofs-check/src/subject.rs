@@ -172,6 +172,8 @@ fn input(spec: &Specification) -> &'static str {
 /// What is put out where that is not u, and what becomes of it.
 fn output(gain: &Range) -> String {
     let [low, high, nominal] = [&gain.low, &gain.high, &gain.nominal].map(|constant| printable(&constant.text));
+    // Another quotient or product is one number.
+    let nominal = if gain.nominal.text.parse::<f64>().is_ok() { nominal } else { format!("({nominal})") };
     format!(" puts out v = u/{nominal}; g is one constant in [{low}, {high}]")
 }
 

@@ -52,7 +52,7 @@ fn attempt(args: &ControllerArgs) -> Result<u8, Failure> {
     let design = design.with_delay(delayed);
     let asked =
         Regulated { model: subject.internal_model(), sigma: &sigma, step: step.as_ref(), delayed, n_o: args.n_o };
-    let certificate = provenance(given.as_ref(), &subject, &asked);
+    let certificate = provenance(args, given.as_ref(), &subject, &asked)?;
     refuse(args, &design, step.as_ref(), certificate.as_ref())?;
     let regulator = design.regulator();
     let beyond = || {
@@ -73,7 +73,7 @@ fn attempt(args: &ControllerArgs) -> Result<u8, Failure> {
         None => None,
         Some((discrete, step)) => {
             let sampled = Convergence::new(&design, step, &regulator, discrete).ok_or_else(beyond)?;
-            remarks((&design, step), (&regulator, discrete), sampled);
+            remarks((&design, step), (&regulator, discrete), sampled, certificate.as_ref());
             Some((discrete, sampled))
         }
     };
@@ -100,15 +100,25 @@ fn attempt(args: &ControllerArgs) -> Result<u8, Failure> {
     }
 }
 
-/// What the certificate has to do with this regulator; one that is about something else is told and left out.
-fn provenance(given: Option<&Given>, subject: &Subject, asked: &Regulated<'_>) -> Option<Provenance> {
-    let given = given?;
-    if !given.is_about(subject.sha256()) {
-        let what = subject.kind();
-        output::remark(&format!("the certificate was made for another {what}: it says nothing about this regulator"));
-        return None;
+/// What the certificate has to do with this regulator; one that is about something else is refused, or told and left out.
+fn provenance(
+    args: &ControllerArgs,
+    given: Option<&Given>,
+    subject: &Subject,
+    asked: &Regulated<'_>,
+) -> Result<Option<Provenance>, Failure> {
+    let Some(given) = given else { return Ok(None) };
+    if given.is_about(subject.sha256()) {
+        return Ok(Some(given.provenance(asked)));
     }
-    Some(given.provenance(asked))
+    let message =
+        format!("the certificate was made for another {}: it says nothing about this regulator", subject.kind());
+    if !args.uncertified {
+        let way_out = "certify this one; --uncertified exports it as it is, with the gain of that certificate where none is given";
+        return Err(Failure::call(message, way_out));
+    }
+    output::remark(&format!("{message}; exported because of --uncertified"));
+    Ok(None)
 }
 
 /// Refuses what is known to be bad; with `--uncertified` it is told instead.
@@ -148,7 +158,15 @@ fn remarks(
     (design, step): (&Design<'_>, &Constant),
     (regulator, discrete): (&Regulator, &Discrete),
     sampled: Convergence,
+    certificate: Option<&Provenance>,
 ) {
+    if let Some(Provenance { scope: Scope::Continuous, .. }) = certificate {
+        output::remark(&format!(
+            "the certificate is about the law in continuous time and does not cover sampling; `certify --sampling-period {}` makes one of the \
+             law at samples",
+            clean(&step.text)
+        ));
+    }
     if let Some(samples) = design.uneven_samples(step) {
         output::remark(&format!(
             "a period has {samples:.6} samples, not a whole number: the samples fall differently in every period, and the \

@@ -44,6 +44,9 @@ fn read(path: &Path, notation: Notation) -> Result<Document, Failure> {
     let name = shown(path);
     File::open(path).and_then(|file| file.take(limit).read_to_end(&mut bytes)).map_err(|error| {
         let help = match error.kind() {
+            ErrorKind::NotFound if name.parse::<f64>().is_ok() => {
+                "a number stands where a file is expected: the value of a flag follows it at once, as in `--sigma 5 FILE`"
+            }
             ErrorKind::NotFound => "check the spelling and the current folder",
             ErrorKind::IsADirectory => "name a file in it",
             ErrorKind::PermissionDenied => "check the permissions of the file",

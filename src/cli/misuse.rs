@@ -2,11 +2,24 @@
 
 use super::args::command;
 use clap::builder::StyledStr;
-use clap::error::{ContextKind, ContextValue};
+use clap::error::{ContextKind, ContextValue, ErrorKind};
 use std::ffi::OsString;
 
 /// A flag that other programs have, and that of the same meaning, of the commands that have it.
 const FLAG: (&str, &str) = ("--gain", "sigma");
+
+/// Names of fields that are tried as flags, and what the file has for them.
+const FIELDS: [(&str, &str); 9] = [
+    ("--mu", "`internal_model.mu`"),
+    ("--base-frequency", "`internal_model.base_frequency`"),
+    ("--period", "`period`"),
+    ("--parameter", "`parameters`"),
+    ("--parameters", "`parameters`"),
+    ("--input-gain", "`input_gain`"),
+    ("--measurement", "`measurement`"),
+    ("--noise", "`measurement.noise`"),
+    ("--disturbance", "`disturbance`"),
+];
 
 /// A command that there is not, and what there is.
 const COMMAND: (&str, &str) =
@@ -15,14 +28,37 @@ const COMMAND: (&str, &str) =
 /// The error about a call, with the word that was meant in the place of one that is only spelt like it.
 pub fn with_advice(mut error: clap::Error, arguments: impl IntoIterator<Item = OsString>) -> clap::Error {
     let is = |kind: ContextKind, word: &str| error.get(kind) == Some(&ContextValue::String(word.to_owned()));
+    let unknown = error.kind() == ErrorKind::UnknownArgument;
+    let field = FIELDS.iter().find(|(flag, _)| unknown && is(ContextKind::InvalidArg, flag));
     if is(ContextKind::InvalidArg, FLAG.0) && has_flag(arguments, FLAG.1) {
         error.remove(ContextKind::Suggested);
         error.insert(ContextKind::SuggestedArg, ContextValue::String(format!("--{}", FLAG.1)));
+    } else if let Some((_, field)) = field {
+        suggest(&mut error, format!("it is a field of the file: {field}"));
+    } else if let Some(commands) = commands_with(&error).filter(|_| unknown) {
+        suggest(&mut error, format!("it is a flag of {commands}"));
     } else if is(ContextKind::InvalidSubcommand, COMMAND.0) {
         error.remove(ContextKind::SuggestedSubcommand);
         error.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![StyledStr::from(COMMAND.1)]));
     }
     error
+}
+
+/// Says this in the place of a word that is spelt alike.
+fn suggest(error: &mut clap::Error, what: String) {
+    error.remove(ContextKind::SuggestedArg);
+    error.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![StyledStr::from(what)]));
+}
+
+/// The commands that have the flag which the called one has not.
+fn commands_with(error: &clap::Error) -> Option<String> {
+    let Some(ContextValue::String(flag)) = error.get(ContextKind::InvalidArg) else { return None };
+    let name = flag.strip_prefix("--")?;
+    let commands = command();
+    let having =
+        commands.get_subcommands().filter(|command| command.get_arguments().any(|one| one.get_long() == Some(name)));
+    let named: Vec<String> = having.map(|command| format!("`{}`", command.get_name())).collect();
+    (!named.is_empty()).then(|| named.join(", "))
 }
 
 /// Whether the command that is called has this flag.

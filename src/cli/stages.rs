@@ -56,7 +56,7 @@ impl fmt::Display for Step {
             Step::Of(Stage::Metrics) => "proposing and proving joint metrics",
             Step::Of(Stage::Triple) => "finding and proving the triple of the Jacobian",
             Step::Of(Stage::Witness) => "searching the free numbers, deciding the conditions",
-            Step::Of(Stage::Comparison) => "working out what else would give",
+            Step::Of(Stage::Comparison) => "working out what else would give (`--no-compare` leaves it out)",
             Step::Decision => "deciding the conditions",
             Step::Rates => "proving rates",
             Step::Checked => "letting the independent checker decide",

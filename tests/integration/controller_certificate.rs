@@ -21,7 +21,9 @@ fn a_certificate_says_everything_but_the_oscillators() {
     let (digest, held) = (document.root().sha256(), json(text.as_bytes()));
     let call = ["--n-o", "2", "--discretise", "1/100"];
     let path = file.to_str().unwrap();
-    let assert = controller(&[path]).args(call).assert().success().stderr("");
+    let remark = "does not cover sampling; `certify --sampling-period 1/100` makes one";
+    let assert = controller(&[path]).args(call).assert().success().stderr(predicate::str::contains(remark));
+    controller(&[path, "--n-o", "2"]).assert().success().stderr("");
     let export = json(&assert.get_output().stdout);
     assert_eq!(export["name"].as_str().unwrap(), specification("linear").name);
     assert_eq!(export["certificate"]["sha256"].as_str(), Some(digest.as_str()));
@@ -81,9 +83,11 @@ fn a_gain_below_the_certificate_is_refused() {
     let notice = export["notice"].to_string();
     assert!(notice.contains("says nothing about this regulator") && !notice.contains("It claims"), "{notice}");
     call("specs/linear.json", "3/2", &[]).success().stderr("");
-    // One that is about something else is left out.
-    let assert = call("specs/no-x.json", "13/10", &[]).success();
-    let assert = assert.stderr(predicate::str::contains("another specification"));
+    // One that is about something else is refused, or left out.
+    let other = "made for another specification: it says nothing about this regulator";
+    call("specs/no-x.json", "13/10", &[]).code(2).stdout("").stderr(predicate::str::contains(other));
+    let assert = call("specs/no-x.json", "13/10", &["--uncertified"]).success();
+    let assert = assert.stderr(predicate::str::contains(other));
     assert!(json(&assert.get_output().stdout)["certificate"].is_null());
 }
 

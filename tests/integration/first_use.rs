@@ -206,3 +206,156 @@ fn oscillators_that_lower_no_bound_are_told() {
     let (code, text) = with("2*pi", true);
     assert!(code == 0 && !text.contains(REMARK), "{text}");
 }
+
+/// A pressure loop, whose smallest gain is far below the rates that one asks for.
+const PUMP: &str = r#"
+format = "sigmastar/plant"
+version = 1
+name = "Pressure loop"
+period = "1/60"
+states = ["Q"]
+f = ["(60 + e - R*Q^2)/L"]
+q = "(Qp*(1 + 0.14*cos(120*pi*t) + 0.05*cos(240*pi*t)) - Q)/C"
+initial_set = { kind = "aligned" }
+parameters = { R = 240, L = 2, C = 0.004, Qp = 0.55 }
+internal_model = { mu = 100, base_frequency = "120*pi", matched = true, weights = { family = "power", n0 = 2, epsilon = "1/2" } }
+"#;
+
+/// A call with the text of a file at its end: the exit code, and both streams in one line.
+fn of_text(command: &[&str], name: &str, text: &str) -> (i32, String) {
+    let folder = TempDir::new().expect("a folder");
+    let path = folder.path().join(name);
+    std::fs::write(&path, text).expect("written");
+    let output = program().args(command).arg(&path).output().expect("the program runs");
+    let text = utf8(output.stdout) + &utf8(output.stderr);
+    (output.status.code().expect("a code"), text.split_whitespace().collect::<Vec<_>>().join(" "))
+}
+
+#[test]
+fn rates_far_above_the_smallest_gain_are_found() {
+    let at = |flags: &[&str]| of_text(&[&["certify", "--no-compare"], flags].concat(), "pump.toml", PUMP);
+    let (code, text) = at(&["--rate", "5", "--n-o", "2"]);
+    assert!(code == 0 && text.contains("a rate of at least 5 for n_o = 2"), "{text}");
+    // Faster than the zero dynamics no loop is.
+    let (code, text) = at(&["--rate", "1e5", "--n-o", "2"]);
+    assert!(code == 3 && text.contains("the largest that is found is about"), "{text}");
+}
+
+#[test]
+fn the_smallest_gain_beside_a_limit_is_that_of_the_plant() {
+    let report = |flags: &[&str]| -> Value {
+        let (code, text) =
+            of_text(&[&["certify", "--no-compare", "-q", "--format", "json"], flags].concat(), "pump.toml", PUMP);
+        assert_eq!(code, 0, "{text}");
+        serde_json::from_str(&text).expect("JSON")
+    };
+    let number =
+        |report: &Value, name: &str| report[name].as_str().and_then(|text| text.parse::<f64>().ok()).expect("a number");
+    let smallest = number(&report(&[]), "sigma_star");
+    for limit in [["--peak-error", "0.01"], ["--steady-error", "0.01"]] {
+        let limited = report(&limit);
+        let estimate = number(&limited, "sigma_star_estimate");
+        assert!((estimate / smallest - 1.0).abs() < 0.01, "{limit:?}: {estimate}, {smallest}");
+        assert!(number(&limited, "sigma_star") > 10.0 * smallest, "{limited}");
+    }
+}
+
+#[test]
+fn a_set_without_sizes_is_said_to_shrink_with_the_solution() {
+    let said = "at any time; so from |x - x_0| <= 3.509e-4; twice the periodic solution";
+    for (set, expected) in [("{ kind = \"aligned\" }", true), ("{ kind = \"aligned\", ball = 0.001, E0 = 0.1 }", false)]
+    {
+        let (code, text) = of_text(&CERTIFY, "pump.toml", &PUMP.replace("{ kind = \"aligned\" }", set));
+        assert!(code == 0 && text.contains(said) == expected, "{text}");
+        assert!(text.contains("orbit: x_0(t): Q about 0.5"), "{text}");
+    }
+}
+
+#[test]
+fn what_stands_below_a_table_in_toml_belongs_to_it() {
+    let parameters = "parameters = { R = 240, L = 2, C = 0.004, Qp = 0.55 }\n";
+    let below = |line: &str| {
+        let text = PUMP.replace(parameters, "") + "\n[parameters]\nR = 240\nL = 2\nC = 0.004\nQp = 0.55\n" + line;
+        of_text(&CERTIFY, "pump.toml", &text)
+    };
+    let said = "is a field of the file itself";
+    let (code, text) = below("initial_set = { kind = \"aligned\" }");
+    assert!(
+        code == 2 && text.contains(&format!("`initial_set` {said}")) && !text.contains("`nominal` is missing"),
+        "{text}"
+    );
+    // A number may have that name, and be known to an interval.
+    let (code, text) = below("domain = { nominal = 1, low = 1, high = 2 }");
+    assert!(code == 0 && !text.contains(said), "{text}");
+    // In another table, where no name is the user's.
+    let model = "internal_model = { mu = 100,";
+    let (code, text) =
+        of_text(&CERTIFY, "pump.toml", &PUMP.replace(model, "internal_model = { domain = { x = 1, e = 1 }, mu = 100,"));
+    assert!(code == 2 && text.contains(&format!("`domain` {said}")), "{text}");
+    let (code, text) = of_text(&CERTIFY, "pump.toml", &PUMP.replace(model, "internal_model = { domein = 1, mu = 100,"));
+    assert!(code == 2 && !text.contains(said), "{text}");
+}
+
+#[test]
+fn what_is_no_list_no_end_and_no_gain_is_told_with_what_is() {
+    let changed = |from: &str, to: &str| of_text(&CERTIFY, "pump.toml", &PUMP.replace(from, to));
+    let brackets = "a list stands in brackets";
+    let (code, text) = changed("f = [\"(60 + e - R*Q^2)/L\"]", "f = \"(60 + e - R*Q^2)/L\"");
+    assert!(code == 2 && text.contains(brackets), "{text}");
+    let (code, text) = changed("f = [\"(60 + e - R*Q^2)/L\"]", "f = 1");
+    assert!(code == 2 && !text.contains(brackets), "{text}");
+    let sign = "count the control with the other sign";
+    let gain = |ends: &str| changed("period =", &format!("input_gain = {{ {ends} }}\nperiod ="));
+    let (code, text) = gain("nominal = \"-1/C\", low = \"-1/C\", high = \"-1/C\"");
+    assert!(code == 2 && text.contains(sign), "{text}");
+    let (code, text) = changed("mu = 100", "mu = -100");
+    assert!(code == 2 && text.contains("`mu` must be positive") && !text.contains(sign), "{text}");
+    let end = "the text ends before its value does";
+    let (code, text) = of_text(&CERTIFY, "plant.json", "{ \"format\": \"sigmastar/plant\"");
+    assert!(code == 2 && text.contains(end), "{text}");
+    let (code, text) = of_text(&CERTIFY, "plant.json", "{ \"format\": }");
+    assert!(code == 2 && !text.contains(end), "{text}");
+}
+
+#[test]
+fn flags_of_files_and_of_other_commands_are_told_apart() {
+    let with = |words: &[&str]| {
+        let output = program().args(words).output().expect("the program runs");
+        (output.status.code().expect("a code"), utf8(output.stderr))
+    };
+    for (words, said) in [
+        (&["certify", EXAMPLE, "--mu", "2"][..], "it is a field of the file: `internal_model.mu`"),
+        (&["certify", EXAMPLE, "--saturation", "2"], "it is a flag of `controller`, `simulate`"),
+        (&["certify", "--sigma", EXAMPLE, "5"], "a number stands where a file is expected"),
+    ] {
+        let (code, text) = with(words);
+        assert!(code == 2 && text.contains(said), "{words:?}: {text}");
+    }
+    // Flags that the command has, and a file that there is not.
+    for words in
+        [&["certify", EXAMPLE, "--quiet", "--progress"][..], &["certify", EXAMPLE, "--sigma"], &["certify", "5.json"]]
+    {
+        let (code, text) = with(words);
+        let wrong = ["it is a field", "it is a flag", "a number stands"].iter().find(|said| text.contains(**said));
+        assert!(code == 2 && wrong.is_none(), "{words:?}: {text}");
+    }
+}
+
+#[test]
+fn what_limits_a_gain_at_samples_is_what_it_would_fall_without() {
+    let limit = |samples: u32| {
+        let h = format!("1/{samples}");
+        let output = program()
+            .args(["certify", "--no-compare", "-q", "--format", "json", "--sampling-period", &h, "specs/linear.json"])
+            .output()
+            .expect("the program runs");
+        let report: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+        (
+            report["limit"]["name"].as_str().expect("a limit").to_owned(),
+            report["sigma"].as_str().expect("a gain").to_owned(),
+        )
+    };
+    // In continuous time the gain is 1.324: at 20 samples theta costs a seventh, at 1000 nothing that matters.
+    let [(few, large), (many, small)] = [20, 1000].map(limit);
+    assert_eq!((few.as_str(), many.as_str()), ("theta", "gain"), "{large}, {small}");
+}

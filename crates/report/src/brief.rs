@@ -1,6 +1,7 @@
 //! The first lines of a report on a certified claim: the gain, from where, what to do next, what sets the gain, what is
 //! assumed. The sections below say more of each.
 
+use super::of_plant::orbit;
 use super::verdict::assumed;
 use super::{Origin, sensitivity, words};
 use rug::Rational;
@@ -47,13 +48,20 @@ pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences
             });
             format!(
                 "sigma = {sigma} in 1/time, the smallest one that is found that keeps to what was asked for; the loop is proved for every \
-                 larger one, too, whose bounds are others; the same for every n_o{least}"
+                 larger one, too, whose bounds are others; the same for every n_o{least}{}",
+                // The limit holds for every n_o, so without oscillators too.
+                match run.limits.steady_error {
+                    Some(_) =>
+                        "; with oscillators a smaller gain may keep the steady error: `--target-sup` says with how many",
+                    None => "",
+                }
             )
         }
         (None, None) => format!("sigma* = {sigma} in 1/time, or any larger; the same for every n_o"),
     };
     let mut facts =
         vec![("gain", gain), ("from", from(run.spec, set, "any time")), ("next", next(run.spec, origin, false))];
+    facts.extend(orbit(run.spec).map(|said| ("orbit", said)));
     facts.extend(set_by(run).map(|said| ("set by", said)));
     facts.extend(
         run.alternatives
@@ -63,10 +71,8 @@ pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences
     );
     facts.extend(input_gain(run).map(|said| ("input gain", said)));
     facts.extend(interval_costs(&run.interval_costs, "sigma*").map(|said| ("intervals", said)));
-    // Where targets were given, their answers are above.
-    let unasked = consequences.filter(|all| all.targets.is_empty());
-    facts.extend(unasked.and_then(|all| error(&all.by_n_o)).map(|said| ("steady error", said)));
-    facts.extend(for_n_o(run).map(|said| ("convergence", said)));
+    facts.extend(consequences.and_then(|all| error(&all.by_n_o)).map(|said| ("steady error", said)));
+    facts.push(("convergence", for_n_o(run)));
     // It grows with the gain, of which the claim says "or any larger".
     let control = run.control().map(|bounds| (bounds, " (both at this gain)"));
     facts.push(("to", to(run.spec, &periodic, error_box.each_ref().map(upper), control)));
@@ -74,8 +80,8 @@ pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences
     vec![Block::facts(facts), Block::says(norms(run.spec, "sigma"))]
 }
 
-/// How fast the error decays for the numbers of oscillators that were asked about; nothing without any.
-fn for_n_o(run: &Certification<'_>) -> Option<String> {
+/// How fast the error decays for the numbers of oscillators that were asked about; without any, how to ask.
+fn for_n_o(run: &Certification<'_>) -> String {
     let one = |RateForCount { n_o, bound, noise }: &RateForCount| match bound {
         None => format!("n_o = {n_o}: not proved"),
         Some(bound) => {
@@ -86,7 +92,10 @@ fn for_n_o(run: &Certification<'_>) -> Option<String> {
         }
     };
     let all: Vec<String> = run.for_n_o.iter().map(one).collect();
-    (!all.is_empty()).then(|| format!("|e - e_per| at this gain alone, {}", all.join("; ")))
+    if all.is_empty() {
+        return "`--n-o N` proves a rate at this gain, `--rate V --n-o N` finds a gain for one".to_owned();
+    }
+    format!("|e - e_per| at this gain alone, {}", all.join("; "))
 }
 
 /// What noise and a disturbance, or rounding alone, add, where there are some and it is proved.
@@ -134,9 +143,9 @@ pub(super) fn of_samples(
     );
     let mut facts =
         vec![("gain", gain), ("from", from(run.spec, &witness.set, &when)), ("next", next(run.spec, origin, true))];
+    facts.extend(orbit(run.spec).map(|said| ("orbit", said)));
     facts.extend(run.found.map(|(_, limit)| ("set by", format!("{} (an estimate)", limit.describe()))));
-    let unasked = consequences.filter(|all| all.targets.is_empty());
-    facts.extend(unasked.and_then(|all| error(&all.by_n_o)).map(|said| ("steady error", said)));
+    facts.extend(consequences.and_then(|all| error(&all.by_n_o)).map(|said| ("steady error", said)));
     facts.extend(for_n_o_at_samples(run).map(|said| ("convergence", said)));
     let radii = [&witness.d_x, &witness.d_e].map(|radius| exact(radius, Direction::Up));
     facts.push(("to", to(run.spec, &periodic, radii, run.control().map(|bounds| (bounds, "")))));
@@ -207,7 +216,13 @@ fn from(spec: &Specification, set: &ClaimedSet, when: &str) -> String {
     let ball = spec.plant().and_then(|plant| claimed_ball(plant, &set.x0));
     let ball =
         ball.map_or_else(String::new, |ball| format!("; so from |x - x_0| <= {}", exact(&ball, Direction::Down)));
-    format!("{}, at {when}{ball}", words::set(spec, set))
+    // Without sizes of its own the set is twice the periodic solution, which shrinks with the gain.
+    let own = if spec.initial_set.x0().is_none() && spec.plant().is_none_or(|plant| plant.ball.is_none()) {
+        "; twice the periodic solution"
+    } else {
+        ""
+    };
+    format!("{}, at {when}{ball}{own}", words::set(spec, set))
 }
 
 /// The periodic solution, how far from it solutions go, and how large the control gets.

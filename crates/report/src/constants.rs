@@ -12,20 +12,26 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
     if rows.is_empty() {
         return Vec::new();
     }
-    let mut blocks = vec![
-        Block::Aside("Constants in the three derivations".to_owned()),
-        Block::says(
-            "Rounded to the nearest digits shown; [lower, upper] where the enclosure is wider than these. The full \
-             enclosures are in the certificate and in the JSON report. (!) marks a printed value that is not sound, \
-             (none) one whose defining condition has no solution. p/s is printed/sharp and r/s is repaired/sharp, both \
-             estimates.",
-        ),
-    ];
+    // A plant has those of the sharp derivation alone.
+    let alone = rows.iter().all(|row| row.printed.is_none() && row.repaired.is_none());
+    let title = if alone { "Constants" } else { "Constants in the three derivations" };
+    let rounded = "Rounded to the nearest digits shown; [lower, upper] where the enclosure is wider than these. The full enclosures are in the \
+                   certificate and in the JSON report.";
+    let marks = "(!) marks a printed value that is not sound, (none) one whose defining condition has no solution. p/s is printed/sharp and r/s \
+                 is repaired/sharp, both estimates.";
+    let legend = if alone { rounded.to_owned() } else { format!("{rounded} {marks}") };
+    let mut blocks = vec![Block::Aside(title.to_owned()), Block::says(legend)];
     let mut notes = Vec::new();
     for at in [At::Data, At::Common, At::Own] {
-        let mut table = Table::new(&["<", "printed", "repaired", "sharp", "p/s", "r/s"]);
+        let columns = ["<", "printed", "repaired", "sharp", "p/s", "r/s"];
+        let mut table = if alone { Table::new(&["<", "value"]) } else { Table::new(&columns) };
         for row in rows.iter().filter(|row| row.at == at) {
-            table.push(cells(row, &mut notes));
+            let [name, printed, repaired, sharp, by_printed, by_repaired] = cells(row, &mut notes);
+            if alone {
+                table.push([name, sharp]);
+            } else {
+                table.push([name, printed, repaired, sharp, by_printed, by_repaired]);
+            }
         }
         if !table.rows.is_empty() {
             blocks.push(Block::Subheading(heading(at).to_owned()));

@@ -3,13 +3,13 @@
 use super::words;
 use rug::Rational;
 use serde_json::{Value, json};
-use sigmastar_document::number::exact;
+use sigmastar_document::number::{estimate, exact};
 use sigmastar_document::{Block, Table, clean};
 use sigmastar_exact::number::{Direction, write_exact};
 use sigmastar_lang::spec::model::{Constant, Lyapunov};
 use sigmastar_lang::spec::{
     ExistenceInequality, Interval, JointStability, MatrixInequality, OfPlant, Parameter, ProvedValue, SampledExistence,
-    SampledInequalities, SampledInequality, Specification, Splitting,
+    SampledInequalities, SampledInequality, Specification, Splitting, TrigonometricVector,
 };
 use sigmastar_prove::certificate::{joint_existence_json, joint_stability_json};
 use sigmastar_prove::certify::{claimed_ball, nominal_ball};
@@ -156,6 +156,23 @@ fn at_samples(spec: &Specification) -> Vec<Block> {
 fn place(spec: &Specification, ends: [&Rational; 2]) -> String {
     let [x, e] = ends.map(|end| exact(end, Direction::Down));
     if spec.state_name().is_some() { format!("|y| <= {x}, |e| <= {e}") } else { format!("|e| <= {e}") }
+}
+
+/// Where x_0 is, about: its mean and how far it swings, by each state; nothing of a plant without states, or of a specification.
+pub(super) fn orbit(spec: &Specification) -> Option<String> {
+    let plant = spec.plant()?;
+    let nominal = plant.parameters.nominal();
+    let cell = plant.cells.iter().find(|cell| cell.parameters.contain(&nominal))?;
+    let TrigonometricVector { mean, harmonics } = cell.orbit.approximation.at(&cell.parameters.deviations(&nominal));
+    let names = spec.document.pointer("/states")?.as_array()?;
+    let of_state = |(state, name): (usize, &Value)| {
+        let swing: f64 = harmonics.iter().map(|[cos, sin]| cos[state].to_f64().hypot(sin[state].to_f64())).sum();
+        let swing = if swing == 0.0 { String::new() } else { format!(" +- {}", estimate(swing)) };
+        Some(format!("{} about {}{swing}", clean(name.as_str()?), estimate(mean[state].to_f64())))
+    };
+    let states: Vec<String> = names.iter().enumerate().map(of_state).collect::<Option<_>>()?;
+    let members = if nominal.is_empty() { "" } else { ", of the nominal member: each has its own" };
+    (!states.is_empty()).then(|| format!("x_0(t): {}{members}", states.join(", ")))
 }
 
 fn facts(plant: &OfPlant, set: Option<&ClaimedSet>) -> Vec<(&'static str, String)> {

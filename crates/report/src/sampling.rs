@@ -35,7 +35,8 @@ impl Readable for SamplingReport<'_> {
         ];
         if let Some(sigma) = continuous {
             blocks.push(Block::says(format!(
-                "The regulator in continuous time needs about sigma = {} (floating point).",
+                "In continuous time, by norms as here, about sigma = {} is needed (floating point); `certify` without a sampling \
+                 period may prove a smaller gain.",
                 estimate(*sigma)
             )));
         }

@@ -6,7 +6,7 @@ use super::claim::TriedClaim;
 use super::finding::{Trial, TriedPlant};
 use super::random::Random;
 use super::start::{boundary, drawn_plant, file, no_member, regulator};
-use crate::simulate::figures::number_short;
+use crate::simulate::figures::{control_axis, number_short};
 use crate::simulate::{ClosedLoop, Disturbance, IntegrationFailure, SampledLoop, SampledRun, Tolerance, trajectory};
 use sigmastar_document::plot::{Curve, Figure, Scale, Style};
 use sigmastar_exact::number::{Direction, round_f64, write_exact};
@@ -56,6 +56,8 @@ struct EdgeRun {
 pub struct Edge {
     runs: Vec<EdgeRun>,
     period: f64,
+    /// What the regulator divides the control by.
+    nominal: Option<f64>,
     /// Which plant is simulated, and from where.
     pub words: String,
 }
@@ -100,7 +102,8 @@ pub fn from_the_edge(claim: &TriedClaim) -> Result<Edge, String> {
     if runs.is_empty() {
         Err(why)
     } else {
-        Ok(Edge { runs, period, words: format!("{words}, from the edge of the set") })
+        let nominal = plant.input_gain.as_ref().map(|gain| gain.nominal.to_f64());
+        Ok(Edge { runs, period, nominal, words: format!("{words}, from the edge of the set") })
     }
 }
 
@@ -312,7 +315,7 @@ impl Edge {
         Figure {
             title: "The control: proved, and simulated".to_owned(),
             x: format!("time t [unit of time; period {}]", number_short(self.period)),
-            y: format!("{} [unit of e per unit of time]", if far { "|u|" } else { "u" }),
+            y: control_axis(if far { "|u|" } else { "u" }, self.nominal),
             scale: if far { Scale::LogY } else { Scale::Linear },
             floor,
             curves,

@@ -116,7 +116,18 @@ fn control(closed_loop: &ClosedLoop, run: &LongRun) -> Figure {
     let last = run.times.iter().zip(&run.states).skip(run.times.len() - 1 - samples);
     let points = last.map(|(t, y)| (*t, closed_loop.control(y, Disturbance::default()))).collect();
     let curves = vec![Curve { label: regulator_words(&closed_loop.regulator), points, style: Style::Line }];
-    over_time(closed_loop.period, "Control over the last period", "u [unit of e per unit of time]", curves)
+    over_time(
+        closed_loop.period,
+        "Control over the last period",
+        &control_axis("u", closed_loop.regulator.nominal),
+        curves,
+    )
+}
+
+/// The axis of the control: what an actuator is given, whose unit is its own, or what is added to e'.
+pub(crate) fn control_axis(name: &str, nominal: Option<f64>) -> String {
+    let unit = if nominal.is_some() { "unit of the actuator" } else { "unit of e per unit of time" };
+    format!("{name} [{unit}]")
 }
 
 pub(super) fn over_time(period: f64, title: &str, y: &str, curves: Vec<Curve>) -> Figure {

@@ -158,7 +158,10 @@ impl Scope for PlantNames {
 
     fn instead_of(&self, name: &str) -> Option<&'static str> {
         match name {
-            "u" => Some("leave u out: it is added to q, e' = q + u"),
+            "u" => Some(
+                "u acts in e' = q + u alone and is not written: leave it out of q; a plant on which it acts elsewhere has a higher relative degree, \
+                 and is stated with another e (the user guide, `Relative degree above 1`)",
+            ),
             "t" => Some(INSTEAD_OF_TIME),
             _ => None,
         }

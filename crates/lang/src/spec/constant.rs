@@ -132,7 +132,11 @@ fn in_range(
         Truth::True => return Ok(constant),
         Truth::False => {
             let shown = Quantity::constant(&constant).shown();
-            whole(value, ErrorKind::Range, format!("{name} must be {range}, but it is {shown}"))
+            let error = whole(value, ErrorKind::Range, format!("{name} must be {range}, but it is {shown}"));
+            match value.pointer().starts_with("/input_gain/") {
+                true => error.help("count the control with the other sign: then its gain is positive"),
+                false => error,
+            }
         }
         Truth::Undecided => {
             let message = format!("cannot be decided at {MAX_PRECISION} bits whether {name} is {range}");

@@ -349,6 +349,11 @@ impl<'d> Value<'d> {
     pub fn array(&self, errors: &mut Errors) -> Result<Vec<Value<'d>>, Reported> {
         match self.node.content {
             Content::Array(_) => Ok(self.elements()),
+            Content::Text(_) => {
+                let message = format!("{} is {}", self.name(), self.type_name());
+                let error = self.error(ErrorKind::Type, message).expected("expected an array");
+                Err(errors.report(error.help("a list stands in brackets, also one of a single text: `[\"...\"]`")))
+            }
             _ => Err(self.wrong_type("an array", errors)),
         }
     }

@@ -112,6 +112,9 @@ fn syntax_error(text: &str, error: &serde_json::Error) -> SpecError {
     if let Some(help) = missing_quotes(text, at, message) {
         return located.help(help);
     }
+    if message.starts_with("EOF") {
+        return located.help("the text ends before its value does: a closing brace, bracket or quote is missing");
+    }
     match &text[at..end] {
         "/" | "#" => located.help("JSON has no comments; name the file `.jsonc`, or put remarks in `description`"),
         "'" => located.help("strings stand in double quotes"),

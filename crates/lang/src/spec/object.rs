@@ -164,8 +164,10 @@ impl<'d> Object<'d> {
             );
             let near = nearest(key, absent.iter().copied()).or_else(|| nearest(key, self.known.iter().copied()));
             let of_model = self.known.contains(&"internal_model") && OF_INTERNAL_MODEL.contains(&key);
+            let of_file = !self.value.pointer().is_empty() && OF_FILE.contains(&key);
             errors.report(match near {
                 _ if of_model => error.help(format!("`{key}` stands in `internal_model`")),
+                _ if of_file => error.help(belongs_above(key)),
                 Some(name) => error.expected(format!("did you mean `{name}`?")),
                 None => error.help(format!("the fields known {place} are {}", list(&self.known))),
             });
@@ -176,6 +178,30 @@ impl<'d> Object<'d> {
 
 /// Fields of the regulator, which some write beside it.
 const OF_INTERNAL_MODEL: [&str; 6] = ["mu", "base_frequency", "matched", "weights", "sampling_period", "delay_samples"];
+
+/// Fields of a file itself, which in TOML belong to a table once one has begun.
+pub(super) const OF_FILE: [&str; 13] = [
+    "format",
+    "version",
+    "period",
+    "states",
+    "initial",
+    "initial_set",
+    "domain",
+    "parameters",
+    "internal_model",
+    "input_gain",
+    "actuator",
+    "measurement",
+    "disturbance",
+];
+
+/// Where such a field belongs.
+pub(super) fn belongs_above(name: &str) -> String {
+    format!(
+        "`{name}` is a field of the file itself; what stands below a line in brackets belongs to that table in TOML: put `{name}` above the first one"
+    )
+}
 
 /// The formats that people name in a file of their own.
 const FORMATS: [&str; 5] =

@@ -4,6 +4,7 @@ use super::constant::{any_constant, whole};
 use super::document::Value;
 use super::error::{ErrorKind, Errors, Reported};
 use super::interval::no_list;
+use super::object::{OF_FILE, belongs_above};
 use super::parts::Constant;
 use crate::expr::{DefinitionError, Definitions, MAX_INTERVALS, occurs};
 use rug::Rational;
@@ -252,6 +253,11 @@ fn read_one(
         return Err(errors.report(error.help("rename one of the two")));
     }
     if matches!(value.type_name(), "an object") {
+        let states_an_end = ["nominal", "low", "high"].iter().any(|end| value.member(end).is_some());
+        if OF_FILE.contains(&name) && !states_an_end {
+            let message = format!("`{name}` stands among the parameters");
+            return Err(errors.report(value.error_at_key(ErrorKind::UnknownField, message).help(belongs_above(name))));
+        }
         return read_interval(value, name, members, errors);
     }
     no_list(value, errors)?;

@@ -79,7 +79,8 @@ impl OrbitFailure {
             ),
             OrbitFailure::AddsUp { mean: None, .. } => Some(
                 "no other orbit is stable either: give it a term that pulls it back, close a loop around it first, or leave out a state that \
-                 neither q nor another state needs",
+                 neither q nor another state needs; where it is what is to be regulated, and e its rate, state the plant with another e (the \
+                 user guide, `Relative degree above 1`)",
             ),
             OrbitFailure::AddsUp { mean: Some(_), .. } => Some(
                 "a load that acts where u does stands in q, where the regulator takes up its mean; else give what adds up a term that pulls it \

@@ -57,11 +57,11 @@ impl BestSharp {
         (kind, model): (TransferKind, FloatModel),
         (Wanted { start, gain, limits: asked }, limits): (Wanted<'_>, FloatLimits),
     ) -> BestSharp {
-        let refused = |obstacle, model| BestSharp {
+        let refused = |obstacle, model, smallest_gain| BestSharp {
             model,
             proposal: None,
             outcome: Outcome::NotFound(obstacle),
-            smallest_gain: None,
+            smallest_gain,
         };
         let least = match gain {
             Some(gain) => at_gain(&model, gain.to_f64(), start),
@@ -69,8 +69,9 @@ impl BestSharp {
         };
         let least = match least {
             Ok(least) => least,
-            Err(obstacle) => return refused(obstacle, model),
+            Err(obstacle) => return refused(obstacle, model, None),
         };
+        let smallest_gain = gain.is_none().then_some(least.sigma);
         let kept = |proof: &SharpProof| {
             let SharpEvaluation { periodic, peak, control, .. } = &proof.evaluation;
             asked.is_none_or(|limits| limits.kept([&periodic.e_per, peak], control))
@@ -80,12 +81,7 @@ impl BestSharp {
         let proof = round_sharp(data, &model, &least, (kind, gain), options.ladder);
         if let Some(proof) = proof.filter(|proof| proof.truth().is_true() && is_it(proof) && kept(proof)) {
             let outcome = Some(proof).into();
-            return BestSharp {
-                model,
-                proposal: Some(least),
-                outcome,
-                smallest_gain: gain.is_none().then_some(least.sigma),
-            };
+            return BestSharp { model, proposal: Some(least), outcome, smallest_gain };
         }
         let at = |goal: Goal, sigma: f64| {
             let model = model.with_goal(goal);
@@ -96,7 +92,7 @@ impl BestSharp {
         for room in ROOMS {
             let found = match limits.smallest([least.sigma, f64::INFINITY], (gain.is_some(), room), at) {
                 Ok(found) => found,
-                Err(obstacle) => return attempt.unwrap_or_else(|| refused(obstacle, model)),
+                Err(obstacle) => return attempt.unwrap_or_else(|| refused(obstacle, model, smallest_gain)),
             };
             let sigma = gain.cloned().or_else(|| found.sigma());
             let with = model.with_goal(found.goal);
@@ -107,13 +103,12 @@ impl BestSharp {
                 proof => proof.into(),
             };
             let proved = outcome.proved().is_some();
-            let smallest_gain = gain.is_none().then_some(least.sigma);
             attempt = Some(BestSharp { model: with, proposal: Some(found.proposal), outcome, smallest_gain });
             if proved {
                 break;
             }
         }
-        attempt.unwrap_or_else(|| refused(Failing::NotFinite(None).into(), model))
+        attempt.unwrap_or_else(|| refused(Failing::NotFinite(None).into(), model, smallest_gain))
     }
 
     /// The better one of two: that with a proof, and with the smaller sigma; of two at a given gain the first.

@@ -183,6 +183,9 @@ impl Prepared {
                 });
                 run.and_then(|run| self.closer(run, options)).map(|mut run| {
                     watch.enter(Stage::Comparison);
+                    // The data that were proved for the smallest gain know it best.
+                    run.smallest_gain =
+                        run.smallest_gain.map(|least| proposal.map_or(least, |known| known.sigma.min(least)));
                     if let Some((spec, proposal)) = other.filter(|_| smallest) {
                         run.with_gains_of(spec, proposal);
                     }

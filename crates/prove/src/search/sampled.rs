@@ -41,6 +41,9 @@ const STEPS: u32 = 34;
 /// The radius of the forms has to be below 1 by this much, for rounding.
 const LARGEST: f64 = 1.0 - 1e-8;
 
+/// By what share a gain would have to be smaller without something, for that to limit it.
+const WORTH_SAYING: f64 = 0.1;
+
 /// By how much more a gain near a known one is tried.
 const LARGER: [f64; 8] = [0.0, 1e-5, 1e-4, 1e-3, 3e-3, 1e-2, 3e-2, 0.1];
 
@@ -116,7 +119,7 @@ impl SampledLimit {
         match self {
             SampledLimit::Existence => "S2: the periodic solution; a shorter sampling period or a larger gain helps",
             SampledLimit::Continuous => {
-                "Q_0: the gain itself, as in continuous time; a larger one, where h sigma <= 1 allows it, or sharper data help"
+                "Q_0: the gain itself, as norms have it in continuous time; a larger one, where h sigma <= 1 allows it, or sharper data help"
             }
             SampledLimit::Theta => {
                 "theta = h mu Nbar^2/2 in Q_h: what the oscillators lose to the sampling; a smaller mu or a shorter sampling \
@@ -409,32 +412,31 @@ impl<'m> SampledSearch<'m> {
         raised((found.floors, found), ordinary(self.model), size, again).map_or(found, |(_, best)| best)
     }
 
-    /// What limits a witness: which of the parts of the forms it would gain most without.
+    /// What limits a witness: the part of the forms without which a gain that is smaller by a share that matters would do, and of several
+    /// the one with which it would do best; without such a part it is the gain itself, or what a smaller one has no periodic solution for.
     #[must_use]
     pub fn limit(&self, proposal: &SampledProposal) -> SampledLimit {
         let SampledProposal { sigma, floors, rho, eta, .. } = *proposal;
-        let Ok((set, at)) = self.at(sigma, floors, Some((rho, eta)), ROOM) else { return SampledLimit::Existence };
         if self.model.at_samples.stability.is_some() {
             return SampledLimit::Matrix;
         }
+        let sigma = sigma * (1.0 - WORTH_SAYING);
+        let Ok((set, at)) = self.at(sigma, floors, Some((rho, eta)), ROOM) else { return SampledLimit::Existence };
         let shape = Shape::of(self.model, (set.x_per, set.e_per), &at);
         let gm = at.past.map_or(0.0, |past| past.weight(at.eta, at.dist_e));
-        let of = |part: Option<Part>| {
-            let forms = self.forms(sigma, (&shape, gm), part);
-            [&forms.start, &forms.end].map(|form| radius(form).unwrap_or(f64::INFINITY))
+        let without = |part: Part| {
+            let forms = self.forms(sigma, (&shape, gm), Some(part));
+            [&forms.start, &forms.end]
+                .iter()
+                .fold(0.0, |most: f64, form| most.max(radius(form).unwrap_or(f64::INFINITY)))
         };
-        let [start, end] = of(None);
         let parts = [
             (Part::Theta, SampledLimit::Theta),
             (Part::Hold, SampledLimit::Hold),
             (Part::Motion, SampledLimit::Motion),
         ];
-        let without = parts.map(|(part, limit)| (of(Some(part))[1], limit));
-        let (least, limit) = without
-            .into_iter()
-            .fold((end, SampledLimit::Continuous), |best, next| if next.0 < best.0 { next } else { best });
-        // Below what Q_0 has nothing is gained.
-        if end - least.max(start) < 0.02 * (1.0 - start).abs() { SampledLimit::Continuous } else { limit }
+        let least = parts.map(|(part, limit)| (without(part), limit)).into_iter().min_by(|a, b| a.0.total_cmp(&b.0));
+        least.filter(|(radius, _)| *radius <= LARGEST).map_or(SampledLimit::Continuous, |(_, limit)| limit)
     }
 }
 

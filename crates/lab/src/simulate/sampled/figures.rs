@@ -3,7 +3,7 @@
 use super::run::{SampledLongRun, SampledSimulation};
 use super::sampled_loop::{Piece, SampledLoop};
 use super::words::loop_words;
-use crate::simulate::figures::{over_time, regulator_columns, spectrum, spectrum_curve, transient};
+use crate::simulate::figures::{control_axis, over_time, regulator_columns, spectrum, spectrum_curve, transient};
 use sigmastar_document::plot::{Curve, Figure, Style};
 use sigmastar_lang::plant::Plant;
 
@@ -72,8 +72,8 @@ pub fn sampled_figures(
             [(piece.t, piece.u), (piece.t + length, piece.u)]
         });
         let curves = vec![Curve { label: loop_words(sampled), points: held.collect(), style: Style::Line }];
-        let unit = "u [unit of e per unit of time]";
-        figures.push(("control.svg", over_time(period, "Control over the last period", unit, curves)));
+        let axis = control_axis("u", sampled.regulator.nominal);
+        figures.push(("control.svg", over_time(period, "Control over the last period", &axis, curves)));
     }
     if let Ok((_, sums)) = &simulation.steady {
         let curves = vec![

@@ -6,8 +6,13 @@ use rug::Rational;
 use sigmastar_exact::number::{Direction, round_f64};
 use sigmastar_lang::spec::SpecErrors;
 
-/// The gains that are tried in turn, over the smallest one.
+/// The gains that are tried in turn, over the smallest one; and, where that is far smaller, over the rate that is asked for: e itself is to
+/// decay as fast.
 const SHARES: [f64; 7] = [1.2, 1.5, 2.0, 3.0, 4.0, 6.0, 10.0];
+const OF_RATE: [f64; 7] = [0.5, 1.0, 2.0, 4.0, 8.0, 20.0, 50.0];
+
+/// Of so many larger gains in turn none has a larger rate: then it falls.
+const FALLS: usize = 2;
 
 /// Steps of the bisection between a gain that does not do and one that does.
 const STEPS: usize = 6;
@@ -116,11 +121,16 @@ impl Search<'_> {
             let (sigma, rate) = claim?;
             Some(Tried { prepared: Prepared { found_above: Some(smallest), ..prepared }, sigma, rate })
         };
-        for sigma in SHARES.iter().filter_map(|share| round_f64(smallest * share, DIGITS, Direction::Up)) {
-            if let Some(next) = tried(sigma.clone()).filter(|next| next.rate > best.rate) {
-                best = next;
+        let shares = SHARES.map(|share| smallest * share);
+        let of_rate =
+            OF_RATE.map(|share| least.to_f64() * share).into_iter().filter(|sigma| *sigma > shares[SHARES.len() - 1]);
+        let mut larger_ones = 0;
+        for sigma in shares.into_iter().chain(of_rate).filter_map(|sigma| round_f64(sigma, DIGITS, Direction::Up)) {
+            match tried(sigma.clone()).filter(|next| next.rate > best.rate) {
+                Some(next) => (best, larger_ones) = (next, 0),
+                None => larger_ones += 1,
             }
-            if does(&best) {
+            if does(&best) || (larger_ones >= FALLS && sigma.to_f64() > shares[SHARES.len() - 1]) {
                 break;
             }
             below = sigma;
