@@ -41,7 +41,7 @@ impl Step {
     fn number_of(self) -> Step {
         match self {
             Step::Of(Stage::Metrics) => Step::Of(Stage::Bounds),
-            Step::Of(Stage::Comparison) => Step::Of(Stage::Witness),
+            Step::Of(Stage::Limits | Stage::Comparison) => Step::Of(Stage::Witness),
             step => step,
         }
     }
@@ -56,6 +56,7 @@ impl fmt::Display for Step {
             Step::Of(Stage::Metrics) => "proposing and proving joint metrics",
             Step::Of(Stage::Triple) => "finding and proving the triple of the Jacobian",
             Step::Of(Stage::Witness) => "searching the free numbers, deciding the conditions",
+            Step::Of(Stage::Limits) => "seeking a gain that keeps to what is asked for",
             Step::Of(Stage::Comparison) => "working out what else would give (`--no-compare` leaves it out)",
             Step::Decision => "deciding the conditions",
             Step::Rates => "proving rates",

@@ -72,7 +72,9 @@ pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences
     facts.extend(input_gain(run).map(|said| ("input gain", said)));
     facts.extend(interval_costs(&run.interval_costs, "sigma*").map(|said| ("intervals", said)));
     facts.extend(consequences.and_then(|all| error(&all.by_n_o)).map(|said| ("steady error", said)));
-    facts.push(("convergence", for_n_o(run)));
+    facts.extend(
+        for_n_o(run, consequences.is_some_and(|all| !all.targets.is_empty())).map(|said| ("convergence", said)),
+    );
     // It grows with the gain, of which the claim says "or any larger".
     let control = run.control().map(|bounds| (bounds, " (both at this gain)"));
     facts.push(("to", to(run.spec, &periodic, error_box.each_ref().map(upper), control)));
@@ -80,8 +82,8 @@ pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences
     vec![Block::facts(facts), Block::says(norms(run.spec, "sigma"))]
 }
 
-/// How fast the error decays for the numbers of oscillators that were asked about; without any, how to ask.
-fn for_n_o(run: &Certification<'_>) -> String {
+/// How fast the error decays for the numbers of oscillators that were asked about; without any, how to ask, where nothing else was `asked`.
+fn for_n_o(run: &Certification<'_>, asked: bool) -> Option<String> {
     let one = |RateForCount { n_o, bound, noise }: &RateForCount| match bound {
         None => format!("n_o = {n_o}: not proved"),
         Some(bound) => {
@@ -93,9 +95,10 @@ fn for_n_o(run: &Certification<'_>) -> String {
     };
     let all: Vec<String> = run.for_n_o.iter().map(one).collect();
     if all.is_empty() {
-        return "`--n-o N` proves a rate at this gain, `--rate V --n-o N` finds a gain for one".to_owned();
+        let how = "`--n-o N` proves a rate at this gain, `--rate V --n-o N` finds a gain for one";
+        return (!asked).then(|| how.to_owned());
     }
-    format!("|e - e_per| at this gain alone, {}", all.join("; "))
+    Some(format!("|e - e_per| at this gain alone, {}", all.join("; ")))
 }
 
 /// What noise and a disturbance, or rounding alone, add, where there are some and it is proved.

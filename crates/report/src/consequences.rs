@@ -127,7 +127,7 @@ fn answer(target: &Target, outcome: TargetOutcome, most: u64) -> String {
     let wanted = format!("{} <= {}", target.kind.name(), clean(&target.value.text));
     match outcome {
         TargetOutcome::Reached(n_o) => {
-            format!("Target {wanted}: certified with n_o = {n_o} oscillators (the smallest number for these bounds)")
+            format!("Target {wanted}: certified with n_o = {n_o} oscillators, the least for these bounds")
         }
         TargetOutcome::NotReached => {
             format!("Target {wanted}: not certified with any number of oscillators up to {most}")

@@ -166,7 +166,11 @@ pub(super) fn orbit(spec: &Specification) -> Option<String> {
     let TrigonometricVector { mean, harmonics } = cell.orbit.approximation.at(&cell.parameters.deviations(&nominal));
     let names = spec.document.pointer("/states")?.as_array()?;
     let of_state = |(state, name): (usize, &Value)| {
-        let swing: f64 = harmonics.iter().map(|[cos, sin]| cos[state].to_f64().hypot(sin[state].to_f64())).sum();
+        let amplitude = |[cos, sin]: &[Vec<Rational>; 2]| {
+            let [a, b] = [cos, sin].map(|part| part[state].to_f64());
+            (a * a + b * b).sqrt()
+        };
+        let swing: f64 = harmonics.iter().map(amplitude).sum();
         let swing = if swing == 0.0 { String::new() } else { format!(" +- {}", estimate(swing)) };
         Some(format!("{} about {}{swing}", clean(name.as_str()?), estimate(mean[state].to_f64())))
     };

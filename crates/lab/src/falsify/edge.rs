@@ -370,6 +370,10 @@ mod tests {
             assert_eq!((control.curves.len(), control.scale), (5, Scale::LogY));
             let near = ProvedBounds { control: [10.0, 20.0], ..proved };
             assert_eq!(edge.figures(&near)[1].scale, Scale::Linear);
+            // What an actuator with a gain is given has a unit of its own.
+            assert_eq!(edge.figures(&near)[1].y, "u [unit of e per unit of time]");
+            let edge = Edge { nominal: Some(2.0), ..edge };
+            assert_eq!(edge.figures(&near)[1].y, "u [unit of the actuator]");
         }
     }
 
@@ -388,7 +392,7 @@ mod tests {
             (1e-3, "simulated, n_o = 0", 5e-4),
             (1e-9, "simulated, n_o = 0, to 1e-9", 1e-5),
         ] {
-            let edge = Edge { runs: vec![run(last)], period: 1.0, words: String::new() };
+            let edge = Edge { runs: vec![run(last)], period: 1.0, nominal: None, words: String::new() };
             let figure = edge.error(&proved);
             let curve = &figure.curves[2];
             assert_eq!(curve.label, says);

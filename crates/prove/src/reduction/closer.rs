@@ -3,7 +3,7 @@
 use super::coordinates::Chosen;
 use super::proofs::{Proofs, Reduced, WithoutJoint};
 use super::reduce::reduce_to;
-use super::watch::Unwatched;
+use super::watch::{Searches, Stage, Watch};
 use sigmastar_exact::number::Portable;
 use sigmastar_lang::plant::Plant;
 
@@ -19,7 +19,10 @@ pub(super) fn closer(
     plant: &Plant,
     [least, found]: [f64; 2],
     within: impl Fn(&WithoutJoint) -> Option<f64>,
+    watch: &dyn Watch,
 ) -> Option<WithoutJoint> {
+    watch.enter(Stage::Limits);
+    let searches = Searches::new(1, watch);
     // The coordinates are the same for all gains.
     let last = |proofs: &Proofs<'_>, chosen: &Chosen, proved: Reduced| {
         let (mut least, mut found, mut best) = (least, found, None);
@@ -27,6 +30,7 @@ pub(super) fn closer(
             if found < least * (1.0 + WORTH) {
                 break;
             }
+            searches.tried(0);
             let middle = (0.5 * (least.portable_ln() + found.portable_ln())).portable_exp();
             let data = proofs.for_gain(chosen, &proved, middle).map(|there| (there.spec, there.proposal));
             match data.and_then(|data| within(&data).map(|sigma| (data, sigma))) {
@@ -39,7 +43,7 @@ pub(super) fn closer(
             None => proved,
         }
     };
-    let reduced = reduce_to(plant, &last, &Unwatched).ok()?;
+    let reduced = reduce_to(plant, &last, &searches).ok()?;
     let data = (reduced.spec, reduced.proposal);
     within(&data).is_some_and(|sigma| sigma < found).then_some(data)
 }

@@ -125,7 +125,15 @@ fn in_cells(
 /// # Errors
 /// What could not be proved or found.
 pub fn reduce_by_norms(plant: &Plant) -> Result<Reduced, PlantRefusal> {
-    with_coordinates(plant, by_norms)
+    reduce_by_norms_watched(plant, &Unwatched)
+}
+
+/// The same, while somebody waits.
+///
+/// # Errors
+/// Those of [`reduce_by_norms`].
+pub(super) fn reduce_by_norms_watched(plant: &Plant, watch: &dyn Watch) -> Result<Reduced, PlantRefusal> {
+    with_coordinates(plant, watch, by_norms)
 }
 
 /// The same in the coordinates that are proposed first where they lead to a gain: for rows beside a claim. The gain may be larger than that of
@@ -152,9 +160,10 @@ fn by_norms(along: &Along, sampling: &Sampling<'_>, chosen: &Chosen) -> Result<R
 /// Finds and proves the orbit, chooses the coordinates by norms, and goes on from there.
 pub(super) fn with_coordinates<T>(
     plant: &Plant,
+    watch: &dyn Watch,
     prove: impl FnOnce(&Along, &Sampling<'_>, &Chosen) -> Result<T, PlantRefusal>,
 ) -> Result<T, PlantRefusal> {
-    with_candidates(plant, &Unwatched, |candidates, sampling| {
+    with_candidates(plant, watch, |candidates, sampling| {
         let (along, chosen) = best_by_norms(candidates, &starts(candidates, sampling), sampling)?;
         prove(&along, sampling, &chosen)
     })

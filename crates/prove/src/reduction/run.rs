@@ -5,9 +5,9 @@ mod seeking;
 use super::closer::closer;
 use super::interval_costs::{costs_at_samples, interval_costs};
 use super::proofs::{WithoutJoint, bounds_around};
-use super::reduce::{reduce, reduce_by_norms, reduce_by_norms_quickly};
+use super::reduce::{reduce, reduce_by_norms_quickly, reduce_by_norms_watched};
 use super::subject::Sought;
-use super::watch::{Stage, Unwatched, Watch};
+use super::watch::{Searches, Stage, Unwatched, Watch};
 use super::{FreeNumbers, RestsOn, Subject, Witness};
 use crate::certify::{
     Alternatives, Certification, Limits, NoRatesOfClaim, Options, Refusal, SampledCertification, Verdict,
@@ -142,10 +142,14 @@ impl Prepared {
     /// The same, for a claim that is to keep to limits at its gain: at the one that is given, or at the smallest one that is found with
     /// which it does.
     #[must_use]
-    pub fn within(self, limits: Limits) -> Prepared {
+    pub fn within(self, limits: Limits, watch: &dyn Watch) -> Prepared {
         let kept = !limits.is_empty() || self.spec.actuator.is_some();
         let plant = self.plant.as_ref().filter(|_| kept && matches!(self.start, Start::Continuous(_)));
-        let reduced = plant.and_then(|plant| reduce_by_norms(plant).ok());
+        let by_norms = |plant: &Plant| {
+            watch.enter(Stage::Limits);
+            reduce_by_norms_watched(plant, &Searches::new(1, watch)).ok()
+        };
+        let reduced = plant.and_then(|plant| by_norms(plant));
         let by_norms = reduced.map(|reduced| Box::new((reduced.spec, reduced.proposal)));
         Prepared { limits, by_norms, ..self }
     }
@@ -181,7 +185,7 @@ impl Prepared {
                         (run, Err(_)) => run,
                     }
                 });
-                run.and_then(|run| self.closer(run, options)).map(|mut run| {
+                run.and_then(|run| self.closer(run, options, watch)).map(|mut run| {
                     watch.enter(Stage::Comparison);
                     // The data that were proved for the smallest gain know it best.
                     run.smallest_gain =
@@ -251,7 +255,12 @@ impl Prepared {
 
 impl Prepared {
     /// The run with a smaller gain that keeps to the limits by bounds that are proved for it, where there is one.
-    fn closer<'s>(&'s self, run: Certification<'s>, options: Options) -> Result<Certification<'s>, Refusal> {
+    fn closer<'s>(
+        &'s self,
+        run: Certification<'s>,
+        options: Options,
+        watch: &dyn Watch,
+    ) -> Result<Certification<'s>, Refusal> {
         let gains = run.smallest_gain.zip(run.sigma_star().map(Rational::to_f64));
         let Some((plant, (least, found))) = self.plant.as_deref().zip(gains) else { return Ok(run) };
         let wanted = (None, &self.limits);
@@ -259,7 +268,7 @@ impl Prepared {
             let run = certify_within(spec, options, Some(proposal), wanted).ok()?;
             run.sigma_star().map(Rational::to_f64)
         };
-        let data = self.closer.get_or_init(|| closer(plant, [least, found], gain).map(Box::new));
+        let data = self.closer.get_or_init(|| closer(plant, [least, found], gain, watch).map(Box::new));
         match data.as_deref() {
             Some((spec, proposal)) => better(run, certify_within(spec, options, Some(proposal), wanted)?),
             None => Ok(run),

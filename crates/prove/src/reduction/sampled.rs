@@ -10,7 +10,7 @@ use super::refusal::PlantRefusal;
 use super::sampled_matrix::{MatrixAtSamples, straight_by_matrix};
 use super::sampling::Sampling;
 use super::values::{ENLARGED, beyond_the_bounds};
-use super::watch::Watch;
+use super::watch::{Unwatched, Watch};
 use crate::search::{Failing, SampledSearch};
 use rug::Rational;
 use sigmastar_lang::plant::Plant;
@@ -100,7 +100,7 @@ pub fn reduce_sampled(
 /// # Errors
 /// What could not be proved or found of those.
 pub fn with_sampled_pairs<T>(plant: &Plant, with: impl FnOnce(&SampledPairs<'_>) -> T) -> Result<T, PlantRefusal> {
-    with_coordinates(plant, |along, sampled, chosen| {
+    with_coordinates(plant, &Unwatched, |along, sampled, chosen| {
         SampledPairs::new(plant, along, sampled, chosen).map(|pairs| with(&pairs))
     })
 }

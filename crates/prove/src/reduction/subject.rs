@@ -1,9 +1,10 @@
 //! What is certified: a bounding specification, or a plant by its formulas.
 
 use super::proofs::{Reduced, WithoutJoint};
+use super::reduce::reduce_by_norms_watched;
 use super::reduce::reduce_without_joint;
 use super::watch::{Stage, Unwatched, Watch};
-use super::{RestsOn, reduce, reduce_by_norms, reduce_sampled};
+use super::{RestsOn, reduce, reduce_sampled};
 use crate::certify::{Alternatives, WITHOUT_INPUT_GAIN, not_available_with_input_gain, with_triple};
 use crate::search::{SampledProposal, SharpProposal};
 use rug::Rational;
@@ -211,7 +212,7 @@ impl Subject {
                 let reduced = match on {
                     RestsOn::Either => reduce(&plant, gain, watch),
                     RestsOn::WithoutJoint => reduce_without_joint(&plant, watch),
-                    RestsOn::Norms => reduce_by_norms(&plant),
+                    RestsOn::Norms => reduce_by_norms_watched(&plant, watch),
                 };
                 let reduced = reduced.map_err(|refusal| refusal.errors(&plant))?;
                 let Reduced { spec, proposal, alternatives, without_joint } = reduced;

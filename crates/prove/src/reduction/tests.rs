@@ -177,10 +177,10 @@ fn a_limit_is_kept_with_a_smaller_gain_by_values_of_its_own() {
     let least = data_for(&plant, None);
     let [found, _] = gain_and_peak(&least, None, &limits).unwrap();
     let within = |data: &(Specification, SharpProposal)| gain_and_peak(data, None, &limits).map(|[sigma, _]| sigma);
-    let smaller = closer(&plant, [least.1.sigma, found], within).unwrap();
+    let smaller = closer(&plant, [least.1.sigma, found], within, &Unwatched).unwrap();
     let [sigma, peak] = gain_and_peak(&smaller, None, &limits).unwrap();
     assert!(sigma < 0.98 * found && peak <= 4.0, "{sigma} {found} {peak}");
-    assert!(closer(&plant, [sigma, sigma], within).is_none());
+    assert!(closer(&plant, [sigma, sigma], within, &Unwatched).is_none());
 }
 
 /// What is in the way of an initial set is told at it; of a set whose sizes are open, which is the smallest, nothing smaller is asked for.

@@ -17,6 +17,8 @@ pub enum Stage {
     Triple,
     /// The free numbers of a claim, searched for, rounded and decided.
     Witness,
+    /// Other data and gains, for a claim that is to keep to limits.
+    Limits,
     /// What other data would give, beside the claim.
     Comparison,
 }

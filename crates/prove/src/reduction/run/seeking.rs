@@ -54,7 +54,7 @@ impl Prepared {
     ) -> Result<Prepared, Vec<SpecErrors>> {
         let search = Search { subject, limits, counts, options: Options { compare: false, ..options }, watch };
         match (&limits.rate, gain) {
-            (_, Some(gain)) => Ok(search.at(Some(gain))?.within(limits.clone())),
+            (_, Some(gain)) => Ok(search.at(Some(gain))?.within(limits.clone(), watch)),
             (None, None) => search.within_limits(),
             (Some(least), None) => search.with_rate(least),
         }
@@ -91,7 +91,7 @@ impl Search<'_> {
     }
 
     fn within_limits(&self) -> Result<Prepared, Vec<SpecErrors>> {
-        let prepared = self.at(None)?.within(self.limits.clone());
+        let prepared = self.at(None)?.within(self.limits.clone(), self.watch);
         let certifies = |prepared: &Prepared| {
             prepared.certify_watched(self.options, self.watch).is_ok_and(|run| run.certified().is_some())
         };
@@ -100,7 +100,7 @@ impl Search<'_> {
         if !has_other || certifies(&prepared) {
             return Ok(prepared);
         }
-        let other = self.by_norms(None).map(|other| other.within(self.limits.clone()));
+        let other = self.by_norms(None).map(|other| other.within(self.limits.clone(), self.watch));
         Ok(other.ok().filter(certifies).unwrap_or(prepared))
     }
 
@@ -109,7 +109,7 @@ impl Search<'_> {
         let others = || Limits { rate: None, ..self.limits.clone() };
         let asking = |prepared: Prepared| Ok(Prepared { limits: self.limits.clone(), ..prepared });
         let does = |tried: &Tried| tried.rate.as_ref().is_some_and(|rate| rate >= least);
-        let (prepared, claim) = self.tried(self.at(None)?.within(others()));
+        let (prepared, claim) = self.tried(self.at(None)?.within(others(), self.watch));
         let Some((sigma, rate)) = claim else { return asking(prepared) };
         let mut best = Tried { prepared, sigma, rate };
         if does(&best) {
@@ -117,7 +117,7 @@ impl Search<'_> {
         }
         let (smallest, mut below) = (best.sigma.to_f64(), best.sigma.clone());
         let tried = |sigma: Rational| {
-            let (prepared, claim) = self.tried(self.at(Some(sigma)).ok()?.within(others()));
+            let (prepared, claim) = self.tried(self.at(Some(sigma)).ok()?.within(others(), self.watch));
             let (sigma, rate) = claim?;
             Some(Tried { prepared: Prepared { found_above: Some(smallest), ..prepared }, sigma, rate })
         };
