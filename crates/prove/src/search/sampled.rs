@@ -41,8 +41,11 @@ const STEPS: u32 = 34;
 /// The radius of the forms has to be below 1 by this much, for rounding.
 const LARGEST: f64 = 1.0 - 1e-8;
 
-/// By what share a gain would have to be smaller without something, for that to limit it.
-const WORTH_SAYING: f64 = 0.1;
+/// By what share a gain would have to be smaller without what the sampling does, for a part of that to limit it; how far down gains
+/// without a part are sought, and in how many steps.
+const WORTH_SAYING: f64 = 0.05;
+const LEAST_SHARE: f64 = 0.1;
+const SHARE_STEPS: usize = 10;
 
 /// By how much more a gain near a known one is tried.
 const LARGER: [f64; 8] = [0.0, 1e-5, 1e-4, 1e-3, 3e-3, 1e-2, 3e-2, 0.1];
@@ -412,31 +415,56 @@ impl<'m> SampledSearch<'m> {
         raised((found.floors, found), ordinary(self.model), size, again).map_or(found, |(_, best)| best)
     }
 
-    /// What limits a witness: the part of the forms without which a gain that is smaller by a share that matters would do, and of several
-    /// the one with which it would do best; without such a part it is the gain itself, or what a smaller one has no periodic solution for.
+    /// What limits a witness: the part of the forms without which the smallest gain would be least. Where a gain that is smaller by a share
+    /// that matters would not do in continuous time either, it is the gain itself; where it has no periodic solution, that; where the given
+    /// one does with room, the part without which there would be most.
     #[must_use]
     pub fn limit(&self, proposal: &SampledProposal) -> SampledLimit {
-        let SampledProposal { sigma, floors, rho, eta, .. } = *proposal;
-        if self.model.at_samples.stability.is_some() {
-            return SampledLimit::Matrix;
-        }
-        let sigma = sigma * (1.0 - WORTH_SAYING);
-        let Ok((set, at)) = self.at(sigma, floors, Some((rho, eta)), ROOM) else { return SampledLimit::Existence };
-        let shape = Shape::of(self.model, (set.x_per, set.e_per), &at);
-        let gm = at.past.map_or(0.0, |past| past.weight(at.eta, at.dist_e));
-        let without = |part: Part| {
-            let forms = self.forms(sigma, (&shape, gm), Some(part));
-            [&forms.start, &forms.end]
-                .iter()
-                .fold(0.0, |most: f64, form| most.max(radius(form).unwrap_or(f64::INFINITY)))
-        };
-        let parts = [
+        const PARTS: [(Part, SampledLimit); 3] = [
             (Part::Theta, SampledLimit::Theta),
             (Part::Hold, SampledLimit::Hold),
             (Part::Motion, SampledLimit::Motion),
         ];
-        let least = parts.map(|(part, limit)| (without(part), limit)).into_iter().min_by(|a, b| a.0.total_cmp(&b.0));
-        least.filter(|(radius, _)| *radius <= LARGEST).map_or(SampledLimit::Continuous, |(_, limit)| limit)
+        if self.model.at_samples.stability.is_some() {
+            return SampledLimit::Matrix;
+        }
+        let given = proposal.sigma;
+        let smaller = given * (1.0 - WORTH_SAYING);
+        if search_sharp(self.model).is_ok_and(|found| smaller < found.sigma) {
+            return SampledLimit::Continuous;
+        }
+        let Some([_, end]) = self.radii(smaller, proposal, None) else { return SampledLimit::Existence };
+        // No gain is above 1/h.
+        if end <= LARGEST && given * self.law.step > 1.0 - 1e-6 {
+            return SampledLimit::Hold;
+        }
+        let cost = |part: Part| {
+            if end <= LARGEST {
+                return self.radii(given, proposal, Some(part)).map_or(f64::INFINITY, |[_, end]| end);
+            }
+            let does = |sigma: f64| {
+                let radii = self.radii(sigma, proposal, Some(part));
+                radii.is_some_and(|radii| radii.iter().all(|radius| *radius <= LARGEST))
+            };
+            let (mut below, mut above) = (given * LEAST_SHARE, given);
+            for _ in 0..SHARE_STEPS {
+                let middle = (below * above).sqrt();
+                if does(middle) { above = middle } else { below = middle }
+            }
+            above
+        };
+        let costs = PARTS.map(|(part, limit)| (cost(part), limit));
+        costs.into_iter().min_by(|a, b| a.0.total_cmp(&b.0)).map_or(SampledLimit::Continuous, |(_, limit)| limit)
+    }
+
+    /// The radii of the forms near the shape of a proposal, at another gain and without a part; `None` where that gain has no periodic
+    /// solution.
+    fn radii(&self, sigma: f64, near: &SampledProposal, without: Option<Part>) -> Option<[f64; 2]> {
+        let (set, at) = self.at(sigma, near.floors, Some((near.rho, near.eta)), ROOM).ok()?;
+        let shape = Shape::of(self.model, (set.x_per, set.e_per), &at);
+        let gm = at.past.map_or(0.0, |past| past.weight(at.eta, at.dist_e));
+        let forms = self.forms(sigma, (&shape, gm), without);
+        Some([&forms.start, &forms.end].map(|form| radius(form).unwrap_or(f64::INFINITY)))
     }
 }
 
