@@ -10,7 +10,7 @@ use std::cell::Cell;
 /// hundredths of it.
 pub const LIMIT: u64 = 800_000_000;
 
-/// What an operation of MPFR costs for each word of the precision, where one of doubles costs 1.
+/// What an operation of MPFR costs for each word of the precision, where a sum of doubles costs 1.
 const WORD: u64 = 8;
 
 thread_local! {
@@ -24,9 +24,9 @@ fn words(precision: u32) -> u64 {
     u64::from(precision).div_ceil(64)
 }
 
-/// Pays for a sum, product or quotient of doubles, one step; `false` when nothing is left.
-pub fn short() -> bool {
-    spend(1)
+/// Pays for operations of doubles, a sum one step; `false` when nothing is left.
+pub fn short(steps: u64) -> bool {
+    spend(steps)
 }
 
 /// Pays for a sum, product or quotient of MPFR.
@@ -106,12 +106,20 @@ mod tests {
     #[test]
     fn doubles_are_paid_for_too() {
         let two = Interval::int(2, 53);
-        let operations: [fn(&Interval) -> Interval; 7] =
-            [|x| x + x, |x| x * x, |x| x / x, |x| x - 1, Interval::sqr, Interval::sqrt, |x| x.powi(3)];
-        for f in operations {
-            let ((first, second), steps) = limited(2, || (f(&two), f(&two)));
+        let operations: [(u64, fn(&Interval) -> Interval); 8] = [
+            (1, |x| x + x),
+            (2, |x| x * x),
+            (2, |x| x / x),
+            (1, |x| x - 1),
+            (4, Interval::sqr),
+            (2, Interval::sqrt),
+            (8, |x| x.powi(3)),
+            (28, |x| x.powi(8)),
+        ];
+        for (cost, f) in operations {
+            let ((first, second), steps) = limited(2 * cost, || (f(&two), f(&two)));
             assert!(first.is_defined() && !second.is_defined());
-            assert_eq!(steps, 2);
+            assert_eq!(steps, 2 * cost);
         }
     }
 

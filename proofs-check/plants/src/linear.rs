@@ -6,6 +6,9 @@
 use proofs_core::expr::Op;
 use rug::Rational;
 
+/// The most bits of a number in a sum: what is longer is no sum, but an operation like another. Numerals have at most half of that.
+const MAX_BITS: u32 = 1 << 15;
+
 /// `constant + sum_i factor_i leaf_i`, no factor 0, the leaves by their places.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Linear {
@@ -34,6 +37,11 @@ impl Linear {
         &self.constant
     }
 
+    fn is_moderate(&self) -> bool {
+        let bits = |x: &Rational| x.numer().significant_bits().max(x.denom().significant_bits());
+        self.terms.iter().map(|(_, factor)| factor).chain([&self.constant]).all(|number| bits(number) <= MAX_BITS)
+    }
+
     fn as_number(&self) -> Option<&Rational> {
         self.terms.is_empty().then_some(&self.constant)
     }
@@ -58,8 +66,12 @@ impl Linear {
         Linear { constant: Rational::from(&self.constant + &other.constant), terms }
     }
 
-    /// What an operation makes of such sums, if that is one again. A divisor 0 makes none.
+    /// What an operation makes of such sums, if that is one again. A divisor 0 makes none, and numbers that are too long make none.
     pub fn apply(op: &Op, a: Option<&Linear>, b: Option<&Linear>) -> Option<Linear> {
+        Linear::applied(op, a, b).filter(Linear::is_moderate)
+    }
+
+    fn applied(op: &Op, a: Option<&Linear>, b: Option<&Linear>) -> Option<Linear> {
         let a = a?;
         match op {
             Op::Neg => Some(a.times(&Rational::from(-1))),
@@ -73,5 +85,26 @@ impl Linear {
             Op::Div => b?.as_number().filter(|divisor| **divisor != 0).map(|divisor| a.times(&divisor.clone().recip())),
             _ => None,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rug::Integer;
+
+    /// A chain of divisions by 1e4000 would fill the memory with the numbers between.
+    #[test]
+    fn numbers_that_are_too_long_make_no_sum() {
+        let number = |digits: u32| Linear::number(&Rational::from(Integer::from(Integer::u_pow_u(10, digits))));
+        let (leaf, long, longer) = (Linear::leaf(3), number(4000), number(9000));
+        let over = |a: &Linear, b: &Linear| Linear::apply(&Op::Div, Some(a), Some(b));
+        let once = over(&leaf, &long).unwrap();
+        let twice = over(&once, &long).unwrap();
+        assert_eq!(twice.terms().len(), 1);
+        assert_eq!(over(&twice, &long), None);
+        assert_eq!(over(&over(&leaf, &longer).unwrap(), &long), None);
+        // What grows shorter again is one.
+        assert_eq!(Linear::apply(&Op::Mul, Some(&twice), Some(&long)), Some(once));
     }
 }

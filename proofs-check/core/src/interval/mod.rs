@@ -98,9 +98,16 @@ impl Interval {
         }
     }
 
-    /// What is computed from doubles, where that is paid for, else from MPFR's numbers.
-    fn near(ends: Option<doubles::Ends>) -> Option<Interval> {
-        ends.filter(|_| effort::short()).map(|ends| Interval(Ends::Short(ends)))
+    /// What was computed from doubles in so many steps, where these are paid for.
+    fn near(ends: Option<doubles::Ends>, steps: u64) -> Option<Interval> {
+        ends.filter(|_| effort::short(steps)).map(|ends| Interval(Ends::Short(ends)))
+    }
+
+    /// x^n, n > 0, of doubles, where it increases.
+    fn short_power(&self, n: i32) -> Option<Interval> {
+        let ends = self.short().filter(|_| (1..=SHORT_POWER).contains(&n)).and_then(|ends| doubles::power(ends, n));
+        // Products for each end.
+        Interval::near(ends, 4 * u64::from(n.unsigned_abs() - 1))
     }
 
     /// One number.
@@ -407,8 +414,7 @@ impl Interval {
     /// x^2.
     pub fn sqr(&self) -> Interval {
         let size = self.abs();
-        let near = size.short().and_then(|ends| doubles::power(ends, 2));
-        Interval::near(near).unwrap_or_else(|| size.cheaply_increasing(by(Float::square_round)))
+        size.short_power(2).unwrap_or_else(|| size.cheaply_increasing(by(Float::square_round)))
     }
 
     /// e^x. Beyond 2^32 in magnitude the ends are moved outward, so that nothing enormous is evaluated.
@@ -436,7 +442,7 @@ impl Interval {
     /// The square root; undefined where the number may be negative.
     pub fn sqrt(&self) -> Interval {
         let near = self.short().filter(|_| self.is_nonnegative()).and_then(doubles::root);
-        Interval::near(near).unwrap_or_else(|| self.cheaply_increasing(by(Float::sqrt_round)))
+        Interval::near(near, 2).unwrap_or_else(|| self.cheaply_increasing(by(Float::sqrt_round)))
     }
 
     /// arctan x.
@@ -528,8 +534,8 @@ impl Interval {
             return Interval::int(1, self.precision());
         }
         let base = if n % 2 == 0 { self.abs() } else { self.clone() };
-        let near = base.short().filter(|_| n <= SHORT_POWER).and_then(|ends| doubles::power(ends, n));
-        Interval::near(near).unwrap_or_else(|| base.increasing(|x, round| rounded(x.prec(), Pow::pow(&x, n), round)))
+        let by_mpfr = || base.increasing(|x, round| rounded(x.prec(), Pow::pow(&x, n), round));
+        base.short_power(n).unwrap_or_else(by_mpfr)
     }
 
     /// x^y for x > 0, or for x >= 0 and y > 0; undefined otherwise. x^y is monotone in x and in y, so its extremes are
@@ -556,8 +562,9 @@ fn by_doubles(
     a: &Interval,
     b: &Interval,
     f: fn(doubles::Ends, doubles::Ends) -> Option<doubles::Ends>,
+    steps: u64,
 ) -> Option<Interval> {
-    Interval::near(f(a.short()?, b.short()?))
+    Interval::near(f(a.short()?, b.short()?), steps)
 }
 
 /// What MPFR gives from ends `[a.lo, a.hi, b.lo, b.hi]`, where that is paid for.
@@ -571,18 +578,18 @@ fn add(a: &Interval, b: &Interval) -> Interval {
     let sum = |p: u32, [lo, hi, other_lo, other_hi]: [&Float; 4]| {
         Interval::new(rounded(p, lo + other_lo, Round::Down), rounded(p, hi + other_hi, Round::Up))
     };
-    by_doubles(a, b, doubles::sum).unwrap_or_else(|| by_floats(a, b, sum))
+    by_doubles(a, b, doubles::sum, 1).unwrap_or_else(|| by_floats(a, b, sum))
 }
 
 fn sub(a: &Interval, b: &Interval) -> Interval {
     let difference = |p: u32, [lo, hi, other_lo, other_hi]: [&Float; 4]| {
         Interval::new(rounded(p, lo - other_hi, Round::Down), rounded(p, hi - other_lo, Round::Up))
     };
-    by_doubles(a, b, |a, b| doubles::sum(a, doubles::opposite(b))).unwrap_or_else(|| by_floats(a, b, difference))
+    by_doubles(a, b, |a, b| doubles::sum(a, doubles::opposite(b)), 1).unwrap_or_else(|| by_floats(a, b, difference))
 }
 
 fn mul(a: &Interval, b: &Interval) -> Interval {
-    by_doubles(a, b, doubles::product).unwrap_or_else(|| by_floats(a, b, |p, ends| product(p, a, b, ends)))
+    by_doubles(a, b, doubles::product, 2).unwrap_or_else(|| by_floats(a, b, |p, ends| product(p, a, b, ends)))
 }
 
 fn product(p: u32, a: &Interval, b: &Interval, [a_lo, a_hi, b_lo, b_hi]: [&Float; 4]) -> Interval {
@@ -627,7 +634,7 @@ impl Sign {
 }
 
 fn div(a: &Interval, b: &Interval) -> Interval {
-    by_doubles(a, b, doubles::quotient).unwrap_or_else(|| by_floats(a, b, |p, _| quotient(p, a, b)))
+    by_doubles(a, b, doubles::quotient, 2).unwrap_or_else(|| by_floats(a, b, |p, _| quotient(p, a, b)))
 }
 
 fn quotient(p: u32, a: &Interval, b: &Interval) -> Interval {
