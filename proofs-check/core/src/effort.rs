@@ -106,7 +106,8 @@ mod tests {
     #[test]
     fn doubles_are_paid_for_too() {
         let two = Interval::int(2, 53);
-        let operations: [(u64, fn(&Interval) -> Interval); 8] = [
+        type Operation = fn(&Interval) -> Interval;
+        let operations: [(u64, Operation); 8] = [
             (1, |x| x + x),
             (2, |x| x * x),
             (2, |x| x / x),
