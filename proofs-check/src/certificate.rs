@@ -153,9 +153,9 @@ fn prove(
     );
     let mut largest = proved.arguments.each_ref().map(|argument| argument.hi().into_owned());
     if let Some(plant) = &d.spec.plant {
-        // Those of exact regulation, which has no figures of them, count as well.
+        // Those of exact regulation, which has no figures of them, count as well, and one that is not known most of all.
         for (end, other) in largest.iter_mut().zip(derivation.regulated(d).into_iter().flatten()) {
-            if *other.hi() > *end {
+            if !other.is_defined() || *other.hi() > *end {
                 end.clone_from(&other.hi());
             }
         }

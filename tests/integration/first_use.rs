@@ -343,19 +343,23 @@ fn flags_of_files_and_of_other_commands_are_told_apart() {
 
 #[test]
 fn what_limits_a_gain_at_samples_is_what_it_would_fall_without() {
-    let limit = |samples: u32| {
+    let limit = |name: &str, samples: u32, flags: &[&str]| {
         let h = format!("1/{samples}");
-        let output = program()
-            .args(["certify", "--no-compare", "-q", "--format", "json", "--sampling-period", &h, "specs/linear.json"])
-            .output()
-            .expect("the program runs");
+        let call = ["certify", "--no-compare", "-q", "--format", "json", "--sampling-period", &h, name];
+        let output = program().args(call).args(flags).output().expect("the program runs");
         let report: Value = serde_json::from_slice(&output.stdout).expect("JSON");
-        (
-            report["limit"]["name"].as_str().expect("a limit").to_owned(),
-            report["sigma"].as_str().expect("a gain").to_owned(),
-        )
+        report["limit"]["name"].as_str().expect("a limit").to_owned()
     };
-    // In continuous time the gain is 1.324: at 20 samples theta costs a seventh, at 1000 nothing that matters.
-    let [(few, large), (many, small)] = [20, 1000].map(limit);
-    assert_eq!((few.as_str(), many.as_str()), ("theta", "gain"), "{large}, {small}");
+    let rms = "specs/paper-example-rms-at-rest.json";
+    for (name, samples, flags, expected) in [
+        // In continuous time the gain is 1.324: at 20 samples it is a seventh larger, at 1000 nothing that matters.
+        ("specs/linear.json", 20, &[][..], "theta"),
+        ("specs/linear.json", 1000, &[], "gain"),
+        // Here it is 13.84; 16 is certified with 30 samples, and with 25 the gain is 1/h.
+        (rms, 30, &["--sigma", "16"], "motion"),
+        (rms, 25, &["--sigma", "25"], "hold"),
+        (rms, 100, &[], "gain"),
+    ] {
+        assert_eq!(limit(name, samples, flags), expected, "{name} {samples} {flags:?}");
+    }
 }

@@ -6,8 +6,8 @@
 
 use std::cell::Cell;
 
-/// What the claim may cost, and again what the figures may: a few seconds of arithmetic. A certificate by boxes takes two
-/// hundredths of it.
+/// What the claim may cost, and again what the figures may: ten to twenty seconds of arithmetic. The shipped plants take a tenth of it at
+/// most.
 pub const LIMIT: u64 = 800_000_000;
 
 /// What an operation of MPFR costs for each word of the precision, where a sum of doubles costs 1.

@@ -215,12 +215,12 @@ fn place(at: [&Rational; 2]) -> [Float; 2] {
     at.map(|end| above(end, ARGUMENT_PRECISION))
 }
 
-/// The largest X and E that anything is used at.
+/// The largest X and E that anything is used at; NaN, on which nothing is proved, where one is not known.
 fn largest(plant: &Plant, arguments: [&Float; 2], inequalities: Inequalities<'_>) -> [Float; 2] {
     let mut largest = plant.known.entries.largest();
     let others = [arguments.map(Clone::clone)].into_iter().chain(inequalities::arguments(inequalities).map(place));
     for (end, other) in others.flat_map(|other| [0, 1].map(|i| (i, other[i].clone()))) {
-        if other > largest[end] {
+        if other.is_nan() || other > largest[end] {
             largest[end] = other;
         }
     }

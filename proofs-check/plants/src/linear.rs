@@ -6,7 +6,7 @@
 use proofs_core::expr::Op;
 use rug::Rational;
 
-/// The most bits of a number in a sum: what is longer is no sum, but an operation like another. Numerals have at most half of that.
+/// The most bits of a number in a sum: what is longer is no sum, but an operation like another. A numeral has about half of that.
 const MAX_BITS: u32 = 1 << 15;
 
 /// `constant + sum_i factor_i leaf_i`, no factor 0, the leaves by their places.

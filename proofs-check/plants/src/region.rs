@@ -113,7 +113,8 @@ impl Region {
         self.has(&piece.middles())
     }
 
-    /// Whether v_1, ..., v_n, e and the parameters certainly belong to it.
+    /// Whether v_1, ..., v_n, e and the parameters certainly belong to it. Between [`Shape::Sides`] it says less, that nothing shows they do
+    /// not: such a refutation is not believed (`still`).
     pub fn has(&self, place: &[Interval]) -> bool {
         let lies_within = |value: &Interval, end: &Interval| value.le(end) == Some(true);
         let within = match &self.shape {

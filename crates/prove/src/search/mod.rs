@@ -15,6 +15,7 @@ mod error_box;
 mod exact;
 mod float_bound;
 mod floors;
+mod form_radius;
 mod goal;
 mod minimise;
 mod model;
@@ -25,6 +26,7 @@ mod reach;
 mod repaired;
 mod root;
 mod sampled;
+mod sampled_limit;
 mod scan;
 mod sharp;
 mod smaller_set;
@@ -45,7 +47,8 @@ pub use periodic::{ExistenceForm, Floors, PeriodicSet};
 pub use printed::{PrintedProposal, search_printed};
 pub use reach::{Largest, start_distances};
 pub use repaired::{RepairedProposal, largest_e_repaired, perron_repaired, search_repaired};
-pub use sampled::{SampledLimit, SampledProposal, SampledSearch, ScanPoint};
+pub use sampled::{SampledProposal, SampledSearch, ScanPoint};
+pub use sampled_limit::SampledLimit;
 pub use sharp::{
     SharpParameters, SharpProposal, at_sigma, largest_at, search_sharp, search_sharp_at, search_sharp_near,
     sensitivities, without_optional_data,

@@ -8,6 +8,7 @@ use super::candidate::{AtSigma, PastShare, Shape};
 use super::effort::ROOM;
 use super::error_box::{best_shape, shape_near};
 use super::floors::{ordinary, raised, tiny};
+use super::form_radius::radius;
 use super::model::FloatModel;
 use super::obstacle::{Closest, Failing, Obstacle};
 use super::periodic::{Floors, PeriodicSet};
@@ -17,7 +18,7 @@ use super::sharp::search_sharp;
 use rug::Rational;
 use sigmastar_exact::number::Portable;
 use sigmastar_theory::derivation::harmonics::AtOrigin;
-use sigmastar_theory::derivation::sampled::{DecayForms, DecayNumbers, Form, Part, Past, SampledGains, SampledLaw};
+use sigmastar_theory::derivation::sampled::{DecayForms, DecayNumbers, Part, SampledGains, SampledLaw};
 
 /// Where an error box is open although a distance is 0.
 const FLOOR: f64 = 1e-6;
@@ -39,13 +40,7 @@ const BELOW_UNCERTAIN: f64 = 0.8;
 const STEPS: u32 = 34;
 
 /// The radius of the forms has to be below 1 by this much, for rounding.
-const LARGEST: f64 = 1.0 - 1e-8;
-
-/// By what share a gain would have to be smaller without what the sampling does, for a part of that to limit it; how far down gains
-/// without a part are sought, and in how many steps.
-const WORTH_SAYING: f64 = 0.05;
-const LEAST_SHARE: f64 = 0.1;
-const SHARE_STEPS: usize = 10;
+pub(super) const LARGEST: f64 = 1.0 - 1e-8;
 
 /// By how much more a gain near a known one is tried.
 const LARGER: [f64; 8] = [0.0, 1e-5, 1e-4, 1e-3, 3e-3, 1e-2, 3e-2, 0.1];
@@ -85,66 +80,10 @@ pub struct ScanPoint {
     pub outcome: Result<f64, Obstacle>,
 }
 
-/// What keeps the sampling period, or the gain, from being better.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SampledLimit {
-    /// S2.
-    Existence,
-    /// Q_0, which the continuous-time law has too.
-    Continuous,
-    /// theta in Q_h.
-    Theta,
-    /// h sigma in Q_h.
-    Hold,
-    /// h k_e and h k_x in Q_h.
-    Motion,
-    /// The matrix inequality, which is in the place of Q_0 and Q_h.
-    Matrix,
-}
-
-impl SampledLimit {
-    /// Its name in JSON.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            SampledLimit::Existence => "existence",
-            SampledLimit::Continuous => "gain",
-            SampledLimit::Theta => "theta",
-            SampledLimit::Hold => "hold",
-            SampledLimit::Motion => "motion",
-            SampledLimit::Matrix => "matrix",
-        }
-    }
-
-    /// What it is, and what helps.
-    #[must_use]
-    pub fn describe(self) -> &'static str {
-        match self {
-            SampledLimit::Existence => "S2: the periodic solution; a shorter sampling period or a larger gain helps",
-            SampledLimit::Continuous => {
-                "Q_0: the gain itself, as norms have it in continuous time; a larger one, where h sigma <= 1 allows it, or sharper data help"
-            }
-            SampledLimit::Theta => {
-                "theta = h mu Nbar^2/2 in Q_h: what the oscillators lose to the sampling; a smaller mu or a shorter sampling \
-                 period helps"
-            }
-            SampledLimit::Hold => {
-                "h sigma in Q_h: e is held over a sample; a shorter sampling period or a smaller gain helps"
-            }
-            SampledLimit::Motion => {
-                "h dq/de and h dq/dx in Q_h: what moves within a sample; a shorter sampling period or a smaller initial set helps"
-            }
-            SampledLimit::Matrix => {
-                "the matrix inequality over the derivatives: a larger gain, a shorter sampling period or a smaller initial set helps"
-            }
-        }
-    }
-}
-
 /// The search for one law.
 pub struct SampledSearch<'m> {
-    model: &'m FloatModel,
-    law: SampledLaw<f64>,
+    pub(super) model: &'m FloatModel,
+    pub(super) law: SampledLaw<f64>,
     origin: AtOrigin<f64>,
 }
 
@@ -273,7 +212,7 @@ impl<'m> SampledSearch<'m> {
     }
 
     /// The forms of a shape, with the weight gm of the last y where there is a delay.
-    fn forms(&self, sigma: f64, (shape, gm): (&Shape, f64), without: Option<Part>) -> DecayForms<f64> {
+    pub(super) fn forms(&self, sigma: f64, (shape, gm): (&Shape, f64), without: Option<Part>) -> DecayForms<f64> {
         let Shape { w_x, weight, error_box, .. } = shape;
         let numbers = DecayNumbers { law: &self.law, sigma: &sigma, w_x, eta: weight, gm: &gm };
         DecayForms::without(self.model, error_box, &numbers, without)
@@ -414,58 +353,6 @@ impl<'m> SampledSearch<'m> {
         // Without a size at all it is taken as it is.
         raised((found.floors, found), ordinary(self.model), size, again).map_or(found, |(_, best)| best)
     }
-
-    /// What limits a witness: the part of the forms without which the smallest gain would be least. Where a gain that is smaller by a share
-    /// that matters would not do in continuous time either, it is the gain itself; where it has no periodic solution, that; where the given
-    /// one does with room, the part without which there would be most.
-    #[must_use]
-    pub fn limit(&self, proposal: &SampledProposal) -> SampledLimit {
-        const PARTS: [(Part, SampledLimit); 3] = [
-            (Part::Theta, SampledLimit::Theta),
-            (Part::Hold, SampledLimit::Hold),
-            (Part::Motion, SampledLimit::Motion),
-        ];
-        if self.model.at_samples.stability.is_some() {
-            return SampledLimit::Matrix;
-        }
-        let given = proposal.sigma;
-        let smaller = given * (1.0 - WORTH_SAYING);
-        if search_sharp(self.model).is_ok_and(|found| smaller < found.sigma) {
-            return SampledLimit::Continuous;
-        }
-        let Some([_, end]) = self.radii(smaller, proposal, None) else { return SampledLimit::Existence };
-        // No gain is above 1/h.
-        if end <= LARGEST && given * self.law.step > 1.0 - 1e-6 {
-            return SampledLimit::Hold;
-        }
-        let cost = |part: Part| {
-            if end <= LARGEST {
-                return self.radii(given, proposal, Some(part)).map_or(f64::INFINITY, |[_, end]| end);
-            }
-            let does = |sigma: f64| {
-                let radii = self.radii(sigma, proposal, Some(part));
-                radii.is_some_and(|radii| radii.iter().all(|radius| *radius <= LARGEST))
-            };
-            let (mut below, mut above) = (given * LEAST_SHARE, given);
-            for _ in 0..SHARE_STEPS {
-                let middle = (below * above).sqrt();
-                if does(middle) { above = middle } else { below = middle }
-            }
-            above
-        };
-        let costs = PARTS.map(|(part, limit)| (cost(part), limit));
-        costs.into_iter().min_by(|a, b| a.0.total_cmp(&b.0)).map_or(SampledLimit::Continuous, |(_, limit)| limit)
-    }
-
-    /// The radii of the forms near the shape of a proposal, at another gain and without a part; `None` where that gain has no periodic
-    /// solution.
-    fn radii(&self, sigma: f64, near: &SampledProposal, without: Option<Part>) -> Option<[f64; 2]> {
-        let (set, at) = self.at(sigma, near.floors, Some((near.rho, near.eta)), ROOM).ok()?;
-        let shape = Shape::of(self.model, (set.x_per, set.e_per), &at);
-        let gm = at.past.map_or(0.0, |past| past.weight(at.eta, at.dist_e));
-        let forms = self.forms(sigma, (&shape, gm), without);
-        Some([&forms.start, &forms.end].map(|form| radius(form).unwrap_or(f64::INFINITY)))
-    }
 }
 
 /// The share of eta that serves the last y best, for which `radius` is least: a scan over its odds, then a section.
@@ -496,123 +383,4 @@ fn best_share(
         look(middle + step, &mut best);
     }
     closest.or(best).map(|(t, radius)| (share_at(t), radius))
-}
-
-/// The spectral radius of what is off the diagonal of a form that is scaled to 1 on it: below 1 if and only if the form is
-/// positive definite. `None` where the diagonal is not positive.
-fn radius(form: &Form<f64>) -> Option<f64> {
-    let Form { xx, ee, yy, xe, xy, ey, past } = form;
-    if let Some(Past { pp, xp, ep, yp }) = past {
-        return radius_of_four([xx, ee, yy, pp], [[xe, yp], [xy, ep], [ey, xp]]);
-    }
-    if ![xx, ee, yy].iter().all(|value| **value > 0.0 && value.is_finite()) {
-        return None;
-    }
-    let [a, b, c] = [xe / (2.0 * (xx * ee).sqrt()), xy / (2.0 * (xx * yy).sqrt()), ey / (2.0 * (ee * yy).sqrt())];
-    let squares = a * a + b * b + c * c;
-    if squares == 0.0 {
-        return Some(0.0);
-    }
-    // The largest root of r^3 - squares r - 2abc, by Newton's method from above.
-    let mut r = 2.0 * (squares / 3.0).sqrt();
-    for _ in 0..60 {
-        let step = (r * r * r - squares * r - 2.0 * a * b * c) / (3.0 * r * r - squares);
-        r -= step;
-        if step.is_nan() || step.abs() <= 1e-15 * r {
-            break;
-        }
-    }
-    r.is_finite().then_some(r)
-}
-
-/// The same in four variables. `pairs` are what is off the diagonal, each with the one that shares no variable with it.
-fn radius_of_four(diagonal: [&f64; 4], pairs: [[&f64; 2]; 3]) -> Option<f64> {
-    if !diagonal.iter().all(|value| **value > 0.0 && value.is_finite()) {
-        return None;
-    }
-    let [x, e, y, p] = diagonal.map(|value| value.sqrt());
-    let scaled = |value: &f64, scale: f64| value / (2.0 * scale);
-    let [[xe, yp], [xy, ep], [ey, xp]] = pairs;
-    let [xe, yp, xy] = [scaled(xe, x * e), scaled(yp, y * p), scaled(xy, x * y)];
-    let [ep, ey, xp] = [scaled(ep, e * p), scaled(ey, e * y), scaled(xp, x * p)];
-    let squares: f64 = [xe, yp, xy, ep, ey, xp].iter().map(|value| value * value).sum();
-    if squares == 0.0 {
-        return Some(0.0);
-    }
-    let triangles = xe * ey * xy + xe * ep * xp + xy * yp * xp + ey * yp * ep;
-    let [a, b, c] = [xe * yp, xy * ep, ey * xp];
-    let determinant = a * a + b * b + c * c - 2.0 * (a * b + a * c + b * c);
-    // The largest root of r^4 - squares r^2 - 2 triangles r + determinant, by Newton's method from above: the squares of all four add up
-    // to 2 squares, and their sum is 0.
-    let mut r = (1.5 * squares).sqrt();
-    for _ in 0..60 {
-        let value = ((r * r - squares) * r - 2.0 * triangles) * r + determinant;
-        let step = value / ((4.0 * r * r - 2.0 * squares) * r - 2.0 * triangles);
-        r -= step;
-        if step.is_nan() || step.abs() <= 1e-15 * r {
-            break;
-        }
-    }
-    r.is_finite().then_some(r)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Numbers in [0, 1), the same ones each time.
-    fn numbers(mut state: u64) -> impl FnMut() -> f64 {
-        move || {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            (state >> 40) as f64 / 2f64.powi(24)
-        }
-    }
-
-    /// In four variables too.
-    #[test]
-    fn the_radius_of_four_tells_definite_forms_apart() {
-        let mut next = numbers(9);
-        let mut seen = [0; 2];
-        for _ in 0..4000 {
-            let scale = 0.2 + next();
-            let past = Past { pp: next() + 0.1, xp: scale * next(), ep: scale * next(), yp: scale * next() };
-            let [xe, xy, ey] = [0; 3].map(|_| scale * next());
-            let [xx, ee, yy] = [0; 3].map(|_| next() + 0.1);
-            let form = Form { xx, ee, yy, xe, xy, ey, past: Some(past) };
-            let definite = form.minors().iter().all(|minor| *minor > 0.0);
-            let radius = radius(&form).unwrap();
-            if (radius - 1.0).abs() > 1e-9 {
-                assert_eq!(radius < 1.0, definite, "{form:?} {radius}");
-                seen[usize::from(definite)] += 1;
-            }
-        }
-        assert!(seen.iter().all(|count| *count > 500), "{seen:?}");
-    }
-
-    #[test]
-    fn the_radius_tells_definite_forms_apart() {
-        let mut next = numbers(7);
-        let mut seen = [0; 2];
-        for _ in 0..4000 {
-            let form = Form {
-                xx: next() + 0.1,
-                ee: next() + 0.1,
-                yy: next() + 0.1,
-                xe: next(),
-                xy: next(),
-                ey: next(),
-                past: None,
-            };
-            let definite = form.minors().iter().all(|minor| *minor > 0.0);
-            let radius = radius(&form).unwrap();
-            if (radius - 1.0).abs() > 1e-9 {
-                assert_eq!(radius < 1.0, definite, "{form:?} {radius}");
-                seen[usize::from(definite)] += 1;
-            }
-        }
-        assert!(seen.iter().all(|count| *count > 500), "{seen:?}");
-        let free = Form { xx: 1.0, ee: 2.0, yy: 3.0, xe: 0.0, xy: 0.0, ey: 0.0, past: None };
-        assert_eq!(radius(&free), Some(0.0));
-        assert_eq!(radius(&Form { yy: -1.0, ..free }), None);
-    }
 }

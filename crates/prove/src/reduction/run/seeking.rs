@@ -11,7 +11,7 @@ use sigmastar_lang::spec::SpecErrors;
 const SHARES: [f64; 7] = [1.2, 1.5, 2.0, 3.0, 4.0, 6.0, 10.0];
 const OF_RATE: [f64; 7] = [0.5, 1.0, 2.0, 4.0, 8.0, 20.0, 50.0];
 
-/// Of so many larger gains in turn none has a larger rate: then it falls.
+/// After so many of the latter in turn without a larger rate the others are left out: it falls.
 const FALLS: usize = 2;
 
 /// Steps of the bisection between a gain that does not do and one that does.
@@ -122,15 +122,16 @@ impl Search<'_> {
             Some(Tried { prepared: Prepared { found_above: Some(smallest), ..prepared }, sigma, rate })
         };
         let shares = SHARES.map(|share| smallest * share);
-        let of_rate =
-            OF_RATE.map(|share| least.to_f64() * share).into_iter().filter(|sigma| *sigma > shares[SHARES.len() - 1]);
-        let mut larger_ones = 0;
-        for sigma in shares.into_iter().chain(of_rate).filter_map(|sigma| round_f64(sigma, DIGITS, Direction::Up)) {
+        let of_rate = OF_RATE.map(|share| least.to_f64() * share);
+        let of_rate = of_rate.into_iter().filter(|sigma| shares.iter().all(|share| share < sigma));
+        let all = shares.into_iter().map(|sigma| (sigma, 0)).chain(of_rate.map(|sigma| (sigma, 1)));
+        let mut falls = 0;
+        for (sigma, fall) in all.filter_map(|(sigma, fall)| Some((round_f64(sigma, DIGITS, Direction::Up)?, fall))) {
             match tried(sigma.clone()).filter(|next| next.rate > best.rate) {
-                Some(next) => (best, larger_ones) = (next, 0),
-                None => larger_ones += 1,
+                Some(next) => (best, falls) = (next, 0),
+                None => falls += fall,
             }
-            if does(&best) || (larger_ones >= FALLS && sigma.to_f64() > shares[SHARES.len() - 1]) {
+            if does(&best) || falls >= FALLS {
                 break;
             }
             below = sigma;
