@@ -252,8 +252,11 @@ fn is_greek(name: &str) -> bool {
     GREEK.iter().any(|(word, _)| *word == name)
 }
 
-/// The tokens of a word; none where it has a name that is no symbol.
+/// The tokens of a word; none where it is a flag, or has a name that is no symbol.
 fn tokenise(word: &str) -> Option<Vec<Token>> {
+    if word.contains("--") {
+        return None;
+    }
     if let Some(relation) = RELATIONS.iter().find(|relation| **relation == word) {
         return Some(vec![Token::Relation(relation)]);
     }
@@ -499,6 +502,7 @@ mod tests {
             ("(((((((((((((((((((((x_1)))))))))))))))))))))", "(((((((((((((((((((((x_1)))))))))))))))))))))"),
             ("a sigma* that", "a [σ*] that"),
             ("this is a set, T = 1.", "this is a set, [T=1]."),
+            ("none: without --sigma one, or -sigma", "none: without --sigma one, or [−σ]"),
             ("C5: dq/de against I", "C5: dq/de against I"),
             ("(with e and z alone)", "(with [e] and [z] alone)"),
             ("at most 0.1667 with 0 oscillators - none", "at most 0.1667 with 0 oscillators - none"),
