@@ -138,6 +138,15 @@ impl CoordinateSearch<'_> {
         Ok(found)
     }
 
+    /// The gain near a choice in coordinates near it, of another search for a plant near it; an estimate, at few samples.
+    #[must_use]
+    pub fn estimate_around(&self, known: &Start) -> Option<f64> {
+        let close = Start { room: CLOSE, ..known.clone() };
+        let found = self.descend(&close, Varied::Shape)?;
+        let found = if self.energy_helps(&found) { self.with_energy(&found, &THRESHOLDS) } else { found };
+        self.descend(&found, Varied::Coordinates).map(|found| found.proposal.sigma)
+    }
+
     /// The gain near a choice in its coordinates, of another search for the same plant; an estimate, at few samples.
     #[must_use]
     pub fn estimate_near(&self, known: &Start) -> Option<f64> {

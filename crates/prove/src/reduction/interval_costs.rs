@@ -1,5 +1,7 @@
 //! What each interval of a parameter, and that of the period, costs; at samples that of the input gain, too.
 
+use super::near::Near;
+use super::reduce::reduce;
 use super::sampled::{RestsOn, reduce_sampled};
 use super::watch::{Searches, Watch};
 use crate::certify::{Ladder, certify_sampled};
@@ -9,13 +11,21 @@ use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{Sampling, Specification};
 
 /// The gains of the families in which one of the intervals is closed to its nominal value, under the names of the parameters in the order
-/// of the plant, and last of the `period`: the whole way from the formulas to proved bounds for each, as `gain` goes it, without the
-/// decision. None where there is no gain.
+/// of the plant, and last of the `period`: estimates. Never above `sigma`, the gain of all of them, which serves each. None where there is
+/// no gain.
+///
+/// As much smaller as the gain near the choice behind `sigma` becomes; where there is no such choice, or no gain near it, the whole way from
+/// the formulas to proved bounds, without the decision.
 pub(super) fn interval_costs(
-    plant: &Plant,
-    gain: impl Fn(&Plant, &dyn Watch) -> Option<f64> + Sync,
+    (plant, near): (&Plant, Option<&Near>),
+    sigma: f64,
     watch: &dyn Watch,
 ) -> Vec<(String, Option<f64>)> {
+    let gain = |closed: &Plant, watch: &dyn Watch| {
+        let known = near.and_then(|near| Some(sigma * near.ratio(closed, watch)?));
+        let found = known.or_else(|| reduce(closed, None, watch).ok().map(|found| found.proposal.sigma));
+        found.map(|found| found.min(sigma))
+    };
     costs(closed(plant), gain, watch)
 }
 

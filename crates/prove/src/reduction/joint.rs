@@ -250,7 +250,7 @@ impl JointSearch<'_> {
             |values: ProvedValues| values.with_joint_existence(existence).with_joint_stability(Some(stability.clone()));
         let (with_values, spec) = self.proofs.with_needed(&needed, joint).ok()?;
         let proposal = search_sharp_near(&with_values, &proposal).ok()?;
-        Some(Reduced { spec, proposal, alternatives: Alternatives::default(), without_joint: None })
+        Some(Reduced { spec, proposal, alternatives: Alternatives::default(), without_joint: None, near: None })
     }
 }
 

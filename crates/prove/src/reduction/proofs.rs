@@ -2,6 +2,7 @@
 
 use super::cells::Cell;
 use super::entries::{Needed, prove_all};
+use super::near::Near;
 use super::refusal::PlantRefusal;
 use super::sampling::{Sampling, float_matrix};
 use super::specification::specification;
@@ -36,6 +37,8 @@ pub struct Reduced {
     pub alternatives: Alternatives,
     /// Where the gain rests on joint metrics, the same without them: of a larger gain it says more.
     pub without_joint: Option<Box<WithoutJoint>>,
+    /// The choice that it was proved of, for a family.
+    pub(super) near: Option<Box<Near>>,
 }
 
 /// A specification without joint metrics, and where the search for its gain may start.

@@ -4,6 +4,7 @@ use super::cells::{Cell, Cells, NARROW};
 use super::choice::{best_by_norms, starts, with_constant, with_search};
 use super::coordinates::{Chosen, CoordinateSearch, Rough, Start};
 use super::joint::with_joint_metrics;
+use super::near::Near;
 use super::proofs::{Along, PRECISION, Proofs, Reduced, along, trade_off};
 use super::refusal::{MAX_STATES, PlantRefusal};
 use super::sampling::Sampling;
@@ -15,7 +16,7 @@ use rayon::prelude::*;
 use rug::Rational;
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{PeriodicMatrix, ProvedValues};
-use sigmastar_plants::orbit::{self, Coordinates, find_orbit, propose_coordinates, round_orbit};
+use sigmastar_plants::orbit::{self, Coordinates, FloatOrbit, find_orbit, propose_coordinates, round_orbit};
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::paths::Path;
 
@@ -154,7 +155,8 @@ pub fn reduce_by_norms_quickly(plant: &Plant) -> Result<Reduced, PlantRefusal> {
 
 /// The data of a choice, proved.
 fn by_norms(along: &Along, sampling: &Sampling<'_>, chosen: &Chosen) -> Result<Reduced, PlantRefusal> {
-    prove_bounds(&Proofs::new(along, sampling)?, chosen)
+    let proved = prove_bounds(&Proofs::new(along, sampling)?, chosen)?;
+    Ok(Reduced { near: Near::new(sampling, along, chosen, None).map(Box::new), ..proved })
 }
 
 /// Finds and proves the orbit, chooses the coordinates by norms, and goes on from there.
@@ -182,6 +184,13 @@ pub(super) fn with_candidates<T>(
 
 /// The orbit, found for all members at once, and candidates for the coordinates: at least one.
 fn with_whole(plant: &Plant, watch: &dyn Watch) -> Result<(Cell, Vec<Coordinates>), PlantRefusal> {
+    let (whole, found) = whole(plant, watch)?;
+    let candidates = propose_coordinates(plant, &found, 0.0, 0.0).map_err(PlantRefusal::NoOrbit)?;
+    if candidates.is_empty() { Err(PlantRefusal::NoContraction) } else { Ok((whole, candidates)) }
+}
+
+/// The orbit, found for all members at once: rounded, and as it was found.
+pub(super) fn whole(plant: &Plant, watch: &dyn Watch) -> Result<(Cell, FloatOrbit), PlantRefusal> {
     watch.enter(Stage::Orbit);
     if plant.states() > MAX_STATES {
         return Err(PlantRefusal::TooManyStates { states: plant.states() });
@@ -194,12 +203,11 @@ fn with_whole(plant: &Plant, watch: &dyn Watch) -> Result<(Cell, Vec<Coordinates
     if !whole.can_be_cut() {
         whole.smooth()?;
     }
-    let candidates = propose_coordinates(plant, &found, 0.0, 0.0).map_err(PlantRefusal::NoOrbit)?;
-    if candidates.is_empty() { Err(PlantRefusal::NoContraction) } else { Ok((whole, candidates)) }
+    Ok((whole, found))
 }
 
 /// Proves the orbits of all cells, and goes on from there.
-fn with_cells<T>(
+pub(super) fn with_cells<T>(
     plant: &Plant,
     cells: &Cells,
     candidates: &[Coordinates],
@@ -239,7 +247,9 @@ impl FoundByMatrix {
         let lower = |aligned: &f64| *aligned < proved.proposal.sigma * (1.0 - WORTH_A_REMARK);
         let aligned = aligned(sampling, chosen, *path).filter(lower);
         let nominal_gain = with_nominal_gain(sampling, along, chosen, *path);
-        Ok(Reduced { alternatives: Alternatives { by_norms: Some(by_norms), aligned, nominal_gain }, ..proved })
+        let alternatives = Alternatives { by_norms: Some(by_norms), aligned, nominal_gain };
+        let near = Near::new(sampling, along, chosen, Some(*path)).map(Box::new);
+        Ok(Reduced { alternatives, near, ..proved })
     }
 }
 

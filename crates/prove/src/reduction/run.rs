@@ -5,7 +5,7 @@ mod seeking;
 use super::closer::closer;
 use super::interval_costs::{costs_at_samples, interval_costs};
 use super::proofs::{WithoutJoint, bounds_around};
-use super::reduce::{reduce, reduce_by_norms_quickly, reduce_by_norms_watched};
+use super::reduce::{reduce_by_norms_quickly, reduce_by_norms_watched};
 use super::subject::Sought;
 use super::watch::{Searches, Stage, Unwatched, Watch};
 use super::{FreeNumbers, RestsOn, Subject, Witness};
@@ -27,7 +27,7 @@ use std::sync::OnceLock;
 
 /// Where a search may start, of the regulator in continuous time or of the one at samples; or the numbers that stand in its place.
 enum Start {
-    Continuous(Option<Sought>),
+    Continuous(Option<Box<Sought>>),
     Sampled(Box<Sampling>, Option<SampledProposal>),
     Given(FreeNumbers),
 }
@@ -212,11 +212,8 @@ impl Prepared {
                     }
                     let compared = self.plant.as_ref().filter(|_| smallest && options.compare && run.claim().is_some());
                     if let (Some(plant), Some(sigma)) = (compared, run.sigma_star().map(Rational::to_f64)) {
-                        // The gain of all of them serves each.
-                        let gain = |plant: &Plant, watch: &dyn Watch| {
-                            reduce(plant, None, watch).ok().map(|found| found.proposal.sigma.min(sigma))
-                        };
-                        run.interval_costs = interval_costs(plant, gain, watch);
+                        let near = start.as_ref().and_then(|sought| sought.near.as_deref());
+                        run.interval_costs = interval_costs((plant, near), sigma, watch);
                     }
                     if self.found_above.is_some() {
                         (run.given_gain, run.smallest_gain) = (None, self.found_above);

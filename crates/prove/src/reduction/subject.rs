@@ -1,5 +1,6 @@
 //! What is certified: a bounding specification, or a plant by its formulas.
 
+use super::near::Near;
 use super::proofs::{Reduced, WithoutJoint};
 use super::reduce::reduce_by_norms_watched;
 use super::reduce::reduce_without_joint;
@@ -20,6 +21,8 @@ pub(super) struct Sought {
     pub(super) alternatives: Alternatives,
     /// The same without joint metrics, where there are some.
     pub(super) without_joint: Option<Box<WithoutJoint>>,
+    /// The choice that the data were proved of.
+    pub(super) near: Option<Box<Near>>,
 }
 
 /// Where documents have their sampling period.
@@ -201,7 +204,7 @@ impl Subject {
         self,
         (gain, on): (Option<&Rational>, RestsOn),
         watch: &dyn Watch,
-    ) -> Result<(Specification, Option<Sought>), Vec<SpecErrors>> {
+    ) -> Result<(Specification, Option<Box<Sought>>), Vec<SpecErrors>> {
         match self {
             Subject::Specification(spec) => {
                 watch.enter(Stage::Triple);
@@ -215,8 +218,8 @@ impl Subject {
                     RestsOn::Norms => reduce_by_norms_watched(&plant, watch),
                 };
                 let reduced = reduced.map_err(|refusal| refusal.errors(&plant))?;
-                let Reduced { spec, proposal, alternatives, without_joint } = reduced;
-                Ok((spec, Some(Sought { proposal, alternatives, without_joint })))
+                let Reduced { spec, proposal, alternatives, without_joint, near } = reduced;
+                Ok((spec, Some(Box::new(Sought { proposal, alternatives, without_joint, near }))))
             }
         }
     }

@@ -101,7 +101,10 @@ impl Proofs<'_> {
         let at = arguments(model, proposal, above, enlarged, self.along.second().is_some())?;
         let (with_values, spec) = self.with_needed(&at, |values| values)?;
         Ok(search_sharp_near(&with_values, proposal).map(|proposal| {
-            (with_values, Reduced { spec, proposal, alternatives: Alternatives::default(), without_joint: None })
+            (
+                with_values,
+                Reduced { spec, proposal, alternatives: Alternatives::default(), without_joint: None, near: None },
+            )
         }))
     }
 
