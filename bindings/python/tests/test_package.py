@@ -19,16 +19,6 @@ def test_there_is_one_version():
     assert sigmastar.__version__ == metadata.version("sigmastar") == version
 
 
-def test_the_lock_file_is_that_of_the_workspace():
-    def packages(path):
-        return {(one["name"], one["version"]): one.get("checksum") for one in toml(path)["package"]}
-
-    own, root = packages("bindings/python/Cargo.lock"), packages("Cargo.lock")
-    names = {name for name, _ in root}
-    different = {one: own[one] for one in own if one[0] in names and own[one] != root.get(one, "none")}
-    assert different == {}, "cp Cargo.lock bindings/python/Cargo.lock and build again"
-
-
 def test_it_is_typed():
     assert resources.files("sigmastar").joinpath("py.typed").is_file()
     assert resources.files("sigmastar").joinpath("_native.pyi").is_file()
