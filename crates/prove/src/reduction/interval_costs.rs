@@ -58,14 +58,14 @@ fn costs(
 /// The same for the regulator at samples, and first what it would be with the nominal `input_gain`; a specification has no other interval.
 /// Never above `sigma`, the gain of all of them, which serves each.
 pub(super) fn costs_at_samples(
-    (spec, plant): (&Specification, Option<&Plant>),
+    (spec, plant): (&Specification, Option<(&Plant, Option<&Near>)>),
     (sampling, sigma): (&Sampling, f64),
     ladder: Ladder,
     watch: &dyn Watch,
 ) -> Vec<(String, Option<f64>)> {
     let at_most = |proposal: SampledProposal| proposal.sigma.min(sigma);
     let uncertain = spec.input_gain.as_ref().filter(|gain| !gain.is_nominal()).map(|_| "input_gain".to_owned());
-    let Some(plant) = plant else {
+    let Some((plant, near)) = plant else {
         let of_spec = |name| {
             let known = Specification { input_gain: None, ..spec.clone() };
             let found = certify_sampled(&known, sampling, None, None, ladder).ok().and_then(|run| run.found);
@@ -75,7 +75,10 @@ pub(super) fn costs_at_samples(
     };
     let known = uncertain.map(|name| (name, Some(Plant { input_gain: None, ..plant.clone() })));
     let of_plant = |plant: &Plant, watch: &dyn Watch| {
-        reduce_sampled(plant, sampling, (None, RestsOn::Either), watch).ok().map(|found| at_most(found.proposal))
+        let known = near.and_then(|near| Some(sigma * near.ratio_at_samples(plant, sampling, watch)?));
+        let found = known.map(|found| found.min(sigma));
+        let asked = (None, RestsOn::Either);
+        found.or_else(|| reduce_sampled(plant, sampling, asked, watch).ok().map(|found| at_most(found.proposal)))
     };
     costs(known.into_iter().chain(closed(plant)).collect(), of_plant, watch)
 }

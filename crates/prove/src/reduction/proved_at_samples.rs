@@ -1,5 +1,6 @@
 //! A proposal for the law at samples with values that are proved in the place of sampled ones.
 
+use super::near::Near;
 use super::proofs::PRECISION;
 use crate::certify::sampled_model;
 use crate::search::{Extreme, Failing, Obstacle, SampledProposal, SampledSearch};
@@ -13,6 +14,8 @@ pub struct ReducedSampled {
     pub spec: Specification,
     /// Free numbers for it, in floating point.
     pub proposal: SampledProposal,
+    /// The choice that it was proved of, for a family and by matrix inequalities.
+    pub(super) near: Option<Box<Near>>,
 }
 
 /// That the law has no numbers for this sampling period.

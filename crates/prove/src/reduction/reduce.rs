@@ -95,7 +95,7 @@ fn in_cells(
     last: &Last<'_>,
     watch: &dyn Watch,
 ) -> Result<Reduced, PlantRefusal> {
-    with_cells(plant, cells, candidates, watch, |sampling| {
+    with_cells(plant, cells, candidates, watch, |_, sampling| {
         let starts = starts(candidates, sampling);
         // A descent by norms is worth its time where a matrix inequality does not do far better from the same start.
         if let Ok((p, rough)) = &starts
@@ -179,7 +179,7 @@ pub(super) fn with_candidates<T>(
 ) -> Result<T, PlantRefusal> {
     let (whole, candidates) = with_whole(plant, watch)?;
     let cells = Cells::new(&whole, &candidates, NARROW[0], watch)?;
-    with_cells(plant, &cells, &candidates, watch, |sampling| prove(&candidates, sampling))
+    with_cells(plant, &cells, &candidates, watch, |_, sampling| prove(&candidates, sampling))
 }
 
 /// The orbit, found for all members at once, and candidates for the coordinates: at least one.
@@ -206,13 +206,13 @@ pub(super) fn whole(plant: &Plant, watch: &dyn Watch) -> Result<(Cell, FloatOrbi
     Ok((whole, found))
 }
 
-/// Proves the orbits of all cells, and goes on from there.
+/// Proves the orbits of all cells in the first coordinates, and goes on from there.
 pub(super) fn with_cells<T>(
     plant: &Plant,
     cells: &Cells,
     candidates: &[Coordinates],
     watch: &dyn Watch,
-    prove: impl FnOnce(&Sampling<'_>) -> Result<T, PlantRefusal>,
+    prove: impl FnOnce(&Along, &Sampling<'_>) -> Result<T, PlantRefusal>,
 ) -> Result<T, PlantRefusal> {
     let first = candidates.first().ok_or(PlantRefusal::NoContraction)?;
     let along = along(&cells.list, first)?;
@@ -221,7 +221,7 @@ pub(super) fn with_cells<T>(
     let model = FloatModel::new(&data, trade_off(&data));
     let sampling = Sampling::new(plant, cells, &model, watch, along.tube());
     watch.enter(Stage::Coordinates);
-    prove(&sampling)
+    prove(&along, &sampling)
 }
 
 /// What was found by a matrix inequality.

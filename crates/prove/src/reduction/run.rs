@@ -6,14 +6,14 @@ use super::closer::closer;
 use super::interval_costs::{costs_at_samples, interval_costs};
 use super::proofs::{WithoutJoint, bounds_around};
 use super::reduce::{reduce_by_norms_quickly, reduce_by_norms_watched};
-use super::subject::Sought;
+use super::subject::{Sought, SoughtAtSamples};
 use super::watch::{Searches, Stage, Unwatched, Watch};
 use super::{FreeNumbers, RestsOn, Subject, Witness};
 use crate::certify::{
     Alternatives, Certification, Limits, NoRatesOfClaim, Options, Refusal, SampledCertification, Verdict,
     certify_sampled_within, certify_within, claimed_ball, recheck, recheck_sampled,
 };
-use crate::search::{Failing, SampledProposal};
+use crate::search::Failing;
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_lang::plant::Plant;
@@ -28,7 +28,7 @@ use std::sync::OnceLock;
 /// Where a search may start, of the regulator in continuous time or of the one at samples; or the numbers that stand in its place.
 enum Start {
     Continuous(Option<Box<Sought>>),
-    Sampled(Box<Sampling>, Option<SampledProposal>),
+    Sampled(Box<Sampling>, Option<SoughtAtSamples>),
     Given(FreeNumbers),
 }
 
@@ -223,15 +223,17 @@ impl Prepared {
             }
             Start::Sampled(sampling, start) => {
                 let wanted = (gain, &self.limits);
-                certify_sampled_within(spec, sampling, wanted, start.as_ref(), options.ladder).map(|mut run| {
+                let near = start.as_ref().and_then(|(_, near)| near.as_deref());
+                let start = start.as_ref().map(|(proposal, _)| proposal);
+                certify_sampled_within(spec, sampling, wanted, start, options.ladder).map(|mut run| {
                     let claimed = run.claim().map(|proof| proof.witness.sigma.to_f64());
                     if let Some(sigma) = claimed.filter(|_| options.compare && smallest) {
                         watch.enter(Stage::Comparison);
-                        let subject = (spec, self.plant.as_deref());
+                        let subject = (spec, self.plant.as_deref().map(|plant| (plant, near)));
                         run.interval_costs = costs_at_samples(subject, (sampling, sigma), options.ladder, watch);
                     }
                     if options.compare {
-                        run.set_gains(start.as_ref(), options.ladder);
+                        run.set_gains(start, options.ladder);
                     }
                     if self.found_above.is_some() {
                         run.given_gain = None;

@@ -3,6 +3,7 @@
 use super::choice::{best_by_norms, starts};
 use super::coordinates::Chosen;
 use super::entries::{needed, prove_all};
+use super::near::Near;
 use super::proofs::{Along, PRECISION};
 use super::proved_at_samples::{ReducedSampled, beyond, found_again};
 use super::reduce::{FAR_BETTER, with_candidates, with_coordinates};
@@ -77,8 +78,11 @@ pub fn reduce_sampled(
         }
         let straight = straight_by_matrix(&starts, sampled);
         let by_matrix = |known: Option<f64>| {
-            let (along, chosen) = straight.as_ref()?;
-            MatrixAtSamples::new(sampled, (along, chosen), sampling)?.reduce(gain, known)
+            let straight = straight.as_ref()?;
+            let (along, chosen) = straight;
+            let found = MatrixAtSamples::new(sampled, (along, chosen), sampling)?.reduce(gain, known)?;
+            let near = Near::at_samples(sampled, straight, found.proposal.sigma).map(Box::new);
+            Some(ReducedSampled { near, ..found })
         };
         if let Some(refused) = of_given {
             return by_matrix(None).map_or(refused, Ok);
@@ -183,7 +187,7 @@ impl<'p> SampledPairs<'p> {
             let spec = self.along.specification(self.plant, values)?;
             match found_again(&spec, sampling, &proposal, given) {
                 Ok(found) if best.as_ref().is_none_or(|known| found.better_than(&known.proposal)) => {
-                    best = Some(ReducedSampled { spec, proposal: found });
+                    best = Some(ReducedSampled { spec, proposal: found, near: None });
                 }
                 Ok(_) => {}
                 Err(obstacle) => refusal = PlantRefusal::NoGain(beyond_the_bounds(obstacle)),

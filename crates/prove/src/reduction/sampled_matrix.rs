@@ -163,6 +163,12 @@ impl<'a> MatrixAtSamples<'a> {
         })
     }
 
+    /// The smallest gain for samples of the derivatives; nothing is proved.
+    pub(super) fn estimate(&self) -> Option<f64> {
+        let found = self.least(&self.start(self.chosen.proposal.sigma), TARGETS[0], self.law.step.recip());
+        found.map(|found| found.sigma)
+    }
+
     /// From what is known in continuous time.
     fn start(&self, sigma: f64) -> At {
         let parameters = self.chosen.proposal.parameters;
@@ -346,7 +352,7 @@ impl<'a> MatrixAtSamples<'a> {
             .ok()?;
             let spec = self.along.specification(plant, values).ok()?;
             let proposal = found_again(&spec, self.sampling, &proposal, Some(found.sigma)).ok()?;
-            Some(ReducedSampled { spec, proposal })
+            Some(ReducedSampled { spec, proposal, near: None })
         })
     }
 

@@ -5,7 +5,7 @@ use super::proofs::{Reduced, WithoutJoint};
 use super::reduce::reduce_by_norms_watched;
 use super::reduce::reduce_without_joint;
 use super::watch::{Stage, Unwatched, Watch};
-use super::{RestsOn, reduce, reduce_sampled};
+use super::{ReducedSampled, RestsOn, reduce, reduce_sampled};
 use crate::certify::{Alternatives, WITHOUT_INPUT_GAIN, not_available_with_input_gain, with_triple};
 use crate::search::{SampledProposal, SharpProposal};
 use rug::Rational;
@@ -24,6 +24,9 @@ pub(super) struct Sought {
     /// The choice that the data were proved of.
     pub(super) near: Option<Box<Near>>,
 }
+
+/// The same at samples.
+pub(super) type SoughtAtSamples = (SampledProposal, Option<Box<Near>>);
 
 /// Where documents have their sampling period.
 pub const SAMPLING_PERIOD: &str = "/internal_model/sampling_period";
@@ -228,17 +231,18 @@ impl Subject {
     ///
     /// # Errors
     /// Those of [`Subject::proved`].
-    pub fn proved_at_samples(
+    pub(super) fn proved_at_samples(
         self,
         sampling: &Sampling,
         asked: (Option<&Rational>, RestsOn),
         watch: &dyn Watch,
-    ) -> Result<(Specification, Option<SampledProposal>), Vec<SpecErrors>> {
+    ) -> Result<(Specification, Option<SoughtAtSamples>), Vec<SpecErrors>> {
         match self {
             Subject::Plant(plant) => {
                 let reduced =
                     reduce_sampled(&plant, sampling, asked, watch).map_err(|refusal| refusal.errors(&plant))?;
-                Ok((reduced.spec, Some(reduced.proposal)))
+                let ReducedSampled { spec, proposal, near } = reduced;
+                Ok((spec, Some((proposal, near))))
             }
             specification @ Subject::Specification(_) => {
                 watch.enter(Stage::Triple);
