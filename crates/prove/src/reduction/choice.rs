@@ -1,8 +1,8 @@
 //! Coordinates for a plant, chosen by norms or for a P that is given, rounded, and proved along the orbit.
 
 use super::cells::{Cell, Cells};
-use super::coordinates::{Chosen, CoordinateSearch, Density, Rough, Sampler, Shape, energy_in};
-use super::proofs::{Along, ProvenCell, along};
+use super::coordinates::{Chosen, CoordinateSearch, Density, Rough, Sampler, Shape, Start, energy_in};
+use super::proofs::{Along, Near, ProvenCell, along};
 use super::refusal::PlantRefusal;
 use super::sampling::{Sampling, float_matrix, rational_matrix, rational_symmetric};
 use super::watch::Stage;
@@ -87,6 +87,26 @@ pub(super) fn with_constant(
     let in_tube = sampling.with_tube(base.tube());
     let chosen = with_search(&in_tube, by_matrix, |search| search.with(both, Some(&chosen.proposal)));
     Ok((base, chosen.map_err(PlantRefusal::NoGain)?))
+}
+
+/// A choice for the family that is sampled. `None` of a plant without an interval, where P moves, and where there is no gain near it.
+pub(super) fn near(sampling: &Sampling<'_>, along: &Along, chosen: &Chosen, path: Option<Path>) -> Option<Near> {
+    let coordinates = along.coordinates.clone();
+    if !sampling.plant.is_family() || !coordinates.p.harmonics.is_empty() {
+        return None;
+    }
+    let mut near = Near { coordinates, start: Start::from(chosen), path, gain: f64::NAN };
+    near.gain = gain_near(&near, &sampling.with_tube(along.tube()))?;
+    Some(near)
+}
+
+/// The gain near a choice, in its coordinates or near them and without joint metrics, from samples of the derivatives: an estimate.
+pub(super) fn gain_near(near: &Near, sampling: &Sampling<'_>) -> Option<f64> {
+    let gain = |search: &CoordinateSearch<'_>| match near.path {
+        Some(_) => Ok(search.estimate_around(&near.start)),
+        None => search.with(near.start.shape(), Some(&near.start.proposal)).map(|found| Some(found.proposal.sigma)),
+    };
+    with_search(sampling, near.path, gain).ok().flatten()
 }
 
 /// A search with P = I in the coordinates y, and some P of existence.

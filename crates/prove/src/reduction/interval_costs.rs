@@ -1,8 +1,13 @@
 //! What each interval of a parameter, and that of the period, costs; at samples that of the input gain, too.
 
-use super::near::Near;
-use super::reduce::reduce;
+use super::cells::{Cells, NARROW};
+use super::choice::{gain_near, with_search};
+use super::coordinates::CoordinateSearch;
+use super::proofs::{Along, Near};
+use super::reduce::{reduce, whole, with_cells};
 use super::sampled::{RestsOn, reduce_sampled};
+use super::sampled_matrix::MatrixAtSamples;
+use super::sampling::Sampling as Samples;
 use super::watch::{Searches, Watch};
 use crate::certify::{Ladder, certify_sampled};
 use crate::search::SampledProposal;
@@ -22,11 +27,40 @@ pub(super) fn interval_costs(
     watch: &dyn Watch,
 ) -> Vec<(String, Option<f64>)> {
     let gain = |closed: &Plant, watch: &dyn Watch| {
-        let known = near.and_then(|near| Some(sigma * near.ratio(closed, watch)?));
+        let known = near.and_then(|near| Some(sigma * ratio(near, closed, watch)?));
         let found = known.or_else(|| reduce(closed, None, watch).ok().map(|found| found.proposal.sigma));
         found.map(|found| found.min(sigma))
     };
     costs(closed(plant), gain, watch)
+}
+
+/// How many times the gain near the choice for a family is that of the family where a member or a smaller family stands in its place. `None`
+/// where the orbit is not proved in these coordinates, or there is no such gain.
+fn ratio(near: &Near, plant: &Plant, watch: &dyn Watch) -> Option<f64> {
+    Some(sampled(near, plant, watch, |_, samples| gain_near(near, samples))? / near.gain)
+}
+
+/// The same of the gains of the regulator at samples.
+fn ratio_at_samples(near: &Near, plant: &Plant, sampling: &Sampling, watch: &dyn Watch) -> Option<f64> {
+    let gain = |along: &Along, samples: &Samples<'_>| {
+        let chosen = |search: &CoordinateSearch<'_>| search.with(near.start.shape(), Some(&near.start.proposal));
+        let chosen = with_search(samples, near.path, chosen).ok()?;
+        MatrixAtSamples::new(samples, (along, &chosen), sampling)?.estimate()
+    };
+    Some(sampled(near, plant, watch, gain)? / near.gain)
+}
+
+/// What is found from the orbits of a plant and the samples along them, in the coordinates of a choice.
+fn sampled(
+    near: &Near,
+    plant: &Plant,
+    watch: &dyn Watch,
+    find: impl FnOnce(&Along, &Samples<'_>) -> Option<f64>,
+) -> Option<f64> {
+    let (whole, _) = whole(plant, watch).ok()?;
+    let candidates = std::slice::from_ref(&near.coordinates);
+    let cells = Cells::new(&whole, candidates, NARROW[0], watch).ok()?;
+    with_cells(plant, &cells, candidates, watch, |along, samples| Ok(find(along, samples))).ok()?
 }
 
 /// A plant with one of its intervals closed, under the name of that.
@@ -75,7 +109,7 @@ pub(super) fn costs_at_samples(
     };
     let known = uncertain.map(|name| (name, Some(Plant { input_gain: None, ..plant.clone() })));
     let of_plant = |plant: &Plant, watch: &dyn Watch| {
-        let known = near.and_then(|near| Some(sigma * near.ratio_at_samples(plant, sampling, watch)?));
+        let known = near.and_then(|near| Some(sigma * ratio_at_samples(near, plant, sampling, watch)?));
         let found = known.map(|found| found.min(sigma));
         let asked = (None, RestsOn::Either);
         found.or_else(|| reduce_sampled(plant, sampling, asked, watch).ok().map(|found| at_most(found.proposal)))

@@ -17,7 +17,6 @@ mod entries;
 mod grid;
 mod interval_costs;
 mod joint;
-mod near;
 mod proofs;
 mod proved_at_samples;
 mod reduce;

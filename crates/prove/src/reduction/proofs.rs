@@ -1,8 +1,8 @@
 //! What is proved along an orbit, and what proves bounds there.
 
 use super::cells::Cell;
+use super::coordinates::Start;
 use super::entries::{Needed, prove_all};
-use super::near::Near;
 use super::refusal::PlantRefusal;
 use super::sampling::{Sampling, float_matrix};
 use super::specification::specification;
@@ -21,6 +21,7 @@ use sigmastar_lang::spec::{
 use sigmastar_plants::bounds::{Engine, FloatCurve, FloatSuprema, Region};
 use sigmastar_plants::orbit::{Coordinates, OrbitProof, SecondTriple, prove_forcing, prove_orbits};
 use sigmastar_theory::data::Data;
+use sigmastar_theory::derivation::paths::Path;
 use sigmastar_theory::transfer::TradeOff;
 use std::sync::atomic::AtomicUsize;
 
@@ -39,6 +40,18 @@ pub struct Reduced {
     pub without_joint: Option<Box<WithoutJoint>>,
     /// The choice that it was proved of, for a family.
     pub(super) near: Option<Box<Near>>,
+}
+
+/// A choice for a family of plants, with a constant P.
+pub(super) struct Near {
+    /// Its coordinates, as they were rounded.
+    pub(super) coordinates: Coordinates,
+    /// The free numbers, in these.
+    pub(super) start: Start,
+    /// The path of the matrix inequality that it rests on; norms without.
+    pub(super) path: Option<Path>,
+    /// The gain near it of the family itself, of the regulator in continuous time or of the one at samples.
+    pub(super) gain: f64,
 }
 
 /// A specification without joint metrics, and where the search for its gain may start.

@@ -1,7 +1,6 @@
 //! A proposal for the law at samples with values that are proved in the place of sampled ones.
 
-use super::near::Near;
-use super::proofs::PRECISION;
+use super::proofs::{Near, PRECISION};
 use crate::certify::sampled_model;
 use crate::search::{Extreme, Failing, Obstacle, SampledProposal, SampledSearch};
 use sigmastar_lang::spec::{self, Specification};

@@ -1,10 +1,9 @@
 //! The whole way from a plant to a specification whose data are proved.
 
 use super::cells::{Cell, Cells, NARROW};
-use super::choice::{best_by_norms, starts, with_constant, with_search};
+use super::choice::{best_by_norms, near, starts, with_constant, with_search};
 use super::coordinates::{Chosen, CoordinateSearch, Rough, Start};
 use super::joint::with_joint_metrics;
-use super::near::Near;
 use super::proofs::{Along, PRECISION, Proofs, Reduced, along, trade_off};
 use super::refusal::{MAX_STATES, PlantRefusal};
 use super::sampling::Sampling;
@@ -156,7 +155,7 @@ pub fn reduce_by_norms_quickly(plant: &Plant) -> Result<Reduced, PlantRefusal> {
 /// The data of a choice, proved.
 fn by_norms(along: &Along, sampling: &Sampling<'_>, chosen: &Chosen) -> Result<Reduced, PlantRefusal> {
     let proved = prove_bounds(&Proofs::new(along, sampling)?, chosen)?;
-    Ok(Reduced { near: Near::new(sampling, along, chosen, None).map(Box::new), ..proved })
+    Ok(Reduced { near: near(sampling, along, chosen, None).map(Box::new), ..proved })
 }
 
 /// Finds and proves the orbit, chooses the coordinates by norms, and goes on from there.
@@ -248,7 +247,7 @@ impl FoundByMatrix {
         let aligned = aligned(sampling, chosen, *path).filter(lower);
         let nominal_gain = with_nominal_gain(sampling, along, chosen, *path);
         let alternatives = Alternatives { by_norms: Some(by_norms), aligned, nominal_gain };
-        let near = Near::new(sampling, along, chosen, Some(*path)).map(Box::new);
+        let near = near(sampling, along, chosen, Some(*path)).map(Box::new);
         Ok(Reduced { alternatives, near, ..proved })
     }
 }

@@ -1,10 +1,9 @@
 //! The bounds of a plant at the arguments of a claim about the regulator at samples.
 
 use super::choice::{best_by_norms, starts};
-use super::coordinates::Chosen;
+use super::coordinates::{Chosen, Start};
 use super::entries::{needed, prove_all};
-use super::near::Near;
-use super::proofs::{Along, PRECISION};
+use super::proofs::{Along, Near, PRECISION};
 use super::proved_at_samples::{ReducedSampled, beyond, found_again};
 use super::reduce::{FAR_BETTER, with_candidates, with_coordinates};
 use super::refusal::PlantRefusal;
@@ -17,6 +16,7 @@ use rug::Rational;
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{self, ProvedValues, Specification};
 use sigmastar_theory::data::Data;
+use sigmastar_theory::derivation::paths::Path;
 use sigmastar_theory::derivation::sampled::{SampledLaw, sampled_trade_off};
 use std::sync::atomic::AtomicUsize;
 
@@ -81,7 +81,7 @@ pub fn reduce_sampled(
             let straight = straight.as_ref()?;
             let (along, chosen) = straight;
             let found = MatrixAtSamples::new(sampled, (along, chosen), sampling)?.reduce(gain, known)?;
-            let near = Near::at_samples(sampled, straight, found.proposal.sigma).map(Box::new);
+            let near = sampled.plant.is_family().then(|| Box::new(near(straight, found.proposal.sigma)));
             Some(ReducedSampled { near, ..found })
         };
         if let Some(refused) = of_given {
@@ -97,6 +97,11 @@ pub fn reduce_sampled(
         let known = by_norms.as_ref().ok().map(|found| found.proposal.sigma);
         by_matrix(known).map_or(by_norms, Ok)
     })
+}
+
+/// The choice of a gain by matrix inequalities.
+fn near((along, chosen): &(Along, Chosen), gain: f64) -> Near {
+    Near { coordinates: along.coordinates.clone(), start: Start::from(chosen), path: Some(Path::Straight), gain }
 }
 
 /// The same for many pairs of a gain and a sampling period: the orbit and the coordinates are found once.

@@ -1,7 +1,6 @@
 //! What is certified: a bounding specification, or a plant by its formulas.
 
-use super::near::Near;
-use super::proofs::{Reduced, WithoutJoint};
+use super::proofs::{Near, Reduced, WithoutJoint};
 use super::reduce::reduce_by_norms_watched;
 use super::reduce::reduce_without_joint;
 use super::watch::{Stage, Unwatched, Watch};
