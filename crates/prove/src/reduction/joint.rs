@@ -25,8 +25,8 @@ const FIRST: f64 = 0.985;
 const STEP: f64 = 0.8;
 const HALVED: usize = 5;
 
-/// How far above the least gain that is found metrics are proved, in turn.
-const ABOVE: [f64; 5] = [1e-3, 1e-2, 3e-2, 6e-2, 0.1];
+/// How far above the least gain that is found metrics are proved, in turn, and with what margin: a larger one takes fewer boxes.
+const ABOVE: [(f64, f64); 5] = [(1e-3, MARGIN), (1e-2, 4e-3), (3e-2, 8e-3), (6e-2, 1.5e-2), (0.1, 2.5e-2)];
 
 /// How much further than the set they are for metrics of existence are sought, first and where the set turns out larger; and at last.
 const FURTHER: f64 = 1.5;
@@ -56,9 +56,19 @@ const SHAPE_STEP: f64 = 0.2;
 /// Digits of the numbers of a metric.
 const DIGITS: u32 = 9;
 
-/// Boxes of a proof; from three states on fewer, for another program, which may need many times as many, is to decide it again.
+/// Boxes of a proof; from three states on fewer, for the checker, which encloses less closely, needs hundreds of times as many then.
 const EFFORT: usize = 30_000;
-const MODEST_EFFORT: usize = 3_000;
+const MODEST_EFFORT: usize = 300;
+
+/// The points at which metrics are sought, and the share of the rates that stability keeps there.
+#[derive(Clone, Copy)]
+struct Looked {
+    at: LookedAt,
+    margin: f64,
+}
+
+/// To find a gain.
+const ROUGHLY: Looked = Looked { at: LookedAt::Grid, margin: MARGIN };
 
 /// What is found at one gain.
 #[derive(Clone)]
@@ -104,17 +114,17 @@ impl JointSearch<'_> {
     /// The least gain below one that is known.
     fn least(&self, above: f64) -> Option<Found> {
         let (set, at) = at_sigma(self.model, &self.known.parameters, self.known.sigma * (1.0 + NEAR), NEAR).ok()?;
-        let mut best = self.at(above * FIRST, [set.x_p, set.e_p], radii(&at), LookedAt::Grid)?;
+        let mut best = self.at(above * FIRST, [set.x_p, set.e_p], radii(&at), ROUGHLY)?;
         let mut low = loop {
             let next = best.sigma * STEP;
-            match self.at(next, [best.set.x_p, best.set.e_p], best.radii, LookedAt::Grid) {
+            match self.at(next, [best.set.x_p, best.set.e_p], best.radii, ROUGHLY) {
                 Some(found) => best = found,
                 None => break next,
             }
         };
         for _ in 0..HALVED {
             let middle = (low * best.sigma).sqrt();
-            match self.at(middle, [best.set.x_p, best.set.e_p], best.radii, LookedAt::Grid) {
+            match self.at(middle, [best.set.x_p, best.set.e_p], best.radii, ROUGHLY) {
                 Some(found) => best = found,
                 None => low = middle,
             }
@@ -123,10 +133,10 @@ impl JointSearch<'_> {
     }
 
     /// Metrics at a gain, near a set and an error box.
-    fn at(&self, sigma: f64, sizes: [f64; 2], radii: [f64; 2], looked: LookedAt) -> Option<Found> {
+    fn at(&self, sigma: f64, sizes: [f64; 2], radii: [f64; 2], looked: Looked) -> Option<Found> {
         let by_norms = self.model.with_inequalities(None, None);
         let plain = self.set(&by_norms, sigma).map(|set| (by_norms.clone(), set));
-        let joint = self.existence(&by_norms, sigma, sizes, looked);
+        let joint = self.existence(&by_norms, sigma, sizes, looked.at);
         let (model, set) = [plain, joint].into_iter().flatten().min_by(|a, b| a.1.e_per.total_cmp(&b.1.e_per))?;
         let (radii, stability) = self.stability(&model, &set, sigma, (radii, looked))?;
         Some(Found { sigma, model, set, radii, stability })
@@ -177,16 +187,16 @@ impl JointSearch<'_> {
         model: &FloatModel,
         set: &PeriodicSet,
         sigma: f64,
-        (start, looked): ([f64; 2], LookedAt),
+        (start, looked): ([f64; 2], Looked),
     ) -> Option<([f64; 2], JointStability)> {
         let distances = start_distances(model, set);
         let metrics = |radii: [f64; 2]| {
             let at = [set.x_per + radii[0], set.e_per + radii[1]];
             model.contains(at).ok()?;
-            let asked = LevelAsked { radii, distances, mu: model.mu, rate: model.alpha, margin: MARGIN };
+            let asked = LevelAsked { radii, distances, mu: model.mu, rate: model.alpha, margin: looked.margin };
             let places = &mut self.places[1].borrow_mut();
             let (metrics, levels, share) =
-                self.proofs.suprema.propose_joint_stability(at, sigma, &asked, (looked, places))?;
+                self.proofs.suprema.propose_joint_stability(at, sigma, &asked, (looked.at, places))?;
             Some((at, radii, metrics, levels, share))
         };
         let decode = |p: &[f64]| [p[0].portable_exp(), p[1].portable_exp()];
@@ -219,9 +229,10 @@ impl JointSearch<'_> {
 
     /// The data of what was found, proved below a gain.
     fn proved(&self, found: &Found, known: f64) -> Option<Reduced> {
-        let above = ABOVE.into_iter().map(|above| found.sigma * (1.0 + above)).filter(|sigma| *sigma < known);
-        above.into_iter().find_map(|sigma| {
-            let found = self.at(sigma, [found.set.x_p, found.set.e_p], found.radii, LookedAt::Between)?;
+        let above = ABOVE.into_iter().map(|(above, margin)| (found.sigma * (1.0 + above), margin));
+        above.filter(|(sigma, _)| *sigma < known).find_map(|(sigma, margin)| {
+            let looked = Looked { at: LookedAt::Between, margin };
+            let found = self.at(sigma, [found.set.x_p, found.set.e_p], found.radii, looked)?;
             self.decided(&found)
         })
     }
