@@ -264,6 +264,37 @@ fn an_interval_that_is_closed_never_costs_more() {
     assert!(cost <= 1.001 * number(&report["sigma_star"]), "{cost}");
 }
 
+/// Both are gains that a search of its own finds, with other coordinates.
+#[test]
+fn what_an_interval_costs_is_near_the_gain_without_it() {
+    let folder = TempDir::new().unwrap();
+    let mut plant = shipped("motor-axis");
+    plant["q"] = json!("(100*i - b*e - 40*tanh(e) + 2000 + 1500*cos(100*pi*t) + 400*sin(200*pi*t))/J");
+    let intervals =
+        json!({ "J": { "nominal": 1, "low": "0.7", "high": "1.3" }, "b": { "nominal": 60, "low": 30, "high": 90 } });
+    plant["parameters"] = intervals.clone();
+    plant["input_gain"] = json!({ "nominal": "1/J", "low": "0.9/J", "high": "1.1/J" });
+    let number = |value: &Value| value.as_str().and_then(|text| text.parse::<f64>().ok()).expect("a number");
+    for (sampling, names, sigma, costs) in [
+        (None, &["J", "b"][..], "sigma_star", "sigma_star_without_interval_estimates"),
+        (Some("1/20000"), &["b"], "sigma", "sigma_without_interval_estimates"),
+    ] {
+        if let Some(period) = sampling {
+            plant["internal_model"]["sampling_period"] = period.into();
+        }
+        plant["parameters"] = intervals.clone();
+        let (_, report) = certified_with(&folder, &plant, &[]);
+        for &name in names {
+            plant["parameters"] = intervals.clone();
+            plant["parameters"][name] = intervals[name]["nominal"].clone();
+            let gain = number(&certified(&folder, &plant).1[sigma]);
+            let [cost, of_all] = [&report[costs][name], &report[sigma]].map(number);
+            println!("{name}: {cost}, {gain} of {of_all}");
+            assert!((cost / gain - 1.0).abs() < 0.1 && gain < 0.8 * of_all, "{name}: {cost}, {gain} of {of_all}");
+        }
+    }
+}
+
 /// An interval of one point is a number.
 #[test]
 fn a_family_of_one_point_is_its_plant() {

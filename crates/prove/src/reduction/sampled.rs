@@ -1,6 +1,6 @@
 //! The bounds of a plant at the arguments of a claim about the regulator at samples.
 
-use super::choice::{best_by_norms, starts};
+use super::choice::{best_by_norms, starts, with_search};
 use super::coordinates::{Chosen, Start};
 use super::entries::{needed, prove_all};
 use super::proofs::{Along, Near, PRECISION};
@@ -64,38 +64,44 @@ pub fn reduce_sampled(
 ) -> Result<ReducedSampled, PlantRefusal> {
     with_candidates(plant, watch, |candidates, sampled| {
         let starts = starts(candidates, sampled);
-        let by_norms = || {
-            let (along, chosen) = best_by_norms(candidates, &starts, sampled)?;
-            SampledPairs::new(plant, &along, sampled, &chosen)?.reduce(sampling, gain)
-        };
-        // What norms prove of a gain that is given is enough; of the law with a delay nothing else is proved.
-        if sampling.delayed || on == RestsOn::Norms {
-            return by_norms();
-        }
-        let of_given = gain.map(|_| by_norms());
-        if let Some(Ok(found)) = of_given {
-            return Ok(found);
-        }
-        let straight = straight_by_matrix(&starts, sampled);
-        let by_matrix = |known: Option<f64>| {
-            let straight = straight.as_ref()?;
+        let by_matrix = |straight: &(Along, Chosen), known: Option<f64>| {
             let (along, chosen) = straight;
             let found = MatrixAtSamples::new(sampled, (along, chosen), sampling)?.reduce(gain, known)?;
             let near = sampled.plant.is_family().then(|| Box::new(near(straight, found.proposal.sigma)));
             Some(ReducedSampled { near, ..found })
         };
-        if let Some(refused) = of_given {
-            return by_matrix(None).map_or(refused, Ok);
+        // Of the law with a delay nothing else is proved.
+        let norms_alone = sampling.delayed || on == RestsOn::Norms;
+        let of_rough = || {
+            let (p, rough) = starts.as_ref().ok()?;
+            let starts = with_search(sampled, Some(Path::Straight), |search| Ok(search.for_matrix(rough))).ok()?;
+            straight_by_matrix(p, &starts, sampled)
+        };
+        let mut straight = None;
+        if gain.is_none() && !norms_alone {
+            straight = of_rough();
+            // As in continuous time, norms are not worth their descent where a matrix inequality does far better from the same start.
+            let rough = starts.as_ref().map_or(f64::INFINITY, |(_, rough)| rough.best.proposal.sigma);
+            let far_better = straight.as_ref().filter(|(_, chosen)| chosen.proposal.sigma < FAR_BETTER * rough);
+            if let Some(found) = far_better.and_then(|straight| by_matrix(straight, Some(rough))) {
+                return Ok(found);
+            }
         }
-        // As in continuous time, norms are not worth their descent where a matrix inequality does far better from the same start.
-        let rough = starts.as_ref().map_or(f64::INFINITY, |(_, rough)| rough.best.proposal.sigma);
-        let is_far_better = straight.as_ref().is_some_and(|(_, chosen)| chosen.proposal.sigma < FAR_BETTER * rough);
-        if let Some(found) = is_far_better.then(|| by_matrix(Some(rough))).flatten() {
-            return Ok(found);
+        let chosen = best_by_norms(candidates, &starts, sampled);
+        let of_norms = chosen.as_ref().map_err(Clone::clone);
+        let of_norms = of_norms
+            .and_then(|(along, chosen)| SampledPairs::new(plant, along, sampled, chosen)?.reduce(sampling, gain));
+        // What norms prove of a gain that is given is enough.
+        if norms_alone || (gain.is_some() && of_norms.is_ok()) {
+            return of_norms;
         }
-        let by_norms = by_norms();
-        let known = by_norms.as_ref().ok().map(|found| found.proposal.sigma);
-        by_matrix(known).map_or(by_norms, Ok)
+        let near_norms = || {
+            let (along, chosen) = chosen.as_ref().ok()?;
+            straight_by_matrix(&along.coordinates.p, &[Start::from(chosen)], sampled)
+        };
+        let straight = straight.or_else(|| gain.and_then(|_| of_rough())).or_else(near_norms);
+        let known = of_norms.as_ref().ok().map(|found| found.proposal.sigma);
+        straight.and_then(|straight| by_matrix(&straight, known)).map_or(of_norms, Ok)
     })
 }
 

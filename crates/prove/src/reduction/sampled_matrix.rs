@@ -2,13 +2,12 @@
 //! (derivation, 13.7, (Ms), and (E) at samples): in the coordinates of the inequality in continuous time, the gain is raised from the one
 //! there until both hold with some room, and they are proved at it.
 
-use super::choice::{with_constant, with_search};
-use super::coordinates::{Chosen, Rough};
+use super::choice::with_constant;
+use super::coordinates::{Chosen, Start};
 use super::entries::{needed, prove_all};
 use super::grid::Grid;
 use super::proofs::{Along, PRECISION};
 use super::proved_at_samples::{ReducedSampled, found_again};
-use super::refusal::PlantRefusal;
 use super::sampling::{Sampling, float_matrix};
 use crate::search::{
     AtSamples, AtSigma, BySampledEnergy, BySampledMatrix, FloatModel, Floors, PeriodicSet, SampledProposal,
@@ -75,17 +74,19 @@ const DIGITS_OF_GAIN: u32 = 6;
 /// What a matrix inequality must take from the gain of norms.
 const WORTH: f64 = 0.99;
 
-/// The coordinates of the inequality in continuous time, on the straight path; none where it is not worth its proof.
+/// The coordinates of the inequality in continuous time, on the straight path near one of these starts; none where it is not worth its proof,
+/// and where P moves.
 pub(super) fn straight_by_matrix(
-    starts: &Result<(PeriodicMatrix, Rough), PlantRefusal>,
+    p: &PeriodicMatrix,
+    starts: &[Start],
     sampling: &Sampling<'_>,
 ) -> Option<(Along, Chosen)> {
-    let (p, rough) = starts.as_ref().ok()?;
+    if !p.harmonics.is_empty() {
+        return None;
+    }
     let path = Some(Path::Straight);
-    let starts = with_search(sampling, path, |search| Ok(search.for_matrix(rough))).ok()?;
-    let found = starts
-        .iter()
-        .filter_map(|start| with_constant(p, sampling, path, |search| search.choose_near(start, f64::INFINITY)).ok());
+    let near = |start| with_constant(p, sampling, path, |search| search.choose_near(start, f64::INFINITY)).ok();
+    let found = starts.iter().filter_map(near);
     found.min_by(|(_, a), (_, b)| a.proposal.sigma.total_cmp(&b.proposal.sigma))
 }
 
