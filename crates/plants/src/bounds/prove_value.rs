@@ -12,9 +12,15 @@ use sigmastar_lang::spec::Bound;
 const ATTEMPTS: [(f64, usize); 7] =
     [(1e-5, 8), (0.001, 1500), (0.003, 3000), (0.01, 4000), (0.03, 6000), (0.1, 6000), (0.3, 20_000)];
 
-/// The same from three states on: another program, which may need some ten times as many boxes, is to decide the value again.
+/// The same from three states on: another program, which may need some ten times as many boxes, is to decide the value again. From five on it
+/// may need a hundred times as many.
 const MODEST_ATTEMPTS: [(f64, usize); 7] =
     [(1e-5, 8), (0.001, 100), (0.003, 200), (0.01, 400), (0.03, 800), (0.1, 2000), (0.3, 20_000)];
+const FEWER_ATTEMPTS: [(f64, usize); 7] =
+    [(1e-5, 8), (0.001, 10), (0.003, 20), (0.01, 50), (0.03, 150), (0.1, 500), (0.3, 20_000)];
+
+/// The slack of the last of them.
+const LAST_SLACK: f64 = 0.3;
 
 /// An attempt with this slack that is refuted sends the search to where it was: the samples have missed something.
 const MISSED: f64 = 0.01;
@@ -68,7 +74,11 @@ impl Engine {
         }
         let spread = if kind.is_rate() { PART_OF_SPREAD * sampled.spread } else { 0.0 };
         let size = |value: f64| value.abs().max(spread);
-        let ladder = if self.states() > 2 { MODEST_ATTEMPTS } else { ATTEMPTS };
+        let ladder = match self.states() {
+            0..=2 => ATTEMPTS,
+            3 | 4 => MODEST_ATTEMPTS,
+            _ => FEWER_ATTEMPTS,
+        };
         // Beside a spread that is larger than the value, the value's own digits come first.
         let own = |value: f64| ladder.iter().take(OWN).map(move |(slack, effort)| (slack * value.abs(), *effort));
         let sign = if kind.is_rate() { -1.0 } else { 1.0 };
@@ -102,13 +112,12 @@ impl Engine {
 
     /// The least value above that is proved, to 5 %.
     fn least_above(&self, kind: Bound, at: [&Rational; 2], known: f64, explored: usize) -> Option<ProvedValue> {
-        let last = if self.states() > 2 { MODEST_ATTEMPTS } else { ATTEMPTS }.last().map_or(0.0, |(slack, _)| *slack);
         let above = self.explore(kind, at, (known, NEWS * known), explored).above;
         let mut values: Vec<f64> = MULTIPLES.iter().map(|multiple| multiple * known).chain([above]).collect();
-        values.retain(|value| value.is_finite() && *value > known * (1.0 + last));
+        values.retain(|value| value.is_finite() && *value > known * (1.0 + LAST_SLACK));
         values.sort_by(f64::total_cmp);
         let mut left = LAST_EFFORT;
-        let mut failed = known * (1.0 + last);
+        let mut failed = known * (1.0 + LAST_SLACK);
         let mut proved = None;
         for value in values {
             let (found, boxes) = self.attempt(kind, at, (known, value), left / 2);
