@@ -35,8 +35,17 @@ fn every_package_can_be_published() {
     // A wheel is made of this one.
     let of_wheel = |package: &&Value| package["name"] == "sigmastar-python";
     assert!(packages.iter().find(of_wheel).unwrap()["publish"].as_array().unwrap().is_empty());
-    for package in packages.iter().filter(|package| !of_wheel(package)) {
+    for package in packages {
         let name = package["name"].as_str().unwrap();
+        for dependency in package["dependencies"].as_array().unwrap() {
+            let own = !dependency["path"].is_null();
+            let exactly = format!("={}", package["version"].as_str().unwrap());
+            // Another version may prove another number.
+            assert!(!own || dependency["req"] == *exactly, "{name}: {}", dependency["name"]);
+        }
+        if of_wheel(&package) {
+            continue;
+        }
         for field in ["description", "license", "repository", "readme", "rust_version"] {
             assert!(package[field].as_str().is_some_and(|text| !text.is_empty()), "{name}: {field}");
         }
@@ -48,12 +57,27 @@ fn every_package_can_be_published() {
             assert!(words.iter().all(|word| word.as_str().unwrap().len() <= longest), "{name}: {field}");
         }
         assert!(package["publish"].is_null(), "{name} is not to be published");
-        for dependency in package["dependencies"].as_array().unwrap() {
-            let own = !dependency["path"].is_null();
-            let exactly = format!("={}", package["version"].as_str().unwrap());
-            // Another version may prove another number.
-            assert!(!own || dependency["req"] == *exactly, "{name}: {}", dependency["name"]);
-        }
+    }
+}
+
+/// What is compiled for the program serves the wheel: the packages of both have the same features in both, but for the front door.
+#[test]
+fn the_wheel_takes_what_is_compiled_for_the_program() {
+    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let packages = |root: &str| -> BTreeMap<String, String> {
+        let call = ["tree", "--locked", "--edges", "normal,build", "--prefix", "none", "--no-dedupe", "--format"];
+        let output = Command::new(&cargo).current_dir(ROOT).args(call).args(["{p}|{f}", "--package", root]).output();
+        let output = output.expect("cargo runs");
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        let text = String::from_utf8(output.stdout).expect("UTF-8");
+        text.lines().filter_map(|line| line.split_once('|')).map(|(name, all)| (name.into(), all.into())).collect()
+    };
+    let (program, wheel) = (packages("sigmastar"), packages("sigmastar-python"));
+    let shared: Vec<_> = wheel.iter().filter(|(name, _)| program.contains_key(*name)).collect();
+    assert!(shared.len() > 100, "{shared:?}");
+    for (name, features) in shared {
+        let front_door = name.starts_with("sigmastar v");
+        assert!(front_door || program[name] == *features, "{name}: [{}], [{features}] in the wheel", program[name]);
     }
 }
 

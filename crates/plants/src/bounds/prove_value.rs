@@ -10,16 +10,17 @@ use sigmastar_lang::spec::Bound;
 /// What a sampled supremum is enlarged by, until a bound is proved, and the boxes that each attempt may take. The first is for what does
 /// not vary.
 const ATTEMPTS: [(f64, usize); 7] =
-    [(1e-5, 8), (0.001, 1500), (0.003, 3000), (0.01, 4000), (0.03, 6000), (0.1, 6000), (0.3, 20_000)];
+    [(1e-5, 8), (0.001, 1500), (0.003, 3000), (0.01, 4000), (0.03, 6000), (0.1, 6000), (LAST_SLACK, 20_000)];
 
-/// The same from three states on: another program, which may need some ten times as many boxes, is to decide the value again. From five on it
-/// may need a hundred times as many.
+/// The same from three states on: another program, which may need some ten times as many boxes, is to decide the value again.
 const MODEST_ATTEMPTS: [(f64, usize); 7] =
-    [(1e-5, 8), (0.001, 100), (0.003, 200), (0.01, 400), (0.03, 800), (0.1, 2000), (0.3, 20_000)];
-const FEWER_ATTEMPTS: [(f64, usize); 7] =
-    [(1e-5, 8), (0.001, 10), (0.003, 20), (0.01, 50), (0.03, 150), (0.1, 500), (0.3, 20_000)];
+    [(1e-5, 8), (0.001, 100), (0.003, 200), (0.01, 400), (0.03, 800), (0.1, 2000), (LAST_SLACK, 20_000)];
 
-/// The slack of the last of them.
+/// The same from five states on, where that program may need a hundred times as many.
+const FEWER_ATTEMPTS: [(f64, usize); 7] =
+    [(1e-5, 8), (0.001, 10), (0.003, 20), (0.01, 50), (0.03, 150), (0.1, 500), (LAST_SLACK, 20_000)];
+
+/// The slack of the last attempt of each of these.
 const LAST_SLACK: f64 = 0.3;
 
 /// An attempt with this slack that is refuted sends the search to where it was: the samples have missed something.

@@ -45,6 +45,8 @@ pub(super) struct Cells {
     pub(super) list: Vec<Cell>,
     /// Why it is cut, where it is.
     pub(super) why: Option<String>,
+    /// The share up to which their tubes were to be narrow.
+    pub(super) narrow: f64,
 }
 
 impl Cell {
@@ -151,7 +153,9 @@ impl Cells {
         let coordinates = candidates.first().filter(|_| whole.can_be_cut());
         let first = coordinates.map(|coordinates| (coordinates, whole.width(coordinates, None)));
         let first = first.filter(|(_, width)| width.as_ref().map_or(true, |(width, _)| *width > narrow));
-        let Some((coordinates, first)) = first else { return Ok(Cells { list: vec![whole.clone()], why: None }) };
+        let Some((coordinates, first)) = first else {
+            return Ok(Cells { list: vec![whole.clone()], why: None, narrow });
+        };
         let rate = match &first {
             Ok((_, rate)) => Some(rate.clone()),
             Err(refusal) => whole.at_corners(coordinates).map_err(|_| refusal.clone())?,
@@ -185,7 +189,7 @@ impl Cells {
         }
         done.sort_by_key(|cell: &Cell| cell.plant.parameters.named_ends());
         let why = (done.len() > 1).then_some(why);
-        Ok(Cells { list: done, why })
+        Ok(Cells { list: done, why, narrow })
     }
 
     /// The members of each cell, and their curve.

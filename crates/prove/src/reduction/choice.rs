@@ -95,7 +95,8 @@ pub(super) fn near(sampling: &Sampling<'_>, along: &Along, chosen: &Chosen, path
     if !sampling.plant.is_family() || !coordinates.p.harmonics.is_empty() {
         return None;
     }
-    let mut near = Near { coordinates, start: Start::from(chosen), path, gain: f64::NAN };
+    let (start, narrow) = (Start::from(chosen), sampling.cells.narrow);
+    let mut near = Near { coordinates, start, path, narrow, gain: f64::NAN };
     near.gain = gain_near(&near, &sampling.with_tube(along.tube()))?;
     Some(near)
 }

@@ -1,6 +1,6 @@
 //! What each interval of a parameter, and that of the period, costs; at samples that of the input gain, too.
 
-use super::cells::{Cells, NARROW};
+use super::cells::Cells;
 use super::choice::{gain_near, with_search};
 use super::coordinates::CoordinateSearch;
 use super::proofs::{Along, Near};
@@ -59,7 +59,7 @@ fn sampled(
 ) -> Option<f64> {
     let (whole, _) = whole(plant, watch).ok()?;
     let candidates = std::slice::from_ref(&near.coordinates);
-    let cells = Cells::new(&whole, candidates, NARROW[0], watch).ok()?;
+    let cells = Cells::new(&whole, candidates, near.narrow, watch).ok()?;
     with_cells(plant, &cells, candidates, watch, |along, samples| Ok(find(along, samples))).ok()?
 }
 

@@ -50,6 +50,8 @@ pub(super) struct Near {
     pub(super) start: Start,
     /// The path of the matrix inequality that it rests on; norms without.
     pub(super) path: Option<Path>,
+    /// The share up to which the tubes of the cells are narrow.
+    pub(super) narrow: f64,
     /// The gain near it of the family itself, of the regulator in continuous time or of the one at samples.
     pub(super) gain: f64,
 }

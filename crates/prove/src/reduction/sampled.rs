@@ -67,7 +67,8 @@ pub fn reduce_sampled(
         let by_matrix = |straight: &(Along, Chosen), known: Option<f64>| {
             let (along, chosen) = straight;
             let found = MatrixAtSamples::new(sampled, (along, chosen), sampling)?.reduce(gain, known)?;
-            let near = sampled.plant.is_family().then(|| Box::new(near(straight, found.proposal.sigma)));
+            let gain = found.proposal.sigma;
+            let near = sampled.plant.is_family().then(|| Box::new(near(straight, sampled.cells.narrow, gain)));
             Some(ReducedSampled { near, ..found })
         };
         // Of the law with a delay nothing else is proved.
@@ -106,8 +107,9 @@ pub fn reduce_sampled(
 }
 
 /// The choice of a gain by matrix inequalities.
-fn near((along, chosen): &(Along, Chosen), gain: f64) -> Near {
-    Near { coordinates: along.coordinates.clone(), start: Start::from(chosen), path: Some(Path::Straight), gain }
+fn near((along, chosen): &(Along, Chosen), narrow: f64, gain: f64) -> Near {
+    let (coordinates, start) = (along.coordinates.clone(), Start::from(chosen));
+    Near { coordinates, start, path: Some(Path::Straight), narrow, gain }
 }
 
 /// The same for many pairs of a gain and a sampling period: the orbit and the coordinates are found once.
