@@ -132,7 +132,10 @@ fn from_the_set_the_actuator_never_saturates() {
         (NAME, vec![actuator("15.5"), ("/input_gain", gain)]),
         ("plants/paper-example", vec![actuator("24")]),
         ("plants/linear", vec![actuator("1e6")]),
-    ] {
+    ]
+    .into_iter()
+    .step_by(every(2))
+    {
         let made = certificate(&text(name, &members));
         let answer = proofs_check::check(made.to_string().as_bytes());
         assert_eq!(answer.verdict, Answer::Valid, "{name}: {}", answer.text(false));

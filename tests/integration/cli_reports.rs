@@ -131,3 +131,31 @@ fn refusals() {
     assert_snapshot!("refused-missing-file", shown(&["specs/papr-example.json"]));
     assert_snapshot!("refused-target", shown(&["specs/paper-example.json", "--target-sup", "1/0"]));
 }
+
+/// A command with a report is called in the tests that hold every report, and with a short form in those of short forms.
+#[test]
+fn every_command_with_a_report_is_in_the_tests_of_reports() {
+    let help = |arguments: &[&str]| utf8(answer(&[arguments, &["--help"]].concat()).stdout);
+    let listed = help(&[]);
+    let (_, commands) = listed.split_once("Commands:\n").expect("the commands");
+    let named = commands.lines().take_while(|line| !line.is_empty()).filter(|line| !line.starts_with("   "));
+    let mut reports = 0;
+    for name in named.map(|line| line.split_whitespace().next().expect("a name")).filter(|name| *name != "help") {
+        let flags = help(&[name]);
+        if !flags.contains("- markdown:") {
+            continue;
+        }
+        reports += 1;
+        let call = format!("[\"{name}\"");
+        let every = [
+            ("html.rs", include_str!("html.rs"), true),
+            ("chromium.rs", include_str!("chromium.rs"), true),
+            ("formats.rs", include_str!("formats.rs"), true),
+            ("short_reports.rs", include_str!("short_reports.rs"), flags.contains("--full")),
+        ];
+        for (file, text, expected) in every {
+            assert!(!expected || text.contains(&call), "`{name}` has a report, and no call is in {file}");
+        }
+    }
+    assert!(reports >= 10, "{listed}");
+}

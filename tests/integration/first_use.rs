@@ -1,6 +1,6 @@
 //! What a first use runs into at the command line; beside each the case that nearly does.
 
-use crate::support::{EXAMPLE, program, utf8};
+use crate::support::{EXAMPLE, every, program, utf8};
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
@@ -236,9 +236,11 @@ fn rates_far_above_the_smallest_gain_are_found() {
     let at = |flags: &[&str]| of_text(&[&["certify", "--no-compare"], flags].concat(), "pump.toml", PUMP);
     let (code, text) = at(&["--rate", "5", "--n-o", "2"]);
     assert!(code == 0 && text.contains("a rate of at least 5 for n_o = 2"), "{text}");
-    // Faster than the zero dynamics no loop is.
-    let (code, text) = at(&["--rate", "1e5", "--n-o", "2"]);
-    assert!(code == 3 && text.contains("the largest that is found is about"), "{text}");
+    if every(2) == 1 {
+        // Faster than the zero dynamics no loop is.
+        let (code, text) = at(&["--rate", "1e5", "--n-o", "2"]);
+        assert!(code == 3 && text.contains("the largest that is found is about"), "{text}");
+    }
 }
 
 #[test]

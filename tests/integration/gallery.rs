@@ -117,10 +117,10 @@ fn figures_that_are_not_the_programs_are_found() {
 fn the_gains_at_samples_in_the_gallery_are_certified() {
     let rows = table(&page("gallery.md"), "| plant | h | sigma |");
     assert!(rows.keys().eq(plants().keys()));
-    for (name, cells) in rows.into_iter().step_by(every(5)) {
+    for (name, cells) in rows.into_iter().step_by(every(10)) {
         let plant = format!("specs/plants/{name}.json");
         let law = ["--sampling-period", &cells[1], "--sigma", &cells[2]];
-        let call = ["certify", &plant, "--quiet", "--format", "json"].into_iter().chain(law);
+        let call = ["certify", &plant, "--quiet", "--no-compare", "--format", "json"].into_iter().chain(law);
         let output = program().args(call).output().unwrap();
         let report = json(&output.stdout);
         assert_eq!(report["verdict"], "certified", "{name}: {report:#}");

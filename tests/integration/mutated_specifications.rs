@@ -8,7 +8,7 @@ use sigmastar_prove::certify::{Options, TransferChoice, certify, resolve};
 
 /// Seeds of an ordinary run, and of a night; `SIGMASTAR_CASES=0..3000 cargo test --release --test integration mutated` takes
 /// others.
-const SEEDS: [u64; 2] = [10, 1000];
+const SEEDS: [u64; 2] = [6, 1000];
 
 /// Cases that a long campaign found: a checker whose cosine was too rough on [0, 1] to prove `tan(min(X, 1))` monotone, and
 /// `sqrt(1 + X^2) - 1` at X = 1e-40, whose figures need more bits than the claim.

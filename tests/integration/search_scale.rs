@@ -65,7 +65,7 @@ fn the_best_is_not_above_any_other() {
         ("31", "6e5", "1e-4", Some("5e-2")),
     ]
     .into_iter()
-    .step_by(every(2))
+    .step_by(every(4))
     {
         let spec = spec(period, mu, q, frequency);
         let best = sigma(&spec, TransferChoice::Best);

@@ -136,8 +136,9 @@ fn the_claim_and_the_report_say_so() {
     let expected = "for every number of oscillators n_o < 200/2 and every phase of the sampling grid and every input gain in [1.8, 2.5] (one \
                     constant; the regulator divides by the nominal 2), with period T = 1, ";
     assert!(statement.contains(expected), "{statement}");
-    let again =
-        |file: &Path| program().args(["certify", "-q", "--witness"]).arg(&certificate).arg(file).output().unwrap();
+    let again = |file: &Path| {
+        program().args(["certify", "-q", "--no-compare", "--witness"]).arg(&certificate).arg(file).output().unwrap()
+    };
     assert_eq!(again(&input).status.code(), Some(0));
     let said = utf8(program().arg("certify").arg(&input).args(["--sampling-period", "1/200"]).output().unwrap().stdout);
     let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
@@ -178,7 +179,14 @@ fn plants_are_certified_for_every_gain_of_the_interval() {
         let mut file = shipped("plants/motor-axis", gain);
         file["internal_model"]["sampling_period"] = more.into();
         std::fs::write(&other, file.to_string()).unwrap();
-        program().args(["certify", "-q", "--witness"]).arg(&certificate).arg(&other).output().unwrap().status.code()
+        program()
+            .args(["certify", "-q", "--no-compare", "--witness"])
+            .arg(&certificate)
+            .arg(&other)
+            .output()
+            .unwrap()
+            .status
+            .code()
     };
     assert_eq!(of(&gain("1", "0.9", "1.1"), "1/10000"), Some(0));
     assert_eq!(of(&gain("5", "4.5", "5.5"), "1/10000"), Some(0));
@@ -228,7 +236,14 @@ fn families_are_certified_at_samples() {
         plant["internal_model"]["sampling_period"] = "1/10000".into();
         let other = folder.path().join("other.json");
         std::fs::write(&other, plant.to_string()).unwrap();
-        program().args(["certify", "-q", "--witness"]).arg(&certificate).arg(&other).output().unwrap().status.code()
+        program()
+            .args(["certify", "-q", "--no-compare", "--witness"])
+            .arg(&certificate)
+            .arg(&other)
+            .output()
+            .unwrap()
+            .status
+            .code()
     };
     assert_eq!(again(&file), Some(0));
     assert_ne!(again(&family(["100", "200"], Some(gain("2", "1.9", "2.1")))), Some(0));
@@ -262,7 +277,7 @@ fn trials_with_an_uncertain_gain() {
         .flat_map(|(name, samples)| [("0.9", "1.1"), ("0.8", "1.25")].map(|ends| (name, samples, ends)))
         .collect();
     let mut largest = 0.0_f64;
-    for (name, samples, (low, high)) in cases.into_iter().skip(2).step_by(every(7)) {
+    for (name, samples, (low, high)) in cases.into_iter().skip(2).step_by(every(14)) {
         let mut file = shipped(name, &gain("1", low, high));
         let period = file["period"].as_str().map_or_else(|| file["period"].to_string(), str::to_owned);
         file["internal_model"]["sampling_period"] = format!("({period})/{samples}").into();
