@@ -1,6 +1,6 @@
 //! The strict reader of JSON: limits, encodings, syntax, places, and that it never panics.
 
-use crate::support::EXAMPLE_TEXT;
+use crate::support::{EXAMPLE_TEXT, every};
 use proptest::prelude::*;
 use sigmastar_lang::spec::{
     Document, ErrorKind, Errors, MAX_BYTES, MAX_NESTING, MAX_VALUES, SpecErrors, Specification,
@@ -148,7 +148,7 @@ fn hostile_expressions_are_refused() {
         weights(&vec!["sin(1e1200)"; 80].join("+"), 100),
         weights(&"exp(".repeat(90), 1000),
         weights(&format!("{}1{}", "exp(".repeat(90), ")".repeat(90)), 1000),
-        weights("(1+1e-300)^1000", 1000),
+        weights("(1+1e-300)^1000", 1000 / every(10)),
         EXAMPLE_TEXT.replace("\"mu\": \"1\"", &format!("\"mu\": \"{}\"", vec!["sin(1e1200)"; 800].join("*"))),
         EXAMPLE_TEXT.replace("\"mu\": \"1\"", "\"mu\": \"2^1000^2^1000\""),
     ] {
