@@ -9,7 +9,7 @@ use serde_json::json as value;
 use tempfile::TempDir;
 
 /// Seeds of an ordinary run, and of a night.
-const SEEDS: [u64; 2] = [2, 200];
+const SEEDS: [u64; 2] = [1, 200];
 
 /// The least share of random plants that have to be certified.
 const SHARE: f64 = 0.9;
@@ -239,7 +239,7 @@ fn all_that_is_certified_is_valid(plant: fn(u64) -> serde_json::Value) {
     }
     let count = (seeds.end - seeds.start) as f64;
     println!("{certified} of {count} certified, {valid} of these valid");
-    // Of a few, one may be beyond the effort of a search or of a proof.
-    assert!(f64::from(certified) >= SHARE * count - 1.0, "{certified} of {count}");
+    // Of many, some may be beyond the effort of a search or of a proof; of those of an ordinary run none is.
+    assert!(f64::from(certified) >= (SHARE * count).ceil(), "{certified} of {count}");
     assert_eq!(valid, certified, "what the program proves the checker has to be able to prove");
 }

@@ -107,7 +107,10 @@ fn the_whole_report_starts_with_the_short_one() {
         &["lyapunov", JACOBIAN],
         &["lyapunov", PLANT],
         &["falsify", certificate, "--trials", "2"],
-    ] {
+    ]
+    .into_iter()
+    .step_by(every(2))
+    {
         let with = |more: &[&str]| run(&[arguments, more].concat());
         for format in ["text", "markdown"] {
             let (short, remarks, _) = with(&["--format", format]);
