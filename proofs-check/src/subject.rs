@@ -2,14 +2,13 @@
 //! specification of somebody else's file.
 
 use proofs_core::bound::{BOUND_NAMES, Bound};
-use proofs_core::json::{Field, Json, join};
+use proofs_core::json::{Field, Json, join, rational};
 use proofs_core::plant::OfPlant;
 use proofs_core::range::Range;
 use proofs_core::rules::claim::Claim;
 use proofs_core::rules::derivation::Derivation;
 use proofs_core::spec::Specification;
 use proofs_core::verdict::{Outcome, invalid};
-use rug::Rational;
 
 const RULE: &str = "the specification that was asked for";
 
@@ -271,30 +270,16 @@ fn difference(a: &Json, b: &Json, place: &str, free: &[&str]) -> Option<(String,
             let pairs = a.iter().zip(b).enumerate();
             pairs.into_iter().find_map(|(i, (a, b))| difference(a, b, &join(place, &i.to_string()), free))
         }
-        (Json::Text(_) | Json::Number(_), Json::Text(_) | Json::Number(_)) => {
-            if same_numeral(a, b) {
-                None
-            } else {
-                differ()
-            }
-        }
+        (Json::Text(a) | Json::Number(a), Json::Text(b) | Json::Number(b)) if same_numeral(a, b) => None,
         (Json::Bool(a), Json::Bool(b)) if a == b => None,
         (Json::Null, Json::Null) => None,
         _ => differ(),
     }
 }
 
-fn numeral(json: &Json) -> &str {
-    match json {
-        Json::Text(text) | Json::Number(text) => text,
-        _ => "",
-    }
-}
-
 /// The same text but for white space, or the same rational number.
-fn same_numeral(a: &Json, b: &Json) -> bool {
-    let bare = |json: &Json| numeral(json).split_whitespace().collect::<String>();
-    let rational = |json: &Json| -> Option<Rational> { Field { json, pointer: String::new() }.rational().ok() };
+fn same_numeral(a: &str, b: &str) -> bool {
+    let bare = |text: &str| text.split_whitespace().collect::<String>();
     bare(a) == bare(b) || rational(a).zip(rational(b)).is_some_and(|(a, b)| a == b)
 }
 

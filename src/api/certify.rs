@@ -2,7 +2,7 @@
 
 use super::certificate::Certificate;
 use super::condition::Condition;
-use super::error::Error;
+use super::error::{Error, ErrorKind};
 use super::options::{Asked, CertifyOptions};
 use super::report::Report;
 use super::subject::Subject;
@@ -43,8 +43,8 @@ fn run(subject: &Subject, options: &CertifyOptions) -> Result<Certificate, Error
         }
     };
     let sampled = asked.read.sampling().is_some();
-    if let Some(misfit) = options.misfit(sampled) {
-        return Err(Error::misfit(misfit));
+    if let Some([message, help]) = options.misfit(sampled, "`transfer`") {
+        return Err(Error::new(ErrorKind::Options, message, &help));
     }
     let prepared = Prepared::seeking(&asked.read, gain, (&limits, &counts), options, &Unwatched)
         .map_err(|all| Error::documents(&all))?;

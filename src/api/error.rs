@@ -3,7 +3,7 @@
 use super::condition::Condition;
 use super::report::Report;
 use sigmastar_lang::spec::{self, SpecError, SpecErrors};
-use sigmastar_prove::certify::{Misfit, NoRatesOfClaim, Verdict, verdict_of_errors};
+use sigmastar_prove::certify::{NoRatesOfClaim, Verdict, verdict_of_errors};
 use std::fmt;
 
 /// What kind of error an [`Error`] is.
@@ -143,12 +143,6 @@ impl Error {
             help: Some(help.to_owned()),
         };
         Error { kind, verdict, text, diagnostics: vec![diagnostic], conditions: Vec::new(), report: None }
-    }
-
-    /// Options that do not fit.
-    pub(super) fn misfit(misfit: Misfit) -> Error {
-        let name = |option: &str| format!("`{option}`");
-        Error::new(ErrorKind::Options, misfit.message(name), &misfit.help(name))
     }
 
     /// A claim that has no rates for given numbers of oscillators.

@@ -7,7 +7,9 @@ use super::subject::Subject;
 use super::{rational, rounded_down};
 use rug::Rational;
 use sigmastar_exact::number::write_exact;
-use sigmastar_prove::certify::{Options, Verdict, WITHOUT_INPUT_GAIN, certify_near, not_available_with_input_gain};
+use sigmastar_prove::certify::{
+    Options, Verdict, WITHOUT_INPUT_GAIN, Wanted, certify_for, not_available_with_input_gain,
+};
 use sigmastar_prove::reduction::Run;
 use sigmastar_report::RateReport;
 use sigmastar_studies::rate::{self, MAX_OSCILLATORS, Method, NoRates, certified_rates};
@@ -151,8 +153,8 @@ fn found(subject: Subject, sigma: Option<&str>, n_o: &[u32]) -> Result<Rates, Er
     let sigma = sigma.map(|text| rational("sigma", text)).transpose()?;
     let (spec, start) = subject.read.proved().map_err(|all| Error::documents(&all))?;
     let options = Options { compare: false, ..Options::default() };
-    let run =
-        certify_near(&spec, options, start.as_ref()).map_err(|refusal| Error::documents(&refusal.errors(&spec)))?;
+    let wanted = Wanted { start: start.as_ref(), ..Wanted::default() };
+    let run = certify_for(&spec, options, wanted).map_err(|refusal| Error::documents(&refusal.errors(&spec)))?;
     let (sigma, rates) = match certified_rates(&run, sigma, n_o) {
         Ok(found) => found,
         Err(NoRates::BelowSigmaStar(sigma_star)) => {

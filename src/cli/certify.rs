@@ -59,8 +59,8 @@ fn attempt(args: &CertifyArgs) -> Result<u8, Failure> {
     let witness = args.witness.as_deref().map(input::written).transpose()?;
     let gain = args.sigma.as_deref().map(|text| input::rational("--sigma", text)).transpose()?;
     let sampled = witness.as_ref().map_or(subject.sampling().is_some(), is_sampled);
-    if let Some(misfit) = args.options().misfit(sampled) {
-        return Err(Failure::misfit(misfit));
+    if let Some([message, help]) = args.options().misfit(sampled, "--transfer") {
+        return Err(Failure::call(message, help));
     }
     let counts = counts(args)?;
     if given.is_some() && witness.is_none() && !args.quiet {

@@ -3,7 +3,7 @@
 use super::format::Format;
 use super::output;
 use sigmastar_lang::spec::SpecErrors;
-use sigmastar_prove::certify::{Misfit, Verdict, verdict_of_errors};
+use sigmastar_prove::certify::{Verdict, verdict_of_errors};
 use sigmastar_report::{call_failure_json, failure_json};
 
 /// Why a command came to no claim.
@@ -30,12 +30,6 @@ impl Failure {
     /// A wrong call.
     pub fn call(message: impl Into<String>, help: impl Into<String>) -> Failure {
         Failure::Call { message: message.into(), help: help.into() }
-    }
-
-    /// Options that do not fit.
-    pub fn misfit(misfit: Misfit) -> Failure {
-        let flag = |option: &str| format!("--{option}");
-        Failure::call(misfit.message(flag), misfit.help(flag))
     }
 
     /// `bad-input`, or `undecided` where nothing was found to be wrong.

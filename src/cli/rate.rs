@@ -6,7 +6,9 @@ use super::failure::Failure;
 use super::subject::{Asked, proved};
 use super::{input, output};
 use sigmastar_exact::number::write_exact;
-use sigmastar_prove::certify::{Options, Verdict, WITHOUT_INPUT_GAIN, certify_near, not_available_with_input_gain};
+use sigmastar_prove::certify::{
+    Options, Verdict, WITHOUT_INPUT_GAIN, Wanted, certify_for, not_available_with_input_gain,
+};
 use sigmastar_report::RateReport;
 use sigmastar_studies::rate::{MAX_OSCILLATORS, NoRates, certified_rates};
 
@@ -31,7 +33,8 @@ fn attempt(args: &RateArgs) -> Result<u8, Failure> {
         subject.without_input_gain("`rate`").map_err(Failure::Documents)?;
     }
     let (spec, start) = proved(subject, args.quiet)?;
-    let run = certify_near(&spec, Options { compare: false, ..Options::default() }, start.as_ref())
+    let wanted = Wanted { start: start.as_ref(), ..Wanted::default() };
+    let run = certify_for(&spec, Options { compare: false, ..Options::default() }, wanted)
         .map_err(|refusal| Failure::Documents(refusal.errors(&spec)))?;
     let (sigma, found) = match certified_rates(&run, sigma, &n_o) {
         Ok(found) => found,

@@ -5,7 +5,7 @@ use faer::Mat;
 use rug::Rational;
 use serde_json::Value;
 use sigmastar_prove::certificate::certificate_json;
-use sigmastar_prove::certify::{Options, certify_at};
+use sigmastar_prove::certify::{Options, Wanted, certify_for};
 use sigmastar_prove::rate::found::RateForCount;
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::stability::ErrorBox;
@@ -62,7 +62,8 @@ fn rates_are_near_those_of_the_loops() {
     for Shipped { name, spec, run, .. } in certified() {
         let gain = run.sigma_star().expect("certified") * Rational::from((3, 2));
         let options = Options { compare: false, ..Options::default() };
-        let mut run = certify_at(spec, options, None, &gain).expect("not refuted");
+        let mut run =
+            certify_for(spec, options, Wanted { gain: Some(&gain), ..Wanted::default() }).expect("not refuted");
         assert_eq!(run.sigma_star(), Some(&gain), "{name}");
         run.prove_rates(&COUNTS).expect("by norms");
         let proof = run.sharp.proved().expect("certified");
@@ -71,7 +72,7 @@ fn rates_are_near_those_of_the_loops() {
         let there = ErrorBox::new(&data, proof.witness.paths, periodic, [&data.zero(), &data.zero()]);
         for RateForCount { n_o, bound, .. } in &run.for_n_o {
             let bound = bound.as_ref().unwrap_or_else(|| panic!("{name} {n_o}: no rate"));
-            let share = bound.witness.rate.to_f64() / slowest(&data, &there, gain.to_f64(), *n_o);
+            let share = bound.rate.to_f64() / slowest(&data, &there, gain.to_f64(), *n_o);
             assert!(share <= 1.0 + 1e-9, "{name} {n_o}: {share}");
             assert!(bound.factor.to_f64() >= run.claimed_set().expect("certified").e0.to_f64(), "{name} {n_o}");
             shares.push((share, format!("{name} {n_o}")));

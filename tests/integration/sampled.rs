@@ -7,7 +7,7 @@ use sigmastar_exact::number::{Direction, parse_decimal, round_rational, write_ex
 use sigmastar_lang::spec::{Document, ErrorKind, Sampling, Specification};
 use sigmastar_prove::certificate::{StatedClaim, is_sampled, read_claim, read_witness, sampled_certificate_json};
 use sigmastar_prove::certify::{
-    Ladder, Options, SampledCertification, Verdict, certify, certify_at, certify_sampled, recheck_sampled, with_triple,
+    Ladder, Options, SampledCertification, Verdict, Wanted, certify, certify_for, certify_sampled, recheck_sampled, with_triple,
 };
 use sigmastar_prove::reduction::FreeNumbers;
 use sigmastar_theory::derivation::condition::Condition;
@@ -248,7 +248,10 @@ fn other_words_and_fields_in_a_certificate_are_errors() {
 fn a_given_gain_is_certified_with_its_margin_or_not_at_all() {
     let spec = Specification::from_json("plain", AT_REST_TEXT).unwrap();
     let options = Options { compare: false, ..Options::default() };
-    let at = |gain: &str| certify_at(&spec, options, None, &gain.parse().unwrap()).unwrap();
+    let at = |gain: &str| {
+        let gain = gain.parse().unwrap();
+        certify_for(&spec, options, Wanted { gain: Some(&gain), ..Wanted::default() }).unwrap()
+    };
     let run = at("25");
     assert_eq!(run.sigma_star().unwrap(), &Rational::from(25));
     let margin = run.conditions().iter().find(|condition| condition.id == "C5b").unwrap().relative_margin();

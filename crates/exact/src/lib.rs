@@ -6,4 +6,5 @@
 
 pub mod enclosure;
 pub mod number;
+pub mod parallel;
 pub mod real;

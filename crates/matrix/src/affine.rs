@@ -90,6 +90,28 @@ impl AffineMatrix<Rational> {
 }
 
 impl AffineMatrix<f64> {
+    /// `P - I` and `r I - P` for the P with these entries of each variable but the last one, which is r.
+    #[must_use]
+    pub fn between_identities(
+        order: usize,
+        variables: usize,
+        p: impl Fn(usize, usize, usize) -> f64,
+    ) -> [AffineMatrix<f64>; 2] {
+        let (last, identity) = (variables - 1, |row: usize, column: usize| f64::from(row == column));
+        let above = |variable: usize, row: usize, column: usize| match variable == last {
+            true => 0.0,
+            false => p(variable, row, column),
+        };
+        let below = |variable: usize, row: usize, column: usize| match variable == last {
+            true => identity(row, column),
+            false => -p(variable, row, column),
+        };
+        [
+            AffineMatrix::from_fn(order, variables, |row, column| -identity(row, column), above),
+            AffineMatrix::from_fn(order, variables, |_, _| 0.0, below),
+        ]
+    }
+
     /// `M(x) - t I` with t as a further, last variable.
     #[must_use]
     pub fn minus_identity(mut self) -> AffineMatrix<f64> {

@@ -13,12 +13,15 @@ use rug::Rational;
 /// operations on rationals whose length grows linearly with the step: meant for n <= 20.
 #[must_use]
 pub fn is_positive_definite(matrix: &[Vec<Rational>]) -> bool {
-    let order = matrix.len();
-    if matrix.iter().any(|row| row.len() != order) {
-        return false;
-    }
-    let symmetric = (0..order).all(|i| (0..i).all(|j| matrix[i][j] == matrix[j][i]));
-    symmetric && all_pivots_positive(matrix.to_vec())
+    is_symmetric(matrix, matrix.len()) && all_pivots_positive(matrix.to_vec())
+}
+
+/// Whether a matrix by rows is symmetric, and of this order.
+#[must_use]
+pub fn is_symmetric(rows: &[Vec<Rational>], order: usize) -> bool {
+    rows.len() == order
+        && rows.iter().all(|row| row.len() == order)
+        && (0..order).all(|i| (0..i).all(|j| rows[i][j] == rows[j][i]))
 }
 
 /// Whether every pivot of a square matrix, of which the lower triangle is read, is positive.

@@ -20,6 +20,6 @@ pub mod symmetric;
 
 pub use affine::AffineMatrix;
 pub use inverse::inverse;
-pub use ldl::{is_positive_definite, leading_minors};
+pub use ldl::{is_positive_definite, is_symmetric, leading_minors};
 pub use residual::ScaledMatrix;
 pub use symmetric::Symmetric;

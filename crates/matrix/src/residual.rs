@@ -10,11 +10,11 @@
 use faer::linalg::solvers::Llt;
 use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
 use faer::{Mat, Par, Side};
-use rayon::prelude::*;
 use rug::Float;
 use rug::float::Round;
 use sigmastar_exact::enclosure::{Enclosure, Truth};
 use sigmastar_exact::number::Portable;
+use sigmastar_exact::parallel;
 
 /// Bits after the point of the entries of L. With at most [`MAX_ORDER`] rows and entries of L at most 1, no sum of products
 /// reaches 2^126 units of 2^-116, so 128-bit integers never overflow.
@@ -109,7 +109,7 @@ impl ScaledMatrix {
             return None;
         }
         let rows: Option<Vec<Vec<Entry>>> =
-            (0..order).into_par_iter().map(|i| (0..=i).map(|j| entry(i, j)).collect()).collect();
+            parallel::numbered(order, |i| (0..=i).map(|j| entry(i, j)).collect()).into_iter().collect();
         let mut lower: Vec<i128> = Vec::with_capacity(row_start(order));
         let mut taken = allowances.to_vec();
         for (i, row) in rows?.into_iter().enumerate() {
@@ -183,14 +183,11 @@ impl ScaledMatrix {
 
     /// The lower triangle of `A - L L'`, exactly.
     fn residual(&self, factor: &Factor) -> Vec<i128> {
-        let rows: Vec<Vec<i128>> = (0..self.order)
-            .into_par_iter()
-            .map(|i| {
-                let left = row(&factor.lower, i);
-                let entries = row(&self.lower, i).iter().enumerate();
-                entries.map(|(j, entry)| entry - product(&left[..=j], row(&factor.lower, j))).collect()
-            })
-            .collect();
+        let rows: Vec<Vec<i128>> = parallel::numbered(self.order, |i| {
+            let left = row(&factor.lower, i);
+            let entries = row(&self.lower, i).iter().enumerate();
+            entries.map(|(j, entry)| entry - product(&left[..=j], row(&factor.lower, j))).collect()
+        });
         rows.concat()
     }
 }

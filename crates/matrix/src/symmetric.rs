@@ -1,13 +1,19 @@
 //! Symmetric matrices, of which one triangle is stored.
 
-use rug::Rational;
 use std::f64::consts::SQRT_2;
 
-/// The positions (row, column), row <= column, of the upper triangle, column by column: Clarabel's order.
+/// The positions (row, column), row <= column, of the upper triangle, column by column: Clarabel's order, and that of the unknown
+/// entries of a symmetric matrix.
 ///
 /// Only this module knows the order: everything else stores and reads entries through its functions.
-fn triangle(order: usize) -> impl Iterator<Item = (usize, usize)> {
+pub fn triangle(order: usize) -> impl Iterator<Item = (usize, usize)> {
     (0..order).flat_map(|column| (0..=column).map(move |row| (row, column)))
+}
+
+/// The entry (row, column) of the symmetric matrix that has 1 at this position of a triangle, and 0 at the others.
+#[must_use]
+pub fn unit_entry((a, b): (usize, usize), row: usize, column: usize) -> f64 {
+    f64::from((a, b) == (row, column) || (a, b) == (column, row))
 }
 
 /// A symmetric matrix, stored as its upper triangle.
@@ -22,6 +28,18 @@ impl<T> Symmetric<T> {
     #[must_use]
     pub fn from_fn(order: usize, entry: impl Fn(usize, usize) -> T) -> Symmetric<T> {
         Symmetric { order, entries: triangle(order).map(|(row, column)| entry(row, column)).collect() }
+    }
+
+    /// The matrix with these entries, in the order of [`triangle`]; what follows them is not looked at.
+    ///
+    /// # Panics
+    /// Where there are fewer.
+    #[must_use]
+    pub fn from_entries(order: usize, entries: &[T]) -> Symmetric<T>
+    where
+        T: Clone,
+    {
+        Symmetric { order, entries: entries[..order * (order + 1) / 2].to_vec() }
     }
 
     /// The number of rows.
@@ -53,18 +71,15 @@ impl<T> Symmetric<T> {
         let entries = triangle(self.order).zip(&self.entries).map(|((row, column), value)| image(row, column, value));
         Symmetric { order: self.order, entries: entries.collect() }
     }
-}
 
-impl Symmetric<Rational> {
     /// All rows in full.
     #[must_use]
-    pub fn rows(&self) -> Vec<Vec<Rational>> {
-        let mut rows = vec![vec![Rational::new(); self.order]; self.order];
-        for ((row, column), value) in triangle(self.order).zip(&self.entries) {
-            rows[row][column].clone_from(value);
-            rows[column][row].clone_from(value);
-        }
-        rows
+    pub fn rows(&self) -> Vec<Vec<T>>
+    where
+        T: Clone,
+    {
+        let row = |row: usize| (0..self.order).map(|column| self.at(row, column).clone()).collect();
+        (0..self.order).map(row).collect()
     }
 }
 
@@ -88,6 +103,7 @@ impl Symmetric<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use rug::Rational;
 
     /// [[1, 2, 4], [2, 3, 5], [4, 5, 6]]: in Clarabel's order the entries count up.
     fn by_hand() -> Symmetric<f64> {
@@ -115,5 +131,16 @@ mod tests {
     fn rows_are_both_triangles() {
         let rows = Symmetric::from_fn(2, |row, column| rational((1 + row + 2 * column) as i32)).rows();
         assert_eq!(rows, [[rational(1), rational(3)], [rational(3), rational(4)]]);
+        assert_eq!(Symmetric::from_entries(2, &[1, 3, 4, 9]).rows(), [[1, 3], [3, 4]]);
+    }
+
+    /// A matrix is the sum of its entries times the unit matrices.
+    #[test]
+    fn unit_matrices_make_up_a_matrix() {
+        let all = by_hand();
+        let sum = |i: usize, j: usize| {
+            triangle(3).zip(all.entries()).map(|(at, value)| value * unit_entry(at, i, j)).sum::<f64>()
+        };
+        assert_eq!(all.rows(), (0..3).map(|i| (0..3).map(|j| sum(i, j)).collect()).collect::<Vec<Vec<f64>>>());
     }
 }

@@ -11,10 +11,9 @@ use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, write_exact};
 use sigmastar_lang::spec::Specification;
 use sigmastar_prove::certify::{Certification, SampledCertification, claimed_ball};
-use sigmastar_prove::rate::found::RateForCount;
+use sigmastar_prove::rate::bound::RateBound;
+use sigmastar_prove::rate::found::ForCount;
 use sigmastar_prove::rate::noise::NoNoiseBound;
-use sigmastar_prove::rate::sampled::bound::SampledRateBound;
-use sigmastar_prove::rate::sampled::found::SampledRateForCount;
 use sigmastar_theory::derivation::consequences::ErrorBounds;
 use sigmastar_theory::derivation::control::Control;
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
@@ -84,21 +83,25 @@ pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences
 
 /// How fast the error decays for the numbers of oscillators that were asked about; without any, how to ask, where nothing else was `asked`.
 fn for_n_o(run: &Certification<'_>, asked: bool) -> Option<String> {
-    let one = |RateForCount { n_o, bound, noise }: &RateForCount| match bound {
-        None => format!("n_o = {n_o}: not proved"),
-        Some(bound) => {
-            let factor = exact(&bound.factor, Direction::Up);
-            let rate = exact(&bound.witness.rate, Direction::Down);
-            let disturbed = disturbed(run.spec, noise.as_ref().map(|noise| noise.as_ref().map(|noise| &noise.limit)));
-            format!("n_o = {n_o}: {factor} exp(-{rate} (t - t_0)){disturbed}")
-        }
-    };
-    let all: Vec<String> = run.for_n_o.iter().map(one).collect();
+    let all = rates(run.spec, &run.for_n_o);
     if all.is_empty() {
         let how = "`--n-o N` proves a rate at this gain, `--rate V --n-o N` finds a gain for one";
         return (!asked).then(|| how.to_owned());
     }
     Some(format!("|e - e_per| at this gain alone, {}", all.join("; ")))
+}
+
+/// A clause for each number of oscillators.
+fn rates<P, Q>(spec: &Specification, found: &[ForCount<P, Q>]) -> Vec<String> {
+    let one = |ForCount { n_o, bound, noise }: &ForCount<P, Q>| match bound {
+        None => format!("n_o = {n_o}: not proved"),
+        Some(RateBound { rate, factor, .. }) => {
+            let disturbed = disturbed(spec, noise.as_ref().map(|noise| noise.as_ref().map(|noise| &noise.limit)));
+            let [factor, rate] = [exact(factor, Direction::Up), exact(rate, Direction::Down)];
+            format!("n_o = {n_o}: {factor} exp(-{rate} (t - t_0)){disturbed}")
+        }
+    };
+    found.iter().map(one).collect()
 }
 
 /// What noise and a disturbance, or rounding alone, add, where there are some and it is proved.
@@ -113,15 +116,7 @@ fn disturbed(spec: &Specification, noise: Option<Result<&Rational, &NoNoiseBound
 
 /// The same at the sampling instants.
 fn for_n_o_at_samples(run: &SampledCertification<'_>) -> Option<String> {
-    let one = |SampledRateForCount { n_o, bound, noise }: &SampledRateForCount| match bound {
-        None => format!("n_o = {n_o}: not proved"),
-        Some(SampledRateBound { rate, factor, .. }) => {
-            let disturbed = disturbed(run.spec, noise.as_ref().map(|noise| noise.as_ref().map(|noise| &noise.limit)));
-            let [factor, rate] = [exact(factor, Direction::Up), exact(rate, Direction::Down)];
-            format!("n_o = {n_o}: {factor} exp(-{rate} (t - t_0)){disturbed}")
-        }
-    };
-    let all: Vec<String> = run.for_n_o.iter().map(one).collect();
+    let all = rates(run.spec, &run.for_n_o);
     (!all.is_empty()).then(|| format!("|e - e_per| at the sampling instants, {}", all.join("; ")))
 }
 

@@ -8,29 +8,14 @@ use sigmastar_exact::number::{Direction, write_exact};
 use sigmastar_lang::spec::Specification;
 use sigmastar_prove::certify::{Certification, SampledCertification};
 use sigmastar_prove::rate::bound::RateBound;
-use sigmastar_prove::rate::found::RateForCount;
+use sigmastar_prove::rate::found::ForCount;
 use sigmastar_prove::rate::noise::{NoNoiseBound, NoiseBound};
-use sigmastar_prove::rate::sampled::bound::SampledRateBound;
-use sigmastar_prove::rate::sampled::found::SampledRateForCount;
-use sigmastar_prove::rate::sampled::noise::SampledNoiseBound;
 use sigmastar_prove::rate::small_gain::Limit;
 
 /// The section; nothing where no number was asked about.
 pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
     if run.for_n_o.is_empty() {
         return Vec::new();
-    }
-    let mut table = Table::new(&["n_o", "rate in 1/time", "factor in the unit of e", "<limited by"]);
-    for RateForCount { n_o, bound, .. } in &run.for_n_o {
-        table.push(match bound {
-            None => [n_o.to_string(), "not proved".to_owned(), String::new(), String::new()],
-            Some(RateBound { witness, factor, limit, .. }) => [
-                n_o.to_string(),
-                exact(&witness.rate, Direction::Down),
-                exact(factor, Direction::Up),
-                limited_by(*limit),
-            ],
-        });
     }
     let mut blocks = vec![
         Block::heading("For given numbers of oscillators"),
@@ -39,7 +24,7 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
              alone, proved from the bounds on the error box, or from the derivatives there. The factor is for the whole set at once, and far above what most \
              starts need. What limits the rate is an estimate. `not proved` says nothing either way.",
         ),
-        Block::Table(table),
+        Block::Table(rates(&run.for_n_o)),
     ];
     if run.matrix_arguments().is_some() && run.for_n_o.iter().any(|found| found.bound.is_none()) {
         blocks.push(Block::says(
@@ -51,23 +36,40 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
     blocks
 }
 
+/// The rates, one a line.
+fn rates<P, Q>(found: &[ForCount<P, Q>]) -> Table {
+    let mut table = Table::new(&["n_o", "rate in 1/time", "factor in the unit of e", "<limited by"]);
+    for ForCount { n_o, bound, .. } in found {
+        table.push(match bound {
+            None => [n_o.to_string(), "not proved".to_owned(), String::new(), String::new()],
+            Some(RateBound { rate, factor, limit, .. }) => {
+                [n_o.to_string(), exact(rate, Direction::Down), exact(factor, Direction::Up), limited_by(*limit)]
+            }
+        });
+    }
+    table
+}
+
 /// What noise and a disturbance do to the error, where the document has them.
 fn noise_section(run: &Certification<'_>) -> Vec<Block> {
-    let of = |bound: &NoiseBound| Shown {
-        limit: bound.limit.clone(),
-        peak: bound.peak.clone(),
-        decay: bound.witness.rate.clone(),
-    };
-    let asked = run.for_n_o.iter().filter_map(|found| {
-        found.noise.as_ref().map(|noise| (found.n_o, noise.as_ref().map(of).map_err(|reason| *reason)))
-    });
     let words = format!("With {}, any measurable signals,", run.spec.disturbances.in_words());
     let said = Said { title: "Noise and disturbances", words, without: "them", decay: "lambda in 1/time", place: "" };
-    disturbed(run.spec, asked.collect(), &said)
+    disturbed(run.spec, asked(&run.for_n_o, |proof| &proof.witness.rate), &said)
 }
 
 /// The arithmetic of the law at samples.
 const IN_DOUBLES: &str = "computed in double precision by the exported C code, whose rounding is counted,";
+
+/// What is shown of each number for which there may be one; `decay` of what proves it.
+fn asked<P, Q>(found: &[ForCount<P, Q>], decay: impl Fn(&Q) -> &Rational) -> Vec<(u32, Result<Shown, NoNoiseBound>)> {
+    let of = |NoiseBound { proof, limit, peak, .. }: &NoiseBound<Q>| Shown {
+        limit: limit.clone(),
+        peak: peak.clone(),
+        decay: decay(proof).clone(),
+    };
+    let one = |found: &ForCount<P, Q>| Some((found.n_o, found.noise.as_ref()?.as_ref().map(of).map_err(|why| *why)));
+    found.iter().filter_map(one).collect()
+}
 
 /// What is shown of such a bound.
 struct Shown {
@@ -147,30 +149,21 @@ fn limited_by(limit: Limit) -> String {
     }
 }
 
-/// The same as JSON; none where no number was asked about.
-pub(super) fn rates_json(run: &Certification<'_>) -> Option<Value> {
-    let one = |RateForCount { n_o, bound, noise }: &RateForCount| {
-        let bound = bound.as_ref().map(|bound| (&bound.witness.rate, &bound.factor, bound.limit));
-        let noise = noise.as_ref().map(|noise| noise.as_ref().map(|noise| [&noise.limit, &noise.peak]));
-        one_json(*n_o, bound, noise)
-    };
-    (!run.for_n_o.is_empty()).then(|| run.for_n_o.iter().map(one).collect())
+/// What was found as JSON; none where no number was asked about.
+pub(super) fn rates_json<P, Q>(found: &[ForCount<P, Q>]) -> Option<Value> {
+    (!found.is_empty()).then(|| found.iter().map(one_json).collect())
 }
 
-fn one_json(
-    n_o: u32,
-    bound: Option<(&Rational, &Rational, Limit)>,
-    noise: Option<Result<[&Rational; 2], &NoNoiseBound>>,
-) -> Value {
+fn one_json<P, Q>(ForCount { n_o, bound, noise }: &ForCount<P, Q>) -> Value {
     let mut value = match bound {
         None => json!({ "n_o": n_o, "rate": null, "factor": null, "limited_by": null }),
-        Some((rate, factor, limit)) => json!({
-            "n_o": n_o, "rate": write_exact(rate), "factor": write_exact(factor), "limited_by": limited_by(limit),
+        Some(RateBound { rate, factor, limit, .. }) => json!({
+            "n_o": n_o, "rate": write_exact(rate), "factor": write_exact(factor), "limited_by": limited_by(*limit),
         }),
     };
     match noise {
         None => {}
-        Some(Ok([limit, peak])) => {
+        Some(Ok(NoiseBound { limit, peak, .. })) => {
             value["noise"] = json!({ "limit": write_exact(limit), "peak": write_exact(peak) });
         }
         Some(Err(reason)) => value["noise"] = json!({ "limit": null, "peak": null, "reason": reason.message() }),
@@ -183,15 +176,6 @@ pub(super) fn sampled_section(run: &SampledCertification<'_>) -> Vec<Block> {
     if run.for_n_o.is_empty() {
         return Vec::new();
     }
-    let mut table = Table::new(&["n_o", "rate in 1/time", "factor in the unit of e", "<limited by"]);
-    for SampledRateForCount { n_o, bound, .. } in &run.for_n_o {
-        table.push(match bound {
-            None => [n_o.to_string(), "not proved".to_owned(), String::new(), String::new()],
-            Some(SampledRateBound { rate, factor, limit, .. }) => {
-                [n_o.to_string(), exact(rate, Direction::Down), exact(factor, Direction::Up), limited_by(*limit)]
-            }
-        });
-    }
     vec![
         Block::heading("For given numbers of oscillators"),
         Block::says(
@@ -200,7 +184,7 @@ pub(super) fn sampled_section(run: &SampledCertification<'_>) -> Vec<Block> {
              error box. The factor is for the whole set at once, and far above what most starts need. What limits the rate is an \
              estimate. `not proved` says nothing either way.",
         ),
-        Block::Table(table),
+        Block::Table(rates(&run.for_n_o)),
     ]
     .into_iter()
     .chain(sampled_noise(run))
@@ -208,14 +192,6 @@ pub(super) fn sampled_section(run: &SampledCertification<'_>) -> Vec<Block> {
 }
 
 fn sampled_noise(run: &SampledCertification<'_>) -> Vec<Block> {
-    let of = |bound: &SampledNoiseBound| Shown {
-        limit: bound.limit.clone(),
-        peak: bound.peak.clone(),
-        decay: bound.witness.c.clone(),
-    };
-    let asked = run.for_n_o.iter().filter_map(|found| {
-        found.noise.as_ref().map(|noise| (found.n_o, noise.as_ref().map(of).map_err(|reason| *reason)))
-    });
     let disturbances = &run.spec.disturbances;
     let signals = disturbances.any().then(|| format!("With {}, any measurable signals,", disturbances.in_words()));
     let (title, words, without) = match (signals, disturbances.in_doubles()) {
@@ -226,15 +202,6 @@ fn sampled_noise(run: &SampledCertification<'_>) -> Vec<Block> {
         (None, _) => ("Rounding", format!("With the law {IN_DOUBLES}"), "rounding"),
     };
     let place = " at the sampling instants, between samples too the bound at all times";
-    disturbed(run.spec, asked.collect(), &Said { title, words, without, decay: "c of a sample", place })
-}
-
-/// The same as JSON; none where no number was asked about.
-pub(super) fn sampled_json(run: &SampledCertification<'_>) -> Option<Value> {
-    let one = |SampledRateForCount { n_o, bound, noise }: &SampledRateForCount| {
-        let bound = bound.as_ref().map(|bound| (&bound.rate, &bound.factor, bound.limit));
-        let noise = noise.as_ref().map(|noise| noise.as_ref().map(|noise| [&noise.limit, &noise.peak]));
-        one_json(*n_o, bound, noise)
-    };
-    (!run.for_n_o.is_empty()).then(|| run.for_n_o.iter().map(one).collect())
+    let said = Said { title, words, without, decay: "c of a sample", place };
+    disturbed(run.spec, asked(&run.for_n_o, |proof| &proof.witness.c), &said)
 }

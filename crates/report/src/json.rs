@@ -80,7 +80,7 @@ pub(super) fn report(run: &Certification<'_>, consequences: Option<&Consequences
     ] {
         report[name] = value;
     }
-    if let Some(rates) = rates_json(run) {
+    if let Some(rates) = rates_json(&run.for_n_o) {
         report["for_n_o"] = rates;
     }
     if let Some(actuator) = actuator(run.spec) {

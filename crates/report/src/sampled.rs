@@ -1,7 +1,7 @@
 //! The report on a certification of the regulator at samples.
 
 use super::failures::{FORMAT, VERSION, errors_json};
-use super::for_n_o::{sampled_json, sampled_section};
+use super::for_n_o::{rates_json, sampled_section};
 use super::json::{actuator, bounds_json, conditions_with_truth, control, input_gain, interval_costs, targets_json};
 use super::limits;
 use super::obstacles::{SLOWER, SMALLER_START, again, describe, first_of, other_gain, rest_of, wider};
@@ -348,7 +348,7 @@ impl Readable for SampledReport<'_> {
             let [x, e, zeta, z] = periodic.each_ref().map(full);
             report["periodic_solution"] = json!({ "x": x, "e": e, "zeta": zeta, "z": z });
             report["control"] = control(run.control());
-            if let Some(rates) = sampled_json(run) {
+            if let Some(rates) = rates_json(&run.for_n_o) {
                 report["for_n_o"] = rates;
             }
             if let Some(SampledConsequences { by_n_o, targets, most }) = &self.consequences {

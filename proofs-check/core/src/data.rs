@@ -115,19 +115,19 @@ impl<'s> Data<'s> {
 
     /// The positive part of a bounding function, if it is given.
     pub fn given(&self, which: Bound, x: &Interval, e: &Interval) -> Option<Interval> {
-        if let Some(plant) = &self.spec.plant {
-            return plant.entries.at(which, x, e, self.precision).map(|value| value.max(&self.int(0)));
-        }
-        let expr = self.spec.bounds[which as usize].as_ref()?;
-        Some(expr.enclose(x, e).max(&self.int(0)))
+        self.signed(which, x, e).map(|value| value.max(&self.int(0)))
     }
 
     /// q_e_max at (X, E), if it is given: it may be negative.
     pub fn q_e_max(&self, x: &Interval, e: &Interval) -> Option<Interval> {
-        if let Some(plant) = &self.spec.plant {
-            return plant.entries.at(Bound::QeMax, x, e, self.precision);
+        self.signed(Bound::QeMax, x, e)
+    }
+
+    fn signed(&self, which: Bound, x: &Interval, e: &Interval) -> Option<Interval> {
+        match &self.spec.plant {
+            Some(plant) => plant.entries.at(which, x, e, self.precision),
+            None => self.spec.bounds[which as usize].as_ref().map(|expr| expr.enclose(x, e)),
         }
-        self.spec.bounds[Bound::QeMax as usize].as_ref().map(|expr| expr.enclose(x, e))
     }
 
     /// The larger of a rate, which need not be defined for a plant, and the one that is given at (X, E), if one is given: of the P

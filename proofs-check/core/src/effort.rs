@@ -24,11 +24,6 @@ fn words(precision: u32) -> u64 {
     u64::from(precision).div_ceil(64)
 }
 
-/// Pays for operations of doubles, a sum one step; `false` when nothing is left.
-pub fn short(steps: u64) -> bool {
-    spend(steps)
-}
-
 /// Pays for a sum, product or quotient of MPFR.
 pub fn arithmetic(precision: u32) -> bool {
     spend(WORD * words(precision))
@@ -45,7 +40,8 @@ pub fn zeta(precision: u32) -> bool {
     spend(WORD * 400 * words(precision).pow(3))
 }
 
-fn spend(steps: u64) -> bool {
+/// Pays for operations of doubles, a sum one step; `false` when nothing is left.
+pub fn spend(steps: u64) -> bool {
     LEFT.with(|left| {
         let rest = left.get();
         if rest == u64::MAX {

@@ -24,9 +24,9 @@ const MAX_EXPONENT: i32 = 1_000;
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 #[rustfmt::skip]
 pub enum Op {
-    Number(Rational), Pi, X, E,
-    /// A variable beyond the first two, by its position: a state of a plant.
-    State(usize),
+    Number(Rational), Pi,
+    /// A variable, by its place among those of the expression.
+    Variable(usize),
     Neg, Sqrt, Exp, Log, Sin, Cos, Tan, Atan, Tanh, Abs,
     /// An integer power; the exponent is at most `MAX_EXPONENT` in magnitude.
     Power(i32),
@@ -37,7 +37,7 @@ impl Op {
     /// How many operands it has.
     pub fn operands(&self) -> usize {
         match self {
-            Op::Number(_) | Op::Pi | Op::X | Op::E | Op::State(_) => 0,
+            Op::Number(_) | Op::Pi | Op::Variable(_) => 0,
             Op::Add | Op::Sub | Op::Mul | Op::Div | Op::Pow | Op::Min | Op::Max => 2,
             _ => 1,
         }
@@ -50,8 +50,7 @@ const FUNCTIONS: [(&str, Op); 11] = [
     ("atan", Op::Atan), ("tanh", Op::Tanh), ("abs", Op::Abs), ("min", Op::Min), ("max", Op::Max),
 ];
 
-/// The variables of a constant, of a bounding function, and of a function of time; the first is [`Op::X`], the second
-/// [`Op::E`], and any other [`Op::State`].
+/// The variables of a constant, of a bounding function, and of a function of time.
 pub const NONE: &[&str] = &[];
 pub const ARGUMENTS: &[&str] = &["X", "E"];
 pub const TIME: &[&str] = &["t"];
@@ -201,11 +200,7 @@ impl Parser<'_> {
             return self.push(Op::Pi);
         }
         if let Some(index) = self.variables.iter().position(|variable| *variable == name) {
-            return self.push(match index {
-                0 => Op::X,
-                1 => Op::E,
-                _ => Op::State(index),
-            });
+            return self.push(Op::Variable(index));
         }
         let constants = self.constants;
         if let Some(constant) = constants.iter().find(|constant| constant.name == name) {
@@ -267,7 +262,7 @@ pub fn exact_op(op: &Op, a: Option<Option<Exact>>, b: Option<Option<Exact>>) -> 
             let first = (a.compare(&b)? == Ordering::Less) == (*op == Op::Min);
             Some(if first { a } else { b })
         }
-        Op::X | Op::E | Op::State(_) | Op::Exp | Op::Log | Op::Pow => None,
+        Op::Variable(_) | Op::Exp | Op::Log | Op::Pow => None,
         Op::Sin | Op::Cos | Op::Tan | Op::Atan | Op::Tanh => None,
     }
 }
@@ -296,7 +291,7 @@ pub fn interval_op(op: &Op, a: &Interval, b: &Interval) -> Interval {
         Op::Number(value) => Interval::rational(value, a.precision()),
         Op::Pi => Interval::pi(a.precision()),
         // Variables have no value of their own.
-        Op::X | Op::E | Op::State(_) => Interval::undefined(a.precision()),
+        Op::Variable(_) => Interval::undefined(a.precision()),
     }
 }
 
@@ -370,7 +365,7 @@ impl Expr {
     /// `2 pi t/T`, t the first variable, with T in an expression without variables.
     pub fn phase(period: &Expr) -> Expr {
         let two_pi = [Op::Number(Rational::from(2)), Op::Pi, Op::Mul];
-        let ops = two_pi.into_iter().chain(period.ops.iter().cloned()).chain([Op::Div, Op::X, Op::Mul]);
+        let ops = two_pi.into_iter().chain(period.ops.iter().cloned()).chain([Op::Div, Op::Variable(0), Op::Mul]);
         Expr { ops: ops.collect() }
     }
 
@@ -393,15 +388,6 @@ impl Expr {
         self.fold(exact_op).flatten()
     }
 
-    /// The exact value at X = E = 0, in the same form.
-    pub fn exact_at_origin(&self) -> Option<Exact> {
-        let at = |op: &Op, a, b| match op {
-            Op::X | Op::E => Exact::rational(&Rational::new()),
-            _ => exact_op(op, a, b),
-        };
-        self.fold(at).flatten()
-    }
-
     /// The number of operations.
     #[allow(clippy::len_without_is_empty, reason = "no expression is empty")]
     pub fn len(&self) -> usize {
@@ -410,10 +396,14 @@ impl Expr {
 
     /// Contains the value at every point of the box; undefined if the expression may be undefined somewhere in it.
     pub fn enclose(&self, x: &Interval, e: &Interval) -> Interval {
-        let none = Interval::undefined(x.precision().max(e.precision()));
+        self.at(|index| [x, e].get(index).copied(), x.precision().max(e.precision()))
+    }
+
+    /// The same of any number of variables, undefined of one that has no value.
+    pub fn at<'v>(&self, variable: impl Fn(usize) -> Option<&'v Interval>, precision: u32) -> Interval {
+        let none = Interval::undefined(precision);
         let value = self.fold(|op, a: Option<Interval>, b: Option<Interval>| match op {
-            Op::X => x.clone(),
-            Op::E => e.clone(),
+            Op::Variable(index) => variable(*index).unwrap_or(&none).clone(),
             _ => interval_op(op, a.as_ref().unwrap_or(&none), b.as_ref().unwrap_or(&none)),
         });
         value.unwrap_or(none)

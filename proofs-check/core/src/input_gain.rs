@@ -17,15 +17,10 @@ use crate::verdict::{Outcome, bad};
 /// The name of the rule.
 pub const RULE: &str = "input gain";
 
-/// Takes `input_gain` out of a file, if it is there. Names of a plant's constants may stand in its numbers.
-pub fn read(file: &mut Fields<'_>, constants: &[Named]) -> Outcome<Option<Range>> {
-    let positive = |fields: &mut Fields<'_>, name: &str| positive_with(&fields.required(name)?, name, constants);
-    file.part("input_gain", |field| Range::read(field, RULE, positive))
-}
-
-/// The same of a plant, where names of parameters of which intervals are given may stand too. In `nominal` these have their nominal
-/// values; of an expression `low` is a number below, and `high` one above, what it is for all values of them.
-pub fn read_of_family(file: &mut Fields<'_>, constants: &[Named], intervals: &[Parameter]) -> Outcome<Option<Range>> {
+/// Takes `input_gain` out of a file, if it is there. Names of a plant's constants may stand in its numbers, and those of parameters of which
+/// intervals are given. In `nominal` these have their nominal values; of an expression `low` is a number below, and `high` one above, what
+/// it is for all values of them.
+pub fn read(file: &mut Fields<'_>, constants: &[Named], intervals: &[Parameter]) -> Outcome<Option<Range>> {
     let names: Vec<&str> = intervals.iter().map(|parameter| parameter.name.as_str()).collect();
     let family: Vec<Span> = intervals.iter().map(|parameter| parameter.span.clone()).collect();
     let nominal = intervals.iter().map(|Parameter { name, range, .. }| Named {

@@ -244,12 +244,8 @@ impl<'a> Field<'a> {
 
     /// An exact rational: `p/q` or a decimal, in a string or as a JSON number.
     pub fn rational(&self) -> Outcome<Rational> {
-        let text = self.numeral()?;
-        let (numerator, denominator) = text.split_once('/').unwrap_or((text, "1"));
-        match (decimal(numerator), decimal(denominator)) {
-            (Some(numerator), Some(denominator)) if denominator != 0 => Ok(numerator / denominator),
-            _ => bad(&self.pointer, "expected an exact rational, as \"3/7\" or \"0.25\", of moderate size"),
-        }
+        let message = "expected an exact rational, as \"3/7\" or \"0.25\", of moderate size";
+        rational(self.numeral()?).map_or_else(|| bad(&self.pointer, message), Ok)
     }
 }
 
@@ -283,11 +279,20 @@ impl<'a> Fields<'a> {
 
     /// One after the other.
     pub fn numbers<const N: usize>(&mut self, names: [&str; N]) -> Outcome<[Rational; N]> {
-        let mut numbers = [(); N].map(|()| Rational::new());
-        for (number, name) in numbers.iter_mut().zip(names) {
-            *number = self.number(name)?;
+        self.each(names, Fields::number)
+    }
+
+    /// What is read of one field after the other.
+    pub fn each<T: Default, const N: usize>(
+        &mut self,
+        names: [&str; N],
+        read: impl Fn(&mut Self, &str) -> Outcome<T>,
+    ) -> Outcome<[T; N]> {
+        let mut all = [(); N].map(|()| T::default());
+        for (value, name) in all.iter_mut().zip(names) {
+            *value = read(self, name)?;
         }
-        Ok(numbers)
+        Ok(all)
     }
 
     /// The same, of which all are there or none.
@@ -316,6 +321,13 @@ impl<'a> Fields<'a> {
             Some((key, _)) => bad(&join(&self.pointer, key), "this field is unknown here"),
         }
     }
+}
+
+/// `p/q` or a decimal exactly; `None` if it is none, or too large to be formed.
+pub fn rational(text: &str) -> Option<Rational> {
+    let (numerator, denominator) = text.split_once('/').unwrap_or((text, "1"));
+    let denominator = decimal(denominator).filter(|denominator| *denominator != 0)?;
+    decimal(numerator).map(|numerator| numerator / denominator)
 }
 
 /// A decimal numeral (`-12`, `0.5`, `1.5e-3`) exactly; `None` if it is none, or too large to be formed.

@@ -190,7 +190,7 @@ impl Specification {
         let domain = file.part("domain", |field| field.object(ends))?;
         let regulator = InternalModel::read(&file.required("internal_model")?, &period, &[])?;
         let (initial_set, _) = read_set(&file.required("initial_set")?, false, &[])?;
-        let input_gain = input_gain::read(&mut file, &[])?;
+        let input_gain = input_gain::read(&mut file, &[], &[])?;
         let actuator = actuator::read(&mut file, &[])?;
         let noise = Noise::read(&mut file)?;
         file.part("relative_degree", filter)?;

@@ -1,6 +1,6 @@
 //! The range of an expression of parameters (docs/mathematics.md, section 13.2).
 
-use crate::expr::{Expr, Op, interval_op};
+use crate::expr::{Expr, Op};
 use crate::interval::Interval;
 use crate::range::Span;
 use rug::Rational;
@@ -33,8 +33,7 @@ fn spread(expr: &Expr, family: &[Span]) -> Interval {
     let cells = (0..variables.len()).fold(1, |cells, _| cells * parts);
     let mut whole: Option<Interval> = None;
     for cell in 0..cells {
-        let none = Interval::undefined(PRECISION);
-        let mut values = vec![none.clone(); family.len()];
+        let mut values = vec![Interval::undefined(PRECISION); family.len()];
         let mut rest = cell;
         for variable in &variables {
             let [low, high] = &family[*variable].ends;
@@ -42,31 +41,19 @@ fn spread(expr: &Expr, family: &[Span]) -> Interval {
             values[*variable] = Interval::between(&corner(rest % parts), &corner(rest % parts + 1), PRECISION);
             rest /= parts;
         }
-        let value = expr.fold(|op, a: Option<Interval>, b: Option<Interval>| match place(op) {
-            Some(variable) => values.get(variable).cloned().unwrap_or_else(|| none.clone()),
-            None => interval_op(op, a.as_ref().unwrap_or(&none), b.as_ref().unwrap_or(&none)),
-        });
-        let value = value.unwrap_or(none);
+        let value = expr.at(|variable| values.get(variable), PRECISION);
         whole = Some(whole.map_or_else(|| value.clone(), |whole| whole.hull(&value)));
     }
     whole.unwrap_or_else(|| Interval::undefined(PRECISION))
-}
-
-/// The place of a variable among those of an expression.
-fn place(op: &Op) -> Option<usize> {
-    match op {
-        Op::X => Some(0),
-        Op::E => Some(1),
-        Op::State(index) => Some(*index),
-        _ => None,
-    }
 }
 
 /// Which of so many variables occur.
 fn occurring(expr: &Expr, count: usize) -> Vec<usize> {
     let mut found = vec![false; count];
     expr.fold(|op, _: Option<()>, _| {
-        if let Some(found) = place(op).and_then(|variable| found.get_mut(variable)) {
+        if let Op::Variable(index) = op
+            && let Some(found) = found.get_mut(*index)
+        {
             *found = true;
         }
     });

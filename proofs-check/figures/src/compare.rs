@@ -5,6 +5,7 @@
 
 use proofs_core::interval::Interval;
 use proofs_core::json::{Field, Fields};
+use proofs_core::rules::claim::reads;
 use proofs_core::verdict::{Condition, Finding, Outcome, Verdict, bad, finding, invalid, shown};
 use rug::{Float, Integer, Rational};
 
@@ -44,11 +45,7 @@ pub fn stored(field: &Field<'_>) -> Outcome<Interval> {
 
 /// A text that is fixed by the rest of the certificate.
 pub fn text(field: &Field<'_>, expected: &str) -> Outcome<()> {
-    if field.text()? == expected {
-        Ok(())
-    } else {
-        invalid(RULE, &field.pointer, format!("it should read: {expected}"))
-    }
+    reads(RULE, field, expected)
 }
 
 /// How far a stored figure of `digits` decimals may lie from the number: by its rounding, relatively 10^-digits, and by the
@@ -73,6 +70,10 @@ pub fn precise(field: &Field<'_>, mine: &Interval) -> Outcome<()> {
     if known || mine.precision() >= LAST_PRECISION {
         return Ok(());
     }
+    open(field)
+}
+
+fn open(field: &Field<'_>) -> Outcome<()> {
     let message = "this figure is not known well enough to compare with it";
     Err(finding(Verdict::Undecided, RULE, &field.pointer, message))
 }
@@ -96,10 +97,8 @@ pub fn span(field: &Field<'_>, low: &Interval, high: &Interval) -> Outcome<()> {
     let ends = field.elements()?;
     let [lo, hi] = &ends[..] else { return bad(&field.pointer, "expected [lower end, upper end]") };
     if !low.is_defined() || !high.is_defined() {
-        let last = low.precision().max(high.precision()) >= LAST_PRECISION;
-        if !last {
-            let message = "this figure is not known well enough to compare with it";
-            return Err(finding(Verdict::Undecided, RULE, &field.pointer, message));
+        if low.precision().max(high.precision()) < LAST_PRECISION {
+            return open(field);
         }
         return text(lo, "undefined").and_then(|()| text(hi, "undefined"));
     }

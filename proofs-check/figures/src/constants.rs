@@ -86,7 +86,7 @@ fn common<'a>(d: &'a Data<'a>, input: &Input<'_>) -> Vec<Row<'a>> {
         let [xx, xe, ex, ee] = m;
         ([xx, xe, ex, ee, radius, 1 - trace + &determinant], determinant)
     };
-    let (paper, paper_det) = derived(ex.contraction(d, &k, 2, &beta));
+    let (paper, paper_det) = derived(ex.contraction(d, &k, &beta));
     let [c, alpha] = &d.existence;
     let gain = c / alpha;
     let sg = (sigma.sqr() + d.period.slowest().sqr()).sqrt();
@@ -194,7 +194,7 @@ fn both(a: Option<bool>, b: Option<bool>) -> Option<bool> {
 
 /// C2 and C3 of the repaired derivation at (X_p, E_p) as a property of sigma.
 fn sigma_p<'a>(d: &'a Data<'a>, ex: &'a Existence) -> Value<'a> {
-    let [xx, xe, ex_unit, ee] = ex.contraction(d, &k_alpha(d), 2, &d.int(1));
+    let [xx, xe, ex_unit, ee] = ex.contraction(d, &k_alpha(d), &d.int(1));
     // From 1 - tr + det > 0: beta ((1 - A) b_qe + B b_qx) < 1 - A.
     let free = 1 - xx;
     let demand = &free * ee + xe * ex_unit;
@@ -305,7 +305,6 @@ pub fn check(d: &Data<'_>, table: &Field<'_>, input: &Input<'_>, note: &mut dyn 
         note(join(&place, "evaluated_at"), fields.required("evaluated_at").and_then(|field| text(&field, at)));
         for (derivation, cell) in ["printed", "repaired", "sharp"].into_iter().zip(row) {
             let Some(expected) = cell else { continue };
-            // Without a sharp witness later versions have no sharp figures; earlier ones had those of section 4.
             let outcome = match fields.optional(derivation) {
                 None => bad(&place, format!("the field `{derivation}` is missing")),
                 Some(field) => entry(d, &field, expected),

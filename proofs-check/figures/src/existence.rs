@@ -34,11 +34,11 @@ impl Existence {
         k / &d.alpha * (&self.f_e * &self.e_p + &self.f_xx * self.x_p.sqr() / 2)
     }
 
-    /// The entries xx, xe, ex, ee of the contraction matrix: A with `factor` in front of b_fxx X_p, B, and the error
+    /// The entries xx, xe, ex, ee of the contraction matrix: A with 2 in front of b_fxx X_p, B, and the error
     /// gain (beta_s or beta) times b_qx, b_qe.
-    pub fn contraction(&self, d: &Data<'_>, k: &Interval, factor: i64, error_gain: &Interval) -> [Interval; 4] {
+    pub fn contraction(&self, d: &Data<'_>, k: &Interval, error_gain: &Interval) -> [Interval; 4] {
         let gain = k / &d.alpha;
-        let xx = &gain * (&self.f_ex * &self.e_p + &self.f_xx * &self.x_p * factor);
+        let xx = &gain * (&self.f_ex * &self.e_p + &self.f_xx * &self.x_p * 2);
         [xx, gain * &self.f_e, error_gain * &self.q_x, error_gain * &self.q_e]
     }
 

@@ -17,7 +17,7 @@ use proofs_core::rules::common::Evaluated;
 use proofs_core::rules::derivation::{Derivation, Witness};
 use proofs_core::rules::{control, sampled, sharp};
 use proofs_core::spec::{AskedSet, Specification};
-use proofs_core::verdict::{Condition, Finding, Outcome, Verdict, finding};
+use proofs_core::verdict::{Condition, Finding, Outcome, Verdict, bad, finding, invalid};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
@@ -180,7 +180,7 @@ impl Attempt<'_> {
         }
         if stored.len() != computed.len() {
             let message = format!("{} conditions are stored, not {}", stored.len(), computed.len());
-            self.note(&list.pointer, Err(finding(Verdict::Invalid, compare::RULE, &list.pointer, message)));
+            self.note(&list.pointer, invalid(compare::RULE, &list.pointer, message));
         }
     }
 
@@ -199,9 +199,7 @@ impl Attempt<'_> {
         if self.d.gain.is_some() {
             return self.note(&field.pointer, of_family(&field.pointer));
         }
-        let outcome = lmi::Witness::read(field).and_then(|multipliers| {
-            lmi::check(self.d, &proved.error_box, [&w.sigma, &w.free.w_x, &w.free.h], &multipliers)
-        });
+        let outcome = lmi::check(self.d, &proved.error_box, [&w.sigma, &w.free.w_x, &w.free.h], field);
         self.note(&field.pointer, outcome);
     }
 
@@ -236,25 +234,17 @@ fn is_family(d: &Data<'_>) -> bool {
 
 /// The second proof of C5 is about the gain 1 too, and has no period.
 fn of_family(pointer: &str) -> Outcome<()> {
-    Err(finding(
-        Verdict::Invalid,
-        compare::RULE,
-        pointer,
-        "it says nothing of an interval of the input gain or the period",
-    ))
+    invalid(compare::RULE, pointer, "it says nothing of an interval of the input gain or the period")
 }
 
 fn missing(pointer: &str) -> Outcome<()> {
-    Err(finding(Verdict::BadInput, "format", pointer, "this part of a certificate is missing"))
+    bad(pointer, "this part of a certificate is missing")
 }
 
 /// The free numbers of the repaired derivation.
 fn comparison(field: &Field<'_>, d: &Data<'_>) -> Outcome<repaired::Witness> {
-    let mut fields = field.fields()?;
-    let part = fields.required("repaired")?;
-    fields.finish()?;
-    let mut fields = part.fields()?;
-    let sigma = fields.required("sigma_star")?.rational()?;
+    let mut fields = field.object(|fields| fields.required("repaired"))?.fields()?;
+    let sigma = fields.number("sigma_star")?;
     let mut set = fields.required("initial_set")?.fields()?;
     let (numbers, _) =
         proofs_core::rules::claim::read_set(&mut set, matches!(d.spec.initial_set, AskedSet::Aligned(_)))?;
@@ -271,8 +261,7 @@ fn unknown(fields: Fields<'_>, note: &mut dyn FnMut(String, Outcome<()>)) {
     let at = fields.pointer.clone();
     for (key, _) in fields.rest() {
         let place = join(&at, key);
-        let outcome =
-            Err(finding(Verdict::Invalid, compare::RULE, &place, "nothing in the certificate gives this figure"));
+        let outcome = invalid(compare::RULE, &place, "nothing in the certificate gives this figure");
         note(place, outcome);
     }
 }

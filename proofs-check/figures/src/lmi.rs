@@ -19,29 +19,11 @@ use rug::Rational;
 const RULE: &str = "matrix inequality of C5";
 const NAMES: [&str; 3] = ["l_x", "l_e", "l_f"];
 
-/// The multipliers l_x, l_e, l_f.
-#[derive(Clone, Debug)]
-pub struct Witness {
-    /// Where it stands in the file.
-    pub pointer: String,
-    pub multipliers: [Rational; 3],
-}
-
-impl Witness {
-    /// Reads the part `lmi`.
-    pub fn read(field: &Field<'_>) -> Outcome<Witness> {
-        let mut fields = field.fields()?;
-        let mut number = |index: usize| fields.required(NAMES[index])?.rational();
-        let multipliers = [number(0)?, number(1)?, number(2)?];
-        fields.finish()?;
-        Ok(Witness { pointer: field.pointer.clone(), multipliers })
-    }
-}
-
-/// Demands that the matrix at sigma, w_x, h is positive definite.
-pub fn check(d: &Data<'_>, error_box: &ErrorBox, [sigma, w_x, h]: [&Rational; 3], w: &Witness) -> Outcome<()> {
+/// Demands that the matrix at sigma, w_x, h with the multipliers of the part `lmi` is positive definite.
+pub fn check(d: &Data<'_>, error_box: &ErrorBox, [sigma, w_x, h]: [&Rational; 3], part: &Field<'_>) -> Outcome<()> {
+    let multipliers = part.object(|fields| fields.numbers(NAMES))?;
     let [sigma, w_x, h] = [sigma, w_x, h].map(|value| d.number(value));
-    let [l_x, l_e, l_f] = [0, 1, 2].map(|i| d.number(&w.multipliers[i]));
+    let [l_x, l_e, l_f] = multipliers.each_ref().map(|value| d.number(value));
     let ErrorBox { k_x, k_e, most, k_f, rate, .. } = error_box;
     let (o, one) = (d.int(0), d.int(1));
     let xi = &w_x * rate * 2 - &l_x * k_x.sqr();
@@ -62,12 +44,12 @@ pub fn check(d: &Data<'_>, error_box: &ErrorBox, [sigma, w_x, h]: [&Rational; 3]
         vec![cross, o.clone(), o.clone(), o.clone(), o, l_f],
     ];
     let present = [!k_x.is_zero(), !(most + k_e).is_zero(), !k_f.is_zero()];
-    for (index, value) in w.multipliers.iter().enumerate() {
+    for (index, value) in multipliers.iter().enumerate() {
         let fits = present[index] || *value == 0;
-        demand(Some(fits), RULE, &join(&w.pointer, NAMES[index]), "the multiplier of a signal that vanishes is 0")?;
+        demand(Some(fits), RULE, &join(&part.pointer, NAMES[index]), "the multiplier of a signal that vanishes is 0")?;
     }
     let keep = |index: usize| index < 3 || present[index - 3];
     let kept = |row: &Vec<Interval>| row.iter().enumerate().filter(|(j, _)| keep(*j)).map(|(_, x)| x.clone()).collect();
     let rows = rows.iter().enumerate().filter(|(i, _)| keep(*i)).map(|(_, row)| kept(row)).collect();
-    demand(positive_definite(rows), RULE, &w.pointer, "the form of C5 with its multipliers is positive definite")
+    demand(positive_definite(rows), RULE, &part.pointer, "the form of C5 with its multipliers is positive definite")
 }

@@ -38,21 +38,9 @@ impl Witness {
     /// Takes the free numbers out of a witness; what is left there is the caller's to refuse.
     pub fn read(fields: &mut Fields<'_>, sigma: Rational, set: ClaimedSet) -> Outcome<Witness> {
         let pointer = fields.pointer.clone();
-        let mut number = |name: &str| fields.required(name)?.rational();
-        Ok(Witness {
-            x: number("X")?,
-            e: number("E")?,
-            level: number("L")?,
-            h: number("h")?,
-            p_x: number("p_x")?,
-            p_e: number("p_e")?,
-            k0: number("k0")?,
-            k1: number("k1")?,
-            transfer: Proof::read(&fields.required("transfer")?)?,
-            pointer,
-            sigma,
-            set,
-        })
+        let [x, e, level, h, p_x, p_e, k0, k1] = fields.numbers(["X", "E", "L", "h", "p_x", "p_e", "k0", "k1"])?;
+        let transfer = Proof::read(&fields.required("transfer")?)?;
+        Ok(Witness { pointer, sigma, set, x, e, level, h, p_x, p_e, k0, k1, transfer })
     }
 }
 
@@ -121,7 +109,7 @@ pub fn evaluate(d: &Data<'_>, w: &Witness) -> Outcome<Repaired> {
     let what = "(K_alpha/alpha)(b_fe E + b_fxx X^2/2) <= X";
     conditions.push(Condition::at_most("C1", what, ex.invariance(d, &k), x.clone()));
     conditions.push(Condition::at_most("C2", "beta(sigma) b_q <= E", &beta * &ex.q, e.clone()));
-    let [xx, xe, xe_gain, ee] = ex.contraction(d, &k, 2, &beta);
+    let [xx, xe, xe_gain, ee] = ex.contraction(d, &k, &beta);
     let (column_x, column_e) = (xx * &p_x + xe_gain * &p_e, xe * &p_x + ee * &p_e);
     conditions.push(Condition::less("C3", "Y_xx p_x + Y_ex p_e < p_x", column_x, p_x));
     conditions.push(Condition::less("C3b", "Y_xe p_x + Y_ee p_e < p_e", column_e, p_e));

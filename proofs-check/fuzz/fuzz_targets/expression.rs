@@ -9,7 +9,7 @@ fuzz_target!(|text: &str| {
     for variables in [NONE, ARGUMENTS, TIME] {
         if let Ok(expr) = Expr::parse(text, variables) {
             let side = Interval::int(0, 64).hull(&Interval::int(3, 64));
-            let _ = (expr.exact(), expr.exact_at_origin(), expr.enclose(&side, &side));
+            let _ = (expr.exact(), expr.enclose(&side, &side));
         }
     }
 });

@@ -10,6 +10,7 @@ use super::formula::{Axis, Formulas, Id};
 use super::inequality::{End, Said, constant, ends, factors};
 use super::model::Model;
 use super::question::Question;
+use super::term::Term;
 use proofs_core::expr::Op;
 use proofs_core::rules::sampled::inequality::{Existence, Inequalities, Stability};
 use proofs_core::rules::sampled::law::Terms;
@@ -42,15 +43,12 @@ impl Step {
     fn new(formulas: &mut Formulas, law: &Terms, spec: &Specification) -> Outcome<Step> {
         let period = constant(formulas, spec.period.demand_exact("/plant/period", "a claim at samples")?);
         let share = formulas.number(&Rational::from((1, law.samples)));
-        let h = formulas.mul(period, share);
+        let h = formulas.make(period * share);
         let [sigma, half] = [law.sigma.clone(), Rational::from(&law.gain * &law.weight_sum) / 2u32]
             .map(|value| formulas.number(&value));
-        let mut loss = formulas.mul(half, h);
-        if let Some([_, high]) = factors(formulas, spec) {
-            loss = formulas.mul(loss, high);
-        }
         let one = formulas.int(1);
-        Ok(Step { h, sigma, rest: formulas.sub(one, loss) })
+        let high = factors(formulas, spec).map_or(one, |[_, high]| high);
+        Ok(Step { h, sigma, rest: formulas.make(one - half * h * high) })
     }
 }
 
@@ -65,53 +63,31 @@ impl Form<'_> {
         let lambda = formulas.number(self.lambda);
         let [taken_x, taken_e, taken_y, taken_e_k] = self.taken.each_ref().map(|value| formulas.number(value));
         let s = if at_end { h } else { zero };
-        let share = formulas.mul(h, sigma);
-        let kept = formulas.mul(s, sigma);
-        // 1 - s sigma, and lambda h/pi.
-        let kept = formulas.sub(one, kept);
-        let reach = formulas.mul(lambda, h);
-        let reach = formulas.apply(&Op::Div, [reach, pi]);
-        let minus_half = formulas.apply(&Op::Div, [self.k_p, two]);
-        let minus_half = formulas.sub(zero, minus_half);
-        let [of_s, of_kept] = [s, kept].map(|factor| formulas.mul(lambda, factor));
+        let (share, kept) = (formulas.make(h * sigma), formulas.make(one - s * sigma));
+        let (reach, minus_half) = (formulas.make(lambda * h / pi), formulas.make(-(self.k_p / two)));
+        let [of_s, of_kept] = [s, kept].map(|factor| formulas.make(lambda * factor));
         // Beside e_k: -lambda (1 - s sigma) for e, -(1 - h sigma) + lambda s (1 - s sigma) for y, and of its own square
         // sigma (2 - h sigma) + lambda (1 - s sigma)^2.
-        let crossed = formulas.mul(of_kept, s);
-        let crossed = formulas.add(crossed, share);
-        let crossed = formulas.sub(crossed, one);
-        let pulled = gain.shift.map_or(zero, |shift| formulas.mul(minus_half, shift));
-        let beside = [formulas.sub(zero, of_kept), formulas.add(crossed, pulled)];
-        let open = formulas.sub(two, share);
-        let own = formulas.dot([(sigma, open), (of_kept, kept)]);
-        let own = formulas.sub(own, taken_e_k);
-        let shares = beside.map(|entry| formulas.apply(&Op::Div, [entry, own]));
-        let completed = |formulas: &mut Formulas, entry: Id, i: usize, j: usize| {
-            let part = formulas.mul(shares[i], beside[j]);
-            formulas.sub(entry, part)
-        };
+        let pulled = gain.shift.map_or(zero, |shift| formulas.make(minus_half * shift));
+        let beside = [-of_kept, of_kept * s + share - one + pulled].map(|entry| formulas.make(entry));
+        let own = formulas.make(sigma * (two - share) + of_kept * kept - taken_e_k);
+        let shares = beside.map(|entry| formulas.make(entry / own));
+        let completed = |entry: Term, i: usize, j: usize| entry - shares[i] * beside[j];
 
         for (i, line) in rows.iter_mut().enumerate() {
-            line[i] = formulas.sub(line[i], taken_x);
+            line[i] = formulas.make(line[i] - taken_x);
         }
         let slope = formulas.derivative(q, Axis::Output);
-        let left = formulas.sub(lambda, taken_e);
-        of_e.push(completed(formulas, left, 0, 0));
+        of_e.push(formulas.make(completed(lambda - taken_e, 0, 0)));
         rows.push(of_e);
 
-        let mut of_y: Vec<Id> = row.iter().map(|slope| formulas.mul(minus_half, *slope)).collect();
-        let weighted = formulas.mul(minus_half, slope);
-        let crossed = formulas.sub(weighted, of_s);
-        of_y.push(completed(formulas, crossed, 0, 1));
-        let damped = formulas.mul(self.k_p, rest);
-        let turned = formulas.mul(of_s, s);
-        let sum = formulas.add(damped, turned);
-        let sum = formulas.sub(sum, h);
-        let left = formulas.sub(sum, taken_y);
-        of_y.push(completed(formulas, left, 1, 1));
+        let mut of_y: Vec<Id> = row.iter().map(|slope| formulas.make(minus_half * *slope)).collect();
+        of_y.push(formulas.make(completed(minus_half * slope - of_s, 0, 1)));
+        of_y.push(formulas.make(completed(self.k_p * rest + of_s * s - h - taken_y, 1, 1)));
         rows.push(of_y);
 
-        let mut of_w: Vec<Id> = row.iter().map(|slope| formulas.mul(reach, *slope)).collect();
-        of_w.push(formulas.mul(reach, slope));
+        let mut of_w: Vec<Id> = row.iter().map(|slope| formulas.make(reach * *slope)).collect();
+        of_w.push(formulas.make(reach * slope));
         of_w.extend([zero, lambda]);
         rows.push(of_w);
 
@@ -130,21 +106,17 @@ impl Form<'_> {
 }
 
 /// The questions of those that there are, with a gain at both of its ends.
-pub fn questions<'i>(
-    model: &mut Model,
-    inequalities: Inequalities<'i>,
-    spec: &Specification,
-) -> Outcome<Vec<Said<'i>>> {
+pub fn questions(model: &mut Model, inequalities: Inequalities<'_>, spec: &Specification) -> Outcome<Vec<Said>> {
     let Inequalities { law, stability, existence } = inequalities;
     let step = Step::new(&mut model.formulas, law, spec)?;
     let gains = ends(&mut model.formulas, spec, &law.sigma);
     let mut all = Vec::new();
-    let mut ask = |model: &mut Model, form: Form<'_>, rule, pointer: &'i str, at, least| {
+    let mut ask = |model: &mut Model, form: Form<'_>, rule, pointer: &str, at, least| {
         for (gain, at_end) in gains.iter().flat_map(|gain| [(gain, false), (gain, true)]) {
             let (rows, order) = (form.rows(model, &step, gain, at_end), model.states());
             let question = Question::new(&mut model.formulas, rows, order);
             let what = format!("F_h,{} >= {least}{}", if at_end { "h" } else { "0" }, gain.at);
-            all.push(Said { rule, pointer, what, at, question });
+            all.push(Said::new(rule, pointer, what, at, question));
         }
     };
     if let Some(part) = stability {
@@ -166,7 +138,7 @@ fn of_stability<'i>(model: &mut Model, part: &'i Stability, law: &Terms) -> Form
         p: model.lyapunov[0].clone(),
         weight: part.w_x.clone(),
         rate: part.rate.clone(),
-        k_p: model.formulas.apply(&Op::Div, [twice, gain]),
+        k_p: model.formulas.make(twice / gain),
         lambda: &part.lambda,
         taken: [Rational::new(), Rational::new(), part.c_y.clone(), part.c_e.clone()],
         forcing: None,

@@ -10,7 +10,7 @@ use rug::Rational;
 pub fn norm(formulas: &mut Formulas, value: &Rational, row: &[Id]) -> Vec<Vec<Id>> {
     let square = formulas.number(&Rational::from(value.square_ref()));
     let sum = formulas.dot(row.iter().map(|id| (*id, *id)));
-    vec![vec![formulas.sub(square, sum)]]
+    vec![vec![formulas.make(square - sum)]]
 }
 
 /// `value^2 I - J'J >= 0`.
@@ -20,7 +20,8 @@ fn spectral_norm(formulas: &mut Formulas, value: &Rational, rows: &[Vec<Id>]) ->
     let order = rows.len();
     let entry = |i: usize, j: usize, formulas: &mut Formulas| {
         let product = formulas.dot((0..order).map(|k| (rows[k][i], rows[k][j])));
-        formulas.sub(if i == j { square } else { zero }, product)
+        let own = if i == j { square } else { zero };
+        formulas.make(own - product)
     };
     (0..order).map(|i| (0..=i).map(|j| entry(i, j, formulas)).collect()).collect()
 }
@@ -33,11 +34,7 @@ pub fn rate(formulas: &mut Formulas, value: &Rational, p: &[Vec<Id>], jacobian: 
         let slope = formulas.derivative(p[i][j], Axis::Time);
         let slope = formulas.in_time(slope);
         let both = formulas.dot((0..order).flat_map(|k| [(p[i][k], jacobian[k][j]), (jacobian[k][i], p[k][j])]));
-        let taken = formulas.mul(twice, p[i][j]);
-        let sum = formulas.add(slope, both);
-        let sum = formulas.add(sum, taken);
-        let zero = formulas.int(0);
-        formulas.sub(zero, sum)
+        formulas.make(-(slope + both + twice * p[i][j]))
     };
     (0..order).map(|i| (0..=i).map(|j| entry(i, j, formulas)).collect()).collect()
 }
@@ -60,7 +57,7 @@ pub fn question(model: &mut Model, entry: &Entry) -> Question {
         }
         Name::QeMax => {
             let (most, slope) = (formulas.number(value), formulas.derivative(q, Axis::Output));
-            vec![vec![formulas.sub(most, slope)]]
+            vec![vec![formulas.make(most - slope)]]
         }
         // The derivative of q at a fixed y: q_t + q_x x_0', where the frame moves with xb, and x_0' = xb' + L drift.
         Name::Qtx | Name::Qte => {
@@ -68,7 +65,7 @@ pub fn question(model: &mut Model, entry: &Entry) -> Question {
             let along = formulas.in_time(along);
             let drift: Vec<Id> = (0..states).map(|j| formulas.leaf(Leaf::Drift(j))).collect();
             let moved = formulas.dot(row.iter().copied().zip(drift));
-            let rate = formulas.add(along, moved);
+            let rate = formulas.make(along + moved);
             let slopes: Vec<Id> = match entry.name {
                 Name::Qte => vec![formulas.derivative(rate, Axis::Output)],
                 _ => (0..states).map(|j| formulas.derivative(rate, Axis::State(j))).collect(),

@@ -4,6 +4,7 @@
 //! derivatives. The one along t follows the frame: the derivative of xb(t) is xb'(t), that of v is 0.
 
 use super::formula::{Axis, Formulas, Id, Kind, Leaf};
+use super::term::Term;
 use proofs_core::expr::Op;
 use rug::Rational;
 
@@ -37,82 +38,42 @@ impl Formulas {
         };
         let (da, db) = (self.known(a, axis), self.known(b, axis));
         let one = self.int(1);
-        match op {
-            Op::Neg => self.apply(&Op::Neg, [da, 0]),
-            Op::Add | Op::Sub => self.apply(&op, [da, db]),
-            Op::Mul => self.dot([(da, b), (a, db)]),
-            Op::Div => {
-                let moved = self.mul(id, db);
-                let above = self.sub(da, moved);
-                self.apply(&Op::Div, [above, b])
+        let slope = match op {
+            Op::Neg => -da,
+            Op::Add => da + db,
+            Op::Sub => da - db,
+            Op::Mul => da * b + a * db,
+            Op::Div => (da - id * db) / b,
+            Op::Sqrt => self.half() * da / id,
+            Op::Exp => id * da,
+            Op::Log => da / a,
+            Op::Sin => Term::of(Op::Cos, a) * da,
+            Op::Cos => -(Term::of(Op::Sin, a) * da),
+            Op::Tan => (one + id * id) * da,
+            Op::Tanh => (one - id * id) * da,
+            Op::Atan => da / (one + a * a),
+            Op::Abs => self.sign(a) * da,
+            Op::Power(n) => self.int(i64::from(n)) * Term::of(Op::Power(n - 1), a) * da,
+            Op::Pow => {
+                let less = self.make(b - one);
+                b * self.apply(&Op::Pow, [a, less]) * da + id * Term::of(Op::Log, a) * db
             }
-            Op::Sqrt => {
-                let half = self.number(&Rational::from((1, 2)));
-                let above = self.mul(half, da);
-                self.apply(&Op::Div, [above, id])
-            }
-            Op::Exp => self.mul(id, da),
-            Op::Log => self.apply(&Op::Div, [da, a]),
-            Op::Sin => {
-                let cos = self.apply(&Op::Cos, [a, 0]);
-                self.mul(cos, da)
-            }
-            Op::Cos => {
-                let sin = self.apply(&Op::Sin, [a, 0]);
-                let product = self.mul(sin, da);
-                self.apply(&Op::Neg, [product, 0])
-            }
-            Op::Tan => {
-                let square = self.mul(id, id);
-                let factor = self.add(one, square);
-                self.mul(factor, da)
-            }
-            Op::Tanh => {
-                let square = self.mul(id, id);
-                let factor = self.sub(one, square);
-                self.mul(factor, da)
-            }
-            Op::Atan => {
-                let square = self.mul(a, a);
-                let below = self.add(one, square);
-                self.apply(&Op::Div, [da, below])
-            }
-            Op::Abs => {
-                let sign = self.sign(a);
-                self.mul(sign, da)
-            }
-            Op::Power(n) => {
-                let factor = self.int(i64::from(n));
-                let power = self.apply(&Op::Power(n - 1), [a, 0]);
-                let outer = self.mul(factor, power);
-                self.mul(outer, da)
-            }
-            Op::Pow => self.power_slope(id, [a, b], [da, db]),
             Op::Min => self.chosen([b, a], [da, db]),
             Op::Max => self.chosen([a, b], [da, db]),
-            Op::Number(_) | Op::Pi | Op::X | Op::E | Op::State(_) => self.int(0),
-        }
+            Op::Number(_) | Op::Pi | Op::Variable(_) => self.int(0).into(),
+        };
+        self.make(slope)
     }
 
-    /// `(a^b)' = b a^(b-1) a' + a^b log(a) b'`.
-    fn power_slope(&mut self, id: Id, [a, b]: [Id; 2], [da, db]: [Id; 2]) -> Id {
-        let one = self.int(1);
-        let less = self.sub(b, one);
-        let power = self.apply(&Op::Pow, [a, less]);
-        let outer = self.mul(b, power);
-        let log = self.apply(&Op::Log, [a, 0]);
-        let other = self.mul(id, log);
-        self.dot([(outer, da), (other, db)])
+    fn half(&mut self) -> Id {
+        self.number(&Rational::from((1, 2)))
     }
 
     /// The first slope where `larger > smaller`, the second where it is less: by factors that are exactly 0 and 1.
-    fn chosen(&mut self, [larger, smaller]: [Id; 2], [first, second]: [Id; 2]) -> Id {
-        let difference = self.sub(larger, smaller);
-        let sign = self.sign(difference);
-        let half = self.number(&Rational::from((1, 2)));
-        let halved = self.mul(half, sign);
-        let (when, unless) = (self.add(half, halved), self.sub(half, halved));
-        self.dot([(when, first), (unless, second)])
+    fn chosen(&mut self, [larger, smaller]: [Id; 2], [first, second]: [Id; 2]) -> Term {
+        let apart = self.make(larger - smaller);
+        let (sign, half) = (self.sign(apart), self.half());
+        (half + half * sign) * first + (half - half * sign) * second
     }
 
     fn leaf_slope(&mut self, leaf: Leaf) -> Id {

@@ -31,32 +31,27 @@ impl Form<'_> {
         let formulas = &mut model.formulas;
         let minus_half = formulas.number(&Rational::from(-&self.half));
         let [cross, pull] = [self.cross, self.pull].map(|values| numbers(formulas, values));
-        let mut of_y: Vec<Id> = row.iter().map(|slope| formulas.mul(minus_half, *slope)).collect();
+        let mut of_y: Vec<Id> = row.iter().map(|slope| formulas.make(minus_half * *slope)).collect();
         for (entry, p) in of_y.iter_mut().zip(&cross) {
-            let moved = formulas.mul(self.unit, *p);
-            *entry = formulas.sub(*entry, moved);
+            *entry = formulas.make(*entry - self.unit * *p);
         }
         let twice = formulas.number(&(self.half.clone() * 2u32));
-        of_y.push(formulas.mul(twice, self.unit));
+        of_y.push(formulas.make(twice * self.unit));
         block.push(of_y);
 
         for (entry, pulled) in of_e.iter_mut().zip(pull) {
-            *entry = formulas.add(*entry, pulled);
+            *entry = formulas.make(*entry + pulled);
         }
         for (j, entry) in of_e.iter_mut().enumerate() {
             let turned = formulas.dot(cross.iter().copied().zip(jacobian.iter().map(|line| line[j])));
-            *entry = formulas.sub(*entry, turned);
+            *entry = formulas.make(*entry - turned);
         }
         let slope = formulas.derivative(q, Axis::Output);
-        let slope = self.shift.map_or(slope, |shift| formulas.add(slope, shift));
-        let weighted = formulas.mul(minus_half, slope);
-        let w = formulas.number(self.w);
-        let of_unit = formulas.mul(w, self.unit);
-        of_e.push(formulas.sub(weighted, of_unit));
-        let corner = formulas.number(&self.corner);
+        let slope = self.shift.map_or(slope, |shift| formulas.make(slope + shift));
+        let (w, corner) = (formulas.number(self.w), formulas.number(&self.corner));
+        of_e.push(formulas.make(minus_half * slope - w * self.unit));
         let pushed = formulas.dot(cross.iter().copied().zip(column.iter().copied()));
-        let pushed = formulas.add(pushed, pushed);
-        of_e.push(formulas.sub(corner, pushed));
+        of_e.push(formulas.make(corner - (pushed + pushed)));
         (block, of_e)
     }
 }
@@ -69,11 +64,11 @@ pub fn of_states(model: &mut Model, p: &[Vec<Id>], weight: &Rational, value: &Ra
     let minus_weight = formulas.number(&Rational::from(-weight));
     let weight = formulas.number(weight);
     for entry in block.iter_mut().flatten() {
-        *entry = formulas.mul(weight, *entry);
+        *entry = formulas.make(weight * *entry);
     }
     let beside = |line: &Vec<Id>| {
         let moved = formulas.dot(line.iter().copied().zip(column.iter().copied()));
-        formulas.mul(minus_weight, moved)
+        formulas.make(minus_weight * moved)
     };
     let beside = p.iter().take(column.len()).map(beside).collect();
     (block, beside)

@@ -15,7 +15,13 @@ use rug::Rational;
 use std::collections::HashMap;
 
 /// The place of a node; its operands have smaller ones.
-pub type Id = usize;
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Id(pub usize);
+
+impl Id {
+    /// Stands where an operation has no operand.
+    pub const NONE: Id = Id(0);
+}
 
 /// The most nodes, of the formulas and of all their derivatives.
 const MAX_NODES: usize = 40_000;
@@ -73,7 +79,7 @@ const DRIFT: u16 = 1 << 15;
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Kind {
     Leaf(Leaf),
-    /// An operation on nodes; operands that do not belong to it are 0.
+    /// An operation on nodes; operands that do not belong to it are [`Id::NONE`].
     Apply(Op, [Id; 2]),
     /// 1 or -1, where the sign is certain: the derivative of `abs`.
     Sign(Id),
@@ -135,12 +141,12 @@ impl Formulas {
 
     /// A node.
     pub fn node(&self, id: Id) -> &Node {
-        &self.nodes[id]
+        &self.nodes[id.0]
     }
 
     /// What it depends on.
     pub fn depends(&self, id: Id) -> u16 {
-        self.nodes[id].depends
+        self.node(id).depends
     }
 
     fn insert(&mut self, kind: Kind, depends: u16, exact: Option<Exact>) -> Id {
@@ -150,17 +156,18 @@ impl Formulas {
         if self.nodes.len() >= MAX_NODES {
             // Any node does: whoever reads one has to ask first whether there were too many.
             self.overflow = true;
-            return 0;
+            return Id(0);
         }
-        self.places.insert(kind.clone(), self.nodes.len());
+        let id = Id(self.nodes.len());
+        self.places.insert(kind.clone(), id);
         self.nodes.push(Node { kind, depends, exact });
-        self.nodes.len() - 1
+        id
     }
 
     /// A rational number.
     pub fn number(&mut self, value: &Rational) -> Id {
         let op = Op::Number(value.clone());
-        let id = self.insert(Kind::Apply(op, [0; 2]), 0, Exact::rational(value));
+        let id = self.insert(Kind::Apply(op, [Id::NONE; 2]), 0, Exact::rational(value));
         self.linear.insert(id, Linear::number(value));
         id
     }
@@ -180,7 +187,7 @@ impl Formulas {
             Leaf::Drift(_) => DRIFT,
         };
         let id = self.insert(Kind::Leaf(leaf), depends, None);
-        self.linear.insert(id, Linear::leaf(id));
+        self.linear.insert(id, Linear::leaf(id.0));
         id
     }
 
@@ -189,18 +196,13 @@ impl Formulas {
         self.insert(Kind::Sign(a), self.depends(a), None)
     }
 
-    /// Whether it is the number 0.
-    pub fn is_zero(&self, id: Id) -> bool {
-        self.is(id, 0)
-    }
-
     fn is(&self, id: Id, value: i32) -> bool {
-        matches!(&self.nodes[id].kind, Kind::Apply(Op::Number(number), _) if *number == value)
+        matches!(&self.node(id).kind, Kind::Apply(Op::Number(number), _) if *number == value)
     }
 
     /// An operation, simplified where an operand is 0 or 1.
     pub fn apply(&mut self, op: &Op, [a, b]: [Id; 2]) -> Id {
-        let (a, b) = (a, if op.operands() == 2 { b } else { 0 });
+        let (a, b) = (a, if op.operands() == 2 { b } else { Id::NONE });
         if op.operands() > 0
             && let Some(sum) = Linear::apply(op, self.linear.get(&a), self.linear.get(&b))
         {
@@ -209,19 +211,19 @@ impl Formulas {
         let simpler = match op {
             Op::Add if self.is(a, 0) => Some(b),
             Op::Add | Op::Sub if self.is(b, 0) => Some(a),
-            Op::Sub if self.is(a, 0) => Some(self.apply(&Op::Neg, [b, 0])),
+            Op::Sub if self.is(a, 0) => Some(self.apply(&Op::Neg, [b, Id::NONE])),
             Op::Sub if a == b => Some(self.int(0)),
             Op::Mul if self.is(a, 0) || self.is(b, 0) => Some(self.int(0)),
             Op::Mul if self.is(a, 1) => Some(b),
             Op::Mul if self.is(b, 1) => Some(a),
-            Op::Mul if self.is(a, -1) => Some(self.apply(&Op::Neg, [b, 0])),
-            Op::Mul if self.is(b, -1) => Some(self.apply(&Op::Neg, [a, 0])),
-            Op::Mul if a == b => Some(self.apply(&Op::Power(2), [a, 0])),
+            Op::Mul if self.is(a, -1) => Some(self.apply(&Op::Neg, [b, Id::NONE])),
+            Op::Mul if self.is(b, -1) => Some(self.apply(&Op::Neg, [a, Id::NONE])),
+            Op::Mul if a == b => Some(self.apply(&Op::Power(2), [a, Id::NONE])),
             Op::Div if self.is(a, 0) => Some(a),
             Op::Div if self.is(b, 1) => Some(a),
             Op::Power(0) => Some(self.int(1)),
             Op::Power(1) => Some(a),
-            Op::Neg => match self.nodes[a].kind {
+            Op::Neg => match self.node(a).kind {
                 Kind::Apply(Op::Neg, [inner, _]) => Some(inner),
                 _ => None,
             },
@@ -235,7 +237,7 @@ impl Formulas {
         if depends != 0 {
             return self.insert(Kind::Apply(op.clone(), [a, b]), depends, None);
         }
-        let value = |index: usize, id: Id| (index < count).then(|| self.nodes[id].exact.clone());
+        let value = |index: usize, id: Id| (index < count).then(|| self.node(id).exact.clone());
         let exact = exact_op(op, value(0, a), value(1, b));
         match exact.as_ref().and_then(Exact::as_rational) {
             Some(value) => self.number(&value),
@@ -248,15 +250,15 @@ impl Formulas {
         let mut sum = None;
         for (leaf, factor) in linear.terms() {
             let term = match *factor == 1 || *factor == -1 {
-                true => *leaf,
+                true => Id(*leaf),
                 false => {
                     let size = self.number(&factor.clone().abs());
-                    self.insert_operation(Op::Mul, [size, *leaf])
+                    self.insert_operation(Op::Mul, [size, Id(*leaf)])
                 }
             };
             sum = Some(match (sum, *factor > 0) {
                 (None, true) => term,
-                (None, false) => self.insert_operation(Op::Neg, [term, 0]),
+                (None, false) => self.insert_operation(Op::Neg, [term, Id::NONE]),
                 (Some(sum), true) => self.insert_operation(Op::Add, [sum, term]),
                 (Some(sum), false) => self.insert_operation(Op::Sub, [sum, term]),
             });
@@ -278,25 +280,10 @@ impl Formulas {
         self.insert(Kind::Apply(op, both), depends, None)
     }
 
-    /// A sum.
-    pub fn add(&mut self, a: Id, b: Id) -> Id {
-        self.apply(&Op::Add, [a, b])
-    }
-
-    /// A difference.
-    pub fn sub(&mut self, a: Id, b: Id) -> Id {
-        self.apply(&Op::Sub, [a, b])
-    }
-
-    /// A product.
-    pub fn mul(&mut self, a: Id, b: Id) -> Id {
-        self.apply(&Op::Mul, [a, b])
-    }
-
     /// A product that counts as one leaf in sums: what is added up of several states finds it in each of them.
     pub fn product(&mut self, a: Id, b: Id) -> Id {
-        let id = self.mul(a, b);
-        self.linear.entry(id).or_insert_with(|| Linear::leaf(id));
+        let id = self.apply(&Op::Mul, [a, b]);
+        self.linear.entry(id).or_insert_with(|| Linear::leaf(id.0));
         id
     }
 
@@ -310,26 +297,24 @@ impl Formulas {
     pub fn dot(&mut self, pairs: impl IntoIterator<Item = (Id, Id)>) -> Id {
         let zero = self.int(0);
         pairs.into_iter().fold(zero, |sum, (a, b)| {
-            let product = self.mul(a, b);
-            self.add(sum, product)
+            let product = self.apply(&Op::Mul, [a, b]);
+            self.apply(&Op::Add, [sum, product])
         })
     }
 
     /// An expression in t, e and states, which are these nodes; what its operations ask for is added to `demands`.
     pub fn read(&mut self, expr: &Expr, variables: &[Id], demands: &mut Vec<(Id, Demand)>) -> Id {
         let root = expr.fold(|op, a: Option<Id>, b: Option<Id>| match op {
-            Op::X => variables[0],
-            Op::E => variables[1],
-            Op::State(index) => variables[*index],
+            Op::Variable(index) => variables[*index],
             _ => {
-                let operands = [a.unwrap_or(0), b.unwrap_or(0)];
+                let operands = [a, b].map(|operand| operand.unwrap_or(Id::NONE));
                 let value = self.apply(op, operands);
                 self.demand(op, operands, value, demands);
                 value
             }
         });
         // A well-formed expression has a value.
-        root.unwrap_or(0)
+        root.unwrap_or(Id::NONE)
     }
 
     fn demand(&mut self, op: &Op, [a, b]: [Id; 2], value: Id, demands: &mut Vec<(Id, Demand)>) {
@@ -354,9 +339,9 @@ impl Formulas {
             Op::Sqrt | Op::Log | Op::Pow => Some((a, Demand::Positive)),
             Op::Abs => Some((a, Demand::Nonzero)),
             Op::Power(n) if *n < 0 => Some((a, Demand::Nonzero)),
-            Op::Tan => Some((self.apply(&Op::Cos, [a, 0]), Demand::Nonzero)),
+            Op::Tan => Some((self.apply(&Op::Cos, [a, Id::NONE]), Demand::Nonzero)),
             // Two formulas that are the same have no corner where they meet, and are refused all the same.
-            Op::Min | Op::Max => Some((self.sub(a, b), Demand::Nonzero)),
+            Op::Min | Op::Max => Some((self.apply(&Op::Sub, [a, b]), Demand::Nonzero)),
             _ => None,
         }
     }
@@ -383,19 +368,19 @@ impl Formulas {
     /// The nodes that these are made from, and themselves, in the order in which they can be computed.
     pub fn below(&self, roots: &[Id]) -> Vec<Id> {
         let Some(last) = roots.iter().max() else { return Vec::new() };
-        let mut wanted = vec![false; last + 1];
-        roots.iter().for_each(|root| wanted[*root] = true);
-        for id in (0..=*last).rev().filter(|id| *id < self.nodes.len()) {
+        let mut wanted = vec![false; last.0 + 1];
+        roots.iter().for_each(|root| wanted[root.0] = true);
+        for id in (0..=last.0).rev().filter(|id| *id < self.nodes.len()) {
             if wanted[id] {
-                self.operands(id).into_iter().for_each(|operand| wanted[operand] = true);
+                self.operands(Id(id)).into_iter().for_each(|operand| wanted[operand.0] = true);
             }
         }
-        (0..=*last).filter(|id| wanted[*id]).collect()
+        (0..=last.0).filter(|id| wanted[*id]).map(Id).collect()
     }
 
     /// The nodes that one is made from directly.
     pub fn operands(&self, id: Id) -> Vec<Id> {
-        match &self.nodes[id].kind {
+        match &self.node(id).kind {
             Kind::Leaf(_) => Vec::new(),
             Kind::Sign(a) => vec![*a],
             Kind::Apply(op, both) => both[..op.operands()].to_vec(),

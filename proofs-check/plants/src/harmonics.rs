@@ -40,11 +40,10 @@ impl Rest {
             let column: Vec<Id> =
                 plant.known.coordinates.inverse.iter().map(|line| formulas.number(&line[i])).collect();
             let slope = formulas.dot(row.iter().copied().zip(column));
-            let moved = formulas.mul(slope, *apart);
-            d = formulas.add(d, moved);
+            d = formulas.make(d + slope * *apart);
         }
         let rate = (0..states).map(|j| formulas.derivative(d, Axis::State(j))).collect();
-        let apart = formulas.sub(q, approximation);
+        let apart = formulas.make(q - approximation);
         Rest { q: roots(formulas, &[apart], plant.family.len()), row, rate }
     }
 

@@ -1,28 +1,35 @@
 //! The questions of the matrix inequalities of stability and of existence of a regulator in continuous time, with one metric or two
 //! (docs/mathematics.md, section 13.7).
 
+use super::ARGUMENT_PRECISION;
 use super::form::{Form, numbers};
 use super::formula::{Formulas, Id};
 use super::model::Model;
 use super::question::Question;
 use proofs_core::constant::Constant;
-use proofs_core::expr::Op;
+use proofs_core::interval::above;
 use proofs_core::rules::existence::{self, Existence};
 use proofs_core::rules::inequality::{Inequality, RULE};
 use proofs_core::rules::joint::{self, Joint};
 use proofs_core::rules::metric::{Metric, Metrics};
 use proofs_core::spec::Specification;
 use proofs_core::verdict::{Outcome, bad};
-use rug::Rational;
+use rug::{Float, Rational};
 
 /// A question, and what it is about.
-pub struct Said<'i> {
+pub struct Said {
     pub rule: &'static str,
-    pub pointer: &'i str,
+    pub pointer: String,
     pub what: String,
-    /// X and E.
-    pub at: [&'i Rational; 2],
+    /// X and E, rounded up.
+    pub at: [Float; 2],
     pub question: Question,
+}
+
+impl Said {
+    pub fn new(rule: &'static str, pointer: &str, what: String, at: [&Rational; 2], question: Question) -> Said {
+        Said { rule, pointer: pointer.to_owned(), what, at: at.map(|end| above(end, ARGUMENT_PRECISION)), question }
+    }
 }
 
 /// A constant of a file as a formula. It asks for nothing on the region: it has a value, or nothing is proved with it.
@@ -42,7 +49,7 @@ pub fn factors(formulas: &mut Formulas, spec: &Specification) -> Option<[Id; 2]>
     let nominal = constant(formulas, &gain.nominal);
     Some(gain.ends().map(|(_, end)| {
         let end = constant(formulas, end);
-        formulas.apply(&Op::Div, [end, nominal])
+        formulas.make(end / nominal)
     }))
 }
 
@@ -50,19 +57,16 @@ pub fn factors(formulas: &mut Formulas, spec: &Specification) -> Option<[Id; 2]>
 pub fn ends(formulas: &mut Formulas, spec: &Specification, sigma: &Rational) -> Vec<End> {
     let Some(factors) = factors(formulas, spec) else { return vec![End { at: "", shift: None }] };
     let (one, sigma) = (formulas.int(1), formulas.number(sigma));
-    let end = |(at, b)| {
-        let apart = formulas.sub(one, b);
-        End { at, shift: Some(formulas.mul(apart, sigma)) }
-    };
+    let end = |(at, b): (_, Id)| End { at, shift: Some(formulas.make((one - b) * sigma)) };
     [", at b_lo", ", at b_hi"].into_iter().zip(factors).map(end).collect()
 }
 
 /// With the P of stability, w_x, h, the threshold of sigma, and y/mu, which divides by nothing. Without a splitting the question is
 /// `F >= 0`; with one, S in the place of its first rows, there are two: that F without the last row is not below S, and that S with
 /// the last row is not below 0. What has the last row is asked at both ends of an input gain.
-pub fn of_stability<'i>(model: &mut Model, inequality: &'i Inequality, spec: &Specification) -> Outcome<Vec<Said<'i>>> {
+pub fn of_stability(model: &mut Model, inequality: &Inequality, spec: &Specification) -> Outcome<Vec<Said>> {
     let ends = ends(&mut model.formulas, spec, &inequality.sigma);
-    let mut all: Vec<Said<'i>> = Vec::new();
+    let mut all: Vec<Said> = Vec::new();
     for end in ends {
         // S is asked for once: b has no part in it.
         let mut said = of_stability_at(model, inequality, spec, &end)?;
@@ -73,12 +77,7 @@ pub fn of_stability<'i>(model: &mut Model, inequality: &'i Inequality, spec: &Sp
 }
 
 /// Those of one end; the last one alone has the row of e.
-fn of_stability_at<'i>(
-    model: &mut Model,
-    inequality: &'i Inequality,
-    spec: &Specification,
-    end: &End,
-) -> Outcome<Vec<Said<'i>>> {
+fn of_stability_at(model: &mut Model, inequality: &Inequality, spec: &Specification, end: &End) -> Outcome<Vec<Said>> {
     let order = model.states();
     let mu = constant(&mut model.formulas, &spec.regulator.mu);
     let form = Form {
@@ -95,10 +94,7 @@ fn of_stability_at<'i>(
     };
     let (mut block, of_e) = form.rows(model);
     let formulas = &mut model.formulas;
-    let said = |what: &str, at, question| {
-        let what = format!("{what}{}", end.at);
-        Said { rule: RULE, pointer: &inequality.pointer, what, at, question }
-    };
+    let said = |what, at, question| Said::new(RULE, &inequality.pointer, format!("{what}{}", end.at), at, question);
     let [of_states, of_error] = inequality.arguments();
     let Some(splitting) = &inequality.splitting else {
         block.push(of_e);
@@ -114,13 +110,12 @@ fn of_stability_at<'i>(
         let mut entries = Vec::new();
         for (j, value) in line[..=i].iter().enumerate() {
             let value = formulas.number(value);
-            let moved = formulas.mul(units[i], value);
-            entries.push(formulas.mul(units[j], moved));
+            entries.push(formulas.make(units[j] * (units[i] * value)));
         }
         s.push(entries);
     }
     for (entry, least) in block.iter_mut().flatten().zip(s.iter().flatten()) {
-        *entry = formulas.sub(*entry, *least);
+        *entry = formulas.make(*entry - *least);
     }
     s.push(of_e);
     Ok(vec![
@@ -130,13 +125,13 @@ fn of_stability_at<'i>(
 }
 
 /// The questions of two metrics.
-pub fn of_joint<'i>(model: &mut Model, joint: &'i Joint) -> Outcome<[Said<'i>; 2]> {
+pub fn of_joint(model: &mut Model, joint: &Joint) -> Outcome<[Said; 2]> {
     let asked = Asked { rule: joint::RULE, pointer: &joint.pointer, at: [&joint.x, &joint.e], sigma: &joint.threshold };
     asked.of_metrics(model, &joint.metrics)
 }
 
 /// Those of one metric of existence, at both ends of an input gain, or those of two.
-pub fn of_existence<'i>(model: &mut Model, inequality: &'i Existence, spec: &Specification) -> Outcome<Vec<Said<'i>>> {
+pub fn of_existence(model: &mut Model, inequality: &Existence, spec: &Specification) -> Outcome<Vec<Said>> {
     let Existence { pointer, x, e, threshold, form } = inequality;
     let asked = Asked { rule: existence::RULE, pointer, at: [x, e], sigma: threshold };
     match form {
@@ -156,7 +151,7 @@ struct Asked<'i> {
     sigma: &'i Rational,
 }
 
-impl<'i> Asked<'i> {
+impl Asked<'_> {
     /// That the matrix of a metric with `corner` in the place of e, and these p and sigma p, is not below its diagonal one.
     fn of_metric(
         &self,
@@ -165,7 +160,7 @@ impl<'i> Asked<'i> {
         corner: Rational,
         [cross, pull]: [&[Rational]; 2],
         (what, end): (&str, &End),
-    ) -> Said<'i> {
+    ) -> Said {
         let order = model.states();
         let [c_x, c_e, c_y] = &metric.least;
         let form = Form {
@@ -184,16 +179,15 @@ impl<'i> Asked<'i> {
         let formulas = &mut model.formulas;
         for (i, row) in rows.iter_mut().enumerate() {
             let taken = formulas.number(if i < order { c_x } else { c_y });
-            row[i] = formulas.sub(row[i], taken);
+            row[i] = formulas.make(row[i] - taken);
         }
         rows.push(of_e);
         let question = Question::new(formulas, rows, order);
-        let what = format!("{what}{}", end.at);
-        Said { rule: self.rule, pointer: self.pointer, what, at: self.at, question }
+        Said::new(self.rule, self.pointer, format!("{what}{}", end.at), self.at, question)
     }
 
     /// The one matrix of the block form, whose c_e is 0.
-    fn of_block(&self, model: &mut Model, metric: &Metric, end: &End) -> Outcome<Said<'i>> {
+    fn of_block(&self, model: &mut Model, metric: &Metric, end: &End) -> Outcome<Said> {
         metric.demand_order(model.states(), self.pointer)?;
         let corner = Rational::from(self.sigma * &metric.w) * 2u32;
         Ok(self.of_metric(model, metric, corner, [&[], &[]], ("F >= diag(c_x, 0, c_y)", end)))
@@ -201,7 +195,7 @@ impl<'i> Asked<'i> {
 
     /// F of the near metric, with `2 sigma w_1` in the place of e, and G of the far one, with `2 sigma (w_1 + w_2)`: of the near one's p
     /// there is sigma p alone in it.
-    fn of_metrics(&self, model: &mut Model, metrics: &Metrics) -> Outcome<[Said<'i>; 2]> {
+    fn of_metrics(&self, model: &mut Model, metrics: &Metrics) -> Outcome<[Said; 2]> {
         metrics.demand_order(model.states(), self.pointer)?;
         let Metrics { near, far, cross } = metrics;
         let pull: Vec<Rational> = cross.iter().map(|entry| Rational::from(entry * self.sigma)).collect();

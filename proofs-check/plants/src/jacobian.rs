@@ -51,8 +51,8 @@ struct Parts {
 }
 
 impl Parts {
-    /// One F of the Jacobian: `choose` says which end stands for an interval entry, or the middle.
-    fn member(&mut self, jacobian: &Jacobian, choose: impl Fn(usize) -> Chosen) -> Vec<Vec<Id>> {
+    /// One F of the Jacobian: the bits of a vertex say of each interval entry whether its upper end stands for it; without one the middle does.
+    fn member(&mut self, jacobian: &Jacobian, vertex: Option<usize>) -> Vec<Vec<Id>> {
         let mut index = 0;
         let Parts { formulas, demands, .. } = self;
         let time = formulas.leaf(Leaf::Time);
@@ -61,24 +61,18 @@ impl Parts {
             Entry::Between(ends) => {
                 index += 1;
                 let [lo, hi] = ends.each_ref().map(|end| formulas.read(end.expr(), &[], demands));
-                match choose(index - 1) {
-                    Chosen::Low => lo,
-                    Chosen::High => hi,
-                    Chosen::Middle => {
-                        let (sum, half) = (formulas.add(lo, hi), formulas.number(&Rational::from((1, 2))));
-                        formulas.mul(half, sum)
+                match vertex {
+                    Some(vertex) if vertex >> (index - 1) & 1 == 1 => hi,
+                    Some(_) => lo,
+                    None => {
+                        let half = formulas.number(&Rational::from((1, 2)));
+                        formulas.make(half * (lo + hi))
                     }
                 }
             }
         };
         jacobian.iter().map(|row| row.iter().map(&mut entry).collect()).collect()
     }
-}
-
-enum Chosen {
-    Low,
-    High,
-    Middle,
 }
 
 impl Problem<'_> {
@@ -129,9 +123,8 @@ fn attempt(jacobian: &Jacobian, (period, clock): (&Interval, Option<&Span>), w: 
     let what = "P' + P F + F'P <= -2 alpha P";
     let count = if intervals.len() <= MAX_VERTEX_ENTRIES { 1 << intervals.len() } else { 0 };
     for vertex in 0..count {
-        let chosen = |index: usize| if vertex >> index & 1 == 1 { Chosen::High } else { Chosen::Low };
         problem.everywhere(what, true, |parts| {
-            let f = parts.member(jacobian, chosen);
+            let f = parts.member(jacobian, Some(vertex));
             rate(&mut parts.formulas, alpha, &parts.p, &f)
         })?;
     }
@@ -141,10 +134,10 @@ fn attempt(jacobian: &Jacobian, (period, clock): (&Interval, Option<&Span>), w: 
         let taken = (Interval::rational(p_up, precision) * squares.sqrt() * 2).upper();
         let taken = taken.map_or_else(|| bad(&w.pointer, "the interval entries are not bounded"), Ok)?;
         problem.everywhere(what, false, |parts| {
-            let f = parts.member(jacobian, |_| Chosen::Middle);
+            let f = parts.member(jacobian, None);
             let mut rows = rate(&mut parts.formulas, alpha, &parts.p, &f);
             let taken = parts.formulas.number(&taken);
-            rows.iter_mut().enumerate().for_each(|(i, row)| row[i] = parts.formulas.sub(row[i], taken));
+            rows.iter_mut().enumerate().for_each(|(i, row)| row[i] = parts.formulas.make(row[i] - taken));
             rows
         })?;
     }

@@ -31,11 +31,13 @@ mod slopes;
 pub mod smooth;
 mod still;
 pub mod taylor;
+mod term;
 pub mod time;
 
+use inequality::Said;
 use machine::{Cell, Machine, Values};
 use model::{Frame, Model};
-use proofs_core::interval::{Interval, above};
+use proofs_core::interval::Interval;
 use proofs_core::plant::entries;
 use proofs_core::rules::derivation::Inequalities;
 use proofs_core::spec::Specification;
@@ -109,11 +111,10 @@ fn prove_in(
         asked = of_orbit(plant, &mut model)?;
     }
     let of_the_orbit = asked.len();
-    for entry in &plant.known.entries.list {
-        asked.push(of_entry(plant, &mut model, entry));
-    }
-    let questions = inequalities::questions(&mut model, inequalities, spec)?;
-    asked.extend(questions.into_iter().map(|said| of_inequality(plant, said)));
+    let mut said: Vec<Said> = plant.known.entries.list.iter().map(|entry| of_entry(&mut model, entry)).collect();
+    said.extend(inequalities::questions(&mut model, inequalities, spec)?);
+    let used = largest(arguments, &said);
+    asked.extend(said.into_iter().map(|said| on_region(plant, said)));
     let still = still::Still::new(plant, inequalities, spec)?;
     if model.formulas.is_too_large() {
         return too_large("formulas", "/plant");
@@ -128,7 +129,6 @@ fn prove_in(
     let mut machine = Machine::new(&model.formulas, &curves, &om);
     let root = machine.period(&period);
     let mut values = machine.values();
-    let used = largest(plant, arguments, inequalities);
     let count = smoothness(plant, &model, &machine, &root, used.each_ref(), &mut values)?;
     lines.push(format!("formulas: smooth where they are used, by {count} boxes"));
     if plant.states() > 0 {
@@ -187,41 +187,28 @@ fn tube(plant: &Plant) -> Interval {
     Interval::rational(&plant.orbit.tube, PRECISION)
 }
 
-fn of_entry(plant: &Plant, model: &mut Model, entry: &entries::Entry) -> Asked {
-    let [x, e] = &entry.arguments;
-    let what = format!("{} at X = {}, E = {}", entry.label, x.to_f64(), e.to_f64());
-    Asked {
-        question: bounds::question(model, entry),
-        region: region(plant, x, e),
+fn of_entry(model: &mut Model, entry: &entries::Entry) -> Said {
+    Said {
         rule: entries::RULE,
         pointer: format!("{}/value", entry.pointer),
-        what,
+        what: entry.label.to_owned(),
+        at: entry.arguments.clone(),
+        question: bounds::question(model, entry),
     }
 }
 
-fn of_inequality(plant: &Plant, said: inequality::Said<'_>) -> Asked {
-    let [x, e] = place(said.at);
-    Asked {
-        question: said.question,
-        region: region(plant, &x, &e),
-        rule: said.rule,
-        pointer: said.pointer.to_owned(),
-        what: format!("{} at X = {}, E = {}", said.what, x.to_f64(), e.to_f64()),
-    }
-}
-
-/// X and E, rounded up.
-fn place(at: [&Rational; 2]) -> [Float; 2] {
-    at.map(|end| above(end, ARGUMENT_PRECISION))
+/// On G(X, E).
+fn on_region(plant: &Plant, Said { rule, pointer, what, at: [x, e], question }: Said) -> Asked {
+    let what = format!("{what} at X = {}, E = {}", x.to_f64(), e.to_f64());
+    Asked { question, region: region(plant, &x, &e), rule, pointer, what }
 }
 
 /// The largest X and E that anything is used at; NaN, on which nothing is proved, where one is not known.
-fn largest(plant: &Plant, arguments: [&Float; 2], inequalities: Inequalities<'_>) -> [Float; 2] {
-    let mut largest = plant.known.entries.largest();
-    let others = [arguments.map(Clone::clone)].into_iter().chain(inequalities::arguments(inequalities).map(place));
-    for (end, other) in others.flat_map(|other| [0, 1].map(|i| (i, other[i].clone()))) {
-        if other.is_nan() || other > largest[end] {
-            largest[end] = other;
+fn largest(arguments: [&Float; 2], said: &[Said]) -> [Float; 2] {
+    let mut largest = arguments.map(Clone::clone);
+    for (end, other) in said.iter().flat_map(|said| [0, 1].map(|i| (i, &said.at[i]))) {
+        if other.is_nan() || *other > largest[end] {
+            largest[end] = other.clone();
         }
     }
     largest

@@ -96,7 +96,7 @@ impl<'f> Machine<'f> {
         let matrix = |rows: &Vec<Vec<Wave>>| rows.iter().map(|row| row.iter().map(table).collect()).collect();
         let mut next = 0;
         let places = (0..formulas.size()).map(|id| {
-            next += usize::from(formulas.depends(id) == Axis::Time.bit());
+            next += usize::from(formulas.depends(Id(id)) == Axis::Time.bit());
             next.saturating_sub(1)
         });
         Machine {
@@ -120,15 +120,15 @@ impl<'f> Machine<'f> {
     /// Numbers, evaluated.
     pub fn values(&self) -> Values {
         let mut values = Values(vec![self.none.clone(); self.formulas.size()]);
-        for id in (0..self.formulas.size()).filter(|id| self.formulas.depends(*id) == 0) {
-            values.0[id] = self.apply(id, |operand| values.0[operand].clone());
+        for id in (0..self.formulas.size()).map(Id).filter(|id| self.formulas.depends(*id) == 0) {
+            values.0[id.0] = self.apply(id, |operand| values.0[operand.0].clone());
         }
         values
     }
 
     /// The value of a number.
     pub fn number(&self, id: Id, values: &Values) -> Interval {
-        values.0.get(id).unwrap_or(&self.none).clone()
+        values.0.get(id.0).unwrap_or(&self.none).clone()
     }
 
     /// What has to be computed for these nodes.
@@ -150,7 +150,7 @@ impl<'f> Machine<'f> {
     ) {
         let mut on_cell = cell.values[at as usize].borrow_mut();
         for id in &program.time {
-            let place = self.places[*id];
+            let place = self.places[id.0];
             if on_cell.len() <= place {
                 on_cell.resize(place + 1, None);
             }
@@ -174,7 +174,7 @@ impl<'f> Machine<'f> {
                     interval_op(op, self.find(*a, &on_cell, values), self.find(*b, &on_cell, values))
                 }
             };
-            values.0[*id] = value;
+            values.0[id.0] = value;
         }
     }
 
@@ -185,9 +185,9 @@ impl<'f> Machine<'f> {
 
     fn find<'v>(&'v self, id: Id, on_cell: &'v [Option<Interval>], values: &'v Values) -> &'v Interval {
         if self.formulas.depends(id) == Axis::Time.bit() {
-            return on_cell.get(self.places[id]).and_then(Option::as_ref).unwrap_or(&self.none);
+            return on_cell.get(self.places[id.0]).and_then(Option::as_ref).unwrap_or(&self.none);
         }
-        &values.0[id]
+        &values.0[id.0]
     }
 
     fn value(&self, id: Id, on_cell: &[Option<Interval>], values: &Values) -> Interval {

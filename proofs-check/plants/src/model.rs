@@ -52,7 +52,7 @@ impl Model {
         for (i, row) in plant.known.coordinates.matrix.iter().enumerate() {
             let orbit = wave(&mut formulas, plant, i, 0);
             let moved = linear(&mut formulas, row, &states);
-            variables.push(if frame == Frame::Moving { formulas.add(orbit, moved) } else { states[i] });
+            variables.push(if frame == Frame::Moving { formulas.make(orbit + moved) } else { states[i] });
         }
         variables.extend((0..plant.known.parameters.len()).map(|i| formulas.leaf(Leaf::Parameter(i))));
         let f: Vec<Id> = plant.f.iter().map(|formula| formulas.read(&formula.expr, &variables, &mut demands)).collect();
@@ -61,7 +61,7 @@ impl Model {
             .map(|i| {
                 let slope = wave(&mut formulas, plant, i, 1);
                 let velocity = formulas.in_time(slope);
-                formulas.sub(f[i], velocity)
+                formulas.make(f[i] - velocity)
             })
             .collect();
         let inverse = &plant.known.coordinates.inverse;
@@ -104,11 +104,11 @@ pub fn wave(formulas: &mut Formulas, plant: &Plant, which: usize, order: usize) 
             Some(parameter) => {
                 let nominal = formulas.number(&plant.family[parameter].nominal);
                 let value = formulas.leaf(Leaf::Parameter(parameter));
-                let apart = formulas.sub(value, nominal);
+                let apart = formulas.make(value - nominal);
                 formulas.product(apart, part)
             }
         };
-        sum = formulas.add(sum, part);
+        sum = formulas.make(sum + part);
     }
     sum
 }

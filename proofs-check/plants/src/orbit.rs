@@ -57,7 +57,7 @@ pub fn shifted(formulas: &mut Formulas, p: &[Vec<Id>], end: &Rational, sign: i32
     let (end, zero) = (formulas.number(end), formulas.int(0));
     let entry = |i: usize, j: usize, formulas: &mut Formulas| {
         let taken = if i == j { end } else { zero };
-        if sign > 0 { formulas.sub(p[i][j], taken) } else { formulas.sub(taken, p[i][j]) }
+        formulas.make(if sign > 0 { p[i][j] - taken } else { taken - p[i][j] })
     };
     (0..p.len()).map(|i| (0..=i).map(|j| entry(i, j, formulas)).collect()).collect()
 }

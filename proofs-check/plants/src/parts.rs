@@ -30,13 +30,10 @@ pub struct Forcing {
     pub rest_t: Rational,
 }
 
-fn number(fields: &mut Fields<'_>, name: &str, least: Option<bool>) -> Outcome<Rational> {
+fn number(fields: &mut Fields<'_>, name: &str, positive: bool) -> Outcome<Rational> {
     let field = fields.required(name)?;
     let value = field.rational()?;
-    let (truth, what) = match least {
-        Some(true) => (value > 0, "> 0"),
-        _ => (value >= 0, ">= 0"),
-    };
+    let (truth, what) = if positive { (value > 0, "> 0") } else { (value >= 0, ">= 0") };
     demand(Some(truth), "signs", &field.pointer, format!("{name} {what}"))?;
     Ok(value)
 }
@@ -82,9 +79,9 @@ pub fn orbit(field: &Field<'_>, order: usize, members: usize) -> Outcome<Orbit> 
     let orbit = Orbit {
         pointer: field.pointer.clone(),
         waves: waves.collect(),
-        defect: number(&mut fields, "defect", None)?,
-        tube: number(&mut fields, "tube", Some(true))?,
-        radius: number(&mut fields, "radius", None)?,
+        defect: number(&mut fields, "defect", false)?,
+        tube: number(&mut fields, "tube", true)?,
+        radius: number(&mut fields, "radius", false)?,
     };
     fields.finish().map(|()| orbit)
 }
@@ -95,8 +92,8 @@ pub fn forcing(field: &Field<'_>, members: usize) -> Outcome<Forcing> {
     let forcing = Forcing {
         pointer: field.pointer.clone(),
         waves: waves.into_iter().map(|(mean, harmonics)| Wave { mean, harmonics }).collect(),
-        rest: number(&mut fields, "rest", None)?,
-        rest_t: number(&mut fields, "rest_t", None)?,
+        rest: number(&mut fields, "rest", false)?,
+        rest_t: number(&mut fields, "rest_t", false)?,
     };
     fields.finish().map(|()| forcing)
 }

@@ -89,10 +89,10 @@ impl<'m, 'f> Path<'m, 'f> {
                 expand(self.formulas(), order, number, |kind| leaf(kind, parameters, on_cell, length), length)
             };
             let (thin, thick) = (series(false, ORDER + 1), series(true, ORDER + 2));
-            let last = |root: Id| thick[root].get(ORDER + 1).cloned();
+            let last = |root: Id| thick[root.0].get(ORDER + 1).cloned();
             let polynomial = |root: &Id| Polynomial {
-                coefficients: thin[*root].clone(),
-                remainder: last(*root).unwrap_or_else(|| undefined_or_zero(&thick[*root], p)),
+                coefficients: thin[root.0].clone(),
+                remainder: last(*root).unwrap_or_else(|| undefined_or_zero(&thick[root.0], p)),
             };
             roots.iter().map(polynomial).collect()
         };

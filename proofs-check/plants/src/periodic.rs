@@ -50,8 +50,8 @@ impl Rules<'_> {
         }
         match (op, &a, &b) {
             (_, _, Some(Other(certain))) => Other(*certain),
-            (Op::X, ..) => line(Exact::rational(&Rational::from(1))),
-            (Op::E | Op::State(_), ..) => Free(None),
+            (Op::Variable(0), ..) => line(Exact::rational(&Rational::from(1))),
+            (Op::Variable(_), ..) => Free(None),
             (_, None | Some(Free(_)), None | Some(Free(_))) => {
                 Free(exact_op(op, a.as_ref().map(|_| known(&a)), b.as_ref().map(|_| known(&b))))
             }

@@ -108,7 +108,7 @@ pub fn read(field: &Field<'_>, witness: &mut Fields<'_>) -> Outcome<(Specificati
         Ok([end("x")?, end("e")?])
     };
     let domain = file.part("domain", |field| field.object(ends))?;
-    let input_gain = input_gain::read_of_family(&mut file, &constants, &intervals)?;
+    let input_gain = input_gain::read(&mut file, &constants, &intervals)?;
     let actuator = actuator::read(&mut file, &constants)?;
     let noise = Noise::read(&mut file)?;
     let regulator = spec::InternalModel::read(&file.required("internal_model")?, &period, &constants)?;

@@ -12,8 +12,8 @@ use proofs_core::rules::rates::claimed::RULE;
 use proofs_core::rules::rates::slopes::Slopes;
 
 /// One for each part of each n_o whose Q, G and H are not those of one before.
-pub fn questions<'i>(model: &mut Model, asked: Asked<'i>) -> Vec<Said<'i>> {
-    let mut all: Vec<Said<'i>> = Vec::new();
+pub fn questions(model: &mut Model, asked: Asked<'_>) -> Vec<Said> {
+    let mut all: Vec<Said> = Vec::new();
     for (place, (n_o, slopes)) in asked.slopes().enumerate() {
         if asked.slopes().take(place).any(|(_, before)| before.are(slopes)) {
             continue;
@@ -21,7 +21,7 @@ pub fn questions<'i>(model: &mut Model, asked: Asked<'i>) -> Vec<Said<'i>> {
         let question = of_slopes(model, slopes);
         let [_, name] = slopes.columns.words();
         let what = format!("{name}, Q - G D - D'G' - D'H D >= 0 for n_o = {n_o}");
-        all.push(Said { rule: RULE, pointer: &slopes.pointer, what, at: asked.region(slopes.columns), question });
+        all.push(Said::new(RULE, &slopes.pointer, what, asked.region(slopes.columns), question));
     }
     all
 }
@@ -48,10 +48,8 @@ fn of_slopes(model: &mut Model, Slopes { columns, q, g, h, .. }: &Slopes) -> Que
             .into_iter()
             .enumerate()
             .map(|(j, entry)| {
-                let taken = formulas.add(of_g[i][j], of_g[j][i]);
-                let left = formulas.sub(entry, taken);
                 let square = formulas.dot((0..order).map(|k| (derivatives[k][i], of_h[k][j])));
-                formulas.sub(left, square)
+                formulas.make(entry - (of_g[i][j] + of_g[j][i]) - square)
             })
             .collect();
         rows.push(own);

@@ -5,15 +5,16 @@
 //! there, so what is not proved on it says nothing.
 
 use super::around::Around;
-use super::bounds;
+use super::formula::Id;
 use super::inequalities;
+use super::inequality::Said;
 use super::machine::{At, Cell, Curves, Machine, Values};
 use super::model::{self, Frame, Model};
 use super::question::{Answer, Question};
 use super::read::Plant;
 use super::region::{Region, Shape};
 use super::time::around;
-use super::{PRECISION, end, place, radius};
+use super::{PRECISION, end, of_entry, radius};
 use proofs_core::interval::Interval;
 use proofs_core::plant::entries;
 use proofs_core::rules::derivation::Inequalities;
@@ -27,12 +28,12 @@ const MAX_PIECES: usize = 20_000;
 /// How many cells of t there are for the range of the orbit.
 const RANGE_CELLS_LOG: u32 = 8;
 
-/// The entries and the parts of the inequalities as questions in x, with X and E; `None` where one moves with t.
+/// The entries and the parts of the inequalities as questions in x; `None` where one moves with t.
 pub struct Still {
     model: Model,
     /// The components of xb.
-    orbit: Vec<usize>,
-    questions: Vec<Option<(Question, [Float; 2])>>,
+    orbit: Vec<Id>,
+    questions: Vec<Option<Said>>,
 }
 
 /// The same with what is needed for deciding.
@@ -52,12 +53,11 @@ impl Still {
         let orbit = (0..plant.states()).map(|state| model::wave(&mut model.formulas, plant, state, 0)).collect();
         let question = |entry: &entries::Entry| {
             let moves = entry.name.is_of_motion();
-            (!moves).then(|| (bounds::question(&mut model, entry), entry.arguments.clone()))
+            (!moves).then(|| of_entry(&mut model, entry))
         };
         let mut questions: Vec<_> = plant.known.entries.list.iter().map(question).collect();
-        let parts = inequalities::questions(&mut model, inequalities, spec)?.into_iter();
-        questions.extend(parts.map(|said| Some((said.question, place(said.at)))));
-        let questions = questions.into_iter().map(|asked| asked.filter(|(question, _)| !question.moves())).collect();
+        questions.extend(inequalities::questions(&mut model, inequalities, spec)?.into_iter().map(Some));
+        let questions = questions.into_iter().map(|said| said.filter(|said| !said.question.moves())).collect();
         Ok(Still { model, orbit, questions })
     }
 
@@ -68,7 +68,7 @@ impl Still {
         let program = machine.program(&self.orbit);
         let rest = Region::of_family(plant, machine.precision).whole(&machine, root.clone()).sides;
         let cells = root.parts(RANGE_CELLS_LOG);
-        let mut range = |id: usize| {
+        let mut range = |id: Id| {
             let on = |cell: &Rc<Cell>| {
                 machine.run(&program, At::Box, cell, &[], &rest, &mut values);
                 machine.get(id, At::Box, cell, &values)
@@ -84,7 +84,7 @@ impl Still {
 impl Prepared<'_> {
     /// Whether one of them is proved on all states that G(X,E) has; by how many boxes. `None` says nothing.
     pub fn proves(&mut self, plant: &Plant, which: usize) -> Option<usize> {
-        let (question, [x, e]) = self.still.questions.get(which)?.as_ref()?;
+        let Said { question, at: [x, e], .. } = self.still.questions.get(which)?.as_ref()?;
         if self.still.model.formulas.is_too_large() {
             return None;
         }

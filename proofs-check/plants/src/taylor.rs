@@ -21,17 +21,17 @@ pub fn expand(
     leaf: impl Fn(Leaf) -> Series,
     length: usize,
 ) -> Vec<Series> {
-    let size = order.last().map_or(0, |last| last + 1);
+    let size = order.last().map_or(0, |last| last.0 + 1);
     let mut all: Vec<Series> = vec![Vec::new(); size];
     for id in order {
         let node = formulas.node(*id);
         let series = match &node.kind {
             _ if node.depends == 0 => vec![numbers(*id)],
             Kind::Leaf(kind) => leaf(*kind),
-            Kind::Sign(a) => vec![first(&all[*a]).sign()],
-            Kind::Apply(op, [a, b]) => apply(op, &all[*a], all.get(*b).map_or(&[], Vec::as_slice), length),
+            Kind::Sign(a) => vec![first(&all[a.0]).sign()],
+            Kind::Apply(op, [a, b]) => apply(op, &all[a.0], all.get(b.0).map_or(&[], Vec::as_slice), length),
         };
-        all[*id] = if is_defined(&series) { series } else { unknown(&series, length) };
+        all[id.0] = if is_defined(&series) { series } else { unknown(&series, length) };
     }
     all
 }
@@ -117,7 +117,7 @@ pub fn apply(op: &Op, a: &[Interval], b: &[Interval], length: usize) -> Series {
             let log = apply(&Op::Log, a, &[], length);
             apply(&Op::Exp, &product(b, &log, length), &[], length)
         }
-        Op::Number(_) | Op::Pi | Op::X | Op::E | Op::State(_) => vec![Interval::undefined(u.precision()); length],
+        Op::Number(_) | Op::Pi | Op::Variable(_) => vec![Interval::undefined(u.precision()); length],
     }
 }
 
@@ -242,7 +242,7 @@ mod tests {
             value(id, &|id| value(id, &|_| Interval::undefined(256)))
         };
         let leaf = |_: Leaf| vec![t.clone(), Interval::int(1, 256)];
-        expand(formulas, &formulas.below(&[root]), numbers, leaf, length)[root].clone()
+        expand(formulas, &formulas.below(&[root]), numbers, leaf, length)[root.0].clone()
     }
 
     #[test]

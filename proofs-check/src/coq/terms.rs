@@ -85,8 +85,8 @@ fn operation(op: &Op, a: &str, b: &str) -> Result<String, &'static str> {
     Ok(match op {
         Op::Number(value) => number(value),
         Op::Pi => "PI".to_owned(),
-        Op::X => "X".to_owned(),
-        Op::E => "E".to_owned(),
+        Op::Variable(0) => "X".to_owned(),
+        Op::Variable(1) => "E".to_owned(),
         Op::Neg => format!("(- {a})"),
         Op::Sqrt => format!("(sqrt {a})"),
         Op::Exp => format!("(exp {a})"),
@@ -107,6 +107,6 @@ fn operation(op: &Op, a: &str, b: &str) -> Result<String, &'static str> {
         Op::Max => format!("(max2 {a} {b})"),
         // Coq's Rpower is exp(b ln a) with ln 0 = 0: at 0 it is another function.
         Op::Pow => return Err("a power with an exponent that is no integer: write it with sqrt, or with exp and log"),
-        Op::State(_) => return Err("a variable other than X and E"),
+        Op::Variable(_) => return Err("a variable other than X and E"),
     })
 }

@@ -48,8 +48,8 @@ fn existence() {
     let (f_e, f_xx, q_x, q_e) = (at(2.0, 3.0, 5.0), 3.0 + 5.0 * x, at(13.0, 17.0, 19.0), at(11.0, 13.0, 17.0));
     let f_ex = at(5.0, 7.0, 11.0);
     close(&ex.invariance(&d, &d.c), 4.0 * (f_e * e + f_xx * x * x / 2.0));
-    let [xx, xe, ex_gain, ee] = ex.contraction(&d, &d.c, 1, &d.int(3));
-    close(&xx, 4.0 * (f_ex * e + f_xx * x));
+    let [xx, xe, ex_gain, ee] = ex.contraction(&d, &d.c, &d.int(3));
+    close(&xx, 4.0 * (f_ex * e + 2.0 * f_xx * x));
     close(&xe, 4.0 * f_e);
     close(&ex_gain, 3.0 * q_x);
     close(&ee, 3.0 * q_e);

@@ -101,6 +101,12 @@ impl Enclosure {
         Enclosure::new(value.clone(), value)
     }
 
+    /// Exactly this number; undefined for what is no number or infinite.
+    #[must_use]
+    pub fn point(value: &Float) -> Enclosure {
+        Enclosure::new(value.clone(), value.clone())
+    }
+
     /// The tightest enclosure at `precision` bits of an exact rational number.
     #[must_use]
     pub fn from_rational(value: &Rational, precision: u32) -> Enclosure {
@@ -144,6 +150,15 @@ impl Enclosure {
     #[must_use]
     pub fn one(precision: u32) -> Enclosure {
         Enclosure::from_integer(1, precision)
+    }
+
+    /// The same at another precision, rounded outward.
+    #[must_use]
+    pub fn at_precision(&self, precision: u32) -> Enclosure {
+        Enclosure::new(
+            Float::with_val_round(precision, self.lower(), Round::Down).0,
+            Float::with_val_round(precision, self.upper(), Round::Up).0,
+        )
     }
 
     /// Both ends as MPFR numbers.

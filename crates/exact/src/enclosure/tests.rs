@@ -438,6 +438,16 @@ fn mixed_precisions_lose_nothing() {
 }
 
 #[test]
+fn another_precision_is_rounded_outward() {
+    let third = Enclosure::from_rational(&Rational::from((1, 3)), 128);
+    assert_eq!(third.at_precision(53), Enclosure::from_rational(&Rational::from((1, 3)), 53));
+    assert_eq!(third.at_precision(200).at_precision(128), third);
+    assert!(!Enclosure::undefined(53).at_precision(128).is_defined());
+    let end = third.upper();
+    assert!(Enclosure::point(&end).is_exact() && Enclosure::point(&end).upper() == end);
+}
+
+#[test]
 fn huge_arguments_are_not_reduced() {
     let huge = Enclosure::from_rational(&parse_decimal("1e1200").unwrap(), 1024);
     assert_eq!(huge.sin(), between(-1, 1, 64));

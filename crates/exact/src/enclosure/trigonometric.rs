@@ -33,30 +33,20 @@ impl Enclosure {
         !turns.is_bounded() || turns.integers().is_some()
     }
 
-    /// The sine: the values at the two ends, and 1 or -1 wherever a crest or a trough may lie in between.
+    /// The sine.
     #[must_use]
     pub fn sin(&self) -> Enclosure {
-        let p = self.precision();
-        if !self.is_defined() {
-            return Enclosure::undefined(p);
-        }
-        let [least, most] = [-1, 1].map(|end| Float::with_val(p, end));
-        if !self.is_reducible() {
-            return Enclosure::new(least, most);
-        }
-        let [lower, upper] = self.long();
-        let at = |x: &Float, round| Float::with_val_round(p, x.sin_ref(), round).0;
-        let crest = self.may_contain_phase(1, 4);
-        let trough = self.may_contain_phase(-1, 4);
-        Enclosure::new(
-            if trough { least } else { at(&lower, Round::Down).smaller(&at(&upper, Round::Down), p) },
-            if crest { most } else { at(&lower, Round::Up).larger(&at(&upper, Round::Up), p) },
-        )
+        self.wave([1, -1], |x, p, round| Float::with_val_round(p, x.sin_ref(), round).0)
     }
 
-    /// The cosine, in the same way as the sine.
+    /// The cosine.
     #[must_use]
     pub fn cos(&self) -> Enclosure {
+        self.wave([0, 2], |x, p, round| Float::with_val_round(p, x.cos_ref(), round).0)
+    }
+
+    /// The values at the two ends, and 1 or -1 wherever a crest or a trough, given in units of pi/2, may lie in between.
+    fn wave(&self, [crest, trough]: [i64; 2], at: impl Fn(&Float, u32, Round) -> Float) -> Enclosure {
         let p = self.precision();
         if !self.is_defined() {
             return Enclosure::undefined(p);
@@ -66,9 +56,9 @@ impl Enclosure {
             return Enclosure::new(least, most);
         }
         let [lower, upper] = self.long();
-        let at = |x: &Float, round| Float::with_val_round(p, x.cos_ref(), round).0;
-        let crest = self.may_contain_phase(0, 4);
-        let trough = self.may_contain_phase(2, 4);
+        let at = |x: &Float, round| at(x, p, round);
+        let crest = self.may_contain_phase(crest, 4);
+        let trough = self.may_contain_phase(trough, 4);
         Enclosure::new(
             if trough { least } else { at(&lower, Round::Down).smaller(&at(&upper, Round::Down), p) },
             if crest { most } else { at(&lower, Round::Up).larger(&at(&upper, Round::Up), p) },

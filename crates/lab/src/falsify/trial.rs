@@ -13,10 +13,10 @@ use crate::simulate::{
     ClosedLoop, Disturbance, IntegrationFailure, Orbit, SteadyState, SteadyStateError, Tolerance, flow, rms,
     steady_state, sup, trajectory,
 };
-use rayon::prelude::*;
 use sigmastar_document::progress::{Progress, Silent};
 use sigmastar_exact::enclosure::DEFAULT_PRECISION;
 use sigmastar_exact::number::Portable;
+use sigmastar_exact::parallel;
 use sigmastar_prove::certify::no_plant;
 use sigmastar_theory::data::Data;
 
@@ -35,15 +35,11 @@ pub fn falsify(claim: &TriedClaim, settings: TrialSettings, progress: &dyn Progr
         let findings = settings.numbers().iter().map(|_| Finding::Unfinished(reason.to_string())).collect();
         return Falsification { settings, findings };
     }
-    let findings = settings
-        .numbers()
-        .into_par_iter()
-        .map(|number| {
-            let finding = run_trial(claim, settings.seed, number);
-            progress.advance();
-            finding
-        })
-        .collect();
+    let findings = parallel::map(&settings.numbers(), |&number| {
+        let finding = run_trial(claim, settings.seed, number);
+        progress.advance();
+        finding
+    });
     Falsification { settings, findings }
 }
 

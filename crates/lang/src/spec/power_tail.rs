@@ -47,11 +47,6 @@ pub fn power_tail(first: u64, exponent: &Enclosure, precision: u32) -> Enclosure
     )
 }
 
-/// The number itself.
-fn point(value: &Float) -> Enclosure {
-    Enclosure::new(value.clone(), value.clone())
-}
-
 /// `n^-p`: two correctly rounded powers, which is cheaper than the general power of two intervals.
 fn inverse_power(n: &Float, p: &Float) -> Enclosure {
     let minus_p = Float::with_val(p.prec(), -p);
@@ -62,7 +57,7 @@ fn inverse_power(n: &Float, p: &Float) -> Enclosure {
 /// `first^-p <= sum <= first^-p + int_first^oo x^-p dx`.
 fn integral_test(first: &Float, p: &Float) -> Enclosure {
     let leading = inverse_power(first, p);
-    let upper = &leading * &(1 + point(first) / (point(p) - 1));
+    let upper = &leading * &(1 + Enclosure::point(first) / (Enclosure::point(p) - 1));
     leading.hull(&upper)
 }
 
@@ -78,7 +73,7 @@ fn euler_maclaurin(first: &Float, p: &Float, start: u32, corrections: usize) -> 
         last += 1;
     }
     let value = inverse_power(&last, p);
-    let (n, p) = (&point(&last), &point(p));
+    let (n, p) = (&Enclosure::point(&last), &Enclosure::point(p));
     sum = sum + &value * n / (p - 1) + &value / 2;
 
     // The correction of index k is B_2k/(2k)! p (p+1) ... (p+2k-2) n^(-p-2k+1). At every turn of the loop `omitted` is

@@ -4,7 +4,7 @@ use super::parts::Constant;
 use super::power_tail::power_tail;
 use super::quantity::Quantity;
 use crate::expr::Monomial;
-use rug::{Float, Integer, Rational, float::Round};
+use rug::{Integer, Rational};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::Portable;
 
@@ -40,7 +40,7 @@ impl Weights {
     /// An enclosure of n_l, rounded outward to `precision` bits; exact up to that rounding where n_l has an exact form.
     #[must_use]
     pub fn weight(&self, l: u64, precision: u32) -> Enclosure {
-        round_outward(&self.weight_at(l, precision.saturating_add(GUARD_BITS)), precision)
+        self.weight_at(l, precision.saturating_add(GUARD_BITS)).at_precision(precision)
     }
 
     /// A double near n_l: for searches and display only.
@@ -70,7 +70,7 @@ impl Weights {
                 values.iter().fold(coefficient.enclose(work) * tail, |sum, value| sum + value.enclose(work))
             }
         };
-        round_outward(&total, precision)
+        total.at_precision(precision)
     }
 
     /// n_l in its exact form, where there is one, and by enclosures.
@@ -122,17 +122,11 @@ fn listed(values: &[Constant], l: u64) -> Option<&Constant> {
     usize::try_from(l).ok().and_then(|l| values.get(l))
 }
 
-fn round_outward(value: &Enclosure, precision: u32) -> Enclosure {
-    Enclosure::new(
-        Float::with_val_round(precision, value.lower(), Round::Down).0,
-        Float::with_val_round(precision, value.upper(), Round::Up).0,
-    )
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::expr::{Expr, Variables};
+    use rug::{Float, float::Round};
 
     fn constant(text: &str) -> Constant {
         let expr = Expr::parse(text, Variables::None).unwrap();

@@ -6,30 +6,7 @@ use super::{Bearing, Class, Erratum, ForData, Side};
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_theory::data::Data;
-
-/// Whether the monic polynomial `s^d + c_1 s^(d-1) + ... + c_d` has all its zeros in the open left half plane, exactly.
-///
-/// Routh's criterion: with a positive leading coefficient this holds if and only if every entry of the first column of
-/// the array is positive (they are quotients of consecutive Hurwitz determinants).
-fn is_hurwitz(coefficients: &[Rational]) -> bool {
-    let mut all = vec![Rational::from(1)];
-    all.extend_from_slice(coefficients);
-    let mut upper: Vec<Rational> = all.iter().step_by(2).cloned().collect();
-    let mut lower: Vec<Rational> = all.iter().skip(1).step_by(2).cloned().collect();
-    while let Some(pivot) = lower.first().cloned() {
-        if pivot <= 0 {
-            return false;
-        }
-        let factor = upper.first().map_or_else(Rational::new, |first| Rational::from(first / &pivot));
-        let next = (1..upper.len()).map(|j| {
-            let below = lower.get(j).map_or_else(Rational::new, |entry| Rational::from(entry * &factor));
-            &upper[j] - below
-        });
-        let next = next.collect();
-        upper = std::mem::replace(&mut lower, next);
-    }
-    true
-}
+use sigmastar_theory::derivation::relative_degree::{is_hurwitz, printed_polynomial};
 
 /// `det(s I - A)` of the companion matrix with last row `(-a_1, -a_2, -a_3)`, by expansion along the first column.
 fn companion_characteristic(a: &[i64; 3], s: i64) -> i64 {
@@ -110,49 +87,16 @@ fn for_data(data: &Data<'_>) -> ForData {
         return ForData::new(Bearing::Harmless, "the specification has relative degree one");
     };
     let rationals: Option<Vec<Rational>> = filter.a.iter().map(|constant| constant.as_rational().cloned()).collect();
-    let Some(printed_order) = rationals else {
+    let Some(a) = rationals else {
         return ForData::new(Bearing::Depends, "the coefficients are not all rational");
     };
-    let true_order: Vec<Rational> = printed_order.iter().rev().cloned().collect();
-    let (bearing, summary) = match (is_hurwitz(&printed_order), is_hurwitz(&true_order)) {
+    let (bearing, summary) = match (printed_polynomial(&a).is_ok(), is_hurwitz(&a)) {
         (true, false) => (Bearing::Bites, "the printed order accepts the coefficients, but the dynamics are unstable"),
         (false, true) => (Bearing::Bites, "the printed order refuses the coefficients, but the dynamics are stable"),
         (true, true) => (Bearing::Harmless, "the coefficients are Hurwitz in both orders"),
         (false, false) => (Bearing::Harmless, "the coefficients are Hurwitz in neither order"),
     };
-    printed_order.into_iter().enumerate().fold(ForData::new(bearing, summary), |for_data, (index, value)| {
+    a.into_iter().enumerate().fold(ForData::new(bearing, summary), |for_data, (index, value)| {
         for_data.figure(format!("a_{}", index + 1), Side::Exact(value))
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn hurwitz(coefficients: &[i64]) -> bool {
-        is_hurwitz(&coefficients.iter().map(|&c| Rational::from(c)).collect::<Vec<_>>())
-    }
-
-    #[test]
-    fn routh() {
-        for (coefficients, expected) in [
-            (&[1][..], true),
-            (&[-1], false),
-            (&[0], false),
-            (&[1, 1], true),
-            (&[0, 1], false),
-            (&[10, 1, 1], true),
-            (&[1, 1, 10], false),
-            // (s^2 + 1)(s + 1) has zeros on the axis.
-            (&[1, 1, 1], false),
-            // (s+1)^4 and (s+1)^5.
-            (&[4, 6, 4, 1], true),
-            (&[5, 10, 10, 5, 1], true),
-            // (s^2 - s + 1)(s+3)^2, all coefficients nonnegative.
-            (&[5, 4, -3, 9], false),
-            (&[1, 2, 3, 4], false),
-        ] {
-            assert_eq!(hurwitz(coefficients), expected, "{coefficients:?}");
-        }
-    }
 }

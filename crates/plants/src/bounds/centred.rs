@@ -54,6 +54,12 @@ fn sum(a: &Option<Enclosure>, b: &Option<Enclosure>) -> Option<Enclosure> {
     }
 }
 
+/// The sum, not yet tightened.
+pub(super) fn plus(a: &Centred, b: &Centred) -> Centred {
+    let slopes = a.slopes.iter().zip(&b.slopes).map(|(a, b)| sum(a, b)).collect();
+    Centred { centre: &a.centre + &b.centre, range: &a.range + &b.range, slopes }
+}
+
 impl Frame {
     /// The number of sides.
     pub(super) fn sides(&self) -> usize {
@@ -90,8 +96,7 @@ impl Frame {
     }
 
     pub(super) fn add(&self, a: &Centred, b: &Centred) -> Centred {
-        let slopes = a.slopes.iter().zip(&b.slopes).map(|(a, b)| sum(a, b)).collect();
-        self.tightened(Centred { centre: &a.centre + &b.centre, range: &a.range + &b.range, slopes })
+        self.tightened(plus(a, b))
     }
 
     pub(super) fn sub(&self, a: &Centred, b: &Centred) -> Centred {

@@ -13,7 +13,7 @@ use super::side::Side;
 use super::time_cell::TimeCell;
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
-use sigmastar_lang::expr::{MAX_VARIED, PlantVariable, VariableSet};
+use sigmastar_lang::expr::{MAX_STATES, MAX_VARIED, PlantVariable, Walk};
 use sigmastar_lang::spec::{Interval, TrigonometricVector};
 use sigmastar_matrix::is_positive_definite;
 
@@ -63,11 +63,6 @@ struct Axis {
     half: Rational,
 }
 
-/// The parameters among some variables.
-pub(super) fn parameters_in(variables: &VariableSet) -> Vec<usize> {
-    (0..MAX_VARIED).filter(|index| variables.has(PlantVariable::Parameter(*index))).collect()
-}
-
 /// A box in the coordinates.
 pub(super) type Cell = Vec<Side>;
 
@@ -108,6 +103,19 @@ pub(super) struct Active {
     pub(super) error: bool,
     /// Parameters of which intervals are known. Those that move the orbit matter as well where a state does.
     pub(super) parameters: Vec<usize>,
+}
+
+impl Active {
+    /// The variables that some formulas use.
+    pub(super) fn of(walk: &Walk) -> Active {
+        let used = walk.all_variables();
+        Active {
+            time: used.has(PlantVariable::Time),
+            states: (0..MAX_STATES).filter(|index| used.has(PlantVariable::State(*index))).collect(),
+            error: used.has(PlantVariable::Error),
+            parameters: (0..MAX_VARIED).filter(|index| used.has(PlantVariable::Parameter(*index))).collect(),
+        }
+    }
 }
 
 impl Chart {

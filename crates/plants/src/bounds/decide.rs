@@ -1,15 +1,15 @@
 //! Decision of an entry by subdivision (derivation, 11.3 and 11.6).
 
 use super::PRECISION;
-use super::centred::{Centred, Frame, OnBox};
+use super::centred::{Centred, Frame, OnBox, negated};
 use super::chart::{Active, Ball, Cell, Chart, MAX_LEVEL, Placed};
 use super::definite::{SymmetricValues, Verdict, definite, leaves_out, nonnegative};
 use super::eigen::largest;
 use super::engine::{Engine, Tube};
 use super::entry::Entry;
 use super::majorant::Majorant;
-use super::pointwise::{product, roots};
-use super::quantity::{Quantity, Right};
+use super::pointwise::{product, roots, transposed};
+use super::quantity::{Part, Quantity, Right};
 use super::side::Side;
 use super::time_cell::TimeCell;
 use rug::Rational;
@@ -29,6 +29,20 @@ pub struct Decision {
     pub truth: Truth,
     /// The boxes that were examined; of a family in cells the most in one of these, as a share of the effort.
     pub boxes: usize,
+}
+
+impl Decision {
+    /// What holds without a box.
+    pub(super) const TRUE: Decision = Decision { truth: Truth::True, boxes: 0 };
+
+    /// This one and, if it is true, the next one, with the boxes of both.
+    pub(super) fn and(self, next: impl FnOnce() -> Decision) -> Decision {
+        if !self.truth.is_true() {
+            return self;
+        }
+        let next = next();
+        Decision { boxes: self.boxes + next.boxes, ..next }
+    }
 }
 
 /// Examines boxes until all hold, one fails or the effort is spent.
@@ -151,7 +165,7 @@ impl Engine {
     /// with a part of it: so that a family takes little more than a plant does, here and where it is checked. `boxes` is not below the effort
     /// where that was not enough.
     pub(super) fn in_all(&self, effort: usize, mut decide: impl FnMut(&Tube, usize) -> Decision) -> Decision {
-        let mut all = Decision { truth: Truth::True, boxes: 0 };
+        let mut all = Decision::TRUE;
         let parts = self.parts();
         for tube in self.tubes() {
             let decision = decide(tube, effort.div_ceil(parts));
@@ -209,6 +223,14 @@ pub(super) struct Values<'a> {
     error: &'a Centred,
 }
 
+/// J by rows, g as a column, r and d on a box, in the coordinates y; what a part does not have is empty.
+pub(super) struct InY {
+    pub(super) jacobian: Vec<Vec<Centred>>,
+    pub(super) column: Vec<Vec<Centred>>,
+    pub(super) row: Vec<Centred>,
+    pub(super) slope: Option<Centred>,
+}
+
 impl Values<'_> {
     /// The matrix of the quantity, in the coordinates y.
     pub(super) fn matrix(&self) -> Vec<Vec<Centred>> {
@@ -242,18 +264,32 @@ impl Values<'_> {
         let l = self.engine.region().matrix();
         let right: Vec<Vec<Centred>> =
             self.product(l, &row.chunks(l.len().max(1)).map(<[Centred]>::to_vec).collect::<Vec<_>>(), true);
-        let transposed: Vec<Vec<Centred>> =
-            (0..l.len()).map(|j| right.iter().map(|row| row[j].clone()).collect()).collect();
-        self.product(l, &transposed, true).concat()
+        self.product(l, &transposed(&right), true).concat()
     }
 
-    /// `exact * rows`, or `rows * exact`.
+    /// The first derivatives in the coordinates y; [`Values`] must be those of this part.
+    pub(super) fn in_y(&self, part: Part) -> Option<InY> {
+        let region = self.engine.region();
+        // Without the columns of x there is nothing on the left of L.
+        let l = if part == Part::Error { &[][..] } else { region.matrix() };
+        let mut of_x = self.matrix();
+        let mut of_e: Vec<Vec<Centred>> = of_x.iter_mut().map(|row| row.split_off(l.len())).collect();
+        let (row, slope) = (of_x.pop()?, of_e.pop()?.pop());
+        Some(InY {
+            jacobian: self.product(l, &self.product(region.inverse(), &of_x, false), true),
+            column: self.product(region.inverse(), &of_e, false),
+            row: self.product(l, &[row], true).concat(),
+            slope,
+        })
+    }
+
+    /// `exact * rows`, or `rows * exact` for a square one.
     pub(super) fn product(&self, exact: &[Vec<Rational>], rows: &[Vec<Centred>], right: bool) -> Vec<Vec<Centred>> {
         let frame = self.frame;
         let columns = if right { exact.len() } else { rows.first().map_or(0, Vec::len) };
         let entry = |i: usize, j: usize| {
             let zero = frame.constant(Enclosure::zero(PRECISION));
-            (0..exact.len()).fold(zero, |sum, k| {
+            (0..if right { exact.len() } else { exact[i].len() }).fold(zero, |sum, k| {
                 let (factor, value) = if right { (&exact[k][j], &rows[i][k]) } else { (&exact[i][k], &rows[k][j]) };
                 if leaves_out(factor, value) {
                     return sum;
@@ -261,7 +297,8 @@ impl Values<'_> {
                 frame.add(&sum, &frame.scale(value, &Enclosure::from_rational(factor, PRECISION)))
             })
         };
-        (0..rows.len()).map(|i| (0..columns).map(|j| entry(i, j)).collect()).collect()
+        let count = if right { rows.len() } else { exact.len() };
+        (0..count).map(|i| (0..columns).map(|j| entry(i, j)).collect()).collect()
     }
 
     /// The value in the middle of the box, and how far the others may be from it, in doubles; of a rate the negative. Nothing
@@ -295,11 +332,7 @@ impl Values<'_> {
         let middles: Vec<Vec<f64>> = values.iter().map(|row| row.iter().map(|value| value[0]).collect()).collect();
         let middle = match &middles[..] {
             [row] if kind == Bound::QeMax => row.first().copied().unwrap_or(f64::NAN),
-            rows => {
-                let transposed: Vec<Vec<f64>> =
-                    (0..rows.first().map_or(0, Vec::len)).map(|j| rows.iter().map(|row| row[j]).collect()).collect();
-                largest(product(&transposed, rows)).max(0.0).sqrt()
-            }
+            rows => largest(product(&transposed(rows), rows)).max(0.0).sqrt(),
         };
         [middle, reach]
     }
@@ -351,6 +384,23 @@ impl Values<'_> {
             })
         };
         Some(p.iter().map(entry).collect())
+    }
+
+    /// `-(P J + J^T P) - c_x I` for a constant P.
+    pub(super) fn steady_decay(
+        &self,
+        p: &[Vec<Rational>],
+        jacobian: &[Vec<Centred>],
+        c_x: &Rational,
+    ) -> Vec<(usize, usize, Centred)> {
+        let frame = self.frame;
+        let turned = self.product(p, jacobian, false);
+        let entry = |(i, j): (usize, usize)| {
+            let sum = frame.add(&turned[i][j], &turned[j][i]);
+            let sum = if i == j { frame.add(&sum, &frame.rational(c_x)) } else { sum };
+            (i, j, negated(&sum))
+        };
+        (0..p.len()).flat_map(|i| (i..p.len()).map(move |j| (i, j))).map(entry).collect()
     }
 
     /// `-(P' + P J + J^T P + 2 value P)`.

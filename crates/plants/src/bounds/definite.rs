@@ -6,7 +6,7 @@
 //! `K^T S K` is positive definite then K has an inverse, and S is positive definite.
 
 use super::PRECISION;
-use super::centred::{Centred, Frame};
+use super::centred::{Centred, Frame, plus};
 use super::chart::Ball;
 use super::eigen::eigen;
 use rug::Rational;
@@ -249,17 +249,6 @@ pub(super) fn definite(frame: &Frame, matrix: &SymmetricValues, ball: &Ball) -> 
 /// Whether a product is 0 for the factor's sake: 0 times what may be undefined is undefined.
 pub(super) fn leaves_out(factor: &Rational, value: &Centred) -> bool {
     factor.is_zero() && value.range.is_defined()
-}
-
-/// The sum, without tightening on the way.
-fn plus(a: &Centred, b: &Centred) -> Centred {
-    let slopes = a.slopes.iter().zip(&b.slopes).map(|pair| match pair {
-        (Some(a), Some(b)) => Some(a + b),
-        (Some(a), None) => Some(a.clone()),
-        (None, b) => b.clone(),
-    });
-    let slopes = slopes.collect();
-    Centred { centre: &a.centre + &b.centre, range: &a.range + &b.range, slopes }
 }
 
 /// Elimination by enclosures with lower bounds of the diagonal: whether every pivot is positive, or the first that is not.

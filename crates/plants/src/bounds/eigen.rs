@@ -5,37 +5,30 @@ use sigmastar_exact::number::Portable;
 /// Sweeps after which the rotations end; convergence is quadratic.
 const SWEEPS: usize = 12;
 
-/// The eigenvalues of a symmetric matrix, and the eigenvectors as columns. Of the entries both triangles are read.
-pub(super) fn eigen(mut matrix: Vec<Vec<f64>>) -> (Vec<f64>, Vec<Vec<f64>>) {
-    let order = matrix.len();
-    let mut vectors: Vec<Vec<f64>> = (0..order).map(|i| (0..order).map(|j| f64::from(i == j)).collect()).collect();
+/// Rotates a symmetric matrix by rows until it is diagonal, and the rows of `vectors` with it.
+fn rotate(matrix: &mut [f64], order: usize, vectors: &mut [f64]) {
     for _ in 0..SWEEPS {
         let mut rotated = false;
         for p in 0..order {
             for q in p + 1..order {
-                let off = matrix[p][q];
-                let size = matrix[p][p].abs() + matrix[q][q].abs();
+                let off = matrix[p * order + q];
+                let (at_p, at_q) = (matrix[p * order + p], matrix[q * order + q]);
                 // A NaN ends it as well.
-                if off == 0.0 || off.abs() <= size * 1e-15 || !off.is_finite() {
+                if off == 0.0 || off.abs() <= (at_p.abs() + at_q.abs()) * 1e-15 || !off.is_finite() {
                     continue;
                 }
                 rotated = true;
-                let theta = (matrix[q][q] - matrix[p][p]) / (2.0 * off);
+                let theta = (at_q - at_p) / (2.0 * off);
                 let tangent = theta.signum() / (theta.abs() + (theta * theta + 1.0).sqrt());
                 let cosine = 1.0 / (tangent * tangent + 1.0).sqrt();
                 let sine = tangent * cosine;
-                for row in &mut matrix {
+                for row in matrix.chunks_mut(order).chain(vectors.chunks_mut(order)) {
                     let (a, b) = (row[p], row[q]);
                     (row[p], row[q]) = (cosine * a - sine * b, sine * a + cosine * b);
                 }
-                // p < q.
-                let (above, below) = matrix.split_at_mut(q);
-                for (upper, lower) in above[p].iter_mut().zip(&mut below[0]) {
-                    (*upper, *lower) = (cosine * *upper - sine * *lower, sine * *upper + cosine * *lower);
-                }
-                for row in &mut vectors {
-                    let (a, b) = (row[p], row[q]);
-                    (row[p], row[q]) = (cosine * a - sine * b, sine * a + cosine * b);
+                for k in 0..order {
+                    let (a, b) = (matrix[p * order + k], matrix[q * order + k]);
+                    (matrix[p * order + k], matrix[q * order + k]) = (cosine * a - sine * b, sine * a + cosine * b);
                 }
             }
         }
@@ -43,7 +36,16 @@ pub(super) fn eigen(mut matrix: Vec<Vec<f64>>) -> (Vec<f64>, Vec<Vec<f64>>) {
             break;
         }
     }
-    ((0..order).map(|i| matrix[i][i]).collect(), vectors)
+}
+
+/// The eigenvalues of a symmetric matrix, and the eigenvectors as columns. Of the entries both triangles are read.
+pub(super) fn eigen(matrix: Vec<Vec<f64>>) -> (Vec<f64>, Vec<Vec<f64>>) {
+    let order = matrix.len();
+    let mut matrix = matrix.concat();
+    let mut vectors: Vec<f64> = (0..order * order).map(|k| f64::from(k / order == k % order)).collect();
+    rotate(&mut matrix, order, &mut vectors);
+    let rows = vectors.chunks(order.max(1)).map(<[f64]>::to_vec).collect();
+    ((0..order).map(|i| matrix[i * order + i]).collect(), rows)
 }
 
 /// The largest eigenvalue of a symmetric matrix; of order 0, negative infinity.
@@ -62,34 +64,7 @@ pub(super) fn largest_of(matrix: &mut [f64], order: usize) -> f64 {
         (3, [a, b, c, _, d, e, _, _, f]) => return largest_of_three([*a, *d, *f], [*b, *c, *e]),
         _ => {}
     }
-    for _ in 0..SWEEPS {
-        let mut rotated = false;
-        for p in 0..order {
-            for q in p + 1..order {
-                let off = matrix[p * order + q];
-                let (at_p, at_q) = (matrix[p * order + p], matrix[q * order + q]);
-                if off == 0.0 || off.abs() <= (at_p.abs() + at_q.abs()) * 1e-15 || !off.is_finite() {
-                    continue;
-                }
-                rotated = true;
-                let theta = (at_q - at_p) / (2.0 * off);
-                let tangent = theta.signum() / (theta.abs() + (theta * theta + 1.0).sqrt());
-                let cosine = 1.0 / (tangent * tangent + 1.0).sqrt();
-                let sine = tangent * cosine;
-                for row in matrix.chunks_mut(order) {
-                    let (a, b) = (row[p], row[q]);
-                    (row[p], row[q]) = (cosine * a - sine * b, sine * a + cosine * b);
-                }
-                for k in 0..order {
-                    let (a, b) = (matrix[p * order + k], matrix[q * order + k]);
-                    (matrix[p * order + k], matrix[q * order + k]) = (cosine * a - sine * b, sine * a + cosine * b);
-                }
-            }
-        }
-        if !rotated {
-            break;
-        }
-    }
+    rotate(matrix, order, &mut []);
     (0..order).map(|i| matrix[i * order + i]).fold(f64::NEG_INFINITY, f64::max)
 }
 

@@ -1,13 +1,13 @@
 //! The free numbers of the matrix inequality (E) of existence (derivation, 13.7), proposed by semidefinite programs over sampled points.
 
 use super::place::{Place, Places};
-use super::pointwise::{Derivatives, MatrixAt};
+use super::pointwise::{Derivatives, MatrixAt, Slopes};
 use super::suprema::FloatSuprema;
 use super::weights::{EnergyAt, EnergyWeights};
 use sigmastar_lang::spec::Bound;
-use sigmastar_matrix::AffineMatrix;
 use sigmastar_matrix::semidefinite::propose;
-use std::sync::Arc;
+use sigmastar_matrix::symmetric::triangle;
+use sigmastar_matrix::{AffineMatrix, Symmetric};
 
 /// Points that are added where what was found holds least, and how often.
 const POINTS: usize = 6;
@@ -58,67 +58,39 @@ impl FloatSuprema {
     }
 }
 
-/// Derivatives at one point.
-struct Point {
-    j: Vec<f64>,
-    g: Vec<f64>,
-    r: Vec<f64>,
-    d: f64,
-}
-
 /// The programs for given points.
 struct Program {
-    points: Vec<Point>,
+    points: Vec<Slopes>,
     value: f64,
     /// The 1 - b of an input gain.
     moves: Option<[f64; 2]>,
 }
 
 impl Program {
-    fn add(&mut self, samples: &FloatSuprema, at: [f64; 2], mut places: Vec<Place>) {
-        places.sort_unstable();
-        places.dedup();
-        let point = |Derivatives { j, g, r, d }: &Derivatives<'_>, _: &MatrixAt| {
+    fn add(&mut self, samples: &FloatSuprema, at: [f64; 2], places: Vec<Place>) {
+        let point = |derivatives: &Derivatives<'_>, _: &MatrixAt| {
             // (1-b) sigma, at both ends, has its place beside d.
-            let slopes = self.moves.map_or_else(|| vec![*d], |moves| moves.map(|share| d + share * self.value).into());
-            let at = |d: f64| Point { j: j.to_vec(), g: g.to_vec(), r: r.to_vec(), d };
-            slopes.into_iter().map(at).collect::<Vec<Point>>()
+            let d = derivatives.d;
+            let slopes = self.moves.map_or_else(|| vec![d], |moves| moves.map(|share| d + share * self.value).into());
+            slopes.into_iter().map(|d| Slopes { d, ..Slopes::from(derivatives) }).collect::<Vec<Slopes>>()
         };
-        let points = samples.of_derivatives(at, &Places::Listed(Arc::new(places)), point);
+        let points = samples.of_derivatives(at, &Places::listed(places), point);
         self.points.extend(points.into_iter().flatten());
-    }
-
-    /// The unit of y in which g and r are of one size.
-    fn unit(&self) -> f64 {
-        let norm = |vector: &[f64]| vector.iter().map(|value| value * value).sum::<f64>().sqrt();
-        let largest = |of: fn(&Point) -> &[f64]| self.points.iter().map(|point| norm(of(point))).fold(0.0, f64::max);
-        let (g, r) = (largest(|point| &point.g), largest(|point| &point.r));
-        match (g > 0.0, r > 0.0) {
-            (true, true) => (g / r).sqrt(),
-            (true, false) => g / self.value,
-            (false, true) => self.value / r,
-            (false, false) => 1.0,
-        }
     }
 
     /// The weights, and c_y at the points.
     fn solve(&self) -> Option<(EnergyWeights, f64)> {
-        let unit = self.unit();
+        let unit = Slopes::unit(&self.points, self.value);
         let (_, largest) = self.solution(unit, None)?;
         let kept = KEPT * (largest > 0.0).then_some(largest)?;
         let (variables, room) = self.solution(unit, Some(kept))?;
         let n = self.points.first()?.r.len();
-        let triangle = triangle(n);
         // The weight of e^2 becomes 1.
-        let w = variables[triangle.len()];
+        let w = *variables.last()?;
         if w.min(room) <= 0.0 {
             return None;
         }
-        let mut p = vec![vec![0.0; n]; n];
-        for ((i, j), value) in triangle.iter().zip(&variables) {
-            let value = value / (w * unit * unit);
-            (p[*i][*j], p[*j][*i]) = (value, value);
-        }
+        let p = Symmetric::from_entries(n, &variables).map(|_, _, value| value / (w * unit * unit)).rows();
         let c_x = OF_STATES * room * self.value / (w * unit * unit);
         let k_p = 1.0 / (w * self.value);
         Some((EnergyWeights { p, k_p, c_x, value: self.value }, kept * k_p))
@@ -128,14 +100,14 @@ impl Program {
     /// with `F >= diag(m, m, c)`. Time in units of 1/value, y in that of `unit`.
     fn solution(&self, unit: f64, given: Option<f64>) -> Option<(Vec<f64>, f64)> {
         let n = self.points.first()?.r.len();
-        let triangle = triangle(n);
+        let triangle: Vec<(usize, usize)> = triangle(n).collect();
         let (w, last) = (triangle.len(), triangle.len() + 1);
         let (e, y) = (n, n + 1);
         let value = self.value;
         let mut constraints: Vec<AffineMatrix<f64>> = self
             .points
             .iter()
-            .map(|Point { j: matrix, g, r, d }| {
+            .map(|Slopes { j: matrix, g, r, d }| {
                 let constant = |i: usize, k: usize| match (i.min(k), i.max(k)) {
                     (i, k) if i < n && k == y => -0.5 * r[i] * unit / value,
                     (i, k) if i == e && k == y => -0.5 * d / value,
@@ -196,9 +168,4 @@ impl Program {
         let largest = found.pop()?;
         Some((found, largest))
     }
-}
-
-/// The places (i, j), i <= j, of a symmetric matrix.
-fn triangle(n: usize) -> Vec<(usize, usize)> {
-    (0..n).flat_map(|j| (0..=j).map(move |i| (i, j))).collect()
 }

@@ -14,6 +14,7 @@ use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_lang::expr::{Formulas, Walk};
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{Bound, Constant, Interval, Parameters, PeriodicMatrix, TrigonometricVector};
+use sigmastar_matrix::is_symmetric;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
@@ -314,11 +315,4 @@ pub(super) fn moves(plant: &Plant) -> Option<[Rational; 2]> {
     let [low, high] = gain.factors(PRECISION)?;
     // What is enclosed has bounds.
     Some([&one - low.lower_rational()?, one - high.upper_rational()?])
-}
-
-/// Whether a matrix by rows is symmetric, and of this order.
-pub(super) fn is_symmetric(rows: &[Vec<Rational>], order: usize) -> bool {
-    rows.len() == order
-        && rows.iter().all(|row| row.len() == order)
-        && (0..order).all(|i| (0..i).all(|j| rows[i][j] == rows[j][i]))
 }

@@ -2,7 +2,7 @@
 //! proved.
 
 use super::decide::Decision;
-use super::engine::{Engine, is_symmetric};
+use super::engine::Engine;
 use super::metric_form::MetricForm;
 use super::quantity::Part;
 use super::suprema::FloatSuprema;
@@ -11,6 +11,7 @@ use rug::Rational;
 use sigmastar_exact::enclosure::Truth;
 use sigmastar_exact::number::{Direction, round_f64};
 use sigmastar_lang::spec::{ExistenceInequality, Metric};
+use sigmastar_matrix::is_symmetric;
 
 /// The shares that c_y at samples loses until it is proved, and the boxes that each attempt may take; the first is for derivatives that
 /// do not vary.

@@ -3,13 +3,14 @@
 use super::PRECISION;
 use super::centred::{Centred, Frame, negated};
 use super::chart::Ball;
-use super::decide::{Decision, OnBoxes, Values, subdivide};
+use super::decide::{Decision, InY, OnBoxes, Values, subdivide};
 use super::definite::{SymmetricValues, Verdict, definite};
-use super::engine::{Engine, is_symmetric};
+use super::engine::Engine;
 use super::quantity::Part;
 use rug::Rational;
 use sigmastar_exact::enclosure::{Enclosure, Truth};
 use sigmastar_lang::spec::{Bound, Constant, MatrixInequality, Splitting};
+use sigmastar_matrix::is_symmetric;
 
 impl Engine {
     /// Decides the inequality, with so many boxes for each of its parts at most; mu is that of the internal model.
@@ -42,12 +43,8 @@ impl Engine {
         }
         // With the first, F is at least what the second is about.
         let first = self.decide_part(Part::States, of_states, effort, |values| form.beyond(matrix, values));
-        if !first.truth.is_true() {
-            return first;
-        }
         let beside = |values: &Values<'_>, moved: &Rational| form.beside(matrix, values, moved);
-        let second = self.decide_ends(&ends, (Part::Error, of_error), effort, beside);
-        Decision { boxes: first.boxes + second.boxes, ..second }
+        first.and(|| self.decide_ends(&ends, (Part::Error, of_error), effort, beside))
     }
 
     /// The same of a matrix at each of the moves of d, of which there are two where there is an input gain.
@@ -58,15 +55,9 @@ impl Engine {
         effort: usize,
         matrix: impl Fn(&Values<'_>, &Rational) -> Option<SymmetricValues>,
     ) -> Decision {
-        let mut all = Decision { truth: Truth::True, boxes: 0 };
-        for moved in ends {
-            let decision = self.decide_part(part, at, effort, |values| matrix(values, moved));
-            all = Decision { boxes: all.boxes + decision.boxes, ..decision };
-            if !all.truth.is_true() {
-                break;
-            }
-        }
-        all
+        ends.iter().fold(Decision::TRUE, |all, moved| {
+            all.and(|| self.decide_part(part, at, effort, |values| matrix(values, moved)))
+        })
     }
 
     /// Decides that a matrix of these derivatives is positive definite on `G(X, E)`.
@@ -118,27 +109,19 @@ impl Form {
 
     /// F in (x, e, y), from all derivatives, and what d is moved by.
     fn whole(&self, values: &Values<'_>, moved: &Rational) -> Option<SymmetricValues> {
-        let matrix = values.matrix();
-        let n = matrix.len() - 1;
-        let halves: Vec<(Vec<Centred>, Vec<Centred>)> = matrix
-            .into_iter()
-            .map(|mut row| {
-                let last = row.split_off(n);
-                (row, last)
-            })
-            .collect();
-        let (of_states, of_error): (Vec<_>, Vec<_>) = halves.into_iter().unzip();
-        let mut entries = self.of_states(values, of_states, n + 1)?;
-        entries.extend(self.of_error(values, of_error, moved)?);
+        let all = values.in_y(Part::All)?;
+        let n = all.row.len();
+        let mut entries = self.of_states(values, &all, n + 1)?;
+        entries.extend(self.of_error(values, &all, moved)?);
         Some(SymmetricValues { order: n + 2, entries })
     }
 
     /// F without the row of e, less S, from (J, r).
     fn beyond(&self, s: &[Vec<Rational>], values: &Values<'_>) -> Option<SymmetricValues> {
         let frame = values.frame;
-        let of_states = values.matrix();
-        let n = of_states.len() - 1;
-        let mut entries = self.of_states(values, of_states, n)?;
+        let of_states = values.in_y(Part::States)?;
+        let n = of_states.row.len();
+        let mut entries = self.of_states(values, &of_states, n)?;
         for (i, j, value) in &mut entries {
             *value = frame.sub(value, &frame.rational(&s[*i][*j]));
         }
@@ -148,9 +131,9 @@ impl Form {
     /// `[[S, v], [v', 2 value]]` in the order (x, e, y), from (g, d).
     fn beside(&self, s: &[Vec<Rational>], values: &Values<'_>, moved: &Rational) -> Option<SymmetricValues> {
         let frame = values.frame;
-        let of_error = values.matrix();
-        let n = of_error.len() - 1;
-        let mut entries = self.of_error(values, of_error, moved)?;
+        let of_error = values.in_y(Part::Error)?;
+        let n = of_error.column.len();
+        let mut entries = self.of_error(values, &of_error, moved)?;
         let place = |index: usize| if index == n { n + 1 } else { index };
         let upper = (0..=n).flat_map(|i| (i..=n).map(move |j| (i, j)));
         entries.extend(upper.map(|(i, j)| (place(i), place(j), frame.rational(&s[i][j]))));
@@ -158,18 +141,12 @@ impl Form {
     }
 
     /// The block of x and y, which stands in the row `y`: all of it, zeros too.
-    fn of_states(&self, values: &Values<'_>, mut derivatives: Vec<Vec<Centred>>, y: usize) -> Option<Entries> {
+    fn of_states(&self, values: &Values<'_>, InY { jacobian, row, .. }: &InY, y: usize) -> Option<Entries> {
         let frame = values.frame;
-        let region = values.engine.region();
-        let row = derivatives.pop()?;
-        let n = row.len();
         let mut entries = Entries::new();
-        if n > 0 {
-            let jacobian = values.product(region.inverse(), &derivatives, false);
-            let jacobian = values.product(region.matrix(), &jacobian, true);
-            let decay = values.decay(Bound::Rate, &jacobian, &frame.constant(self.rate.clone()))?;
+        if !row.is_empty() {
+            let decay = values.decay(Bound::Rate, jacobian, &frame.constant(self.rate.clone()))?;
             entries.extend(decay.entries.into_iter().map(|(i, j, value)| (i, j, frame.scale(&value, &self.w_x))));
-            let row = values.product(region.matrix(), &[row], true).concat();
             entries
                 .extend(row.iter().enumerate().map(|(i, value)| (i, y, negated(&frame.scale(value, &self.half_k_p)))));
         }
@@ -178,14 +155,13 @@ impl Form {
     }
 
     /// The row of e, which is the last but one.
-    fn of_error(&self, values: &Values<'_>, mut derivatives: Vec<Vec<Centred>>, moved: &Rational) -> Option<Entries> {
+    fn of_error(&self, values: &Values<'_>, InY { column, slope, .. }: &InY, moved: &Rational) -> Option<Entries> {
         let frame = values.frame;
-        let slope = moved_by(frame, derivatives.pop()?.pop()?, moved);
-        let n = derivatives.len();
+        let slope = moved_by(frame, slope.clone()?, moved);
+        let n = column.len();
         let mut entries = Entries::new();
         if n > 0 {
-            let column = values.product(values.engine.region().inverse(), &derivatives, false);
-            let moved = values.times_p(&column)?;
+            let moved = values.times_p(column)?;
             entries.extend(
                 moved.into_iter().enumerate().map(|(i, value)| (i, n, negated(&frame.scale(&value, &self.w_x)))),
             );

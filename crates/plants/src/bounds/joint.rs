@@ -1,13 +1,13 @@
 //! The joint inequality (Jm) of existence or of stability (derivation, 13.7): decided with enclosures by subdivision.
 
 use super::decide::Decision;
-use super::engine::{Engine, is_symmetric};
+use super::engine::Engine;
 use super::metric_form::MetricForm;
 use super::quantity::Part;
 use rug::Rational;
 use sigmastar_exact::enclosure::Truth;
 use sigmastar_lang::spec::{JointInequality, JointStability, Level, Metric};
-use sigmastar_matrix::is_positive_definite;
+use sigmastar_matrix::{is_positive_definite, is_symmetric};
 
 const FALSE: Decision = Decision { truth: Truth::False, boxes: 0 };
 
@@ -43,12 +43,8 @@ impl Engine {
             of_e: Rational::from(of_e * value) * 2,
             moved: Rational::new(),
         });
-        let first = self.decide_part(Part::All, [x, e], effort, |values| of_near.matrix(values));
-        if !first.truth.is_true() {
-            return first;
-        }
-        let second = self.decide_part(Part::All, [x, e], effort, |values| of_far.matrix(values));
-        Decision { boxes: first.boxes + second.boxes, ..second }
+        let decide = |form: &MetricForm| self.decide_part(Part::All, [x, e], effort, |values| form.matrix(values));
+        decide(&of_near).and(|| decide(&of_far))
     }
 
     /// The same of one that proves stability.

@@ -2,13 +2,12 @@
 
 use super::eigen::largest;
 use super::place::{Place, Places};
-use super::pointwise::Derivatives;
+use super::pointwise::{Derivatives, Slopes};
 use super::suprema::FloatSuprema;
 use super::weights::Root;
 use sigmastar_lang::spec::Bound;
-use sigmastar_matrix::AffineMatrix;
 use sigmastar_matrix::semidefinite::propose;
-use std::sync::Arc;
+use sigmastar_matrix::{AffineMatrix, Symmetric};
 
 /// Points that are added where what was found does not hold, and how often.
 const POINTS: usize = 6;
@@ -172,18 +171,10 @@ impl FloatSuprema {
     }
 }
 
-/// Derivatives at one point.
-struct Point {
-    j: Vec<f64>,
-    g: Vec<f64>,
-    r: Vec<f64>,
-    d: f64,
-}
-
 /// The programs for given points. Time in units of 1/value, x and e in those that are given, y in that of e times the value: then sigma
 /// is 1. The variables are P, p, w, k_p of the near metric, P, w, k_p of the far one, and what a program has beside.
 struct Program {
-    points: Vec<Point>,
+    points: Vec<Slopes>,
     value: f64,
     units: [f64; 2],
     n: usize,
@@ -192,58 +183,48 @@ struct Program {
 type Matrix = Vec<Vec<f64>>;
 
 impl Program {
-    fn add(&mut self, samples: &FloatSuprema, at: [f64; 2], mut places: Vec<Place>) {
-        places.sort_unstable();
-        places.dedup();
-        let places = Places::Listed(Arc::new(places));
-        let points = samples.of_derivatives(at, &places, |derivatives, _| self.point(derivatives));
+    fn add(&mut self, samples: &FloatSuprema, at: [f64; 2], places: Vec<Place>) {
+        let points = samples.of_derivatives(at, &Places::listed(places), |derivatives, _| self.point(derivatives));
         self.points.extend(points);
     }
 
-    fn point(&self, Derivatives { j, g, r, d }: &Derivatives<'_>) -> Point {
+    fn point(&self, Derivatives { j, g, r, d }: &Derivatives<'_>) -> Slopes {
         let value = |values: &[f64]| values.iter().map(|entry| entry / self.value).collect();
-        Point { j: value(j), g: value(g), r: value(r), d: d / self.value }
+        Slopes { j: value(j), g: value(g), r: value(r), d: d / self.value }
     }
 
     /// Units of x and e in which g and r are of one size.
     fn balanced(&self) -> [f64; 2] {
-        let norm = |vector: &[f64]| vector.iter().map(|value| value * value).sum::<f64>().sqrt();
-        let most = |of: fn(&Point) -> &[f64]| self.points.iter().map(|point| norm(of(point))).fold(0.0, f64::max);
-        let (g, r) = (most(|point| &point.g), most(|point| &point.r));
+        let [g, r] = Slopes::largest(&self.points);
         [if g > 0.0 && r > 0.0 { (g / r).sqrt() } else { 1.0 }, 1.0]
     }
 
-    fn triangle(&self) -> Vec<(usize, usize)> {
-        (0..self.n).flat_map(|j| (0..=j).map(move |i| (i, j))).collect()
+    /// The number of entries of P.
+    fn triangle(&self) -> usize {
+        self.n * (self.n + 1) / 2
     }
 
     /// The number of variables of the two metrics.
     fn size(&self) -> usize {
-        2 * (self.triangle().len() + 2) + self.n
+        2 * (self.triangle() + 2) + self.n
     }
 
     /// P, p, w, k_p of both metrics, in the units.
     fn parts(&self, variables: &[f64]) -> [(Matrix, Vec<f64>, f64, f64); 2] {
         let triangle = self.triangle();
-        let matrix = |entries: &[f64]| {
-            let mut p = vec![vec![0.0; self.n]; self.n];
-            for ((i, j), value) in triangle.iter().zip(entries) {
-                (p[*i][*j], p[*j][*i]) = (*value, *value);
-            }
-            p
-        };
-        let (near, far) = variables.split_at(triangle.len() + self.n + 2);
-        let (p, near) = near.split_at(triangle.len());
+        let matrix = |entries: &[f64]| Symmetric::from_entries(self.n, entries).rows();
+        let (near, far) = variables.split_at(triangle + self.n + 2);
+        let (p, near) = near.split_at(triangle);
         let (cross, near) = near.split_at(self.n);
-        let (other, far) = far.split_at(triangle.len());
+        let (other, far) = far.split_at(triangle);
         [(matrix(p), cross.to_vec(), near[0], near[1]), (matrix(other), vec![0.0; self.n], far[0], far[1])]
     }
 
     /// The matrices of both metrics at a point, without margins.
-    fn forms(&self, point: &Point, variables: &[f64]) -> [Matrix; 2] {
+    fn forms(&self, point: &Slopes, variables: &[f64]) -> [Matrix; 2] {
         let [s_x, s_e] = self.units;
         let n = self.n;
-        let Point { j, g, r, d } = point;
+        let Slopes { j, g, r, d } = point;
         let g: Vec<f64> = g.iter().map(|entry| entry * s_e / s_x).collect();
         let r: Vec<f64> = r.iter().map(|entry| entry * s_x / s_e).collect();
         let parts = self.parts(variables);
@@ -268,7 +249,7 @@ impl Program {
     }
 
     /// The matrices at a point less what is left of the margins.
-    fn less_margins(&self, point: &Point, variables: &[f64], margins: &[[f64; 3]; 2]) -> [Matrix; 2] {
+    fn less_margins(&self, point: &Slopes, variables: &[f64], margins: &[[f64; 3]; 2]) -> [Matrix; 2] {
         let mut forms = self.forms(point, variables);
         for (form, margins) in forms.iter_mut().zip(margins) {
             for (i, row) in form.iter_mut().enumerate() {
@@ -279,13 +260,13 @@ impl Program {
     }
 
     /// Whether they are positive definite.
-    fn holds(&self, point: &Point, variables: &[f64], margins: &[[f64; 3]; 2]) -> bool {
+    fn holds(&self, point: &Slopes, variables: &[f64], margins: &[[f64; 3]; 2]) -> bool {
         let lower = |form: Matrix| form.iter().enumerate().flat_map(|(i, row)| row[..=i].to_vec()).collect();
         self.less_margins(point, variables, margins).into_iter().all(|form| Root::new(lower(form)).is_ok())
     }
 
     /// By how much they are not: negative where they are.
-    fn lack(&self, point: &Point, variables: &[f64], margins: &[[f64; 3]; 2]) -> f64 {
+    fn lack(&self, point: &Slopes, variables: &[f64], margins: &[[f64; 3]; 2]) -> f64 {
         let negative = |form: Matrix| form.iter().map(|row| row.iter().map(|entry| -entry).collect()).collect();
         let lacks = self.less_margins(point, variables, margins).map(|form| largest(negative(form)));
         lacks.into_iter().fold(f64::NEG_INFINITY, f64::max)
@@ -315,7 +296,7 @@ impl Program {
         more: usize,
         constant: &[[f64; 3]; 2],
         term: impl Fn(usize, usize) -> Option<[f64; 3]>,
-        point: &Point,
+        point: &Slopes,
     ) -> Vec<AffineMatrix<f64>> {
         let (size, order) = (self.size(), self.n + 2);
         let of_variable = |variable: usize| {
@@ -344,7 +325,7 @@ impl Program {
 
     /// Where the numbers of the metrics stand among the variables: k_p, w of the near and of the far one.
     fn places(&self) -> [[usize; 2]; 2] {
-        let triangle = self.triangle().len();
+        let triangle = self.triangle();
         let near = triangle + self.n;
         let far = near + 2 + triangle;
         [[near + 1, near], [far + 1, far]]

@@ -15,6 +15,15 @@ pub enum Places {
     Listed(Arc<Vec<Place>>),
 }
 
+impl Places {
+    /// These, each once.
+    pub(super) fn listed(mut places: Vec<Place>) -> Places {
+        places.sort_unstable();
+        places.dedup();
+        Places::Listed(Arc::new(places))
+    }
+}
+
 /// What depends on t alone at one time.
 #[derive(Clone, Debug)]
 pub(super) struct Moment {

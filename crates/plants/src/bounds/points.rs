@@ -4,7 +4,7 @@ use super::entry::{TABLE, of_table};
 use super::place::{Outputs, Place, Places, keep, merged};
 use super::pointwise::{Asked, Derivatives, MatrixAt, Pointwise};
 use super::suprema::FloatSuprema;
-use rayon::prelude::*;
+use sigmastar_exact::parallel;
 use sigmastar_lang::expr::Evaluator;
 use sigmastar_lang::spec::Bound;
 
@@ -47,7 +47,7 @@ impl FloatSuprema {
         let places = self.places(e, places);
         match places.len() {
             0..=PIECE => vec![piece(&places)],
-            _ => places.par_chunks(PIECE).map(piece).collect(),
+            _ => parallel::map(&places.chunks(PIECE).collect::<Vec<_>>(), |places| piece(places)),
         }
     }
 

@@ -115,6 +115,41 @@ pub(super) struct Derivatives<'a> {
     pub(super) d: f64,
 }
 
+/// The same, to keep.
+#[derive(Clone, Debug)]
+pub(super) struct Slopes {
+    pub(super) j: Vec<f64>,
+    pub(super) g: Vec<f64>,
+    pub(super) r: Vec<f64>,
+    pub(super) d: f64,
+}
+
+impl From<&Derivatives<'_>> for Slopes {
+    fn from(Derivatives { j, g, r, d }: &Derivatives<'_>) -> Slopes {
+        Slopes { j: j.to_vec(), g: g.to_vec(), r: r.to_vec(), d: *d }
+    }
+}
+
+impl Slopes {
+    /// The largest norms of g and of r.
+    pub(super) fn largest(points: &[Slopes]) -> [f64; 2] {
+        let norm = |vector: &[f64]| vector.iter().map(|value| value * value).sum::<f64>().sqrt();
+        let largest = |of: fn(&Slopes) -> &[f64]| points.iter().map(|point| norm(of(point))).fold(0.0, f64::max);
+        [largest(|point| &point.g), largest(|point| &point.r)]
+    }
+
+    /// The unit of x, where e has 1 and time 1/value, in which those are of one size.
+    pub(super) fn unit(points: &[Slopes], value: f64) -> f64 {
+        let [g, r] = Slopes::largest(points);
+        match (g > 0.0, r > 0.0) {
+            (true, true) => (g / r).sqrt(),
+            (true, false) => g / value,
+            (false, true) => value / r,
+            (false, false) => 1.0,
+        }
+    }
+}
+
 /// The coordinates, with the memory that an evaluation works in.
 #[derive(Clone, Debug)]
 pub(super) struct Pointwise {
@@ -293,7 +328,7 @@ impl Pointwise {
     }
 }
 
-fn dot(a: &[f64], b: &[f64]) -> f64 {
+pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
@@ -301,6 +336,10 @@ pub(super) fn product(a: &[Vec<f64>], b: &[Vec<f64>]) -> Vec<Vec<f64>> {
     let columns = b.first().map_or(0, Vec::len);
     let entry = |row: &Vec<f64>, j: usize| row.iter().zip(b).map(|(x, row)| x * row[j]).sum();
     a.iter().map(|row| (0..columns).map(|j| entry(row, j)).collect()).collect()
+}
+
+pub(super) fn transposed<T: Clone>(of: &[Vec<T>]) -> Vec<Vec<T>> {
+    (0..of.first().map_or(0, Vec::len)).map(|i| of.iter().map(|row| row[i].clone()).collect()).collect()
 }
 
 /// The symmetric root of P, and its inverse.

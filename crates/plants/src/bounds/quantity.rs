@@ -1,6 +1,6 @@
 //! The formulas of each bound.
 
-use super::chart::{Active, parameters_in};
+use super::chart::Active;
 use sigmastar_lang::expr::{Formula, Formulas, PlantVariable, Walk};
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::Bound;
@@ -131,13 +131,8 @@ impl Quantity {
             .collect();
         let walk = formulas.walk(&outputs);
         let carried = along.iter().flatten().any(|terms: &Vec<(usize, usize)>| !terms.is_empty());
-        let variables = walk.all_variables();
-        let active = Active {
-            time: variables.has(PlantVariable::Time) || carried || (moves && kind.is_rate()),
-            states: (0..order).filter(|&index| variables.has(PlantVariable::State(index))).collect(),
-            error: variables.has(PlantVariable::Error),
-            parameters: parameters_in(&variables),
-        };
+        let mut active = Active::of(&walk);
+        active.time |= carried || (moves && kind.is_rate());
         let inverse =
             matches!(kind, Bound::Fx | Bound::Fe | Bound::Rate | Bound::RateExistence | Bound::Fxx | Bound::Fex);
         let right = match kind {
@@ -156,13 +151,8 @@ impl Quantity {
         let columns: Vec<Vec<Formula>> = variables.map(|variable| formulas.derivatives(sides, variable)).collect();
         let outputs: Vec<Formula> = (0..=order).flat_map(|row| columns.iter().map(move |column| column[row])).collect();
         let walk = formulas.walk(&outputs);
-        let used = walk.all_variables();
-        let active = Active {
-            time: used.has(PlantVariable::Time) || moves,
-            states: (0..order).filter(|&index| used.has(PlantVariable::State(index))).collect(),
-            error: used.has(PlantVariable::Error),
-            parameters: parameters_in(&used),
-        };
+        let mut active = Active::of(&walk);
+        active.time |= moves;
         let row = |row: usize| (0..columns.len()).map(|column| row * columns.len() + column).collect();
         let plain = (0..=order).map(row).collect();
         Quantity { walk, plain, along: Vec::new(), inverse: false, right: Right::One, active }

@@ -1,7 +1,7 @@
 //! What a right side has to meet to be smooth.
 
-use super::chart::{Active, parameters_in};
-use sigmastar_lang::expr::{Demand, Formulas, PlantExpr, PlantVariable, Walk};
+use super::chart::Active;
+use sigmastar_lang::expr::{Demand, Formulas, PlantExpr, Walk};
 
 /// One demand on a right side, ready to be decided.
 #[derive(Debug)]
@@ -16,14 +16,7 @@ pub(super) struct Requirement {
 impl Requirement {
     pub(super) fn new(index: usize, expr: &PlantExpr, demand: Demand, formulas: &Formulas) -> Requirement {
         let walk = formulas.walk(&[demand.of]);
-        let variables = walk.all_variables();
-        let states = (0..sigmastar_lang::expr::MAX_STATES).filter(|&index| variables.has(PlantVariable::State(index)));
-        let active = Active {
-            time: variables.has(PlantVariable::Time),
-            states: states.collect(),
-            error: variables.has(PlantVariable::Error),
-            parameters: parameters_in(&variables),
-        };
+        let active = Active::of(&walk);
         let part = expr.text().get(demand.span.clone()).unwrap_or_default().to_owned();
         Requirement { index, part, demand, walk, active }
     }

@@ -128,12 +128,10 @@ impl End {
     pub(super) const BOTH: [End; 2] = [End::Start, End::End];
 }
 
-/// The free numbers of F at one end of a sample.
+/// The free numbers of F.
+#[derive(Clone)]
 pub(super) struct FormNumbers<'n, R> {
     pub(super) of: &'n LoopNumbers<R>,
-    pub(super) end: End,
-    /// (1-b) sigma at one end of an input gain.
-    pub(super) moved: R,
     /// The weight of e^2: 1 in every claim, a variable of the programs that propose.
     pub(super) weight: R,
     pub(super) k_p: R,
@@ -144,6 +142,7 @@ pub(super) struct FormNumbers<'n, R> {
 }
 
 /// What F must exceed beside what its block of x holds: so much of e_k^2, of e(s)^2 and of y^2.
+#[derive(Clone)]
 pub(super) struct Less<R> {
     pub(super) e_k: R,
     pub(super) e: R,
@@ -160,7 +159,7 @@ pub(super) struct Parts<V> {
     pub(super) d: V,
 }
 
-/// The entries of F on and above the diagonal in (x, e_k, y, G, w), then q0 where there is one.
+/// The entries of F on and above the diagonal in (x, e_k, y, G, w), then q0 where there is one, at one of [`LoopNumbers::ends`].
 ///
 /// With e(s) = (1 - s sigma) e_k + s y + G the form is that of the block of x, -2 x'P g e(s) + sigma (2 - h sigma) e_k^2
 /// - 2 (1 - h sigma) e_k y - h y^2 + k_p y^2/(1 + theta) - k_p y (r x + d e(s) + q0) + lambda G^2
@@ -170,12 +169,13 @@ pub(super) struct Parts<V> {
 pub(super) fn form<A: Arithmetic>(
     a: &A,
     numbers: FormNumbers<'_, A::Number>,
+    (end, of_gain): (End, &A::Number),
     parts: Parts<A::Value>,
 ) -> Vec<(usize, usize, A::Value)>
 where
     for<'a> &'a A::Number: Operand<A::Number>,
 {
-    let FormNumbers { of, end, moved: of_gain, weight, k_p, lambda, less, gamma } = numbers;
+    let FormNumbers { of, weight, k_p, lambda, less, gamma } = numbers;
     let LoopNumbers { sigma, step, kept, across, .. } = of;
     let int = <A::Number as Real>::int;
     let product = step * sigma;

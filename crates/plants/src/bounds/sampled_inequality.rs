@@ -3,17 +3,18 @@
 
 use super::PRECISION;
 use super::centred::{Centred, Frame};
-use super::decide::{Decision, Values};
+use super::decide::{Decision, InY, Values};
 use super::definite::SymmetricValues;
-use super::engine::{Engine, is_symmetric};
+use super::engine::Engine;
 use super::quantity::Part;
-use super::sampled_form::{End, FormNumbers, Less, LoopNumbers, Parts, form};
+use super::sampled_form::{FormNumbers, Less, LoopNumbers, Parts, form};
 use super::sampled_point::SampledEnergy;
 use super::suprema::FloatSuprema;
 use rug::Rational;
 use sigmastar_exact::enclosure::{Enclosure, Truth};
 use sigmastar_exact::number::{Direction, Portable, round_f64};
 use sigmastar_lang::spec::{Bound, SampledExistence, SampledInequality};
+use sigmastar_matrix::is_symmetric;
 
 /// The shares that gamma at samples gains until it is proved, and the boxes that each attempt may take at either end; the first is
 /// for derivatives that do not vary.
@@ -41,19 +42,9 @@ impl Engine {
         let of = LoopNumbers::enclosed(at, &self.period(), self.moves());
         let [w_x, eta, lambda, rate, c_e, c_y] = [w_x, eta, lambda, rate, c_e, c_y].map(exact);
         let k_p = eta * 2 / &of.gain;
-        self.at_all_ends(&of, [x, e], effort, |values, (end, moved)| {
-            let numbers = FormNumbers {
-                of: &of,
-                end,
-                moved: moved.clone(),
-                weight: Enclosure::one(PRECISION),
-                k_p: k_p.clone(),
-                lambda: lambda.clone(),
-                less: Less { e_k: c_e.clone(), e: zero(), y: c_y.clone() },
-                gamma: None,
-            };
-            Some(form(values.frame, numbers, of_stability(values, &w_x, &rate)?))
-        })
+        let less = Less { e_k: c_e, e: zero(), y: c_y };
+        let numbers = FormNumbers { of: &of, weight: Enclosure::one(PRECISION), k_p, lambda, less, gamma: None };
+        self.at_all_ends(&numbers, [x, e], effort, |values| of_stability(values, &w_x, &rate))
     }
 
     /// Decides the inequality of existence, in the same way.
@@ -71,19 +62,9 @@ impl Engine {
         }
         let of = LoopNumbers::enclosed(at, &self.period(), self.moves());
         let [k_p, c_e, c_y, gamma, lambda] = [k_p, c_e, c_y, gamma, lambda].map(exact);
-        self.at_all_ends(&of, [x, e], effort, |values, (end, moved)| {
-            let numbers = FormNumbers {
-                of: &of,
-                end,
-                moved: moved.clone(),
-                weight: Enclosure::one(PRECISION),
-                k_p: k_p.clone(),
-                lambda: lambda.clone(),
-                less: Less { e_k: zero(), e: c_e.clone(), y: c_y.clone() },
-                gamma: Some(gamma.clone()),
-            };
-            Some(form(values.frame, numbers, of_existence(values, matrix, c_x)?))
-        })
+        let less = Less { e_k: zero(), e: c_e, y: c_y };
+        let numbers = FormNumbers { of: &of, weight: Enclosure::one(PRECISION), k_p, lambda, less, gamma: Some(gamma) };
+        self.at_all_ends(&numbers, [x, e], effort, |values| of_existence(values, matrix, c_x))
     }
 
     /// The inequality of existence with the least gamma that is proved and little above that of the samples; `None` if none is. `samples`
@@ -108,21 +89,15 @@ impl Engine {
     /// That F is positive definite for s = 0 and for s = h, with an input gain at both of its ends.
     fn at_all_ends(
         &self,
-        of: &LoopNumbers<Enclosure>,
+        numbers: &FormNumbers<'_, Enclosure>,
         at: [&Rational; 2],
         effort: usize,
-        entries: impl Fn(&Values<'_>, (End, &Enclosure)) -> Option<Vec<(usize, usize, Centred)>>,
+        parts: impl Fn(&Values<'_>) -> Option<Parts<Centred>>,
     ) -> Decision {
-        let mut boxes = 0;
-        for end in of.ends() {
-            let decision =
-                self.decide_part(Part::All, at, effort, |values| Some(balanced(values.frame, entries(values, end)?)));
-            boxes += decision.boxes;
-            if !decision.truth.is_true() {
-                return Decision { boxes, ..decision };
-            }
-        }
-        Decision { truth: Truth::True, boxes }
+        numbers.of.ends().fold(Decision::TRUE, |all, end| {
+            let entries = |values: &Values<'_>| Some(form(values.frame, numbers.clone(), end, parts(values)?));
+            all.and(|| self.decide_part(Part::All, at, effort, |values| Some(balanced(values.frame, entries(values)?))))
+        })
     }
 }
 
@@ -134,36 +109,11 @@ fn zero() -> Enclosure {
     Enclosure::zero(PRECISION)
 }
 
-/// J, g, r and d on a box, in the coordinates y.
-struct OnBox {
-    jacobian: Vec<Vec<Centred>>,
-    column: Vec<Vec<Centred>>,
-    r: Vec<Centred>,
-    d: Centred,
-}
-
-impl OnBox {
-    fn new(values: &Values<'_>) -> Option<OnBox> {
-        let region = values.engine.region();
-        let mut of_f = values.matrix();
-        let mut r = of_f.pop()?;
-        let n = of_f.len();
-        let d = r.pop()?;
-        let column: Vec<Vec<Centred>> = of_f.iter_mut().map(|row| row.split_off(n)).collect();
-        if n == 0 {
-            return Some(OnBox { jacobian: Vec::new(), column, r, d });
-        }
-        let jacobian = values.product(region.matrix(), &values.product(region.inverse(), &of_f, false), true);
-        let column = values.product(region.inverse(), &column, false);
-        let r = values.product(region.matrix(), &[r], true).concat();
-        Some(OnBox { jacobian, column, r, d })
-    }
-}
-
 /// With w_x P(t): the block of x is `-w_x (P' + P J + J'P + 2 rate P)`.
 fn of_stability(values: &Values<'_>, w_x: &Enclosure, rate: &Enclosure) -> Option<Parts<Centred>> {
     let frame = values.frame;
-    let OnBox { jacobian, column, r, d } = OnBox::new(values)?;
+    let InY { jacobian, column, row: r, slope } = values.in_y(Part::All)?;
+    let d = slope?;
     if r.is_empty() {
         return Some(Parts { decay: Vec::new(), moved: Vec::new(), r, d });
     }
@@ -175,21 +125,9 @@ fn of_stability(values: &Values<'_>, w_x: &Enclosure, rate: &Enclosure) -> Optio
 
 /// With a constant P: the block of x is `-(P J + J'P) - c_x I`.
 fn of_existence(values: &Values<'_>, p: &[Vec<Rational>], c_x: &Rational) -> Option<Parts<Centred>> {
-    let frame = values.frame;
-    let OnBox { jacobian, column, r, d } = OnBox::new(values)?;
-    let n = r.len();
-    if n == 0 {
-        return Some(Parts { decay: Vec::new(), moved: Vec::new(), r, d });
-    }
-    let moved = values.product(p, &jacobian, false);
-    let minus_one = Enclosure::from_integer(-1, PRECISION);
-    let upper = (0..n).flat_map(|i| (i..n).map(move |j| (i, j)));
-    let decay = upper.map(|(i, j)| {
-        let sum = frame.add(&moved[i][j], &moved[j][i]);
-        let sum = if i == j { frame.add(&sum, &frame.rational(c_x)) } else { sum };
-        (i, j, frame.scale(&sum, &minus_one))
-    });
-    Some(Parts { decay: decay.collect(), moved: values.product(p, &column, false).concat(), r, d })
+    let InY { jacobian, column, row: r, slope } = values.in_y(Part::All)?;
+    let decay = values.steady_decay(p, &jacobian, c_x);
+    Some(Parts { decay, moved: values.product(p, &column, false).concat(), r, d: slope? })
 }
 
 /// The same form in variables whose squares have coefficients of about 1: each is multiplied with a power of two, exactly.

@@ -3,11 +3,10 @@
 //!
 //! The points of a pair may have different times: that is what a constant S of [`super::splitting`] allows for.
 
-use super::place::{Place, Places};
+use super::place::Places;
 use super::suprema::FloatSuprema;
 use super::weights::{Column, FloatWeights, Root, Thresholds};
 use sigmastar_lang::spec::Bound;
-use std::sync::Arc;
 
 /// (X, E) of (J, r), and of (g, d).
 #[derive(Clone, Copy, Debug)]
@@ -48,7 +47,7 @@ impl FloatSuprema {
         let mut states = self.where_largest(at.states, places, [Bound::Rate, Bound::Qx]);
         let mut error = self.where_largest(at.error, places, [Bound::Fe, Bound::QeMax]);
         for _ in 0..TURNS {
-            let columns = self.columns(at.error, &listed(&error), weights);
+            let columns = self.columns(at.error, &Places::listed(error.clone()), weights);
             let best = self.largest_of_derivatives(at.states, places, each, |derivatives, matrix| {
                 let mut solved = Vec::new();
                 Root::new(weights.of_states(derivatives, matrix)).map_or_else(
@@ -57,14 +56,14 @@ impl FloatSuprema {
                 )
             });
             states.extend(best.into_iter().map(|(_, place)| place));
-            let roots = self.roots(at.states, &listed(&states), weights).unwrap_or_default();
+            let roots = self.roots(at.states, &Places::listed(states.clone()), weights).unwrap_or_default();
             let best = self.largest_of_derivatives(at.error, places, each, |derivatives, _| {
                 let (column, mut solved) = (weights.of_error(derivatives, self.moves), Vec::new());
                 largest(&roots, |root| root.threshold(&column, &mut solved))
             });
             error.extend(best.into_iter().map(|(_, place)| place));
         }
-        Corners { states: listed(&states), error: listed(&error) }
+        Corners { states: Places::listed(states), error: Places::listed(error) }
     }
 
     /// The largest threshold of pairs of corners; infinite where F has none.
@@ -99,11 +98,4 @@ impl FloatSuprema {
 /// What is not a number counts as infinite.
 fn largest<T>(of: &[T], value: impl FnMut(&T) -> f64) -> f64 {
     of.iter().map(value).fold(f64::NEG_INFINITY, |a, b| if b.is_nan() { f64::INFINITY } else { a.max(b) })
-}
-
-fn listed(places: &[Place]) -> Places {
-    let mut places = places.to_vec();
-    places.sort_unstable();
-    places.dedup();
-    Places::Listed(Arc::new(places))
 }

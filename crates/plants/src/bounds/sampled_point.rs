@@ -1,14 +1,13 @@
 //! The matrix inequalities of the regulator at samples at sampled points, in doubles: they propose, and nothing rests on them.
 
 use super::place::{Place, Places};
-use super::pointwise::{Derivatives, MatrixAt};
+use super::pointwise::{Derivatives, MatrixAt, Slopes};
 use super::sampled_form::{Doubles, End, FormNumbers, Less, LoopNumbers, Parts, form};
 use super::suprema::FloatSuprema;
 use super::weights::Root;
 use rug::Rational;
 use sigmastar_exact::number::Portable;
 use sigmastar_lang::spec::SampledExistence;
-use std::sync::Arc;
 
 /// Powers of four by which lambda is tried where its first guess proves nothing, and the logarithm of the factor up to which it is found.
 const EXPONENTS: std::ops::RangeInclusive<i32> = -7..=7;
@@ -63,21 +62,6 @@ impl From<&SampledExistence> for SampledEnergy {
     }
 }
 
-/// J by rows, g, r and d at a point.
-#[derive(Clone, Debug)]
-pub(super) struct Slopes {
-    pub(super) j: Vec<f64>,
-    pub(super) g: Vec<f64>,
-    pub(super) r: Vec<f64>,
-    pub(super) d: f64,
-}
-
-impl From<&Derivatives<'_>> for Slopes {
-    fn from(Derivatives { j, g, r, d }: &Derivatives<'_>) -> Slopes {
-        Slopes { j: j.to_vec(), g: g.to_vec(), r: r.to_vec(), d: *d }
-    }
-}
-
 impl Slopes {
     /// With a constant P, given by its entries: the block of x is `-(P J + J'P) - c_x I`.
     pub(super) fn with(&self, p: impl Fn(usize, usize) -> f64, c_x: f64) -> Parts<f64> {
@@ -117,12 +101,12 @@ impl SampledWeights {
     fn at(&self, point: &Slopes, lambda: f64) -> f64 {
         let n = point.r.len();
         let order: Vec<usize> = (0..n).chain([n + 1, n + 2, n + 3, n]).collect();
-        let of_end = |(end, moved): (End, &f64)| {
+        let of_end = |end: (End, &f64)| {
             let parts = point.with(|i, k| if i == k { self.w_x } else { 0.0 }, 0.0);
             let less = Less { e_k: 0.0, e: 0.0, y: 0.0 };
             let k_p = 2.0 * self.eta / self.of.gain;
-            let numbers = FormNumbers { of: &self.of, end, moved: *moved, weight: 1.0, k_p, lambda, less, gamma: None };
-            let Bordered { before, mut last } = bordered(&form(&Doubles, numbers, parts), &order);
+            let numbers = FormNumbers { of: &self.of, weight: 1.0, k_p, lambda, less, gamma: None };
+            let Bordered { before, mut last } = bordered(&form(&Doubles, numbers, end, parts), &order);
             let own = last.pop().unwrap_or(f64::NAN);
             match Root::new(before) {
                 Ok(root) => 2.0 * root.half_square(&last) / own,
@@ -138,9 +122,7 @@ impl SampledWeights {
 
     /// The least radius of some points, and its lambda: the set of the lambda with a radius below any number is an interval.
     fn least(&self, points: &[Slopes]) -> SampledRadius {
-        let norm = |vector: &[f64]| vector.iter().map(|value| value * value).sum::<f64>().sqrt();
-        let largest = |of: fn(&Slopes) -> &[f64]| points.iter().map(|point| norm(of(point))).fold(0.0, f64::max);
-        let (g, r) = (largest(|point| &point.g), largest(|point| &point.r));
+        let [g, r] = Slopes::largest(points);
         let k_p = 2.0 * self.eta / self.of.gain;
         // Between what G needs and what w takes, for x and for e.
         let of_states = if r > 0.0 { self.w_x * g / r } else { 0.0 };
@@ -174,12 +156,12 @@ impl SampledEnergy {
     pub(super) fn gamma(&self, point: &Slopes, of: &LoopNumbers<f64>) -> f64 {
         let SampledEnergy { p, k_p, lambda, c_x, c_e, c_y } = self;
         let order: Vec<usize> = (0..point.r.len() + 5).collect();
-        let of_end = |(end, moved): (End, &f64)| {
+        let of_end = |end: (End, &f64)| {
             let parts = point.with(|i, k| p[i][k], *c_x);
             let less = Less { e_k: 0.0, e: *c_e, y: *c_y };
-            let [moved, k_p, lambda] = [*moved, *k_p, *lambda];
-            let numbers = FormNumbers { of, end, moved, weight: 1.0, k_p, lambda, less, gamma: Some(0.0) };
-            let Bordered { before, mut last } = bordered(&form(&Doubles, numbers, parts), &order);
+            let [k_p, lambda] = [*k_p, *lambda];
+            let numbers = FormNumbers { of, weight: 1.0, k_p, lambda, less, gamma: Some(0.0) };
+            let Bordered { before, mut last } = bordered(&form(&Doubles, numbers, end, parts), &order);
             last.pop();
             match Root::new(before) {
                 Ok(root) => 2.0 * root.half_square(&last),
@@ -210,9 +192,7 @@ impl FloatSuprema {
         if let Places::Listed(known) = known {
             listed.extend(known.iter());
         }
-        listed.sort_unstable();
-        listed.dedup();
-        Places::Listed(Arc::new(listed))
+        Places::listed(listed)
     }
 
     /// The least gamma of the inequality of existence at these points of the grid.

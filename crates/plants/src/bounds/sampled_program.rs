@@ -2,14 +2,14 @@
 //! semidefinite programs over sampled points.
 
 use super::place::{Place, Places};
-use super::pointwise::{Derivatives, MatrixAt};
+use super::pointwise::{Derivatives, MatrixAt, Slopes};
 use super::sampled_form::{Doubles, End, FormNumbers, Less, LoopNumbers, form};
-use super::sampled_point::{SampledEnergy, Slopes};
+use super::sampled_point::SampledEnergy;
 use super::suprema::FloatSuprema;
 use sigmastar_lang::spec::Bound;
-use sigmastar_matrix::AffineMatrix;
 use sigmastar_matrix::semidefinite::propose;
-use std::sync::Arc;
+use sigmastar_matrix::symmetric::{triangle, unit_entry};
+use sigmastar_matrix::{AffineMatrix, Symmetric};
 
 /// Points that are added where what was found holds least, and how often.
 const POINTS: usize = 4;
@@ -83,10 +83,8 @@ impl FloatSuprema {
 }
 
 impl Program<'_> {
-    fn add(&mut self, samples: &FloatSuprema, at: [f64; 2], mut places: Vec<Place>) {
-        places.sort_unstable();
-        places.dedup();
-        let places = Places::Listed(Arc::new(places));
+    fn add(&mut self, samples: &FloatSuprema, at: [f64; 2], places: Vec<Place>) {
+        let places = Places::listed(places);
         self.points.extend(samples.of_derivatives(at, &places, |derivatives, _| Slopes::from(derivatives)));
     }
 
@@ -96,25 +94,16 @@ impl Program<'_> {
     }
 
     fn units(&self) -> Units {
-        let norm = |vector: &[f64]| vector.iter().map(|value| value * value).sum::<f64>().sqrt();
-        let largest = |of: fn(&Slopes) -> &[f64]| self.points.iter().map(|point| norm(of(point))).fold(0.0, f64::max);
-        let (g, r) = (largest(|point| &point.g), largest(|point| &point.r));
         let sigma = self.of.sigma;
-        let x = match (g > 0.0, r > 0.0) {
-            (true, true) => (g / r).sqrt(),
-            (true, false) => g / sigma,
-            (false, true) => sigma / r,
-            (false, false) => 1.0,
-        };
-        Units { x, within: (sigma * self.of.across).sqrt(), sigma }
+        Units { x: Slopes::unit(&self.points, sigma), within: (sigma * self.of.across).sqrt(), sigma }
     }
 
     fn solve(&self) -> Option<SampledEnergy> {
         let units = self.units();
         let n = self.points.first()?.r.len();
-        let triangle: Vec<(usize, usize)> = (0..n).flat_map(|j| (0..=j).map(move |i| (i, j))).collect();
         let mut of_f: Vec<Variables> =
-            triangle.iter().map(|place| Variables { p: Some(*place), ..Variables::default() }).collect();
+            triangle(n).map(|place| Variables { p: Some(place), ..Variables::default() }).collect();
+        let of_p = of_f.len();
         of_f.push(Variables { weight: 1.0, ..Variables::default() });
         of_f.push(Variables { k_p: 1.0, ..Variables::default() });
         of_f.push(Variables { lambda: 1.0, ..Variables::default() });
@@ -125,19 +114,14 @@ impl Program<'_> {
         let fixed = Variables { gamma: least * (1.0 + ROOM), ..fixed };
         let room = Variables { room: 1.0, ..Variables::default() };
         let (values, room) = self.solution(&units, &fixed, &of_f, &room, -1.0)?;
-        let [weight, k_p, lambda] = [0, 1, 2].map(|k| values[triangle.len() + k]);
+        let [weight, k_p, lambda] = [0, 1, 2].map(|k| values[of_p + k]);
         if [weight, k_p, lambda, room].iter().any(|value| *value <= 0.0) {
             return None;
         }
         // The weight of e^2 becomes 1.
         let Units { x, within, sigma } = units;
-        let mut p = vec![vec![0.0; n]; n];
-        for ((i, j), value) in triangle.iter().zip(&values) {
-            let value = value / (weight * x * x);
-            (p[*i][*j], p[*j][*i]) = (value, value);
-        }
         Some(SampledEnergy {
-            p,
+            p: Symmetric::from_entries(n, &values).map(|_, _, value| value / (weight * x * x)).rows(),
             k_p: k_p / (weight * sigma),
             lambda: lambda * sigma / (weight * within * within),
             c_x: OF_STATES * room * sigma / (weight * x * x),
@@ -183,12 +167,9 @@ impl Program<'_> {
         let Units { x, within, sigma } = *units;
         let Variables { p, weight, k_p, lambda, c_e, c_y, gamma, room } = *variables;
         let n = point.r.len();
-        let is_entry = |i: usize, k: usize| p.is_some_and(|place| place == (i.min(k), i.max(k)));
-        let parts = point.with(|i, k| if is_entry(i, k) { 1.0 / (x * x) } else { 0.0 }, 0.0);
+        let parts = point.with(|i, k| p.map_or(0.0, |place| unit_entry(place, i, k) / (x * x)), 0.0);
         let numbers = FormNumbers {
             of: self.of,
-            end: end.0,
-            moved: *end.1,
             weight,
             k_p: k_p / sigma,
             lambda: lambda * sigma / (within * within),
@@ -202,7 +183,7 @@ impl Program<'_> {
             _ => sigma,
         };
         let mut matrix = vec![vec![0.0; n + 5]; n + 5];
-        for (i, k, value) in form(&Doubles, numbers, parts) {
+        for (i, k, value) in form(&Doubles, numbers, end, parts) {
             matrix[i][k] = value * unit(i) * unit(k) / sigma;
         }
         for i in (0..=n).chain([n + 2, n + 3]) {

@@ -6,7 +6,6 @@ use super::pointwise::{Asked, Derivatives, MatrixAt};
 use super::sampled_pairs::{Corners, MatrixArguments};
 use super::suprema::FloatSuprema;
 use super::weights::{FloatWeights, Root, Thresholds};
-use std::sync::Arc;
 
 /// So many times more points are listed for the threshold of the matrix inequality, which all derivatives enter.
 const OF_THRESHOLD: usize = 6;
@@ -53,10 +52,8 @@ impl FloatSuprema {
             }
             None => {}
         }
-        let mut listed: Vec<Place> = kept.into_iter().flatten().map(|(_, place)| place).collect();
-        listed.sort_unstable();
-        listed.dedup();
-        Focus { places: Places::Listed(Arc::new(listed)), corners }
+        let listed = kept.into_iter().flatten().map(|(_, place)| place).collect();
+        Focus { places: Places::listed(listed), corners }
     }
 
     /// The least sigma of (M): [`FloatSuprema::threshold`], or [`FloatSuprema::threshold_of_pairs`] at the corners that are known, else
@@ -81,15 +78,6 @@ impl FloatSuprema {
         at.into_iter().fold(Thresholds::ALL, Thresholds::and).value()
     }
 
-    /// The same at these points: t/T, y in the unit ball, e/E.
-    #[must_use]
-    pub fn threshold_at(&self, at: [f64; 2], points: &[(f64, Vec<f64>, f64)], weights: FloatWeights) -> f64 {
-        let value = |derivatives: &Derivatives<'_>, matrix: &MatrixAt| {
-            thresholds(derivatives, matrix, weights, self.moves).value()
-        };
-        self.largest_of_derivatives_at(at, points, value)
-    }
-
     /// The same by a longer search.
     #[must_use]
     pub fn refined_threshold(&self, at: [f64; 2], weights: FloatWeights) -> f64 {
@@ -100,7 +88,12 @@ impl FloatSuprema {
 }
 
 /// Those of one point.
-fn thresholds(at: &Derivatives<'_>, matrix: &MatrixAt, weights: FloatWeights, moves: Option<[f64; 2]>) -> Thresholds {
+pub(super) fn thresholds(
+    at: &Derivatives<'_>,
+    matrix: &MatrixAt,
+    weights: FloatWeights,
+    moves: Option<[f64; 2]>,
+) -> Thresholds {
     match Root::new(weights.of_states(at, matrix)) {
         Ok(root) => root.thresholds(&weights.of_error(at, moves), &mut Vec::new()),
         Err(without) => Thresholds::from(without),

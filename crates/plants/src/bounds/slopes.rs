@@ -6,19 +6,18 @@
 use super::PRECISION;
 use super::centred::{Centred, negated};
 use super::decide::{Decision, Values};
-use super::definite::{SymmetricValues, leaves_out};
+use super::definite::SymmetricValues;
 use super::eigen::largest;
-use super::engine::{Engine, is_symmetric};
+use super::engine::Engine;
 use super::place::{Place, Places};
-use super::pointwise::{Derivatives, product, roots};
+use super::pointwise::{Derivatives, product, roots, transposed};
 use super::quantity::Part;
 use super::suprema::FloatSuprema;
 use rug::Rational;
 use sigmastar_exact::enclosure::{Enclosure, Truth};
 use sigmastar_exact::number::{Direction, round_f64};
 use sigmastar_lang::spec::Bound;
-use sigmastar_matrix::is_positive_definite;
-use std::sync::Arc;
+use sigmastar_matrix::{is_positive_definite, is_symmetric};
 
 /// What a ball is enlarged by until it is proved, the boxes that each attempt may take, and the digits of its numbers; the
 /// first is for derivatives that do not vary.
@@ -119,22 +118,11 @@ impl Slopes {
         let of_q = d.pop()?;
         d = values.product(region.inverse(), &d, false);
         d.push(of_q);
-        let zero = || frame.constant(Enclosure::zero(PRECISION));
-        let times = |row: &[Rational], j: usize| {
-            row.iter().zip(&d).filter(|(factor, row)| !leaves_out(factor, &row[j])).fold(
-                zero(),
-                |sum, (factor, row)| {
-                    frame.add(&sum, &frame.scale(&row[j], &Enclosure::from_rational(factor, PRECISION)))
-                },
-            )
-        };
-        let image = |of: &[Vec<Rational>]| -> Vec<Vec<Centred>> {
-            of.iter().map(|row| (0..columns.len()).map(|j| times(row, j)).collect()).collect()
-        };
-        let (turned, weighed) = (image(&self.g), image(&self.h));
+        let (turned, weighed) = (values.product(&self.g, &d, false), values.product(&self.h, &d, false));
         let entry = |i: usize, j: usize| {
             let square = d.iter().zip(&weighed).filter(|(d, weighed)| !d[i].is_zero() && !weighed[j].is_zero());
-            let square = square.fold(zero(), |sum, (d, weighed)| frame.add(&sum, &frame.mul(&d[i], &weighed[j])));
+            let zero = frame.constant(Enclosure::zero(PRECISION));
+            let square = square.fold(zero, |sum, (d, weighed)| frame.add(&sum, &frame.mul(&d[i], &weighed[j])));
             let taken = frame.add(&frame.add(&turned[i][j], &turned[j][i]), &square);
             frame.add(&frame.rational(&self.q[i][j]), &negated(&taken))
         };
@@ -168,10 +156,6 @@ impl FloatSlopes {
             transposed(&weighed).iter().map(|row| row.iter().map(|entry| short(-entry)).collect()).collect();
         Some(Slopes { part: *part, q: symmetric(&q)?, g: g?, h: symmetric(h)? })
     }
-}
-
-fn transposed(of: &[Vec<f64>]) -> Vec<Vec<f64>> {
-    (0..of.first().map_or(0, Vec::len)).map(|i| of.iter().map(|row| row[i]).collect()).collect()
 }
 
 impl FloatSuprema {
@@ -208,10 +192,8 @@ impl FloatSuprema {
     /// This part of D at these places, each once.
     #[must_use]
     pub fn derivatives_at(&self, part: Part, at: [f64; 2], places: &[Place]) -> Vec<Vec<Vec<f64>>> {
-        let mut places = places.to_vec();
-        places.sort_unstable();
-        places.dedup();
-        self.of_derivatives(at, &Places::Listed(Arc::new(places)), |derivatives, _| matrix_of(derivatives, part))
+        let places = Places::listed(places.to_vec());
+        self.of_derivatives(at, &places, |derivatives, _| matrix_of(derivatives, part))
     }
 
     /// The places, so many at most, where a value of this part of D is largest of those where it is positive.

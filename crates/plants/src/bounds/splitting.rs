@@ -13,7 +13,6 @@ use sigmastar_exact::number::{Direction, round_f64};
 use sigmastar_lang::spec::{Constant, MatrixInequality, Splitting};
 use sigmastar_matrix::AffineMatrix;
 use sigmastar_matrix::semidefinite::propose;
-use std::sync::Arc;
 
 /// What the least sigma at samples is enlarged by, until it is proved, and the boxes that each attempt may take; the first is for
 /// derivatives that do not vary.
@@ -109,17 +108,14 @@ impl FloatSuprema {
             let of_error = self.largest_of_derivatives(at.error, &all, POINTS, |derivatives, _| {
                 cholesky.threshold(&weights.of_error(derivatives, self.moves), &mut Vec::new()) / so_far
             });
-            let beyond = |list: Vec<(f64, Place)>| {
-                let mut places: Vec<Place> =
-                    list.into_iter().filter(|(value, _)| *value > 1.0 + TOLERANCE).map(|(_, place)| place).collect();
-                places.sort_unstable();
-                places
+            let beyond = |list: Vec<(f64, Place)>| -> Vec<Place> {
+                list.into_iter().filter(|(value, _)| *value > 1.0 + TOLERANCE).map(|(_, place)| place).collect()
             };
             let (of_states, of_error) = (beyond(of_states), beyond(of_error));
             if of_states.is_empty() && of_error.is_empty() {
                 break;
             }
-            let [of_states, of_error] = [of_states, of_error].map(|places| Places::Listed(Arc::new(places)));
+            let [of_states, of_error] = [of_states, of_error].map(Places::listed);
             program.add(self, at, weights, [&of_states, &of_error]);
             s = program.solve()?;
         }

@@ -7,8 +7,8 @@ use super::float_waves::{FloatCurve, FloatMatrix};
 use super::narrow::extreme_errors;
 use super::place::{Moment, Outputs, Place, Places, keep, merged};
 use super::pointwise::{Asked, Derivatives, MatrixAt, Pointwise};
-use rayon::prelude::*;
 use rug::Rational;
+use sigmastar_exact::parallel;
 use sigmastar_lang::expr::{Evaluator, Formulas, PlantVariable, Program};
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{Bound, Parameters, PeriodicMatrix};
@@ -208,22 +208,8 @@ impl FloatSuprema {
     /// The same in other coordinates, with other P, which are constant: the formulas are not differentiated again.
     #[must_use]
     pub fn in_coordinates(&self, matrix: Vec<Vec<f64>>, lyapunov: [Option<&PeriodicMatrix>; 2]) -> FloatSuprema {
-        FloatSuprema {
-            order: self.order,
-            period: self.period,
-            inverse: inverse(&matrix),
-            matrix,
-            matrices: lyapunov.map(|matrix| matrix.map(FloatMatrix::new)),
-            program: self.program.clone(),
-            moments: self.moments.clone(),
-            members: self.members.clone(),
-            ball: self.ball.clone(),
-            by_error: self.by_error,
-            narrow: self.narrow.clone(),
-            velocity: self.velocity.clone(),
-            moves: self.moves,
-            drift: 0.0,
-        }
+        let matrices = lyapunov.map(|matrix| matrix.map(FloatMatrix::new));
+        FloatSuprema { inverse: inverse(&matrix), matrix, matrices, drift: 0.0, ..self.clone() }
     }
 
     fn moment(&self, time: f64, member: usize, evaluator: &mut Evaluator, slow: &mut Evaluator) -> Moment {
@@ -401,7 +387,7 @@ impl FloatSuprema {
             climb(point, *value, halvings, e != 0.0, |point| single.value(point, &value_of))
         };
         Climbed {
-            ends: merged(best, starts).par_iter().map(from).collect(),
+            ends: parallel::map(&merged(best, starts), from),
             least: least.into_iter().fold(f64::INFINITY, f64::min),
         }
     }

@@ -1,6 +1,6 @@
 //! F of the matrix inequality (M) at one point in doubles: without e, the column of e, and the least sigma of both (derivation, 13.7).
 
-use super::pointwise::{Derivatives, MatrixAt};
+use super::pointwise::{Derivatives, MatrixAt, dot};
 use rug::Rational;
 use sigmastar_lang::spec::ExistenceInequality;
 
@@ -225,10 +225,6 @@ fn behind(all: &[EnergyAt], sizes: impl Fn(&EnergyAt) -> [f64; 3]) -> Vec<bool> 
         }
     }
     behind
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 /// A positive definite matrix by its Cholesky factor, the lower triangle by rows.

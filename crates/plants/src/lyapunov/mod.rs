@@ -16,4 +16,5 @@ pub use candidates::{
     Candidate, Candidates, LyapunovFailure, MAX_PROGRAM_COST, candidates, candidates_of, floquet_exponents,
 };
 pub use family::{Deviation, Family};
+pub(crate) use propose::decay_entry;
 pub use prove::{NotProved, ProvedTriple, ProvedTriples, prove, prove_bounds};

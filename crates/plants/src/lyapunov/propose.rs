@@ -2,8 +2,9 @@
 
 use super::float::{FloatFamily, waves};
 use faer::Mat;
-use sigmastar_matrix::AffineMatrix;
 use sigmastar_matrix::semidefinite::{margin, propose};
+use sigmastar_matrix::symmetric::{triangle, unit_entry};
+use sigmastar_matrix::{AffineMatrix, Symmetric};
 use std::f64::consts::TAU;
 
 /// The most unknowns and the most entries of all constraints together for which a semidefinite program is solved.
@@ -49,7 +50,7 @@ pub(super) fn program_cost(family: &FloatFamily, degree: usize) -> Option<u64> {
 /// units of |F|, with eps = 1e-6 r + the solver's own margin: |P| is at most r.
 pub(super) fn smallest_ratio(family: &FloatFamily, degree: usize, alpha: f64) -> Option<Vec<Mat<f64>>> {
     let n = family.order;
-    let triangle: Vec<(usize, usize)> = (0..n).flat_map(|j| (0..=j).map(move |i| (i, j))).collect();
+    let triangle: Vec<(usize, usize)> = triangle(n).collect();
     let slots = 2 * degree + 1;
     let sizes = Sizes::new(family, degree)?;
     let (unknowns, samples) = (sizes.unknowns as usize, sizes.samples as usize);
@@ -62,25 +63,11 @@ pub(super) fn smallest_ratio(family: &FloatFamily, degree: usize, alpha: f64) ->
         let angle = TAU * sample as f64 / samples as f64;
         let waves = waves(angle, degree);
         let basis = |variable: usize| (triangle[variable % triangle.len()], waves[variable / triangle.len()]);
-        let unit =
-            |(a, b): (usize, usize), i: usize, j: usize| f64::from(u8::from((a, b) == (i, j) || (a, b) == (j, i)));
-        let identity = |i: usize, j: usize| f64::from(u8::from(i == j));
-        let p = |variable: usize, i: usize, j: usize| {
+        let identity = |i: usize, j: usize| f64::from(i == j);
+        constraints.extend(AffineMatrix::between_identities(n, unknowns, |variable, i, j| {
             let (at, (wave, _)) = basis(variable);
-            wave * unit(at, i, j)
-        };
-        constraints.push(AffineMatrix::from_fn(
-            n,
-            unknowns,
-            |i, j| -identity(i, j),
-            |variable, i, j| if variable == last { 0.0 } else { p(variable, i, j) },
-        ));
-        constraints.push(AffineMatrix::from_fn(
-            n,
-            unknowns,
-            |_, _| 0.0,
-            |variable, i, j| if variable == last { identity(i, j) } else { -p(variable, i, j) },
-        ));
+            wave * unit_entry(at, i, j)
+        }));
         let centre = family.centre(angle);
         for vertex in &family.vertices {
             let f = &centre + vertex;
@@ -88,15 +75,9 @@ pub(super) fn smallest_ratio(family: &FloatFamily, degree: usize, alpha: f64) ->
                 if variable == last {
                     return -identity(i, j) * (1e-6 + 2.0 * family.ball / size);
                 }
-                let ((a, b), (wave, slope)) = basis(variable);
-                // (E F)_ij + (F'E)_ij for the unit matrix E of (a, b).
-                let half = |i: usize, j: usize| {
-                    let first = if i == a { f[(b, j)] } else { 0.0 };
-                    first + if i == b && a != b { f[(a, j)] } else { 0.0 }
-                };
-                let whole = family.frequency * slope * unit((a, b), i, j)
-                    + wave * (half(i, j) + half(j, i) + 2.0 * alpha * unit((a, b), i, j));
-                -whole / size
+                let (at, (wave, slope)) = basis(variable);
+                let decay = decay_entry(|i, j| f[(i, j)], alpha, at, (i, j));
+                (wave * decay - family.frequency * slope * unit_entry(at, i, j)) / size
             };
             constraints.push(AffineMatrix::from_fn(n, unknowns, |i, j| -tolerance * identity(i, j), decay));
         }
@@ -105,15 +86,25 @@ pub(super) fn smallest_ratio(family: &FloatFamily, degree: usize, alpha: f64) ->
     cost[last] = 1.0;
     let candidate = propose(&cost, &constraints).ok()?;
     let matrix = |slot: usize| {
-        let values = &candidate.x[slot * triangle.len()..(slot + 1) * triangle.len()];
-        let mut matrix = Mat::zeros(n, n);
-        for ((i, j), value) in triangle.iter().zip(values) {
-            matrix[(*i, *j)] = *value;
-            matrix[(*j, *i)] = *value;
-        }
-        matrix
+        let matrix = Symmetric::from_entries(n, &candidate.x[slot * triangle.len()..]);
+        Mat::from_fn(n, n, |i, j| *matrix.at(i, j))
     };
     Some((0..slots).map(matrix).collect())
+}
+
+/// The entry (i, j) of `-(P J + J^T P) - 2 alpha P` for the symmetric P that has 1 at (a, b) alone.
+pub(crate) fn decay_entry(
+    matrix: impl Fn(usize, usize) -> f64,
+    alpha: f64,
+    (a, b): (usize, usize),
+    (i, j): (usize, usize),
+) -> f64 {
+    // (P J)_ij.
+    let half = |i: usize, j: usize| {
+        let first = if i == a { matrix(b, j) } else { 0.0 };
+        first + if i == b && a != b { matrix(a, j) } else { 0.0 }
+    };
+    -(half(i, j) + half(j, i) + 2.0 * alpha * unit_entry((a, b), i, j))
 }
 
 /// The P(t) of the periodic Lyapunov equation `P' + P F + F'P + 2 alpha P = -I` for the centre, as samples over one period.

@@ -10,12 +10,12 @@
 //! of the bounds of R are taken from the diagonal. Cells that are not proved are halved. They cover [0, 2 pi].
 
 use super::family::{Deviation, Family};
-use rayon::prelude::*;
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_exact::parallel;
 use sigmastar_lang::expr::TrigonometricPolynomial;
 use sigmastar_lang::spec::model::PeriodicMatrix;
-use sigmastar_matrix::{ScaledMatrix, Symmetric};
+use sigmastar_matrix::{ScaledMatrix, Symmetric, is_symmetric};
 use thiserror::Error;
 
 /// A proved triple with its witness.
@@ -100,11 +100,9 @@ pub fn prove(family: &Family, witness: &ProvedTriple) -> Result<(), NotProved> {
     let order = family.order();
     let ProvedTriple { matrix, p_low, p_up, alpha } = witness;
     let parts = || std::iter::once(&matrix.mean).chain(matrix.harmonics.iter().flatten());
-    let square = |rows: &Vec<Vec<Rational>>| rows.len() == order && rows.iter().all(|row| row.len() == order);
-    let symmetric = |rows: &Vec<Vec<Rational>>| (0..order).all(|i| (0..i).all(|j| rows[i][j] == rows[j][i]));
     let positive = [p_low, p_up, alpha].iter().all(|number| **number > 0);
     // A matrix that varies needs a period that the family is known to have; a constant one has every period.
-    if order == 0 || !positive || !parts().all(|rows| square(rows) && symmetric(rows)) {
+    if order == 0 || !positive || !parts().all(|rows| is_symmetric(rows, order)) {
         return Err(NotProved::Shape);
     }
     let precision = family.frequency.precision();
@@ -218,14 +216,11 @@ impl Entries {
         // Level by level, so that what is examined does not depend on the number of threads.
         for _ in 0..=MAX_HALVINGS {
             examined += pending.len();
-            let outcomes: Vec<Option<bool>> = pending
-                .par_iter()
-                .map(|angle| {
-                    let holds = |half: &Rational| self.holds_on(angle, half, degree, &curvature);
-                    // What fails at a single angle fails on every half around it.
-                    if holds(&half) { Some(true) } else { holds(&Rational::new()).then_some(false) }
-                })
-                .collect();
+            let outcomes: Vec<Option<bool>> = parallel::map(&pending, |angle| {
+                let holds = |half: &Rational| self.holds_on(angle, half, degree, &curvature);
+                // What fails at a single angle fails on every half around it.
+                if holds(&half) { Some(true) } else { holds(&Rational::new()).then_some(false) }
+            });
             if let Some(at) = outcomes.iter().position(Option::is_none) {
                 return Err(failure(pending[at].to_f64()));
             }

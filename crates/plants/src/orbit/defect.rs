@@ -6,8 +6,8 @@ use super::failure::OrbitNotProved;
 use super::linear::norm;
 use super::recurrences::{combine, mul};
 use super::taylor::{Expansion, Taylor};
-use rayon::prelude::*;
 use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_exact::parallel;
 use sigmastar_lang::expr::Walk;
 
 /// The order of the Taylor polynomials in t.
@@ -39,27 +39,24 @@ pub(super) fn bound(
 ) -> Result<Enclosure, OrbitNotProved> {
     let cells = &curve.cells;
     let parameters = &curve.members.parameters;
-    let bounds: Vec<Enclosure> = (0..cells.count)
-        .into_par_iter()
-        .map(|cell| {
-            let states = curve.states(cell, ORDER + 1);
-            let f = curve.along(walk, cell, (&states, &parameters.nominal), ORDER);
-            let difference = [0, 1].map(|which| -> Vec<Taylor> {
-                let own = f[which].iter().zip(&states[which]);
-                own.map(|(f, x)| combine(f, &slope(x, &curve.period), -1)).collect()
-            });
-            let along = derivatives_in_parameters(curve, slopes, cell, &states);
-            let components = inverse.iter().map(|row| {
-                let bound = |difference: &[Vec<Taylor>; 2]| {
-                    let [middle, over] = difference.each_ref().map(|terms| weigh(row.iter().zip(terms)));
-                    Expansion::new(&middle, &over, ORDER, PRECISION).bound(&cells.half)
-                };
-                let own = bound(&difference);
-                along.iter().zip(&parameters.reaches).fold(own, |sum, (part, reach)| sum + bound(part) * reach)
-            });
-            norm(components, PRECISION)
-        })
-        .collect();
+    let bounds: Vec<Enclosure> = parallel::numbered(cells.count, |cell| {
+        let states = curve.states(cell, ORDER + 1);
+        let f = curve.along(walk, cell, (&states, &parameters.nominal), ORDER);
+        let difference = [0, 1].map(|which| -> Vec<Taylor> {
+            let own = f[which].iter().zip(&states[which]);
+            own.map(|(f, x)| combine(f, &slope(x, &curve.period), -1)).collect()
+        });
+        let along = derivatives_in_parameters(curve, slopes, cell, &states);
+        let components = inverse.iter().map(|row| {
+            let bound = |difference: &[Vec<Taylor>; 2]| {
+                let [middle, over] = difference.each_ref().map(|terms| weigh(row.iter().zip(terms)));
+                Expansion::new(&middle, &over, ORDER, PRECISION).bound(&cells.half)
+            };
+            let own = bound(&difference);
+            along.iter().zip(&parameters.reaches).fold(own, |sum, (part, reach)| sum + bound(part) * reach)
+        });
+        norm(components, PRECISION)
+    });
     largest(&bounds, cells.count)
 }
 

@@ -13,10 +13,10 @@ use super::round::to_grain;
 use super::sampled::doubles;
 use super::series::FloatSeries;
 use super::taylor::Expansion;
-use rayon::prelude::*;
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, Portable, round_f64};
+use sigmastar_exact::parallel;
 use sigmastar_lang::expr::{Enclosing, Formula, Formulas, PlantVariable, Walk};
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{OrbitCurve, ProvedForcing, TrigonometricVector, Wave};
@@ -295,55 +295,51 @@ fn rests_on(
         let column = |j: usize| (0..n).fold(zero.clone(), |sum, i| sum + &row[i] * &around.l[i][j]);
         norm((0..n).map(column), PRECISION)
     };
-    let bounds: Vec<[Enclosure; 4]> = (0..cells.count)
-        .into_par_iter()
-        .map(|cell| {
-            let states = curve.states(cell, ORDER + 1);
-            let own = curve.along(&formulas.value, cell, (&states, &parameters.nominal), ORDER);
-            let known = cells.expand(&qb, cell, ORDER);
-            let [middle, over] = [0, 1].map(|which| combine(&own[which][0], &known[which], -1));
-            let expansion = Expansion::new(&middle, &over, ORDER, PRECISION);
-            // By the mean value theorem in p, as the defect.
-            let sensitivities = curve.sensitivities(cell, ORDER + 1);
-            let members = curve.of_members(&states, &sensitivities, parameters);
-            let values = if parts.is_empty() {
-                [Vec::new(), Vec::new()]
-            } else {
-                curve.along(&formulas.slopes, cell, (&members, &parameters.values), ORDER)
-            };
-            let in_parameters: Vec<Expansion> = (0..parts.len())
-                .map(|i| {
-                    let known = cells.expand(&parts[i], cell, ORDER);
-                    let [middle, over] = [0, 1].map(|which| {
-                        let own = combine(&values[which][n + i], &known[which], -1);
-                        (0..n).fold(own, |sum, j| {
-                            combine(&sum, &mul(&values[which][j], &sensitivities[i][which][j], ORDER), 1)
-                        })
-                    });
-                    Expansion::new(&middle, &over, ORDER, PRECISION)
-                })
-                .collect();
-            let with_members = |own: Enclosure, bound: &dyn Fn(&Expansion) -> Enclosure| {
-                let parts = in_parameters.iter().zip(&parameters.reaches);
-                parts.fold(own, |sum, (part, reach)| sum + bound(part) * reach)
-            };
-            let widened = members[1].iter().zip(&reach).map(|(series, reach)| &series[0] + reach.negate().hull(reach));
-            let tube: Vec<Enclosure> = widened.collect();
-            let [_, time] = cells.time(cell, &curve.period);
-            if !curve.in_box(&formulas.smooth, &time[0], &tube) {
-                return [(); 4].map(|()| Enclosure::undefined(PRECISION));
-            }
-            let mut natural =
-                Enclosing { t: &time[0], x: &tube, e: &zero, p: &parameters.values, precision: PRECISION };
-            let rows = formulas.derivatives.evaluate(&mut natural);
-            let [of_q, of_d] = [norm_of(&rows[..n]), norm_of(&rows[n..])];
-            let [rest, rest_t] = [&radius * &of_q, &radius * of_d + &defect * of_q];
-            let value = with_members(expansion.bound(&cells.half), &|part| part.bound(&cells.half)) + &rest;
-            let slope = with_members(expansion.slope_bound(&cells.half), &|part| part.slope_bound(&cells.half));
-            let slope = slope / &curve.elapsed + &rest_t;
-            [value, slope, rest, rest_t]
-        })
-        .collect();
+    let bounds: Vec<[Enclosure; 4]> = parallel::numbered(cells.count, |cell| {
+        let states = curve.states(cell, ORDER + 1);
+        let own = curve.along(&formulas.value, cell, (&states, &parameters.nominal), ORDER);
+        let known = cells.expand(&qb, cell, ORDER);
+        let [middle, over] = [0, 1].map(|which| combine(&own[which][0], &known[which], -1));
+        let expansion = Expansion::new(&middle, &over, ORDER, PRECISION);
+        // By the mean value theorem in p, as the defect.
+        let sensitivities = curve.sensitivities(cell, ORDER + 1);
+        let members = curve.of_members(&states, &sensitivities, parameters);
+        let values = if parts.is_empty() {
+            [Vec::new(), Vec::new()]
+        } else {
+            curve.along(&formulas.slopes, cell, (&members, &parameters.values), ORDER)
+        };
+        let in_parameters: Vec<Expansion> = (0..parts.len())
+            .map(|i| {
+                let known = cells.expand(&parts[i], cell, ORDER);
+                let [middle, over] = [0, 1].map(|which| {
+                    let own = combine(&values[which][n + i], &known[which], -1);
+                    (0..n).fold(own, |sum, j| {
+                        combine(&sum, &mul(&values[which][j], &sensitivities[i][which][j], ORDER), 1)
+                    })
+                });
+                Expansion::new(&middle, &over, ORDER, PRECISION)
+            })
+            .collect();
+        let with_members = |own: Enclosure, bound: &dyn Fn(&Expansion) -> Enclosure| {
+            let parts = in_parameters.iter().zip(&parameters.reaches);
+            parts.fold(own, |sum, (part, reach)| sum + bound(part) * reach)
+        };
+        let widened = members[1].iter().zip(&reach).map(|(series, reach)| &series[0] + reach.negate().hull(reach));
+        let tube: Vec<Enclosure> = widened.collect();
+        let [_, time] = cells.time(cell, &curve.period);
+        if !curve.in_box(&formulas.smooth, &time[0], &tube) {
+            return [(); 4].map(|()| Enclosure::undefined(PRECISION));
+        }
+        let mut natural = Enclosing { t: &time[0], x: &tube, e: &zero, p: &parameters.values, precision: PRECISION };
+        let rows = formulas.derivatives.evaluate(&mut natural);
+        let [of_q, of_d] = [norm_of(&rows[..n]), norm_of(&rows[n..])];
+        let [rest, rest_t] = [&radius * &of_q, &radius * of_d + &defect * of_q];
+        let value = with_members(expansion.bound(&cells.half), &|part| part.bound(&cells.half)) + &rest;
+        let slope = with_members(expansion.slope_bound(&cells.half), &|part| part.slope_bound(&cells.half));
+        let slope = slope / &curve.elapsed + &rest_t;
+        [value, slope, rest, rest_t]
+    });
     let bound = |which: usize| {
         let own: Vec<Enclosure> = bounds.iter().map(|all| all[which].clone()).collect();
         largest(&own, cells.count)

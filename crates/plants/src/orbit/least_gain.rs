@@ -1,10 +1,12 @@
 //! Constant P with which the matrix inequality (M) of stability (derivation, 13.7) asks for the least gain along an orbit, in
 //! floating point, by semidefinite programs. The initial set has no part in them: for a linear plant it needs none.
 
-use super::shape::{Channel, decay_entry, rate, size, symmetric};
+use super::shape::{Channel, rate, size, symmetric};
+use crate::lyapunov::decay_entry;
 use nalgebra::{DMatrix, DVector};
 use sigmastar_matrix::AffineMatrix;
 use sigmastar_matrix::semidefinite::{margin, propose};
+use sigmastar_matrix::symmetric::{triangle, unit_entry};
 
 /// Shares of the largest rate that the states keep: the existence of the periodic solution needs more of it than stability.
 const SHARES: [f64; 5] = [0.02, 0.3, 0.45, 0.6, 0.75];
@@ -38,7 +40,7 @@ fn least_gain(matrices: &[DMatrix<f64>], channel: &Channel, alpha: f64) -> Optio
         let of_x = (input / (unit * output)).sqrt();
         [1.0 / (unit * of_x * gain.sqrt()), of_x / gain.sqrt()]
     };
-    let triangle: Vec<(usize, usize)> = (0..n).flat_map(|j| (0..=j).map(move |i| (i, j))).collect();
+    let triangle: Vec<(usize, usize)> = triangle(n).collect();
     let (k_p, sigma) = (triangle.len(), triangle.len() + 1);
     let unknowns = triangle.len() + 2;
     let (e, y) = (n, n + 1);
@@ -55,7 +57,7 @@ fn least_gain(matrices: &[DMatrix<f64>], channel: &Channel, alpha: f64) -> Optio
         let term = |variable: usize, i: usize, j: usize| {
             let (i, j) = (i.min(j), i.max(j));
             match (triangle.get(variable), i, j) {
-                (Some(&place), ..) if j < n => decay_entry(matrix, alpha, place, (i, j)) / unit,
+                (Some(&place), ..) if j < n => decay_entry(|i, j| matrix[(i, j)], alpha, place, (i, j)) / unit,
                 (Some(&(a, b)), ..) if i < n && j == e => {
                     let moved = if i == a { g[b] } else { 0.0 } + if i == b && a != b { g[a] } else { 0.0 };
                     -moved * by_input
@@ -72,15 +74,12 @@ fn least_gain(matrices: &[DMatrix<f64>], channel: &Channel, alpha: f64) -> Optio
         AffineMatrix::from_fn(n + 2, unknowns, constant, term)
     };
     let identity = |i: usize, j: usize| f64::from(u8::from(i == j));
-    let own = |variable: usize, i: usize, j: usize| match triangle.get(variable) {
-        Some(&(a, b)) => f64::from(u8::from((a, b) == (i, j) || (a, b) == (j, i))),
-        None => 0.0,
-    };
+    let own = |variable: usize, i: usize, j: usize| triangle.get(variable).map_or(0.0, |at| unit_entry(*at, i, j));
     let mut constraints = vec![AffineMatrix::from_fn(n, unknowns, |i, j| -LEAST * identity(i, j), own)];
     constraints.extend((0..matrices.len().max(times)).map(inequality));
     let mut cost: Vec<f64> = triangle.iter().map(|(i, j)| TRACE * identity(*i, *j)).collect();
     cost.extend([0.0, 1.0]);
-    let p = symmetric(n, &triangle, &propose(&cost, &constraints).ok()?.x);
+    let p = symmetric(n, &propose(&cost, &constraints).ok()?.x);
     (rate(matrices, &p)? > 0.0).then_some(p)
 }
 

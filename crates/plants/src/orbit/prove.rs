@@ -10,14 +10,14 @@ use super::members::Members;
 use super::rate::Contraction;
 use super::sampled::Sampled;
 use crate::lyapunov::prove_bounds;
-use rayon::prelude::*;
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, round_f64, round_rational};
+use sigmastar_exact::parallel;
 use sigmastar_lang::expr::{Formula, Formulas, PlantVariable, Walk};
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{OrbitCurve, PeriodicMatrix};
-use sigmastar_matrix::{Symmetric, inverse};
+use sigmastar_matrix::{Symmetric, inverse, is_symmetric};
 
 /// Radii of the tube, relative to the size of the orbit in the coordinates y (or to 1, where it is 0), tried in turn.
 const TUBES: [f64; 5] = [1e-4, 1e-6, 1e-8, 1e-2, 1e-10];
@@ -93,13 +93,11 @@ impl<'a> Around<'a> {
         if orbit.harmonics().max(matrix.harmonics.len()) > MAX_HARMONICS {
             return Err(OrbitNotProved::Shape("too many harmonics"));
         }
-        let square = |rows: &Vec<Vec<Rational>>| rows.len() == n && rows.iter().all(|row| row.len() == n);
-        let symmetric = |rows: &Vec<Vec<Rational>>| (0..n).all(|i| (0..i).all(|j| rows[i][j] == rows[j][i]));
         let parts = || std::iter::once(&matrix.mean).chain(matrix.harmonics.iter().flatten());
-        if !parts().all(|rows| square(rows) && symmetric(rows)) {
+        if !parts().all(|rows| is_symmetric(rows, n)) {
             return Err(OrbitNotProved::Shape("P is not symmetric of the order of the plant"));
         }
-        if !square(&coordinates.l) {
+        if coordinates.l.len() != n || coordinates.l.iter().any(|row| row.len() != n) {
             return Err(OrbitNotProved::Shape("L is not a square matrix of the order of the plant"));
         }
         let inverted = inverse(&coordinates.l).ok_or(OrbitNotProved::Shape("L is singular"))?;
@@ -286,7 +284,7 @@ pub fn prove_orbits(
     coordinates: &Coordinates,
 ) -> Result<Vec<OrbitProof>, OrbitNotProved> {
     let proved = |most: Option<&Rational>| -> Result<Vec<OrbitProof>, OrbitNotProved> {
-        cells.par_iter().map(|(plant, orbit)| prove_orbit_at(plant, orbit, coordinates, most)).collect()
+        parallel::map(cells, |(plant, orbit)| prove_orbit_at(plant, orbit, coordinates, most)).into_iter().collect()
     };
     let proofs = proved(None)?;
     let least = proofs.iter().map(|proof| &proof.alpha).min().cloned();

@@ -14,8 +14,8 @@ use super::linear::norm;
 use super::members::{Members, ParameterBox};
 use super::recurrences::{combine, mul};
 use super::taylor::Taylor;
-use rayon::prelude::*;
 use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_exact::parallel;
 use sigmastar_lang::expr::Walk;
 use sigmastar_lang::spec::Constant;
 use sigmastar_matrix::{ScaledMatrix, Symmetric};
@@ -75,7 +75,7 @@ impl Contraction<'_> {
             let curve = Curve::new(self.members, self.p.entries().iter(), self.period, exponent, ORDER + 1);
             // Level by level, so that what is examined does not depend on the number of threads.
             let outcomes: Vec<Outcome> =
-                pending.par_iter().map(|cell| self.on_cell(&curve, *cell, alpha, &reach, None)).collect();
+                parallel::map(&pending, |cell| self.on_cell(&curve, *cell, alpha, &reach, None));
             let place = |at: usize| (pending[at] as f64 + 0.5) / curve.cells.count as f64;
             if let Some(at) = outcomes.iter().position(|outcome| matches!(outcome, Outcome::Fails)) {
                 return Err(format!("P' + P J + J^T P <= -2 alpha P is not proved at t/T = {}", place(at)));

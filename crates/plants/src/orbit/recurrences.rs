@@ -99,11 +99,16 @@ pub(super) fn exp(u: &[Enclosure], order: usize) -> Series {
 
 /// The logarithm of what is positive: `u v' = u'`.
 pub(super) fn log(u: &[Enclosure], order: usize) -> Series {
-    let mut v = vec![u[0].log()];
+    over(u, u, u[0].log(), order)
+}
+
+/// The function with `w v' = u'` and this value.
+fn over(u: &[Enclosure], w: &[Enclosure], value: Enclosure, order: usize) -> Series {
+    let mut v = vec![value];
     for k in 1..length(u, order) {
         let own = u.get(k).map_or_else(|| Enclosure::zero(precision(u)), |own| own * k as i64);
-        let known = (1..k).filter(|i| k - i < u.len()).fold(own, |rest, i| rest - &v[i] * &u[k - i] * i as i64);
-        let next = known / k as i64 / &u[0];
+        let known = (1..k).filter(|i| k - i < w.len()).fold(own, |rest, i| rest - &v[i] * &w[k - i] * i as i64);
+        let next = known / k as i64 / &w[0];
         v.push(next);
     }
     v
@@ -140,14 +145,7 @@ pub(super) fn tangent(u: &[Enclosure], order: usize, sign: i64) -> Series {
 pub(super) fn atan(u: &[Enclosure], order: usize) -> Series {
     let mut w = mul(u, u, order);
     w[0] = 1 + u[0].sqr();
-    let mut v = vec![u[0].atan()];
-    for k in 1..length(u, order) {
-        let own = u.get(k).map_or_else(|| Enclosure::zero(precision(u)), |own| own * k as i64);
-        let known = (1..k).filter(|i| k - i < w.len()).fold(own, |rest, i| rest - &v[i] * &w[k - i] * i as i64);
-        let next = known / k as i64 / &w[0];
-        v.push(next);
-    }
-    v
+    over(u, &w, u[0].atan(), order)
 }
 
 /// The power with an integer exponent, by repeated squaring; `u^0 = 1` where u is defined.

@@ -1,9 +1,11 @@
 //! Constant P for a list of matrices, in floating point: the roundest P of a given rate, and the one in which e acts least on q
 //! through the states, by semidefinite programs.
 
+use crate::lyapunov::decay_entry;
 use nalgebra::{DMatrix, DVector};
-use sigmastar_matrix::AffineMatrix;
 use sigmastar_matrix::semidefinite::{margin, propose};
+use sigmastar_matrix::symmetric::{triangle, unit_entry};
+use sigmastar_matrix::{AffineMatrix, Symmetric};
 
 /// Shares of the largest rate at which the roundest P is sought.
 const SHARES: [f64; 11] = [0.9995, 0.99, 0.97, 0.94, 0.9, 0.85, 0.78, 0.7, 0.6, 0.45, 0.3];
@@ -42,33 +44,16 @@ pub(super) fn most_matrices(order: usize) -> usize {
 /// solver's own margin.
 fn roundest(matrices: &[DMatrix<f64>], size: f64, alpha: f64) -> Option<DMatrix<f64>> {
     let n = matrices.first()?.nrows();
-    let triangle: Vec<(usize, usize)> = (0..n).flat_map(|j| (0..=j).map(move |i| (i, j))).collect();
+    let triangle: Vec<(usize, usize)> = triangle(n).collect();
     let last = triangle.len();
     let unknowns = last + 1;
-    let identity = |i: usize, j: usize| f64::from(u8::from(i == j));
-    let unit = |variable: usize, i: usize, j: usize| {
-        let (a, b) = triangle[variable];
-        f64::from(u8::from((a, b) == (i, j) || (a, b) == (j, i)))
-    };
-    let mut constraints = vec![
-        AffineMatrix::from_fn(
-            n,
-            unknowns,
-            |i, j| -identity(i, j),
-            |variable, i, j| if variable == last { 0.0 } else { unit(variable, i, j) },
-        ),
-        AffineMatrix::from_fn(
-            n,
-            unknowns,
-            |_, _| 0.0,
-            |variable, i, j| if variable == last { identity(i, j) } else { -unit(variable, i, j) },
-        ),
-    ];
+    let unit = |variable: usize, i: usize, j: usize| unit_entry(triangle[variable], i, j);
+    let mut constraints = AffineMatrix::between_identities(n, unknowns, unit).to_vec();
     constraints.extend(decays(matrices, &triangle, unknowns, size, alpha, 1.0));
     let mut cost = vec![0.0; unknowns];
     cost[last] = 1.0;
     let point = propose(&cost, &constraints).ok()?;
-    let p = symmetric(n, &triangle, &point.x);
+    let p = symmetric(n, &point.x);
     (rate(matrices, &p)? > 0.0).then_some(p)
 }
 
@@ -100,15 +85,12 @@ fn narrowest(matrices: &[DMatrix<f64>], channel: &Channel, size: f64, alpha: f64
     if !(input > 0.0 && output > 0.0) {
         return None;
     }
-    let triangle: Vec<(usize, usize)> = (0..n).flat_map(|j| (0..=j).map(move |i| (i, j))).collect();
+    let triangle: Vec<(usize, usize)> = triangle(n).collect();
     let last = triangle.len();
     let unknowns = last + 1;
     let identity = |i: usize, j: usize| f64::from(u8::from(i == j));
     // The unit matrix of a variable.
-    let unit = |variable: usize, i: usize, j: usize| match triangle.get(variable) {
-        Some(&(a, b)) => f64::from(u8::from((a, b) == (i, j) || (a, b) == (j, i))),
-        None => 0.0,
-    };
+    let unit = |variable: usize, i: usize, j: usize| triangle.get(variable).map_or(0.0, |at| unit_entry(*at, i, j));
     let mut constraints = vec![AffineMatrix::from_fn(n, unknowns, |i, j| -LEAST * identity(i, j), unit)];
     for vector in &channel.outputs {
         let constant = |i: usize, j: usize| -vector[i] * vector[j] / (output * output);
@@ -124,7 +106,7 @@ fn narrowest(matrices: &[DMatrix<f64>], channel: &Channel, size: f64, alpha: f64
     constraints.extend(decays(matrices, &triangle, unknowns, size, alpha, 0.0));
     let mut cost: Vec<f64> = triangle.iter().map(|(i, j)| if i == j { TRACE } else { 0.0 }).collect();
     cost.push(1.0);
-    let p = symmetric(n, &triangle, &propose(&cost, &constraints).ok()?.x);
+    let p = symmetric(n, &propose(&cost, &constraints).ok()?.x);
     (rate(matrices, &p)? > 0.0).then_some(p)
 }
 
@@ -142,7 +124,7 @@ fn decays(
     let tolerance = margin(0.0, n);
     let decay = |matrix: &DMatrix<f64>| {
         let term = |variable: usize, i: usize, j: usize| match triangle.get(variable) {
-            Some(&at) => decay_entry(matrix, alpha, at, (i, j)) / size,
+            Some(&at) => decay_entry(|i, j| matrix[(i, j)], alpha, at, (i, j)) / size,
             None => -1e-6 * round * identity(i, j),
         };
         AffineMatrix::from_fn(n, unknowns, |i, j| -tolerance * identity(i, j), term)
@@ -150,25 +132,10 @@ fn decays(
     matrices.iter().map(decay).collect()
 }
 
-/// The entry (i, j) of `-(P J + J^T P) - 2 alpha P` for the symmetric P that has 1 at (a, b) alone.
-pub(super) fn decay_entry(matrix: &DMatrix<f64>, alpha: f64, (a, b): (usize, usize), (i, j): (usize, usize)) -> f64 {
-    // (P J)_ij.
-    let half = |i: usize, j: usize| {
-        let first = if i == a { matrix[(b, j)] } else { 0.0 };
-        first + if i == b && a != b { matrix[(a, j)] } else { 0.0 }
-    };
-    let own = f64::from(u8::from((a, b) == (i, j) || (a, b) == (j, i)));
-    -(half(i, j) + half(j, i) + 2.0 * alpha * own)
-}
-
 /// The matrix with these entries of its upper triangle.
-pub(super) fn symmetric(n: usize, triangle: &[(usize, usize)], entries: &[f64]) -> DMatrix<f64> {
-    let mut p = DMatrix::zeros(n, n);
-    for ((i, j), value) in triangle.iter().zip(entries) {
-        p[(*i, *j)] = *value;
-        p[(*j, *i)] = *value;
-    }
-    p
+pub(super) fn symmetric(n: usize, entries: &[f64]) -> DMatrix<f64> {
+    let p = Symmetric::from_entries(n, entries);
+    DMatrix::from_fn(n, n, |i, j| *p.at(i, j))
 }
 
 /// The largest alpha with `P J + J^T P <= -2 alpha P` for every J; `None` if P is not positive definite.

@@ -1,6 +1,7 @@
 //! The certificate file: the names of its numbers, reading its witness and its claim, writing it.
 
 mod fields;
+mod json;
 mod of_plant;
 mod rates;
 mod read;
@@ -14,6 +15,7 @@ mod triple;
 mod write;
 
 pub use fields::{NumberFields, RefinedSquares, set_fields};
+pub use json::{exact, object};
 pub use of_plant::{joint_existence_json, joint_stability_json, plant_parts};
 pub use read::{embedded, read_lyapunov, read_witness};
 pub use read_plant::read_plant_witness;

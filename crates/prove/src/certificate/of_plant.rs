@@ -1,28 +1,14 @@
 //! What a certificate of a plant adds to the witness (derivation, 11).
 
 use super::fields::{CELLS, EXISTENCE_INEQUALITY, INEQUALITY, JOINT_INEQUALITY, SENSITIVITIES, SPLITTING};
-use super::triple::rows;
+use super::json::{exact, object, rows, vector};
 use rug::Rational;
 use serde_json::Value;
-use sigmastar_exact::number::write_exact;
 use sigmastar_lang::spec::{
     ExistenceInequality, Interval, JointInequality, JointStability, Level, MatrixInequality, Metric, ProvedCell,
     ProvedForcing, ProvedOrbit, ProvedValues, SampledExistence, SampledInequalities, SampledInequality, Specification,
     Splitting, TrigonometricVector,
 };
-
-fn exact(value: &Rational) -> Value {
-    Value::from(write_exact(value))
-}
-
-fn vector(values: &[Rational]) -> Value {
-    values.iter().map(exact).collect()
-}
-
-/// An object from pairs, in their order.
-fn object<'n>(fields: impl IntoIterator<Item = (&'n str, Value)>) -> Value {
-    Value::Object(fields.into_iter().map(|(name, value)| (name.to_owned(), value)).collect())
-}
 
 /// `coordinates`, `orbit` and `forcing` or `cells`, and `bounds`, and the matrix inequalities that are used; none where the data do not come from a plant's formulas.
 #[must_use]

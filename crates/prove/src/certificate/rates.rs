@@ -1,14 +1,12 @@
 //! Rates for given numbers of oscillators in a certificate: what is claimed, and what proves it (derivation, 13.6).
 
-use crate::certify::{Certification, SampledCertification};
-use crate::rate::bound::{ByMatrices, RateBound};
-use crate::rate::found::RateForCount;
+use super::json::rows;
+use crate::rate::bound::{ByForm, ByMatrices, RateBound};
+use crate::rate::found::{ForCount, RateForCount, SampledRateForCount};
 use crate::rate::inequality::RateWitness;
-use crate::rate::noise::NoiseBound;
-use crate::rate::sampled::bound::SampledRateBound;
+use crate::rate::noise::{NoiseBound, NoiseByForm};
 use crate::rate::sampled::form::{Inputs, OfX, SampledRateWitness};
-use crate::rate::sampled::found::SampledRateForCount;
-use crate::rate::sampled::noise::SampledNoiseBound;
+use crate::rate::sampled::noise::SampledNoise;
 use crate::rate::sampled::rounding::RoundingWitness;
 use rug::Rational;
 use serde_json::{Value, json};
@@ -19,9 +17,9 @@ use sigmastar_plants::bounds::{Part, Slopes};
 const FOR_N_O: &str = "for_n_o";
 
 /// The part of the claim: n_o, rate and factor, and bounds under noise; none where no rate is proved.
-pub(super) fn claimed_rates(run: &Certification<'_>) -> Option<(&'static str, Value)> {
-    part(run, |RateBound { n_o, witness, factor, .. }, noise| {
-        let mut value = json!({ "n_o": n_o, "rate": write_exact(&witness.rate), "factor": write_exact(factor) });
+pub(super) fn claimed_rates<P, Q>(found: &[ForCount<P, Q>]) -> Option<(&'static str, Value)> {
+    part(found, |RateBound { n_o, rate, factor, .. }, noise| {
+        let mut value = json!({ "n_o": n_o, "rate": write_exact(rate), "factor": write_exact(factor) });
         if let Some(NoiseBound { limit, peak, .. }) = noise {
             value["noise"] = json!({ "limit": write_exact(limit), "peak": write_exact(peak) });
         }
@@ -30,8 +28,9 @@ pub(super) fn claimed_rates(run: &Certification<'_>) -> Option<(&'static str, Va
 }
 
 /// The part of the witness: w and l where x counts, Pi by the rows of its lower triangle, and its bounds; by matrices Q, G and H; the same for noise.
-pub(super) fn rate_witnesses(run: &Certification<'_>) -> Option<(&'static str, Value)> {
-    part(run, |RateBound { n_o, witness, has_x, by, e_low, upper: [e_up, z_up], .. }, noise| {
+pub(super) fn rate_witnesses(found: &[RateForCount]) -> Option<(&'static str, Value)> {
+    part(found, |RateBound { n_o, proof, e_low, upper: [e_up, z_up], .. }, noise| {
+        let ByForm { witness, has_x, by } = proof;
         let mut value = json!({
             "n_o": n_o,
             "Pi": rows(&witness.pi),
@@ -44,7 +43,7 @@ pub(super) fn rate_witnesses(run: &Certification<'_>) -> Option<(&'static str, V
             }
         }
         of_x(&mut value, witness, *has_x);
-        if let Some(NoiseBound { witness, has_x, e_low, .. }) = noise {
+        if let Some(NoiseBound { proof: NoiseByForm { witness, has_x }, e_low, .. }) = noise {
             let mut part = json!({
                 "Pi": rows(&witness.pi), "lambda": write_exact(&witness.rate), "e_low": write_exact(e_low),
             });
@@ -74,10 +73,6 @@ fn of_slopes(slopes: &[Slopes]) -> Value {
     parts
 }
 
-fn rows(pi: &[Vec<Rational>]) -> Vec<Vec<String>> {
-    pi.iter().map(|row| row.iter().map(write_exact).collect()).collect()
-}
-
 /// The lower triangle of a matrix.
 fn lower(matrix: &[Vec<Rational>]) -> Vec<Vec<String>> {
     matrix.iter().enumerate().map(|(i, row)| row[..=i].iter().map(write_exact).collect()).collect()
@@ -89,36 +84,22 @@ fn of_x(value: &mut Value, witness: &RateWitness, has_x: bool) {
     }
 }
 
-fn part(
-    run: &Certification<'_>,
-    of: impl Fn(&RateBound, Option<&NoiseBound>) -> Value,
+fn part<P, Q>(
+    found: &[ForCount<P, Q>],
+    of: impl Fn(&RateBound<P>, Option<&NoiseBound<Q>>) -> Value,
 ) -> Option<(&'static str, Value)> {
-    let one = |found: &RateForCount| {
-        let noise = found.noise.as_ref().and_then(|noise| noise.as_ref().ok());
-        found.bound.as_ref().map(|bound| of(bound, noise))
-    };
-    let all: Vec<Value> = run.for_n_o.iter().filter_map(one).collect();
+    let one = |found: &ForCount<P, Q>| found.bound.as_ref().map(|bound| of(bound, found.proved_noise()));
+    let all: Vec<Value> = found.iter().filter_map(one).collect();
     (!all.is_empty()).then_some((FOR_N_O, Value::Array(all)))
 }
 
-/// The same part of a claim at samples.
-pub(super) fn claimed_sampled_rates(run: &SampledCertification<'_>) -> Option<(&'static str, Value)> {
-    sampled_part(run, |SampledRateBound { n_o, rate, factor, .. }, noise| {
-        let mut value = json!({ "n_o": n_o, "rate": write_exact(rate), "factor": write_exact(factor) });
-        if let Some(SampledNoiseBound { limit, peak, .. }) = noise {
-            value["noise"] = json!({ "limit": write_exact(limit), "peak": write_exact(peak) });
-        }
-        value
-    })
-}
-
 /// The same part of a witness at samples: Pi and its bounds, c and the multipliers, with w those of x where x counts.
-pub(super) fn sampled_rate_witnesses(run: &SampledCertification<'_>) -> Option<(&'static str, Value)> {
-    sampled_part(run, |SampledRateBound { n_o, witness, e_low, upper: [e_up, z_up], .. }, noise| {
+pub(super) fn sampled_rate_witnesses(found: &[SampledRateForCount]) -> Option<(&'static str, Value)> {
+    part(found, |RateBound { n_o, proof: witness, e_low, upper: [e_up, z_up], .. }, noise| {
         let mut value = at_samples(witness, e_low);
         value["n_o"] = (*n_o).into();
         (value["e_up"], value["z_up"]) = (write_exact(e_up).into(), write_exact(z_up).into());
-        if let Some(SampledNoiseBound { witness, e_low, rounding, .. }) = noise {
+        if let Some(NoiseBound { proof: SampledNoise { witness, rounding }, e_low, .. }) = noise {
             let mut part = at_samples(witness, e_low);
             if let Some(RoundingWitness { z_low, z_up, z_noise, level }) = rounding {
                 for (name, number) in [("z_low", z_low), ("z_up", z_up), ("z_noise", z_noise), ("level", level)] {
@@ -143,16 +124,4 @@ fn at_samples(witness: &SampledRateWitness, e_low: &Rational) -> Value {
         value[name] = write_exact(number).into();
     }
     value
-}
-
-fn sampled_part(
-    run: &SampledCertification<'_>,
-    of: impl Fn(&SampledRateBound, Option<&SampledNoiseBound>) -> Value,
-) -> Option<(&'static str, Value)> {
-    let one = |found: &SampledRateForCount| {
-        let noise = found.noise.as_ref().and_then(|noise| noise.as_ref().ok());
-        found.bound.as_ref().map(|bound| of(bound, noise))
-    };
-    let all: Vec<Value> = run.for_n_o.iter().filter_map(one).collect();
-    (!all.is_empty()).then_some((FOR_N_O, Value::Array(all)))
 }

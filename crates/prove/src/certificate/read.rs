@@ -80,21 +80,51 @@ pub fn read_lyapunov(document: &Document) -> Result<ProvedTriples, SpecErrors> {
 pub(super) fn read_triple(value: &Value<'_>, errors: &mut Errors) -> Result<ProvedTriple, Reported> {
     let mut fields = value.object(errors)?;
     let mean = fields.required("P", errors).and_then(|value| read_rows(&value, "an entry of a matrix", errors));
-    let mut harmonics = Vec::new();
-    if let Some(value) = fields.optional("harmonics") {
-        for pair in value.array(errors)? {
-            let mut pair = pair.object(errors)?;
-            let [cos, sin] = ["cos", "sin"].map(|name| {
-                pair.required(name, errors).and_then(|value| read_rows(&value, "an entry of a matrix", errors))
-            });
-            pair.finish(errors);
-            harmonics.push([cos?, sin?]);
-        }
-    }
+    let harmonics = harmonics(&mut fields, errors, |pair, name, errors| {
+        pair.required(name, errors).and_then(|value| read_rows(&value, "an entry of a matrix", errors))
+    })?;
     let [p_low, p_up, alpha] = ["p_low", "p_up", "alpha"].map(|name| rational(&mut fields, name, errors));
     fields.finish(errors);
     let matrix = PeriodicMatrix { mean: mean?, harmonics };
     Ok(ProvedTriple { matrix, p_low: p_low?, p_up: p_up?, alpha: alpha? })
+}
+
+/// A list of objects.
+pub(super) fn each<T>(
+    value: &Value<'_>,
+    errors: &mut Errors,
+    read: impl Fn(&mut Object<'_>, &mut Errors) -> Result<T, Reported>,
+) -> Result<Vec<T>, Reported> {
+    let mut all = Vec::new();
+    for one in value.array(errors)? {
+        let mut fields = one.object(errors)?;
+        let read = read(&mut fields, errors);
+        fields.finish(errors);
+        all.push(read?);
+    }
+    Ok(all)
+}
+
+/// The same in a field that is left out where the list is empty.
+pub(super) fn listed<T>(
+    fields: &mut Object<'_>,
+    name: &'static str,
+    errors: &mut Errors,
+    read: impl Fn(&mut Object<'_>, &mut Errors) -> Result<T, Reported>,
+) -> Result<Vec<T>, Reported> {
+    fields.optional(name).map_or(Ok(Vec::new()), |value| each(&value, errors, read))
+}
+
+/// `harmonics`, as a list that may be left out: `cos` and `sin` of each.
+pub(super) fn harmonics<T>(
+    fields: &mut Object<'_>,
+    errors: &mut Errors,
+    read: impl Fn(&mut Object<'_>, &'static str, &mut Errors) -> Result<T, Reported>,
+) -> Result<Vec<[T; 2]>, Reported> {
+    listed(fields, "harmonics", errors, |pair, errors| {
+        let [cos, sin] = ["cos", "sin"].map(|name| read(pair, name, errors));
+        Ok([cos?, sin?])
+    })
 }
 
 /// Lists of exact rationals.

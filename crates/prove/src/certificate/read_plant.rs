@@ -1,7 +1,7 @@
 //! Reading what a certificate of a plant adds to the witness. What is read is taken as it is: nothing of it is proved here.
 
 use super::fields::{CELLS, EXISTENCE_INEQUALITY, INEQUALITY, JOINT_INEQUALITY, SENSITIVITIES, SPLITTING, rational};
-use super::read::{read_rows, read_triple, vector};
+use super::read::{each, harmonics, listed, read_rows, read_triple, vector};
 use super::read_joint::{read_joint, read_joint_stability};
 use super::triple::{EXISTENCE, STABILITY};
 use crate::reduction::FreeNumbers;
@@ -208,17 +208,12 @@ fn read_cells(
         return Err(errors.report(other.error(ErrorKind::UnknownField, message)));
     }
     let named = plant.parameters.named_intervals().count();
-    let mut cells = Vec::new();
-    for cell in value.array(errors)? {
-        let mut fields = cell.object(errors)?;
+    each(value, errors, |fields, errors| {
         let ends = fields.required("parameters", errors).and_then(|value| {
-            let mut ends = Vec::new();
-            for interval in value.array(errors)? {
-                let mut interval = interval.object(errors)?;
-                let [low, high] = ["low", "high"].map(|name| rational(&mut interval, name, errors));
-                interval.finish(errors);
-                ends.push([low?, high?]);
-            }
+            let ends = each(&value, errors, |interval, errors| {
+                let [low, high] = ["low", "high"].map(|name| rational(interval, name, errors));
+                Ok([low?, high?])
+            })?;
             if ends.len() != named {
                 let message = format!("the ends of {} intervals, and the plant has {named}", ends.len());
                 return Err(errors.report(value.error(ErrorKind::Range, message)));
@@ -227,17 +222,15 @@ fn read_cells(
         });
         // What is read beside is told as well.
         let parameters = ends.map(|ends| plant.parameters.in_cell(&ends));
-        let read = read_cell(&mut fields, plant.parameters.clone(), plant.states(), errors);
-        fields.finish(errors);
-        cells.push(ProvedCell { parameters: parameters?, ..read? });
-    }
-    Ok(cells)
+        let read = read_cell(fields, plant.parameters.clone(), plant.states(), errors);
+        Ok(ProvedCell { parameters: parameters?, ..read? })
+    })
 }
 
 fn read_orbit(value: &Value<'_>, n: usize, errors: &mut Errors) -> Result<ProvedOrbit, Reported> {
     let mut fields = value.object(errors)?;
     let centre = read_curve(&mut fields, n, errors);
-    let sensitivities = read_sensitivities(&mut fields, errors, |part, errors| read_curve(part, n, errors));
+    let sensitivities = listed(&mut fields, SENSITIVITIES, errors, |part, errors| read_curve(part, n, errors));
     let [defect, tube, radius] = ["defect", "tube", "radius"].map(|name| rational(&mut fields, name, errors));
     fields.finish(errors);
     let approximation = OrbitCurve { centre: centre?, sensitivities: sensitivities? };
@@ -247,41 +240,16 @@ fn read_orbit(value: &Value<'_>, n: usize, errors: &mut Errors) -> Result<Proved
 /// `mean` and `harmonics` of vectors.
 fn read_curve(fields: &mut Object<'_>, n: usize, errors: &mut Errors) -> Result<TrigonometricVector, Reported> {
     let mean = fields.required("mean", errors).and_then(|value| vector(&value, n, errors));
-    let mut harmonics = Vec::new();
-    if let Some(value) = fields.optional("harmonics") {
-        for pair in value.array(errors)? {
-            let mut pair = pair.object(errors)?;
-            let [cos, sin] =
-                ["cos", "sin"].map(|name| pair.required(name, errors).and_then(|value| vector(&value, n, errors)));
-            pair.finish(errors);
-            harmonics.push([cos?, sin?]);
-        }
-    }
+    let harmonics = harmonics(fields, errors, |pair, name, errors| {
+        pair.required(name, errors).and_then(|value| vector(&value, n, errors))
+    })?;
     Ok(TrigonometricVector { mean: mean?, harmonics })
-}
-
-/// One part for each parameter of which an interval is known.
-fn read_sensitivities<T>(
-    fields: &mut Object<'_>,
-    errors: &mut Errors,
-    read: impl Fn(&mut Object<'_>, &mut Errors) -> Result<T, Reported>,
-) -> Result<Vec<T>, Reported> {
-    let mut parts = Vec::new();
-    if let Some(value) = fields.optional(SENSITIVITIES) {
-        for part in value.array(errors)? {
-            let mut part = part.object(errors)?;
-            let one = read(&mut part, errors);
-            part.finish(errors);
-            parts.push(one?);
-        }
-    }
-    Ok(parts)
 }
 
 fn read_forcing(value: &Value<'_>, errors: &mut Errors) -> Result<ProvedForcing, Reported> {
     let mut fields = value.object(errors)?;
     let wave = read_wave(&mut fields, errors);
-    let sensitivities = read_sensitivities(&mut fields, errors, read_wave);
+    let sensitivities = listed(&mut fields, SENSITIVITIES, errors, read_wave);
     let [rest, rest_t] = ["rest", "rest_t"].map(|name| rational(&mut fields, name, errors));
     fields.finish(errors);
     let Wave { mean, harmonics } = wave?;
@@ -291,31 +259,20 @@ fn read_forcing(value: &Value<'_>, errors: &mut Errors) -> Result<ProvedForcing,
 /// `mean` and `harmonics` of numbers.
 fn read_wave(fields: &mut Object<'_>, errors: &mut Errors) -> Result<Wave, Reported> {
     let mean = rational(fields, "mean", errors);
-    let mut harmonics = Vec::new();
-    if let Some(value) = fields.optional("harmonics") {
-        for pair in value.array(errors)? {
-            let mut pair = pair.object(errors)?;
-            let [cos, sin] = ["cos", "sin"].map(|name| rational(&mut pair, name, errors));
-            pair.finish(errors);
-            harmonics.push([cos?, sin?]);
-        }
-    }
+    let harmonics = harmonics(fields, errors, rational)?;
     Ok(Wave { mean: mean?, harmonics })
 }
 
 fn read_values(value: &Value<'_>, errors: &mut Errors) -> Result<ProvedValues, Reported> {
-    let mut entries = Vec::new();
-    for element in value.array(errors)? {
-        let mut fields = element.object(errors)?;
+    let entries = each(value, errors, |fields, errors| {
         let bound = fields.required("bound", errors).and_then(|value| {
             let name = value.string(errors)?;
             Bound::ALL.into_iter().find(|bound| bound.field() == name).ok_or_else(|| {
                 errors.report(value.error(ErrorKind::UnknownName, "this is no bounding function of a plant"))
             })
         });
-        let [x, e, value] = ["X", "E", "value"].map(|name| rational(&mut fields, name, errors));
-        fields.finish(errors);
-        entries.push(ProvedValue { bound: bound?, x: x?, e: e?, value: value?, sampled: None });
-    }
-    Ok(ProvedValues::new(entries))
+        let [x, e, value] = ["X", "E", "value"].map(|name| rational(fields, name, errors));
+        Ok(ProvedValue { bound: bound?, x: x?, e: e?, value: value?, sampled: None })
+    });
+    entries.map(ProvedValues::new)
 }

@@ -1,12 +1,13 @@
 //! The certificate of the regulator at samples: a claim about exactly one gain and one sampling period.
 
 use super::fields::{NumberFields, paths_json};
+use super::json::{exact, object, text};
 use super::of_plant::plant_parts;
-use super::rates::{claimed_sampled_rates, sampled_rate_witnesses};
+use super::rates::{claimed_rates, sampled_rate_witnesses};
 use super::triple::lyapunov_parts;
 use super::write::{
-    FORMAT, VERSION, actuator_json, conclusion, conditions_json, control_json, every_input_gain, exact,
-    input_gain_json, object, parameters_json, set_json, text, upper_end, within_actuator,
+    actuator_json, conclusion, conditions_json, control_json, every_input_gain, file, input_gain_json, parameters_json,
+    periodic_json, set_json, within_actuator,
 };
 use crate::certify::SampledCertification;
 use serde_json::Value;
@@ -26,7 +27,6 @@ pub(super) const SAMPLED: &str = "sampled";
 pub fn sampled_certificate_json(run: &SampledCertification<'_>) -> Option<Value> {
     let proof = run.claim()?;
     let (witness, spec) = (&proof.witness, run.spec);
-    let [x, e, zeta, z] = run.periodic_solution()?;
     let mu = &spec.internal_model.mu;
     let heading = [
         ("verdict", text(run.verdict.to_string())),
@@ -41,10 +41,7 @@ pub fn sampled_certificate_json(run: &SampledCertification<'_>) -> Option<Value>
     ];
     let rest = [
         ("initial_set", set_json(spec, &witness.set)),
-        (
-            "periodic_solution",
-            object([("x", upper_end(&x)), ("e", upper_end(&e)), ("zeta", upper_end(&zeta)), ("z", upper_end(&z))]),
-        ),
+        ("periodic_solution", periodic_json(&run.periodic_solution()?)),
         ("control", control_json(run.control()?)),
     ];
     let said = ("statement", text(sampled_statement(spec, witness) + &run.rates_in_words()));
@@ -57,7 +54,7 @@ pub fn sampled_certificate_json(run: &SampledCertification<'_>) -> Option<Value>
                 .chain(of_actuator)
                 .chain(parameters_json(spec))
                 .chain(rest)
-                .chain(claimed_sampled_rates(run))
+                .chain(claimed_rates(&run.for_n_o))
                 .chain([said]),
         )
     };
@@ -65,21 +62,10 @@ pub fn sampled_certificate_json(run: &SampledCertification<'_>) -> Option<Value>
     let further = [("weight_sum", exact(&witness.law.weight_sum)), ("transfer", object([("proof", text(SAMPLED))]))];
     let parts =
         further.into_iter().chain([paths_json(witness.paths)]).chain(lyapunov_parts(spec)).chain(plant_parts(spec));
-    let [embedded, digest] = match spec.plant() {
-        Some(_) => ["plant", "plant_sha256"],
-        None => ["specification", "specification_sha256"],
-    };
-    Some(object([
-        ("format", text(FORMAT)),
-        ("version", Value::from(VERSION)),
-        ("tool", object([("name", text("sigmastar")), ("version", text(env!("CARGO_PKG_VERSION")))])),
-        ("precision_bits", Value::from(proof.precision)),
-        (embedded, spec.document.clone()),
-        (digest, text(spec.sha256.clone())),
-        ("claim", claim),
-        ("witness", object(witness.json().into_iter().chain(of_delay).chain(parts).chain(sampled_rate_witnesses(run)))),
-        ("conditions", conditions_json(&proof.evaluation.conditions)),
-    ]))
+    let witness =
+        object(witness.json().into_iter().chain(of_delay).chain(parts).chain(sampled_rate_witnesses(&run.for_n_o)));
+    let conditions = ("conditions", conditions_json(&proof.evaluation.conditions));
+    Some(object(file(spec, proof.precision, claim, witness).into_iter().chain([conditions])))
 }
 
 /// The claim in words.

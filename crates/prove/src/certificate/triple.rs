@@ -1,16 +1,10 @@
 //! The Lyapunov triple of a Jacobian as a part of a certificate.
 
+use super::json::{object, rows, text};
 use rug::Rational;
 use serde_json::{Map, Value};
-use sigmastar_exact::number::write_exact;
 use sigmastar_lang::spec::Specification;
 use sigmastar_lang::spec::model::{Lyapunov, LyapunovSource, PeriodicMatrix};
-
-/// Lists of exact rationals.
-pub(super) fn rows(matrix: &[Vec<Rational>]) -> Value {
-    let row = |row: &Vec<Rational>| Value::Array(row.iter().map(|entry| Value::from(write_exact(entry))).collect());
-    Value::Array(matrix.iter().map(row).collect())
-}
 
 /// P(t) as fields: `P` are the rows of the mean, and `harmonics`, where there are any, lists `cos` and `sin` of k = 1, 2, ...
 #[must_use]
@@ -18,12 +12,7 @@ pub fn matrix_json(matrix: &PeriodicMatrix) -> Map<String, Value> {
     let mut fields = Map::new();
     fields.insert("P".to_owned(), rows(&matrix.mean));
     if !matrix.harmonics.is_empty() {
-        let one = |[cos, sin]: &[Vec<Vec<Rational>>; 2]| {
-            let mut pair = Map::new();
-            pair.insert("cos".to_owned(), rows(cos));
-            pair.insert("sin".to_owned(), rows(sin));
-            Value::Object(pair)
-        };
+        let one = |[cos, sin]: &[Vec<Vec<Rational>>; 2]| object([("cos", rows(cos)), ("sin", rows(sin))]);
         fields.insert("harmonics".to_owned(), Value::Array(matrix.harmonics.iter().map(one).collect()));
     }
     fields
@@ -50,9 +39,7 @@ pub(super) const STABILITY: &str = "lyapunov";
 pub(super) const EXISTENCE: &str = "lyapunov_existence";
 
 fn part(triple: &Lyapunov, matrix: &PeriodicMatrix) -> Value {
-    let mut fields = matrix_json(matrix);
-    for (name, value) in [("p_low", &triple.p_low), ("p_up", &triple.p_up), ("alpha", &triple.alpha)] {
-        fields.insert(name.to_owned(), Value::from(value.text.clone()));
-    }
-    Value::Object(fields)
+    let numbers = [("p_low", &triple.p_low), ("p_up", &triple.p_up), ("alpha", &triple.alpha)];
+    let numbers = numbers.map(|(name, value)| (name.to_owned(), text(value.text.clone())));
+    Value::Object(matrix_json(matrix).into_iter().chain(numbers).collect())
 }

@@ -1,9 +1,10 @@
 //! The certificate file: self-contained, the same bytes for the same input.
 
 use super::fields::{NumberFields, paths_json, set_fields};
+use super::json::{exact, object, rows, text};
 use super::of_plant::plant_parts;
 use super::rates::{claimed_rates, rate_witnesses};
-use super::triple::{lyapunov_parts, rows};
+use super::triple::lyapunov_parts;
 use crate::certify::{Certification, Decided, ExceededBy, NoPlant, Outcome, Proof, Witness, claimed_ball};
 use rug::{Integer, Rational};
 use serde_json::{Map, Value};
@@ -27,19 +28,6 @@ pub const VERSION: u64 = 1;
 
 /// Significant digits of the upper ends in a claim.
 const CLAIM_DIGITS: u32 = 12;
-
-/// An object from pairs, in their order.
-pub(super) fn object<'n>(fields: impl IntoIterator<Item = (&'n str, Value)>) -> Value {
-    Value::Object(fields.into_iter().map(|(name, value)| (name.to_owned(), value)).collect())
-}
-
-pub(super) fn text(value: impl Into<String>) -> Value {
-    Value::String(value.into())
-}
-
-pub(super) fn exact(value: &Rational) -> Value {
-    text(write_exact(value))
-}
 
 fn interval(value: &Enclosure) -> Value {
     Value::Array(value.decimals().into_iter().map(Value::String).collect())
@@ -72,7 +60,6 @@ static LEAST_WRITTEN: LazyLock<Rational> =
 pub fn certificate_json(run: &Certification<'_>) -> Option<Value> {
     let claimed = run.claim()?;
     let (sigma, set) = (claimed.sigma, claimed.set);
-    let [x, e, zeta, z] = run.periodic_solution()?;
     let spec = run.spec;
     let mu = &spec.internal_model.mu;
     let heading = [
@@ -88,30 +75,29 @@ pub fn certificate_json(run: &Certification<'_>) -> Option<Value> {
     });
     let rest = [
         ("initial_set", set_json(spec, set)),
-        (
-            "periodic_solution",
-            object([("x", upper_end(&x)), ("e", upper_end(&e)), ("zeta", upper_end(&zeta)), ("z", upper_end(&z))]),
-        ),
+        ("periodic_solution", periodic_json(&run.periodic_solution()?)),
         ("control", control_json(run.control()?)),
     ];
     let said = ("statement", text(statement(run, sigma, set) + &run.rates_in_words()));
     let of_actuator = input_gain_json(spec).into_iter().chain(actuator_json(spec));
     let names = of_actuator.chain(period).chain(parameters_json(spec)).chain(rest);
-    let claim = object(heading.into_iter().chain(names).chain(claimed_rates(run)).chain([said]));
+    let claim = object(heading.into_iter().chain(names).chain(claimed_rates(&run.for_n_o)).chain([said]));
     let regulation = run.exact.as_ref().map(|exact| {
         let numbers = exact.witness.json().into_iter().chain([paths_json(exact.witness.paths)]);
         ("exact_regulation", object(numbers))
     });
     let proof = run.sharp.proved()?;
     let refined = proof.witness.refined.as_ref().map(|refined| ("refined", object(refined.json())));
-    let mut witness =
-        with_witness(proof, refined.into_iter().chain(regulation).chain([paths_json(proof.witness.paths)]));
+    let multipliers = multipliers_json(run).map(|value| ("lmi", value));
+    let of_data = lyapunov_parts(spec).into_iter().chain(plant_parts(spec)).chain(multipliers);
+    let parts = refined.into_iter().chain(regulation).chain([paths_json(proof.witness.paths)]).chain(of_data);
+    let witness = with_witness(proof, parts.chain(rate_witnesses(&run.for_n_o)));
     // The free numbers of the repaired derivation, without which its column of the constants could not be checked.
     let comparison = run.repaired.as_ref().and_then(Outcome::proved).map(|proof| {
         let RepairedWitness { sigma, set, .. } = &proof.witness;
         let witness = with_witness(proof, None);
         let part = [("sigma_star", exact(sigma)), ("initial_set", object(set_fields(set))), ("witness", witness)];
-        ("comparison".to_owned(), object([("repaired", object(part))]))
+        ("comparison", object([("repaired", object(part))]))
     });
     let transfer = first_comparison(&Data::new(spec, claimed.precision), &claimed);
     let conditions: Vec<Condition> = run
@@ -119,34 +105,34 @@ pub fn certificate_json(run: &Certification<'_>) -> Option<Value> {
         .iter()
         .map(|condition| if condition.id == "T" { transfer.clone() } else { condition.clone() })
         .collect();
-    if let Value::Object(fields) = &mut witness {
-        let parts = lyapunov_parts(spec).into_iter().chain(plant_parts(spec));
-        fields.extend(parts.map(|(name, value)| (name.to_owned(), value)));
-        fields.extend(multipliers_json(run).map(|value| ("lmi".to_owned(), value)));
-        fields.extend(rate_witnesses(run).map(|(name, value)| (name.to_owned(), value)));
-    }
+    let no_plant = run.no_plant.as_ref().map(|reason| ("no_plant", no_plant_json(reason)));
+    let decided =
+        [("conditions", conditions_json(&conditions)), ("constants", constants_json(&checkable(&run.constants)))];
+    let file = file(spec, claimed.precision, claim, witness).into_iter();
+    Some(object(file.chain(no_plant).chain(comparison).chain(decided)))
+}
+
+/// What every certificate begins with.
+pub(super) fn file(spec: &Specification, precision: u32, claim: Value, witness: Value) -> [(&'static str, Value); 8] {
     let [embedded, digest] = match spec.plant() {
         Some(_) => ["plant", "plant_sha256"],
         None => ["specification", "specification_sha256"],
     };
-    let mut certificate = object([
+    [
         ("format", text(FORMAT)),
         ("version", Value::from(VERSION)),
         ("tool", object([("name", text("sigmastar")), ("version", text(env!("CARGO_PKG_VERSION")))])),
-        ("precision_bits", Value::from(claimed.precision)),
+        ("precision_bits", Value::from(precision)),
         (embedded, spec.document.clone()),
         (digest, text(spec.sha256.clone())),
         ("claim", claim),
         ("witness", witness),
-    ]);
-    // The object was made above.
-    if let Value::Object(fields) = &mut certificate {
-        fields.extend(run.no_plant.as_ref().map(|reason| ("no_plant".to_owned(), no_plant_json(reason))));
-        fields.extend(comparison);
-        fields.insert("conditions".to_owned(), conditions_json(&conditions));
-        fields.insert("constants".to_owned(), constants_json(&checkable(&run.constants)));
-    }
-    Some(certificate)
+    ]
+}
+
+/// Upper bounds along the periodic solution.
+pub(super) fn periodic_json([x, e, zeta, z]: &[Enclosure; 4]) -> Value {
+    object([("x", upper_end(x)), ("e", upper_end(e)), ("zeta", upper_end(zeta)), ("z", upper_end(z))])
 }
 
 /// The interval of the input gain, for all of which the claim is; none where there is none.
@@ -178,7 +164,7 @@ pub(super) fn parameters_json(spec: &Specification) -> Option<(&'static str, Val
 /// Why no plant with a state x satisfies the data: what a checker needs to decide it again.
 #[must_use]
 pub fn no_plant_json(reason: &NoPlant) -> Value {
-    let mut fields = object([("X", exact(&reason.x)), ("rate_at_most", interval(&reason.rate_at_most))]);
+    let fields = [("X", exact(&reason.x)), ("rate_at_most", interval(&reason.rate_at_most))];
     let more = match &reason.exceeded_by {
         ExceededBy::Alpha { .. } => vec![("exceeded_by", text("alpha"))],
         ExceededBy::Rate { .. } => vec![("exceeded_by", text("rate"))],
@@ -186,11 +172,7 @@ pub fn no_plant_json(reason: &NoPlant) -> Value {
             vec![("exceeded_by", text("jacobian")), ("t", exact(fraction)), ("column", Value::from(*column))]
         }
     };
-    // The object was made above.
-    if let Value::Object(fields) = &mut fields {
-        fields.extend(more.into_iter().map(|(name, value)| (name.to_owned(), value)));
-    }
-    fields
+    object(fields.into_iter().chain(more))
 }
 
 /// The multipliers with which the matrix inequality of C5 was proved, for a claim of the sharp derivation.

@@ -14,13 +14,13 @@ use sigmastar_theory::transfer::TradeOff;
 
 /// What is asked of a search.
 #[derive(Clone, Copy, Default)]
-pub(super) struct Wanted<'w> {
+pub struct Wanted<'w> {
     /// Free numbers that are known to be near.
-    pub(super) start: Option<&'w SharpProposal>,
+    pub start: Option<&'w SharpProposal>,
     /// The gain, where it is not to be found.
-    pub(super) gain: Option<&'w Rational>,
+    pub gain: Option<&'w Rational>,
     /// What is to be kept at the gain.
-    pub(super) limits: Option<&'w Limits>,
+    pub limits: Option<&'w Limits>,
 }
 
 /// The outcome, with the model and the proposal that it came from.

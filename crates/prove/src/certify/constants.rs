@@ -88,8 +88,7 @@ fn rough(value: &Enclosure) -> bool {
     if !value.is_bounded() {
         return false;
     }
-    let end = |end: &rug::Float| Enclosure::new(end.clone(), end.clone());
-    let width = end(&value.upper()) - end(&value.lower());
+    let width = Enclosure::point(&value.upper()) - Enclosure::point(&value.lower());
     let unit = Enclosure::from_rational(&(Rational::from(1) >> DIGITS), DIGITS);
     !width.le(&(value.abs().ceiling() * unit)).is_true()
 }

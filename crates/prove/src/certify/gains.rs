@@ -9,14 +9,13 @@ use super::proof::{SampledProof, SharpProof};
 use super::round::{TransferKind, round_again};
 use super::sampled::{SampledCertification, certify_sampled};
 use crate::search::{FloatModel, Goal, SampledProposal, SharpProposal, search_sharp_at};
-use rayon::prelude::*;
 use rug::Rational;
 use sigmastar_exact::number::{Direction, round_rational};
+use sigmastar_exact::parallel;
 use sigmastar_lang::spec::Specification;
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::consequences::error_bounds;
 use sigmastar_theory::derivation::mistuned::Mistuning;
-use sigmastar_theory::transfer::TransferProof;
 use std::sync::Arc;
 
 /// The gains, in tenths of that of the claim.
@@ -71,7 +70,7 @@ fn gain_rows(
         let known = spec.domain.is_some() || spec.plant().is_some() || within || prove_up_to(spec, &x, &e).is_ok();
         known.then(|| row_of(spec, proof, other.cloned()))
     };
-    TENTHS.par_iter().filter_map(row).collect()
+    parallel::map(&TENTHS, row).into_iter().flatten().collect()
 }
 
 impl Certification<'_> {
@@ -95,12 +94,7 @@ impl Certification<'_> {
     /// coordinates, where the set is stated in them.
     pub fn with_gains_of(&mut self, spec: &Specification, start: &SharpProposal) {
         let Some(proof) = self.sharp.proved().filter(|_| !self.gains.is_empty()) else { return };
-        let kind = match proof.witness.transfer {
-            TransferProof::ClosedForm => TransferKind::ClosedForm,
-            TransferProof::Matched { .. } => TransferKind::Matched,
-            TransferProof::Boxes(_) => TransferKind::Boxes,
-        };
-        let model = model(&Data::new(spec, proof.precision), kind);
+        let model = model(&Data::new(spec, proof.precision), TransferKind::of(&proof.witness.transfer));
         let other = Arc::new(spec.clone());
         for row in gain_rows(spec, proof, (&model, start), Some(&other)) {
             match self.gains.iter_mut().find(|known| known.sigma == row.sigma) {
@@ -132,7 +126,7 @@ impl SampledCertification<'_> {
             let run = certify_sampled(self.spec, &self.sampling, Some(&sigma), start, ladder).ok()?;
             run.claim().map(row)
         };
-        let more: Vec<GainRow> = TENTHS.par_iter().filter_map(at).collect();
+        let more: Vec<GainRow> = parallel::map(&TENTHS, at).into_iter().flatten().collect();
         self.gains = std::iter::once(row(proof)).chain(more).collect();
     }
 }

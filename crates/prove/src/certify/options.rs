@@ -49,6 +49,21 @@ impl Default for Options {
     }
 }
 
+impl Options {
+    /// What does not fit the regulator at samples, and what to do about it; `transfer` is what the user writes for that option.
+    #[must_use]
+    pub fn misfit(&self, at_samples: bool, transfer: &str) -> Option<[String; 2]> {
+        (at_samples && self.transfer != TransferChoice::Best).then(|| {
+            [
+                format!(
+                    "{transfer} is not for the regulator at samples: its constants are checked harmonic by harmonic"
+                ),
+                format!("leave {transfer} or the sampling period out"),
+            ]
+        })
+    }
+}
+
 /// What a claim is to keep to, at its gain; each where it is asked for.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Limits {
@@ -87,5 +102,20 @@ impl Limits {
         self.named().zip(bounds).all(|((_, limit), bound)| {
             limit.is_none_or(|limit| bound.upper_rational().is_some_and(|upper| upper <= *limit))
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_what_does_not_fit_is_refused() {
+        let boxes = Options { transfer: TransferChoice::Boxes, ..Options::default() };
+        let fits = [(Options::default(), false), (Options::default(), true), (boxes, false)];
+        assert!(fits.iter().all(|(options, at_samples)| options.misfit(*at_samples, "transfer").is_none()));
+        let [message, help] = boxes.misfit(true, "--transfer").unwrap();
+        assert_eq!(help, "leave --transfer or the sampling period out");
+        assert!(message.starts_with("--transfer is not for the regulator at samples"));
     }
 }

@@ -34,49 +34,15 @@ use sigmastar_theory::transfer::{TradeOff, printed_transfer};
 /// # Errors
 /// Bounding functions that are *refuted*, with their counterexamples, and an unstable filter: bad input.
 pub fn certify(spec: &Specification, options: Options) -> Result<Certification<'_>, Refusal> {
-    certify_near(spec, options, None)
+    certify_for(spec, options, Wanted::default())
 }
 
-/// The same, where a proposal is known: the search starts there.
+/// The same as it is wanted: from a start that is known; for the smallest gain that is found with which limits are kept, or for one that is given,
+/// which is that of the claim then. A claim that is proved keeps to the limits at its gain.
 ///
 /// # Errors
 /// Those of [`certify`].
-pub fn certify_near<'s>(
-    spec: &'s Specification,
-    options: Options,
-    start: Option<&SharpProposal>,
-) -> Result<Certification<'s>, Refusal> {
-    certify_wanted(spec, options, Wanted { start, ..Wanted::default() })
-}
-
-/// The same for a gain that is given: the claim, if it is proved, is about this gain and all larger ones.
-///
-/// # Errors
-/// Those of [`certify`].
-pub fn certify_at<'s>(
-    spec: &'s Specification,
-    options: Options,
-    start: Option<&SharpProposal>,
-    gain: &Rational,
-) -> Result<Certification<'s>, Refusal> {
-    certify_wanted(spec, options, Wanted { start, gain: Some(gain), limits: None })
-}
-
-/// The same for the smallest gain that is found with which the limits are kept, or for the one that is given: a claim that is proved keeps
-/// to them at its gain.
-///
-/// # Errors
-/// Those of [`certify`].
-pub fn certify_within<'s>(
-    spec: &'s Specification,
-    options: Options,
-    start: Option<&SharpProposal>,
-    (gain, limits): (Option<&Rational>, &Limits),
-) -> Result<Certification<'s>, Refusal> {
-    certify_wanted(spec, options, Wanted { start, gain, limits: Some(limits) })
-}
-
-fn certify_wanted<'s>(
+pub fn certify_for<'s>(
     spec: &'s Specification,
     options: Options,
     asked: Wanted<'_>,
@@ -198,26 +164,16 @@ fn assemble<'s>(
     let columns = Columns { sharp, repaired, printed: &printed, exact: exact.as_ref() };
     let (columns, constants) = columns.evaluated(spec, data.precision, options.ladder);
     let Columns { sharp, repaired, .. } = columns;
-    let sensitivities = match (&sharp, &proposal) {
-        (Outcome::Proved(proof), Some(proposal)) => ranked(spec, model, proposal, proof),
-        _ => Vec::new(),
-    };
-    let aligned = match (&sharp, &proposal) {
-        (Outcome::Proved(_), Some(proposal)) => aligned(model, proposal),
-        _ => None,
-    };
-    let nominal_gain = match (&sharp, &proposal) {
-        (Outcome::Proved(proof), Some(proposal)) => with_nominal_gain(spec, model, proposal, proof),
-        _ => None,
-    };
+    let known = sharp.proved().zip(proposal.as_ref());
+    let sensitivities = known.map_or_else(Vec::new, |(proof, proposal)| ranked(spec, model, proposal, proof));
+    let aligned = known.and_then(|(_, proposal)| aligned(model, proposal));
+    let nominal_gain = known.and_then(|(proof, proposal)| with_nominal_gain(spec, model, proposal, proof));
     let alternatives = Alternatives { by_norms: None, aligned, nominal_gain };
     // Without a domain, the claim is about the arguments it uses; without a claim, about all.
     let used = reach(&sharp).or_else(|| repaired.as_ref().and_then(reach));
     let no_plant = no_plant(data, used.as_ref().filter(|_| spec.domain.is_none()));
-    let without_optional = match (&sharp, &proposal) {
-        (Outcome::Proved(_), Some(_)) if spec.plant().is_none() => without_optional_data(model),
-        _ => Vec::new(),
-    };
+    let of_specification = known.filter(|_| spec.plant().is_none());
+    let without_optional = of_specification.map_or_else(Vec::new, |_| without_optional_data(model));
     Ok(Certification {
         spec,
         options,

@@ -94,8 +94,6 @@ pub struct Decided<'p> {
     pub sigma: &'p Rational,
     /// The initial set.
     pub set: &'p ClaimedSet,
-    /// X_p, E_p (X, E of the repaired derivation).
-    pub point: [&'p Rational; 2],
     /// k0 and k1.
     pub pair: [&'p Rational; 2],
     /// Why T_N(x) <= k0 + k1 x^2.
@@ -141,7 +139,6 @@ impl Witness for SharpWitness {
         Decided {
             sigma: &witness.sigma,
             set: &witness.set,
-            point: [&witness.x_p, &witness.e_p],
             pair: [&witness.k0, &witness.k1],
             transfer: &witness.transfer,
             conditions: &evaluation.conditions,
@@ -172,7 +169,6 @@ impl Witness for RepairedWitness {
         Decided {
             sigma: &witness.sigma,
             set: &witness.set,
-            point: [&witness.x, &witness.e],
             pair: [&witness.k0, &witness.k1],
             transfer: &witness.transfer,
             conditions: &evaluation.conditions,

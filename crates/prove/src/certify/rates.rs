@@ -5,19 +5,18 @@ use super::options::Limits;
 use super::proof::{Outcome, Proof, SampledProof, SharpProof};
 use super::sampled::SampledCertification;
 use super::verdict::Verdict;
-use crate::rate::bound::{MAX_COUNTS, MAX_OSCILLATORS, Place, bound};
+use crate::rate::bound::{MAX_COUNTS, MAX_OSCILLATORS, Place, RateBound, bound};
 use crate::rate::by_matrices::{Start, Tube, bounds};
-use crate::rate::found::RateForCount;
+use crate::rate::found::{ForCount, RateForCount, SampledRateForCount};
 use crate::rate::noise::{Confinement, NoNoiseBound, NoiseBound, noise_bound};
-use crate::rate::sampled::bound::{self as at_samples, SampledRateBound};
-use crate::rate::sampled::found::SampledRateForCount;
+use crate::rate::sampled::bound as at_samples;
 use crate::rate::sampled::noise::noise_bound as at_samples_with_noise;
 use crate::rate::sampled::rounding::measured;
 use crate::search::Failing;
-use rayon::prelude::*;
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::write_exact;
+use sigmastar_exact::parallel;
 use sigmastar_lang::spec::{MatrixInequality, Specification};
 use sigmastar_plants::bounds::{Engine, FloatSuprema};
 use sigmastar_theory::data::Data;
@@ -210,30 +209,41 @@ pub(super) fn for_n_o(spec: &Specification, proof: &SharpProof, counts: &[u32]) 
         });
         RateForCount { n_o: *n_o, bound, noise }
     };
-    counts.par_iter().map(of).collect()
+    parallel::map(counts, of)
 }
 
 impl Certification<'_> {
     /// The sentences of the claim about them, each with a space before it.
     #[must_use]
     pub fn rates_in_words(&self) -> String {
-        let Some(sigma) = self.sigma_star().map(write_exact) else { return String::new() };
-        let sentences = |RateForCount { n_o, bound, noise }: &RateForCount| {
-            let bound = bound.as_ref()?;
-            let of_rate = format!(
-                " With n_o = {n_o} and sigma = {sigma} exactly also |e(t) - e_per(t)| <= {} exp(-{} (t - t_0)) for these solutions, e_per \
-                 that of the periodic solution and t_0 the initial time.",
-                write_exact(&bound.factor),
-                write_exact(&bound.witness.rate),
-            );
-            let of_noise =
-                noise.as_ref().and_then(|noise| noise.as_ref().ok()).map(|NoiseBound { limit, peak, .. }| {
-                    noise_in_words(self.spec, &self.spec.disturbances.in_words(), (*n_o, &sigma), [peak, limit])
-                });
-            Some(of_rate + &of_noise.unwrap_or_default())
-        };
-        self.for_n_o.iter().filter_map(sentences).collect()
+        let Some(sigma) = self.sigma_star() else { return String::new() };
+        in_words(&self.for_n_o, (self.spec, sigma), "", &self.spec.disturbances.in_words())
     }
+}
+
+/// The sentences about what was found at a gain, at these instants alone where there are some, with inputs in these words; each with a space before
+/// it.
+fn in_words<P, Q>(
+    found: &[ForCount<P, Q>],
+    (spec, sigma): (&Specification, &Rational),
+    instants: &str,
+    inputs: &str,
+) -> String {
+    let sigma = write_exact(sigma);
+    let sentences = |found: &ForCount<P, Q>| {
+        let RateBound { n_o, rate, factor, .. } = found.bound.as_ref()?;
+        let of_rate = format!(
+            " With n_o = {n_o} and sigma = {sigma} exactly also |e(t) - e_per(t)| <= {} exp(-{} (t - t_0)){instants} for these solutions, e_per \
+             that of the periodic solution and t_0 the initial time.",
+            write_exact(factor),
+            write_exact(rate),
+        );
+        let of_noise = found
+            .proved_noise()
+            .map(|NoiseBound { limit, peak, .. }| noise_in_words(spec, inputs, (*n_o, &sigma), [peak, limit]));
+        Some(of_rate + &of_noise.unwrap_or_default())
+    };
+    found.iter().filter_map(sentences).collect()
 }
 
 /// The sentence about noise, a disturbance and rounding, of which there are these parts, with a space before it.
@@ -274,7 +284,7 @@ pub(super) fn for_n_o_at_samples(
         });
         SampledRateForCount { n_o: *n_o, bound, noise }
     };
-    counts.par_iter().map(of).collect()
+    parallel::map(counts, of)
 }
 
 /// What keeps the solutions without inputs in the box, L_0 being the left side of C4 at these distances; an aligned regulator sets
@@ -332,29 +342,15 @@ impl SampledCertification<'_> {
     #[must_use]
     pub fn rates_in_words(&self) -> String {
         let Some(proof) = self.claim() else { return String::new() };
-        let sigma = write_exact(&proof.witness.sigma);
-        let sentences = |SampledRateForCount { n_o, bound, noise }: &SampledRateForCount| {
-            let SampledRateBound { rate, factor, .. } = bound.as_ref()?;
-            let of_rate = format!(
-                " With n_o = {n_o} and sigma = {sigma} exactly also |e(t) - e_per(t)| <= {} exp(-{} (t - t_0)) at the sampling instants t \
-                 for these solutions, e_per that of the periodic solution and t_0 the initial time.",
-                write_exact(factor),
-                write_exact(rate),
-            );
-            let of_noise = noise.as_ref().and_then(|noise| noise.as_ref().ok());
-            let parts = self.spec.disturbances.in_words_at_samples();
-            let of_noise =
-                of_noise.map(|noise| noise_in_words(self.spec, &parts, (*n_o, &sigma), [&noise.peak, &noise.limit]));
-            Some(of_rate + &of_noise.unwrap_or_default())
-        };
-        self.for_n_o.iter().filter_map(sentences).collect()
+        let inputs = self.spec.disturbances.in_words_at_samples();
+        in_words(&self.for_n_o, (self.spec, &proof.witness.sigma), " at the sampling instants t", &inputs)
     }
 }
 
 impl Certification<'_> {
     /// The rates of the claim, of each number of oscillators that was asked about.
     pub fn rates(&self) -> impl Iterator<Item = (u32, Option<&Rational>)> {
-        self.for_n_o.iter().map(|found| (found.n_o, found.bound.as_ref().map(|bound| &bound.witness.rate)))
+        self.for_n_o.iter().map(ForCount::rate)
     }
 
     /// Takes the claim back where a least rate was asked for and is not proved.
@@ -375,7 +371,7 @@ impl Certification<'_> {
 impl SampledCertification<'_> {
     /// The same at samples.
     pub fn rates(&self) -> impl Iterator<Item = (u32, Option<&Rational>)> {
-        self.for_n_o.iter().map(|found| (found.n_o, found.bound.as_ref().map(|bound| &bound.rate)))
+        self.for_n_o.iter().map(ForCount::rate)
     }
 
     /// The same at samples.

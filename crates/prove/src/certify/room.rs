@@ -14,9 +14,8 @@ use super::proof::{Outcome, SharpProof};
 use super::rates::{for_n_o, for_n_o_at_samples};
 use super::round::LONG_DIGITS;
 use super::sampled::{SampledCertification, recheck_sampled};
-use crate::rate::found::RateForCount;
+use crate::rate::found::ForCount;
 use crate::rate::noise::NoNoiseBound;
-use crate::rate::sampled::found::SampledRateForCount;
 use rug::Rational;
 use sigmastar_exact::number::{Direction, round_f64};
 use sigmastar_theory::data::Data;
@@ -37,8 +36,7 @@ impl Certification<'_> {
     /// under noise are proved with it.
     pub(super) fn make_room(&mut self, counts: &[u32]) {
         let bounds = |proof: &SharpProof| for_n_o(self.spec, proof, counts);
-        let noise = |found: &RateForCount| found.noise.as_ref().map(|noise| noise.as_ref().err().copied());
-        if let Some((proof, found)) = more_proved(&self.for_n_o, |factor| self.with_room(factor), bounds, noise) {
+        if let Some((proof, found)) = more_proved(&self.for_n_o, |factor| self.with_room(factor), bounds) {
             self.rest_on(proof);
             self.for_n_o = found;
         }
@@ -101,8 +99,7 @@ impl SampledCertification<'_> {
         let bounds = |run: &SampledCertification<'_>| {
             run.claim().map_or_else(Vec::new, |proof| for_n_o_at_samples(self.spec, proof, counts))
         };
-        let noise = |found: &SampledRateForCount| found.noise.as_ref().map(|noise| noise.as_ref().err().copied());
-        if let Some((run, found)) = more_proved(&self.for_n_o, |factor| self.widened(factor), bounds, noise) {
+        if let Some((run, found)) = more_proved(&self.for_n_o, |factor| self.widened(factor), bounds) {
             (self.outcome, self.no_plant, self.for_n_o) = (run.outcome, run.no_plant, found);
         }
     }
@@ -120,27 +117,25 @@ impl SampledCertification<'_> {
     }
 }
 
-/// A proof with more room with which more bounds under noise are proved than are in `first`, and what is proved with it; `noise` says of an entry
-/// whether it is about noise, and why there are no bounds where there are none.
-fn more_proved<P, F>(
-    first: &[F],
-    with_room: impl Fn(f64) -> Option<P>,
-    bounds: impl Fn(&P) -> Vec<F>,
-    noise: impl Fn(&F) -> Option<Option<NoNoiseBound>>,
-) -> Option<(P, Vec<F>)> {
+/// A proof with more room with which more bounds under noise are proved than are in `first`, and what is proved with it.
+fn more_proved<C, P, Q>(
+    first: &[ForCount<P, Q>],
+    with_room: impl Fn(f64) -> Option<C>,
+    bounds: impl Fn(&C) -> Vec<ForCount<P, Q>>,
+) -> Option<(C, Vec<ForCount<P, Q>>)> {
     // How much larger the box would have to be for the bounds that are missing, in rising order.
-    let needed = |found: &[F]| {
-        let one = |found: &F| match noise(found) {
-            Some(Some(NoNoiseBound::LeavesBox { needed, .. })) if needed.is_finite() => Some(needed),
+    let needed = |found: &[ForCount<P, Q>]| {
+        let one = |found: &ForCount<P, Q>| match found.noise {
+            Some(Err(NoNoiseBound::LeavesBox { needed, .. })) if needed.is_finite() => Some(needed),
             _ => None,
         };
         let mut all: Vec<f64> = found.iter().filter_map(one).collect();
         all.sort_by(f64::total_cmp);
         all
     };
-    let proved = |found: &[F]| found.iter().filter(|found| matches!(noise(found), Some(None))).count();
+    let proved = |found: &[ForCount<P, Q>]| found.iter().filter_map(ForCount::proved_noise).count();
     let (mut factor, mut missing) = (1.0, needed(first));
-    let mut best: Option<(P, Vec<F>)> = None;
+    let mut best: Option<(C, Vec<ForCount<P, Q>>)> = None;
     for _ in 0..TRIES {
         // For all that are missing if that can be had, for some of them else.
         let found = missing.iter().rev().find_map(|needed| {

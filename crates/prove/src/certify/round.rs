@@ -100,6 +100,17 @@ pub(super) enum TransferKind {
     Boxes,
 }
 
+impl TransferKind {
+    /// That of a proof.
+    pub(super) fn of(proof: &TransferProof) -> TransferKind {
+        match proof {
+            TransferProof::ClosedForm => TransferKind::ClosedForm,
+            TransferProof::Matched { .. } => TransferKind::Matched,
+            TransferProof::Boxes(_) => TransferKind::Boxes,
+        }
+    }
+}
+
 /// The transfer constants proposed by the trade-off, rounded up, with their proof.
 fn transfer_pair(data: &Data<'_>, pair: (f64, f64, u32), kind: TransferKind) -> Option<ProvedPair> {
     let up = |value: f64| round_f64(value * (1.0 + 1e-12), SHORT_DIGITS, Direction::Up);

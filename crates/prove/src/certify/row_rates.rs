@@ -8,8 +8,8 @@ use super::sampled::SampledCertification;
 use crate::rate::bound::{Place, bound};
 use crate::rate::by_matrices::{Start, again};
 use crate::rate::sampled::bound as at_samples;
-use rayon::prelude::*;
 use rug::Rational;
+use sigmastar_exact::parallel;
 use sigmastar_lang::spec::Specification;
 use sigmastar_plants::bounds::Slopes;
 use sigmastar_theory::data::Data;
@@ -25,7 +25,7 @@ impl Certification<'_> {
         let slopes: Vec<Option<&[Slopes]>> = self
             .for_n_o
             .iter()
-            .map(|found| found.bound.as_ref().and_then(|bound| bound.by.as_ref()).map(|by| by.slopes.as_slice()))
+            .map(|found| found.bound.as_ref().and_then(|bound| bound.proof.by.as_ref()).map(|by| by.slopes.as_slice()))
             .collect();
         let of_row = |row: &GainRow| {
             let RowProof::Continuous(proof, other) = &row.proof else { return Vec::new() };
@@ -39,7 +39,7 @@ impl Certification<'_> {
                 (Some(_), _) => counts.iter().map(|n_o| (*n_o, None)).collect(),
             }
         };
-        let rates: Vec<Rates> = self.gains.par_iter().map(of_row).collect();
+        let rates: Vec<Rates> = parallel::map(&self.gains, of_row);
         for (row, rates) in self.gains.iter_mut().zip(rates) {
             row.rates = rates;
         }
@@ -51,7 +51,7 @@ fn by_norms(spec: &Specification, proof: &SharpProof, counts: &[u32]) -> Rates {
     let distances = distances(&data, proof);
     let error_box = &proof.evaluation.error_box;
     let place = Place { sigma: &proof.witness.sigma, error_box, distances: distances.each_ref() };
-    counts.iter().map(|n_o| (*n_o, bound(&data, &place, *n_o).map(|bound| bound.witness.rate))).collect()
+    counts.iter().map(|n_o| (*n_o, bound(&data, &place, *n_o).map(|bound| bound.rate))).collect()
 }
 
 fn by_matrices(
@@ -65,7 +65,7 @@ fn by_matrices(
     let start = Start { sigma: &proof.witness.sigma, distances: distances.each_ref() };
     let rate = |(n_o, slopes): (&u32, &Option<&[Slopes]>)| {
         let bound = slopes.and_then(|slopes| again(&data, (states, &start), slopes, *n_o));
-        (*n_o, bound.map(|bound| bound.witness.rate))
+        (*n_o, bound.map(|bound| bound.rate))
     };
     counts.iter().zip(slopes).map(rate).collect()
 }
@@ -90,7 +90,7 @@ impl SampledCertification<'_> {
             let rate = |n_o: u32| at_samples::bound(&data, &proof.evaluation.law, &place, n_o).map(|bound| bound.rate);
             counts.iter().map(|n_o| (*n_o, rate(*n_o))).collect()
         };
-        let rates: Vec<Rates> = self.gains.par_iter().map(of_row).collect();
+        let rates: Vec<Rates> = parallel::map(&self.gains, of_row);
         for (row, rates) in self.gains.iter_mut().zip(rates) {
             row.rates = rates;
         }

@@ -14,7 +14,7 @@ use super::round::{
     rounded_sigma,
 };
 use super::verdict::Verdict;
-use crate::rate::sampled::found::SampledRateForCount;
+use crate::rate::found::SampledRateForCount;
 use crate::search::{
     Extreme, Failing, FloatModel, Goal, Obstacle, PastShare, SampledLimit, SampledProposal, SampledSearch, weight_h,
 };
@@ -73,7 +73,7 @@ impl SampledCertification<'_> {
     /// Whether for some number of oscillators that was asked about it is proved what noise, a disturbance and rounding do.
     #[must_use]
     pub fn counts_noise(&self) -> bool {
-        self.for_n_o.iter().any(|found| matches!(found.noise, Some(Ok(_))))
+        self.for_n_o.iter().any(|found| found.proved_noise().is_some())
     }
 
     /// The conditions, proved or not.

@@ -8,7 +8,6 @@ use sigmastar_exact::number::{Direction, round_f64};
 use sigmastar_lang::spec::Specification;
 use sigmastar_lang::spec::model::Constant;
 use sigmastar_theory::data::Data;
-use sigmastar_theory::transfer::TransferProof;
 
 /// The relative change of each datum.
 const STEP: f64 = 0.01;
@@ -54,11 +53,7 @@ pub(super) fn with_nominal_gain(
     if model.input_gain.is_none() || model.by_matrix.is_some() {
         return None;
     }
-    let kind = match proof.witness.transfer {
-        TransferProof::Matched { .. } => TransferKind::Matched,
-        TransferProof::ClosedForm => TransferKind::ClosedForm,
-        TransferProof::Boxes(_) => TransferKind::Boxes,
-    };
+    let kind = TransferKind::of(&proof.witness.transfer);
     let known = Specification { input_gain: None, ..spec.clone() };
     let found = search_sharp_near(&model_of(&Data::new(&known, PRECISION), kind), proposal).ok()?;
     (found.sigma < proposal.sigma).then_some(found.sigma)
@@ -67,11 +62,10 @@ pub(super) fn with_nominal_gain(
 /// The models of a smaller and of a larger mu, with the transfer bound that belongs to it. None where that bound is proved by
 /// boxes, which take long to find.
 fn with_other_mu(spec: &Specification, model: &FloatModel, proof: &SharpProof) -> Vec<(Datum, FloatModel)> {
-    let kind = match proof.witness.transfer {
-        TransferProof::Matched { .. } => TransferKind::Matched,
-        TransferProof::ClosedForm => TransferKind::ClosedForm,
-        TransferProof::Boxes(_) => return Vec::new(),
-    };
+    let kind = TransferKind::of(&proof.witness.transfer);
+    if kind == TransferKind::Boxes {
+        return Vec::new();
+    }
     let with = |larger: bool| {
         let factor = if larger { 1.0 + STEP } else { 1.0 - STEP };
         let mu = round_f64(model.mu * factor, 12, Direction::Nearest)?;

@@ -5,7 +5,7 @@
 //! `et(t)^2 <= W(t)/e_low <= exp(-2 rate (t - t_0)) W(t_0)/e_low` and `W(t_0) <= w P_up dX^2 + e_up dE^2 + z_up dZ^2` where
 //! |xt| <= dX, |et| <= dE and |zt|_N <= dZ at t_0: so C^2 is that sum over e_low.
 
-use super::inequality::{ErrorDynamics, LoopBounds, RateWitness, is_above, is_definite};
+use super::inequality::{ErrorDynamics, LoopBounds, RateWitness, is_definite};
 use super::oscillators::OscillatorMatrix;
 use super::riccati::propose;
 use super::small_gain::{Limit, SmallGain};
@@ -43,6 +43,17 @@ pub struct Place<'a> {
     pub distances: [&'a Enclosure; 3],
 }
 
+/// What proves a rate in continuous time.
+#[derive(Clone, Debug)]
+pub struct ByForm {
+    /// What proves it.
+    pub witness: RateWitness,
+    /// Whether x counts in W.
+    pub has_x: bool,
+    /// What it has besides, where it is proved by matrices; Pi is one of (x, e, zs) then, and so are its bounds.
+    pub by: Option<ByMatrices>,
+}
+
 /// What a bound has besides where it is proved from the derivatives themselves; it has no w and l then.
 #[derive(Clone, Debug)]
 pub struct ByMatrices {
@@ -52,17 +63,15 @@ pub struct ByMatrices {
     pub x_up: Option<Rational>,
 }
 
-/// A proved bound `|e - e_per| <= factor exp(-rate (t - t_0))` for one n_o.
+/// A bound `|e - e_per| <= factor exp(-rate (t - t_0))` for one n_o, proved by a P; of the regulator at samples at the sampling instants.
 #[derive(Clone, Debug)]
-pub struct RateBound {
+pub struct RateBound<P> {
     /// n_o.
     pub n_o: u32,
-    /// The rate, in 1/time, and what proves it.
-    pub witness: RateWitness,
-    /// Whether x counts in W.
-    pub has_x: bool,
-    /// What it has besides, where it is proved by matrices; Pi is one of (x, e, zs) then, and so are its bounds.
-    pub by: Option<ByMatrices>,
+    /// The rate, in 1/time; at samples exp(2 h rate) <= 1 + c.
+    pub rate: Rational,
+    /// What proves it.
+    pub proof: P,
     /// e_low: `Pi >= diag(e_low, 0)`.
     pub e_low: Rational,
     /// e_up and z_up: `Pi <= diag(e_up, z_up I)`.
@@ -79,7 +88,7 @@ pub struct RateBound {
 /// oscillators and every input gain of the data, `|e(t) - e_per(t)| <= factor exp(-rate (t - t_0))`, whoever the plant is of which the
 /// bounds of the error box hold.
 #[must_use]
-pub fn bound(data: &Data<'_>, place: &Place<'_>, n_o: u32) -> Option<RateBound> {
+pub fn bound(data: &Data<'_>, place: &Place<'_>, n_o: u32) -> Option<RateBound<ByForm>> {
     let bounds = LoopBounds::of_error(data, place.error_box)?;
     let oscillators = OscillatorMatrix::new(data, n_o);
     let dynamics = ErrorDynamics::new(data, &oscillators, place.sigma, &bounds);
@@ -92,41 +101,55 @@ pub fn bound(data: &Data<'_>, place: &Place<'_>, n_o: u32) -> Option<RateBound> 
             if !dynamics.proves(&witness) {
                 return None;
             }
-            let diagonal = diagonal_bounds(&proposal.pi, place.distances)?;
-            if !are_bounds(&witness.pi, &diagonal, data.precision) {
+            let [e_low, upper @ ..] = diagonal_bounds(&proposal.pi, place.distances)?;
+            let [e_up, z_up] = &upper;
+            if !lies_between(&witness.pi, 0, &e_low, [&Rational::new(), e_up, z_up], data.precision) {
                 return None;
             }
-            let factor = factor(data, place, bounds.has_x.then_some(&witness.w), &diagonal)?;
-            let [e_low, upper @ ..] = diagonal;
-            let (has_x, limit) = (bounds.has_x, condition.limit());
-            Some(RateBound { n_o, witness, has_x, by: None, e_low, upper, factor, limit })
+            // Where x does not count, W is without it.
+            let of_x = if bounds.has_x { data.rational(&witness.w) * &data.p_up } else { data.zero() };
+            let factor = factor(data, [of_x, data.rational(e_up), data.rational(z_up)], place.distances, &e_low)?;
+            let (rate, limit) = (witness.rate.clone(), condition.limit());
+            let proof = ByForm { witness, has_x: bounds.has_x, by: None };
+            Some(RateBound { n_o, rate, proof, e_low, upper, factor, limit })
         })
     })
 }
 
-/// Whether `diag(e_low, 0) < Pi < diag(e_up, z_up I)` is proved.
-pub(super) fn are_bounds(rows: &[Vec<Rational>], [e_low, e_up, z_up]: &[Rational; 3], precision: u32) -> bool {
+/// Whether `diag(0, e_low, 0) < Pi < diag(x_up I, e_up, z_up I)` is proved of a Pi of (x, e, zs), with so many states in x; by its lower
+/// triangle.
+pub(super) fn lies_between(
+    pi: &[Vec<Rational>],
+    states: usize,
+    e_low: &Rational,
+    [x_up, e_up, z_up]: [&Rational; 3],
+    precision: u32,
+) -> bool {
     let number = |value: &Rational| Enclosure::from_rational(value, precision);
-    let pi = |i: usize, j: usize| number(&rows[i][j]);
-    let below = |i: usize, j: usize| match i == j {
-        true => number(if i == 0 { e_up } else { z_up }) - pi(i, i),
-        false => pi(i, j).negate(),
+    let entry = |i: usize, j: usize| number(&pi[i.max(j)][i.min(j)]);
+    let above = |i: usize, j: usize| match (i, j) == (states, states) {
+        true => entry(i, j) - number(e_low),
+        false => entry(i, j),
     };
-    is_above(rows, e_low, precision) && is_definite(rows.len(), below)
+    let below = |i: usize, j: usize| match i == j {
+        true if i < states => number(x_up) - entry(i, j),
+        true if i == states => number(e_up) - entry(i, j),
+        true => number(z_up) - entry(i, j),
+        false => entry(i, j).negate(),
+    };
+    is_definite(pi.len(), above) && is_definite(pi.len(), below)
 }
 
-/// C, rounded up: `C^2 = (w P_up dX^2 + e_up dE^2 + z_up dZ^2)/e_low`; without w where x does not count.
+/// C, rounded up: `C^2 = (x_up dX^2 + e_up dE^2 + z_up dZ^2)/e_low`.
 pub(super) fn factor(
     data: &Data<'_>,
-    place: &Place<'_>,
-    w: Option<&Rational>,
-    [e_low, e_up, z_up]: &[Rational; 3],
+    upper: [Enclosure; 3],
+    distances: [&Enclosure; 3],
+    e_low: &Rational,
 ) -> Option<Rational> {
-    let number = |value: &Rational| Enclosure::from_rational(value, data.precision);
-    let [of_x, of_e, of_zeta] = place.distances;
-    let w = w.map_or_else(|| data.zero(), number);
-    let start = w * &data.p_up * of_x.sqr() + number(e_up) * of_e.sqr() + number(z_up) * of_zeta.sqr();
-    let factor = (start / number(e_low)).sqrt().upper_rational()?;
+    let terms = upper.iter().zip(distances).map(|(upper, distance)| upper * distance.sqr());
+    let start = terms.fold(data.zero(), |sum, term| sum + term);
+    let factor = (start / data.rational(e_low)).sqrt().upper_rational()?;
     Some(round_rational(&factor, 6, Direction::Up))
 }
 

@@ -4,17 +4,18 @@
 //! With `Pi > diag(0, e_low, 0)` and `Pi < diag(x_up I, e_up, z_up I)` the start has `W <= x_up dX^2 + e_up dE^2 + z_up dZ^2`, and
 //! `et^2 <= W/e_low`: the factor is as in [`super::bound`].
 
-use super::bound::{ByMatrices, DIGITS, RateBound, SHARES};
+use super::bound::{ByForm, ByMatrices, DIGITS, RateBound, SHARES, factor, lies_between};
 use super::bounded_real::BoundedReal;
 use super::inequality::{RateWitness, is_definite};
 use super::matrix_loop::{KnownSlopes, MatrixLoop, Multipliers};
+use super::riccati::in_digits;
 use super::slopes_program::SampledSlopes;
 use super::small_gain::Limit;
 use faer::linalg::solvers::DenseSolveCore;
 use faer::{Mat, Side};
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
-use sigmastar_exact::number::{Direction, Portable, round_f64, round_rational};
+use sigmastar_exact::number::{Direction, Portable, round_f64};
 use sigmastar_plants::bounds::{Engine, FloatSlopes, FloatSuprema, Part, Slopes};
 use sigmastar_theory::data::Data;
 
@@ -51,7 +52,7 @@ pub struct Start<'a> {
 /// Guarantee: for every solution that stays in the error box from a start within the distances, at the gain, with so many oscillators,
 /// every input gain of the data and every member of a family, `|e(t) - e_per(t)| <= factor exp(-rate (t - t_0))`.
 #[must_use]
-pub fn bounds(data: &Data<'_>, tube: &Tube<'_>, counts: &[u32]) -> Vec<Option<RateBound>> {
+pub fn bounds(data: &Data<'_>, tube: &Tube<'_>, counts: &[u32]) -> Vec<Option<RateBound<ByForm>>> {
     let mut kinds: Vec<Kind<'_>> = tube.kinds().into_iter().map(|parts| Kind::new(tube, parts)).collect();
     counts.iter().map(|n_o| bound(data, tube, &mut kinds, *n_o)).collect()
 }
@@ -60,7 +61,12 @@ pub fn bounds(data: &Data<'_>, tube: &Tube<'_>, counts: &[u32]) -> Vec<Option<Ra
 ///
 /// Guarantee: that of [`bounds`] at the gain of `start`, for solutions that stay where `slopes` are proved.
 #[must_use]
-pub fn again(data: &Data<'_>, (states, start): (usize, &Start<'_>), slopes: &[Slopes], n_o: u32) -> Option<RateBound> {
+pub fn again(
+    data: &Data<'_>,
+    (states, start): (usize, &Start<'_>),
+    slopes: &[Slopes],
+    n_o: u32,
+) -> Option<RateBound<ByForm>> {
     let all: Vec<u32> = (1..=n_o).collect();
     let of = MatrixLoop::new(data, states, start.sigma, &all);
     with_slopes(data, start, (&of, n_o), slopes.to_vec())
@@ -128,7 +134,7 @@ fn known<R>(
     KnownSlopes { columns: part.columns(states), q: numbers(q), g: numbers(g), h: numbers(h) }
 }
 
-fn bound(data: &Data<'_>, tube: &Tube<'_>, kinds: &mut [Kind<'_>], n_o: u32) -> Option<RateBound> {
+fn bound(data: &Data<'_>, tube: &Tube<'_>, kinds: &mut [Kind<'_>], n_o: u32) -> Option<RateBound<ByForm>> {
     let states = tube.engine.states();
     let with = |oscillators: &[u32]| MatrixLoop::new(data, states, tube.start.sigma, oscillators);
     // The mode of the fastest oscillator is the slowest of the loop.
@@ -149,7 +155,7 @@ fn with_slopes(
     start: &Start<'_>,
     (of, n_o): (&MatrixLoop<Enclosure>, u32),
     slopes: Vec<Slopes>,
-) -> Option<RateBound> {
+) -> Option<RateBound<ByForm>> {
     let states = of.states;
     let (equation, [largest, of_gain]) = equation(of, &slopes)?;
     SHARES.iter().find_map(|share| {
@@ -160,19 +166,23 @@ fn with_slopes(
             let witness = RateWitness {
                 rate: rate.clone(),
                 w: Rational::new(),
-                pi: rounded(&pi, *digits)?,
+                pi: in_digits(&pi, *digits)?,
                 l: Rational::new(),
                 inputs: [None, None],
             };
             let known = Known { data, of, slopes: &slopes };
-            let lies = known.proves(&witness) && known.lies_between(&witness.pi, &upper, &e_low);
-            let factor = lies.then(|| factor(data, start.distances, &upper, &e_low)).flatten()?;
+            let lies = || lies_between(&witness.pi, states, &e_low, upper.each_ref(), data.precision);
+            if !known.proves(&witness) || !lies() {
+                return None;
+            }
+            let factor = factor(data, upper.each_ref().map(|value| data.rational(value)), start.distances, &e_low)?;
             let [x_up, e_up, z_up] = upper.clone();
             let x_up = (states > 0).then_some(x_up);
             let by = Some(ByMatrices { slopes: slopes.clone(), x_up });
             let limit = Limit::Middle(equation.fastest());
-            let (has_x, upper, e_low) = (false, [e_up, z_up], e_low.clone());
-            Some(RateBound { n_o, witness, has_x, by, e_low, upper, factor, limit })
+            let (rate, upper, e_low) = (rate.clone(), [e_up, z_up], e_low.clone());
+            let proof = ByForm { witness, has_x: false, by };
+            Some(RateBound { n_o, rate, proof, e_low, upper, factor, limit })
         })
     })
 }
@@ -205,39 +215,6 @@ impl Known<'_> {
             is_definite(form.len(), |i, j| form[i][j].clone())
         })
     }
-
-    /// Whether `diag(0, e_low, 0) < Pi < diag(x_up I, e_up, z_up I)` is proved.
-    fn lies_between(&self, pi: &[Vec<Rational>], upper: &[Rational; 3], e_low: &Rational) -> bool {
-        let pi = self.full(pi);
-        let states = self.of.states;
-        let [e_low, x_up, e_up, z_up] = [e_low, &upper[0], &upper[1], &upper[2]].map(|value| self.data.rational(value));
-        let above = |i: usize, j: usize| if (i, j) == (states, states) { &pi[i][j] - &e_low } else { pi[i][j].clone() };
-        let below = |i: usize, j: usize| match i == j {
-            true if i < states => &x_up - &pi[i][j],
-            true if i == states => &e_up - &pi[i][j],
-            true => &z_up - &pi[i][j],
-            false => pi[i][j].negate(),
-        };
-        is_definite(pi.len(), above) && is_definite(pi.len(), below)
-    }
-}
-
-/// The factor, rounded up.
-fn factor(data: &Data<'_>, distances: [&Enclosure; 3], upper: &[Rational; 3], e_low: &Rational) -> Option<Rational> {
-    let terms = upper.iter().zip(distances).map(|(upper, distance)| data.rational(upper) * distance.sqr());
-    let start = terms.fold(data.zero(), |sum, term| sum + term);
-    let factor = (start / data.rational(e_low)).sqrt().upper_rational()?;
-    Some(round_rational(&factor, 6, Direction::Up))
-}
-
-/// The lower triangle of Pi to so many digits, 0 where an entry is beyond those of its diagonal.
-fn rounded(pi: &Mat<f64>, digits: u32) -> Option<Vec<Vec<Rational>>> {
-    let least = 0.1f64.portable_powi(digits as i32 + 1);
-    let entry = |i: usize, j: usize| {
-        let counts = pi[(i, j)].abs() >= least * (pi[(i, i)] * pi[(j, j)]).sqrt();
-        if counts { round_f64(pi[(i, j)], digits, Direction::Nearest) } else { Some(Rational::new()) }
-    };
-    (0..pi.nrows()).map(|i| (0..=i).map(|j| entry(i, j)).collect()).collect()
 }
 
 /// x_up, e_up, z_up and e_low in floating point, rounded to the safe side: of all upper bounds some for which

@@ -1,15 +1,36 @@
 //! What is known of one number of oscillators that was asked about.
 
-use super::bound::RateBound;
-use super::noise::{NoNoiseBound, NoiseBound};
+use super::bound::{ByForm, RateBound};
+use super::noise::{NoNoiseBound, NoiseBound, NoiseByForm};
+use super::sampled::form::SampledRateWitness;
+use super::sampled::noise::SampledNoise;
+use rug::Rational;
 
-/// What was found for one n_o that was asked about.
+/// What was found for one n_o that was asked about: a rate that is proved by a P, and what noise does by a Q.
 #[derive(Clone, Debug)]
-pub struct RateForCount {
+pub struct ForCount<P, Q> {
     /// n_o.
     pub n_o: u32,
     /// The bound; `None` where none was proved, which says nothing either way.
-    pub bound: Option<RateBound>,
+    pub bound: Option<RateBound<P>>,
     /// Bounds of what noise and disturbances do; `None` where the document has none.
-    pub noise: Option<Result<NoiseBound, NoNoiseBound>>,
+    pub noise: Option<Result<NoiseBound<Q>, NoNoiseBound>>,
+}
+
+/// Of the regulator in continuous time.
+pub type RateForCount = ForCount<ByForm, NoiseByForm>;
+
+/// Of the regulator at samples.
+pub type SampledRateForCount = ForCount<SampledRateWitness, SampledNoise>;
+
+impl<P, Q> ForCount<P, Q> {
+    /// n_o and the rate.
+    pub(crate) fn rate(&self) -> (u32, Option<&Rational>) {
+        (self.n_o, self.bound.as_ref().map(|bound| &bound.rate))
+    }
+
+    /// The bounds under noise, where they are proved.
+    pub(crate) fn proved_noise(&self) -> Option<&NoiseBound<Q>> {
+        self.noise.as_ref()?.as_ref().ok()
+    }
 }

@@ -195,7 +195,7 @@ impl ErrorDynamics<'_> {
             let columns = [coupling(Signal::D), coupling(Signal::V)];
             let columns = Mat::from_fn(order, 2, |i, j| columns[j][i]);
             // A NaN would go through.
-            if !(0..order).all(|j| (0..order).all(|i| entries[(i, j)].is_finite())) {
+            if !entries.as_ref().is_all_finite() {
                 return None;
             }
             // Of very different sizes: in units in which the diagonal is 1.

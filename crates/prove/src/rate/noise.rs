@@ -42,13 +42,20 @@ pub struct Confinement<'a> {
     pub zeta: Enclosure,
 }
 
-/// Proved bounds for one n_o.
+/// What proves (N) in continuous time.
 #[derive(Clone, Debug)]
-pub struct NoiseBound {
+pub struct NoiseByForm {
     /// lambda as the rate, and what proves (N).
     pub witness: RateWitness,
     /// Whether x counts in W.
     pub has_x: bool,
+}
+
+/// Bounds for one n_o, proved by a P.
+#[derive(Clone, Debug)]
+pub struct NoiseBound<P> {
+    /// What proves (N), or the form with inputs at samples.
+    pub proof: P,
     /// e_low: `Pi > diag(e_low, 0)`.
     pub e_low: Rational,
     /// S, rounded up, in the unit of e.
@@ -141,7 +148,7 @@ pub fn noise_bound(
     place: &Place<'_>,
     confinement: &Confinement<'_>,
     n_o: u32,
-) -> Result<NoiseBound, NoNoiseBound> {
+) -> Result<NoiseBound<NoiseByForm>, NoNoiseBound> {
     if data.spec.actuator.is_some() {
         return Err(NoNoiseBound::Actuator);
     }
@@ -167,7 +174,8 @@ pub fn noise_bound(
     let up = |value: &Enclosure| {
         value.upper_rational().map(|upper| round_rational(&upper, FIGURES, Direction::Up)).ok_or(NoNoiseBound::NotFound)
     };
-    Ok(NoiseBound { has_x: bounds.has_x, e_low, limit: up(&s)?, peak: up(&peak)?, witness })
+    let proof = NoiseByForm { witness, has_x: bounds.has_x };
+    Ok(NoiseBound { proof, e_low, limit: up(&s)?, peak: up(&peak)? })
 }
 
 /// e_low S^2, which W of the part with the inputs does not exceed.

@@ -100,7 +100,7 @@ impl OscillatorMatrix {
             }
         }
         // A NaN would not stop the iteration.
-        if !(0..n).all(|j| (0..n).all(|i| a[(i, j)].is_finite())) {
+        if !a.as_ref().is_all_finite() {
             return None;
         }
         let eigen = a.eigen().ok()?;
@@ -126,7 +126,7 @@ impl OscillatorMatrix {
         });
         let complex = eigen.inverse.adjoint() * &y * &eigen.inverse;
         let p = Mat::from_fn(n, n, |i, j| (complex[(i, j)].re + complex[(j, i)].re) / 2.0);
-        if !(0..n).all(|j| (0..n).all(|i| p[(i, j)].is_finite())) {
+        if !p.as_ref().is_all_finite() {
             return None;
         }
         let rate = if rate == 0.0 { Rational::new() } else { round_f64(rate, 6, Direction::Down)? };

@@ -42,29 +42,29 @@ impl Proposal {
     /// The witness with each double as the number that it is; `None` if one is not finite.
     #[must_use]
     pub fn exact(&self) -> Option<RateWitness> {
-        self.rounded(Rational::from_f64)
+        let row = |i: usize| (0..=i).map(|j| Rational::from_f64(self.pi[(i, j)])).collect();
+        self.witness(Rational::from_f64(self.w), (0..self.pi.nrows()).map(row).collect())
     }
 
     /// The witness with w and each entry of Pi to so many digits, 0 where it is beyond those of its diagonal; `None` if one is not finite.
     #[must_use]
     pub fn in_digits(&self, digits: u32) -> Option<RateWitness> {
-        let least = 0.1f64.portable_powi(digits as i32 + 1);
-        let mut witness = self.rounded(|value| round_f64(value, digits, Direction::Nearest))?;
-        for (i, row) in witness.pi.iter_mut().enumerate() {
-            for (j, entry) in row.iter_mut().enumerate() {
-                if self.pi[(i, j)].abs() < least * (self.pi[(i, i)] * self.pi[(j, j)]).sqrt() {
-                    *entry = Rational::new();
-                }
-            }
-        }
-        Some(witness)
+        self.witness(round_f64(self.w, digits, Direction::Nearest), in_digits(&self.pi, digits))
     }
 
-    fn rounded(&self, round: impl Fn(f64) -> Option<Rational>) -> Option<RateWitness> {
-        let entries = |i: usize| (0..=i).map(|j| round(self.pi[(i, j)])).collect::<Option<Vec<Rational>>>();
-        let pi = (0..self.pi.nrows()).map(entries).collect::<Option<Vec<_>>>()?;
-        Some(RateWitness { rate: self.rate.clone(), w: round(self.w)?, pi, l: Rational::from(1), inputs: [None, None] })
+    fn witness(&self, w: Option<Rational>, pi: Option<Vec<Vec<Rational>>>) -> Option<RateWitness> {
+        Some(RateWitness { rate: self.rate.clone(), w: w?, pi: pi?, l: Rational::from(1), inputs: [None, None] })
     }
+}
+
+/// The lower triangle of Pi to so many digits, 0 where an entry is beyond those of its diagonal; `None` if one is not finite.
+pub(super) fn in_digits(pi: &Mat<f64>, digits: u32) -> Option<Vec<Vec<Rational>>> {
+    let least = 0.1f64.portable_powi(digits as i32 + 1);
+    let entry = |i: usize, j: usize| {
+        let small = pi[(i, j)].abs() < least * (pi[(i, i)] * pi[(j, j)]).sqrt();
+        if small { Some(Rational::new()) } else { round_f64(pi[(i, j)], digits, Direction::Nearest) }
+    };
+    (0..pi.nrows()).map(|i| (0..=i).map(|j| entry(i, j)).collect()).collect()
 }
 
 /// A proposal for a share of the largest rate.
@@ -115,7 +115,7 @@ impl Equation<'_> {
             (false, true) => -output[(i - n, j)] / unit,
             (false, false) => -a[(j - n, i - n)],
         });
-        if !(0..2 * n).all(|j| (0..2 * n).all(|i| hamiltonian[(i, j)].is_finite())) {
+        if !hamiltonian.as_ref().is_all_finite() {
             return None;
         }
         let eigen = hamiltonian.eigen().ok()?;
@@ -130,7 +130,7 @@ impl Equation<'_> {
         let y = Mat::from_fn(n, n, |i, j| vectors[(n + i, stable[j])]);
         let quotient = y * x.partial_piv_lu().inverse();
         let pi = Mat::from_fn(n, n, |i, j| unit * f64::midpoint(quotient[(i, j)].re, quotient[(j, i)].re));
-        (0..n).all(|j| (0..n).all(|i| pi[(i, j)].is_finite())).then_some(pi)
+        pi.as_ref().is_all_finite().then_some(pi)
     }
 
     /// One step of Newton's method: `Pi + D` with `D K + K'D` the negative of the left side of the equation at Pi, `K = A + R Pi`.
@@ -148,7 +148,7 @@ impl Equation<'_> {
             let moved = inputs.iter().zip(&images).map(|((beta, input), image)| beta * input[i] * image[j]);
             a[(i, j)] + moved.sum::<f64>()
         });
-        if !(0..n).all(|j| (0..n).all(|i| closed[(i, j)].is_finite() && residual[(i, j)].is_finite())) {
+        if !(closed.as_ref().is_all_finite() && residual.as_ref().is_all_finite()) {
             return None;
         }
         // In the basis V of eigenvectors of K: (V*D V)_ij = -(V*R V)_ij/(conj(l_i) + l_j).
@@ -161,6 +161,6 @@ impl Equation<'_> {
         let inverse = vectors.partial_piv_lu().inverse();
         let step = inverse.adjoint() * &divided * &inverse;
         let better = Mat::from_fn(n, n, |i, j| pi[(i, j)] + f64::midpoint(step[(i, j)].re, step[(j, i)].re));
-        (0..n).all(|j| (0..n).all(|i| better[(i, j)].is_finite())).then_some(better)
+        better.as_ref().is_all_finite().then_some(better)
     }
 }

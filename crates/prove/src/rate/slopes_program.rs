@@ -5,8 +5,8 @@ use super::matrix_loop::{KnownSlopes, MatrixLoop, Multipliers};
 use faer::linalg::solvers::{DenseSolveCore, Llt};
 use faer::{Mat, Side};
 use sigmastar_exact::enclosure::Enclosure;
-use sigmastar_matrix::AffineMatrix;
 use sigmastar_matrix::semidefinite::propose;
+use sigmastar_matrix::{AffineMatrix, Symmetric};
 use sigmastar_plants::bounds::{FloatSlopes, FloatSuprema, Part};
 use std::ops::Range;
 
@@ -192,30 +192,29 @@ impl<'s> SampledSlopes<'s> {
     fn program(&self, of: &MatrixLoop<f64>, rate: f64) -> Option<Solution> {
         let (order, signals) = (of.order(), of.states + 1);
         let shapes: Vec<Range<usize>> = self.parts.iter().map(|part| part.columns.clone()).collect();
-        let of_pi = triangle(order);
+        let triangular = |n: usize| n * (n + 1) / 2;
+        let of_pi = triangular(order);
         // What each variable adds to Pi and to the slopes.
         let parts = |variables: &[f64]| {
-            let mut rest = &variables[of_pi.len()..];
+            let mut rest = &variables[of_pi..];
             let mut take = |count: usize| {
                 let (taken, left) = rest.split_at(count);
                 rest = left;
                 taken
             };
             let known = |columns: &Range<usize>| {
-                let (count, small) = (columns.len(), triangle(columns.len()));
-                let q = symmetric(count, &small, take(small.len()));
+                let count = columns.len();
+                let q = Symmetric::from_entries(count, take(triangular(count))).rows();
                 let g = take(count * signals).chunks(signals).map(<[f64]>::to_vec).collect();
-                let of_h = triangle(signals);
-                let h = symmetric(signals, &of_h, take(of_h.len()));
+                let h = Symmetric::from_entries(signals, take(triangular(signals))).rows();
                 KnownSlopes { columns: columns.clone(), q, g, h }
             };
             let slopes: Vec<KnownSlopes<f64>> = shapes.iter().map(known).collect();
-            (symmetric(order, &of_pi, variables), slopes)
+            (Symmetric::from_entries(order, variables).rows(), slopes)
         };
-        let triangular = |n: usize| n * (n + 1) / 2;
         let of_part =
             |columns: &Range<usize>| triangular(columns.len()) + columns.len() * signals + triangular(signals);
-        let last = of_pi.len() + shapes.iter().map(of_part).sum::<usize>();
+        let last = of_pi + shapes.iter().map(of_part).sum::<usize>();
         let unit = |variable: usize| {
             let mut unit = vec![0.0; last];
             unit[variable] = 1.0;
@@ -266,18 +265,6 @@ impl<'s> SampledSlopes<'s> {
     }
 }
 
-fn triangle(n: usize) -> Vec<(usize, usize)> {
-    (0..n).flat_map(|i| (0..=i).map(move |j| (i, j))).collect()
-}
-
-fn symmetric(n: usize, places: &[(usize, usize)], values: &[f64]) -> Vec<Vec<f64>> {
-    let mut matrix = vec![vec![0.0; n]; n];
-    for ((i, j), value) in places.iter().zip(values) {
-        (matrix[*i][*j], matrix[*j][*i]) = (*value, *value);
-    }
-    matrix
-}
-
 impl MatrixLoop<f64> {
     /// A with the middle of b_u, and B.
     pub(super) fn matrices(&self) -> [Mat<f64>; 2] {
@@ -324,7 +311,7 @@ impl MatrixLoop<f64> {
     pub(super) fn decay(&self, d: &[Vec<f64>]) -> Option<f64> {
         let a = self.closed(d);
         // A NaN would not stop an iteration for eigenvalues.
-        if !(0..a.ncols()).all(|j| (0..a.nrows()).all(|i| a[(i, j)].is_finite())) {
+        if !a.as_ref().is_all_finite() {
             return None;
         }
         let values = a.eigenvalues().ok()?;

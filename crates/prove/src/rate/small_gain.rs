@@ -98,7 +98,7 @@ impl FloatDynamics {
         let moved = if half_gain > 0.0 { moved.collect() } else { Vec::new() };
         let (half_slope, frequency) = ((most - least) / 2.0, oscillators.base_frequency_f64());
         // A NaN would not stop an iteration for eigenvalues.
-        let finite = half_slope.is_finite() && (0..n).all(|j| (0..n).all(|i| matrix[(i, j)].is_finite()));
+        let finite = half_slope.is_finite() && matrix.as_ref().is_all_finite();
         let found =
             FloatDynamics { matrix, input, moved, half_slope, half_gain, sigma, mu, gain, slope, frequency, weights };
         finite.then_some(found)

@@ -5,8 +5,8 @@ use super::cover::covers;
 use super::entries::decide_all;
 use super::proofs::{Along, ProvenCell};
 use super::refusal::{MAX_STATES, PlantRefusal};
-use rayon::prelude::*;
 use rug::Rational;
+use sigmastar_exact::parallel;
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::model::Constant;
 use sigmastar_lang::spec::{OfPlant, Parameters, ProvedCell, ProvedOrbit, ProvedValues, Specification};
@@ -52,13 +52,8 @@ pub fn decide_again(plant: &Plant, of_plant: OfPlant, values: ProvedValues) -> R
         }
         Ok(ProvenCell { parameters: parameters.clone(), orbit, forcing: forcing.clone() })
     };
-    let cells = of_plant
-        .cells
-        .par_iter()
-        .zip(&boxes)
-        .map(decided)
-        .collect::<Result<_, _>>()
-        .map_err(PlantRefusal::OrbitNotProved)?;
+    let cells = parallel::map(&of_plant.cells.iter().zip(&boxes).collect::<Vec<_>>(), |&cell| decided(cell));
+    let cells = cells.into_iter().collect::<Result<_, _>>().map_err(PlantRefusal::OrbitNotProved)?;
     let along = Along { coordinates, cells, existence: second, why: None };
     let engine = along.engine(plant)?;
     if let Some([x, e]) = values.reach() {

@@ -1,15 +1,14 @@
 //! The search for coordinates in which the matrix inequality (M) asks for the least gain (derivation, 13.7): where it starts, and its
 //! descents.
 
-use super::coordinates::{
-    Chosen, CoordinateSearch, Density, Estimates, MOST_STATES, Rough, SHAPE_STEP, Start, TURNS, Varied, alone,
-};
+use super::coordinates::{Chosen, CoordinateSearch, MOST_STATES, Rough, SHAPE_STEP, Start, TURNS, Varied, alone};
 use super::energy::{FIRST_THRESHOLDS, THRESHOLDS};
+use super::estimates::Density;
 use super::grid::RATE;
 use crate::search::{Binding, Descent, Failing, Obstacle, minimise};
 use nalgebra::DMatrix;
-use rayon::prelude::*;
 use sigmastar_exact::number::Portable;
+use sigmastar_exact::parallel;
 use sigmastar_lang::spec::Bound;
 use sigmastar_plants::bounds::{Asked, FloatWeights, MatrixArguments, TABLE};
 
@@ -42,7 +41,7 @@ impl CoordinateSearch<'_> {
         if rough.best.l.nrows() > MOST_STATES {
             return rough.starts.clone();
         }
-        let on_orbit: Vec<f64> = rough.all.par_iter().map(|start| self.least_on_orbit(&start.l)).collect();
+        let on_orbit: Vec<f64> = parallel::map(&rough.all, |start| self.least_on_orbit(&start.l));
         let least = on_orbit.iter().zip(&rough.all).min_by(|(a, _), (b, _)| a.total_cmp(b));
         let own = self.least_on_orbit(&rough.best.l);
         let other = least.filter(|(least, _)| **least < own * (1.0 - WORTH_ANOTHER_START)).map(|(_, start)| start);
@@ -58,8 +57,8 @@ impl CoordinateSearch<'_> {
 
     /// The least gain of the matrix inequality for the derivatives on the orbit, with any weights.
     fn least_on_orbit(&self, l: &DMatrix<f64>) -> f64 {
-        let Estimates { bounds, threshold, .. } = (self.sampler)(alone(l), &Density::Coarse);
-        let values = bounds(0.0, 0.0, Asked::ALL);
+        let estimates = self.estimates(alone(l), &Density::Coarse);
+        let values = estimates.bounds(0.0, 0.0, Asked::ALL);
         let of = |bound: Bound| TABLE.iter().position(|kind| *kind == bound).map_or(f64::NAN, |at| values[at]);
         let [f_e, q_x, q_e] = [Bound::Fe, Bound::Qx, Bound::Qe].map(of);
         let gain = q_e + f_e * q_x / values[RATE];
@@ -70,9 +69,9 @@ impl CoordinateSearch<'_> {
         let cost = |p: &[f64]| {
             let k_p = p[0].portable_exp() / gain;
             let weights = FloatWeights { w_x: p[1].portable_exp() * balance * k_p, k_p, rate: 0.0 };
-            Some(threshold(at, weights)).filter(|value| value.is_finite()).map(Portable::portable_ln)
+            Some(estimates.threshold(at, weights)).filter(|value| value.is_finite()).map(Portable::portable_ln)
         };
-        let best = minimise(cost, &[0.0; 2], &[SHAPE_STEP; 2], ON_ORBIT);
+        let best = minimise(&cost, &[0.0; 2], &[SHAPE_STEP; 2], ON_ORBIT);
         best.map_or(f64::INFINITY, |(_, least)| least.portable_exp())
     }
 

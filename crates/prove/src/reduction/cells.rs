@@ -3,9 +3,9 @@
 
 use super::refusal::PlantRefusal;
 use super::watch::Watch;
-use rayon::prelude::*;
 use rug::Rational;
 use sigmastar_exact::number::{Direction, Portable, round_f64, write_exact};
+use sigmastar_exact::parallel;
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{Bound, OrbitCurve, Parameters, ProvedForcing};
 use sigmastar_plants::bounds::{Engine, FloatCurve, FloatSuprema, Region};
@@ -116,8 +116,9 @@ impl Cell {
 
     /// The least rate of the nominal member and of those at the corners, each proved by itself: without that no cells are small enough.
     fn at_corners(&self, coordinates: &Coordinates) -> Result<Option<Rational>, PlantRefusal> {
-        let alone = |values: Vec<Rational>| Cell::new(self.plant.member(&values))?.width(coordinates, None);
-        let rates: Vec<_> = self.plant.parameters.looked_at().into_par_iter().map(alone).collect::<Result<_, _>>()?;
+        let alone = |values: &Vec<Rational>| Cell::new(self.plant.member(values))?.width(coordinates, None);
+        let rates: Vec<_> =
+            parallel::map(&self.plant.parameters.looked_at(), alone).into_iter().collect::<Result<_, _>>()?;
         Ok(rates.into_iter().map(|(_, rate)| rate).min())
     }
 }
@@ -170,7 +171,7 @@ impl Cells {
                 watch.part(looked_at.fetch_add(1, Ordering::Relaxed) + 1, 2 * count - 1);
                 width
             };
-            let widths: Vec<Result<f64, PlantRefusal>> = level.par_iter().map(width).collect();
+            let widths: Vec<Result<f64, PlantRefusal>> = parallel::map(&level, width);
             let mut cells: Vec<_> = std::mem::take(&mut level).into_iter().zip(widths).collect();
             cells.sort_by_key(|(_, width)| width.is_ok());
             for ((cell, before), width) in cells {

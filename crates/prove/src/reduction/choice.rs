@@ -1,18 +1,17 @@
 //! Coordinates for a plant, chosen by norms or for a P that is given, rounded, and proved along the orbit.
 
 use super::cells::{Cell, Cells};
-use super::coordinates::{Chosen, CoordinateSearch, Density, Rough, Sampler, Shape, Start, energy_in};
+use super::coordinates::{Chosen, CoordinateSearch, Rough, Shape, Start, energy_in};
+use super::estimates::Density;
 use super::proofs::{Along, Near, ProvenCell, along};
 use super::refusal::PlantRefusal;
 use super::sampling::{Sampling, float_matrix, rational_matrix, rational_symmetric};
 use super::watch::Stage;
-use crate::search::{FloatModel, Obstacle};
+use crate::search::Obstacle;
 use nalgebra::DMatrix;
-use rayon::prelude::*;
 use rug::Rational;
-use sigmastar_lang::plant::Plant;
+use sigmastar_exact::parallel;
 use sigmastar_lang::spec::PeriodicMatrix;
-use sigmastar_lang::spec::model::Constant;
 use sigmastar_plants::bounds::Asked;
 use sigmastar_plants::orbit::{Coordinates, SecondTriple, prove_orbits, prove_second};
 use sigmastar_theory::derivation::paths::Path;
@@ -63,7 +62,7 @@ pub(super) fn with_constant(
     choose: impl FnOnce(&CoordinateSearch<'_>) -> Result<Chosen, Obstacle>,
 ) -> Result<(Along, Chosen), PlantRefusal> {
     let chosen = with_search(sampling, by_matrix, choose).map_err(PlantRefusal::NoGain)?;
-    let at_origin = |l: &DMatrix<f64>| sampling.source(l, [None; 2], &Density::Rough)(0.0, 0.0, Asked::ALL);
+    let at_origin = |l: &DMatrix<f64>| sampling.estimates(l, [None; 2], &Density::Rough).bounds(0.0, 0.0, Asked::ALL);
     let l = rational_matrix(&sampling.turned(&chosen.l), at_origin).ok_or(PlantRefusal::NoContraction)?;
     let coordinates = Coordinates { l, p: p.clone(), rate: f64::NAN };
     let mut base = along_cells(sampling.cells, &coordinates)?;
@@ -78,7 +77,8 @@ pub(super) fn with_constant(
         let with_second = Coordinates { l: coordinates.l.clone(), p, rate: f64::NAN };
         // Without a proof the P of stability serves.
         let of_one = |(cell, proven): (&Cell, &ProvenCell)| prove_second(&cell.plant, &proven.orbit, &with_second).ok();
-        let triples = sampling.cells.list.par_iter().zip(&base.cells).map(of_one).collect::<Option<Vec<_>>>();
+        let cells: Vec<_> = sampling.cells.list.iter().zip(&base.cells).collect();
+        let triples = parallel::map(&cells, |&cell| of_one(cell)).into_iter().collect::<Option<Vec<_>>>();
         base.existence = triples.and_then(SecondTriple::in_common).map(|triple| (with_second.p, triple));
     }
     let second = base.existence.as_ref().map(|(p, _)| float_matrix(&p.mean));
@@ -116,34 +116,7 @@ pub(super) fn with_search<T>(
     by_matrix: Option<Path>,
     run: impl FnOnce(&CoordinateSearch<'_>) -> Result<T, Obstacle>,
 ) -> Result<T, Obstacle> {
-    let sampler = |Shape { l, second, .. }: Shape<'_>, density: &Density| {
-        let second = second.and_then(rational_symmetric);
-        sampling.estimates(l, [None, second.as_ref()], density)
-    };
-    run(&CoordinateSearch { by_matrix, ..search(sampling, &sampler, 1.0) })
-}
-
-fn search<'a>(sampling: &'a Sampling<'a>, sampler: &'a Sampler<'a>, ratio: f64) -> CoordinateSearch<'a> {
-    let frame = |l: &DMatrix<f64>, model: &FloatModel| in_frame(sampling.plant, l, model);
-    let units = |l: &DMatrix<f64>| sampling.units(l);
-    let (frame, units) = (Box::new(frame), Box::new(units));
-    let count = Box::new(|| sampling.count());
-    CoordinateSearch { base: sampling.model, sampler, frame, units, ratio, by_matrix: None, count }
-}
-
-/// The initial set and the domain in the norm of y.
-fn in_frame(plant: &Plant, l: &DMatrix<f64>, model: &FloatModel) -> FloatModel {
-    let values = if l.nrows() == 0 { None } else { Some(l.singular_values()) };
-    let (largest, smallest) = values.map_or((1.0, 1.0), |values| (values.max(), values.min()));
-    let mut model = model.clone();
-    if let Some(ball) = &plant.ball {
-        let covering = ball.to_f64() / smallest;
-        model = model.with_set(plant.initial_set.map(Constant::to_f64).with_x0(covering));
-    }
-    if let Some(domain) = &plant.domain {
-        model.domain = (domain.x.to_f64() / largest, domain.e.to_f64());
-    }
-    model
+    run(&CoordinateSearch { sampling, p: None, ratio: 1.0, by_matrix })
 }
 
 /// The best of the candidates with a P(t).
@@ -160,9 +133,7 @@ fn best_periodic(candidates: &[&Coordinates], sampling: &Sampling<'_>) -> Result
             }
         };
         let ratio = Rational::from(&proved.p_up / &proved.p_low).to_f64();
-        let sampler =
-            |Shape { l, .. }: Shape<'_>, density: &Density| sampling.estimates(l, [Some(&candidate.p), None], density);
-        let search = search(sampling, &sampler, ratio);
+        let search = CoordinateSearch { sampling, p: Some(&candidate.p), ratio, by_matrix: None };
         match search.with(Shape { l: &float_matrix(&candidate.l), second: None, energy: None }, None) {
             Ok(chosen) if best.as_ref().is_none_or(|(_, known)| chosen.proposal.sigma < known.proposal.sigma) => {
                 best = Some(((*candidate).clone(), chosen));

@@ -3,31 +3,21 @@
 //! With a constant P nothing is lost by P = I in the coordinates y (derivation, 11.5), so L stands for P. Rotations of y change
 //! nothing: L varies as `L exp(S)` with symmetric S. The existence of the periodic solution may rest on a P of its own, `exp(S')`.
 
-use super::grid::{Grid, RATE, RATE_EXISTENCE, Source, functions};
+use super::estimates::{Density, Estimates};
+use super::grid::{Grid, RATE, RATE_EXISTENCE, functions};
+use super::sampling::{Sampling, rational_symmetric};
 use crate::search::{
     ByEnergy, ByMatrix, Closest, Descent, EnergyMargin, FloatModel, Obstacle, PeriodicSet, ROOMY, SharpParameters,
     SharpProposal, Threshold, active_level, at_sigma, minimise, search_sharp, search_sharp_near, weight_h,
 };
 use nalgebra::{DMatrix, SymmetricEigen};
-use rayon::prelude::*;
 use sigmastar_exact::number::Portable;
-use sigmastar_plants::bounds::{Asked, Corners, EnergyAt, EnergyWeights, FloatWeights, Focus, MatrixArguments};
+use sigmastar_exact::parallel;
+use sigmastar_lang::spec::PeriodicMatrix;
+use sigmastar_plants::bounds::{Asked, EnergyAt, EnergyWeights, FloatWeights, Focus};
 use sigmastar_theory::derivation::harmonics::AtOrigin;
 use sigmastar_theory::derivation::paths::Path;
 use std::sync::{Arc, Mutex, PoisonError};
-
-/// How densely suprema are sampled.
-#[derive(Clone, Debug)]
-pub enum Density {
-    /// To find a gain at all.
-    Rough,
-    /// To compare coordinates.
-    Coarse,
-    /// To compare coordinates near some, at the points that are the most extreme ones there.
-    Focused(Focus),
-    /// For the coordinates that are taken; with the corners of the matrix inequality near a proposal, where it is sought.
-    Fine(Option<Corners>),
-}
 
 /// L, and in its coordinates the P of existence, where it is not that of stability.
 #[derive(Clone, Copy, Debug)]
@@ -39,38 +29,6 @@ pub struct Shape<'a> {
     /// What existence rests on beside it, in its coordinates.
     pub energy: Option<&'a EnergyWeights>,
 }
-
-/// Estimates for given coordinates.
-pub struct Estimates {
-    /// Of the bounds.
-    pub bounds: Arc<Source>,
-    /// Of the threshold of the matrix inequality.
-    pub threshold: Arc<Threshold>,
-    /// Where they are the most extreme ones.
-    pub extreme: Arc<Extreme>,
-    /// c_y of the matrix inequality of existence.
-    pub energy_at: Arc<Energies>,
-    /// Its free numbers.
-    pub energy: Arc<ProposeEnergy>,
-}
-
-/// c_y at points of `G(X, E)`, as functions of the threshold.
-pub type Energies = dyn Fn([f64; 2], &EnergyWeights) -> Vec<EnergyAt> + Send + Sync;
-
-/// Free numbers of the inequality of existence on `G(X, E)` at a threshold.
-pub type ProposeEnergy = dyn Fn([f64; 2], f64) -> Option<EnergyWeights> + Send + Sync;
-
-/// The points that are the most extreme ones on some `G(X, E)`, and of the matrix inequality.
-pub type Extreme = dyn Fn(&[[f64; 2]], Option<(MatrixArguments, FloatWeights)>) -> Focus + Send + Sync;
-
-/// What estimates.
-pub type Sampler<'a> = dyn Fn(Shape<'_>, &Density) -> Estimates + Sync + 'a;
-
-/// What depends on the coordinates beside the bounds: the initial set and the domain.
-pub type Frame<'a> = dyn Fn(&DMatrix<f64>, &FloatModel) -> FloatModel + Sync + 'a;
-
-/// Ordinary sizes of |y| and |e|.
-pub type Units<'a> = dyn Fn(&DMatrix<f64>) -> [f64; 2] + Sync + 'a;
 
 /// The ratio of neighbouring nodes of a rough grid.
 const ROUGH: f64 = 2.5;
@@ -122,20 +80,14 @@ pub(super) const MOST_STATES: usize = 4;
 
 /// A search for coordinates.
 pub struct CoordinateSearch<'a> {
-    /// The model, but for what depends on L.
-    pub base: &'a FloatModel,
-    /// The bounds.
-    pub sampler: &'a Sampler<'a>,
-    /// The rest.
-    pub frame: Box<Frame<'a>>,
-    /// Ordinary sizes of |y| and |e| where L is a given matrix.
-    pub units: Box<Units<'a>>,
-    /// P_up/P_low of the P in the coordinates y.
-    pub ratio: f64,
+    /// What samples the bounds, and the model but for what depends on L.
+    pub(super) sampling: &'a Sampling<'a>,
+    /// The P in the coordinates y; the identity without.
+    pub(super) p: Option<&'a PeriodicMatrix>,
+    /// P_up/P_low of it.
+    pub(super) ratio: f64,
     /// The path of the matrix inequality by which stability is sought; by norms without.
-    pub by_matrix: Option<Path>,
-    /// Hears of each candidate.
-    pub count: Box<dyn Fn() + Sync + 'a>,
+    pub(super) by_matrix: Option<Path>,
 }
 
 /// Coordinates, the model in them, and the smallest gain that was found.
@@ -208,6 +160,12 @@ pub(super) enum Varied {
 }
 
 impl CoordinateSearch<'_> {
+    /// What is sampled for a given L.
+    pub(super) fn estimates(&self, Shape { l, second, .. }: Shape<'_>, density: &Density) -> Estimates {
+        let second = second.and_then(rational_symmetric);
+        self.sampling.estimates(l, [self.p, second.as_ref()], density)
+    }
+
     /// The model for a given L.
     #[must_use]
     pub fn model(&self, shape: Shape<'_>, density: &Density) -> FloatModel {
@@ -218,16 +176,20 @@ impl CoordinateSearch<'_> {
             Density::Coarse | Density::Focused(_) => COARSE,
             Density::Fine(_) => FINE,
         };
-        let Estimates { bounds, threshold, energy_at, .. } = (self.sampler)(shape, density);
-        let at_origin = bounds(0.0, 0.0, Asked::ALL);
-        let units = (self.units)(l);
-        let bounds = self.base.with_bounds(functions(&bounds, units, ratio, second.is_some()));
-        let mut model = bounds.with_triple(self.ratio, at_origin[RATE]);
+        let estimates = Arc::new(self.estimates(shape, density));
+        let at_origin = estimates.bounds(0.0, 0.0, Asked::ALL);
+        let units = self.sampling.units(l);
+        let of_bounds = estimates.clone();
+        let bounds = move |x: f64, e: f64, asked: Asked| of_bounds.bounds(x, e, asked);
+        let bounds = functions(bounds, units, ratio, second.is_some());
+        let mut model = self.sampling.model.with_bounds(bounds).with_triple(self.ratio, at_origin[RATE]);
         if let Some(second) = second {
             let values = second.clone().symmetric_eigenvalues();
             model = model.with_existence_triple(values.max() / values.min(), at_origin[RATE_EXISTENCE]);
         }
         if let Some(path) = self.by_matrix {
+            let of_matrix = estimates.clone();
+            let threshold: Arc<Threshold> = Arc::new(move |at, weights| of_matrix.threshold(at, weights));
             model.by_matrix = Some(ByMatrix::Sampled { path, threshold, rate: KEPT * at_origin[RATE] });
         }
         if let Some(energy) = energy {
@@ -238,12 +200,12 @@ impl CoordinateSearch<'_> {
                     move |value: f64| points.iter().map(|point| point.margin(k_p, value)).fold(f64::INFINITY, f64::min);
                 Remembered::new(least)
             };
-            let grid = Grid::new(move |x, e| least(energy_at([x, e], &known)), units, ratio);
+            let grid = Grid::new(move |x, e| least(estimates.energy_at([x, e], &known)), units, ratio);
             let margin: Arc<EnergyMargin> =
                 Arc::new(move |at, value| grid.at(at, |node| node.at(value)).unwrap_or(f64::NAN));
             model.by_energy = Some(ByEnergy::Sampled { weights, margin });
         }
-        let model = (self.frame)(l, &model);
+        let model = self.sampling.in_frame(l, model);
         if matches!(density, Density::Fine(_)) { model } else { model.rough() }
     }
 
@@ -255,16 +217,16 @@ impl CoordinateSearch<'_> {
         // The first one that has a gain leads to those of the others by local steps.
         let mut closest = Closest::default();
         let first = candidates.iter().find_map(|l| {
-            (self.count)();
+            self.sampling.count();
             let found = search_sharp(&self.model(alone(l), &Density::Rough));
             found.map_err(|obstacle| closest.record(obstacle)).ok()
         });
         let first = closest.or(first)?;
         let near = |l: &DMatrix<f64>| {
-            (self.count)();
+            self.sampling.count();
             search_sharp_near(&self.model(alone(l), &Density::Coarse), &first)
         };
-        let found: Vec<Result<SharpProposal, Obstacle>> = candidates.par_iter().map(near).collect();
+        let found: Vec<Result<SharpProposal, Obstacle>> = parallel::map(candidates, near);
         let mut closest = Closest::default();
         let mut best: Option<(SharpProposal, usize)> = None;
         let (mut starts, mut all) = (Vec::new(), Vec::new());
@@ -307,14 +269,13 @@ impl CoordinateSearch<'_> {
         if !(2..=MOST_STATES).contains(&best.l.nrows()) {
             return self.with(best.shape(), Some(&best.proposal));
         }
-        let descents = starts.par_iter().map(|from| {
+        let descents: Vec<Option<Chosen>> = parallel::map(starts, |from| {
             let mut at = from.clone();
             for _ in 0..TURNS {
                 at = self.descend(&at, Varied::Coordinates)?;
             }
             self.with(at.shape(), Some(&at.proposal)).ok()
         });
-        let descents: Vec<Option<Chosen>> = descents.collect();
         let smallest = descents.into_iter().flatten().min_by(|a, b| a.proposal.sigma.total_cmp(&b.proposal.sigma));
         let single = match smallest {
             Some(single) => single,
@@ -353,7 +314,7 @@ impl CoordinateSearch<'_> {
         let same =
             (of_l == 0).then(|| self.model(Shape { l, second: second.as_ref(), energy }, &density).with_room(*room));
         let with = |p: &[f64]| {
-            (self.count)();
+            self.sampling.count();
             let (shape, matrices) = p.split_at(of_shape);
             let mut parameters = proposal.parameters;
             if let [rho, eta] = shape {
@@ -385,14 +346,14 @@ impl CoordinateSearch<'_> {
         let start = shares.iter().map(|share| start(*share)).find(|start| cost(start).is_some())?;
         let steps: Vec<f64> = (0..start.len()).map(|i| if i < of_shape { SHAPE_STEP } else { STEP }).collect();
         let descent = if of_shape > 0 { TOGETHER } else { DESCENT };
-        let best = minimise(cost, &start, &steps, descent).map_or(start, |(best, _)| best);
+        let best = minimise(&cost, &start, &steps, descent).map_or(start, |(best, _)| best);
         with(&best)
     }
 
     /// The points that matter near a proposal.
     pub(super) fn focus(&self, shape: Shape<'_>, known: &SharpProposal) -> Result<Focus, Obstacle> {
         let model = self.model(shape, &Density::Coarse);
-        let estimates = (self.sampler)(shape, &Density::Coarse);
+        let estimates = self.estimates(shape, &Density::Coarse);
         let near =
             |model: &FloatModel| at_sigma(model, &known.parameters, known.sigma * (1.0 + NEAR), model.effort().room);
         // What norms promise need not be there by the matrix inequality.
@@ -411,7 +372,7 @@ impl CoordinateSearch<'_> {
         let error_box = [set.x_per + at.d_x, set.e_per + level.sqrt()];
         let inequality =
             self.by_matrix.map(|path| (ByMatrix::arguments(path, [set.x_per, set.e_per], error_box), weights));
-        Ok((estimates.extreme)(&[[set.x_p, set.e_p], error_box], inequality))
+        Ok(estimates.extreme(&[[set.x_p, set.e_p], error_box], inequality))
     }
 
     /// The choice with a P of existence of its own, where that is worth it.
@@ -499,7 +460,7 @@ pub(super) fn best_shape_near(model: &FloatModel, proposal: SharpProposal) -> Sh
     let rough = model.clone().rough().with_room(model.effort().room);
     let cost = |p: &[f64]| with(&rough, p).map(|found| found.sigma.portable_ln());
     let start = [(rho - 1.0).portable_ln(), eta.portable_ln()];
-    let best = minimise(cost, &start, &[0.5 * SHAPE_STEP; 2], DESCENT);
+    let best = minimise(&cost, &start, &[0.5 * SHAPE_STEP; 2], DESCENT);
     let best = best.and_then(|(best, _)| with(model, &best));
     best.filter(|found| found.sigma < proposal.sigma).unwrap_or(proposal)
 }

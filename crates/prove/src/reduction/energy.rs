@@ -1,8 +1,9 @@
 //! A matrix inequality of existence (derivation, 13.7, (E)) in a search for coordinates: whether one helps, and which.
 
-use super::coordinates::{CoordinateSearch, Density, NEAR, Shape, Start, Varied};
+use super::coordinates::{CoordinateSearch, NEAR, Shape, Start, Varied};
+use super::estimates::Density;
 use crate::search::{PeriodicSet, SharpParameters};
-use rayon::prelude::*;
+use sigmastar_exact::parallel;
 use sigmastar_plants::bounds::EnergyWeights;
 use sigmastar_theory::derivation::harmonics::AtOrigin;
 
@@ -61,7 +62,7 @@ impl CoordinateSearch<'_> {
 
     /// An inequality of existence on that set, with this share of the gain as its threshold.
     fn energy(&self, at: &Start, SampledSet { set, density }: &SampledSet, share: f64) -> Option<EnergyWeights> {
-        ((self.sampler)(at.shape(), density).energy)([set.x_p, set.e_p], share * at.proposal.sigma)
+        self.estimates(at.shape(), density).propose_energy([set.x_p, set.e_p], share * at.proposal.sigma)
     }
 
     /// The same with another matrix inequality of existence, where the gain is smaller with it after the shape of the error box has been
@@ -73,8 +74,8 @@ impl CoordinateSearch<'_> {
                 let energy = self.energy(at, &sampled, *share)?;
                 self.descend(&Start { energy: Some(energy), ..at.clone() }, Varied::Shape)
             };
-            let found: Vec<Start> = shares.par_iter().filter_map(with).collect();
-            found.into_iter().min_by(|a, b| a.proposal.sigma.total_cmp(&b.proposal.sigma))
+            let found = parallel::map(shares, with);
+            found.into_iter().flatten().min_by(|a, b| a.proposal.sigma.total_cmp(&b.proposal.sigma))
         };
         let least = FACTORS.into_iter().find_map(on_set);
         least.filter(|found| found.proposal.sigma < at.proposal.sigma * FAR).unwrap_or_else(|| at.clone())

@@ -3,12 +3,13 @@
 use super::refusal::PlantRefusal;
 use super::watch::{Stage, Watch};
 use crate::search::{AtSigma, ByEnergy, ByMatrix, FloatModel, PeriodicSet, SHARE, active_level, weight_h};
-use rayon::prelude::*;
 use rug::Rational;
+use sigmastar_exact::enclosure::Truth;
 use sigmastar_exact::number::{Direction, Portable, round_f64};
+use sigmastar_exact::parallel;
 use sigmastar_lang::spec::{
-    Bound, Constant, ExistenceInequality, MatrixInequality, ProvedValue, ProvedValues, SampledExistence,
-    SampledInequalities, SampledInequality, Splitting,
+    Bound, Constant, ExistenceInequality, JointInequality, MatrixInequality, ProvedValue, ProvedValues,
+    SampledExistence, SampledInequalities, SampledInequality, Splitting,
 };
 use sigmastar_plants::bounds::{EnergyWeights, Engine, Entry, FloatSuprema, TABLE};
 use sigmastar_theory::derivation::paths::{Path, Paths};
@@ -207,12 +208,12 @@ pub(super) fn prove_all(
     let beside = needed.of_error_box().into_iter().map(|entry| (entry, by_norms));
     let all: Vec<_> = asked.chain(beside).collect();
     let (done, count) = (AtomicUsize::new(0), all.len());
-    let prove = |((bound, x, e), is_used)| {
-        let value = value_of(engine, suprema, bound, [x, e]);
+    let prove = |((bound, x, e), is_used): &((Bound, Rational, Rational), bool)| {
+        let value = value_of(engine, suprema, *bound, [x.clone(), e.clone()]);
         watch.part(done.fetch_add(1, Ordering::Relaxed) + 1, count);
-        (value, is_used)
+        (value, *is_used)
     };
-    let proofs: Vec<(Result<ProvedValue, PlantRefusal>, bool)> = all.into_par_iter().map(prove).collect();
+    let proofs = parallel::map(&all, prove);
     // What no condition uses may be missing.
     let proofs = proofs.into_iter().filter(|(proof, is_used)| *is_used || proof.is_ok()).map(|(proof, _)| proof);
     let values = ProvedValues::new(proofs.collect::<Result<_, _>>()?);
@@ -225,10 +226,8 @@ fn prove_at_samples(
     suprema: &FloatSuprema,
     SampledInequalities { stability, existence }: &SampledInequalities,
 ) -> Result<SampledInequalities, PlantRefusal> {
-    if let Some(wanted) = stability
-        && !engine.decide_sampled(wanted, SAMPLED_EFFORT).truth.is_true()
-    {
-        return Err(not_proved("stability", [&wanted.x, &wanted.e]));
+    if let Some(wanted) = stability {
+        held("stability", [&wanted.x, &wanted.e], engine.decide_sampled(wanted, SAMPLED_EFFORT).truth)?;
     }
     let existence = match existence {
         None => None,
@@ -263,6 +262,11 @@ fn not_proved(bound: &'static str, [x, e]: [&Rational; 2]) -> PlantRefusal {
     PlantRefusal::NotProved { bound, at: [x.to_f64(), e.to_f64()] }
 }
 
+/// That what was decided holds.
+fn held(bound: &'static str, at: [&Rational; 2], truth: Truth) -> Result<(), PlantRefusal> {
+    if truth.is_true() { Ok(()) } else { Err(not_proved(bound, at)) }
+}
+
 /// What a small value is multiplied with, so that another program proves it, whose bound of x_0' may be coarser.
 const ROOM: u32 = 1000;
 
@@ -280,38 +284,27 @@ fn smallest(engine: &Engine, bound: Bound, [x, e]: [&Rational; 2]) -> Option<Rat
 /// # Errors
 /// The first that is not proved.
 pub(super) fn decide_all(engine: &Engine, values: &ProvedValues, mu: &Constant) -> Result<(), PlantRefusal> {
-    if let Some(inequality) = values.inequality()
-        && !engine.decide_inequality(inequality, mu, EFFORT).truth.is_true()
-    {
-        return Err(not_proved("stability", [&inequality.x, &inequality.e]));
+    if let Some(known) = values.inequality() {
+        held("stability", [&known.x, &known.e], engine.decide_inequality(known, mu, EFFORT).truth)?;
     }
-    if let Some(existence) = values.existence()
-        && !engine.decide_existence(existence, EFFORT).truth.is_true()
-    {
-        return Err(not_proved("existence", [&existence.x, &existence.e]));
+    if let Some(known) = values.existence() {
+        held("existence", [&known.x, &known.e], engine.decide_existence(known, EFFORT).truth)?;
     }
     let SampledInequalities { stability, existence } = values.sampled();
-    if let Some(known) = stability
-        && !engine.decide_sampled(known, EFFORT).truth.is_true()
-    {
-        return Err(not_proved("stability", [&known.x, &known.e]));
+    if let Some(known) = stability {
+        held("stability", [&known.x, &known.e], engine.decide_sampled(known, EFFORT).truth)?;
     }
-    if let Some(known) = existence
-        && !engine.decide_sampled_existence(known, EFFORT).truth.is_true()
-    {
-        return Err(not_proved("existence", [&known.x, &known.e]));
+    if let Some(known) = existence {
+        held("existence", [&known.x, &known.e], engine.decide_sampled_existence(known, EFFORT).truth)?;
     }
-    if let Some(joint) = values.joint_stability()
-        && !engine.decide_joint_stability(joint, EFFORT).truth.is_true()
-    {
-        return Err(not_proved("joint stability", [&joint.inequality.x, &joint.inequality.e]));
+    if let Some(joint) = values.joint_stability() {
+        let JointInequality { x, e, .. } = &joint.inequality;
+        held("joint stability", [x, e], engine.decide_joint_stability(joint, EFFORT).truth)?;
     }
-    if let Some(joint) = values.joint_existence()
-        && !engine.decide_joint(joint, EFFORT).truth.is_true()
-    {
-        return Err(not_proved("joint existence", [&joint.x, &joint.e]));
+    if let Some(joint) = values.joint_existence() {
+        held("joint existence", [&joint.x, &joint.e], engine.decide_joint(joint, EFFORT).truth)?;
     }
-    values.entries().par_iter().try_for_each(|ProvedValue { bound, x, e, value, .. }| {
+    let held = parallel::map(values.entries(), |ProvedValue { bound, x, e, value, .. }| {
         let refusal = || PlantRefusal::NotProved { bound: bound.field(), at: [x.to_f64(), e.to_f64()] };
         if !TABLE.contains(bound) {
             return Err(refusal());
@@ -321,5 +314,6 @@ pub(super) fn decide_all(engine: &Engine, values: &ProvedValues, mu: &Constant) 
         }
         let entry = Entry { bound: *bound, x: x.clone(), e: e.clone(), value: value.clone() };
         if engine.decide(&entry, EFFORT).truth.is_true() { Ok(()) } else { Err(refusal()) }
-    })
+    });
+    held.into_iter().collect()
 }

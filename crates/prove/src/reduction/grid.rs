@@ -16,9 +16,6 @@ pub const RATE_EXISTENCE: usize = 8;
 /// Estimates of all of [`TABLE`]; the last one is not a number without a P of existence at one (X, E).
 pub type Values = [f64; TABLE.len()];
 
-/// A source of the estimates that are asked for at (X, E).
-pub type Source = dyn Fn(f64, f64, Asked) -> Values + Send + Sync;
-
 /// Linear interpolation between nodes at 0 and at `smallest ratio^k`, k = 0, 1, ...; beyond the last node nothing is known.
 pub struct Grid<V> {
     source: Box<Make<V>>,
@@ -125,7 +122,12 @@ impl Axis {
 /// The bounds between the nodes of grids about the size `units` of (X, E), one for each group of them, as a search takes them; that of existence
 /// where there is a P for it.
 #[must_use]
-pub fn functions(source: &Arc<Source>, units: [f64; 2], ratio: f64, existence: bool) -> Vec<(Bound, FloatBound)> {
+pub fn functions(
+    source: impl Fn(f64, f64, Asked) -> Values + Clone + Send + Sync + 'static,
+    units: [f64; 2],
+    ratio: f64,
+    existence: bool,
+) -> Vec<(Bound, FloatBound)> {
     let grids = Asked::GROUPS.map(|group| {
         let source = source.clone();
         Arc::new(Grid::new(move |x, e| source(x, e, group), units, ratio))

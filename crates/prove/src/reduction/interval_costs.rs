@@ -11,7 +11,7 @@ use super::sampling::Sampling as Samples;
 use super::watch::{Searches, Watch};
 use crate::certify::{Ladder, certify_sampled};
 use crate::search::SampledProposal;
-use rayon::prelude::*;
+use sigmastar_exact::parallel;
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{Sampling, Specification};
 
@@ -81,12 +81,12 @@ fn costs(
     watch: &dyn Watch,
 ) -> Vec<(String, Option<f64>)> {
     let searches = Searches::new(closed.len(), watch);
-    let cost = |(name, closed): Closed| {
-        let sigma = closed.and_then(|closed| gain(&closed, &searches));
+    let cost = |(name, closed): &Closed| {
+        let sigma = closed.as_ref().and_then(|closed| gain(closed, &searches));
         searches.one_is_done();
-        (name, sigma)
+        (name.clone(), sigma)
     };
-    closed.into_par_iter().map(cost).collect()
+    parallel::map(&closed, cost)
 }
 
 /// The same for the regulator at samples, and first what it would be with the nominal `input_gain`; a specification has no other interval.

@@ -219,7 +219,7 @@ impl JointSearch<'_> {
         };
         cost(&least);
         if enough.borrow().is_none() {
-            minimise(cost, &least, &[SHAPE_STEP; 2], SHAPE)?;
+            minimise(&cost, &least, &[SHAPE_STEP; 2], SHAPE)?;
         }
         let (at, radii, metrics, levels, _) = enough.into_inner()?;
         let inequality = inequality(at, sigma, &metrics, PROVED)?;

@@ -14,6 +14,7 @@ mod coordinates;
 mod cover;
 mod energy;
 mod entries;
+mod estimates;
 mod grid;
 mod interval_costs;
 mod joint;

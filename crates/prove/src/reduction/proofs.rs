@@ -10,8 +10,8 @@ use super::tube::TubeOfFamily;
 use super::watch::Watch;
 use crate::certify::Alternatives;
 use crate::search::{FloatModel, SharpProposal};
-use rayon::prelude::*;
 use rug::Rational;
+use sigmastar_exact::parallel;
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::model::{Constant, Lyapunov};
 use sigmastar_lang::spec::{
@@ -84,11 +84,12 @@ pub(super) struct ProvenCell {
 pub(super) fn along(cells: &[Cell], coordinates: &Coordinates) -> Result<Along, PlantRefusal> {
     let curves: Vec<_> = cells.iter().map(|Cell { plant, curve }| (plant, curve)).collect();
     let orbits = prove_orbits(&curves, coordinates).map_err(PlantRefusal::OrbitNotProved)?;
-    let of_one = |(cell, orbit): (&Cell, OrbitProof)| {
-        let forcing = prove_forcing(&cell.plant, coordinates, &orbit).map_err(PlantRefusal::OrbitNotProved)?;
-        Ok(ProvenCell { parameters: cell.plant.parameters.clone(), orbit, forcing })
+    let of_one = |(cell, orbit): &(&Cell, OrbitProof)| {
+        let forcing = prove_forcing(&cell.plant, coordinates, orbit).map_err(PlantRefusal::OrbitNotProved)?;
+        Ok(ProvenCell { parameters: cell.plant.parameters.clone(), orbit: orbit.clone(), forcing })
     };
-    let cells = cells.par_iter().zip(orbits).map(of_one).collect::<Result<_, PlantRefusal>>()?;
+    let cells: Vec<_> = cells.iter().zip(orbits).collect();
+    let cells = parallel::map(&cells, of_one).into_iter().collect::<Result<_, PlantRefusal>>()?;
     Ok(Along { coordinates: coordinates.clone(), cells, existence: None, why: None })
 }
 
@@ -209,6 +210,11 @@ impl<'a> Proofs<'a> {
         self.along.second().is_some()
     }
 
+    /// The values that are needed, each proved.
+    pub(super) fn values(&self, needed: &Needed) -> Result<ProvedValues, PlantRefusal> {
+        prove_all(&self.engine, &self.suprema, needed, (&self.plant.internal_model.mu, &self.tried), self.watch)
+    }
+
     /// The specification with the values that are needed, each proved, and as a model; `joint` is proved.
     pub(super) fn with_needed(
         &self,
@@ -217,9 +223,7 @@ impl<'a> Proofs<'a> {
     ) -> Result<(FloatModel, Specification), PlantRefusal> {
         let [x, e] = needed.largest();
         self.engine.smooth(&x, &e)?;
-        let values =
-            prove_all(&self.engine, &self.suprema, needed, (&self.plant.internal_model.mu, &self.tried), self.watch)?;
-        let spec = self.along.specification(self.plant, joint(values))?;
+        let spec = self.along.specification(self.plant, joint(self.values(needed)?))?;
         let data = Data::new(&spec, PRECISION);
         Ok((FloatModel::new(&data, trade_off(&data)), spec))
     }

@@ -11,8 +11,8 @@ use super::values::prove_bounds;
 use super::watch::{Stage, Unwatched, Watch};
 use crate::certify::Alternatives;
 use crate::search::FloatModel;
-use rayon::prelude::*;
 use rug::Rational;
+use sigmastar_exact::parallel;
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{PeriodicMatrix, ProvedValues};
 use sigmastar_plants::orbit::{self, Coordinates, FloatOrbit, find_orbit, propose_coordinates, round_orbit};
@@ -291,8 +291,8 @@ fn best_by_matrix(p: &PeriodicMatrix, starts: &[Start], sampling: &Sampling<'_>)
     };
     let smaller = |a: &FoundByMatrix, b: &FoundByMatrix| a.cost().total_cmp(&b.cost());
     // The straight one says which of the starts is the best.
-    let straight: Vec<_> = starts.par_iter().filter_map(|start| near(start, Path::Straight, f64::INFINITY)).collect();
-    let straight = straight.into_iter().min_by(smaller);
+    let straight: Vec<_> = parallel::map(starts, |start| near(start, Path::Straight, f64::INFINITY));
+    let straight = straight.into_iter().flatten().min_by(smaller);
     if !sampling.varies() {
         return straight;
     }
@@ -301,6 +301,6 @@ fn best_by_matrix(p: &PeriodicMatrix, starts: &[Start], sampling: &Sampling<'_>)
         _ => starts.first()?.clone(),
     };
     let limit = straight.as_ref().map_or(f64::INFINITY, |found| FURTHER * found.chosen.proposal.sigma);
-    let others: Vec<_> = Path::CHOICE.into_par_iter().filter_map(|path| near(&start, path, limit)).collect();
-    others.into_iter().chain(straight).min_by(smaller)
+    let others: Vec<_> = parallel::map(&Path::CHOICE, |&path| near(&start, path, limit));
+    others.into_iter().flatten().chain(straight).min_by(smaller)
 }

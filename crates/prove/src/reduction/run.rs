@@ -10,8 +10,8 @@ use super::subject::{Sought, SoughtAtSamples};
 use super::watch::{Searches, Stage, Unwatched, Watch};
 use super::{FreeNumbers, RestsOn, Subject, Witness};
 use crate::certify::{
-    Alternatives, Certification, Limits, NoRatesOfClaim, Options, Refusal, SampledCertification, Verdict,
-    certify_sampled_within, certify_within, claimed_ball, recheck, recheck_sampled,
+    Alternatives, Certification, Limits, NoRatesOfClaim, Options, Refusal, SampledCertification, Verdict, Wanted,
+    certify_for, certify_sampled_within, claimed_ball, recheck, recheck_sampled,
 };
 use crate::search::Failing;
 use rug::Rational;
@@ -176,10 +176,11 @@ impl Prepared {
                 let proposal = start.as_ref().map(|sought| &sought.proposal);
                 let other = start.as_ref().and_then(|sought| sought.without_joint.as_deref());
                 let by_norms = self.by_norms.as_deref();
-                let run = certify_within(spec, options, proposal, (gain, &self.limits));
+                let wanted = Wanted { start: proposal, gain, limits: Some(&self.limits) };
+                let run = certify_for(spec, options, wanted);
                 // Of a larger gain than the smallest one joint metrics, and matrices, say less.
                 let run = other.into_iter().chain(by_norms).filter(|_| !smallest).fold(run, |run, (spec, proposal)| {
-                    match (run, certify_within(spec, options, Some(proposal), (gain, &self.limits))) {
+                    match (run, certify_for(spec, options, Wanted { start: Some(proposal), ..wanted })) {
                         (Ok(run), Ok(other)) => better(run, other),
                         (Err(_), other) => other,
                         (run, Err(_)) => run,
@@ -262,14 +263,16 @@ impl Prepared {
     ) -> Result<Certification<'s>, Refusal> {
         let gains = run.smallest_gain.zip(run.sigma_star().map(Rational::to_f64));
         let Some((plant, (least, found))) = self.plant.as_deref().zip(gains) else { return Ok(run) };
-        let wanted = (None, &self.limits);
+        let wanted = Wanted { limits: Some(&self.limits), ..Wanted::default() };
         let gain = |(spec, proposal): &WithoutJoint| {
-            let run = certify_within(spec, options, Some(proposal), wanted).ok()?;
+            let run = certify_for(spec, options, Wanted { start: Some(proposal), ..wanted }).ok()?;
             run.sigma_star().map(Rational::to_f64)
         };
         let data = self.closer.get_or_init(|| closer(plant, [least, found], gain, watch).map(Box::new));
         match data.as_deref() {
-            Some((spec, proposal)) => better(run, certify_within(spec, options, Some(proposal), wanted)?),
+            Some((spec, proposal)) => {
+                better(run, certify_for(spec, options, Wanted { start: Some(proposal), ..wanted })?)
+            }
             None => Ok(run),
         }
     }

@@ -2,8 +2,8 @@
 
 use super::choice::{best_by_norms, starts, with_search};
 use super::coordinates::{Chosen, Start};
-use super::entries::{needed, prove_all};
-use super::proofs::{Along, Near, PRECISION};
+use super::entries::needed;
+use super::proofs::{Along, Near, PRECISION, Proofs};
 use super::proved_at_samples::{ReducedSampled, beyond, found_again};
 use super::reduce::{FAR_BETTER, with_candidates, with_coordinates};
 use super::refusal::PlantRefusal;
@@ -18,7 +18,6 @@ use sigmastar_lang::spec::{self, ProvedValues, Specification};
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::paths::Path;
 use sigmastar_theory::derivation::sampled::{SampledLaw, sampled_trade_off};
-use std::sync::atomic::AtomicUsize;
 
 /// How much further the bounds are proved where these arguments were too small for a gain that is given: it cannot become larger
 /// to make up for what proved values are above sampled ones.
@@ -169,8 +168,7 @@ impl<'p> SampledPairs<'p> {
         });
         let found = found.unwrap_or_else(|| Err(beyond(sampling)));
         let (proposal, set, at) = found.map_err(PlantRefusal::NoGain)?;
-        let engine = self.along.engine(self.plant)?;
-        let suprema = self.along.suprema(self.sampled);
+        let proofs = Proofs::new(self.along, self.sampled)?;
         let mut best: Option<ReducedSampled> = None;
         let mut refusal = PlantRefusal::NoGain(Failing::Bounds.into());
         let wider = WIDER.into_iter().filter(|_| given.is_some()).map(|enlarged| (enlarged, true));
@@ -183,14 +181,8 @@ impl<'p> SampledPairs<'p> {
             let at = needed(&self.chosen.model, &set, &at, enlarged, (self.along.second().is_some(), proposal.sigma))
                 .ok_or(PlantRefusal::NoGain(Failing::NotFinite(None).into()))?;
             let [x, e] = at.largest();
-            engine.smooth(&x, &e)?;
-            let values = match prove_all(
-                &engine,
-                &suprema,
-                &at,
-                (&self.plant.internal_model.mu, &AtomicUsize::new(0)),
-                self.sampled.watch,
-            ) {
+            proofs.engine.smooth(&x, &e)?;
+            let values = match proofs.values(&at) {
                 Ok(values) => values,
                 Err(error) => {
                     refusal = error;

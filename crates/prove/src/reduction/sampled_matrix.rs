@@ -4,18 +4,18 @@
 
 use super::choice::with_constant;
 use super::coordinates::{Chosen, Start};
-use super::entries::{needed, prove_all};
+use super::entries::needed;
 use super::grid::Grid;
-use super::proofs::{Along, PRECISION};
+use super::proofs::{Along, PRECISION, Proofs};
 use super::proved_at_samples::{ReducedSampled, found_again};
 use super::sampling::{Sampling, float_matrix};
 use crate::search::{
     AtSamples, AtSigma, BySampledEnergy, BySampledMatrix, FloatModel, Floors, PeriodicSet, SampledProposal,
     SampledSearch, active_level, weight_h,
 };
-use rayon::prelude::*;
 use rug::Rational;
 use sigmastar_exact::number::{Direction, round_f64};
+use sigmastar_exact::parallel;
 use sigmastar_lang::spec::{
     self, PeriodicMatrix, ProvedValues, SampledExistence, SampledGain, SampledInequalities, SampledInequality,
     SampledLoop,
@@ -25,7 +25,6 @@ use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::paths::Path;
 use sigmastar_theory::derivation::sampled::{SampledEnergyNumbers, SampledLaw, sampled_trade_off};
 use std::sync::Arc;
-use std::sync::atomic::AtomicUsize;
 
 /// How much larger the next gain of the scan is, how many there are at most, and the steps of the bisection after it.
 const NEXT: f64 = 1.06;
@@ -283,11 +282,11 @@ impl<'a> MatrixAtSamples<'a> {
         let mut size = from.size;
         for _ in 0..TURNS {
             let reach = size.map(|side| side * LARGER);
-            let sought = SHARES.into_par_iter().filter_map(|share| {
+            let sought = parallel::map(&SHARES, |&share| {
                 let energy = self.suprema.propose_sampled_energy(reach, &of, share)?;
                 with(Some(energy))
             });
-            best = sought.collect::<Vec<_>>().into_iter().chain(best).min_by(smaller);
+            best = sought.into_iter().flatten().chain(best).min_by(smaller);
             let found = best.as_ref().map(|found| [found.set.x_p, found.set.e_p])?;
             let is_near = |found: f64, size: f64| (size / FAR..=size * LARGER).contains(&found);
             if is_near(found[0], size[0]) && is_near(found[1], size[1]) {
@@ -327,9 +326,8 @@ impl<'a> MatrixAtSamples<'a> {
 
     /// The specification with the values proved at the arguments of what was found.
     fn proved(&self, found: &Found, sigma: &Rational) -> Option<ReducedSampled> {
-        let plant = self.sampled.plant;
         let wanted = self.wanted(found, sigma)?;
-        let engine = self.along.engine(plant).ok()?;
+        let proofs = Proofs::new(self.along, self.sampled).ok()?;
         let proposal = SampledProposal {
             sigma: found.sigma,
             floors: self.floors(),
@@ -342,16 +340,9 @@ impl<'a> MatrixAtSamples<'a> {
             let at = needed(&found.model, &found.set, &found.at, enlarged, (second, found.sigma))?;
             let at = at.with_sampled(wanted.clone());
             let [x, e] = at.largest();
-            engine.smooth(&x, &e).ok()?;
-            let values = prove_all(
-                &engine,
-                &self.suprema,
-                &at,
-                (&plant.internal_model.mu, &AtomicUsize::new(0)),
-                self.sampled.watch,
-            )
-            .ok()?;
-            let spec = self.along.specification(plant, values).ok()?;
+            proofs.engine.smooth(&x, &e).ok()?;
+            let values = proofs.values(&at).ok()?;
+            let spec = self.along.specification(proofs.plant, values).ok()?;
             let proposal = found_again(&spec, self.sampling, &proposal, Some(found.sigma)).ok()?;
             Some(ReducedSampled { spec, proposal, near: None })
         })

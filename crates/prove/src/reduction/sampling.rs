@@ -1,23 +1,20 @@
 //! Sampled suprema of a plant's derivatives as a search takes them.
 
 use super::cells::Cells;
-use super::coordinates::{Density, Energies, Estimates, Extreme, ProposeEnergy};
-use super::grid::{RATE, Source, Values};
+use super::estimates::{Density, Estimates};
+use super::grid::Values;
 use super::tube::TubeOfFamily;
 use super::watch::Watch;
-use crate::search::{FloatModel, Threshold};
+use crate::search::FloatModel;
 use nalgebra::DMatrix;
 use rug::Rational;
 use sigmastar_exact::number::{Direction, round_f64};
 use sigmastar_lang::plant::Plant;
+use sigmastar_lang::spec::model::Constant;
 use sigmastar_lang::spec::{Bound, PeriodicMatrix};
 use sigmastar_plants::bounds::{Asked, FloatSuprema, Focus, Places, TABLE};
 use sigmastar_plants::orbit::lower_triangular;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
-
-/// The points that are listed for each bound, where only the most extreme ones are looked at.
-const EXTREME: usize = 6;
 
 /// Significant digits of a P of existence.
 const DIGITS: u32 = 4;
@@ -99,7 +96,7 @@ impl<'a> Sampling<'a> {
 
     /// Ordinary sizes of |y| and |e|.
     pub(super) fn units(&self, l: &DMatrix<f64>) -> [f64; 2] {
-        let values = self.source(l, [None; 2], &Density::Rough)(0.0, 0.0, Asked::ALL);
+        let values = self.estimates(l, [None; 2], &Density::Rough).bounds(0.0, 0.0, Asked::ALL);
         let of = |bound| TABLE.iter().position(|kind| *kind == bound).map_or(0.0, |at| values[at]);
         let (rate, f_e) = (of(Bound::Rate), of(Bound::Fe));
         let size = f_e / rate * self.unit_e;
@@ -117,15 +114,13 @@ impl<'a> Sampling<'a> {
         FloatSuprema::of_cells(self.plant, self.cells.in_doubles(), rows(l), matrices)
     }
 
-    /// The same as functions of (X, E), about the tube.
+    /// The same at so many points, about the tube.
     pub(super) fn estimates(
         &self,
         l: &DMatrix<f64>,
         matrices: [Option<&PeriodicMatrix>; 2],
         density: &Density,
     ) -> Estimates {
-        let suprema = Arc::new(self.suprema(l, matrices));
-        let radius = self.tube.radius_in(l);
         let grid = |stride: usize| Focus { places: Places::Stride(stride), corners: None };
         let focus = match density {
             Density::Rough => grid(6),
@@ -133,32 +128,22 @@ impl<'a> Sampling<'a> {
             Density::Focused(focus) => focus.clone(),
             Density::Fine(corners) => Focus { corners: corners.clone(), ..grid(1) },
         };
-        let stateless = l.nrows() == 0;
-        let places = focus.places.clone();
-        let of_inequality = suprema.clone();
-        let all = suprema.clone();
-        let suprema_again = suprema.clone();
-        let extreme: Arc<Extreme> = Arc::new(move |boxes, inequality| {
-            let boxes: Vec<[f64; 2]> = boxes.iter().map(|[x, e]| [x + radius, *e]).collect();
-            all.extreme(&boxes, EXTREME, inequality.map(|(at, weights)| (at.beyond(radius), weights)))
-        });
-        let bounds: Arc<Source> = Arc::new(move |x, e, asked| -> Values {
-            let mut values: Values = suprema.survey(x + radius, e, &places, asked);
-            if stateless {
-                // Without states every rate is as good as any other.
-                values[RATE] = 1.0;
-            }
-            values
-        });
-        let (of_existence, of_energy) = (suprema_again.clone(), suprema_again);
-        let everywhere = focus.places.clone();
-        let energy_at: Arc<Energies> =
-            Arc::new(move |[x, e], weights| of_existence.energy_at([x + radius, e], &everywhere, weights));
-        let energy: Arc<ProposeEnergy> =
-            Arc::new(move |[x, e], value| of_energy.propose_energy([x + radius, e], value));
-        let threshold: Arc<Threshold> =
-            Arc::new(move |at, weights| of_inequality.least_sigma(at.beyond(radius), &focus, weights));
-        Estimates { bounds, threshold, extreme, energy_at, energy }
+        let (radius, stateless) = (self.tube.radius_in(l), l.nrows() == 0);
+        Estimates { suprema: self.suprema(l, matrices), focus, radius, stateless }
+    }
+
+    /// The model with the initial set and the domain in the norm of y.
+    pub(super) fn in_frame(&self, l: &DMatrix<f64>, mut model: FloatModel) -> FloatModel {
+        let values = if l.nrows() == 0 { None } else { Some(l.singular_values()) };
+        let (largest, smallest) = values.map_or((1.0, 1.0), |values| (values.max(), values.min()));
+        if let Some(ball) = &self.plant.ball {
+            let covering = ball.to_f64() / smallest;
+            model = model.with_set(self.plant.initial_set.map(Constant::to_f64).with_x0(covering));
+        }
+        if let Some(domain) = &self.plant.domain {
+            model.domain = (domain.x.to_f64() / largest, domain.e.to_f64());
+        }
+        model
     }
 
     /// L times a rotation, with which the derivatives change along few axes of y; lower triangular where that serves as well. No norm
@@ -175,16 +160,6 @@ impl<'a> Sampling<'a> {
         let turned = &lower * DMatrix::from_fn(n, n, |i, j| known.principal[i][j]);
         let better = directions(&turned).along_axes < known.along_axes * WORTH_A_TURN;
         if better { turned } else { lower }
-    }
-
-    /// Those of the bounds.
-    pub(super) fn source(
-        &self,
-        l: &DMatrix<f64>,
-        matrices: [Option<&PeriodicMatrix>; 2],
-        density: &Density,
-    ) -> Arc<Source> {
-        self.estimates(l, matrices, density).bounds
     }
 }
 

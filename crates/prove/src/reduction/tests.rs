@@ -5,7 +5,7 @@ mod random_points;
 
 use super::closer::closer;
 use super::{PlantRefusal, Prepared, Reduced, Stage, Subject, Unwatched, Watch, bounds_around, reduce};
-use crate::certify::{Limits, Options, certify_within};
+use crate::certify::{Limits, Options, Wanted, certify_for};
 use crate::search::{Failing, SharpProposal};
 use random_points::random_points;
 use rayon::prelude::*;
@@ -141,7 +141,8 @@ fn cells_gains_and_comparisons_are_counted() {
 /// The gain that data lead to, and the proved bound of |e| on the way with it; of the gain that is given, where one is.
 fn gain_and_peak(data: &(Specification, SharpProposal), gain: Option<&Rational>, limits: &Limits) -> Option<[f64; 2]> {
     let (spec, proposal) = data;
-    let run = certify_within(spec, Options::default(), Some(proposal), (gain, limits)).unwrap();
+    let wanted = Wanted { start: Some(proposal), gain, limits: Some(limits) };
+    let run = certify_for(spec, Options::default(), wanted).unwrap();
     let (_, peak, _) = run.bounds()?;
     Some([run.sigma_star()?.to_f64(), peak.upper().to_f64()])
 }

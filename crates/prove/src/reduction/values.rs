@@ -134,7 +134,7 @@ impl Proofs<'_> {
                 let (_, at) = at_sigma(&peak, &with(p), gain, room).ok()?;
                 (at.threshold <= gain * below).then(|| at.cost.portable_ln())
             };
-            let (best, _) = minimise(cost, &start, &[SHAPE_STEP; 2], AT_GAIN)?;
+            let (best, _) = minimise(&cost, &start, &[SHAPE_STEP; 2], AT_GAIN)?;
             let there = SharpProposal { parameters: with(&best), sigma: gain, ..*proposal };
             let (_, found) = self.with_values(model, &there, 0.0, ENLARGED[0]).ok()?.ok()?;
             (found.proposal.sigma <= gain).then_some(found)

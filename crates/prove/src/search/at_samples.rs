@@ -7,7 +7,6 @@ use sigmastar_lang::spec::{SampledExistence, SampledInequalities, SampledInequal
 use sigmastar_theory::derivation::energy::EnergyBounds;
 use sigmastar_theory::derivation::harmonics::AtOrigin;
 use sigmastar_theory::derivation::sampled::SampledEnergyNumbers;
-use std::fmt;
 use std::sync::Arc;
 
 /// A proved inequality ends where it ends: a search stays so far inside that rounding does not lead beyond.
@@ -55,13 +54,6 @@ impl From<&SampledInequalities> for AtSamples {
             stability: stability.as_ref().map(|known| BySampledMatrix::Proved(Arc::new(known.clone()))),
             existence: existence.as_ref().map(|known| BySampledEnergy::Proved(Arc::new(known.clone()))),
         }
-    }
-}
-
-impl fmt::Debug for AtSamples {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let has = [self.stability.is_some(), self.existence.is_some()];
-        f.debug_struct("AtSamples").field("stability", &has[0]).field("existence", &has[1]).finish()
     }
 }
 

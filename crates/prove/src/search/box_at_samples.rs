@@ -30,6 +30,5 @@ pub(super) fn error_box_at_samples(
     }
     // Where nothing is coupled the radius is 0, which has no logarithm.
     let threshold = radius.max(1e-300);
-    let paths = Paths::both(Path::Straight);
-    Ok(AtSigma { rho, eta, d_x, dist_e, dist_z, paths, past: None, threshold, cost: threshold })
+    Ok(AtSigma::new((rho, eta), d_x, distances, Paths::both(Path::Straight), threshold))
 }

@@ -6,7 +6,6 @@ use sigmastar_lang::spec::{ExistenceInequality, JointInequality};
 use sigmastar_plants::bounds::EnergyWeights;
 use sigmastar_theory::derivation::energy::{EnergyBounds, EnergyNumbers, MetricNumbers};
 use sigmastar_theory::derivation::harmonics::AtOrigin;
-use std::fmt;
 use std::sync::Arc;
 
 /// A proved inequality ends where it ends: a search stays so far inside that rounding does not lead beyond.
@@ -32,16 +31,6 @@ pub enum ByEnergy {
     Proved(Arc<ExistenceInequality>),
     /// A joint one, which is proved or to be proved.
     Joint(Arc<JointInequality>),
-}
-
-impl fmt::Debug for ByEnergy {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            ByEnergy::Sampled { .. } => "a sampled inequality of existence",
-            ByEnergy::Proved(_) => "a proved inequality of existence",
-            ByEnergy::Joint(_) => "a joint inequality of existence",
-        })
-    }
 }
 
 impl ByEnergy {

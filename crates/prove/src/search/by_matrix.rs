@@ -54,7 +54,7 @@ pub(super) fn error_box_by_matrix(
     if !threshold.is_finite() {
         return Err(Failing::Curvature.at(at[0], at[1]));
     }
-    Ok(AtSigma { rho, eta, d_x, dist_e, dist_z, paths: Paths::both(path), past: None, threshold, cost: threshold })
+    Ok(AtSigma::new((rho, eta), d_x, distances, Paths::both(path), threshold))
 }
 
 /// What is kept between both members of C4, for rounding.
@@ -81,18 +81,8 @@ fn joint_error_box(
     };
     let metrics = inequality.metrics().into_iter().zip(levels);
     if rho > 1.0 && eta > 0.0 && metrics.into_iter().all(inside) {
-        let threshold = inequality.value.to_f64();
-        return Ok(AtSigma {
-            rho,
-            eta,
-            d_x,
-            dist_e,
-            dist_z,
-            paths: Paths::both(Path::Straight),
-            past: None,
-            threshold,
-            cost: threshold,
-        });
+        let (paths, threshold) = (Paths::both(Path::Straight), inequality.value.to_f64());
+        return Ok(AtSigma::new((rho, eta), d_x, [dist_x, dist_e, dist_z], paths, threshold));
     }
     Err(Failing::Bounds.at(x_b, e_b))
 }

@@ -36,6 +36,19 @@ pub struct AtSigma {
     pub cost: f64,
 }
 
+impl AtSigma {
+    /// Of the shape (rho, eta) at the distances dX, dE, dZ, without a delay; its cost is the threshold.
+    pub(super) fn new(
+        (rho, eta): (f64, f64),
+        d_x: f64,
+        [_, dist_e, dist_z]: [f64; 3],
+        paths: Paths,
+        threshold: f64,
+    ) -> AtSigma {
+        AtSigma { rho, eta, d_x, dist_e, dist_z, paths, past: None, threshold, cost: threshold }
+    }
+}
+
 /// The weight of the last y, gm h y^2 = share eta dE^2 at the distance.
 #[derive(Clone, Copy, Debug)]
 pub struct PastShare {
@@ -125,24 +138,18 @@ impl Shape {
         let (x_b, e_b) = (x_per + d_x, e_per + d_e);
         model.contains([x_b, e_b])?;
         let (w_x, weight) = (level / (model.p_low * d_x * d_x), weight_h(eta, dist_e, dist_z));
-        let mut closest = Closest::default();
-        let mut best: Option<AtSigma> = None;
-        for (paths, error_box) in ErrorBox::on_paths(model, [&x_per, &e_per], [&d_x, &d_e]) {
+        let on_paths = ErrorBox::on_paths(model, [&x_per, &e_per], [&d_x, &d_e]);
+        let outcomes = on_paths.map(|(paths, error_box)| {
             let ErrorBox { rate, k_x, k_f, sector, .. } = &error_box;
-            let outcome = if ![rate, k_x, k_f, &sector.below, &sector.above].iter().all(|v| v.is_finite()) {
+            if ![rate, k_x, k_f, &sector.below, &sector.above].iter().all(|v| v.is_finite()) {
                 Err(model.not_finite(x_b, e_b))
             } else if *rate <= model.alpha * (1.0 - BELOW_ONE) {
                 Err(Failing::Curvature.at(x_b, e_b))
             } else {
                 evaluate(Shape { d_x, w_x, weight, paths, error_box })
-            };
-            match outcome {
-                Ok(at) if best.is_none_or(|best| at.threshold < best.threshold) => best = Some(at),
-                Ok(_) => {}
-                Err(obstacle) => closest.record(obstacle),
             }
-        }
-        closest.or(best)
+        });
+        Closest::least(outcomes, |at| at.threshold)
     }
 }
 
@@ -153,7 +160,6 @@ pub(super) fn error_box_by_norms(
     distances: [f64; 3],
     ((rho, eta), sigma): ((f64, f64), f64),
 ) -> Result<AtSigma, Obstacle> {
-    let [_, dist_e, dist_z] = distances;
     Shape::best(model, periodic, distances, (rho, eta), |Shape { d_x, w_x, weight, paths, error_box }| {
         let decay = DecayCondition::new(model, &error_box, [&w_x, &weight], &sigma);
         let (x_b, e_b) = (error_box.x_b, error_box.e_b);
@@ -164,16 +170,6 @@ pub(super) fn error_box_by_norms(
         if !decay.sigma_threshold.is_finite() {
             return Err(model.not_finite(x_b, e_b));
         }
-        Ok(AtSigma {
-            rho,
-            eta,
-            d_x,
-            dist_e,
-            dist_z,
-            paths,
-            past: None,
-            threshold: decay.sigma_threshold,
-            cost: decay.sigma_threshold,
-        })
+        Ok(AtSigma::new((rho, eta), d_x, distances, paths, decay.sigma_threshold))
     })
 }

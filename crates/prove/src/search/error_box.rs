@@ -118,6 +118,6 @@ fn refine(
     let decode = |p: &[f64]| evaluate(1.0 + p[0].portable_exp().max(1e-6), p[1].portable_exp()).ok();
     let first = [(start.rho - 1.0).portable_ln(), start.eta.portable_ln()];
     let cost = |p: &[f64]| decode(p).map(|at| at.cost.portable_ln());
-    let refined = minimise(cost, &first, &[0.4, 0.4], model.effort().descent(8));
+    let refined = minimise(&cost, &first, &[0.4, 0.4], model.effort().descent(8));
     Ok(refined.and_then(|(best, _)| decode(&best)).filter(|at| at.cost <= start.cost).unwrap_or(start))
 }

@@ -2,7 +2,6 @@
 
 use sigmastar_lang::expr::FloatExpr;
 use sigmastar_lang::spec::{Bound, Specification};
-use std::fmt;
 use std::sync::Arc;
 
 /// What a search evaluates.
@@ -23,16 +22,6 @@ pub enum FloatBound {
 
 /// Proved values end where they end: a search stays so far inside that rounding does not lead beyond.
 const EDGE: f64 = 1.0 + 1e-6;
-
-impl fmt::Debug for FloatBound {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            FloatBound::Expression(_) => "expression",
-            FloatBound::Values { .. } => "values",
-            FloatBound::Function(_) => "function",
-        })
-    }
-}
 
 impl FloatBound {
     /// That of a specification, or what serves in its place.

@@ -3,9 +3,10 @@
 use argmin::core::{CostFunction, Error, Executor, State};
 use argmin::solver::neldermead::NelderMead;
 
-struct Cost<F>(F);
+/// Behind a pointer, so that the method is compiled once.
+struct Cost<'a>(&'a dyn Fn(&[f64]) -> Option<f64>);
 
-impl<F: Fn(&[f64]) -> Option<f64>> CostFunction for Cost<F> {
+impl CostFunction for Cost<'_> {
     type Param = Vec<f64>;
     type Output = f64;
 
@@ -32,7 +33,7 @@ pub struct Descent {
 /// Deterministic. The method is restarted from its result with smaller steps until that no longer helps, because a simplex
 /// can collapse against the boundary of the feasible set.
 pub fn minimise(
-    cost: impl Fn(&[f64]) -> Option<f64>,
+    cost: &dyn Fn(&[f64]) -> Option<f64>,
     start: &[f64],
     steps: &[f64],
     descent: Descent,
@@ -48,7 +49,7 @@ pub fn minimise(
             simplex.push(vertex);
         }
         let solver = NelderMead::new(simplex).with_sd_tolerance(descent.tolerance).ok()?;
-        let run = Executor::new(Cost(&cost), solver);
+        let run = Executor::new(Cost(cost), solver);
         let run = run.configure(|state| state.max_iters(descent.iterations)).run().ok()?;
         let found = run.state().get_best_param().cloned().zip(Some(run.state().get_best_cost()));
         match found {
@@ -74,13 +75,13 @@ mod tests {
     #[test]
     fn finds_a_constrained_minimum() {
         let cost = |p: &[f64]| (p[0] + p[1] >= 1.0).then(|| p[0] * p[0] + 2.0 * p[1] * p[1]);
-        let (parameters, value) = minimise(cost, &[3.0, 2.0], &[0.5, 0.5], DESCENT).unwrap();
+        let (parameters, value) = minimise(&cost, &[3.0, 2.0], &[0.5, 0.5], DESCENT).unwrap();
         assert!((value - 2.0 / 3.0).abs() < 1e-4, "{value}");
         assert!((parameters[0] - 2.0 / 3.0).abs() < 1e-2);
     }
 
     #[test]
     fn an_infeasible_start_is_reported() {
-        assert_eq!(minimise(|_| None, &[0.0], &[1.0], DESCENT), None);
+        assert_eq!(minimise(&|_| None, &[0.0], &[1.0], DESCENT), None);
     }
 }

@@ -86,7 +86,7 @@ impl Datum {
 }
 
 /// A bounding function.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 struct ScaledBound {
     /// It, or its replacement.
     function: Option<FloatBound>,
@@ -101,7 +101,7 @@ struct ScaledBound {
 }
 
 /// All data in floating point.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct FloatModel {
     numbers: Numbers<f64>,
     /// The largest X and E allowed, infinite without a domain.
@@ -422,16 +422,6 @@ impl FloatModel {
     pub fn with_existence_triple(&self, ratio: f64, alpha: f64) -> FloatModel {
         let mut model = self.clone();
         model.numbers.existence = ExistenceTriple { c: ratio.sqrt(), alpha, separate: true };
-        model
-    }
-
-    /// The same model with a rate of its own for the existence of the periodic solution.
-    #[must_use]
-    pub fn with_rate_of_existence(&self, rate: f64) -> FloatModel {
-        let mut model = self.clone();
-        let function = Some(FloatBound::Function(Arc::new(move |_, _| rate)));
-        model.bounds[Bound::RateExistence as usize] =
-            ScaledBound { function, change: 0.0, given: true, signed: true, supremum: None };
         model
     }
 

@@ -317,6 +317,26 @@ impl Closest {
     pub fn or<T>(self, found: Option<T>) -> Result<T, Obstacle> {
         found.ok_or_else(|| self.0.unwrap_or(Failing::NotFinite(None).into()))
     }
+
+    /// What was found at the least cost, of equal ones the first, or else the obstacle as in [`Closest::or`].
+    ///
+    /// # Errors
+    /// The obstacle.
+    pub fn least<T>(
+        outcomes: impl IntoIterator<Item = Result<T, Obstacle>>,
+        cost: impl Fn(&T) -> f64,
+    ) -> Result<T, Obstacle> {
+        let mut closest = Closest::default();
+        let mut best: Option<T> = None;
+        for outcome in outcomes {
+            match outcome {
+                Ok(found) if best.as_ref().is_none_or(|best| cost(&found) < cost(best)) => best = Some(found),
+                Ok(_) => {}
+                Err(obstacle) => closest.record(obstacle),
+            }
+        }
+        closest.or(best)
+    }
 }
 
 #[cfg(test)]

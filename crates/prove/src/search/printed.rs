@@ -7,6 +7,7 @@ use super::repaired::{depth_of, parameter_of};
 use super::scan;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::Portable;
+use sigmastar_exact::parallel;
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::printed::{PrintedEvaluation, error_box};
 use sigmastar_theory::transfer::printed_transfer;
@@ -49,7 +50,7 @@ pub fn search_printed(data: &Data<'_>, model: &FloatModel) -> Option<PrintedProp
     let kappas = kappas.each_ref();
     let largest_e = |x: f64| largest_e_repaired(model, x).map(|e| e.min(model.domain.1 / 6.0));
     let xs = scan::x_values(model.domain.0, effort.x_step);
-    let columns = scan::evaluate_all(&xs, |&x| {
+    let columns = parallel::map(&xs, |&x| {
         let e_max = largest_e(x)?;
         scan::e_depths(effort.e_step)
             .flat_map(|depth| [1.0, 0.1].map(|share| (depth, share)))
@@ -66,6 +67,6 @@ pub fn search_printed(data: &Data<'_>, model: &FloatModel) -> Option<PrintedProp
     };
     let depth = (largest_e(start.x_a)? / start.e_a).portable_ln().max(1e-9);
     let first = [start.x_a.portable_ln(), parameter_of(depth), (-share.portable_ln()).sqrt()];
-    let refined = minimise(|p| decode(p).map(|f| f.sigma.portable_ln()), &first, &[0.3, 0.5, 0.3], effort.descent(6));
+    let refined = minimise(&|p| decode(p).map(|f| f.sigma.portable_ln()), &first, &[0.3, 0.5, 0.3], effort.descent(6));
     refined.and_then(|(best, _)| decode(&best)).filter(|best| best.sigma <= start.sigma).or(Some(start))
 }

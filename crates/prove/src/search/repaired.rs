@@ -6,6 +6,7 @@ use super::model::FloatModel;
 use super::obstacle::{Closest, Failing, Obstacle};
 use super::scan;
 use sigmastar_exact::number::Portable;
+use sigmastar_exact::parallel;
 use sigmastar_theory::data::Problem;
 use sigmastar_theory::derivation::existence::{LeastSigma, PeriodicBounds};
 use sigmastar_theory::derivation::gains::{beta, k_alpha};
@@ -44,12 +45,7 @@ fn evaluate(model: &FloatModel, x: f64, e: f64, eta: f64) -> Result<RepairedProp
     let h = weight_h(eta, dist_e, dist_z.max(1e-6 * model.n_bar * dist_e));
     let level = model.p_up * dist_x * dist_x + (1.0 + eta) * dist_e * dist_e;
     let (x_b, e_b) = (x + (level / model.p_low).sqrt(), e + level.sqrt());
-    if x_b > model.domain.0 * (1.0 - 1e-7) {
-        return Err(Failing::DomainX.at(x_b, e_b));
-    }
-    if e_b > model.domain.1 * (1.0 - 1e-7) {
-        return Err(Failing::DomainE.at(x_b, e_b));
-    }
+    model.contains([x_b, e_b])?;
     let lyapunov = LyapunovMatrix::new(model, &LyapunovPoint { x, e, x_b, e_b, h }, false);
     let curvature = lyapunov.curvature;
     if curvature.is_nan() || curvature <= (1.0 - BELOW_ONE) * model.alpha * model.p_low {
@@ -85,20 +81,12 @@ pub fn search_repaired(model: &FloatModel) -> Result<RepairedProposal, Obstacle>
     model.in_range()?;
     let effort = model.effort();
     let xs = scan::x_values(model.domain.0, effort.x_step);
-    let columns = scan::evaluate_all(&xs, |&x| {
-        let mut closest = Closest::default();
-        let mut best: Option<(RepairedProposal, f64)> = None;
+    let columns = parallel::map(&xs, |&x| {
         let e_max = largest_e_repaired(model, x).ok_or(Failing::Existence.at(x, 0.0))?;
-        for depth in scan::e_depths(effort.e_step) {
-            for eta in ETAS {
-                match evaluate(model, x, e_max * (-depth).portable_exp(), eta) {
-                    Ok(found) if best.is_none_or(|(least, _)| found.sigma < least.sigma) => best = Some((found, eta)),
-                    Ok(_) => {}
-                    Err(obstacle) => closest.record(obstacle),
-                }
-            }
-        }
-        closest.or(best)
+        let found = scan::e_depths(effort.e_step).flat_map(|depth| {
+            ETAS.map(|eta| evaluate(model, x, e_max * (-depth).portable_exp(), eta).map(|found| (found, eta)))
+        });
+        Closest::least(found, |(found, _)| found.sigma)
     });
     let mut closest = Closest::default();
     let mut found = Vec::new();
@@ -110,7 +98,7 @@ pub fn search_repaired(model: &FloatModel) -> Result<RepairedProposal, Obstacle>
     }
     found.sort_by(|a, b| a.0.sigma.total_cmp(&b.0.sigma));
     found.truncate(4);
-    let refined = scan::evaluate_all(&found, |(start, eta)| {
+    let refined = parallel::map(&found, |(start, eta)| {
         let decode = |p: &[f64]| {
             let x = scan::in_range(p[0].portable_exp())?;
             let e = largest_e_repaired(model, x)? * (-depth_of(p[1])).portable_exp();
@@ -119,7 +107,7 @@ pub fn search_repaired(model: &FloatModel) -> Result<RepairedProposal, Obstacle>
         let depth = (largest_e_repaired(model, start.x)? / start.e).portable_ln().max(1e-9);
         let first = [start.x.portable_ln(), parameter_of(depth), eta.portable_ln()];
         let (best, _) = minimise(
-            |p| decode(p).map(|f| f.sigma.portable_ln() + scan::preference(f.x) + scan::preference(f.e)),
+            &|p| decode(p).map(|f| f.sigma.portable_ln() + scan::preference(f.x) + scan::preference(f.e)),
             &first,
             &[0.3, 0.5, 0.5],
             effort.descent(6),

@@ -13,10 +13,10 @@ use super::model::FloatModel;
 use super::obstacle::{Closest, Failing, Obstacle};
 use super::periodic::{Floors, PeriodicSet};
 use super::reach::{Largest, Law, largest, start_distances, weighed};
-use super::scan;
 use super::sharp::search_sharp;
 use rug::Rational;
 use sigmastar_exact::number::Portable;
+use sigmastar_exact::parallel;
 use sigmastar_theory::derivation::harmonics::AtOrigin;
 use sigmastar_theory::derivation::sampled::{DecayForms, DecayNumbers, Part, SampledGains, SampledLaw};
 
@@ -175,7 +175,7 @@ impl<'m> SampledSearch<'m> {
             let shape = ((rho, eta), sigma);
             return error_box_at_samples(known, self.model, (set.x_per, set.e_per), distances, shape);
         }
-        let [_, dist_e, dist_z] = distances;
+        let [_, dist_e, _] = distances;
         Shape::best(self.model, (set.x_per, set.e_per), distances, (rho, eta), |shape| {
             let radius_with = |shape: &Shape, gm: f64| {
                 let forms = self.forms(sigma, (shape, gm), None);
@@ -197,17 +197,7 @@ impl<'m> SampledSearch<'m> {
                     (Some(past), threshold)
                 }
             };
-            Ok(AtSigma {
-                rho,
-                eta,
-                d_x: shape.d_x,
-                dist_e,
-                dist_z,
-                paths: shape.paths,
-                past,
-                threshold,
-                cost: threshold,
-            })
+            Ok(AtSigma { past, ..AtSigma::new((rho, eta), shape.d_x, distances, shape.paths, threshold) })
         })
     }
 
@@ -304,7 +294,7 @@ impl<'m> SampledSearch<'m> {
         // The last one exactly, where h sigma = 1.
         let at = |k: u32| if k == POINTS - 1 { end } else { start * (ratio * f64::from(k)).portable_exp() };
         let gains: Vec<f64> = (0..POINTS).map(at).collect();
-        scan::evaluate_all(&gains, |&sigma| ScanPoint {
+        parallel::map(&gains, |&sigma| ScanPoint {
             sigma,
             outcome: self.proposal(sigma, tiny(self.model), None).map(|found| found.radius),
         })

@@ -1,7 +1,6 @@
 //! The coarse scan that precedes local minimisation: many orders of magnitude in X and E.
 
 use super::root::crossing;
-use rayon::prelude::*;
 use sigmastar_exact::number::Portable;
 
 /// Steps of the scanned logarithm of X: a third of a decade over 80 decades.
@@ -56,8 +55,3 @@ pub fn largest(demand: impl Fn(f64) -> f64, limit: f64) -> Option<f64> {
 
 /// 80 decades.
 const DEPTH: f64 = 184.2;
-
-/// Evaluates `f` on all items in parallel, results in the order of the items.
-pub fn evaluate_all<T: Sync, R: Send>(items: &[T], f: impl Fn(&T) -> R + Sync + Send) -> Vec<R> {
-    items.par_iter().map(f).collect()
-}

@@ -10,9 +10,9 @@ use super::obstacle::{Closest, Failing, Obstacle};
 use super::periodic::{ExistenceForm, Floors, PeriodicSet};
 use super::reach::{Largest, Law, largest, start_distances, weighed};
 use super::root::crossing;
-use super::scan;
 use super::threshold::ByMatrix;
 use sigmastar_exact::number::Portable;
+use sigmastar_exact::parallel;
 use sigmastar_theory::derivation::control::Answer;
 use sigmastar_theory::derivation::harmonics::AtOrigin;
 
@@ -169,20 +169,11 @@ impl Search<'_> {
 pub fn search_sharp(model: &FloatModel) -> Result<SharpProposal, Obstacle> {
     model.in_range()?;
     let tiny = tiny(model);
-    let found = scan::evaluate_all(&forms(model), |form| {
+    let found = parallel::map(&forms(model), |form| {
         let search = Search { model, origin: AtOrigin::new(model), form: *form, floors: tiny, near: None };
         search.smallest(first_guess(model)).map(|sigma| (sigma, *form))
     });
-    let mut closest = Closest::default();
-    let mut best: Option<(f64, ExistenceForm)> = None;
-    for outcome in found {
-        match outcome {
-            Ok(found) if best.is_none_or(|(sigma, _)| found.0 < sigma) => best = Some(found),
-            Ok(_) => {}
-            Err(obstacle) => closest.record(obstacle),
-        }
-    }
-    let (sigma, form) = closest.or(best)?;
+    let (sigma, form) = Closest::least(found, |(sigma, _)| *sigma)?;
     let search = Search { model, origin: AtOrigin::new(model), form, floors: tiny, near: None };
     search.with_ordinary_floors(sigma, |search, sigma| {
         // One that costs nothing.
@@ -206,17 +197,11 @@ pub fn search_sharp_at(
         }
         None => forms(model).into_iter().map(|form| (form, tiny(model), None)).collect(),
     };
-    let mut closest = Closest::default();
-    let mut best: Option<(f64, Search<'_>)> = None;
-    for (form, floors, near) in searches {
+    let found = searches.into_iter().map(|(form, floors, near)| {
         let search = Search { model, origin: AtOrigin::new(model), form, floors, near };
-        match search.excess(sigma) {
-            Ok(excess) if best.as_ref().is_none_or(|(least, _)| excess < *least) => best = Some((excess, search)),
-            Ok(_) => {}
-            Err(obstacle) => closest.record(obstacle),
-        }
-    }
-    let (excess, search) = closest.or(best)?;
+        search.excess(sigma).map(|excess| (excess, search))
+    });
+    let (excess, search) = Closest::least(found, |(excess, _)| *excess)?;
     if excess > 0.0 {
         return Err(Failing::Gain { given: sigma, smallest: None }.into());
     }
@@ -318,7 +303,7 @@ pub fn sensitivities(
         return Vec::new();
     }
     let as_it_is = search_sharp_near(model, proposal).map_or(proposal.sigma, |near| near.sigma.min(proposal.sigma));
-    scan::evaluate_all(improved, |(datum, improved)| {
+    parallel::map(improved, |(datum, improved)| {
         let gain = search_sharp_near(improved, proposal).map_or(0.0, |near| 1.0 - near.sigma / as_it_is);
         (*datum, gain.max(0.0))
     })
@@ -327,7 +312,7 @@ pub fn sensitivities(
 /// For each optional datum that is given, sigma* without it, and none where there is no candidate then; floating point.
 #[must_use]
 pub fn without_optional_data(model: &FloatModel) -> Vec<(OptionalDatum, Option<f64>)> {
-    scan::evaluate_all(&model.optional_data(), |&datum| {
+    parallel::map(&model.optional_data(), |&datum| {
         (datum, search_sharp(&model.without(datum)).ok().map(|found| found.sigma))
     })
 }

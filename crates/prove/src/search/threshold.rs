@@ -4,7 +4,6 @@ use rug::Rational;
 use sigmastar_lang::spec::{JointStability, MatrixInequality};
 use sigmastar_plants::bounds::{FloatWeights, MatrixArguments};
 use sigmastar_theory::derivation::paths::Path;
-use std::fmt;
 use std::sync::Arc;
 
 /// The least sigma of (M) at given arguments for given weights; infinite where there is none.
@@ -29,16 +28,6 @@ pub enum ByMatrix {
     Proved(Arc<MatrixInequality>),
     /// A joint one that is proved: it has an error box of its own.
     Joint(Arc<JointStability>),
-}
-
-impl fmt::Debug for ByMatrix {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            ByMatrix::Sampled { .. } => "a sampled matrix inequality",
-            ByMatrix::Proved(_) => "a proved matrix inequality",
-            ByMatrix::Joint(_) => "a proved joint inequality",
-        })
-    }
 }
 
 impl ByMatrix {

@@ -2,13 +2,13 @@
 
 use super::prove::{DIGITS, PlantBounds};
 use rug::Rational;
-use serde_json::{Map, Value};
+use serde_json::Value;
 use sigmastar_exact::number::{Direction, round_rational, write_exact};
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::model::{Constant, InitialSet, KnownForcing, SIZES};
 use sigmastar_lang::spec::{InputGain, OfPlant, Specification};
 use sigmastar_plants::bounds::Majorant;
-use sigmastar_prove::certificate::members;
+use sigmastar_prove::certificate::{exact, members, object};
 use sigmastar_prove::reduction::{PlantRefusal, bounds_around};
 
 /// The domain, where none is asked for: what the certificate needs, times this.
@@ -172,13 +172,4 @@ fn initial_set(set: &InitialSet) -> Value {
     let mut fields = vec![("kind", Value::from(set.kind()))];
     let _ = set.map_each(|place, size| fields.push((SIZES[place], Value::from(size.text.clone()))));
     object(fields)
-}
-
-fn exact(value: &Rational) -> Value {
-    Value::from(write_exact(value))
-}
-
-/// An object from pairs, in their order.
-fn object<'n>(fields: impl IntoIterator<Item = (&'n str, Value)>) -> Value {
-    Value::Object(fields.into_iter().map(|(name, value)| (name.to_owned(), value)).collect::<Map<_, _>>())
 }

@@ -1,9 +1,9 @@
 //! The bounding functions of a plant on a domain: polynomials that are proved.
 
 use super::fit::Samples;
-use rayon::prelude::*;
 use rug::Rational;
 use sigmastar_exact::number::{Direction, Portable, round_f64, round_rational};
+use sigmastar_exact::parallel;
 use sigmastar_lang::spec::Bound;
 use sigmastar_plants::bounds::{Engine, Entry, FloatSuprema, Majorant, Term};
 use sigmastar_prove::reduction::PlantRefusal;
@@ -58,7 +58,7 @@ impl PlantBounds {
     /// The first bounding function that is not proved within the effort.
     pub fn prove(engine: &Engine, samples: &FloatSuprema, domain: [&Rational; 2]) -> Result<PlantBounds, PlantRefusal> {
         let stateless = engine.states() == 0;
-        let fitted = FITTED.into_par_iter().map(|kind| {
+        let fitted = parallel::map(&FITTED, |&kind| {
             let found = match kind {
                 // Without states every rate is as good as any other.
                 Bound::Rate if stateless => Some(Majorant::constant(Rational::from(1))),
@@ -69,8 +69,8 @@ impl PlantBounds {
         let corner = domain.map(Rational::clone);
         let origin = [Rational::new(), Rational::new()];
         let single = [(Bound::Q, &origin), (Bound::Qt, &origin), (Bound::Fxx, &corner), (Bound::Fex, &corner)];
-        let single = single.into_par_iter().map(|(kind, at)| (kind, least(engine, kind, at).map(Majorant::constant)));
-        let all: Vec<(Bound, Option<Majorant>)> = fitted.chain(single).collect();
+        let single = parallel::map(&single, |&(kind, at)| (kind, least(engine, kind, at).map(Majorant::constant)));
+        let all: Vec<(Bound, Option<Majorant>)> = fitted.into_iter().chain(single).collect();
         // What was not asked for is not proved either.
         let proved = |kind: Bound| {
             let found = all.iter().find(|(other, _)| *other == kind).and_then(|(_, found)| found.clone());

@@ -260,6 +260,6 @@ fn descend(
     };
     let steps: Vec<f64> = subject.parameters.iter().zip(start).map(step).collect();
     // What it returns is among what was tried.
-    let _ = minimise(value, start, &steps, DESCENT);
+    let _ = minimise(&value, start, &steps, DESCENT);
     seen.into_inner().1
 }

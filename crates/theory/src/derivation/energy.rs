@@ -100,29 +100,31 @@ pub fn proved(data: &Data<'_>, origin: &AtOrigin<Enclosure>, sigma: &Enclosure) 
     Some(EnergyBounds::new(&EnergyNumbers { k_p, c_x, c_y, value }, origin, sigma))
 }
 
+/// `inner - outer <= 0`: the difference of rationals is exact, so that equality is decided.
+fn difference(data: &Data<'_>, id: &'static str, what: &str, [inner, outer]: [&Rational; 2]) -> Condition {
+    Condition::at_most(id, what, data.rational(&Rational::from(inner - outer)), data.zero())
+}
+
+/// That (X_p, E_p) lies where an inequality of existence holds.
+pub(super) fn within(data: &Data<'_>, [x_p, e_p]: [&Rational; 2], [x, e]: [&Rational; 2]) -> [Condition; 2] {
+    [
+        difference(data, "E1", "X_p - X of the existence inequality <= 0", [x_p, x]),
+        difference(data, "E2", "E_p - E of the existence inequality <= 0", [e_p, e]),
+    ]
+}
+
 /// What is left to decide of it: that (X_p, E_p) lies where it holds, and that sigma is not below its threshold, and above it where
 /// the inequality has no c_e.
 ///
 /// With an input gain the inequality has d + (1-b) threshold in the place of d and is proved at both ends of b; E4 is asked for beside:
 /// with 0 for d the block of (e, y) is at least diag(0, c_y). Then F >= diag(c_x, 0, lam c_y) at threshold/lam with lam k_p in the place
 /// of k_p, as in [`super::matrix_inequality::conditions`]; so rms(y) and rms(x) are bounded as at the threshold (derivation, 13.1).
-///
-/// Differences of rationals are exact, so that equality is decided.
 #[must_use]
-pub fn conditions(data: &Data<'_>, [x_p, e_p]: [&Rational; 2], sigma: &Rational) -> Vec<Condition> {
+pub fn conditions(data: &Data<'_>, sizes: [&Rational; 2], sigma: &Rational) -> Vec<Condition> {
     let values = data.spec.bounds.proved_values();
-    let difference = |id, what: &str, inner: &Rational, outer: &Rational| {
-        Condition::at_most(id, what, data.rational(&Rational::from(inner - outer)), data.zero())
-    };
-    let within = |x: &Rational, e: &Rational| {
-        [
-            difference("E1", "X_p - X of the existence inequality <= 0", x_p, x),
-            difference("E2", "E_p - E of the existence inequality <= 0", e_p, e),
-        ]
-    };
     if let Some(JointInequality { x, e, value, .. }) = values.joint_existence() {
-        let reached = difference("E3", "threshold of the existence inequality - sigma <= 0", value, sigma);
-        return within(x, e).into_iter().chain([reached]).collect();
+        let reached = difference(data, "E3", "threshold of the existence inequality - sigma <= 0", [value, sigma]);
+        return within(data, sizes, [x, e]).into_iter().chain([reached]).collect();
     }
     let Some(ExistenceInequality { x, e, k_p, c_y, value, .. }) = values.existence() else { return Vec::new() };
     let [threshold, sigma] = [value, sigma].map(|number| data.rational(number));
@@ -133,5 +135,5 @@ pub fn conditions(data: &Data<'_>, [x_p, e_p]: [&Rational; 2], sigma: &Rational)
         let what = "(1 + (k_p/2) (1-b) threshold)^2 <= 2 threshold (k_p - c_y) at both ends of b";
         Condition::at_most("E4", what, worst, room - 2 * threshold * c_y)
     });
-    within(x, e).into_iter().chain([exceeded]).chain(any_larger).collect()
+    within(data, sizes, [x, e]).into_iter().chain([exceeded]).chain(any_larger).collect()
 }

@@ -3,8 +3,10 @@
 use super::energy::EnergyBounds;
 use super::gains;
 use super::harmonics::{self, AtOrigin};
-use crate::data::{Bound, Numbers, Problem};
+use crate::condition::{Condition, Relation};
+use crate::data::{Bound, Data, Numbers, Problem};
 use crate::input_gain::InputGain;
+use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::real::{Operand, Real};
 
 /// Bounds of rms(x), rms(e) and rms(e') along a periodic solution.
@@ -211,6 +213,38 @@ where
     #[must_use]
     pub fn x_rms(&self, squares: &MeanSquares<R>) -> R {
         &self.x_gain * &squares.e
+    }
+}
+
+impl SetBounds<Enclosure> {
+    /// (S1) and (S2): the sizes of the set in this relation to what bounds sup|x|, and to what bounds rms(x), sup|e|, rms(e) and rms(e'),
+    /// each with its formula.
+    #[must_use]
+    pub fn existence(
+        &self,
+        data: &Data<'_>,
+        squares: &MeanSquares<Enclosure>,
+        relation: Relation,
+        least: [(String, Enclosure); 4],
+    ) -> Vec<Condition> {
+        let x_sup = ("min{(c/a_1) b_fe E_p, K2(a_1) b_fe r_e}".to_owned(), self.x_sup(squares));
+        let sizes = [
+            ("S1b", "X_p", &self.x_p),
+            ("S1c", "r_x", &squares.x),
+            ("S2", "E_p", &self.e_p),
+            ("S2b", "r_e", &squares.e),
+            ("S2c", "r_d", &squares.e_rate),
+        ];
+        let of_size = |((id, name, size), (formula, lhs)): ((_, &str, &Enclosure), (String, _))| Condition {
+            id,
+            what: format!("{formula} {relation} {name}"),
+            lhs,
+            relation,
+            rhs: size.clone(),
+        };
+        let positive = Condition::less("S1", "0 < a_1", data.zero(), self.rate.clone());
+        let of_sizes = sizes.into_iter().zip(std::iter::once(x_sup).chain(least)).map(of_size);
+        std::iter::once(positive).chain(of_sizes).collect()
     }
 }
 

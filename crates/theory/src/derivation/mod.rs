@@ -4,7 +4,6 @@
 //! architecture with the smallest sound repair of each formula; *sharp*: sections 2, 3, 5, 6 and 10 of the
 //! derivation.
 
-pub mod condition;
 pub mod consequences;
 pub mod contraction;
 pub mod control;
@@ -29,6 +28,8 @@ pub mod stability;
 pub mod table;
 pub mod targets;
 pub mod uniqueness;
+
+pub use crate::condition;
 
 use crate::data::Data;
 use condition::Condition;

@@ -98,9 +98,7 @@ impl RepairedEvaluation {
         );
         conditions.extend(set_conditions(data, &witness.set, &witness.x, &witness.e, &z));
         conditions.extend(domain_conditions(data, point.x_b.clone(), point.e_b.clone()));
-        let (_, step) = transfer::decide(data, &witness.k0, &witness.k1, &witness.transfer);
-        let what = format!("transfer bound, {}: {}", witness.transfer.name(), step.what);
-        conditions.push(Condition::at_most("T", what, step.lhs, step.rhs));
+        conditions.push(transfer::decide(data, &witness.k0, &witness.k1, &witness.transfer).1);
         conditions.push(Condition::at_most(
             "C1",
             "(K_alpha/alpha)(b_fe E + b_fxx X^2/2) <= X",

@@ -1,6 +1,6 @@
 //! The sharp derivation: conditions S1, S2, C4, C5 decided from a rational witness (derivation, sections 5 and 10).
 
-use super::condition::{self, Condition};
+use super::condition::{self, Condition, Relation};
 use super::consequences::Excitation;
 use super::contraction::ContractionMatrix;
 use super::control::{self, Control};
@@ -137,13 +137,7 @@ impl SharpEvaluation {
         let mut conditions = signs(data, witness);
         conditions.extend(set_conditions(data, &witness.set, &witness.x_p, &witness.e_p, &z));
         conditions.extend(domain_conditions(data, bounds.x_p.max(&error_box.x_b), bounds.e_p.max(&error_box.e_b)));
-        let (_, step) = transfer::decide(data, &witness.k0, &witness.k1, &witness.transfer);
-        conditions.push(Condition::at_most(
-            "T",
-            format!("transfer bound, {}: {}", witness.transfer.name(), step.what),
-            step.lhs,
-            step.rhs,
-        ));
+        conditions.push(transfer::decide(data, &witness.k0, &witness.k1, &witness.transfer).1);
         conditions.extend(energy::conditions(data, [&witness.x_p, &witness.e_p], &witness.sigma));
         conditions.extend(match gains.has_energy() {
             true => strict_existence_conditions(data, witness, &bounds, &origin, &gains),
@@ -288,39 +282,28 @@ fn existence_conditions(
 ) -> Vec<Condition> {
     let squares = witness.squares().map(|value| data.rational(value));
     let kap = (witness.kap != 0).then(|| data.rational(&witness.kap));
-    let mut conditions = vec![
-        Condition::less("S1", "0 < a_1", data.zero(), bounds.rate.clone()),
-        Condition::at_most(
-            "S1b",
-            "min{(c/a_1) b_fe E_p, K2(a_1) b_fe r_e} <= X_p",
-            bounds.x_sup(&squares),
-            bounds.x_p.clone(),
-        ),
-        Condition::at_most("S1c", "(c/a_1) b_fe r_e <= r_x", bounds.x_rms(&squares), squares.x.clone()),
-    ];
     let by_squares = sup_by_mean_squares(data, &squares);
     let known = if data.q_0.is_some() { ", q_0 form" } else { "" };
     let [sup, rms, rate_rms] = match &kap {
         None => {
             let response = gains.response(origin, &Forcing::new(bounds, origin, &squares));
             [
-                (format!("min{{bt R_q, tau R_1, sqrt(T r_e r_d){known}}} <= E_p"), response.sup.min(&by_squares)),
-                (format!("min{{R_q/sg, R_1/(Om sg){known}}} <= r_e"), response.rms),
-                ("min{R_q, R_1/sg} <= r_d".to_owned(), response.rate_rms),
+                (format!("min{{bt R_q, tau R_1, sqrt(T r_e r_d){known}}}"), response.sup.min(&by_squares)),
+                (format!("min{{R_q/sg, R_1/(Om sg){known}}}"), response.rms),
+                ("min{R_q, R_1/sg}".to_owned(), response.rate_rms),
             ]
         }
         Some(kap) => {
             let damped = DampedResponse::new(bounds, origin, [&gains.sigma, kap], &squares);
             [
-                ("sqrt(T r_e r_d) <= E_p".to_owned(), by_squares),
-                ("g_k Rt <= r_e".to_owned(), damped.rms),
-                ("Rt + kap r_e <= r_d".to_owned(), damped.rate_rms),
+                ("sqrt(T r_e r_d)".to_owned(), by_squares),
+                ("g_k Rt".to_owned(), damped.rms),
+                ("Rt + kap r_e".to_owned(), damped.rate_rms),
             ]
         }
     };
-    conditions.push(Condition::at_most("S2", sup.0, sup.1, bounds.e_p.clone()));
-    conditions.push(Condition::at_most("S2b", rms.0, rms.1, squares.e.clone()));
-    conditions.push(Condition::at_most("S2c", rate_rms.0, rate_rms.1, squares.e_rate.clone()));
+    let x_rms = ("(c/a_1) b_fe r_e".to_owned(), bounds.x_rms(&squares));
+    let mut conditions = bounds.existence(data, &squares, Relation::LessOrEqual, [x_rms, sup, rms, rate_rms]);
     conditions.extend(refined_conditions(data, witness, bounds, origin, gains));
     conditions
 }
@@ -346,29 +329,14 @@ fn strict_existence_conditions(
     let [damped, damped_rate] = if kap.is_some() { ["g_k Rt, ", "Rt + kap r_e, "] } else { [""; 2] };
     let is_joint = data.spec.bounds.proved_values().joint_existence().is_some();
     let room = if is_joint { "c_e" } else { "2 (sigma - threshold)" };
-    let mut conditions = vec![
-        Condition::less("S1", "0 < a_1", data.zero(), bounds.rate.clone()),
-        Condition::less(
-            "S1b",
-            "min{(c/a_1) b_fe E_p, K2(a_1) b_fe r_e} < X_p",
-            bounds.x_sup(&squares),
-            bounds.x_p.clone(),
-        ),
-        Condition::less("S1c", "min{(c/a_1) b_fe r_e, k_p Q_m/(2 sqrt(c_x c_y))} < r_x", image.x, squares.x.clone()),
-        Condition::less("S2", "min{bt R_q, tau R_1, sqrt(T r_e r_d), q_0 form, bt r_y} < E_p", sup, bounds.e_p.clone()),
-        Condition::less(
-            "S2b",
-            format!("min{{R_q/sg, R_1/(Om sg), q_0 form, {damped}r_y/sg, k_p Q_m/(2 sqrt({room} c_y))}} < r_e"),
-            image.e,
-            squares.e.clone(),
-        ),
-        Condition::less(
-            "S2c",
-            format!("min{{R_q, R_1/sg, {damped_rate}r_y}} < r_d"),
-            image.e_rate,
-            squares.e_rate.clone(),
-        ),
+    let rms = format!("min{{R_q/sg, R_1/(Om sg), q_0 form, {damped}r_y/sg, k_p Q_m/(2 sqrt({room} c_y))}}");
+    let least = [
+        ("min{(c/a_1) b_fe r_e, k_p Q_m/(2 sqrt(c_x c_y))}".to_owned(), image.x),
+        ("min{bt R_q, tau R_1, sqrt(T r_e r_d), q_0 form, bt r_y}".to_owned(), sup),
+        (rms, image.e),
+        (format!("min{{R_q, R_1/sg, {damped_rate}r_y}}"), image.e_rate),
     ];
+    let mut conditions = bounds.existence(data, &squares, Relation::Less, least);
     conditions.extend(refined_conditions(data, witness, bounds, origin, gains));
     conditions
 }

@@ -1,11 +1,12 @@
 //! A proof by boxes of T_N(x) <= k0 + k1 x^2 for every N and every x >= 0 (derivation, section 2, "certified").
 
+use super::decide_steps;
 use super::lorentz::{LorentzSums, OscillatorRange, weight_tail};
-use super::{TransferStep, decide_steps};
+use crate::condition::Condition;
 use crate::data::Data;
-use rayon::prelude::*;
 use rug::Rational;
 use sigmastar_exact::enclosure::{Enclosure, Truth};
+use sigmastar_exact::parallel;
 use std::cmp::Ordering;
 
 /// The largest N0 that is tried or accepted.
@@ -77,12 +78,8 @@ impl BoxProof {
     ///
     /// Hypotheses: W1-W3. Guarantee: `True` means T_N(x) <= k0 + k1 x^2 for every N >= 0 and every x >= 0.
     #[must_use]
-    pub fn decide(&self, data: &Data<'_>, k0: &Rational, k1: &Rational) -> (Truth, TransferStep) {
-        let zero = data.zero();
-        let refuse = |what: &str| {
-            let step = TransferStep { what: what.to_owned(), lhs: Enclosure::one(data.precision), rhs: zero.clone() };
-            (Truth::False, step)
-        };
+    pub fn decide(&self, data: &Data<'_>, k0: &Rational, k1: &Rational) -> (Truth, Condition) {
+        let refuse = |what| (Truth::False, Condition::at_most("T", what, Enclosure::one(data.precision), data.zero()));
         if !(1..=self.n0).contains(&self.m0)
             || self.n0 > MAX_N0
             || self.m0 > MAX_M0
@@ -101,27 +98,22 @@ impl BoxProof {
         }
         let sums = LorentzSums::new(data, self.n0);
         let (k0, k1) = (data.rational(k0), data.rational(k1));
-        let at_zero = TransferStep {
-            what: "T_N(0) = 1/(nu^2 n_0) <= k0".to_owned(),
-            lhs: data.transfer_at_zero(),
-            rhs: k0.clone(),
-        };
+        let at_zero = Condition::at_most("T", "T_N(0) = 1/(nu^2 n_0) <= k0", data.transfer_at_zero(), k0.clone());
         let mut steps = vec![at_zero.clone()];
         steps.extend(scalar_test(data, &k0, &k1, self.m0));
-        if steps.iter().all(|step| step.lhs.le(&step.rhs).is_true()) {
-            let boxes = |(index, breaks): (usize, &Vec<Rational>)| {
+        if steps.iter().all(|step| step.truth().is_true()) {
+            let boxes = |index: usize| {
                 let oscillators = group(data, self.n0, index);
                 let relation = if index + 1 == self.n0 as usize { "N >=" } else { "N =" };
                 let one = |pair: &[Rational]| {
                     let (lhs, rhs) = sides(data, &sums, &oscillators, [&pair[0], &pair[1]], [&k0, &k1]);
                     let what = format!("box [{}, {}], {relation} {}", pair[0], pair[1], index + 1);
-                    TransferStep { what, lhs, rhs }
+                    Condition::at_most("T", what, lhs, rhs)
                 };
-                breaks.windows(2).map(one).collect::<Vec<TransferStep>>()
+                self.breaks[index].windows(2).map(one).collect::<Vec<Condition>>()
             };
             // In the order of the lists, whatever the number of threads.
-            let groups: Vec<Vec<TransferStep>> = self.breaks.par_iter().enumerate().map(boxes).collect();
-            steps.extend(groups.into_iter().flatten());
+            steps.extend(parallel::numbered(self.breaks.len(), boxes).into_iter().flatten());
         }
         decide_steps(steps, at_zero)
     }
@@ -130,7 +122,7 @@ impl BoxProof {
 /// The scalar test for x >= m0 - 1/2 and any N, as comparisons (derivation, section 2, (ii)): with a = m0^2 n_m0,
 /// b = m0 n_m0, s = max(A_m0 - k0, 0) and d = sqrt(b/(2 m0 [k1 (m0-1/2)^2 - s])),
 /// `s < k1 (m0-1/2)^2`, `d <= 1/2` and `(2/a)(1/nu^2 + Rh^2) + s/m0^2 <= k1 (1 - d/m0)^2`.
-pub(super) fn scalar_test(data: &Data<'_>, k0: &Enclosure, k1: &Enclosure, m0: u32) -> Vec<TransferStep> {
+pub(super) fn scalar_test(data: &Data<'_>, k0: &Enclosure, k1: &Enclosure, m0: u32) -> Vec<Condition> {
     let p = data.precision;
     let ratio =
         |numerator: i64, denominator: i64| Enclosure::from_rational(&Rational::from((numerator, denominator)), p);
@@ -145,8 +137,7 @@ pub(super) fn scalar_test(data: &Data<'_>, k0: &Enclosure, k1: &Enclosure, m0: u
     let s = (slope_bound - k0).max(&data.zero());
     let room = k1 * left.sqr() - &s;
     let d = (b / (2 * (&m * &room))).sqrt();
-    let step =
-        |what: &str, lhs: Enclosure, rhs: Enclosure| TransferStep { what: format!("{what}, m0 = {m0}"), lhs, rhs };
+    let step = |what: &str, lhs, rhs| Condition::at_most("T", format!("{what}, m0 = {m0}"), lhs, rhs);
     vec![
         // `room` > 0 is implied by d being defined; 2 d <= 1 is the second condition.
         step("scalar test, twice the distance from the pole", 2 * &d, Enclosure::one(p)),
@@ -225,7 +216,7 @@ mod tests {
         }
         // Without room for d there is nothing to compare: A_m0 - k0 > k1 (m0 - 1/2)^2.
         let pair = [decimal("1"), decimal("1")].map(|k| data.rational(&k));
-        assert!(scalar_test(&data, &pair[0], &pair[1], 2).iter().all(|step| !step.lhs.le(&step.rhs).is_true()));
+        assert!(scalar_test(&data, &pair[0], &pair[1], 2).iter().all(|step| !step.truth().is_true()));
     }
 
     #[test]

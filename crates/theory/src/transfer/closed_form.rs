@@ -1,6 +1,7 @@
 //! Closed-form constants, valid for every N >= 0, every x >= 0 and every nu > 0.
 
-use super::{TransferStep, decide_steps};
+use super::decide_steps;
+use crate::condition::Condition;
 use crate::data::Data;
 use rug::Rational;
 use sigmastar_exact::enclosure::{Enclosure, Truth};
@@ -21,12 +22,10 @@ pub fn closed_form_pair(data: &Data<'_>) -> (Enclosure, Enclosure) {
 }
 
 /// Decides whether the pair dominates the closed form in both members.
-pub(super) fn decide(data: &Data<'_>, k0: &Rational, k1: &Rational) -> (Truth, TransferStep) {
+pub(super) fn decide(data: &Data<'_>, k0: &Rational, k1: &Rational) -> (Truth, Condition) {
     let (least_k0, least_k1) = closed_form_pair(data);
-    let step = |name: &str, least: Enclosure, given: &Rational| TransferStep {
-        what: format!("closed form of {name}"),
-        lhs: least,
-        rhs: data.rational(given),
+    let step = |name: &str, least: Enclosure, given: &Rational| {
+        Condition::at_most("T", format!("closed form of {name}"), least, data.rational(given))
     };
     decide_steps([step("k0", least_k0.clone(), k0), step("k1", least_k1, k1)], step("k0", least_k0, k0))
 }

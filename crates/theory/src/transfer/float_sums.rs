@@ -47,24 +47,28 @@ impl FloatSums {
     /// The sums of c_l/(l - x) and c_l/(l - x)^2 over |l| <= last without the pole `without`.
     fn sums(&self, x: f64, last: usize, without: usize) -> (f64, f64) {
         let (mut sum, mut slope) = (0.0, 0.0);
-        for (l, weight) in self.weights.iter().enumerate().take(last + 1) {
-            if l == 0 {
-                if without != 0 {
-                    sum -= weight / x;
-                    slope += weight / (x * x);
-                }
-                continue;
-            }
-            let (behind, ahead) = (1.0 / (l as f64 + x), 1.0 / (l as f64 - x));
-            let half = weight / 2.0;
-            sum -= half * behind;
-            slope += half * behind * behind;
-            if l != without {
-                sum += half * ahead;
-                slope += half * ahead * ahead;
-            }
-        }
+        (0..self.weights.len().min(last + 1)).for_each(|l| self.add(l, x, without, (&mut sum, &mut slope)));
         (sum, slope)
+    }
+
+    /// Adds the terms of l and -l to both sums, but for the pole `without`.
+    fn add(&self, l: usize, x: f64, without: usize, (sum, slope): (&mut f64, &mut f64)) {
+        let weight = self.weights[l];
+        if l == 0 {
+            if without != 0 {
+                *sum -= weight / x;
+                *slope += weight / (x * x);
+            }
+            return;
+        }
+        let (behind, half) = (1.0 / (l as f64 + x), weight / 2.0);
+        *sum -= half * behind;
+        *slope += half * behind * behind;
+        if l != without {
+            let ahead = 1.0 / (l as f64 - x);
+            *sum += half * ahead;
+            *slope += half * ahead * ahead;
+        }
     }
 
     /// T from the sums without the nearest pole m; `reached` says whether m is among the poles.
@@ -89,22 +93,8 @@ impl FloatSums {
         // All poles below m first, then one more at a time: the order in which N grows.
         let (mut best, mut best_n) = (f64::NEG_INFINITY, 0);
         let (mut sum, mut slope) = (0.0, 0.0);
-        for (l, weight) in self.weights.iter().enumerate() {
-            if l == 0 {
-                if m != 0 {
-                    sum -= weight / x;
-                    slope += weight / (x * x);
-                }
-            } else {
-                let (behind, half) = (1.0 / (l as f64 + x), weight / 2.0);
-                sum -= half * behind;
-                slope += half * behind * behind;
-                if l != m {
-                    let ahead = 1.0 / (l as f64 - x);
-                    sum += half * ahead;
-                    slope += half * ahead * ahead;
-                }
-            }
+        for l in 0..self.weights.len() {
+            self.add(l, x, m, (&mut sum, &mut slope));
             let value = self.combine(x, m, m <= l, (sum, slope));
             if value > best {
                 (best, best_n) = (value, l);

@@ -1,6 +1,7 @@
 //! Constants for a matched base frequency, w = 2 pi / T exactly: only integers x matter.
 
-use super::{TransferStep, decide_steps};
+use super::decide_steps;
+use crate::condition::Condition;
 use crate::data::Data;
 use rug::Rational;
 use sigmastar_exact::enclosure::{Enclosure, Truth};
@@ -23,38 +24,24 @@ pub struct MatchedProof {
 impl MatchedProof {
     /// Decides the proof. Hypotheses: W1-W3; base_frequency = 2 pi / period (checked here: `False` otherwise).
     #[must_use]
-    pub fn decide(self, data: &Data<'_>, k0: &Rational, k1: &Rational) -> (Truth, TransferStep) {
+    pub fn decide(self, data: &Data<'_>, k0: &Rational, k1: &Rational) -> (Truth, Condition) {
         let (k0, k1) = (data.rational(k0), data.rational(k1));
         let weights = &data.spec.internal_model.weights;
         let inverse_nu_squared = data.nu.sqr().recip();
         let tail = u64::from(self.first_of_tail);
-        let at_zero = TransferStep {
-            what: "k = 0: 1/(nu^2 n_0) <= k0".to_owned(),
-            lhs: &inverse_nu_squared / &data.n_0,
-            rhs: k0.clone(),
-        };
+        let at_zero = Condition::at_most("T", "k = 0: 1/(nu^2 n_0) <= k0", &inverse_nu_squared / &data.n_0, k0.clone());
         if !data.spec.internal_model.matched || !(1..=MAX_HARMONICS).contains(&self.first_of_tail) {
-            let step = TransferStep {
-                what: format!("a matched proof needs base_frequency = 2 pi / period and 1 <= K <= {MAX_HARMONICS}"),
-                lhs: Enclosure::one(data.precision),
-                rhs: data.zero(),
-            };
-            return (Truth::False, step);
+            let what = format!("a matched proof needs base_frequency = 2 pi / period and 1 <= K <= {MAX_HARMONICS}");
+            return (Truth::False, Condition::at_most("T", what, Enclosure::one(data.precision), data.zero()));
         }
         let harmonic = |k: u64| {
             let square = Enclosure::from_integer((k * k) as i64, data.precision);
-            TransferStep {
-                what: format!("k = {k}: 2/(nu^2 n_k) <= k0 + k1 k^2"),
-                lhs: 2 * &inverse_nu_squared / weights.weight(k, data.precision),
-                rhs: &k0 + &k1 * square,
-            }
+            let lhs = 2 * &inverse_nu_squared / weights.weight(k, data.precision);
+            Condition::at_most("T", format!("k = {k}: 2/(nu^2 n_k) <= k0 + k1 k^2"), lhs, &k0 + &k1 * square)
         };
         let square = Enclosure::from_integer((tail * tail) as i64, data.precision);
-        let all_others = TransferStep {
-            what: format!("every k >= {tail}: 2/(nu^2 K^2 n_K) <= k1"),
-            lhs: 2 * &inverse_nu_squared / (square * weights.weight(tail, data.precision)),
-            rhs: k1.clone(),
-        };
+        let lhs = 2 * &inverse_nu_squared / (square * weights.weight(tail, data.precision));
+        let all_others = Condition::at_most("T", format!("every k >= {tail}: 2/(nu^2 K^2 n_K) <= k1"), lhs, k1.clone());
         let one_by_one = (1..tail).map(harmonic);
         decide_steps(std::iter::once(at_zero.clone()).chain(one_by_one).chain(std::iter::once(all_others)), at_zero)
     }

@@ -16,7 +16,6 @@ mod inverse_powers;
 mod lorentz;
 mod matched;
 mod pair;
-mod phase;
 mod pole_sums;
 mod poles;
 mod printed;
@@ -34,14 +33,15 @@ pub use pair::{
     smallest_k1, trade_off_pairs,
 };
 pub use pole_sums::{AroundPole, MAX_DIRECT_POLES, MAX_PIECES, OscillatorCount, PoleSums};
-pub use poles::{MAX_POLE_OSCILLATORS, PoleDisc, PolesError, internal_model_poles, slowest_decay, transfer_from_poles};
+pub use poles::{MAX_POLE_OSCILLATORS, PoleDisc, PolesError, internal_model_poles, slowest_decay};
 pub use printed::{PrintedCheck, PrintedChecks, PrintedTransfer, lambda_interval, printed_transfer};
 pub use study::{MatchedPair, PairChoice, TransferStudy, Uniformity, rational_k0};
 pub use uniformity::{SupRatio, sup_ratios};
 
+use crate::condition::Condition;
 use crate::data::Data;
 use rug::Rational;
-use sigmastar_exact::enclosure::{Enclosure, Truth};
+use sigmastar_exact::enclosure::Truth;
 
 /// How a pair (k0, k1) is proved admissible.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -69,42 +69,31 @@ impl TransferProof {
     }
 }
 
-/// One comparison of a transfer proof: `lhs <= rhs`.
-#[derive(Clone, Debug)]
-pub struct TransferStep {
-    /// What is compared, in words.
-    pub what: String,
-    /// The left side.
-    pub lhs: Enclosure,
-    /// The right side.
-    pub rhs: Enclosure,
-}
-
-/// Decides whether (k0, k1) is admissible by the given proof; with it, the comparison that decides (the first that
+/// Decides whether (k0, k1) is admissible by the given proof; with it, as condition T, the comparison that decides (the first that
 /// is not proved, or the tightest).
 ///
 /// Guarantee: `True` means T_N(x) <= k0 + k1 x^2 for every N >= 0, at every x >= 0 (`ClosedForm`, `Boxes`) or every integer
 /// x >= 0 (`Matched`). `False` means that this proof refutes itself, not that the pair is inadmissible.
 #[must_use]
-pub fn decide(data: &Data<'_>, k0: &Rational, k1: &Rational, proof: &TransferProof) -> (Truth, TransferStep) {
-    match proof {
+pub fn decide(data: &Data<'_>, k0: &Rational, k1: &Rational, proof: &TransferProof) -> (Truth, Condition) {
+    let (truth, step) = match proof {
         TransferProof::ClosedForm => closed_form::decide(data, k0, k1),
         TransferProof::Matched { k } => MatchedProof { first_of_tail: *k }.decide(data, k0, k1),
         TransferProof::Boxes(proof) => proof.decide(data, k0, k1),
-    }
+    };
+    (truth, Condition { what: format!("transfer bound, {}: {}", proof.name(), step.what), ..step })
 }
 
 /// Decides a list of comparisons: the truth of their conjunction, with the first one that is not proved or, if all are,
 /// the one with the smallest relative margin (which is only shown).
-pub fn decide_steps(steps: impl IntoIterator<Item = TransferStep>, otherwise: TransferStep) -> (Truth, TransferStep) {
-    let relative_margin = |step: &TransferStep| (&step.rhs - &step.lhs).midpoint_f64() / step.rhs.midpoint_f64().abs();
-    let mut tightest = (relative_margin(&otherwise), otherwise);
+pub fn decide_steps(steps: impl IntoIterator<Item = Condition>, otherwise: Condition) -> (Truth, Condition) {
+    let mut tightest = (otherwise.relative_margin(), otherwise);
     for step in steps {
-        let truth = step.lhs.le(&step.rhs);
+        let truth = step.truth();
         if !truth.is_true() {
             return (truth, step);
         }
-        let margin = relative_margin(&step);
+        let margin = step.relative_margin();
         if margin < tightest.0 {
             tightest = (margin, step);
         }

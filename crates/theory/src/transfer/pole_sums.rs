@@ -149,12 +149,6 @@ impl PoleSums {
         }
     }
 
-    /// The number of oscillators N.
-    #[must_use]
-    pub fn count(&self) -> OscillatorCount {
-        self.count
-    }
-
     /// nu = mu/w.
     #[must_use]
     pub fn nu(&self) -> &Enclosure {
@@ -270,7 +264,8 @@ impl PoleSums {
         } else if self.is_narrow(x) {
             self.sums(x, skip)
         } else {
-            let (left, right) = (self.sums(&point(&x.lower()), skip), self.sums(&point(&x.upper()), skip));
+            let (left, right) =
+                (self.sums(&Enclosure::point(&x.lower()), skip), self.sums(&Enclosure::point(&x.upper()), skip));
             let whole = self.sums(x, skip);
             let greatest = left.slope.max(&right.slope);
             Sums {
@@ -280,9 +275,9 @@ impl PoleSums {
         };
         AroundPole {
             distance: x - integer(nearest, self.precision.max(u64::BITS)),
-            sum: self.outward(&sums.value),
-            slope: self.outward(&sums.slope),
-            residue: residue.map(|residue| self.outward(&residue)),
+            sum: sums.value.at_precision(self.precision),
+            slope: sums.slope.at_precision(self.precision),
+            residue: residue.map(|residue| residue.at_precision(self.precision)),
         }
     }
 
@@ -291,27 +286,6 @@ impl PoleSums {
         let width = Float::with_val_round(64, x.upper() - x.lower(), Round::Up).0;
         let scale = Float::with_val_round(64, x.upper() >> (self.precision / 2), Round::Down).0;
         width <= scale
-    }
-
-    fn outward(&self, value: &Enclosure) -> Enclosure {
-        Enclosure::new(
-            Float::with_val_round(self.precision, value.lower(), Round::Down).0,
-            Float::with_val_round(self.precision, value.upper(), Round::Up).0,
-        )
-    }
-
-    /// `[g_N(x), g_N'(x)]` for every x in the enclosure; undefined where a pole may lie in it, and as [`PoleSums::around`].
-    #[must_use]
-    pub fn group(&self, x: &Enclosure) -> [Enclosure; 2] {
-        let middle = point(&Float::with_val(x.precision() + 1, x.lower() + x.upper())) / 2;
-        let Some((nearest, _)) = nearest_integers(&middle) else {
-            return [Enclosure::undefined(self.precision), Enclosure::undefined(self.precision)];
-        };
-        let AroundPole { distance, sum, slope, residue } = self.around(x, nearest);
-        match residue {
-            Some(residue) => [sum - &residue / &distance, slope + residue / distance.sqr()],
-            None => [sum, slope],
-        }
     }
 
     /// T_N(x) for every x in the enclosure, with the pole m = `nearest` multiplied out; hypotheses as
@@ -351,7 +325,7 @@ impl PoleSums {
 
 /// The least and the greatest integer that is nearest to a part of the interval; none when x may be negative or is too
 /// large for a count.
-pub(super) fn nearest_integers(x: &Enclosure) -> Option<(u64, u64)> {
+fn nearest_integers(x: &Enclosure) -> Option<(u64, u64)> {
     if !x.is_bounded() || x.lower().cmp0() == Some(Ordering::Less) {
         return None;
     }
@@ -361,12 +335,7 @@ pub(super) fn nearest_integers(x: &Enclosure) -> Option<(u64, u64)> {
     Some((least, greatest.max(least)))
 }
 
-/// The number itself.
-pub(super) fn point(value: &Float) -> Enclosure {
-    Enclosure::new(value.clone(), value.clone())
-}
-
 /// An integer at a precision of at least 64 bits: exactly.
-pub(super) fn integer(value: u64, precision: u32) -> Enclosure {
-    point(&Float::with_val(precision.max(u64::BITS), value))
+fn integer(value: u64, precision: u32) -> Enclosure {
+    Enclosure::point(&Float::with_val(precision.max(u64::BITS), value))
 }

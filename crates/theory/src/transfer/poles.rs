@@ -9,7 +9,7 @@
 //! `T_N(x) = (1/nu) d/dx arctan(nu g_N) = (1/nu) sum_k Im z_k/|x - z_k|^2`.
 
 use super::complex::Complex;
-use super::pole_sums::{OscillatorCount, PoleSums, point};
+use super::pole_sums::{OscillatorCount, PoleSums};
 use crate::data::Data;
 use num_complex::Complex64;
 use rug::Float;
@@ -103,7 +103,7 @@ pub fn internal_model_poles(data: &Data<'_>, n: u64) -> Result<Vec<PoleDisc>, Po
     let degree = residues.len();
     let found = approximate(&residues, data.nu.midpoint_f64()).ok_or(PolesError::NotFound { degree })?;
     let work = data.precision.saturating_add(32);
-    let exact = |value: f64| point(&Float::with_val(work, value));
+    let exact = |value: f64| Enclosure::point(&Float::with_val(work, value));
     let mut centres: Vec<Complex> = found.iter().map(|z| Complex { re: exact(z.re), im: exact(z.im) }).collect();
     for _ in 0..REFINEMENTS {
         let steps = corrections(&centres, &residues, sums.nu());
@@ -136,17 +136,6 @@ pub fn slowest_decay(data: &Data<'_>, poles: &[PoleDisc]) -> Enclosure {
     least.map_or_else(|| Enclosure::undefined(data.precision), |least| &data.base_frequency * least)
 }
 
-/// `T_N(x) = (1/nu) sum_k Im z_k/|x - z_k|^2` for every x in the enclosure (either sign), from all 2N + 1 poles.
-#[must_use]
-pub fn transfer_from_poles(data: &Data<'_>, poles: &[PoleDisc], x: &Enclosure) -> Enclosure {
-    let sum = poles.iter().fold(data.zero(), |sum, pole| {
-        let rate = pole.imaginary_part();
-        let distance = (x - pole.real_part()).sqr() + rate.sqr();
-        sum + rate / distance
-    });
-    sum / &data.nu
-}
-
 /// `P(z_k)/prod_{j != k} (z_k - z_j)` for every k, as `(1 + i nu g(z_k)) prod_l (z_k - l)/prod_{j != k} (z_k - z_j)`.
 fn corrections(centres: &[Complex], residues: &[(i64, Enclosure)], nu: &Enclosure) -> Vec<Complex> {
     let one = |z: &Complex| {
@@ -177,7 +166,7 @@ fn corrections(centres: &[Complex], residues: &[(i64, Enclosure)], nu: &Enclosur
 
 /// A number near the middle of the rectangle, exactly.
 fn middle(z: &Complex, precision: u32) -> Complex {
-    let of = |part: &Enclosure| point(&(Float::with_val(precision, part.lower() + part.upper()) / 2u32));
+    let of = |part: &Enclosure| Enclosure::point(&(Float::with_val(precision, part.lower() + part.upper()) / 2u32));
     Complex { re: of(&z.re), im: of(&z.im) }
 }
 

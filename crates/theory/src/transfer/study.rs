@@ -7,10 +7,10 @@ use super::{
     decide, internal_model_poles, slowest_decay, smallest_k1, sup_ratios, trade_off_pairs,
 };
 use crate::data::{Bound, Data, Problem};
-use rayon::prelude::*;
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, Portable, round_f64, round_rational};
+use sigmastar_exact::parallel;
 use sigmastar_lang::spec::{Constant, Specification};
 
 /// Pairs in the table of the trade-off.
@@ -101,10 +101,9 @@ impl<'s> TransferStudy<'s> {
             }
             _ => None,
         };
-        let uniformity = sup_ratios(&data, &pair.k0, &pair.k1, n_o, done)
-            .into_par_iter()
-            .map(|sup| Uniformity { decay: decay(sup.n_o), sup })
-            .collect();
+        let ratios = sup_ratios(&data, &pair.k0, &pair.k1, n_o, done);
+        let decays = parallel::map(&ratios, |sup| decay(sup.n_o));
+        let uniformity = ratios.into_iter().zip(decays).map(|(sup, decay)| Uniformity { decay, sup }).collect();
         let trade_off = trade_off_pairs(&data, TRADE_OFF_PAIRS);
         let matched = if spec.internal_model.matched { matched_pair(&data, a, b) } else { None };
         let printed = PrintedChecks::new(&data);

@@ -7,10 +7,10 @@ use super::float_sums::{FloatGroup, FloatSums};
 use super::lorentz::LorentzSums;
 use super::pole_sums::{OscillatorCount, PoleSums};
 use crate::data::Data;
-use rayon::prelude::*;
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, round_rational};
+use sigmastar_exact::parallel;
 
 /// Up to here each N is looked at by itself; all larger N share one upper bound at each height.
 const LAST_ALONE: u64 = 32;
@@ -52,18 +52,15 @@ pub fn sup_ratios(
     let height = (counts.iter().filter(|n_o| many(n_o)).count() > 1)
         .then(|| sup_ratio(data, &sums, [k0, k1], OscillatorCount::Infinite, &places, None).ratio.upper_rational())
         .flatten();
-    counts
-        .par_iter()
-        .map(|n_o| {
-            let ratio = if many(n_o) {
-                sup_ratio(data, &sums, [k0, k1], *n_o, &places, height.as_ref())
-            } else {
-                sup_ratio(data, &sums, [k0, k1], *n_o, &self::places(&sums, last_alone(*n_o), [k0, k1]), None)
-            };
-            done();
-            ratio
-        })
-        .collect()
+    parallel::map(counts, |n_o| {
+        let ratio = if many(n_o) {
+            sup_ratio(data, &sums, [k0, k1], *n_o, &places, height.as_ref())
+        } else {
+            sup_ratio(data, &sums, [k0, k1], *n_o, &self::places(&sums, last_alone(*n_o), [k0, k1]), None)
+        };
+        done();
+        ratio
+    })
 }
 
 /// N, or the number that stands for all larger ones.

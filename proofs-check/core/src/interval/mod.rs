@@ -100,7 +100,7 @@ impl Interval {
 
     /// What was computed from doubles in so many steps, where these are paid for.
     fn near(ends: Option<doubles::Ends>, steps: u64) -> Option<Interval> {
-        ends.filter(|_| effort::short(steps)).map(|ends| Interval(Ends::Short(ends)))
+        ends.filter(|_| effort::spend(steps)).map(|ends| Interval(Ends::Short(ends)))
     }
 
     /// x^n, n > 0, of doubles, where it increases.

@@ -96,8 +96,7 @@ fn derivatives(op: &Op, u: &Interval, value: &Interval) -> Option<[Interval; 2]>
 
 fn apply(op: &Op, sides: [&Interval; 2], a: Option<Jet>, b: Option<Jet>) -> Jet {
     let none = Interval::undefined(sides[0].precision());
-    if matches!(op, Op::X | Op::E) {
-        let along = usize::from(*op == Op::E);
+    if let Op::Variable(along @ (0 | 1)) = *op {
         let mut jet = Jet::constant(sides[along].clone());
         jet.first[along] = Interval::int(1, none.precision());
         return jet;

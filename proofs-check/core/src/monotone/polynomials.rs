@@ -133,7 +133,7 @@ fn split(op: &Op, a: &Option<Split>, b: &Option<Split>) -> Option<([Polynomial; 
     };
     match (op, a, b) {
         (Op::Number(value), ..) => one(0, trimmed(vec![value.clone()])),
-        (Op::X | Op::E, ..) => one(usize::from(*op == Op::E), vec![Rational::new(), Rational::from(1)]),
+        (Op::Variable(along @ (0 | 1)), ..) => one(*along, vec![Rational::new(), Rational::from(1)]),
         (Op::Neg, Some(a), _) => Some((a.polynomials.each_ref().map(|p| scaled(p, &Rational::from(-1))), a.rest)),
         (Op::Add | Op::Sub, Some(a), Some(b)) => {
             let sign = Rational::from(if *op == Op::Add { 1 } else { -1 });

@@ -77,10 +77,9 @@ fn apply(
     };
     let Some(a) = a else {
         return match op {
-            Op::X | Op::E => {
-                let along = usize::from(*op == Op::E);
-                let unit = [0, 1].map(|side| Interval::int(i64::from(side == along), p));
-                Part { value: sides[along].clone(), slope: unit.clone(), growth: unit, rest: [zero.clone(), zero] }
+            Op::Variable(along @ (0 | 1)) => {
+                let unit = [0, 1].map(|side| Interval::int(i64::from(side == *along), p));
+                Part { value: sides[*along].clone(), slope: unit.clone(), growth: unit, rest: [zero.clone(), zero] }
             }
             _ => constant(interval_op(op, &none, &none)),
         };

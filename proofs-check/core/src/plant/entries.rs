@@ -147,12 +147,4 @@ impl Entries {
     pub fn rate(&self, name: Name, x: &Interval, e: &Interval, precision: u32) -> Option<Interval> {
         self.best(name, x, e).map(|value| Interval::rational(value, precision))
     }
-
-    /// The largest arguments of all.
-    pub fn largest(&self) -> [Float; 2] {
-        [0, 1].map(|i| {
-            let ends = self.list.iter().map(|entry| &entry.arguments[i]);
-            ends.fold(Float::new(ARGUMENT_PRECISION), |most, end| if *end > most { end.clone() } else { most })
-        })
-    }
 }

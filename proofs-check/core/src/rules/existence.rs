@@ -27,7 +27,7 @@
 //! with the concave G of `mean_squares`, and S1c, S2b, S2c say G(r) < r, so rho < r as there. Then S1b and S2 keep it inside.
 //! Strictness matters in all five. b_q_rms and b_qt_rms are of q itself and say nothing for l < 1: they are not used.
 
-use super::inequality::{not_above, number, symmetric};
+use super::inequality::{above_0, not_above, place, symmetric};
 use super::metric::{Answer, Metric, Metrics};
 use crate::data::Data;
 use crate::interval::Interval;
@@ -65,13 +65,9 @@ impl Existence {
                 true => Form::Joint(Box::new(Metrics::read(fields, |_| Ok(()))?.0)),
                 false => Form::Block(block(fields)?),
             };
-            Ok(Existence {
-                x: number(fields, "X", false)?,
-                e: number(fields, "E", false)?,
-                threshold: number(fields, "sigma", true)?,
-                form,
-                pointer: field.pointer.clone(),
-            })
+            let [x, e] = place(fields)?;
+            let [threshold] = above_0(fields, ["sigma"])?;
+            Ok(Existence { pointer: field.pointer.clone(), x, e, threshold, form })
         })
     }
 
@@ -142,12 +138,9 @@ impl Existence {
 
 /// The one matrix, with w = 1.
 fn block(fields: &mut Fields<'_>) -> Outcome<Metric> {
-    Ok(Metric {
-        p: symmetric(&fields.required("P")?)?,
-        w: Rational::from(1),
-        k_p: number(fields, "k_p", true)?,
-        least: [number(fields, "c_x", true)?, Rational::new(), number(fields, "c_y", true)?],
-    })
+    let p = symmetric(&fields.required("P")?)?;
+    let [k_p, c_x, c_y] = above_0(fields, ["k_p", "c_x", "c_y"])?;
+    Ok(Metric { p, w: Rational::from(1), k_p, least: [c_x, Rational::new(), c_y] })
 }
 
 /// What is known of a solution at r, and what has to be above it: of sup|x|, rms(x), sup|e|, rms(e), rms(e').

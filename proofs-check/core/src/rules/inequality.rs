@@ -47,7 +47,8 @@ impl Splitting {
     fn read(field: &Field<'_>) -> Outcome<Splitting> {
         field.object(|fields| {
             let matrix = symmetric(&fields.required("S")?)?;
-            Ok(Splitting { x: number(fields, "X", false)?, e: number(fields, "E", false)?, matrix })
+            let [x, e] = place(fields)?;
+            Ok(Splitting { x, e, matrix })
         })
     }
 }
@@ -57,6 +58,16 @@ pub(super) fn symmetric(rows: &Field<'_>) -> Outcome<Matrix> {
     let matrix = rows.list(|row| row.list(Field::rational))?;
     let is_square = matrix.iter().all(|row| row.len() == matrix.len());
     if is_square && is_symmetric(&matrix) { Ok(matrix) } else { bad(&rows.pointer, "expected a symmetric matrix") }
+}
+
+/// X and E, which are not negative.
+pub(super) fn place(fields: &mut Fields<'_>) -> Outcome<[Rational; 2]> {
+    fields.each(["X", "E"], |fields, name| number(fields, name, false))
+}
+
+/// Numbers above 0.
+pub(super) fn above_0<const N: usize>(fields: &mut Fields<'_>, names: [&str; N]) -> Outcome<[Rational; N]> {
+    fields.each(names, |fields, name| number(fields, name, true))
 }
 
 /// A number above 0, or one that is not negative.
@@ -100,16 +111,11 @@ impl Inequality {
     /// Reads the part `matrix_inequality`; the weights are those of the witness that it is a part of.
     pub fn read(field: &Field<'_>, [w_x, h]: [&Rational; 2]) -> Outcome<Inequality> {
         field.object(|fields| {
-            Ok(Inequality {
-                x: number(fields, "X", false)?,
-                e: number(fields, "E", false)?,
-                rate: number(fields, "rate", true)?,
-                sigma: number(fields, "sigma", true)?,
-                splitting: fields.part("splitting", Splitting::read)?,
-                w_x: w_x.clone(),
-                h: h.clone(),
-                pointer: field.pointer.clone(),
-            })
+            let [x, e] = place(fields)?;
+            let [rate, sigma] = above_0(fields, ["rate", "sigma"])?;
+            let splitting = fields.part("splitting", Splitting::read)?;
+            let [w_x, h] = [w_x, h].map(Rational::clone);
+            Ok(Inequality { pointer: field.pointer.clone(), x, e, rate, sigma, w_x, h, splitting })
         })
     }
 

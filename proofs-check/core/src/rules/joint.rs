@@ -9,14 +9,14 @@
 //! in different ways.
 
 use super::control;
-use super::inequality::{not_above, number, reaches};
+use super::inequality::{above_0, demand_plant, not_above, place, reaches};
 use super::metric::{Metric, Metrics};
 use super::stability::ErrorBox;
 use crate::data::Data;
 use crate::interval::Interval;
 use crate::json::{Field, Fields};
 use crate::matrix::{is_semidefinite, shifted};
-use crate::verdict::{Condition, Outcome, bad, demand};
+use crate::verdict::{Condition, Outcome, demand};
 use rug::Rational;
 
 /// The name of the rule.
@@ -44,8 +44,8 @@ pub struct Extent {
 
 impl Extent {
     fn read(fields: &mut Fields<'_>) -> Outcome<Extent> {
-        let mut above_0 = |name| number(fields, name, true);
-        Ok(Extent { p_up: above_0("P_up")?, x_low: above_0("x_low")?, e_low: above_0("e_low")? })
+        let [p_up, x_low, e_low] = above_0(fields, ["P_up", "x_low", "e_low"])?;
+        Ok(Extent { p_up, x_low, e_low })
     }
 
     /// Whether it is that of a metric, in exact arithmetic: the name of each of its numbers, and what that says.
@@ -72,14 +72,9 @@ impl Joint {
     pub fn read(field: &Field<'_>) -> Outcome<Joint> {
         field.object(|fields| {
             let (metrics, extents) = Metrics::read(fields, Extent::read)?;
-            Ok(Joint {
-                x: number(fields, "X", false)?,
-                e: number(fields, "E", false)?,
-                threshold: number(fields, "sigma", true)?,
-                metrics,
-                extents,
-                pointer: field.pointer.clone(),
-            })
+            let [x, e] = place(fields)?;
+            let [threshold] = above_0(fields, ["sigma"])?;
+            Ok(Joint { pointer: field.pointer.clone(), x, e, threshold, metrics, extents })
         })
     }
 
@@ -93,9 +88,7 @@ impl Joint {
 
     /// It is about formulas, with a row for each state, and the extents are those of the metrics.
     pub fn demand(&self, d: &Data<'_>) -> Outcome<()> {
-        let Some(plant) = &d.spec.plant else {
-            return bad(&self.pointer, "a matrix inequality is about the formulas of a plant");
-        };
+        let Some(plant) = &d.spec.plant else { return demand_plant(d, &self.pointer) };
         self.metrics.demand_order(plant.states, &self.pointer)?;
         let all = self.each().into_iter().flat_map(|(name, metric, cross, extent)| {
             extent

@@ -11,7 +11,7 @@
 //! `F_sigma' = l F_sigma_0 + (1 - l) G + diag(0, 2 sigma_0 w_2 (1 - l)^2/l, 0)`, so with `w_2 >= 0` F_sigma' is not below
 //! `l diag(c_1) + (1 - l) diag(c_2)`. The two matrices prove the inequality for sigma_0 and for every larger gain.
 
-use super::inequality::{number, symmetric};
+use super::inequality::{above_0, number, symmetric};
 use crate::data::Data;
 use crate::interval::Interval;
 use crate::json::{Field, Fields};
@@ -53,8 +53,8 @@ pub struct Answer {
 impl Metric {
     fn read(fields: &mut Fields<'_>, w: Rational) -> Outcome<Metric> {
         let p = symmetric(&fields.required("P")?)?;
-        let mut above_0 = |name| number(fields, name, true);
-        Ok(Metric { p, w, k_p: above_0("k_p")?, least: [above_0("c_x")?, above_0("c_e")?, above_0("c_y")?] })
+        let [k_p, least @ ..] = above_0(fields, ["k_p", "c_x", "c_e", "c_y"])?;
+        Ok(Metric { p, w, k_p, least })
     }
 
     /// That P has a row for each state.

@@ -1,8 +1,9 @@
 //! The matrix inequalities of the regulator at samples: F against loops that are simulated, by hand, and with numbers that are none.
 
 use super::*;
+use crate::bounds::pointwise::Slopes;
 use crate::bounds::sampled_form::{Doubles, End, FormNumbers, Less, LoopNumbers, form};
-use crate::bounds::sampled_point::{SampledEnergy, SampledWeights, Slopes};
+use crate::bounds::sampled_point::{SampledEnergy, SampledWeights};
 use sigmastar_lang::spec::{SampledExistence, SampledGain, SampledInequality, SampledLoop};
 
 /// Boxes that a decision may take.
@@ -114,9 +115,8 @@ fn the_fall_in_a_sample_is_the_mean_of_f() {
         let Sample { y, next: after, within } = sample((&of, b), &slopes, at, &q0);
         let entries = End::BOTH.map(|end| {
             let less = Less { e_k: 0.0, e: 0.0, y: 0.0 };
-            let moved = of.moved[0];
-            let numbers = FormNumbers { of: &of, end, moved, weight: 1.0, k_p, lambda, less, gamma: Some(0.0) };
-            form(&Doubles, numbers, slopes.with(|_, _| p, 0.0))
+            let numbers = FormNumbers { of: &of, weight: 1.0, k_p, lambda, less, gamma: Some(0.0) };
+            form(&Doubles, numbers, (end, &of.moved[0]), slopes.with(|_, _| p, 0.0))
         });
         let (mut mean, mut squares) = (0.0, [0.0; 2]);
         for (step, [x, _, q, gap]) in within.iter().enumerate() {

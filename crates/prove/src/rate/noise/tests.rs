@@ -1,5 +1,5 @@
 use super::*;
-use crate::certify::{Certification, Options, certify_at};
+use crate::certify::{Certification, Options, Wanted, certify_for};
 use crate::rate::found::RateForCount;
 use faer::linalg::solvers::DenseSolveCore;
 use faer::{Mat, c64};
@@ -17,7 +17,7 @@ fn with(text: &str, fields: &str) -> Specification {
 fn certified<'s>(spec: &'s Specification, gain: &str, counts: &[u32]) -> Certification<'s> {
     let gain = sigmastar_exact::number::parse_decimal(gain).expect("a decimal");
     let options = Options { compare: false, ..Options::default() };
-    let mut run = certify_at(spec, options, None, &gain).expect("not refuted");
+    let mut run = certify_for(spec, options, Wanted { gain: Some(&gain), ..Wanted::default() }).expect("not refuted");
     assert_eq!(run.sigma_star(), Some(&gain));
     run.prove_rates(counts).expect("by norms");
     run
@@ -136,7 +136,7 @@ fn limits_are_above_what_the_worst_inputs_do() {
                 println!(
                     "{name} {n_o} {fields} gain {gain} limit {:.4e} worst {worst:.4e} ratio {ratio:.3} lambda {:.3e} {seconds:.1} s",
                     noise.limit.to_f64(),
-                    noise.witness.rate.to_f64()
+                    noise.proof.witness.rate.to_f64()
                 );
                 assert!(ratio >= 1.0, "{name} {n_o} {fields}: {ratio}");
             }

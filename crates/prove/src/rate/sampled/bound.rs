@@ -3,14 +3,14 @@
 
 use super::condition::SampledCondition;
 use super::form::{Inputs, OfX, SampledDynamics, SampledRateWitness};
-use crate::rate::bound::{Place, are_bounds, diagonal_bounds, factor};
+use crate::rate::bound::{Place, RateBound, diagonal_bounds, factor, lies_between};
 use crate::rate::inequality::LoopBounds;
 use crate::rate::oscillators::OscillatorMatrix;
-use crate::rate::small_gain::Limit;
+use crate::rate::riccati::in_digits;
 use faer::Mat;
 use rug::Rational;
 use sigmastar_exact::enclosure::{Enclosure, Truth};
-use sigmastar_exact::number::{Direction, Portable, round_f64};
+use sigmastar_exact::number::{Direction, round_f64};
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::sampled::SampledLaw;
 
@@ -20,32 +20,18 @@ const SHARES: [f64; 4] = [0.95, 0.8, 0.5, 0.2];
 /// Digits of Pi that are tried.
 pub(super) const DIGITS: [u32; 4] = [6, 9, 12, 16];
 
-/// A proved bound `|e - e_per| <= factor exp(-rate (t - t_0))` at the sampling instants for one n_o.
-#[derive(Clone, Debug)]
-pub struct SampledRateBound {
-    /// n_o.
-    pub n_o: u32,
-    /// The rate, in 1/time: exp(2 h rate) <= 1 + c.
-    pub rate: Rational,
-    /// What proves the decay.
-    pub witness: SampledRateWitness,
-    /// e_low: `Pi > diag(e_low, 0)`.
-    pub e_low: Rational,
-    /// e_up and z_up: `Pi < diag(e_up, z_up I)`.
-    pub upper: [Rational; 2],
-    /// C, in the unit of e.
-    pub factor: Rational,
-    /// What limits the rate.
-    pub limit: Limit,
-}
-
 /// The best bound that is found; `None` where nothing is proved.
 ///
 /// Guarantee: for every solution that is in the error box of `place` and starts within its distances at a sampling instant t_0, at its gain,
 /// with n_o oscillators, the law and every input gain of the data, `|e(t) - e_per(t)| <= factor exp(-rate (t - t_0))` at every
 /// sampling instant t >= t_0, whoever the plant is of which the bounds of the error box hold.
 #[must_use]
-pub fn bound(data: &Data<'_>, law: &SampledLaw<Enclosure>, place: &Place<'_>, n_o: u32) -> Option<SampledRateBound> {
+pub fn bound(
+    data: &Data<'_>,
+    law: &SampledLaw<Enclosure>,
+    place: &Place<'_>,
+    n_o: u32,
+) -> Option<RateBound<SampledRateWitness>> {
     let bounds = LoopBounds::of_error(data, place.error_box)?;
     let oscillators = OscillatorMatrix::new(data, n_o);
     let dynamics = SampledDynamics::new(data, (&oscillators, law), place.sigma, &bounds)?;
@@ -59,13 +45,14 @@ pub fn bound(data: &Data<'_>, law: &SampledLaw<Enclosure>, place: &Place<'_>, n_
             if !dynamics.proves(&witness) {
                 return None;
             }
-            let diagonal = diagonal_bounds(&proposal.pi, place.distances)?;
-            if !are_bounds(&witness.pi, &diagonal, data.precision) {
+            let [e_low, upper @ ..] = diagonal_bounds(&proposal.pi, place.distances)?;
+            let [e_up, z_up] = &upper;
+            if !lies_between(&witness.pi, 0, &e_low, [&Rational::new(), e_up, z_up], data.precision) {
                 return None;
             }
-            let factor = factor(data, place, witness.of_x.as_ref().map(|of_x| &of_x.w), &diagonal)?;
-            let [e_low, upper @ ..] = diagonal;
-            Some(SampledRateBound { n_o, rate, witness, e_low, upper, factor, limit: condition.limit() })
+            let of_x = witness.of_x.as_ref().map_or_else(|| data.zero(), |of_x| data.rational(&of_x.w) * &data.p_up);
+            let factor = factor(data, [of_x, data.rational(e_up), data.rational(z_up)], place.distances, &e_low)?;
+            Some(RateBound { n_o, rate, proof: witness, e_low, upper, factor, limit: condition.limit() })
         })
     })
 }
@@ -91,14 +78,7 @@ impl Proposal {
     /// The witness to so many digits, entries of Pi that are far beyond those of their diagonals as 0; without inputs.
     pub(super) fn in_digits(&self, digits: u32) -> Option<SampledRateWitness> {
         let round = |value: f64| round_f64(value, digits, Direction::Nearest);
-        let least = 0.1f64.portable_powi(digits as i32 + 1);
-        let entry = |i: usize, j: usize| {
-            let value = self.pi[(i, j)];
-            let small = i != j && value.abs() < least * (self.pi[(i, i)] * self.pi[(j, j)]).sqrt();
-            if small { Some(Rational::new()) } else { round(value) }
-        };
-        let row = |i: usize| (0..=i).map(|j| entry(i, j)).collect::<Option<Vec<Rational>>>();
-        let pi = (0..self.pi.nrows()).map(row).collect::<Option<Vec<_>>>()?;
+        let pi = in_digits(&self.pi, digits)?;
         let of_x = match &self.of_x {
             None => None,
             Some(OfX { w, l_x, l_e, l_y }) => {

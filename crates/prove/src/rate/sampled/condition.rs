@@ -162,7 +162,7 @@ impl SampledCondition {
         let moved = (0..n).map(|j| k * seen[j] - if j == 0 { sigma } else { 0.0 }).collect();
         let direct: Vec<f64> = (0..n).map(|i| step * if i == 0 { 1.0 } else { -b[i - 1] }).collect();
         let a = Mat::from_fn(n, n, |i, j| turned[(i, j)] + direct[i] * row[j]);
-        if !(through > 0.0 && (0..n).all(|j| (0..n).all(|i| a[(i, j)].is_finite()))) {
+        if !(through > 0.0 && a.as_ref().is_all_finite()) {
             return None;
         }
         let states = bounds.has_x.then(|| States {

@@ -5,13 +5,11 @@
 //! - `riccati`: the quadratic function for them, by a discrete Riccati equation;
 //! - [`noise`]: what noise of the measurement and a disturbance do to the error, by the same inequality with inputs;
 //! - [`rounding`]: what the rounding of the exported law adds to it;
-//! - [`bound`]: from a decay to `|e - e_per| <= C exp(-rate (t - t_0))` at the sampling instants, as a certificate has it;
-//! - [`found`]: all of it for one n_o.
+//! - [`bound`]: from a decay to `|e - e_per| <= C exp(-rate (t - t_0))` at the sampling instants, as a certificate has it.
 
 pub mod bound;
 pub mod condition;
 pub mod form;
-pub mod found;
 pub mod noise;
 mod riccati;
 pub mod rounding;

@@ -22,7 +22,7 @@ use super::rounding::{
 use crate::rate::bound::Place;
 use crate::rate::descent::{Point, Thoroughness, descend};
 use crate::rate::inequality::{LoopBounds, is_above};
-use crate::rate::noise::{Confinement, NoNoiseBound};
+use crate::rate::noise::{Confinement, NoNoiseBound, NoiseBound};
 use crate::rate::oscillators::OscillatorMatrix;
 use faer::linalg::solvers::DenseSolveCore;
 use rug::Rational;
@@ -50,17 +50,11 @@ const STEPS: [usize; 3] = [12, 8, 8];
 /// Orders of Pi from which on fewer steps are made.
 const LARGE: usize = 50;
 
-/// Proved bounds for one n_o.
+/// What proves bounds under noise at samples.
 #[derive(Clone, Debug)]
-pub struct SampledNoiseBound {
+pub struct SampledNoise {
     /// What proves the form with inputs.
     pub witness: SampledRateWitness,
-    /// e_low: `Pi > diag(e_low, 0)`.
-    pub e_low: Rational,
-    /// S, rounded up, in the unit of e.
-    pub limit: Rational,
-    /// `sqrt(L_0) + S`, rounded up, in the unit of e.
-    pub peak: Rational,
     /// What is proved besides of a law in doubles.
     pub rounding: Option<RoundingWitness>,
 }
@@ -81,7 +75,7 @@ pub fn noise_bound(
     place: &Place<'_>,
     confinement: &Confinement<'_>,
     n_o: u32,
-) -> Result<SampledNoiseBound, NoNoiseBound> {
+) -> Result<NoiseBound<SampledNoise>, NoNoiseBound> {
     let in_doubles = data.spec.disturbances.in_doubles();
     if data.spec.actuator.is_some() {
         return Err(if in_doubles { NoNoiseBound::ActuatorInDoubles } else { NoNoiseBound::Actuator });
@@ -160,7 +154,7 @@ pub fn noise_bound(
     let up = |value: &Enclosure| {
         value.upper_rational().map(|upper| round_rational(&upper, FIGURES, Direction::Up)).ok_or(not_found)
     };
-    Ok(SampledNoiseBound { e_low, limit: up(&s)?, peak: up(&peak)?, witness, rounding })
+    Ok(NoiseBound { proof: SampledNoise { witness, rounding }, e_low, limit: up(&s)?, peak: up(&peak)? })
 }
 
 /// What is proved of the numbers of a search.

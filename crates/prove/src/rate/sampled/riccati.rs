@@ -26,11 +26,7 @@ pub(super) struct System {
 
 fn inverse(matrix: &Mat<f64>) -> Option<Mat<f64>> {
     let inverse = matrix.partial_piv_lu().inverse();
-    is_finite(&inverse).then_some(inverse)
-}
-
-fn is_finite(matrix: &Mat<f64>) -> bool {
-    (0..matrix.ncols()).all(|j| (0..matrix.nrows()).all(|i| matrix[(i, j)].is_finite()))
+    inverse.as_ref().is_all_finite().then_some(inverse)
 }
 
 fn identity(order: usize) -> Mat<f64> {
@@ -49,7 +45,7 @@ impl System {
     /// The least Pi; `None` where it is not met.
     pub(super) fn least(&self) -> Option<Mat<f64>> {
         let System { a, b, c, d } = self;
-        if ![a, b, c, d].into_iter().all(is_finite) {
+        if ![a, b, c, d].iter().all(|matrix| matrix.as_ref().is_all_finite()) {
             return None;
         }
         let of_input = inverse(&(identity(d.ncols()) - d.transpose() * d))?;
@@ -67,7 +63,7 @@ impl System {
             let grown = size(&more);
             h += more;
             g += further;
-            if ![&a, &g, &h].into_iter().all(is_finite) {
+            if ![&a, &g, &h].iter().all(|matrix| matrix.as_ref().is_all_finite()) {
                 return None;
             }
             if grown <= SETTLED * size(&h) {

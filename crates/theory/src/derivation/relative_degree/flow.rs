@@ -200,8 +200,7 @@ impl State {
     /// An enclosure of w y for a row w.
     pub(super) fn project(&self, w: &[Enclosure]) -> Enclosure {
         let precision = w.iter().map(Enclosure::precision).max().unwrap_or(NORM_PRECISION);
-        let exact = |x: &Float| Enclosure::new(x.clone(), x.clone());
-        let value = w.iter().zip(&self.y).fold(Enclosure::zero(precision), |sum, (w, y)| sum + w * exact(y));
+        let value = w.iter().zip(&self.y).fold(Enclosure::zero(precision), |sum, (w, y)| sum + w * Enclosure::point(y));
         let error = (norm(w.iter()) * &self.error).ceiling();
         value + error.negate().hull(&error)
     }

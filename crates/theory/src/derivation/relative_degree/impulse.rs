@@ -2,7 +2,7 @@
 
 use super::flow::{Flow, State};
 use super::negative_part::{Perturbed, Tolerance};
-use super::ranges::{NORM_PRECISION, rounded, scale};
+use super::ranges::{NORM_PRECISION, scale};
 use super::real_roots::all_real;
 use super::{RelativeDegreeError, Routh, Undecided};
 use rug::Rational;
@@ -61,7 +61,7 @@ pub fn k_infinity(a: &[Rational], precision: u32) -> Result<Enclosure, RelativeD
     let Some(negative) = negative else { return Err(undecided) };
     let working = negative.precision().max(output);
     let result = Enclosure::from_rational(&integral, working) + negative * 2;
-    let result = rounded(&result, output);
+    let result = result.at_precision(output);
     if result.is_bounded() { Ok(result) } else { Err(undecided) }
 }
 
@@ -182,7 +182,7 @@ impl Response {
                 factorial = factorial * (k as i64);
             }
             let exponent = h.checked_mul(k as i32)?;
-            coefficients.push(rounded(&scale(value, exponent), self.polynomial_bits) / &factorial);
+            coefficients.push(scale(value, exponent).at_precision(self.polynomial_bits) / &factorial);
         }
         let tolerance = Tolerance { size: rate.lower(), area: scale(rate, -5).lower() };
         let area = Perturbed::new(&coefficients, &error, self.polynomial_bits).integral(&tolerance);

@@ -41,7 +41,6 @@ pub use peak::k_2;
 
 use routh::Routh;
 use rug::Rational;
-use std::fmt;
 use thiserror::Error;
 
 /// The largest number r - 1 of coefficients accepted.
@@ -75,24 +74,15 @@ pub struct NotHurwitz {
 }
 
 /// What a bounded effort did not reach.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
 pub enum Undecided {
     /// The fastest and the slowest time scale are too far apart: no contraction of the flow was proved.
+    #[error("the decay of the impulse response was not proved, its time scales are too far apart")]
     TimeScales,
     /// No positive lower bound of |p(i w)|^2 was proved at the highest precision: p has a root extremely close to
     /// the imaginary axis.
+    #[error("the resonance peak is too high to be bounded at the highest precision")]
     Resonance,
-}
-
-impl fmt::Display for Undecided {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Undecided::TimeScales => {
-                "the decay of the impulse response was not proved, its time scales are too far apart"
-            }
-            Undecided::Resonance => "the resonance peak is too high to be bounded at the highest precision",
-        })
-    }
 }
 
 /// Whether `s^{r-1} + a_{r-1} s^{r-2} + ... + a_1` is Hurwitz, by [`check_hurwitz`]. Both answers are proofs for 1 to

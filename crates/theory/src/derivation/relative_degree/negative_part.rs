@@ -1,5 +1,6 @@
 //! The integral of the negative part of a function known up to a constant error.
 
+use super::ranges::middles;
 use rug::Float;
 use rug::float::Round;
 use sigmastar_exact::enclosure::Enclosure;
@@ -48,14 +49,8 @@ fn horner(coefficients: &[Float], left: &Float, right: &Float, precision: u32) -
 
 /// Midpoints, and an upper bound of the sum of what they leave out.
 fn split(coefficients: &[Enclosure], precision: u32) -> (Vec<Float>, Enclosure) {
-    let middle = |c: &Enclosure| Float::with_val(precision, c.lower() + c.upper()) / 2;
-    let middles: Vec<Float> = coefficients.iter().map(middle).collect();
-    let rest = coefficients.iter().zip(&middles).fold(Enclosure::zero(64), |sum, (c, m)| sum + (c - point(m)).abs());
-    (middles, rest.ceiling())
-}
-
-fn point(x: &Float) -> Enclosure {
-    Enclosure::new(x.clone(), x.clone())
+    let (middles, rest) = middles(coefficients, precision);
+    (middles, rest.iter().fold(Enclosure::zero(64), |sum, rest| sum + rest.abs()).ceiling())
 }
 
 #[derive(Clone, Copy, PartialEq)]
@@ -76,7 +71,7 @@ impl Perturbed {
     pub(super) fn new(coefficients: &[Enclosure], error: &Enclosure, precision: u32) -> Perturbed {
         let (coefficients, rest) = split(coefficients, precision);
         let error = (error + rest).ceiling();
-        let primitive: Vec<Enclosure> = (1i64..).zip(&coefficients).map(|(k, c)| point(c) / k).collect();
+        let primitive: Vec<Enclosure> = (1i64..).zip(&coefficients).map(|(k, c)| Enclosure::point(c) / k).collect();
         let (mut primitive, rounding) = split(&primitive, precision);
         primitive.insert(0, Float::new(precision));
         // 32 more bits hold the products with the (small) exponents exactly, and 32 more those of the second time.
@@ -108,7 +103,7 @@ impl Perturbed {
             if range.lower() >= 0 {
                 continue;
             }
-            let length = point(&piece.right) - point(&piece.left);
+            let length = Enclosure::point(&piece.right) - Enclosure::point(&piece.left);
             if range.upper() <= 0 {
                 let integral = self.at(&self.primitive, &piece.right) - self.at(&self.primitive, &piece.left)
                     + self.rounding.negate().hull(&self.rounding) * 2
@@ -145,7 +140,7 @@ impl Perturbed {
         }
         // Mean-value forms: of q' about the middle, then of q.
         let middle = self.middle(piece);
-        let offset = Enclosure::new(piece.left.clone(), piece.right.clone()) - point(&middle);
+        let offset = Enclosure::new(piece.left.clone(), piece.right.clone()) - Enclosure::point(&middle);
         let mut slope = horner(&self.slope, &piece.left, &piece.right, self.precision);
         if slope.contains_zero() {
             let curvature = horner(&self.curvature, &piece.left, &piece.right, self.precision);

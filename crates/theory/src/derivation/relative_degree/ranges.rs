@@ -52,18 +52,10 @@ pub(super) fn dot<'a>(
     Enclosure::new(lower, upper)
 }
 
-/// The enclosure at another precision, rounded outward.
-pub(super) fn rounded(x: &Enclosure, precision: u32) -> Enclosure {
-    Enclosure::new(
-        Float::with_val_round(precision, x.lower(), Round::Down).0,
-        Float::with_val_round(precision, x.upper(), Round::Up).0,
-    )
-}
-
 /// The Euclidean norm of enclosed numbers, as an upper bound of it.
 pub(super) fn norm<'a>(entries: impl Iterator<Item = &'a Enclosure>) -> Enclosure {
     let zero = Enclosure::zero(NORM_PRECISION);
-    entries.fold(zero, |sum, x| sum + rounded(x, NORM_PRECISION).sqr()).sqrt().ceiling()
+    entries.fold(zero, |sum, x| sum + x.at_precision(NORM_PRECISION).sqr()).sqrt().ceiling()
 }
 
 /// The Euclidean norm of point entries, as an upper bound of it.
@@ -71,13 +63,17 @@ pub(super) fn point_norm(entries: &[Float]) -> Enclosure {
     dot(entries.iter(), entries.iter(), NORM_PRECISION).max(&Enclosure::zero(NORM_PRECISION)).sqrt().ceiling()
 }
 
+/// Midpoints, and what they leave out.
+pub(super) fn middles(entries: &[Enclosure], precision: u32) -> (Vec<Float>, Vec<Enclosure>) {
+    let middles: Vec<Float> = entries.iter().map(|x| Float::with_val(precision, x.lower() + x.upper()) / 2).collect();
+    let rest = entries.iter().zip(&middles).map(|(x, m)| x - Enclosure::point(m)).collect();
+    (middles, rest)
+}
+
 /// Midpoints and a bound of the norm of what they leave out.
 pub(super) fn split(entries: &[Enclosure], precision: u32) -> (Vec<Float>, Enclosure) {
-    let middles: Vec<Float> = entries.iter().map(|x| Float::with_val(precision, x.lower() + x.upper()) / 2).collect();
-    let rest: Vec<Enclosure> =
-        entries.iter().zip(&middles).map(|(x, m)| x - Enclosure::new(m.clone(), m.clone())).collect();
-    let error = norm(rest.iter());
-    (middles, error)
+    let (middles, rest) = middles(entries, precision);
+    (middles, norm(rest.iter()))
 }
 
 /// x 2^exponent, exactly.

@@ -4,11 +4,10 @@
 use super::gains::SampledGains;
 use super::witness::SampledWitness;
 use crate::data::Data;
-use crate::derivation::condition::Condition;
-use crate::derivation::energy::EnergyBounds;
+use crate::derivation::condition::{Condition, Relation};
+use crate::derivation::energy::{EnergyBounds, within};
 use crate::derivation::harmonics::AtOrigin;
 use crate::derivation::mean_squares::{Forcing, Gains, MeanSquares, SetBounds, sup_by_mean_squares};
-use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::real::{Operand, Real};
 use sigmastar_lang::spec::SampledExistence;
@@ -71,18 +70,10 @@ pub fn bounds_of(data: &Data<'_>, origin: &AtOrigin<Enclosure>, known: &SampledE
 }
 
 /// What is left to decide of it: that (X_p, E_p) lies where it holds.
-///
-/// Differences of rationals are exact, so that equality is decided.
 #[must_use]
 pub fn conditions(data: &Data<'_>, witness: &SampledWitness) -> Vec<Condition> {
     let Some(SampledExistence { x, e, .. }) = known(data, witness) else { return Vec::new() };
-    let within = |id, what: &str, inner: &Rational, outer: &Rational| {
-        Condition::at_most(id, what, data.rational(&Rational::from(inner - outer)), data.zero())
-    };
-    vec![
-        within("E1", "X_p - X of the existence inequality <= 0", &witness.x_p, x),
-        within("E2", "E_p - E of the existence inequality <= 0", &witness.e_p, e),
-    ]
+    within(data, [&witness.x_p, &witness.e_p], [x, e]).into()
 }
 
 /// (S1) and (S2) with it, strictly.
@@ -102,27 +93,11 @@ pub fn existence_conditions(
     let response = gains.response(origin, &Forcing::new(&of_changes, origin, squares));
     let sup = response.sup.min(&sup_by_mean_squares(data, squares));
     let x_rms = of_changes.x_rms(squares).min_known(&gains.rms_of_states());
-    vec![
-        Condition::less("S1", "0 < a_1", data.zero(), bounds.rate.clone()),
-        Condition::less(
-            "S1b",
-            "min{(c/a_1) b_fe E_p, K2(a_1) b_fe r_e} < X_p",
-            bounds.x_sup(squares),
-            bounds.x_p.clone(),
-        ),
-        Condition::less("S1c", "min{(c/a_1) b_fe r_e, sqrt(gamma/c_x) Q_m} < r_x", x_rms, squares.x.clone()),
-        Condition::less(
-            "S2",
-            "min{12.2, sqrt(T r_e r_d), bt_h r_y + (sqrt(h T)/2) R_q} < E_p",
-            sup,
-            bounds.e_p.clone(),
-        ),
-        Condition::less("S2b", "min{12.2, sqrt(gamma/c_e) Q_m} < r_e", response.rms, squares.e.clone()),
-        Condition::less(
-            "S2c",
-            "min{12.2, sqrt((2 r_y/(2 - h sigma))^2 + R_q^2)} < r_d",
-            response.rate_rms,
-            squares.e_rate.clone(),
-        ),
-    ]
+    let least = [
+        ("min{(c/a_1) b_fe r_e, sqrt(gamma/c_x) Q_m}".to_owned(), x_rms),
+        ("min{12.2, sqrt(T r_e r_d), bt_h r_y + (sqrt(h T)/2) R_q}".to_owned(), sup),
+        ("min{12.2, sqrt(gamma/c_e) Q_m}".to_owned(), response.rms),
+        ("min{12.2, sqrt((2 r_y/(2 - h sigma))^2 + R_q^2)}".to_owned(), response.rate_rms),
+    ];
+    bounds.existence(data, squares, Relation::Less, least)
 }

@@ -24,7 +24,7 @@ pub use pair::{SampledPair, sampled_trade_off};
 pub use stability::{DecayForms, DecayNumbers, Form, Part, Past};
 pub use witness::{DelayWitness, SampledWitness};
 
-use super::condition::{self, Condition};
+use super::condition::{self, Condition, Relation};
 use super::consequences::ErrorBounds;
 use super::control::{self, Control};
 use super::harmonics::AtOrigin;
@@ -256,19 +256,13 @@ fn existence_conditions(
 ) -> Vec<Condition> {
     let response = gains.response(origin, &Forcing::new(bounds, origin, squares));
     let sup = response.sup.min(&sup_by_mean_squares(data, squares));
-    vec![
-        Condition::less("S1", "0 < a_1", data.zero(), bounds.rate.clone()),
-        Condition::at_most(
-            "S1b",
-            "min{(c/a_1) b_fe E_p, K2(a_1) b_fe r_e} <= X_p",
-            bounds.x_sup(squares),
-            bounds.x_p.clone(),
-        ),
-        Condition::at_most("S1c", "(c/a_1) b_fe r_e <= r_x", bounds.x_rms(squares), squares.x.clone()),
-        Condition::at_most("S2", "sup|e| <= E_p", sup, bounds.e_p.clone()),
-        Condition::at_most("S2b", "rms(e) <= r_e", response.rms, squares.e.clone()),
-        Condition::at_most("S2c", "rms(e') <= r_d", response.rate_rms, squares.e_rate.clone()),
-    ]
+    let least = [
+        ("(c/a_1) b_fe r_e".to_owned(), bounds.x_rms(squares)),
+        ("sup|e|".to_owned(), sup),
+        ("rms(e)".to_owned(), response.rms),
+        ("rms(e')".to_owned(), response.rate_rms),
+    ];
+    bounds.existence(data, squares, Relation::LessOrEqual, least)
 }
 
 /// (C5h), with a delay (C5d).

@@ -3,7 +3,7 @@
 use super::law::SampledLaw;
 use crate::data::Data;
 use crate::derivation::condition::Condition;
-use crate::transfer::{TradeOff, TransferStep, decide_steps};
+use crate::transfer::{TradeOff, decide_steps};
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 
@@ -30,17 +30,17 @@ impl SampledPair<'_> {
     pub fn condition(&self, data: &Data<'_>) -> Condition {
         let needs = Needs::new(data, self.law);
         let (k0, k1) = (data.rational(self.k0), data.rational(self.k1));
-        let at_zero = TransferStep { what: "1/(nu^2 n_0) <= k0".to_owned(), lhs: needs.at_zero(), rhs: k0.clone() };
+        let step =
+            |what: String, lhs, rhs| Condition::at_most("T", format!("transfer bound, sampled: {what}"), lhs, rhs);
+        let at_zero = step("1/(nu^2 n_0) <= k0".to_owned(), needs.at_zero(), k0.clone());
         let steps = (1..).zip(self.law.sines.iter()).flat_map(|(j, sine)| {
             let rhs = &k0 + &k1 * needs.square(sine);
-            let step = |what: String, lhs| TransferStep { what, lhs, rhs: rhs.clone() };
-            let own = step(format!("2/(nu^2 n_{j}) <= k0 + k1 (om_{j}/w)^2"), needs.own(j));
+            let own = step(format!("2/(nu^2 n_{j}) <= k0 + k1 (om_{j}/w)^2"), needs.own(j), rhs.clone());
             let others = needs.of_others(j, &rhs);
-            [own, step(format!("s_{j} <= k0 + k1 (om_{j}/w)^2"), others)]
+            [own, step(format!("s_{j} <= k0 + k1 (om_{j}/w)^2"), others, rhs)]
         });
-        let (truth, step) = decide_steps(std::iter::once(at_zero.clone()).chain(steps), at_zero.clone());
-        let TransferStep { what, lhs, rhs } = if truth.is_true() { at_zero } else { step };
-        Condition::at_most("T", format!("transfer bound, sampled: {what}"), lhs, rhs)
+        let (truth, found) = decide_steps(std::iter::once(at_zero.clone()).chain(steps), at_zero.clone());
+        if truth.is_true() { at_zero } else { found }
     }
 }
 

@@ -9,23 +9,9 @@ use sigmastar_exact::enclosure::{Enclosure, Truth};
 
 pub(super) fn size_rows(data: &Data<'_>, common: &Common<'_>) -> Vec<Row> {
     let k = &common.k_alpha;
-    let limit = || {
-        largest_x(data, &(k * 2)).map(|value| Entry {
-            value,
-            status: Status::Sound,
-            source: "P:prop:periodic_solution",
-        })
-    };
-    let mut rows = vec![row("x_p*", At::Data, limit(), limit(), None)];
-    let e_limit = || {
-        largest_e(data, k, &common.bounds).map(|value| Entry {
-            value,
-            status: Status::Sound,
-            source: "P:prop:periodic_solution",
-        })
-    };
-    rows.push(row("e_p*(X_p)", At::Common, e_limit(), e_limit(), None));
-    rows
+    let entry = |value| Entry { value, status: Status::Sound, source: "P:prop:periodic_solution" };
+    let [x, e] = [largest_x(data, &(k * 2)), largest_e(data, k, &common.bounds)].map(|value| value.map(entry));
+    vec![row("x_p*", At::Data, x.clone(), x, None), row("e_p*(X_p)", At::Common, e.clone(), e, None)]
 }
 
 /// Encloses the largest argument below `limit` with `holds`, for a property that is true below a threshold, by

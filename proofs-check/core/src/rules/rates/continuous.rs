@@ -18,7 +18,7 @@
 
 use super::claimed::{RULE, Rate};
 use super::noise::{added, of_states, weight};
-use super::norm::{Norm, Stored, no_part_of_x, positive};
+use super::norm::{Norm, Stored, of_x, positive};
 use crate::data::Data;
 use crate::interval::Interval;
 use crate::json::{Field, Fields};
@@ -85,12 +85,8 @@ impl<'a> Loop<'a> {
     pub fn new(d: &'a Data<'a>, error_box: &'a ErrorBox, sigma: &Rational, proof: &'a Proof) -> Outcome<Loop<'a>> {
         let pointer = proof.stored.pointer.as_str();
         let norm = Norm::new(d, &proof.stored)?;
-        match &proof.of_x {
-            Some(both) => OF_X.into_iter().zip(both).try_for_each(|(name, value)| positive(name, value, pointer))?,
-            None => no_part_of_x(&error_box.k_x, pointer)?,
-        }
+        let of_x = of_x(d, OF_X, proof.of_x.as_ref(), &error_box.k_x, pointer)?;
         norm.lies_above()?;
-        let of_x = proof.of_x.as_ref().map(|both| both.each_ref().map(|value| d.number(value)));
         Ok(Loop { d, error_box, sigma: d.number(sigma), norm, pointer, of_x })
     }
 
@@ -109,11 +105,6 @@ impl<'a> Loop<'a> {
         ends.iter().flat_map(|(gain, moved)| slopes.each_ref().map(|slope| at(gain, moved, slope))).collect()
     }
 
-    /// `(Pi A)_ij` with `delta e` as one more input: `(delta, mu b')` comes back through B.
-    fn moved(&self, i: usize, j: usize, Corner { mu, slope, .. }: &Corner) -> Interval {
-        self.norm.moved(i, j, &self.sigma, [mu, slope])
-    }
-
     /// `Pi B_v`: -Phi b has `l w sqrt(n_l)` at the second state of an oscillator.
     fn image_of_noise(&self, Corner { gain, mu, .. }: &Corner) -> Vec<Interval> {
         let b = &self.norm.b;
@@ -130,9 +121,8 @@ impl<'a> Loop<'a> {
     /// The lower triangle of the form in (y, u, xi, d, v): without u and xi where x has no part in it, and of d and v with those that have a weight.
     pub(super) fn form(&self, rate: &Interval, corner: &Corner, inputs: [Option<&Interval>; 2]) -> Vec<Vec<Interval>> {
         let order = self.norm.order();
-        let entry =
-            |i: usize, j: usize| -(self.moved(i, j, corner) + self.moved(j, i, corner) + self.norm.at(i, j) * rate * 2);
-        let mut rows: Vec<Vec<Interval>> = (0..order).map(|i| (0..=i).map(|j| entry(i, j)).collect()).collect();
+        // `delta e` is one more input: `(delta, mu b')` comes back through B.
+        let mut rows = self.norm.falls(&self.sigma, [&corner.mu, &corner.slope], rate);
         // The row of an input: `-2 y'Pi (its image) (it)`, its weight on the diagonal, and 0 between.
         let add = |rows: &mut Vec<Vec<Interval>>, image: &[Interval], weight: &Interval| {
             let mut row: Vec<Interval> = image.iter().map(|value| -value).collect();

@@ -101,7 +101,7 @@ impl Norm {
     }
 
     /// `(Pi A)_ij` with `A y = (0, -sigma e, Phi zs) + B (slope e + mu b'zs)`, `Phi = l w [0, 1; -1, 0]`.
-    pub fn moved(&self, i: usize, j: usize, sigma: &Interval, [mu, slope]: [&Interval; 2]) -> Interval {
+    fn moved(&self, i: usize, j: usize, sigma: &Interval, [mu, slope]: [&Interval; 2]) -> Interval {
         match j.checked_sub(self.of_e) {
             None => Interval::int(0, self.e_low.precision()),
             Some(0) => &self.image[i] * slope - self.at(i, j) * sigma,
@@ -114,6 +114,12 @@ impl Norm {
                 }
             }
         }
+    }
+
+    /// The lower triangle of `-(Pi A + A'Pi + 2 rate Pi)`.
+    pub fn falls(&self, sigma: &Interval, back: [&Interval; 2], rate: &Interval) -> Vec<Vec<Interval>> {
+        let moved = |i: usize, j: usize| self.moved(i, j, sigma, back);
+        self.triangle(&|i, j| -(moved(i, j) + moved(j, i) + self.at(i, j) * rate * 2))
     }
 
     fn triangle(&self, entry: &dyn Fn(usize, usize) -> Interval) -> Vec<Vec<Interval>> {
@@ -198,10 +204,20 @@ pub fn positive(name: &str, value: &Rational, pointer: &str) -> Outcome<()> {
     invalid(RULE, &format!("{pointer}/{name}"), format!("0 < {name} fails: {name} = {value}"))
 }
 
-/// That the parts for x are left out only where x has no part in e.
-pub fn no_part_of_x(k_x: &Interval, pointer: &str) -> Outcome<()> {
-    let truth = if k_x.is_zero() { Some(true) } else { k_x.is_positive().then_some(false) };
-    demand(truth, RULE, pointer, "k_x = 0, where there is no `w`")
+/// The multipliers of x by their names, enclosed: all above 0, and left out only where x has no part in e.
+pub fn of_x<const N: usize>(
+    d: &Data<'_>,
+    names: [&str; N],
+    given: Option<&[Rational; N]>,
+    k_x: &Interval,
+    pointer: &str,
+) -> Outcome<Option<[Interval; N]>> {
+    let Some(all) = given else {
+        let truth = if k_x.is_zero() { Some(true) } else { k_x.is_positive().then_some(false) };
+        return demand(truth, RULE, pointer, "k_x = 0, where there is no `w`").map(|()| None);
+    };
+    names.into_iter().zip(all).try_for_each(|(name, value)| positive(name, value, pointer))?;
+    Ok(Some(all.each_ref().map(|value| d.number(value))))
 }
 
 /// 2 to this power.

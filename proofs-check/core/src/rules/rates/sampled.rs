@@ -30,7 +30,7 @@
 use super::claimed::{RULE, Rate};
 use super::form::{Form, Linear};
 use super::noise::{Known, added, of_states, weight};
-use super::norm::{Norm, Stored, no_part_of_x, positive};
+use super::norm::{Norm, Stored, of_x, positive};
 use super::rounding::Rounding;
 use crate::interval::Interval;
 use crate::json::{Field, Fields};
@@ -142,10 +142,7 @@ impl<'a> Loop<'a> {
         let (d, pointer, n_o) = (law.d, proof.stored.pointer.as_str(), proof.stored.n_o);
         demand(Some(2 * n_o < law.samples), RULE, pointer, "n_o < samples/2")?;
         OF_SLOPES.into_iter().zip(&proof.of_slopes).try_for_each(|(name, value)| positive(name, value, pointer))?;
-        match &proof.of_x {
-            Some(all) => OF_X.into_iter().zip(all).try_for_each(|(name, value)| positive(name, value, pointer))?,
-            None => no_part_of_x(&error_box.k_x, pointer)?,
-        }
+        let of_x = of_x(d, OF_X, proof.of_x.as_ref(), &error_box.k_x, pointer)?;
         let norm = Norm::new(d, &proof.stored)?;
         norm.lies_above()?;
         let turn = |l: u32| {
@@ -156,7 +153,7 @@ impl<'a> Loop<'a> {
             step: Step::new(law, error_box, pointer)?,
             turns: (0..=n_o).map(turn).collect(),
             of_slopes: proof.of_slopes.each_ref().map(|value| d.number(value)),
-            of_x: proof.of_x.as_ref().map(|all| all.each_ref().map(|value| d.number(value))),
+            of_x,
             law,
             error_box,
             norm,

@@ -168,9 +168,7 @@ impl Loop {
     fn form(&self, rate: &Interval, end: &[Interval; 2]) -> Vec<Vec<Interval>> {
         let Loop { sigma, norm, parts } = self;
         let (order, of_e) = (norm.order(), norm.of_e);
-        let moved = |i: usize, j: usize| norm.moved(i, j, sigma, end.each_ref());
-        let falls = |i: usize, j: usize| -(moved(i, j) + moved(j, i) + norm.at(i, j) * rate * 2);
-        let mut rows: Vec<Vec<Interval>> = (0..order).map(|i| (0..=i).map(|j| falls(i, j)).collect()).collect();
+        let mut rows = norm.falls(sigma, end.each_ref(), rate);
         for Part { first, q, g, h } in parts {
             for (own, taken) in rows[*first..].iter_mut().zip(q) {
                 own[*first..].iter_mut().zip(taken).for_each(|(entry, value)| *entry = &*entry - value);

@@ -21,7 +21,7 @@ use super::law::{Law, Terms};
 use crate::interval::Interval;
 use crate::json::Field;
 use crate::matrix::Matrix;
-use crate::rules::inequality::{number, symmetric};
+use crate::rules::inequality::{above_0, place, symmetric};
 use crate::rules::metric::Answer;
 use crate::verdict::Outcome;
 use rug::Rational;
@@ -68,19 +68,10 @@ impl Stability {
     /// Reads the part `matrix_inequality`; the weights are those of the witness that it is a part of.
     pub fn read(field: &Field<'_>, [w_x, eta]: [&Rational; 2]) -> Outcome<Stability> {
         field.object(|fields| {
-            let [x, e] = [number(fields, "X", false)?, number(fields, "E", false)?];
-            let mut above_0 = |name| number(fields, name, true);
-            Ok(Stability {
-                lambda: above_0("lambda")?,
-                rate: above_0("rate")?,
-                c_e: above_0("c_e")?,
-                c_y: above_0("c_y")?,
-                w_x: w_x.clone(),
-                eta: eta.clone(),
-                pointer: field.pointer.clone(),
-                x,
-                e,
-            })
+            let [x, e] = place(fields)?;
+            let [lambda, rate, c_e, c_y] = above_0(fields, ["lambda", "rate", "c_e", "c_y"])?;
+            let [w_x, eta] = [w_x, eta].map(Rational::clone);
+            Ok(Stability { pointer: field.pointer.clone(), x, e, lambda, rate, c_e, c_y, w_x, eta })
         })
     }
 }
@@ -89,21 +80,11 @@ impl Existence {
     /// Reads the part `existence_inequality`.
     pub fn read(field: &Field<'_>) -> Outcome<Existence> {
         field.object(|fields| {
-            let [x, e] = [number(fields, "X", false)?, number(fields, "E", false)?];
+            let [x, e] = place(fields)?;
             let p = symmetric(&fields.required("P")?)?;
-            let mut above_0 = |name| number(fields, name, true);
-            Ok(Existence {
-                k_p: above_0("k_p")?,
-                lambda: above_0("lambda")?,
-                c_x: above_0("c_x")?,
-                c_e: above_0("c_e")?,
-                c_y: above_0("c_y")?,
-                gamma: above_0("gamma")?,
-                pointer: field.pointer.clone(),
-                x,
-                e,
-                p,
-            })
+            let names = ["k_p", "lambda", "c_x", "c_e", "c_y", "gamma"];
+            let [k_p, lambda, c_x, c_e, c_y, gamma] = above_0(fields, names)?;
+            Ok(Existence { pointer: field.pointer.clone(), x, e, p, k_p, lambda, c_x, c_e, c_y, gamma })
         })
     }
 

@@ -1,7 +1,7 @@
-use super::super::bound::{SampledRateBound, bound};
+use super::super::bound::bound;
 use super::*;
 use crate::certify::{Ladder, certify_sampled};
-use crate::rate::bound::Place;
+use crate::rate::bound::{Place, RateBound};
 use sigmastar_lang::spec::Specification;
 use sigmastar_theory::derivation::initial_set::claimed_distances;
 
@@ -161,7 +161,7 @@ fn what_is_not_positive_definite_is_not_proved() {
     let distances = claimed_distances(&data, &proof.witness.set, periodic);
     let place = Place { sigma: &gain, error_box: &evaluation.error_box, distances: distances.each_ref() };
     let found = bound(&data, &evaluation.law, &place, 2).expect("a rate");
-    let SampledRateBound { witness, rate, .. } = found;
+    let RateBound { proof: witness, rate, .. } = found;
     assert!(rate > 0);
     let bounds = LoopBounds::of_error(&data, &evaluation.error_box).expect("bounded");
     let proves = |n_o: u32, sigma: &Rational, bounds: &LoopBounds, witness: &SampledRateWitness| {

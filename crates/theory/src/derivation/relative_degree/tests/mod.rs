@@ -178,6 +178,23 @@ fn the_printed_order_is_another_polynomial() {
     assert!(!is_hurwitz(&a));
     let a = integers(&[1, 1, 10]);
     assert!(is_hurwitz(&a) && printed_polynomial(&a).is_err());
+    for (a, expected) in [
+        (&[1][..], true),
+        (&[-1], false),
+        (&[0], false),
+        (&[1, 1], true),
+        (&[0, 1], false),
+        // (s^2 + 1)(s + 1) has zeros on the axis.
+        (&[1, 1, 1], false),
+        // (s+1)^4 and (s+1)^5.
+        (&[4, 6, 4, 1], true),
+        (&[5, 10, 10, 5, 1], true),
+        // (s^2 - s + 1)(s+3)^2, all coefficients nonnegative.
+        (&[5, 4, -3, 9], false),
+        (&[1, 2, 3, 4], false),
+    ] {
+        assert_eq!(printed_polynomial(&integers(a)).is_ok(), expected, "{a:?}");
+    }
 }
 
 #[test]
