@@ -56,17 +56,6 @@ struct Shapes {
     ldvt: usize,
 }
 
-impl Shapes {
-    /// The checked shapes, where `A` is argument `position`.
-    fn check([m, n]: [c_int; 2], [lda, ldu, ldvt]: [c_int; 3], position: c_int) -> Checked<Shapes> {
-        let (m, n) = (dim(m, position - 2)?, dim(n, position - 1)?);
-        let lda = leading(lda, m, position + 1)?;
-        let ldu = leading(ldu, m, position + 4)?;
-        let ldvt = leading(ldvt, m.min(n), position + 6)?;
-        Ok(Shapes { m, n, lda, ldu, ldvt })
-    }
-}
-
 /// Runs the decomposition and gives the `info`, where `A` is argument `position`.
 ///
 /// # Safety
@@ -91,32 +80,6 @@ unsafe fn run(matrices: Matrices, shapes: Shapes, position: c_int) -> c_int {
         // `m` and `n` came from 32-bit integers.
         Some(Err(Failure::NoConvergence)) | None => k as c_int,
     }
-}
-
-/// Writes the size of the workspace and the `info`, and unless only that size is asked for runs the decomposition, where `A` is
-/// argument `position`.
-///
-/// # Safety
-///
-/// As for [`run`], and `work` and `info` are writable.
-unsafe fn respond(
-    checked: Checked<(Shapes, f64, bool)>,
-    matrices: Matrices,
-    position: c_int,
-    work: *mut f64,
-    info: *mut c_int,
-) {
-    let outcome = match checked {
-        Ok((shapes, size, query)) => {
-            // SAFETY: `work` has a writable element by contract.
-            unsafe { *work = size };
-            // SAFETY: the shapes are checked and the rest is the caller's promise.
-            if query { 0 } else { unsafe { run(matrices, shapes, position) } }
-        }
-        Err(illegal) => illegal,
-    };
-    // SAFETY: `info` is writable by contract.
-    unsafe { *info = outcome };
 }
 
 /// The thin singular value decomposition `A = U * diag(s) * VT` of an `m` x `n` matrix, with
@@ -159,14 +122,30 @@ pub unsafe extern "C" fn dgesdd_(
     let (ldu, ldvt, lwork) = unsafe { (*ldu, *ldvt, *lwork) };
     let check = || {
         only(jobz, b'S', 1)?;
-        let shapes = Shapes::check([m, n], [lda, ldu, ldvt], 4)?;
-        let k = shapes.m.min(shapes.n) as f64;
+        let (m, n) = (dim(m, 2)?, dim(n, 3)?);
+        let lda = leading(lda, m, 5)?;
+        let ldu = leading(ldu, m, 8)?;
+        let ldvt = leading(ldvt, m.min(n), 10)?;
+        let k = m.min(n) as f64;
         let size = (4.0 * k * k + 7.0 * k).max(1.0);
         let query = workspace(lwork, size, 12)?;
-        Ok((shapes, size, query))
+        Checked::Ok((Shapes { m, n, lda, ldu, ldvt }, size, query))
     };
-    // SAFETY: the rest is the caller's promise.
-    unsafe { respond(check(), Matrices { a, s, u, vt }, 4, work, info) };
+    let outcome = match check() {
+        Ok((shapes, size, query)) => {
+            // SAFETY: `work` has a writable element by contract.
+            unsafe { *work = size };
+            if query {
+                0
+            } else {
+                // SAFETY: the shapes are checked and the rest is the caller's promise.
+                unsafe { run(Matrices { a, s, u, vt }, shapes, 4) }
+            }
+        }
+        Err(illegal) => illegal,
+    };
+    // SAFETY: `info` is writable by contract.
+    unsafe { *info = outcome };
 }
 
 /// The same decomposition as [`dgesdd_`], with other arguments.
@@ -205,12 +184,28 @@ pub unsafe extern "C" fn dgesvd_(
     let check = || {
         only(jobu, b'S', 1)?;
         only(jobvt, b'S', 2)?;
-        let shapes = Shapes::check([m, n], [lda, ldu, ldvt], 5)?;
-        let (low, high) = (shapes.m.min(shapes.n) as f64, shapes.m.max(shapes.n) as f64);
+        let (m, n) = (dim(m, 3)?, dim(n, 4)?);
+        let lda = leading(lda, m, 6)?;
+        let ldu = leading(ldu, m, 9)?;
+        let ldvt = leading(ldvt, m.min(n), 11)?;
+        let (low, high) = (m.min(n) as f64, m.max(n) as f64);
         let size = (3.0 * low + high).max(5.0 * low).max(1.0);
         let query = workspace(lwork, size, 13)?;
-        Ok((shapes, size, query))
+        Checked::Ok((Shapes { m, n, lda, ldu, ldvt }, size, query))
     };
-    // SAFETY: the rest is the caller's promise.
-    unsafe { respond(check(), Matrices { a, s, u, vt }, 5, work, info) };
+    let outcome = match check() {
+        Ok((shapes, size, query)) => {
+            // SAFETY: `work` has a writable element by contract.
+            unsafe { *work = size };
+            if query {
+                0
+            } else {
+                // SAFETY: the shapes are checked and the rest is the caller's promise.
+                unsafe { run(Matrices { a, s, u, vt }, shapes, 5) }
+            }
+        }
+        Err(illegal) => illegal,
+    };
+    // SAFETY: `info` is writable by contract.
+    unsafe { *info = outcome };
 }
