@@ -1,7 +1,6 @@
 //! A certificate in the place of the specification or plant that it embeds.
 
-use crate::support::{ROOT, json, program, utf8};
-use assert_cmd::Command;
+use crate::support::{ROOT, json, program, sigmastar, utf8};
 use predicates::prelude::*;
 use predicates::str::{contains, is_empty};
 use serde_json::Value;
@@ -11,12 +10,6 @@ use tempfile::TempDir;
 
 const SPECIFICATION: &str = "specs/linear.json";
 const OF_SPECIFICATION: &str = "proofs-check/tests/certificates/linear.sharp.json";
-
-fn sigmastar(arguments: &[&str]) -> Command {
-    let mut command = program();
-    command.args(arguments);
-    command
-}
 
 /// The certificate of a shipped plant, made once for a test.
 fn of_plant(folder: &TempDir, name: &str, flags: &[&str]) -> (String, Value) {

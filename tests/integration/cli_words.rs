@@ -1,19 +1,12 @@
 //! What a first user runs into: how wrong calls and wrong files are told.
 
-use crate::support::{EXAMPLE, EXAMPLE_TEXT, PLANT, ROOT, json, program, utf8};
-use assert_cmd::Command;
+use crate::support::{EXAMPLE, EXAMPLE_TEXT, PLANT, ROOT, json, sigmastar, utf8};
 use predicates::prelude::*;
 use predicates::str::{contains, is_empty};
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
 use tempfile::TempDir;
-
-fn sigmastar(arguments: &[&str]) -> Command {
-    let mut command = program();
-    command.args(arguments);
-    command
-}
 
 /// The example with other text in the place of some of its text.
 fn example(changes: &[(&str, &str)]) -> String {

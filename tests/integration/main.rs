@@ -28,6 +28,7 @@ mod errata_data;
 mod errata_list;
 mod expr_properties;
 mod expr_prove;
+mod falsify;
 mod families_random;
 mod first_use;
 mod formats;

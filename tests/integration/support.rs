@@ -30,6 +30,13 @@ pub fn program() -> Command {
     command
 }
 
+/// The same with these arguments.
+pub fn sigmastar(arguments: &[&str]) -> Command {
+    let mut command = program();
+    command.args(arguments);
+    command
+}
+
 /// The program, in the root, for tests that need its streams or its process.
 pub fn process() -> std::process::Command {
     let mut process = std::process::Command::new(assert_cmd::cargo::cargo_bin("sigmastar"));

@@ -39,6 +39,12 @@ fn certified(folder: &Path, file: &Value, step: &str) -> (PathBuf, PathBuf, Valu
     (plant, certificate, json(&output.get_output().stdout))
 }
 
+/// The exit code of a file that is decided again with the witness of a certificate.
+fn again(certificate: &Path, file: &Path) -> Option<i32> {
+    let call = ["certify", "-q", "--no-compare", "--witness"];
+    program().args(call).arg(certificate).arg(file).output().unwrap().status.code()
+}
+
 fn shipped(name: &str, gain: &Value) -> Value {
     serde_json::from_str(&text(name, gain)).unwrap()
 }
@@ -136,10 +142,7 @@ fn the_claim_and_the_report_say_so() {
     let expected = "for every number of oscillators n_o < 200/2 and every phase of the sampling grid and every input gain in [1.8, 2.5] (one \
                     constant; the regulator divides by the nominal 2), with period T = 1, ";
     assert!(statement.contains(expected), "{statement}");
-    let again = |file: &Path| {
-        program().args(["certify", "-q", "--no-compare", "--witness"]).arg(&certificate).arg(file).output().unwrap()
-    };
-    assert_eq!(again(&input).status.code(), Some(0));
+    assert_eq!(again(&certificate, &input), Some(0));
     let said = utf8(program().arg("certify").arg(&input).args(["--sampling-period", "1/200"]).output().unwrap().stdout);
     let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(said.contains("input gain: any constant from 1.8 to 2.5; the regulator divides by 2"), "{said}");
@@ -179,14 +182,7 @@ fn plants_are_certified_for_every_gain_of_the_interval() {
         let mut file = shipped("plants/motor-axis", gain);
         file["internal_model"]["sampling_period"] = more.into();
         std::fs::write(&other, file.to_string()).unwrap();
-        program()
-            .args(["certify", "-q", "--no-compare", "--witness"])
-            .arg(&certificate)
-            .arg(&other)
-            .output()
-            .unwrap()
-            .status
-            .code()
+        again(&certificate, &other)
     };
     assert_eq!(of(&gain("1", "0.9", "1.1"), "1/10000"), Some(0));
     assert_eq!(of(&gain("5", "4.5", "5.5"), "1/10000"), Some(0));
@@ -231,22 +227,15 @@ fn families_are_certified_at_samples() {
     );
     assert_eq!(written["claim"]["parameters"]["c"], object!({ "nominal": "150", "low": "145", "high": "155" }));
     // Decided again; of a wider family it is no witness.
-    let again = |plant: &Value| {
+    let of = |plant: &Value| {
         let mut plant = plant.clone();
         plant["internal_model"]["sampling_period"] = "1/10000".into();
         let other = folder.path().join("other.json");
         std::fs::write(&other, plant.to_string()).unwrap();
-        program()
-            .args(["certify", "-q", "--no-compare", "--witness"])
-            .arg(&certificate)
-            .arg(&other)
-            .output()
-            .unwrap()
-            .status
-            .code()
+        again(&certificate, &other)
     };
-    assert_eq!(again(&file), Some(0));
-    assert_ne!(again(&family(["100", "200"], Some(gain("2", "1.9", "2.1")))), Some(0));
+    assert_eq!(of(&file), Some(0));
+    assert_ne!(of(&family(["100", "200"], Some(gain("2", "1.9", "2.1")))), Some(0));
     let trials = program().arg("falsify").arg(&certificate).args(["-q", "--format", "json", "--trials", "9"]).output();
     let trials = json(&trials.unwrap().stdout);
     assert_eq!(trials["refuted"], false);

@@ -1,0 +1,276 @@
+//! `sigmastar falsify` from the command line.
+
+use crate::support::{every, json, sigmastar, specification_text};
+use predicates::prelude::*;
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::sync::{Mutex, PoisonError};
+
+/// The certificate that the program writes for a shipped specification, made once.
+fn certificate(name: &str) -> Value {
+    static MADE: Mutex<BTreeMap<String, Value>> = Mutex::new(BTreeMap::new());
+    let mut made = MADE.lock().unwrap_or_else(PoisonError::into_inner);
+    let make = || {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("certificate.json");
+        let call = ["certify", &format!("specs/{name}.json"), "--no-compare", "-q", "-o"];
+        sigmastar(&call).arg(&file).assert().success();
+        json(&std::fs::read(file).unwrap())
+    };
+    made.entry(name.to_owned()).or_insert_with(make).clone()
+}
+
+/// Runs `falsify` on a certificate and returns the exit code, the report and the counterexample, if one was written.
+fn falsify(certificate: &Value, folder: &Path, trials: &str, more: &[&str]) -> (i32, Value, Option<String>) {
+    let file = folder.join("tried.json");
+    let counterexample = folder.join("counterexample.json");
+    std::fs::write(&file, certificate.to_string()).unwrap();
+    let _ = std::fs::remove_file(&counterexample);
+    let mut command = sigmastar(&["falsify", "--trials", trials, "--format", "json", "--quiet", "-o"]);
+    let output = command.arg(&counterexample).arg(&file).args(more).output().unwrap();
+    let report = json(&output.stdout);
+    (output.status.code().unwrap(), report, std::fs::read_to_string(counterexample).ok())
+}
+
+#[test]
+fn shipped_certificates_withstand_the_trials() {
+    for name in ["paper-example", "linear", "no-x", "paper-example-jacobian"] {
+        let folder = tempfile::tempdir().unwrap();
+        let (code, report, counterexample) = falsify(&certificate(name), folder.path(), "4", &[]);
+        assert_eq!((code, counterexample), (0, None), "{name}: {report}");
+        let trials = report["trials"].as_array().unwrap();
+        assert!(trials.len() == 4 && trials.iter().all(|trial| trial["finding"] == "holds"), "{name}: {report}");
+    }
+}
+
+/// Only F = -20 has the rate 20 within |f| <= 20 X: no other plant fits.
+fn tight() -> Value {
+    let mut spec: Value = serde_json::from_str(&specification_text("linear")).unwrap();
+    spec["lyapunov"] = serde_json::json!({ "p_low": "1", "p_up": "1", "alpha": "20" });
+    for (field, text) in [("f", "20*X + 2000*E"), ("f_e", "2000"), ("q", "1 + X/1000 + E/4"), ("q_x", "1/1000")] {
+        spec["bounds"][field] = Value::String(text.to_owned());
+    }
+    spec
+}
+
+fn certified(spec: &Value, folder: &Path) -> Value {
+    let (file, certificate) = (folder.join("spec.json"), folder.join("certificate.json"));
+    std::fs::write(&file, spec.to_string()).unwrap();
+    let mut command = sigmastar(&["certify", "--no-compare", "-q", "-o"]);
+    command.arg(&certificate).arg(&file).assert().success();
+    serde_json::from_slice(&std::fs::read(certificate).unwrap()).unwrap()
+}
+
+#[test]
+fn a_tight_f_leaves_its_linear_member() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut certificate = certified(&tight(), folder.path());
+    let (code, report, _) = falsify(&certificate, folder.path(), "3", &[]);
+    let trials = report["trials"].as_array().unwrap();
+    assert!(code == 0 && trials.iter().all(|trial| trial["finding"] == "holds"), "{report}");
+    // What it is, from a claim that is false.
+    certificate["claim"]["periodic_solution"]["z"] = Value::String("1/1000".to_owned());
+    let (code, report, counterexample) = falsify(&certificate, folder.path(), "1", &[]);
+    assert_eq!(code, 1, "{report}");
+    let plant: Value = serde_json::from_str(&counterexample.unwrap()).unwrap();
+    let (f, q) = (plant["f"][0].as_str().unwrap(), plant["q"].as_str().unwrap());
+    assert!(f.starts_with("(-(20))*x1 + e*1*((2000.0)"), "{f}");
+    assert!(q.contains("(0.25)*1*e") && q.contains("((0.001)"), "{q}");
+}
+
+/// Loops at gains of millions are simulated too.
+#[test]
+fn stiff_trials_come_to_their_end() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut spec: Value = serde_json::from_str(&specification_text("linear")).unwrap();
+    spec["bounds"]["f"] = Value::String("20*X + 2e6*E".to_owned());
+    spec["bounds"]["f_e"] = Value::String("2e6".to_owned());
+    let (code, report, counterexample) = falsify(&certified(&spec, folder.path()), folder.path(), "2", &[]);
+    assert_eq!((code, counterexample), (0, None), "{report}");
+    let trials = report["trials"].as_array().unwrap();
+    assert!(trials.iter().all(|trial| trial["finding"] == "holds"), "{report}");
+}
+
+#[test]
+fn other_base_frequencies_are_certified_and_tried() {
+    let folder = tempfile::tempdir().unwrap();
+    let more = ["--base-frequency", "19*pi/10,2*pi"];
+    let (code, report, _) = falsify(&certificate("no-x"), folder.path(), "3", &more);
+    assert_eq!(code, 0, "{report}");
+    let others = report["other_base_frequencies"].as_array().unwrap();
+    assert_eq!(others.len(), 2);
+    for other in others {
+        let shares = other["trials"][0]["shares"].as_array().unwrap();
+        let by_n_o = shares.iter().find(|share| share["quantity"] == "rms(e) against its bound for this n_o");
+        assert!(by_n_o.is_some_and(|share| share["share"].as_f64().unwrap() < 1.0), "{other}");
+    }
+    assert!(others[0]["sigma_star"].as_f64().unwrap() > others[1]["sigma_star"].as_f64().unwrap());
+    for (frequencies, message) in [("0", "must be positive"), ("2*pi,", "is empty"), ("pi+", "more is needed")] {
+        let file = folder.path().join("tried.json");
+        let arguments = ["falsify", "--base-frequency", frequencies];
+        sigmastar(&arguments).arg(&file).assert().code(2).stdout("").stderr(predicate::str::contains(message));
+    }
+}
+
+/// The simulation that the description of a counterexample names.
+fn simulated_again(counterexample: &str, more: &[&str]) -> Value {
+    let plant: Value = serde_json::from_str(counterexample).unwrap();
+    let description = plant["description"].as_str().unwrap();
+    let words: Vec<&str> = description.split_whitespace().collect();
+    let after = |flag: &str| words[words.iter().position(|word| *word == flag).unwrap() + 1].trim_end_matches('.');
+    let arguments = ["simulate", "-", "--sigma", after("--sigma"), "--n-o", after("--n-o"), "--format", "json", "-q"];
+    let output = sigmastar(&arguments).args(more).write_stdin(counterexample).output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{counterexample}");
+    json(&output.stdout)
+}
+
+#[test]
+fn false_certificates_are_refuted_with_a_counterexample() {
+    for (name, pointer, value, quantity) in [
+        // A gain that is far too small, and nothing else wrong: sigma*/50 and less.
+        ("paper-example", "/claim/sigma_star", "9/10", "|e - e_p| on the way, against D_e"),
+        ("no-x", "/claim/sigma_star", "1/230", "|e - e_p| on the way, against D_e"),
+        ("linear", "/claim/sigma_star", "1/50", "Lyapunov function on the way, against its start"),
+        // A periodic solution far smaller than it is.
+        ("no-x", "/witness/E_p", "0.002", "sup|e| of the periodic solution"),
+        ("no-x", "/claim/periodic_solution/zeta", "1/10", "sup|zeta|_N of the periodic solution"),
+        ("no-x", "/claim/periodic_solution/z", "1/10", "sup|z|_N of the periodic solution"),
+        // An initial set that the error box does not hold.
+        ("linear", "/claim/initial_set/X0", "99", "against D_x"),
+        // An error box that solutions leave.
+        ("no-x", "/witness/D_e", "1/100", "against D_e"),
+    ]
+    .into_iter()
+    .step_by(every(3))
+    {
+        let folder = tempfile::tempdir().unwrap();
+        let mut altered = certificate(name);
+        *altered.pointer_mut(pointer).unwrap() = Value::String(value.to_owned());
+        let (code, report, counterexample) = falsify(&altered, folder.path(), "8", &[]);
+        assert_eq!(code, 1, "{pointer}: {report}");
+        assert_eq!(report["refuted"], true);
+        let counterexample = counterexample.expect(pointer);
+        assert!(counterexample.contains(quantity), "{pointer}: {counterexample}");
+        let again = simulated_again(&counterexample, &["--periods", "2"]);
+        let steady = again["steady_state"]["sup_e"].as_f64().unwrap();
+        assert!(pointer != "/witness/E_p" || steady > 0.002, "{again}");
+    }
+}
+
+/// Optional data: no plant that they exclude is held against a certificate, and too small a gain is still found.
+#[test]
+fn certificates_with_optional_data_withstand_the_trials_and_false_ones_do_not() {
+    for (name, too_small, quantity) in [
+        ("motor-axis-friction", "200", "Lyapunov function on the way, against its start"),
+        ("paper-example-harmonics-at-rest", "1/4", "Lyapunov function on the way, against its start"),
+    ]
+    .into_iter()
+    .step_by(every(2))
+    {
+        let folder = tempfile::tempdir().unwrap();
+        let mut certificate = certificate(name);
+        let (code, report, counterexample) = falsify(&certificate, folder.path(), "12", &[]);
+        let trials = report["trials"].as_array().unwrap();
+        assert_eq!((code, counterexample), (0, None), "{name}: {report}");
+        assert!(trials.iter().all(|trial| trial["finding"] == "holds"), "{name}: {report}");
+        certificate["claim"]["sigma_star"] = Value::String(too_small.to_owned());
+        let (code, report, counterexample) = falsify(&certificate, folder.path(), "20", &[]);
+        assert_eq!(code, 1, "{name}: {report}");
+        assert!(counterexample.unwrap().contains(quantity), "{name}: {report}");
+    }
+}
+
+#[test]
+fn a_fast_plant_breaks_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let (code, report, counterexample) = falsify(&certificate("motor-axis"), folder.path(), "20", &[]);
+    assert_eq!((code, counterexample), (0, None), "{report}");
+    assert!(report["trials"].as_array().unwrap().iter().all(|trial| trial["finding"] == "holds"), "{report}");
+}
+
+/// The worst plant is in the report, `--trial` writes the same, and its simulation is that of the trial.
+#[test]
+fn the_worst_plant_is_named_and_can_be_simulated_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let certificate = certificate("linear");
+    let (code, report, _) = falsify(&certificate, folder.path(), "6", &["--seed", "3"]);
+    assert_eq!(code, 0, "{report}");
+    let worst = &report["worst"];
+    let number = worst["trial"].as_u64().unwrap();
+    let trials = report["trials"].as_array().unwrap();
+    for closest in report["closest"].as_array().unwrap() {
+        let share = |trial: &Value| {
+            let shares = trial["shares"].as_array().unwrap();
+            shares.iter().find(|share| share["quantity"] == closest["quantity"]).unwrap()["share"].as_f64().unwrap()
+        };
+        let largest = trials.iter().map(share).fold(0.0, f64::max);
+        assert_eq!(share(&trials[closest["trial"].as_u64().unwrap() as usize - 1]), largest);
+        assert_eq!(closest["share"], largest);
+        let general = ["largest Floquet multiplier", "Lyapunov function on the way, against its start"];
+        assert!(general.iter().any(|name| closest["quantity"] == *name) || worst["share"].as_f64().unwrap() >= largest);
+    }
+    let (tried, plant) = (folder.path().join("tried.json"), folder.path().join("plant.json"));
+    let mut command = sigmastar(&["falsify", "--seed", "3", "--trial", &number.to_string(), "-o"]);
+    let output = command.arg(&plant).arg(&tried).output().unwrap();
+    assert_eq!(output.status.code(), Some(0));
+    let (text, remark) = (String::from_utf8(output.stdout).unwrap(), String::from_utf8(output.stderr).unwrap());
+    assert!(text.contains(&format!("Trial {number}, sigma = ")) && text.contains("The worst plant"), "{text}");
+    assert!(remark.contains("the plant is in"), "{remark}");
+    let written = std::fs::read_to_string(plant).unwrap();
+    assert_eq!(json(written.as_bytes()), worst["plant"]);
+    let again = simulated_again(&written, &["--periods", "2"]);
+    let bound: f64 = certificate["claim"]["periodic_solution"]["e"].as_str().unwrap().parse().unwrap();
+    let by_trial = trials[number as usize - 1]["shares"].as_array().unwrap();
+    let of = by_trial.iter().find(|share| share["quantity"] == "sup|e| of the periodic solution").unwrap();
+    let [again, then] = [again["steady_state"]["sup_e"].as_f64().unwrap() / bound, of["share"].as_f64().unwrap()];
+    assert!((again - then).abs() <= 1e-3 * then + 1e-9 && then <= 1.0, "{again} {then}");
+    // Only one of these makes sense.
+    let both = ["falsify", "--trial", "1", "--trials", "2"];
+    sigmastar(&both).arg(&tried).assert().code(2).stdout("");
+}
+
+/// What the guide tells a user to do: the samples of a counterexample show the violation.
+#[test]
+fn a_counterexample_can_be_seen_in_its_samples() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut altered = certificate("no-x");
+    altered["claim"]["sigma_star"] = Value::String("1/230".to_owned());
+    let radius: f64 = altered["witness"]["D_e"].as_str().unwrap().parse().unwrap();
+    let (_, report, counterexample) = falsify(&altered, folder.path(), "8", &[]);
+    let found = report["trials"].as_array().unwrap().iter().find(|trial| trial["finding"] == "violated").unwrap();
+    let csv = folder.path().join("samples.csv");
+    let again = simulated_again(
+        &counterexample.unwrap(),
+        &["--periods", "12", "--samples", "4096", "--csv", csv.to_str().unwrap()],
+    );
+    let text = std::fs::read_to_string(csv).unwrap();
+    let e = text.lines().skip(1).map(|line| line.split(',').nth(1).unwrap().parse::<f64>().unwrap().abs());
+    let largest = e.fold(0.0, f64::max);
+    let periodic = again["steady_state"]["sup_e"].as_f64().unwrap();
+    let distance = found["found"].as_f64().unwrap();
+    assert!(
+        radius < distance && (largest - distance).abs() <= periodic * 1.001 + 1e-12 * distance,
+        "{largest} {distance} {periodic}"
+    );
+}
+
+#[test]
+fn a_triple_that_is_not_proved_draws_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut altered = certificate("paper-example-jacobian");
+    altered["witness"]["lyapunov"]["alpha"] = Value::String("2".to_owned());
+    let file = folder.path().join("altered.json");
+    std::fs::write(&file, altered.to_string()).unwrap();
+    let assert = sigmastar(&["falsify", "--trials", "1"]).arg(&file).assert();
+    assert.code(2).stdout("").stderr(predicate::str::contains("this triple is not proved"));
+}
+
+#[test]
+fn what_is_no_certificate_is_refused() {
+    sigmastar(&["falsify", "specs/linear.json"])
+        .assert()
+        .code(2)
+        .stdout("")
+        .stderr(predicate::str::contains("this is a file of format `sigmastar/bounding-spec`"));
+}
