@@ -59,7 +59,7 @@ pub(super) fn section(spec: &Specification, set: Option<&ClaimedSet>) -> Vec<Blo
     };
     blocks.push(Block::says(format!("The bounds that the conditions use, for {where_} and every t:")));
     let mut table = Table::new(titles);
-    for ProvedValue { bound, x, e, value, .. } in spec.bounds.proved_values().entries() {
+    for ProvedValue { bound, x, e, value, .. } in &spec.bounds.proved_values().entries {
         // Without states those of f, and of derivatives by x, are of nothing.
         if spec.state_name().is_none() && bound.is_of_state() {
             continue;
@@ -71,7 +71,7 @@ pub(super) fn section(spec: &Specification, set: Option<&ClaimedSet>) -> Vec<Blo
         table.push(names.into_iter().chain(arguments).chain([exact(value, direction)]));
     }
     blocks.push(Block::Table(table));
-    blocks.extend(spec.bounds.proved_values().inequality().map(|inequality| {
+    blocks.extend(spec.bounds.proved_values().inequality.as_ref().map(|inequality| {
         let where_ = inequality.arguments().map(|ends| place(spec, ends));
         let [states, error] = &where_;
         let place = match inequality.splitting {
@@ -84,7 +84,7 @@ pub(super) fn section(spec: &Specification, set: Option<&ClaimedSet>) -> Vec<Blo
             exact(&inequality.value, Direction::Up)
         ))
     }));
-    blocks.extend(spec.bounds.proved_values().existence().map(|existence| {
+    blocks.extend(spec.bounds.proved_values().existence.as_ref().map(|existence| {
         let ExistenceInequality { x, e, k_p, c_y, value, .. } = existence;
         let place = place(spec, [x, e]);
         Block::says(format!(
@@ -95,7 +95,7 @@ pub(super) fn section(spec: &Specification, set: Option<&ClaimedSet>) -> Vec<Blo
             exact(&Rational::from(k_p / c_y), Direction::Up)
         ))
     }));
-    let joint = spec.bounds.proved_values().joint_existence();
+    let joint = spec.bounds.proved_values().joint_existence.as_ref();
     blocks.extend(joint.map(|joint| {
         let most = joint.metrics().map(|metric| Rational::from(&metric.k_p / &metric.c_y)).into_iter().max();
         Block::says(format!(
@@ -107,7 +107,7 @@ pub(super) fn section(spec: &Specification, set: Option<&ClaimedSet>) -> Vec<Blo
             exact(&most.unwrap_or_default(), Direction::Up)
         ))
     }));
-    let joint = spec.bounds.proved_values().joint_stability();
+    let joint = spec.bounds.proved_values().joint_stability.as_ref();
     blocks.extend(joint.map(|JointStability { inequality, .. }| {
         Block::says(format!(
             "Stability rests on the joint inequality (Jm) over the derivatives (section 13.7), whose two metrics of (y, e) serve \
@@ -133,7 +133,7 @@ fn cut(plant: &OfPlant) -> Option<Block> {
 
 /// The matrix inequalities of the regulator at samples.
 fn at_samples(spec: &Specification) -> Vec<Block> {
-    let SampledInequalities { stability, existence } = spec.bounds.proved_values().sampled();
+    let SampledInequalities { stability, existence } = &spec.bounds.proved_values().at_samples;
     let of_stability = stability.iter().map(|SampledInequality { x, e, .. }| {
         Block::says(format!(
             "Stability rests on the matrix inequality (Ms) over the derivatives (section 13.7) in the place of C5h, at this gain and \
@@ -257,7 +257,7 @@ pub(super) fn plant_json(spec: &Specification, set: Option<&ClaimedSet>) -> Valu
     let values: Vec<Value> = spec
         .bounds
         .proved_values()
-        .entries()
+        .entries
         .iter()
         .map(|entry| {
             json!({
@@ -275,7 +275,7 @@ pub(super) fn plant_json(spec: &Specification, set: Option<&ClaimedSet>) -> Valu
         },
         "cells": plant.cells.len(), "cells_because": plant.why_cut,
         "alpha": plant.triple.alpha.text, "ball": ball.as_ref().map(write_exact), "bounds": values,
-        "matrix_inequality": spec.bounds.proved_values().inequality().map(|inequality| {
+        "matrix_inequality": spec.bounds.proved_values().inequality.as_ref().map(|inequality| {
             let MatrixInequality { x, e, w_x, h, rate, value, splitting } = inequality;
             json!({
                 "X": write_exact(x), "E": write_exact(e), "w_x": write_exact(w_x), "h": write_exact(h),
@@ -285,14 +285,14 @@ pub(super) fn plant_json(spec: &Specification, set: Option<&ClaimedSet>) -> Valu
                 }),
             })
         }),
-        "existence_inequality": spec.bounds.proved_values().existence().map(|existence| {
+        "existence_inequality": spec.bounds.proved_values().existence.as_ref().map(|existence| {
             let ExistenceInequality { x, e, matrix, k_p, c_x, c_y, value } = existence;
             json!({
                 "X": write_exact(x), "E": write_exact(e), "P": rows(matrix), "k_p": write_exact(k_p),
                 "c_x": write_exact(c_x), "c_y": write_exact(c_y), "sigma": write_exact(value),
             })
-        }).or_else(|| spec.bounds.proved_values().joint_existence().map(joint_existence_json)),
-        "joint_inequality": spec.bounds.proved_values().joint_stability().map(joint_stability_json),
+        }).or_else(|| spec.bounds.proved_values().joint_existence.as_ref().map(joint_existence_json)),
+        "joint_inequality": spec.bounds.proved_values().joint_stability.as_ref().map(joint_stability_json),
     });
     // A single plant has one orbit, about which `ball` is.
     if plant.parameters.intervals().next().is_some() {

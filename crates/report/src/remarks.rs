@@ -16,7 +16,7 @@ pub fn remarks(run: &Certification<'_>) -> Vec<String> {
     if let Some(sigma) = run.sigma_star().filter(|_| run.is_smallest())
         && sigma.to_f64() * run.spec.period.longest().to_f64() > LARGE
     {
-        let cause = far_above_its_samples(run.spec.bounds.proved_values().entries()).unwrap_or_else(|| {
+        let cause = far_above_its_samples(&run.spec.bounds.proved_values().entries).unwrap_or_else(|| {
             let of_plant = run.spec.plant().is_some();
             run.binding.map_or_else(String::new, |binding| {
                 format!(" It is set by {}. {}", binding.describe(), binding.advice(of_plant))
@@ -108,7 +108,7 @@ fn mu(spec: &Specification) -> Option<String> {
 fn by_norms(spec: &Specification, asked: bool, what: &str) -> Option<String> {
     let values = spec.bounds.proved_values();
     let by_matrix =
-        values.inequality().is_some() || values.joint_stability().is_some() || values.sampled().stability.is_some();
+        values.inequality.is_some() || values.joint_stability.is_some() || values.at_samples.stability.is_some();
     (asked && spec.plant().is_some_and(|plant| plant.states() > 0) && !by_matrix).then(|| {
         format!(
             "Remark: with `--n-o` the claim rests on norms, from which {what} proved; without it a matrix inequality may serve for a smaller gain."

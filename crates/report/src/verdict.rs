@@ -77,7 +77,7 @@ pub(super) fn detail(run: &Certification<'_>) -> Vec<Block> {
 /// What the claim rests on: derivation, assumptions about the plant, the transfer constants.
 pub(super) fn basis(run: &Certification<'_>) -> Vec<String> {
     let by_matrix = run.sharp.attempt().is_some_and(|proof| proof.evaluation.by_matrix.is_some());
-    let of_stability = match (by_matrix, run.spec.bounds.proved_values().joint_stability()) {
+    let of_stability = match (by_matrix, run.spec.bounds.proved_values().joint_stability.as_ref()) {
         (_, Some(_)) => ", and (Jm) of 13.7 in the place of C4 and C5",
         (true, None) => ", and (M) of 13.7 in the place of C5",
         (false, None) => "",

@@ -119,7 +119,7 @@ impl TriedClaim {
     /// a larger sigma less in proportion (derivation, 13.1).
     pub(super) fn share_of_h(&self, trial: &Trial) -> f64 {
         let Some((gain, uncertain)) = trial.input_gain.zip(self.spec.input_gain.as_ref()) else { return 1.0 };
-        let threshold = self.spec.bounds.proved_values().inequality().map(|known| known.value.to_f64());
+        let threshold = self.spec.bounds.proved_values().inequality.as_ref().map(|known| known.value.to_f64());
         let falls = if uncertain.is_nominal() { 1.0 } else { threshold.unwrap_or(self.sigma) / trial.sigma };
         gain / uncertain.nominal.to_f64() * falls
     }

@@ -41,7 +41,7 @@ impl Form {
 impl JointFunction {
     /// That of the proved data of a claim, where there is one.
     pub(super) fn of(spec: &Specification) -> Option<JointFunction> {
-        let joint = &spec.bounds.proved_values().joint_stability()?.inequality;
+        let joint = &spec.bounds.proved_values().joint_stability.as_ref()?.inequality;
         let [near, far] = joint.metrics().map(Form::from);
         Some(JointFunction { near, far, value: joint.value.to_f64(), mu: spec.internal_model.mu.to_f64() })
     }

@@ -33,12 +33,18 @@ fn reaches(argument: &Enclosure, end: &Rational) -> bool {
 /// definition, and a value at larger arguments serves at smaller ones.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct ProvedValues {
-    entries: Vec<ProvedValue>,
-    inequality: Option<MatrixInequality>,
-    existence: Option<ExistenceInequality>,
-    joint_existence: Option<JointInequality>,
-    joint_stability: Option<JointStability>,
-    at_samples: SampledInequalities,
+    /// The values.
+    pub entries: Vec<ProvedValue>,
+    /// The matrix inequality of stability, where there is one.
+    pub inequality: Option<MatrixInequality>,
+    /// That of existence.
+    pub existence: Option<ExistenceInequality>,
+    /// The joint inequality of existence.
+    pub joint_existence: Option<JointInequality>,
+    /// That of stability.
+    pub joint_stability: Option<JointStability>,
+    /// The matrix inequalities of the regulator at samples.
+    pub at_samples: SampledInequalities,
 }
 
 /// The matrix inequalities of the regulator at samples.
@@ -64,72 +70,6 @@ impl ProvedValues {
     #[must_use]
     pub fn new(entries: Vec<ProvedValue>) -> ProvedValues {
         ProvedValues { entries, ..ProvedValues::default() }
-    }
-
-    /// The same with a matrix inequality, which is proved.
-    #[must_use]
-    pub fn with_inequality(self, inequality: Option<MatrixInequality>) -> ProvedValues {
-        ProvedValues { inequality, ..self }
-    }
-
-    /// The same with a matrix inequality of existence, which is proved.
-    #[must_use]
-    pub fn with_existence(self, existence: Option<ExistenceInequality>) -> ProvedValues {
-        ProvedValues { existence, ..self }
-    }
-
-    /// The same with a joint inequality of existence, which is proved.
-    #[must_use]
-    pub fn with_joint_existence(self, joint_existence: Option<JointInequality>) -> ProvedValues {
-        ProvedValues { joint_existence, ..self }
-    }
-
-    /// The same with a joint inequality of stability, which is proved.
-    #[must_use]
-    pub fn with_joint_stability(self, joint_stability: Option<JointStability>) -> ProvedValues {
-        ProvedValues { joint_stability, ..self }
-    }
-
-    /// The same with matrix inequalities of the regulator at samples, which are proved.
-    #[must_use]
-    pub fn with_sampled(self, at_samples: SampledInequalities) -> ProvedValues {
-        ProvedValues { at_samples, ..self }
-    }
-
-    /// The joint inequality of existence, where there is one.
-    #[must_use]
-    pub fn joint_existence(&self) -> Option<&JointInequality> {
-        self.joint_existence.as_ref()
-    }
-
-    /// The joint inequality of stability, where there is one.
-    #[must_use]
-    pub fn joint_stability(&self) -> Option<&JointStability> {
-        self.joint_stability.as_ref()
-    }
-
-    /// The matrix inequalities of the regulator at samples.
-    #[must_use]
-    pub fn sampled(&self) -> &SampledInequalities {
-        &self.at_samples
-    }
-
-    /// The matrix inequality of existence, where there is one.
-    #[must_use]
-    pub fn existence(&self) -> Option<&ExistenceInequality> {
-        self.existence.as_ref()
-    }
-
-    /// The matrix inequality, where there is one.
-    #[must_use]
-    pub fn inequality(&self) -> Option<&MatrixInequality> {
-        self.inequality.as_ref()
-    }
-
-    /// The values.
-    #[must_use]
-    pub fn entries(&self) -> &[ProvedValue] {
-        &self.entries
     }
 
     /// Whether there is one of a bounding function.

@@ -30,11 +30,11 @@ pub fn plant_parts(spec: &Specification) -> Vec<(&'static str, Value)> {
         None => vec![(CELLS, plant.cells.iter().map(cell).collect())],
     });
     parts.push(("bounds", values_json(values)));
-    parts.extend(values.inequality().map(|inequality| (INEQUALITY, inequality_json(inequality))));
-    parts.extend(values.existence().map(|existence| (EXISTENCE_INEQUALITY, existence_json(existence))));
-    parts.extend(values.joint_stability().map(|joint| (JOINT_INEQUALITY, joint_stability_json(joint))));
-    parts.extend(values.joint_existence().map(|joint| (EXISTENCE_INEQUALITY, joint_existence_json(joint))));
-    let SampledInequalities { stability, existence } = values.sampled();
+    parts.extend(values.inequality.as_ref().map(|inequality| (INEQUALITY, inequality_json(inequality))));
+    parts.extend(values.existence.as_ref().map(|existence| (EXISTENCE_INEQUALITY, existence_json(existence))));
+    parts.extend(values.joint_stability.as_ref().map(|joint| (JOINT_INEQUALITY, joint_stability_json(joint))));
+    parts.extend(values.joint_existence.as_ref().map(|joint| (EXISTENCE_INEQUALITY, joint_existence_json(joint))));
+    let SampledInequalities { stability, existence } = &values.at_samples;
     parts.extend(stability.as_ref().map(|known| (INEQUALITY, sampled_json(known))));
     parts.extend(existence.as_ref().map(|known| (EXISTENCE_INEQUALITY, sampled_existence_json(known))));
     parts
@@ -138,5 +138,5 @@ fn values_json(values: &ProvedValues) -> Value {
             ("value", exact(&entry.value)),
         ])
     };
-    values.entries().iter().map(one).collect()
+    values.entries.iter().map(one).collect()
 }

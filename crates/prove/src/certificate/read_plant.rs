@@ -102,8 +102,13 @@ fn with_continuous(
     let single = single.map(|value| read_existence(&value, errors));
     let joint = joint.map(|value| read_joint(&value, n, errors));
     let of_joint = witness.optional(JOINT_INEQUALITY).map(|value| read_joint_stability(&value, n, errors));
-    let values = values?.with_inequality(inequality.transpose()?).with_existence(single.transpose()?);
-    Ok(values.with_joint_existence(joint.transpose()?).with_joint_stability(of_joint.transpose()?))
+    Ok(ProvedValues {
+        inequality: inequality.transpose()?,
+        existence: single.transpose()?,
+        joint_existence: joint.transpose()?,
+        joint_stability: of_joint.transpose()?,
+        ..values?
+    })
 }
 
 /// With those of the regulator at samples.
@@ -116,7 +121,7 @@ fn with_sampled(
     let stability = witness.optional(INEQUALITY).map(|value| read_sampled(&value, known, errors));
     let existence = witness.optional(EXISTENCE_INEQUALITY).map(|value| read_sampled_existence(&value, known, errors));
     let at_samples = SampledInequalities { stability: stability.transpose()?, existence: existence.transpose()? };
-    Ok(values?.with_sampled(at_samples))
+    Ok(ProvedValues { at_samples, ..values? })
 }
 
 fn read_sampled(value: &Value<'_>, known: &SampledWitness, errors: &mut Errors) -> Result<SampledInequality, Reported> {

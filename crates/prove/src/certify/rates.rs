@@ -157,7 +157,7 @@ impl Certification<'_> {
         };
         let data = Data::new(self.spec, proof.precision);
         let distances = distances(&data, proof);
-        let inequality = self.spec.bounds.proved_values().inequality();
+        let inequality = self.spec.bounds.proved_values().inequality.as_ref();
         let corner = inequality.filter(|known| known.splitting.is_some()).map(MatrixInequality::arguments);
         let start = Start { sigma: &proof.witness.sigma, distances: distances.each_ref() };
         let tube = Tube { engine, samples, at, corner, start };
@@ -172,11 +172,11 @@ impl Certification<'_> {
 /// X and E of the inequality by which stability is proved in a proof.
 pub(super) fn matrix_arguments<'s>(spec: &'s Specification, proof: &SharpProof) -> Option<[&'s Rational; 2]> {
     let values = spec.bounds.proved_values();
-    if let Some(joint) = values.joint_stability() {
+    if let Some(joint) = &values.joint_stability {
         return Some([&joint.inequality.x, &joint.inequality.e]);
     }
     let inequality =
-        values.inequality().filter(|known| known.w_x == proof.witness.w_x && known.h == proof.witness.h)?;
+        values.inequality.as_ref().filter(|known| known.w_x == proof.witness.w_x && known.h == proof.witness.h)?;
     Some([&inequality.x, &inequality.e])
 }
 

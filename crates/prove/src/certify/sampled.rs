@@ -340,7 +340,7 @@ fn round(
         let (k0, k1) = (above(found.pair.0)?, above(found.pair.1)?);
         let bounds = SetBounds::new(data, data.rational(&x_p), data.rational(&e_p));
         let squares = MeanSquares { x: &r_x, e: &r_e, e_rate: &r_d }.map(|value| data.rational(value));
-        let known = data.spec.bounds.proved_values().sampled().existence.as_ref();
+        let known = data.spec.bounds.proved_values().at_samples.existence.as_ref();
         let energy = known.map(|known| energy::bounds_of(data, &origin, known));
         let gains = SampledGains::new(&enclosed, &data.rational(&sigma), &data.period).with_energy(energy);
         let size = PeriodicSize::new(data, &bounds, &origin, &gains, &squares);

@@ -216,8 +216,8 @@ pub(super) fn prove_all(
     let proofs = parallel::map(&all, prove);
     // What no condition uses may be missing.
     let proofs = proofs.into_iter().filter(|(proof, is_used)| *is_used || proof.is_ok()).map(|(proof, _)| proof);
-    let values = ProvedValues::new(proofs.collect::<Result<_, _>>()?);
-    Ok(values.with_inequality(inequality).with_existence(existence).with_sampled(at_samples))
+    let entries = proofs.collect::<Result<_, _>>()?;
+    Ok(ProvedValues { entries, inequality, existence, at_samples, ..ProvedValues::default() })
 }
 
 /// Proves the matrix inequalities of the regulator at samples; gamma is sought.
@@ -284,27 +284,27 @@ fn smallest(engine: &Engine, bound: Bound, [x, e]: [&Rational; 2]) -> Option<Rat
 /// # Errors
 /// The first that is not proved.
 pub(super) fn decide_all(engine: &Engine, values: &ProvedValues, mu: &Constant) -> Result<(), PlantRefusal> {
-    if let Some(known) = values.inequality() {
+    if let Some(known) = &values.inequality {
         held("stability", [&known.x, &known.e], engine.decide_inequality(known, mu, EFFORT).truth)?;
     }
-    if let Some(known) = values.existence() {
+    if let Some(known) = &values.existence {
         held("existence", [&known.x, &known.e], engine.decide_existence(known, EFFORT).truth)?;
     }
-    let SampledInequalities { stability, existence } = values.sampled();
+    let SampledInequalities { stability, existence } = &values.at_samples;
     if let Some(known) = stability {
         held("stability", [&known.x, &known.e], engine.decide_sampled(known, EFFORT).truth)?;
     }
     if let Some(known) = existence {
         held("existence", [&known.x, &known.e], engine.decide_sampled_existence(known, EFFORT).truth)?;
     }
-    if let Some(joint) = values.joint_stability() {
+    if let Some(joint) = &values.joint_stability {
         let JointInequality { x, e, .. } = &joint.inequality;
         held("joint stability", [x, e], engine.decide_joint_stability(joint, EFFORT).truth)?;
     }
-    if let Some(joint) = values.joint_existence() {
+    if let Some(joint) = &values.joint_existence {
         held("joint existence", [&joint.x, &joint.e], engine.decide_joint(joint, EFFORT).truth)?;
     }
-    let held = parallel::map(values.entries(), |ProvedValue { bound, x, e, value, .. }| {
+    let held = parallel::map(&values.entries, |ProvedValue { bound, x, e, value, .. }| {
         let refusal = || PlantRefusal::NotProved { bound: bound.field(), at: [x.to_f64(), e.to_f64()] };
         if !TABLE.contains(bound) {
             return Err(refusal());

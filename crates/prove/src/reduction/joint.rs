@@ -257,8 +257,8 @@ impl JointSearch<'_> {
         let proposal = SharpProposal { sigma: *sigma * (1.0 + AFTER), ..*self.known };
         let (set, at) = at_sigma(&model, &proposal.parameters, sigma * (1.0 + AFTER), NEAR).ok()?;
         let needed = needed(&model, &set, &at, 1e-3, (self.proofs.has_second(), *sigma))?;
-        let joint =
-            |values: ProvedValues| values.with_joint_existence(existence).with_joint_stability(Some(stability.clone()));
+        let joint_stability = Some(stability.clone());
+        let joint = |values: ProvedValues| ProvedValues { joint_existence: existence, joint_stability, ..values };
         let (with_values, spec) = self.proofs.with_needed(&needed, joint).ok()?;
         let proposal = search_sharp_near(&with_values, &proposal).ok()?;
         Some(Reduced { spec, proposal, alternatives: Alternatives::default(), without_joint: None, near: None })

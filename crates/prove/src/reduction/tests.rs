@@ -52,7 +52,7 @@ fn values_are_above_random_points_and_near_them() {
         let radius = reduced.spec.plant().unwrap().largest(|cell| &cell.orbit.radius).to_f64();
         let points = random_points(plant.states(), if all { 100_000 } else { 20_000 });
         let values = reduced.spec.bounds.proved_values();
-        for ProvedValue { bound, x, e, value, .. } in values.entries() {
+        for ProvedValue { bound, x, e, value, .. } in &values.entries {
             let place = format!("{name}: {} at ({}, {})", bound.field(), x.to_f64(), e.to_f64());
             if plant.states() == 0 && bound.is_rate() {
                 continue;
@@ -60,8 +60,8 @@ fn values_are_above_random_points_and_near_them() {
             let found = samples.largest_at(*bound, [x.to_f64() + radius, e.to_f64()], &points);
             let value = if bound.is_rate() { -value.to_f64() } else { value.to_f64() };
             assert!(value >= found, "{place}: {value} is below {found}");
-            let joint = values.joint_stability().map(|joint| &joint.inequality.e);
-            let ends = values.inequality().map(|inequality| &inequality.e).or(joint);
+            let joint = values.joint_stability.as_ref().map(|joint| &joint.inequality.e);
+            let ends = values.inequality.as_ref().map(|inequality| &inequality.e).or(joint);
             let is_beside = ends == Some(e);
             let slack = if is_beside { SLACK_BESIDE } else { SLACK };
             let near = value - found <= slack * found.abs() || value.abs() < NOTHING;

@@ -34,7 +34,7 @@ impl FloatBound {
         if !proved.has(which) {
             return which.replacement().and_then(|other| FloatBound::of(spec, other));
         }
-        let there = proved.entries().iter().filter(|entry| entry.bound == which);
+        let there = proved.entries.iter().filter(|entry| entry.bound == which);
         let entries = there.map(|entry| [&entry.x, &entry.e, &entry.value].map(rug::Rational::to_f64)).collect();
         Some(FloatBound::Values { entries, from_below: which.is_rate() })
     }

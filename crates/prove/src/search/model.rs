@@ -191,15 +191,15 @@ impl FloatModel {
             goal: Goal::default(),
             by_matrix: {
                 let values = spec.bounds.proved_values();
-                let joint = values.joint_stability().map(|joint| ByMatrix::Joint(Arc::new(joint.clone())));
-                joint.or_else(|| values.inequality().map(|known| ByMatrix::Proved(Arc::new(known.clone()))))
+                let joint = values.joint_stability.as_ref().map(|joint| ByMatrix::Joint(Arc::new(joint.clone())));
+                joint.or_else(|| values.inequality.as_ref().map(|known| ByMatrix::Proved(Arc::new(known.clone()))))
             },
             by_energy: {
                 let values = spec.bounds.proved_values();
-                let joint = values.joint_existence().map(|joint| ByEnergy::Joint(Arc::new(joint.clone())));
-                joint.or_else(|| values.existence().map(|known| ByEnergy::Proved(Arc::new(known.clone()))))
+                let joint = values.joint_existence.as_ref().map(|joint| ByEnergy::Joint(Arc::new(joint.clone())));
+                joint.or_else(|| values.existence.as_ref().map(|known| ByEnergy::Proved(Arc::new(known.clone()))))
             },
-            at_samples: AtSamples::from(spec.bounds.proved_values().sampled()),
+            at_samples: AtSamples::from(&spec.bounds.proved_values().at_samples),
         }
     }
 

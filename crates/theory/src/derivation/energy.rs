@@ -91,11 +91,11 @@ impl<R> MetricNumbers<R> {
 /// The bounds of a specification whose data come with a proved inequality.
 #[must_use]
 pub fn proved(data: &Data<'_>, origin: &AtOrigin<Enclosure>, sigma: &Enclosure) -> Option<EnergyBounds<Enclosure>> {
-    if let Some(joint) = data.spec.bounds.proved_values().joint_existence() {
+    if let Some(joint) = &data.spec.bounds.proved_values().joint_existence {
         let [near, far] = joint.metrics().map(|metric| MetricNumbers::of(metric, |number| data.rational(number)));
         return Some(EnergyBounds::of_metrics([&near, &far], origin));
     }
-    let ExistenceInequality { k_p, c_x, c_y, value, .. } = data.spec.bounds.proved_values().existence()?;
+    let ExistenceInequality { k_p, c_x, c_y, value, .. } = data.spec.bounds.proved_values().existence.as_ref()?;
     let [k_p, c_x, c_y, value] = [k_p, c_x, c_y, value].map(|number| data.rational(number));
     Some(EnergyBounds::new(&EnergyNumbers { k_p, c_x, c_y, value }, origin, sigma))
 }
@@ -122,11 +122,11 @@ pub(super) fn within(data: &Data<'_>, [x_p, e_p]: [&Rational; 2], [x, e]: [&Rati
 #[must_use]
 pub fn conditions(data: &Data<'_>, sizes: [&Rational; 2], sigma: &Rational) -> Vec<Condition> {
     let values = data.spec.bounds.proved_values();
-    if let Some(JointInequality { x, e, value, .. }) = values.joint_existence() {
+    if let Some(JointInequality { x, e, value, .. }) = &values.joint_existence {
         let reached = difference(data, "E3", "threshold of the existence inequality - sigma <= 0", [value, sigma]);
         return within(data, sizes, [x, e]).into_iter().chain([reached]).collect();
     }
-    let Some(ExistenceInequality { x, e, k_p, c_y, value, .. }) = values.existence() else { return Vec::new() };
+    let Some(ExistenceInequality { x, e, k_p, c_y, value, .. }) = &values.existence else { return Vec::new() };
     let [threshold, sigma] = [value, sigma].map(|number| data.rational(number));
     let exceeded = Condition::less("E3", "threshold of the existence inequality < sigma", threshold.clone(), sigma);
     let any_larger = data.input_gain.as_ref().map(|gain| {

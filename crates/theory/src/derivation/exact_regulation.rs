@@ -99,7 +99,7 @@ impl ExactEvaluation {
         conditions.extend(domain_conditions(data, error_box.x_b.clone(), error_box.e_b.clone()));
         let distances = claimed_distances(data, set, [&data.zero(), &data.zero(), &z]);
         let of = "exact regulation: ";
-        if let Some(joint) = data.spec.bounds.proved_values().joint_stability() {
+        if let Some(joint) = &data.spec.bounds.proved_values().joint_stability {
             let radii = [&d_x, &d_e];
             conditions.extend(joint::conditions(
                 data,

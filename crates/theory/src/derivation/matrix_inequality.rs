@@ -11,7 +11,7 @@ use sigmastar_lang::spec::MatrixInequality;
 /// The inequality that is proved for the weights w_x and h, if there is one.
 #[must_use]
 pub fn proved_for<'d>(data: &'d Data<'_>, w_x: &Rational, h: &Rational) -> Option<&'d MatrixInequality> {
-    let known = data.spec.bounds.proved_values().inequality();
+    let known = data.spec.bounds.proved_values().inequality.as_ref();
     known.filter(|known| known.w_x == *w_x && known.h == *h)
 }
 

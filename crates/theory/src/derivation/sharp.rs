@@ -146,7 +146,7 @@ impl SharpEvaluation {
         let [dist_x, dist_e, dist_z] = claimed_distances(data, &witness.set, [&periodic.x_per, &periodic.e_per, &z]);
         let distances = [&dist_x, &dist_e, &dist_z];
         let inequality = matrix_inequality::proved_for(data, &witness.w_x, &witness.h);
-        let joint = data.spec.bounds.proved_values().joint_stability();
+        let joint = data.spec.bounds.proved_values().joint_stability.as_ref();
         let reach = if let Some(joint) = joint {
             conditions.extend(joint::conditions(
                 data,
@@ -327,7 +327,7 @@ fn strict_existence_conditions(
     let response = gains.response(origin, &Forcing::new(&of_changes, origin, &squares));
     let sup = response.sup.min(&sup_by_mean_squares(data, &squares));
     let [damped, damped_rate] = if kap.is_some() { ["g_k Rt, ", "Rt + kap r_e, "] } else { [""; 2] };
-    let is_joint = data.spec.bounds.proved_values().joint_existence().is_some();
+    let is_joint = data.spec.bounds.proved_values().joint_existence.is_some();
     let room = if is_joint { "c_e" } else { "2 (sigma - threshold)" };
     let rms = format!("min{{R_q/sg, R_1/(Om sg), q_0 form, {damped}r_y/sg, k_p Q_m/(2 sqrt({room} c_y))}}");
     let least = [

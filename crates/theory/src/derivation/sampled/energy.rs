@@ -47,7 +47,7 @@ where
 
 /// The inequality that is proved for the gain and the law of a witness, if there is one.
 fn known<'d>(data: &'d Data<'_>, witness: &SampledWitness) -> Option<&'d SampledExistence> {
-    let known = data.spec.bounds.proved_values().sampled().existence.as_ref();
+    let known = data.spec.bounds.proved_values().at_samples.existence.as_ref();
     known.filter(|known| known.at == witness.about())
 }
 

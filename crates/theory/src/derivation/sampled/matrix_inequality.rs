@@ -10,7 +10,7 @@ use sigmastar_lang::spec::SampledInequality;
 /// The inequality that is proved for the weights w_x and eta, the gain and the law of a witness, if there is one.
 #[must_use]
 pub fn proved_for<'d>(data: &'d Data<'_>, witness: &SampledWitness) -> Option<&'d SampledInequality> {
-    let known = data.spec.bounds.proved_values().sampled().stability.as_ref();
+    let known = data.spec.bounds.proved_values().at_samples.stability.as_ref();
     known.filter(|known| known.w_x == witness.w_x && known.eta == witness.eta && known.at == witness.about())
 }
 
