@@ -2,7 +2,9 @@
 
 use super::shape::{Field, Shape, Sign, any_list, list, may, must};
 use super::{plant, specification};
-use sigmastar_lang::spec::Bound;
+use sigmastar_lang::spec::{
+    Bound, JointInequality, Level, MatrixInequality, Metric, ProvedValue, SampledInequality, Splitting,
+};
 use sigmastar_prove::certificate::{FORMAT, NumberFields, RefinedSquares, VERSION};
 use sigmastar_prove::rate::bound::{MAX_COUNTS, MAX_OSCILLATORS};
 use sigmastar_theory::derivation::exact_regulation::ExactWitness;
@@ -403,24 +405,23 @@ fn of_data() -> Vec<Field> {
     let [orbit, forcing] = around(may);
     let names = Bound::ALL.map(Bound::field).to_vec();
     let mut value = vec![must("bound", "Bound", "Which bounding function.", Shape::Word(names))];
-    value.extend(numbers(&["X", "E", "value"], "An argument, or the bound there."));
-    let inequality = numbers(&["X", "E", "rate", "sigma"], "An argument, the rate that x keeps, or the threshold.");
-    let mut splitting: Vec<Field> = numbers(&["X", "E"], "X of (g, d), or E of (J, r).").into_iter().collect();
+    value.extend(numbers(ProvedValue::NAMES, "An argument, or the bound there."));
+    let mut inequality = numbers(MatrixInequality::NAMES, "An argument, the rate that x keeps, or the threshold.");
+    let mut splitting = numbers(Splitting::NAMES, "X of (g, d), or E of (J, r).");
     splitting.push(must("S", "S", "Below F without e, and above what e adds; in (x, y).", matrix()));
     let splitting = named("splitting", Shape::Object(splitting));
     let about = "With it (J, r) and (g, d) are taken at two points.";
-    let inequality = inequality.into_iter().chain([may("splitting", "Splitting", about, splitting)]).collect();
-    let mut existence: Vec<Field> = numbers(&["X", "E"], "An argument.").into_iter().collect();
+    inequality.push(may("splitting", "Splitting", about, splitting));
+    let mut existence = numbers(&["X", "E"], "An argument.");
     existence.push(may("P", "P", "A symmetric matrix for y, by rows.", matrix()));
     existence.extend(["k_p", "c_x", "c_y"].map(|name| may(name, name, "A weight, or a margin.", rational())));
     existence.push(must("sigma", "sigma", "The threshold.", rational()));
     existence.extend(metrics(false).map(|(name, about, shape)| may(name, name, about, shape)));
-    let mut joint: Vec<Field> = numbers(&["X", "E", "sigma"], "An argument, or the threshold.").into_iter().collect();
+    let mut joint = numbers(JointInequality::NAMES, "An argument, or the threshold.");
     joint.extend(metrics(true).map(|(name, about, shape)| must(name, name, about, shape)));
-    let at_samples = ["X", "E", "lambda", "rate", "c_e", "c_y"];
-    let at_samples = numbers(&at_samples, "An argument, a weight, or what is left.").into_iter().collect();
+    let at_samples = numbers(SampledInequality::NAMES, "An argument, a weight, or what is left.");
     let inequality = Shape::OneOf(vec![Shape::Object(inequality), Shape::Object(at_samples)]);
-    let mut existence_at_samples: Vec<Field> = numbers(&["X", "E"], "An argument.").into_iter().collect();
+    let mut existence_at_samples = numbers(&["X", "E"], "An argument.");
     existence_at_samples.push(must("P", "P", "A symmetric matrix for y, by rows.", matrix()));
     let names = ["k_p", "c_x", "c_e", "c_y", "gamma", "lambda"];
     existence_at_samples.extend(numbers(&names, "A weight, a margin, or what q(t,0,0) counts."));
@@ -472,9 +473,9 @@ fn metrics(with_levels: bool) -> [(&'static str, &'static str, Shape); 2] {
         if is_near {
             fields.push(must("p", "p", "What joins y and e, an entry for each state.", any_list(rational())));
         }
-        fields.extend(numbers(&["w", "k_p", "c_x", "c_e", "c_y"], "A weight, or a margin."));
+        fields.extend(numbers(Metric::NAMES, "A weight, or a margin."));
         if with_levels {
-            fields.extend(numbers(&["P_up", "x_low", "e_low"], "What the metric is between."));
+            fields.extend(numbers(Level::NAMES, "What the metric is between."));
         }
         let name = match (is_near, with_levels) {
             (true, true) => "near_level",

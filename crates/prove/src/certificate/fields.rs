@@ -5,7 +5,11 @@
 
 use rug::Rational;
 use sigmastar_exact::number::write_exact;
-use sigmastar_lang::spec::{ErrorKind, Errors, Object, Reported, SampledGain, Sampling, Value, any_constant, choose};
+use sigmastar_lang::spec::{
+    Bound, ErrorKind, Errors, ExistenceInequality, JointInequality, Level, MatrixInequality, Metric, Object,
+    ProvedValue, Reported, SampledExistence, SampledGain, SampledInequality, SampledLoop, Sampling, Splitting, Value,
+    any_constant, choose,
+};
 use sigmastar_theory::derivation::exact_regulation::ExactWitness;
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
 use sigmastar_theory::derivation::mean_squares::MeanSquares;
@@ -127,6 +131,39 @@ numbers!(SampledWitness {
 numbers!(DelayWitness { gm: "gm", y_0: "Y_0" } and ());
 
 numbers!(ExactWitness { sigma: "sigma_star_oo", d_x: "D_x", d_e: "D_e", w_x: "w_x", h: "h" } and (paths: Paths));
+
+// What a certificate of a plant adds.
+
+numbers!(ProvedValue { x: "X", e: "E", value: "value" } and (bound: Bound, sampled: Option<Rational>));
+
+numbers!(MatrixInequality { x: "X", e: "E", rate: "rate", value: "sigma" }
+    and (w_x: Rational, h: Rational, splitting: Option<Splitting>));
+
+numbers!(Splitting { x: "X", e: "E" } and (matrix: Vec<Vec<Rational>>));
+
+numbers!(ExistenceInequality { x: "X", e: "E", k_p: "k_p", c_x: "c_x", c_y: "c_y", value: "sigma" }
+    and (matrix: Vec<Vec<Rational>>));
+
+numbers!(JointInequality { x: "X", e: "E", value: "sigma" } and (near: Metric, far: Metric));
+
+numbers!(Metric { weight: "w", k_p: "k_p", c_x: "c_x", c_e: "c_e", c_y: "c_y" }
+    and (matrix: Vec<Vec<Rational>>, cross: Vec<Rational>));
+
+numbers!(Level { p_up: "P_up", x_low: "x_low", e_low: "e_low" } and ());
+
+numbers!(SampledInequality { x: "X", e: "E", lambda: "lambda", rate: "rate", c_e: "c_e", c_y: "c_y" }
+    and (w_x: Rational, eta: Rational, at: SampledLoop));
+
+numbers!(SampledExistence {
+    x: "X",
+    e: "E",
+    k_p: "k_p",
+    c_x: "c_x",
+    c_e: "c_e",
+    c_y: "c_y",
+    gamma: "gamma",
+    lambda: "lambda"
+} and (matrix: Vec<Vec<Rational>>, at: SampledLoop));
 
 /// The paths of a witness as a field of JSON.
 pub(super) fn paths_json(paths: Paths) -> (&'static str, serde_json::Value) {

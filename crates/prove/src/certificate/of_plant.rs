@@ -1,13 +1,14 @@
 //! What a certificate of a plant adds to the witness (derivation, 11).
 
-use super::fields::{CELLS, EXISTENCE_INEQUALITY, INEQUALITY, JOINT_INEQUALITY, SENSITIVITIES, SPLITTING};
+use super::fields::{
+    CELLS, EXISTENCE_INEQUALITY, INEQUALITY, JOINT_INEQUALITY, NumberFields, SENSITIVITIES, SPLITTING,
+};
 use super::json::{exact, object, rows, vector};
 use rug::Rational;
 use serde_json::Value;
 use sigmastar_lang::spec::{
-    ExistenceInequality, Interval, JointInequality, JointStability, Level, MatrixInequality, Metric, ProvedCell,
-    ProvedForcing, ProvedOrbit, ProvedValues, SampledExistence, SampledInequalities, SampledInequality, Specification,
-    Splitting, TrigonometricVector,
+    Interval, JointInequality, JointStability, Level, MatrixInequality, Metric, ProvedCell, ProvedForcing, ProvedOrbit,
+    ProvedValue, ProvedValues, SampledInequalities, Specification, Splitting, TrigonometricVector,
 };
 
 /// `coordinates`, `orbit` and `forcing` or `cells`, and `bounds`, and the matrix inequalities that are used; none where the data do not come from a plant's formulas.
@@ -31,12 +32,14 @@ pub fn plant_parts(spec: &Specification) -> Vec<(&'static str, Value)> {
     });
     parts.push(("bounds", values_json(values)));
     parts.extend(values.inequality.as_ref().map(|inequality| (INEQUALITY, inequality_json(inequality))));
-    parts.extend(values.existence.as_ref().map(|existence| (EXISTENCE_INEQUALITY, existence_json(existence))));
+    parts.extend(
+        values.existence.as_ref().map(|existence| (EXISTENCE_INEQUALITY, existence_json(existence, &existence.matrix))),
+    );
     parts.extend(values.joint_stability.as_ref().map(|joint| (JOINT_INEQUALITY, joint_stability_json(joint))));
     parts.extend(values.joint_existence.as_ref().map(|joint| (EXISTENCE_INEQUALITY, joint_existence_json(joint))));
     let SampledInequalities { stability, existence } = &values.at_samples;
-    parts.extend(stability.as_ref().map(|known| (INEQUALITY, sampled_json(known))));
-    parts.extend(existence.as_ref().map(|known| (EXISTENCE_INEQUALITY, sampled_existence_json(known))));
+    parts.extend(stability.as_ref().map(|known| (INEQUALITY, object(known.json()))));
+    parts.extend(existence.as_ref().map(|known| (EXISTENCE_INEQUALITY, existence_json(known, &known.matrix))));
     parts
 }
 
@@ -53,47 +56,27 @@ pub fn joint_stability_json(JointStability { inequality, levels: [near, far] }: 
 }
 
 /// The near metric has a p; the far one has none.
-fn joint_json(JointInequality { x, e, value, near, far }: &JointInequality, levels: [Option<&Level>; 2]) -> Value {
+fn joint_json(joint: &JointInequality, levels: [Option<&Level>; 2]) -> Value {
     let metric = |metric: &Metric, is_near: bool, level: Option<&Level>| {
-        let Metric { matrix, cross, weight, k_p, c_x, c_e, c_y } = metric;
-        let numbers = [("w", weight), ("k_p", k_p), ("c_x", c_x), ("c_e", c_e), ("c_y", c_y)];
-        let level = level.into_iter().flat_map(|Level { p_up, x_low, e_low }| {
-            [("P_up", exact(p_up)), ("x_low", exact(x_low)), ("e_low", exact(e_low))]
-        });
-        let cross = is_near.then(|| ("p", vector(cross)));
-        let numbers = numbers.map(|(name, value)| (name, exact(value)));
-        object([("P", rows(matrix))].into_iter().chain(cross).chain(numbers).chain(level))
+        let cross = is_near.then(|| ("p", vector(&metric.cross)));
+        let level = level.into_iter().flat_map(NumberFields::json);
+        object([("P", rows(&metric.matrix))].into_iter().chain(cross).chain(metric.json()).chain(level))
     };
-    let numbers = [("X", x), ("E", e), ("sigma", value)].map(|(name, value)| (name, exact(value)));
     let [of_near, of_far] = levels;
-    let metrics = [("near", metric(near, true, of_near)), ("far", metric(far, false, of_far))];
-    object(numbers.into_iter().chain(metrics))
+    let metrics = [("near", metric(&joint.near, true, of_near)), ("far", metric(&joint.far, false, of_far))];
+    object(joint.json().into_iter().chain(metrics))
 }
 
-fn sampled_json(SampledInequality { x, e, lambda, rate, c_e, c_y, .. }: &SampledInequality) -> Value {
-    let numbers = [("X", x), ("E", e), ("lambda", lambda), ("rate", rate), ("c_e", c_e), ("c_y", c_y)];
-    object(numbers.map(|(name, value)| (name, exact(value))))
+/// An inequality of existence: P stands behind X and E.
+fn existence_json(known: &impl NumberFields, matrix: &[Vec<Rational>]) -> Value {
+    let mut fields = known.json();
+    fields.insert(2, ("P", rows(matrix)));
+    object(fields)
 }
 
-fn sampled_existence_json(known: &SampledExistence) -> Value {
-    let SampledExistence { x, e, matrix, k_p, c_x, c_e, c_y, gamma, lambda, .. } = known;
-    let arguments = [("X", exact(x)), ("E", exact(e)), ("P", rows(matrix))];
-    let numbers = [("k_p", k_p), ("c_x", c_x), ("c_e", c_e), ("c_y", c_y), ("gamma", gamma), ("lambda", lambda)];
-    object(arguments.into_iter().chain(numbers.map(|(name, value)| (name, exact(value)))))
-}
-
-fn existence_json(ExistenceInequality { x, e, matrix, k_p, c_x, c_y, value }: &ExistenceInequality) -> Value {
-    let arguments = [("X", exact(x)), ("E", exact(e)), ("P", rows(matrix))];
-    let numbers = [("k_p", k_p), ("c_x", c_x), ("c_y", c_y), ("sigma", value)];
-    object(arguments.into_iter().chain(numbers.map(|(name, value)| (name, exact(value)))))
-}
-
-fn inequality_json(MatrixInequality { x, e, rate, value, splitting, .. }: &MatrixInequality) -> Value {
-    let numbers = [("X", x), ("E", e), ("rate", rate), ("sigma", value)].map(|(name, value)| (name, exact(value)));
-    let splitting = splitting
-        .iter()
-        .map(|Splitting { x, e, matrix }| (SPLITTING, object([("X", exact(x)), ("E", exact(e)), ("S", rows(matrix))])));
-    object(numbers.into_iter().chain(splitting))
+fn inequality_json(known: &MatrixInequality) -> Value {
+    let of = |splitting: &Splitting| object(splitting.json().into_iter().chain([("S", rows(&splitting.matrix))]));
+    object(known.json().into_iter().chain(known.splitting.iter().map(|splitting| (SPLITTING, of(splitting)))))
 }
 
 fn orbit_json(orbit: &ProvedOrbit) -> Value {
@@ -130,13 +113,7 @@ fn listed(name: &'static str, values: impl Iterator<Item = Value>) -> Option<(&'
 }
 
 fn values_json(values: &ProvedValues) -> Value {
-    let one = |entry: &sigmastar_lang::spec::ProvedValue| {
-        object([
-            ("bound", Value::from(entry.bound.field())),
-            ("X", exact(&entry.x)),
-            ("E", exact(&entry.e)),
-            ("value", exact(&entry.value)),
-        ])
-    };
+    let one =
+        |entry: &ProvedValue| object([("bound", Value::from(entry.bound.field()))].into_iter().chain(entry.json()));
     values.entries.iter().map(one).collect()
 }

@@ -127,6 +127,15 @@ pub(super) fn harmonics<T>(
     })
 }
 
+/// A field that holds a matrix.
+pub(super) fn matrix(
+    fields: &mut Object<'_>,
+    name: &'static str,
+    errors: &mut Errors,
+) -> Result<Vec<Vec<Rational>>, Reported> {
+    fields.required(name, errors).and_then(|value| read_rows(&value, &format!("an entry of {name}"), errors))
+}
+
 /// Lists of exact rationals.
 pub(super) fn read_rows(value: &Value<'_>, what: &str, errors: &mut Errors) -> Result<Vec<Vec<Rational>>, Reported> {
     let mut rows = Vec::new();
@@ -311,7 +320,7 @@ fn read_sharp(
 }
 
 /// An object that holds numbers, and what `other` reads.
-fn read_numbers<N: NumberFields>(
+pub(super) fn read_numbers<N: NumberFields>(
     value: &Value<'_>,
     errors: &mut Errors,
     other: impl FnOnce(&mut Object<'_>, &mut Errors) -> Result<N::Other, Reported>,

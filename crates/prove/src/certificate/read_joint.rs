@@ -1,7 +1,7 @@
 //! Reading the joint inequalities of a certificate of a plant. What is read is taken as it is: nothing of it is proved here.
 
-use super::fields::rational;
-use super::read::{read_rows, vector};
+use super::fields::{NumberFields, rational};
+use super::read::{matrix, vector};
 use rug::Rational;
 use sigmastar_lang::spec::{Errors, JointInequality, JointStability, Level, Metric, Object, Reported, Value};
 
@@ -17,10 +17,8 @@ pub(super) fn read_joint_stability(
     n: usize,
     errors: &mut Errors,
 ) -> Result<JointStability, Reported> {
-    let (inequality, levels) = read(value, n, errors, |fields, errors| {
-        let [p_up, x_low, e_low] = ["P_up", "x_low", "e_low"].map(|name| rational(fields, name, errors));
-        Ok(Level { p_up: p_up?, x_low: x_low?, e_low: e_low? })
-    })?;
+    let of_level = |fields: &mut Object<'_>, errors: &mut Errors| Level::read(fields, errors, |_, _| Ok(()));
+    let (inequality, levels) = read(value, n, errors, of_level)?;
     Ok(JointStability { inequality, levels })
 }
 
@@ -36,18 +34,17 @@ fn read<T>(
     let mut metric = |name: &'static str, is_near: bool, errors: &mut Errors| {
         let value = fields.required(name, errors)?;
         let mut fields = value.object(errors)?;
-        let matrix = fields.required("P", errors).and_then(|value| read_rows(&value, "an entry of P", errors));
-        let cross = match is_near {
-            true => fields.required("p", errors).and_then(|value| vector(&value, n, errors)),
-            false => Ok(vec![Rational::new(); n]),
-        };
-        let [weight, k_p, c_x, c_e, c_y] =
-            ["w", "k_p", "c_x", "c_e", "c_y"].map(|name| rational(&mut fields, name, errors));
+        let metric = Metric::read(&mut fields, errors, |fields, errors| {
+            let matrix = matrix(fields, "P", errors);
+            let cross = match is_near {
+                true => fields.required("p", errors).and_then(|value| vector(&value, n, errors)),
+                false => Ok(vec![Rational::new(); n]),
+            };
+            Ok((matrix?, cross?))
+        });
         let more = more(&mut fields, errors);
         fields.finish(errors);
-        let metric =
-            Metric { matrix: matrix?, cross: cross?, weight: weight?, k_p: k_p?, c_x: c_x?, c_e: c_e?, c_y: c_y? };
-        Ok((metric, more?))
+        Ok((metric?, more?))
     };
     let (near, far) = (metric("near", true, errors), metric("far", false, errors));
     fields.finish(errors);

@@ -1,7 +1,9 @@
 //! Reading what a certificate of a plant adds to the witness. What is read is taken as it is: nothing of it is proved here.
 
-use super::fields::{CELLS, EXISTENCE_INEQUALITY, INEQUALITY, JOINT_INEQUALITY, SENSITIVITIES, SPLITTING, rational};
-use super::read::{each, harmonics, listed, read_rows, read_triple, vector};
+use super::fields::{
+    CELLS, EXISTENCE_INEQUALITY, INEQUALITY, JOINT_INEQUALITY, NumberFields, SENSITIVITIES, SPLITTING, rational,
+};
+use super::read::{each, harmonics, listed, matrix, read_numbers, read_rows, read_triple, vector};
 use super::read_joint::{read_joint, read_joint_stability};
 use super::triple::{EXISTENCE, STABILITY};
 use crate::reduction::FreeNumbers;
@@ -125,12 +127,7 @@ fn with_sampled(
 }
 
 fn read_sampled(value: &Value<'_>, known: &SampledWitness, errors: &mut Errors) -> Result<SampledInequality, Reported> {
-    let mut fields = value.object(errors)?;
-    let [x, e, lambda, rate, c_e, c_y] =
-        ["X", "E", "lambda", "rate", "c_e", "c_y"].map(|name| rational(&mut fields, name, errors));
-    fields.finish(errors);
-    let (w_x, eta, at) = (known.w_x.clone(), known.eta.clone(), known.about());
-    Ok(SampledInequality { x: x?, e: e?, w_x, eta, lambda: lambda?, rate: rate?, c_e: c_e?, c_y: c_y?, at })
+    read_numbers(value, errors, |_, _| Ok((known.w_x.clone(), known.eta.clone(), known.about())))
 }
 
 fn read_sampled_existence(
@@ -138,33 +135,11 @@ fn read_sampled_existence(
     known: &SampledWitness,
     errors: &mut Errors,
 ) -> Result<SampledExistence, Reported> {
-    let mut fields = value.object(errors)?;
-    let [x, e] = ["X", "E"].map(|name| rational(&mut fields, name, errors));
-    let matrix = fields.required("P", errors).and_then(|value| read_rows(&value, "an entry of P", errors));
-    let [k_p, c_x, c_e, c_y, gamma, lambda] =
-        ["k_p", "c_x", "c_e", "c_y", "gamma", "lambda"].map(|name| rational(&mut fields, name, errors));
-    fields.finish(errors);
-    Ok(SampledExistence {
-        x: x?,
-        e: e?,
-        matrix: matrix?,
-        k_p: k_p?,
-        c_x: c_x?,
-        c_e: c_e?,
-        c_y: c_y?,
-        gamma: gamma?,
-        lambda: lambda?,
-        at: known.about(),
-    })
+    read_numbers(value, errors, |fields, errors| Ok((matrix(fields, "P", errors)?, known.about())))
 }
 
 fn read_existence(value: &Value<'_>, errors: &mut Errors) -> Result<ExistenceInequality, Reported> {
-    let mut fields = value.object(errors)?;
-    let [x, e] = ["X", "E"].map(|name| rational(&mut fields, name, errors));
-    let matrix = fields.required("P", errors).and_then(|value| read_rows(&value, "an entry of P", errors));
-    let [k_p, c_x, c_y, value] = ["k_p", "c_x", "c_y", "sigma"].map(|name| rational(&mut fields, name, errors));
-    fields.finish(errors);
-    Ok(ExistenceInequality { x: x?, e: e?, matrix: matrix?, k_p: k_p?, c_x: c_x?, c_y: c_y?, value: value? })
+    read_numbers(value, errors, |fields, errors| Ok((matrix(fields, "P", errors)?,)))
 }
 
 /// The matrix inequality, with the weights of the witness.
@@ -174,19 +149,14 @@ fn read_inequality(
     errors: &mut Errors,
 ) -> Result<MatrixInequality, Reported> {
     let [w_x, h] = ["w_x", "h"].map(|name| rational(witness, name, errors));
-    let mut fields = value.object(errors)?;
-    let [x, e, rate, value] = ["X", "E", "rate", "sigma"].map(|name| rational(&mut fields, name, errors));
-    let splitting = fields.optional(SPLITTING).map(|value| read_splitting(&value, errors)).transpose();
-    fields.finish(errors);
-    Ok(MatrixInequality { x: x?, e: e?, w_x: w_x?, h: h?, rate: rate?, value: value?, splitting: splitting? })
+    read_numbers(value, errors, |fields, errors| {
+        let splitting = fields.optional(SPLITTING).map(|value| read_splitting(&value, errors)).transpose();
+        Ok((w_x?, h?, splitting?))
+    })
 }
 
 fn read_splitting(value: &Value<'_>, errors: &mut Errors) -> Result<Splitting, Reported> {
-    let mut fields = value.object(errors)?;
-    let [x, e] = ["X", "E"].map(|name| rational(&mut fields, name, errors));
-    let matrix = fields.required("S", errors).and_then(|value| read_rows(&value, "an entry of S", errors));
-    fields.finish(errors);
-    Ok(Splitting { x: x?, e: e?, matrix: matrix? })
+    read_numbers(value, errors, |fields, errors| Ok((matrix(fields, "S", errors)?,)))
 }
 
 /// `orbit` and `forcing`, about the nominal values of these parameters.
@@ -276,8 +246,7 @@ fn read_values(value: &Value<'_>, errors: &mut Errors) -> Result<ProvedValues, R
                 errors.report(value.error(ErrorKind::UnknownName, "this is no bounding function of a plant"))
             })
         });
-        let [x, e, value] = ["X", "E", "value"].map(|name| rational(fields, name, errors));
-        Ok(ProvedValue { bound: bound?, x: x?, e: e?, value: value?, sampled: None })
+        ProvedValue::read(fields, errors, |_, _| Ok((bound?, None)))
     });
     entries.map(ProvedValues::new)
 }
