@@ -14,7 +14,7 @@ use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::parallel;
 use sigmastar_lang::expr::TrigonometricPolynomial;
-use sigmastar_lang::spec::model::PeriodicMatrix;
+use sigmastar_lang::spec::model::{Constant, Lyapunov, PeriodicMatrix};
 use sigmastar_matrix::{ScaledMatrix, Symmetric, is_symmetric};
 use thiserror::Error;
 
@@ -29,6 +29,26 @@ pub struct ProvedTriple {
     pub p_up: Rational,
     /// The rate, in 1/time.
     pub alpha: Rational,
+}
+
+impl ProvedTriple {
+    /// As a specification has it.
+    #[must_use]
+    pub fn stated(&self) -> (Lyapunov, PeriodicMatrix) {
+        let [p_low, p_up, alpha] = [&self.p_low, &self.p_up, &self.alpha].map(Constant::rational);
+        (Lyapunov { p_low, p_up, alpha }, self.matrix.clone())
+    }
+
+    /// A triple that serves wherever one of these does, which are of one P: that of all cells of a family. None of none.
+    #[must_use]
+    pub fn in_common(triples: Vec<ProvedTriple>) -> Option<ProvedTriple> {
+        triples.into_iter().reduce(|one, other| ProvedTriple {
+            p_low: one.p_low.min(other.p_low),
+            p_up: one.p_up.max(other.p_up),
+            alpha: one.alpha.min(other.alpha),
+            ..one
+        })
+    }
 }
 
 /// The proved triples of a Jacobian.

@@ -42,9 +42,7 @@ pub use curve::MAX_HARMONICS;
 pub use failure::{MAX_STATES, OrbitFailure, OrbitNotProved};
 pub use find::{FloatOrbit, find_orbit};
 pub use forcing::{decide_forcing, prove_forcing};
-pub use prove::{
-    OrbitProof, SecondTriple, decide_orbit, decide_second, prove_orbit, prove_orbit_at, prove_orbits, prove_second,
-};
+pub use prove::{OrbitProof, decide_orbit, decide_second, prove_orbit, prove_orbit_at, prove_orbits, prove_second};
 pub use round::round_orbit;
 pub use sampled::defects_by_parameter;
 pub use series::FloatSeries;

@@ -9,7 +9,7 @@ use super::linear::enclosed;
 use super::members::Members;
 use super::rate::Contraction;
 use super::sampled::Sampled;
-use crate::lyapunov::prove_bounds;
+use crate::lyapunov::{ProvedTriple, prove_bounds};
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, round_f64, round_rational};
@@ -308,30 +308,7 @@ fn in_common(proofs: Vec<OrbitProof>) -> Result<Vec<OrbitProof>, OrbitNotProved>
     proofs.into_iter().map(of_one).collect()
 }
 
-/// The triple of a second P, proved beside that of the orbit: `P' + P J + J^T P <= -2 alpha P` in the same tube.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SecondTriple {
-    /// The rate of P in the tube, in 1/time.
-    pub alpha: Rational,
-    /// `p_low I <= P(t)`.
-    pub p_low: Rational,
-    /// `P(t) <= p_up I`.
-    pub p_up: Rational,
-}
-
-impl SecondTriple {
-    /// A triple that serves wherever one of these does: that of all cells of a family. None of none.
-    #[must_use]
-    pub fn in_common(triples: Vec<SecondTriple>) -> Option<SecondTriple> {
-        triples.into_iter().reduce(|one, other| SecondTriple {
-            alpha: one.alpha.min(other.alpha),
-            p_low: one.p_low.min(other.p_low),
-            p_up: one.p_up.max(other.p_up),
-        })
-    }
-}
-
-/// The triple of another P in the same coordinates, for a proved orbit.
+/// The triple of another P in the same coordinates, for a proved orbit: `P' + P J + J^T P <= -2 alpha P` in the same tube.
 ///
 /// # Errors
 /// [`OrbitNotProved`]; nothing is claimed of this P then.
@@ -339,7 +316,7 @@ pub fn prove_second(
     plant: &Plant,
     proof: &OrbitProof,
     coordinates: &Coordinates,
-) -> Result<SecondTriple, OrbitNotProved> {
+) -> Result<ProvedTriple, OrbitNotProved> {
     let around = Around::new(plant, &proof.orbit, coordinates)?;
     let sampled = Sampled::new(plant, &proof.orbit, coordinates);
     let sampled = sampled.ok_or(OrbitNotProved::Shape("a number is beyond doubles"))?;
@@ -349,27 +326,28 @@ pub fn prove_second(
         let alpha = round_f64(sampled.rate * (1.0 - given_up), DIGITS, Direction::Down).filter(|alpha| *alpha > 0);
         let Some(alpha) = alpha else { break };
         match around.prove_rate(&alpha, &proof.tube) {
-            Ok(()) => return Ok(SecondTriple { alpha, p_low, p_up }),
+            Ok(()) => return Ok(ProvedTriple { matrix: coordinates.p.clone(), p_low, p_up, alpha }),
             Err(reason) => failure = reason,
         }
     }
     Err(failure)
 }
 
-/// Decides the triple of a second P again.
+/// Decides such a triple again, in the coordinates L.
 ///
 /// # Errors
 /// The first inequality that is not proved.
 pub fn decide_second(
     plant: &Plant,
     proof: &OrbitProof,
-    coordinates: &Coordinates,
-    SecondTriple { alpha, p_low, p_up }: &SecondTriple,
+    l: &[Vec<Rational>],
+    ProvedTriple { matrix, p_low, p_up, alpha }: &ProvedTriple,
 ) -> Result<(), OrbitNotProved> {
     if [alpha, p_low].iter().any(|number| **number <= 0) || p_up < p_low {
         return Err(OrbitNotProved::Shape("alpha or p_low of existence is not positive, or p_up is below p_low"));
     }
-    let around = Around::new(plant, &proof.orbit, coordinates)?;
+    let coordinates = Coordinates { l: l.to_vec(), p: matrix.clone(), rate: f64::NAN };
+    let around = Around::new(plant, &proof.orbit, &coordinates)?;
     around.prove_bounds(p_low, p_up)?;
     around.prove_rate(alpha, &proof.tube)
 }

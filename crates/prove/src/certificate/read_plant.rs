@@ -8,13 +8,11 @@ use super::read_joint::{read_joint, read_joint_stability};
 use super::triple::{EXISTENCE, STABILITY};
 use crate::reduction::FreeNumbers;
 use sigmastar_lang::plant::Plant;
-use sigmastar_lang::spec::model::{Constant, Lyapunov};
 use sigmastar_lang::spec::{
     Bound, Document, ErrorKind, Errors, ExistenceInequality, MatrixInequality, Object, OfPlant, OrbitCurve, Parameters,
     ProvedCell, ProvedForcing, ProvedOrbit, ProvedValue, ProvedValues, Reported, SampledExistence, SampledInequalities,
     SampledInequality, SpecErrors, Splitting, TrigonometricVector, Value, Wave,
 };
-use sigmastar_plants::lyapunov::ProvedTriple;
 use sigmastar_theory::derivation::sampled::SampledWitness;
 
 /// The plant in a certificate, and what its witness says of it; `numbers` are the free numbers of that witness.
@@ -69,11 +67,7 @@ fn parts(
         FreeNumbers::Sampled(known) => with_sampled(values, witness, known, errors),
     };
     let existence = witness.optional(EXISTENCE).map(|value| read_triple(&value, errors)).transpose();
-    let parts = |ProvedTriple { matrix, p_low, p_up, alpha }: ProvedTriple| {
-        let [p_low, p_up, alpha] = [p_low, p_up, alpha].map(|value| Constant::rational(&value));
-        (Lyapunov { p_low, p_up, alpha }, matrix)
-    };
-    let (triple, matrix) = parts(triple?);
+    let (triple, matrix) = triple?.stated();
     let of_plant = OfPlant {
         parameters: plant.parameters.clone(),
         coordinates: rows,
@@ -81,7 +75,7 @@ fn parts(
         why_cut: None,
         triple,
         matrix,
-        existence: existence?.map(|triple| Box::new(parts(triple))),
+        existence: existence?.map(|triple| Box::new(triple.stated())),
         domain: plant.domain.clone(),
         ball: plant.ball.clone(),
     };

@@ -5,7 +5,7 @@ use super::refusal::Refusal;
 use crate::search::{FloatModel, SharpProposal, search_sharp, search_sharp_near};
 use rug::Rational;
 use sigmastar_exact::enclosure::MAX_PRECISION;
-use sigmastar_lang::spec::model::{Constant, Jacobian, Lyapunov, LyapunovSource, Specification};
+use sigmastar_lang::spec::model::{Jacobian, LyapunovSource, Specification};
 use sigmastar_plants::lyapunov::{
     Candidate, Candidates, Family, LyapunovFailure, NotProved, ProvedTriple, ProvedTriples, candidates, prove,
 };
@@ -180,14 +180,9 @@ fn decide_triple(spec: &Specification, jacobian: &Jacobian, triple: &ProvedTripl
 
 fn carrying(spec: &Specification, proved: &ProvedTriples) -> Specification {
     let mut spec = spec.clone();
-    let constants = |proved: &ProvedTriple| Lyapunov {
-        p_low: Constant::rational(&proved.p_low),
-        p_up: Constant::rational(&proved.p_up),
-        alpha: Constant::rational(&proved.alpha),
-    };
     if let Some(jacobian) = spec.lyapunov.jacobian().cloned() {
-        let (triple, matrix) = (constants(&proved.stability), proved.stability.matrix.clone());
-        let existence = proved.existence.as_ref().map(|other| Box::new((constants(other), other.matrix.clone())));
+        let (triple, matrix) = proved.stability.stated();
+        let existence = proved.existence.as_ref().map(|other| Box::new(other.stated()));
         spec.lyapunov = LyapunovSource::Proved { jacobian, triple, matrix, existence };
     }
     spec

@@ -10,7 +10,8 @@ use sigmastar_exact::parallel;
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::model::Constant;
 use sigmastar_lang::spec::{OfPlant, Parameters, ProvedCell, ProvedOrbit, ProvedValues, Specification};
-use sigmastar_plants::orbit::{Coordinates, OrbitProof, SecondTriple, decide_forcing, decide_orbit, decide_second};
+use sigmastar_plants::lyapunov::ProvedTriple;
+use sigmastar_plants::orbit::{Coordinates, OrbitProof, decide_forcing, decide_orbit, decide_second};
 
 /// Proves again what a certificate says of a plant, without any search.
 ///
@@ -36,8 +37,8 @@ pub fn decide_again(plant: &Plant, of_plant: OfPlant, values: ProvedValues) -> R
     let rational = |constant: &Constant| constant.as_rational().cloned().unwrap_or_default();
     let [alpha, p_low, p_up] = [&of_plant.triple.alpha, &of_plant.triple.p_low, &of_plant.triple.p_up].map(rational);
     let second = of_plant.existence.as_deref().map(|(triple, matrix)| {
-        let [alpha, p_low, p_up] = [&triple.alpha, &triple.p_low, &triple.p_up].map(rational);
-        (matrix.clone(), SecondTriple { alpha, p_low, p_up })
+        let [p_low, p_up, alpha] = [&triple.p_low, &triple.p_up, &triple.alpha].map(rational);
+        ProvedTriple { matrix: matrix.clone(), p_low, p_up, alpha }
     });
     let decided = |(ProvedCell { orbit, forcing, .. }, parameters): (&ProvedCell, &Parameters)| {
         let of_cell = in_cell(plant, parameters.clone());
@@ -46,9 +47,8 @@ pub fn decide_again(plant: &Plant, of_plant: OfPlant, values: ProvedValues) -> R
         let orbit = OrbitProof { orbit: approximation, defect, tube, radius, alpha, p_low, p_up };
         decide_orbit(&of_cell, &coordinates, &orbit)?;
         decide_forcing(&of_cell, &coordinates, &orbit, forcing)?;
-        if let Some((matrix, triple)) = &second {
-            let in_it = Coordinates { l: coordinates.l.clone(), p: matrix.clone(), rate: f64::NAN };
-            decide_second(&of_cell, &orbit, &in_it, triple)?;
+        if let Some(triple) = &second {
+            decide_second(&of_cell, &orbit, &coordinates.l, triple)?;
         }
         Ok(ProvenCell { parameters: parameters.clone(), orbit, forcing: forcing.clone() })
     };

@@ -13,7 +13,8 @@ use rug::Rational;
 use sigmastar_exact::parallel;
 use sigmastar_lang::spec::PeriodicMatrix;
 use sigmastar_plants::bounds::Asked;
-use sigmastar_plants::orbit::{Coordinates, SecondTriple, prove_orbits, prove_second};
+use sigmastar_plants::lyapunov::ProvedTriple;
+use sigmastar_plants::orbit::{Coordinates, prove_orbits, prove_second};
 use sigmastar_theory::derivation::paths::Path;
 
 /// What those candidates with a constant P promise by norms, and that P.
@@ -79,9 +80,9 @@ pub(super) fn with_constant(
         let of_one = |(cell, proven): (&Cell, &ProvenCell)| prove_second(&cell.plant, &proven.orbit, &with_second).ok();
         let cells: Vec<_> = sampling.cells.list.iter().zip(&base.cells).collect();
         let triples = parallel::map(&cells, |&cell| of_one(cell)).into_iter().collect::<Option<Vec<_>>>();
-        base.existence = triples.and_then(SecondTriple::in_common).map(|triple| (with_second.p, triple));
+        base.existence = triples.and_then(ProvedTriple::in_common);
     }
-    let second = base.existence.as_ref().map(|(p, _)| float_matrix(&p.mean));
+    let second = base.second().map(|p| float_matrix(&p.mean));
     let energy = rotation.as_ref().zip(chosen.energy.as_ref()).map(|(rotation, energy)| energy_in(energy, rotation));
     let both = Shape { l: &rounded, second: second.as_ref(), energy: energy.as_ref() };
     let in_tube = sampling.with_tube(base.tube());

@@ -19,7 +19,8 @@ use sigmastar_lang::spec::{
     Specification,
 };
 use sigmastar_plants::bounds::{Engine, FloatCurve, FloatSuprema, Region};
-use sigmastar_plants::orbit::{Coordinates, OrbitProof, SecondTriple, prove_forcing, prove_orbits};
+use sigmastar_plants::lyapunov::ProvedTriple;
+use sigmastar_plants::orbit::{Coordinates, OrbitProof, prove_forcing, prove_orbits};
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::paths::Path;
 use sigmastar_theory::transfer::TradeOff;
@@ -69,7 +70,7 @@ pub(super) fn trade_off(data: &Data<'_>) -> TradeOff {
 pub(super) struct Along {
     pub(super) coordinates: Coordinates,
     pub(super) cells: Vec<ProvenCell>,
-    pub(super) existence: Option<(PeriodicMatrix, SecondTriple)>,
+    pub(super) existence: Option<ProvedTriple>,
     /// Why the box of the parameters is cut, where it is.
     pub(super) why: Option<String>,
 }
@@ -98,6 +99,7 @@ impl Along {
     pub(super) fn specification(&self, plant: &Plant, values: ProvedValues) -> Result<Specification, PlantRefusal> {
         let none = PlantRefusal::Coordinates;
         let OrbitProof { alpha, p_low, p_up, .. } = &self.cells.first().ok_or(none)?.orbit;
+        let [p_low, p_up, alpha] = [p_low, p_up, alpha].map(Constant::rational);
         let cell = |ProvenCell { parameters, orbit, forcing }: &ProvenCell| {
             let OrbitProof { orbit, defect, tube, radius, .. } = orbit.clone();
             let orbit = ProvedOrbit { approximation: orbit, defect, tube, radius };
@@ -107,16 +109,9 @@ impl Along {
             parameters: plant.parameters.clone(),
             coordinates: self.coordinates.l.clone(),
             cells: self.cells.iter().map(cell).collect(),
-            triple: Lyapunov {
-                p_low: Constant::rational(p_low),
-                p_up: Constant::rational(p_up),
-                alpha: Constant::rational(alpha),
-            },
+            triple: Lyapunov { p_low, p_up, alpha },
             matrix: self.coordinates.p.clone(),
-            existence: self.existence.as_ref().map(|(matrix, SecondTriple { alpha, p_low, p_up })| {
-                let [p_low, p_up, alpha] = [p_low, p_up, alpha].map(Constant::rational);
-                Box::new((Lyapunov { p_low, p_up, alpha }, matrix.clone()))
-            }),
+            existence: self.existence.as_ref().map(|triple| Box::new(triple.stated())),
             why_cut: self.why.clone(),
             domain: plant.domain.clone(),
             ball: plant.ball.clone(),
@@ -133,7 +128,7 @@ impl Along {
 
     /// The P of existence, where there is one.
     pub(super) fn second(&self) -> Option<&PeriodicMatrix> {
-        self.existence.as_ref().map(|(matrix, _)| matrix)
+        self.existence.as_ref().map(|triple| &triple.matrix)
     }
 
     /// What samples the bounds.
