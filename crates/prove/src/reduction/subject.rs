@@ -86,40 +86,36 @@ impl Subject {
         }
     }
 
+    /// What both kinds have.
+    fn part<T: ?Sized>(&self, of_specification: fn(&Specification) -> &T, of_plant: fn(&Plant) -> &T) -> &T {
+        match self {
+            Subject::Specification(spec) => of_specification(spec),
+            Subject::Plant(plant) => of_plant(plant),
+        }
+    }
+
     /// Its name.
     #[must_use]
     pub fn name(&self) -> &str {
-        match self {
-            Subject::Specification(spec) => &spec.name,
-            Subject::Plant(plant) => &plant.name,
-        }
+        self.part(|spec| &spec.name, |plant| &plant.name)
     }
 
     /// The document as it was read.
     #[must_use]
     pub fn document(&self) -> &serde_json::Value {
-        match self {
-            Subject::Specification(spec) => &spec.document,
-            Subject::Plant(plant) => &plant.document,
-        }
+        self.part(|spec| &spec.document, |plant| &plant.document)
     }
 
     /// SHA-256, in hexadecimal, of the canonical form of the document.
     #[must_use]
     pub fn sha256(&self) -> &str {
-        match self {
-            Subject::Specification(spec) => &spec.sha256,
-            Subject::Plant(plant) => &plant.sha256,
-        }
+        self.part(|spec| &spec.sha256, |plant| &plant.sha256)
     }
 
     /// The period.
     #[must_use]
     pub fn period(&self) -> &Period {
-        match self {
-            Subject::Specification(spec) => &spec.period,
-            Subject::Plant(plant) => &plant.period,
-        }
+        self.part(|spec| &spec.period, |plant| &plant.period)
     }
 
     /// An error at a field of the document.
@@ -134,37 +130,25 @@ impl Subject {
     /// The internal model of the regulator.
     #[must_use]
     pub fn internal_model(&self) -> &InternalModel {
-        match self {
-            Subject::Specification(spec) => &spec.internal_model,
-            Subject::Plant(plant) => &plant.internal_model,
-        }
+        self.part(|spec| &spec.internal_model, |plant| &plant.internal_model)
     }
 
     /// Whether the regulator is asked to set z = M e at its first instant.
     #[must_use]
     pub fn starts_aligned(&self) -> bool {
-        match self {
-            Subject::Specification(spec) => spec.initial_set.is_aligned(),
-            Subject::Plant(plant) => plant.initial_set.is_aligned(),
-        }
+        self.part(|spec| &spec.initial_set, |plant| &plant.initial_set).is_aligned()
     }
 
     /// The gain of the actuator, where the document has one.
     #[must_use]
     pub fn input_gain(&self) -> Option<&InputGain> {
-        match self {
-            Subject::Specification(spec) => spec.input_gain.as_ref(),
-            Subject::Plant(plant) => plant.input_gain.as_ref(),
-        }
+        self.part(|spec| &spec.input_gain, |plant| &plant.input_gain).as_ref()
     }
 
     /// What the actuator takes, where the document states it.
     #[must_use]
     pub fn actuator(&self) -> Option<&Actuator> {
-        match self {
-            Subject::Specification(spec) => spec.actuator.as_ref(),
-            Subject::Plant(plant) => plant.actuator.as_ref(),
-        }
+        self.part(|spec| &spec.actuator, |plant| &plant.actuator).as_ref()
     }
 
     /// That what is asked for can be had of a document with this input gain, which it does not honour.
