@@ -35,6 +35,12 @@ impl Decision {
     /// What holds without a box.
     pub(super) const TRUE: Decision = Decision { truth: Truth::True, boxes: 0 };
 
+    /// What is seen to fail without one.
+    pub(super) const FALSE: Decision = Decision { truth: Truth::False, boxes: 0 };
+
+    /// What is not looked at.
+    pub(super) const UNDECIDED: Decision = Decision { truth: Truth::Undecided, boxes: 0 };
+
     /// This one and, if it is true, the next one, with the boxes of both.
     pub(super) fn and(self, next: impl FnOnce() -> Decision) -> Decision {
         if !self.truth.is_true() {
@@ -99,14 +105,13 @@ impl Engine {
     #[must_use]
     pub fn decide(&self, entry: &Entry, effort: usize) -> Decision {
         let Entry { bound, x, e, value } = entry;
-        let undecided = Decision { truth: Truth::Undecided, boxes: 0 };
         if *x < 0 || *e < 0 || (bound.is_rate() && !self.has_matrix(*bound)) {
-            return undecided;
+            return Decision::UNDECIDED;
         }
         if !bound.is_signed() && *value < 0 {
-            return Decision { truth: Truth::False, boxes: 0 };
+            return Decision::FALSE;
         }
-        let Some(quantity) = self.quantity(*bound) else { return undecided };
+        let Some(quantity) = self.quantity(*bound) else { return Decision::UNDECIDED };
         self.below((*bound, quantity), &quantity.active, [x, e], effort, &|frame, _, _, _| frame.rational(value))
     }
 
@@ -118,11 +123,10 @@ impl Engine {
     /// prove: what [`Engine::decide`] leaves to him.
     #[must_use]
     pub fn decide_majorant(&self, kind: Bound, b: &Majorant, [x, e]: [&Rational; 2], effort: usize) -> Decision {
-        let undecided = Decision { truth: Truth::Undecided, boxes: 0 };
         if *x < 0 || *e < 0 || (kind.is_rate() && !self.has_matrix(kind)) || !b.is_monotone(kind) {
-            return undecided;
+            return Decision::UNDECIDED;
         }
-        let Some(quantity) = self.quantity(kind) else { return undecided };
+        let Some(quantity) = self.quantity(kind) else { return Decision::UNDECIDED };
         // The distance from the orbit is that of the tube, which is followed in time.
         let mut active = quantity.active.clone();
         active.time |= !active.states.is_empty();

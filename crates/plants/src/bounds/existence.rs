@@ -8,7 +8,6 @@ use super::quantity::Part;
 use super::suprema::FloatSuprema;
 use super::weights::EnergyWeights;
 use rug::Rational;
-use sigmastar_exact::enclosure::Truth;
 use sigmastar_exact::number::{Direction, round_f64};
 use sigmastar_lang::spec::{ExistenceInequality, Metric};
 use sigmastar_matrix::is_symmetric;
@@ -34,10 +33,10 @@ impl Engine {
         let ExistenceInequality { x, e, matrix, k_p, c_x, c_y, value } = inequality;
         let order = self.states();
         if [k_p, c_x, c_y].into_iter().any(|number| *number <= 0) || !is_symmetric(matrix, order) {
-            return Decision { truth: Truth::False, boxes: 0 };
+            return Decision::FALSE;
         }
         if *x < 0 || *e < 0 {
-            return Decision { truth: Truth::Undecided, boxes: 0 };
+            return Decision::UNDECIDED;
         }
         // With the metric [P 0; 0 1], and no margin of e.
         let zeros = vec![Rational::new(); order];

@@ -8,7 +8,7 @@ use super::definite::{SymmetricValues, Verdict, definite};
 use super::engine::Engine;
 use super::quantity::Part;
 use rug::Rational;
-use sigmastar_exact::enclosure::{Enclosure, Truth};
+use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_lang::spec::{Bound, Constant, MatrixInequality, Splitting};
 use sigmastar_matrix::is_symmetric;
 
@@ -25,13 +25,12 @@ impl Engine {
     pub fn decide_inequality(&self, inequality: &MatrixInequality, mu: &Constant, effort: usize) -> Decision {
         let MatrixInequality { w_x, h, rate, splitting, .. } = inequality;
         if [w_x, h, rate].into_iter().any(|weight| *weight <= 0) {
-            return Decision { truth: Truth::False, boxes: 0 };
+            return Decision::FALSE;
         }
-        let undecided = Decision { truth: Truth::Undecided, boxes: 0 };
         let [of_states, of_error] = inequality.arguments();
         let negative = of_states.iter().chain(&of_error).any(|end| **end < 0);
         if negative || (self.states() > 0 && !self.has_matrix(Bound::Rate)) {
-            return undecided;
+            return Decision::UNDECIDED;
         }
         let form = Form::new(inequality, mu);
         let ends = self.moved_slopes(&inequality.value);
@@ -39,7 +38,7 @@ impl Engine {
             return self.decide_ends(&ends, (Part::All, of_states), effort, |values, moved| form.whole(values, moved));
         };
         if !is_symmetric(matrix, self.states() + 1) {
-            return undecided;
+            return Decision::UNDECIDED;
         }
         // With the first, F is at least what the second is about.
         let first = self.decide_part(Part::States, of_states, effort, |values| form.beyond(matrix, values));

@@ -5,11 +5,8 @@ use super::engine::Engine;
 use super::metric_form::MetricForm;
 use super::quantity::Part;
 use rug::Rational;
-use sigmastar_exact::enclosure::Truth;
 use sigmastar_lang::spec::{JointInequality, JointStability, Level, Metric};
 use sigmastar_matrix::{is_positive_definite, is_symmetric};
-
-const FALSE: Decision = Decision { truth: Truth::False, boxes: 0 };
 
 impl Engine {
     /// Decides a joint inequality, with so many boxes for each metric at most.
@@ -31,10 +28,10 @@ impl Engine {
         };
         let far_fits = far.weight >= 0 && far.cross.iter().all(|entry| *entry == 0);
         if !fits(near) || !fits(far) || !far_fits || *value <= 0 {
-            return FALSE;
+            return Decision::FALSE;
         }
         if *x < 0 || *e < 0 || self.moves().is_some() {
-            return Decision { truth: Truth::Undecided, boxes: 0 };
+            return Decision::UNDECIDED;
         }
         let sum = Rational::from(&near.weight + &far.weight);
         let [of_near, of_far] = [(near, &near.weight), (far, &sum)].map(|(metric, of_e)| MetricForm {
@@ -56,7 +53,7 @@ impl Engine {
         let JointStability { inequality, levels } = joint;
         let decision = self.decide_joint(inequality, effort);
         let hold = || inequality.metrics().into_iter().zip(levels).all(|(metric, level)| lies_between(metric, level));
-        if decision.truth.is_true() && !hold() { FALSE } else { decision }
+        if decision.truth.is_true() && !hold() { Decision::FALSE } else { decision }
     }
 }
 

@@ -11,7 +11,7 @@ use super::sampled_form::{FormNumbers, Less, LoopNumbers, Parts, form};
 use super::sampled_point::SampledEnergy;
 use super::suprema::FloatSuprema;
 use rug::Rational;
-use sigmastar_exact::enclosure::{Enclosure, Truth};
+use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, Portable, round_f64};
 use sigmastar_lang::spec::{Bound, SampledExistence, SampledInequality};
 use sigmastar_matrix::is_symmetric;
@@ -34,10 +34,10 @@ impl Engine {
     pub fn decide_sampled(&self, inequality: &SampledInequality, effort: usize) -> Decision {
         let SampledInequality { x, e, w_x, eta, lambda, rate, c_e, c_y, at } = inequality;
         if [w_x, eta, lambda, rate, c_e, c_y].into_iter().any(|number| *number <= 0) {
-            return Decision { truth: Truth::False, boxes: 0 };
+            return Decision::FALSE;
         }
         if *x < 0 || *e < 0 || (self.states() > 0 && !self.has_matrix(Bound::Rate)) {
-            return Decision { truth: Truth::Undecided, boxes: 0 };
+            return Decision::UNDECIDED;
         }
         let of = LoopNumbers::enclosed(at, &self.period(), self.moves());
         let [w_x, eta, lambda, rate, c_e, c_y] = [w_x, eta, lambda, rate, c_e, c_y].map(exact);
@@ -55,10 +55,10 @@ impl Engine {
         let SampledExistence { x, e, matrix, k_p, c_x, c_e, c_y, gamma, lambda, at } = inequality;
         let order = self.states();
         if [k_p, c_x, c_e, c_y, gamma, lambda].into_iter().any(|number| *number <= 0) || !is_symmetric(matrix, order) {
-            return Decision { truth: Truth::False, boxes: 0 };
+            return Decision::FALSE;
         }
         if *x < 0 || *e < 0 {
-            return Decision { truth: Truth::Undecided, boxes: 0 };
+            return Decision::UNDECIDED;
         }
         let of = LoopNumbers::enclosed(at, &self.period(), self.moves());
         let [k_p, c_e, c_y, gamma, lambda] = [k_p, c_e, c_y, gamma, lambda].map(exact);

@@ -14,7 +14,7 @@ use super::pointwise::{Derivatives, product, roots, transposed};
 use super::quantity::Part;
 use super::suprema::FloatSuprema;
 use rug::Rational;
-use sigmastar_exact::enclosure::{Enclosure, Truth};
+use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, round_f64};
 use sigmastar_lang::spec::Bound;
 use sigmastar_matrix::{is_positive_definite, is_symmetric};
@@ -74,10 +74,10 @@ impl Engine {
         let (order, columns) = (self.states() + 1, part.columns(self.states()).len());
         let fits = g.len() == columns && g.iter().all(|row| row.len() == order);
         if !is_symmetric(q, columns) || !is_symmetric(h, order) || !fits || !is_positive_definite(h) {
-            return Decision { truth: Truth::False, boxes: 0 };
+            return Decision::FALSE;
         }
         if *x < 0 || *e < 0 {
-            return Decision { truth: Truth::Undecided, boxes: 0 };
+            return Decision::UNDECIDED;
         }
         self.decide_part(*part, [x, e], effort, |values| slopes.form(values))
     }

@@ -59,17 +59,23 @@ pub type RepairedProof = Proof<RepairedWitness>;
 /// Of the regulator at samples.
 pub type SampledProof = Proof<SampledWitness>;
 
-impl Decidable for SampledWitness {
-    type Evaluation = SampledEvaluation;
+macro_rules! decidable {
+    ($($witness:ident => $evaluation:ident),+) => {$(
+        impl Decidable for $witness {
+            type Evaluation = $evaluation;
 
-    fn evaluate(&self, data: &Data<'_>) -> SampledEvaluation {
-        SampledEvaluation::new(data, self)
-    }
+            fn evaluate(&self, data: &Data<'_>) -> $evaluation {
+                $evaluation::new(data, self)
+            }
 
-    fn conditions(evaluation: &SampledEvaluation) -> &[Condition] {
-        &evaluation.conditions
-    }
+            fn conditions(evaluation: &$evaluation) -> &[Condition] {
+                &evaluation.conditions
+            }
+        }
+    )+};
 }
+
+decidable!(SharpWitness => SharpEvaluation, RepairedWitness => RepairedEvaluation, SampledWitness => SampledEvaluation);
 
 impl<W: Decidable> Proof<W> {
     /// The truth of all conditions together.
@@ -120,18 +126,6 @@ impl Decided<'_> {
     }
 }
 
-impl Decidable for SharpWitness {
-    type Evaluation = SharpEvaluation;
-
-    fn evaluate(&self, data: &Data<'_>) -> SharpEvaluation {
-        SharpEvaluation::new(data, self)
-    }
-
-    fn conditions(evaluation: &SharpEvaluation) -> &[Condition] {
-        &evaluation.conditions
-    }
-}
-
 impl Witness for SharpWitness {
     fn decided(proof: &SharpProof) -> Decided<'_> {
         let Proof { witness, evaluation, precision } = proof;
@@ -147,18 +141,6 @@ impl Witness for SharpWitness {
             arguments: [bounds.x_p.max(&error_box.x_b), bounds.e_p.max(&error_box.e_b)],
             precision: *precision,
         }
-    }
-}
-
-impl Decidable for RepairedWitness {
-    type Evaluation = RepairedEvaluation;
-
-    fn evaluate(&self, data: &Data<'_>) -> RepairedEvaluation {
-        RepairedEvaluation::new(data, self)
-    }
-
-    fn conditions(evaluation: &RepairedEvaluation) -> &[Condition] {
-        &evaluation.conditions
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::coordinates::{CoordinateSearch, NEAR, Shape, Start, Varied};
 use super::estimates::Density;
-use crate::search::{PeriodicSet, SharpParameters};
+use crate::search::{FloatModel, Obstacle, PeriodicSet, SharpParameters, SharpProposal};
 use sigmastar_exact::parallel;
 use sigmastar_plants::bounds::EnergyWeights;
 use sigmastar_theory::derivation::harmonics::AtOrigin;
@@ -35,15 +35,7 @@ impl CoordinateSearch<'_> {
         let SampledSet { set, density } = &sampled;
         let Some(energy) = self.energy(at, &sampled, 1.0) else { return false };
         let model = self.model(Shape { energy: Some(&energy), ..at.shape() }, density).with_room(at.room);
-        let sigma = factor * at.proposal.sigma * (1.0 + NEAR);
-        let smaller = PeriodicSet::least(
-            &model,
-            &AtOrigin::new(&model),
-            sigma,
-            (at.proposal.parameters.form, at.proposal.parameters.floors),
-            model.effort().room,
-        );
-        smaller.is_ok_and(|smaller| {
+        least_set(&model, &at.proposal, factor).is_ok_and(|smaller| {
             let sizes = |set: &PeriodicSet| [set.x_per, set.e_per, set.z];
             sizes(set).into_iter().zip(sizes(&smaller)).any(|(size, smaller)| smaller < size * (1.0 - WORTH_AN_ENERGY))
         })
@@ -53,11 +45,7 @@ impl CoordinateSearch<'_> {
     fn sampled(&self, at: &Start, factor: f64) -> Option<SampledSet> {
         let density = self.focus(at.shape(), &at.proposal).map_or(Density::Coarse, Density::Focused);
         let model = self.model(at.shape(), &density).with_room(at.room);
-        let SharpParameters { form, floors, .. } = at.proposal.parameters;
-        let sigma = factor * at.proposal.sigma * (1.0 + NEAR);
-        let set =
-            PeriodicSet::least(&model, &AtOrigin::new(&model), sigma, (form, floors), model.effort().room).ok()?;
-        Some(SampledSet { set, density })
+        Some(SampledSet { set: least_set(&model, &at.proposal, factor).ok()?, density })
     }
 
     /// An inequality of existence on that set, with this share of the gain as its threshold.
@@ -80,4 +68,11 @@ impl CoordinateSearch<'_> {
         let least = FACTORS.into_iter().find_map(on_set);
         least.filter(|found| found.proposal.sigma < at.proposal.sigma * FAR).unwrap_or_else(|| at.clone())
     }
+}
+
+/// The least set of a model at so many times the gain of a proposal.
+fn least_set(model: &FloatModel, proposal: &SharpProposal, factor: f64) -> Result<PeriodicSet, Obstacle> {
+    let SharpParameters { form, floors, .. } = proposal.parameters;
+    let sigma = factor * proposal.sigma * (1.0 + NEAR);
+    PeriodicSet::least(model, &AtOrigin::new(model), sigma, (form, floors), model.effort().room)
 }
