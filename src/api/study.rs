@@ -68,7 +68,7 @@ impl Study {
     /// Its name.
     #[must_use]
     pub fn name(&self) -> &str {
-        &self.sweep.study().name
+        &self.sweep.study.name
     }
 
     /// How many cases there are.
@@ -83,7 +83,7 @@ impl Study {
     /// [`Range`](ErrorKind::Range) beyond the last one; a document that is too large with these values.
     pub fn case(&self, index: u64) -> Result<StudyCase, Error> {
         let case = self.made(index)?;
-        let names = self.sweep.study().parameters.iter().map(|parameter| parameter.name.clone());
+        let names = self.sweep.study.parameters.iter().map(|parameter| parameter.name.clone());
         Ok(StudyCase {
             index,
             values: names.zip(case.values).collect(),

@@ -31,15 +31,6 @@ impl Side {
             Side::Enclosed(value) => value.clone(),
         }
     }
-
-    /// The number itself, where it is known.
-    #[must_use]
-    pub fn exact(&self) -> Option<&Rational> {
-        match self {
-            Side::Exact(value) => Some(value),
-            Side::Enclosed(_) => None,
-        }
-    }
 }
 
 impl From<Rational> for Side {

@@ -1,7 +1,7 @@
 //! The regulator as a script for MATLAB and Octave.
 
 use super::notice::comment;
-use super::{Export, decimal, notice, sampled_law};
+use super::{Export, decimal, notice, numbers, sampled_law};
 
 /// A script that sets `sigma`, `mu`, `nominal` (the gain of the actuator, where there is one), `actuator_max`
 /// (what it takes, where that is stated), `frequencies`, `weights`, `Phi`, `Gamma`, `M`, `N`, `z_start` (z at the first instant, of e
@@ -54,16 +54,9 @@ pub fn matlab(export: &Export<'_>) -> String {
             ),
         });
         script.push_str(&format!("% In floating point, {sampled}\n"));
-        let numbers = [
-            ("step", discrete.step),
-            ("K", discrete.gain),
-            ("weight_sum", discrete.weight_sum),
-            ("decay", discrete.decay),
-            ("D_d", discrete.feedthrough),
-        ];
         let further = discrete.prediction.map(|product| ("prediction", product));
         let further = further.into_iter().chain(discrete.saturation.map(|limit| ("saturation", limit)));
-        for (name, value) in numbers.into_iter().chain(further) {
+        for (name, value) in numbers(discrete).into_iter().chain(further) {
             script.push_str(&format!("{name} = {};\n", decimal(value)));
         }
         script.push_str(&format!("spectral_radius = {};\n", decimal(sampled.spectral_radius())));

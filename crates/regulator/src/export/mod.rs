@@ -53,6 +53,17 @@ pub fn sampled_law(delayed: bool, divided: bool) -> String {
     }
 }
 
+/// The numbers of a discretisation that has them all, with the names that scripts give them.
+fn numbers(discrete: &Discrete) -> [(&'static str, f64); 5] {
+    [
+        ("step", discrete.step),
+        ("K", discrete.gain),
+        ("weight_sum", discrete.weight_sum),
+        ("decay", discrete.decay),
+        ("D_d", discrete.feedthrough),
+    ]
+}
+
 /// A double in the fewest digits that give it back.
 fn decimal(value: f64) -> String {
     let plain = format!("{value:?}");

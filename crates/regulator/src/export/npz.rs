@@ -1,6 +1,6 @@
 //! The regulator as a NumPy archive.
 
-use super::{Export, notice};
+use super::{Export, notice, numbers};
 use faer::Mat;
 use std::io::{Cursor, Write as _};
 use zip::result::ZipResult;
@@ -39,16 +39,9 @@ pub fn npz(export: &Export<'_>) -> ZipResult<Vec<u8>> {
     if let Some((discrete, sampled)) = export.discrete {
         archive.number("spectral_radius", sampled.spectral_radius())?;
         archive.add("unstable", "|b1", &[], &[u8::from(sampled.is_unstable())])?;
-        let numbers = [
-            ("step", discrete.step),
-            ("K", discrete.gain),
-            ("weight_sum", discrete.weight_sum),
-            ("decay", discrete.decay),
-            ("D_d", discrete.feedthrough),
-        ];
         let delayed = discrete.prediction.map(|product| [("delay_samples", 1.0), ("prediction", product)]);
         let further = discrete.saturation.map(|limit| ("saturation", limit));
-        for (name, value) in numbers.into_iter().chain(delayed.into_iter().flatten()).chain(further) {
+        for (name, value) in numbers(discrete).into_iter().chain(delayed.into_iter().flatten()).chain(further) {
             archive.number(name, value)?;
         }
         archive.vector("C_d", &discrete.output)?;

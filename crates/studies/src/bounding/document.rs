@@ -73,7 +73,7 @@ pub fn bounding_specification(
     let (engine, samples) = bounds_around(plant, of_plant)?;
     engine.smooth(&domain[0], &domain[1])?;
     let bounds = PlantBounds::prove(&engine, &samples, domain.each_ref())?;
-    let document = write(plant, spec, of_plant, bounds, domain.each_ref());
+    let document = write(plant, spec, of_plant, &bounds, domain.each_ref());
     Ok(BoundedPlant { document, domain, limited })
 }
 
@@ -81,7 +81,7 @@ fn write(
     plant: &Plant,
     spec: &Specification,
     of_plant: &OfPlant,
-    bounds: PlantBounds,
+    bounds: &PlantBounds,
     domain: [&Rational; 2],
 ) -> Value {
     let (fields, rate) = bounds.fields();

@@ -10,4 +10,3 @@ mod prove;
 mod tests;
 
 pub use document::{BoundedPlant, bounding_specification};
-pub use prove::PlantBounds;

@@ -29,22 +29,8 @@ const HALVINGS: u32 = 10;
 const EFFORT: usize = 2000;
 
 /// The bounding functions of a plant on `|y| <= X`, `|e| <= E`, relative to its orbit; each is proved there for every t by
-/// itself: of the norms that the names say, q and q_t on the orbit alone.
-#[derive(Clone, Debug)]
-pub struct PlantBounds {
-    q: Majorant,
-    q_t: Majorant,
-    f_x: Majorant,
-    f_e: Majorant,
-    f_xx: Majorant,
-    f_ex: Majorant,
-    q_x: Majorant,
-    q_e: Majorant,
-    q_e_max: Majorant,
-    q_tx: Majorant,
-    q_te: Majorant,
-    rate: Majorant,
-}
+/// itself: of the norms that the names say, q and q_t on the orbit alone. One for each [`Bound`], empty where none is proved.
+pub(super) struct PlantBounds([Majorant; Bound::ALL.len()]);
 
 /// The kinds that are fitted by a polynomial.
 const FITTED: [Bound; 8] =
@@ -56,7 +42,11 @@ impl PlantBounds {
     ///
     /// # Errors
     /// The first bounding function that is not proved within the effort.
-    pub fn prove(engine: &Engine, samples: &FloatSuprema, domain: [&Rational; 2]) -> Result<PlantBounds, PlantRefusal> {
+    pub(super) fn prove(
+        engine: &Engine,
+        samples: &FloatSuprema,
+        domain: [&Rational; 2],
+    ) -> Result<PlantBounds, PlantRefusal> {
         let stateless = engine.states() == 0;
         let fitted = parallel::map(&FITTED, |&kind| {
             let found = match kind {
@@ -70,56 +60,35 @@ impl PlantBounds {
         let origin = [Rational::new(), Rational::new()];
         let single = [(Bound::Q, &origin), (Bound::Qt, &origin), (Bound::Fxx, &corner), (Bound::Fex, &corner)];
         let single = parallel::map(&single, |&(kind, at)| (kind, least(engine, kind, at).map(Majorant::constant)));
-        let all: Vec<(Bound, Option<Majorant>)> = fitted.into_iter().chain(single).collect();
-        // What was not asked for is not proved either.
-        let proved = |kind: Bound| {
-            let found = all.iter().find(|(other, _)| *other == kind).and_then(|(_, found)| found.clone());
-            found.ok_or_else(|| PlantRefusal::NotProved { bound: kind.field(), at: domain.map(Rational::to_f64) })
-        };
-        Ok(PlantBounds {
-            f_x: proved(Bound::Fx)?,
-            f_e: proved(Bound::Fe)?,
-            q_x: proved(Bound::Qx)?,
-            q_e: proved(Bound::Qe)?,
-            q_e_max: proved(Bound::QeMax)?,
-            q_tx: proved(Bound::Qtx)?,
-            q_te: proved(Bound::Qte)?,
-            rate: proved(Bound::Rate)?,
-            q: proved(Bound::Q)?,
-            q_t: proved(Bound::Qt)?,
-            f_xx: proved(Bound::Fxx)?,
-            f_ex: proved(Bound::Fex)?,
-        })
+        let mut bounds = Bound::ALL.map(|_| Majorant::default());
+        for (kind, found) in fitted.into_iter().chain(single) {
+            let refusal = || PlantRefusal::NotProved { bound: kind.field(), at: domain.map(Rational::to_f64) };
+            bounds[kind as usize] = found.ok_or_else(refusal)?;
+        }
+        Ok(PlantBounds(bounds))
     }
 
     /// The bounding functions as fields of a specification, with coefficients of a few digits, and the rate.
     ///
     /// f, q and q_t follow from their derivatives along the segment from the orbit: `|f(t,x,e) - f(t,x_0,0)|` is at most
     /// `int_0^1 f_x(sX,sE) X + f_e(sX,sE) E ds`, and so on.
-    #[must_use]
-    pub fn fields(self) -> (Vec<(&'static str, Majorant)>, Majorant) {
-        let added = |start: &Majorant, x: &Majorant, e: &Majorant| {
-            let sum = start.plus(&x.along_segment([1, 0])).plus(&e.along_segment([0, 1]));
+    pub(super) fn fields(&self) -> (Vec<(&'static str, Majorant)>, Majorant) {
+        let of = |kind: Bound| &self.0[kind as usize];
+        let added = |start: &Majorant, x: Bound, e: Bound| {
+            let sum = start.plus(&of(x).along_segment([1, 0])).plus(&of(e).along_segment([0, 1]));
             sum.map(|coefficient| round_rational(coefficient, DIGITS, Direction::Up))
         };
         let on_the_orbit = [
-            ("f", added(&Majorant::default(), &self.f_x, &self.f_e)),
-            ("q", added(&self.q, &self.q_x, &self.q_e)),
-            ("q_t", added(&self.q_t, &self.q_tx, &self.q_te)),
+            (Bound::F, added(&Majorant::default(), Bound::Fx, Bound::Fe)),
+            (Bound::Q, added(of(Bound::Q), Bound::Qx, Bound::Qe)),
+            (Bound::Qt, added(of(Bound::Qt), Bound::Qtx, Bound::Qte)),
         ];
         // From above and from below it is the same: then one of the two is enough.
-        let one_sided = (!self.q_e_max.is_above(&self.q_e)).then_some((Bound::QeMax, self.q_e_max));
-        let first = [
-            (Bound::Fx, self.f_x),
-            (Bound::Fe, self.f_e),
-            (Bound::Fxx, self.f_xx),
-            (Bound::Fex, self.f_ex),
-            (Bound::Qx, self.q_x),
-            (Bound::Qe, self.q_e),
-        ];
-        let last = [(Bound::Qtx, self.q_tx), (Bound::Qte, self.q_te)];
-        let own = first.into_iter().chain(one_sided).chain(last).map(|(kind, majorant)| (kind.field(), majorant));
-        (on_the_orbit.into_iter().chain(own).collect(), self.rate)
+        let one_sided = (!of(Bound::QeMax).is_above(of(Bound::Qe))).then_some(Bound::QeMax);
+        let first = [Bound::Fx, Bound::Fe, Bound::Fxx, Bound::Fex, Bound::Qx, Bound::Qe];
+        let own = first.into_iter().chain(one_sided).chain([Bound::Qtx, Bound::Qte]);
+        let all = on_the_orbit.into_iter().chain(own.map(|kind| (kind, of(kind).clone())));
+        (all.map(|(kind, majorant)| (kind.field(), majorant)).collect(), of(Bound::Rate).clone())
     }
 }
 

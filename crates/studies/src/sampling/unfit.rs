@@ -1,14 +1,16 @@
 //! What cannot be asked about samples.
 
 use sigmastar_lang::spec::{Constant, MAX_SAMPLES};
-use std::fmt;
+use thiserror::Error;
 
 /// Why there is nothing to certify for a question about samples.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Error)]
 pub enum Unfit {
     /// The base frequency is not asserted to be 2 pi / period.
+    #[error("the regulator at samples needs a base frequency of 2 pi / period")]
     NotMatched,
     /// A sampling period of which the period is no whole multiple.
+    #[error("the period {} is no whole multiple, from 2 to {MAX_SAMPLES}, of the sampling period {step}", .period.text)]
     NoWholeMultiple {
         /// The period.
         period: Constant,
@@ -30,18 +32,3 @@ impl Unfit {
         }
     }
 }
-
-impl fmt::Display for Unfit {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Unfit::NotMatched => f.write_str("the regulator at samples needs a base frequency of 2 pi / period"),
-            Unfit::NoWholeMultiple { period, step } => write!(
-                f,
-                "the period {} is no whole multiple, from 2 to {MAX_SAMPLES}, of the sampling period {step}",
-                period.text
-            ),
-        }
-    }
-}
-
-impl std::error::Error for Unfit {}

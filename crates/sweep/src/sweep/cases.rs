@@ -10,11 +10,14 @@ use sigmastar_lang::spec::{self, Document, ErrorKind, Errors, SpecErrors};
 /// A study with its subject: every case can be made.
 #[derive(Clone, Debug)]
 pub struct Sweep {
-    study: Study,
+    /// The study.
+    pub study: Study,
     /// The subject, with the sampling period of the study.
     base: Value,
-    study_sha256: String,
-    subject_sha256: String,
+    /// SHA-256 of the study with the subject in it.
+    pub study_sha256: String,
+    /// SHA-256 of the subject as it was given.
+    pub subject_sha256: String,
 }
 
 /// One case.
@@ -66,24 +69,6 @@ impl Sweep {
         with_sampling_period(&study, &mut base)?;
         fits(&study, &base)?;
         Ok(Sweep { study, base, study_sha256, subject_sha256 })
-    }
-
-    /// The study.
-    #[must_use]
-    pub fn study(&self) -> &Study {
-        &self.study
-    }
-
-    /// SHA-256 of the study with the subject in it.
-    #[must_use]
-    pub fn study_sha256(&self) -> &str {
-        &self.study_sha256
-    }
-
-    /// SHA-256 of the subject as it was given.
-    #[must_use]
-    pub fn subject_sha256(&self) -> &str {
-        &self.subject_sha256
     }
 
     /// How many cases there are.

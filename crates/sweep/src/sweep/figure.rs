@@ -38,7 +38,7 @@ pub enum FigureError {
 /// # Errors
 /// A study that has no figure.
 pub fn sweep_figure(sweep: &Sweep, results: &Results) -> Result<Figure, FigureError> {
-    let study = sweep.study();
+    let study = &sweep.study;
     let (first, second) = match study.parameters.as_slice() {
         [first] if study.design == Design::Grid => (first, None),
         [first, second] if study.design == Design::Grid => (first, Some(second)),

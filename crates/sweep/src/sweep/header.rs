@@ -1,8 +1,9 @@
 //! The first line of a file of results: of which study, and which part of it.
 
+use super::row::{text, texts};
 use super::{MAX_CASES, Sweep};
 use serde_json::json;
-use sigmastar_lang::spec::{Document, ErrorKind, Errors, Object, Reported, SpecErrors, Value};
+use sigmastar_lang::spec::{Document, ErrorKind, Errors, Object, Reported, SpecErrors};
 
 /// The format of a file of results.
 pub(super) const FORMAT: &str = "sigmastar/sweep";
@@ -64,12 +65,12 @@ impl Header {
     /// That of a sweep.
     #[must_use]
     pub fn new(sweep: &Sweep, shard: Option<Shard>) -> Header {
-        let parameters = &sweep.study().parameters;
+        let parameters = &sweep.study.parameters;
         Header {
             tool: env!("CARGO_PKG_VERSION").to_owned(),
-            name: sweep.study().name.clone(),
-            study_sha256: sweep.study_sha256().to_owned(),
-            subject_sha256: sweep.subject_sha256().to_owned(),
+            name: sweep.study.name.clone(),
+            study_sha256: sweep.study_sha256.clone(),
+            subject_sha256: sweep.subject_sha256.clone(),
             cases: sweep.count(),
             parameters: parameters.iter().map(|at| (at.pointer.clone(), at.name.clone())).collect(),
             shard,
@@ -108,10 +109,6 @@ impl Header {
     }
 }
 
-fn text(value: &Value<'_>, errors: &mut Errors) -> Result<String, Reported> {
-    value.string(errors).map(str::to_owned)
-}
-
 fn read(mut object: Object<'_>, errors: &mut Errors) -> Result<Header, Reported> {
     object.header(FORMAT, &[VERSION], errors)?;
     let tool = object.required("tool", errors).and_then(|value| {
@@ -131,14 +128,9 @@ fn read(mut object: Object<'_>, errors: &mut Errors) -> Result<Header, Reported>
         Err(errors.report(value.error(ErrorKind::Limit, format!("{cases} cases; a study has at most {MAX_CASES}"))))
     });
     let parameters = object.required("parameters", errors).and_then(|value| value.array(errors)).and_then(|list| {
-        let one = |value: &Value<'_>| {
-            let mut object = value.object(errors)?;
-            let [pointer, name] =
-                ["pointer", "name"].map(|field| object.required(field, errors).and_then(|value| text(&value, errors)));
-            object.finish(errors);
-            Ok((pointer?, name?))
-        };
-        list.iter().map(one).collect::<Result<Vec<_>, Reported>>()
+        list.iter()
+            .map(|value| texts(value, ["pointer", "name"], errors).map(Into::into))
+            .collect::<Result<Vec<_>, Reported>>()
     });
     let shard = object.required("shard", errors).map(|value| value.text().and_then(Shard::read));
     object.finish(errors);

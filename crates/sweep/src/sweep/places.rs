@@ -16,7 +16,7 @@ impl Sweep {
         for row in rows {
             for error in &row.errors {
                 let Some(place) = self.place(row, error, subject) else { continue };
-                let in_study = std::ptr::eq(place.document(), &self.study().source);
+                let in_study = std::ptr::eq(place.document(), &self.study.source);
                 let told = Told { place, error, first: row, others: 0 };
                 found
                     .entry((!in_study, told.place.span().start, error.message.as_str()))
@@ -31,15 +31,15 @@ impl Sweep {
             errors.report(told.place.error(kind, told.error.message.clone()).help(self.where_it_is(told)));
         }
         let some = |elsewhere| found.keys().any(|(one, ..)| *one == elsewhere);
-        let study = some(false).then(|| of_study.into_errors(&self.study().source));
+        let study = some(false).then(|| of_study.into_errors(&self.study.source));
         let subject = subject.filter(|_| some(true)).map(|subject| of_subject.into_errors(subject));
         study.into_iter().chain(subject).collect()
     }
 
     /// The value of the study that was put in there, or what the subject has there; where it has nothing, what it should be in.
     fn place<'d>(&'d self, row: &Row, error: &RowError, subject: Option<&'d Document>) -> Option<Value<'d>> {
-        let study = &self.study().source;
-        for (index, parameter) in self.study().parameters.iter().enumerate() {
+        let study = &self.study.source;
+        for (index, parameter) in self.study.parameters.iter().enumerate() {
             if error.pointer == parameter.pointer || error.pointer.starts_with(&format!("{}/", parameter.pointer)) {
                 let whole = format!("/parameters/{index}");
                 let values = ["values", "linear", "logarithmic"].into_iter();
@@ -50,10 +50,10 @@ impl Sweep {
                 return listed.next().or(values).or_else(|| study.at(&whole));
             }
         }
-        if self.study().sampling_period.is_some() && error.pointer == "/internal_model/sampling_period" {
+        if self.study.sampling_period.is_some() && error.pointer == "/internal_model/sampling_period" {
             return study.at("/sampling_period");
         }
-        let (document, before) = match self.study().subject {
+        let (document, before) = match &self.study.subject {
             SubjectSource::Embedded(_) => (study, "/subject"),
             SubjectSource::Path(_) => (subject?, ""),
         };
@@ -68,7 +68,7 @@ impl Sweep {
 
     /// Which cases have an error, and how the first of them is looked at.
     fn where_it_is(&self, told: &Told<'_, '_>) -> String {
-        let names = self.study().parameters.iter().map(|parameter| parameter.name.as_str());
+        let names = self.study.parameters.iter().map(|parameter| parameter.name.as_str());
         let values: Vec<String> =
             names.zip(&told.first.values).map(|(name, value)| format!("{name} = {value}")).collect();
         let others = match told.others {

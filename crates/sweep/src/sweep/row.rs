@@ -130,11 +130,11 @@ impl Row {
     }
 }
 
-fn text(value: &Value<'_>, errors: &mut Errors) -> Result<String, Reported> {
+pub(super) fn text(value: &Value<'_>, errors: &mut Errors) -> Result<String, Reported> {
     value.string(errors).map(str::to_owned)
 }
 
-fn texts<const N: usize>(
+pub(super) fn texts<const N: usize>(
     value: &Value<'_>,
     names: [&'static str; N],
     errors: &mut Errors,

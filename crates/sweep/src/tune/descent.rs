@@ -75,14 +75,20 @@ pub struct Tuning {
     /// How many proposals were certified, without the document as it was.
     pub certified: usize,
     /// How many came to no claim, by verdict.
-    pub without_claim: BTreeMap<&'static str, usize>,
+    pub without_claim: BTreeMap<String, usize>,
 }
 
 impl Tuning {
     /// Whether there is anything certified at all.
     #[must_use]
     pub fn has_claim(&self) -> bool {
-        self.after.is_some() || self.before.outcome.is_ok()
+        self.figures().next().is_some()
+    }
+
+    /// What is certified, of before and of after.
+    pub(super) fn figures(&self) -> impl Iterator<Item = &Figures> {
+        let after = self.after.as_ref().map(|(after, _)| after);
+        std::iter::once(&self.before).chain(after).filter_map(|tried| tried.outcome.as_ref().ok())
     }
 }
 
@@ -138,12 +144,7 @@ pub fn tune(
     let proposed = || all.iter().filter(|tried| tried.values != before.values);
     let mut without_claim = BTreeMap::new();
     for verdict in proposed().filter_map(|tried| tried.outcome.as_ref().err()) {
-        let word = match verdict {
-            Verdict::Refuted => "refuted",
-            Verdict::BadInput => "bad-input",
-            Verdict::Certified | Verdict::Undecided => "undecided",
-        };
-        *without_claim.entry(word).or_default() += 1;
+        *without_claim.entry(verdict.to_string()).or_default() += 1;
     }
     let certified = proposed().filter(|tried| tried.outcome.is_ok()).count();
     Ok(Tuning { settings, parameters, before, after, certified, without_claim })

@@ -3,7 +3,7 @@
 use super::descent::{Tried, Tuning};
 use super::figures::{Figures, Goal};
 use super::parameter::Parameter;
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 use sigmastar_document::number::{estimate, exact, full, upper};
 use sigmastar_document::{Block, Readable, Table, clean};
 use sigmastar_exact::number::{Direction, write_exact};
@@ -53,8 +53,6 @@ impl Readable for TuningReport<'_> {
         let tuning = self.tuning;
         let parameters: Vec<Value> =
             tuning.parameters.iter().enumerate().map(|(index, parameter)| self.parameter(index, parameter)).collect();
-        let without_claim: Map<String, Value> =
-            tuning.without_claim.iter().map(|(word, count)| ((*word).to_owned(), json!(count))).collect();
         let after = tuning.after.as_ref().map(|(tried, document)| {
             let mut after = self.tried(tried);
             after["sha256"] = document.root().sha256().into();
@@ -65,7 +63,7 @@ impl Readable for TuningReport<'_> {
             "specification": { "name": self.name, "sha256": self.sha256 },
             "minimised": tuning.settings.goal.name(), "n_o": tuning.settings.n_o,
             "parameters": parameters, "before": self.tried(&tuning.before), "after": after,
-            "tries": { "at_most": tuning.settings.tries, "certified": tuning.certified, "without_claim": without_claim },
+            "tries": { "at_most": tuning.settings.tries, "certified": tuning.certified, "without_claim": tuning.without_claim },
             "remarks": self.remarks(),
         })
     }
@@ -121,10 +119,7 @@ impl TuningReport<'_> {
 
     /// What the certified gain is called: at samples it is no threshold.
     fn gain(&self) -> String {
-        let tuning = self.tuning;
-        let tried = [Some(&tuning.before), tuning.after.as_ref().map(|(after, _)| after)];
-        let figures = tried.into_iter().flatten().filter_map(|tried| tried.outcome.as_ref().ok());
-        let period = figures.filter_map(|figures| figures.sampling_period.as_ref()).next();
+        let period = self.tuning.figures().find_map(|figures| figures.sampling_period.as_ref());
         period.map_or_else(|| "sigma*".to_owned(), |step| format!("the gain for samples {step} apart"))
     }
 
@@ -172,8 +167,7 @@ impl TuningReport<'_> {
             let name = format!("{name} at sigma*, n_o = {}, at most", tuning.settings.n_o);
             row(&name, &|figures| figures.error.as_ref().map(|error| upper(&error[index])));
         }
-        let tried = [Some(&tuning.before), after].into_iter().flatten();
-        let state = tried.filter_map(|tried| tried.outcome.as_ref().ok()).find_map(|figures| figures.state);
+        let state = tuning.figures().find_map(|figures| figures.state);
         // Of a plant without states there is no size of a state.
         let norms = |others: &[&str]| -> Vec<(usize, String)> {
             let others = others.iter().map(|name| Some((*name).to_owned()));
@@ -196,9 +190,7 @@ impl TuningReport<'_> {
     fn remarks(&self) -> Vec<String> {
         let tuning = self.tuning;
         let mut remarks = Vec::new();
-        let certified = [Some(&tuning.before), tuning.after.as_ref().map(|(after, _)| after)];
-        let figures = || certified.iter().flatten().filter_map(|tried| tried.outcome.as_ref().ok());
-        if figures().any(|figures| figures.feedback.is_some()) {
+        if tuning.figures().any(|figures| figures.feedback.is_some()) {
             remarks.push(
                 "sigma* + mu Nbar^2 is what the law multiplies e by, at most, for every n_o: \
                  u = -(sigma + mu (n_0 + ... + n_(n_o))) e + mu M'N z. Where it grows, a smaller sigma* is paid for there"
@@ -224,7 +216,7 @@ impl TuningReport<'_> {
                     .to_owned(),
             );
         }
-        if figures().any(|figures| figures.no_plant) {
+        if tuning.figures().any(|figures| figures.no_plant) {
             remarks
                 .push("it is proved that no plant with a state has these data: see the report of `certify`".to_owned());
         }
