@@ -89,6 +89,18 @@ fn why(failure: &IntegrationFailure) -> String {
     }
 }
 
+impl TriedClaim {
+    /// |x| of a state at t = s T, from the orbit where the claim is about one plant.
+    pub(super) fn distance(&self, s: f64, x: &[f64]) -> f64 {
+        self.own.as_ref().map_or_else(|| norm(x), |own| own.distance(s, x))
+    }
+
+    /// |x| of a difference of two states.
+    pub(super) fn norm(&self, difference: &[f64]) -> f64 {
+        self.own.as_ref().map_or_else(|| norm(difference), |own| own.norm(difference))
+    }
+}
+
 pub(super) fn norm(values: &[f64]) -> f64 {
     values.iter().map(|value| value * value).sum::<f64>().sqrt()
 }

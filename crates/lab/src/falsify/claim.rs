@@ -80,20 +80,14 @@ impl TriedClaim {
         let periodic = [x.min(x_p.to_f64()), e.min(e_p.to_f64()), zeta];
         let initial = set.map(Rational::to_f64);
         let reach = reach(&spec, periodic, [x_p, e_p], error_box);
-        let excitation = match &witness {
-            FreeNumbers::Continuous(GivenWitness { witness, .. }) => {
-                Some(SharpEvaluation::new(&data, witness).excitation)
-            }
-            FreeNumbers::Sampled(_) => None,
+        let (excitation, sampled) = match &witness {
+            FreeNumbers::Continuous(given) => (Some(SharpEvaluation::new(&data, &given.witness).excitation), None),
+            FreeNumbers::Sampled(witness) => (None, Some(SampledClaim::new(witness))),
         };
         let psi = excitation.as_ref().map(|excitation| {
             let psi = Psi::new(&data, excitation);
             [psi.psi_1.upper_f64(), psi.psi_x.upper_f64()]
         });
-        let sampled = match &witness {
-            FreeNumbers::Sampled(witness) => Some(SampledClaim::new(witness)),
-            FreeNumbers::Continuous(_) => None,
-        };
         let (sigma, drive) = (sigma.to_f64(), excitation.map(|excitation| (excitation, e_p.clone())));
         Ok(TriedClaim {
             spec,

@@ -2,7 +2,7 @@
 
 use super::claim::TriedClaim;
 use super::family::Family;
-use super::membership::respects_signed;
+use super::membership::respects;
 use rug::Rational;
 use sigmastar_exact::enclosure::DEFAULT_PRECISION;
 use sigmastar_lang::expr::{Expr, Variables};
@@ -51,7 +51,7 @@ pub(super) fn is_met(family: &Family, claim: &TriedClaim, left: &mut u64) -> boo
     let is_enough = |left: &mut u64| {
         let parsed = Expr::parse(&wanted.text, Variables::XAndE);
         rate.text() == wanted.text
-            || parsed.is_ok_and(|parsed| respects_signed(rate.text(), &parsed, &claim.reach, left))
+            || parsed.is_ok_and(|parsed| respects(Bound::Rate, rate.text(), &parsed, &claim.reach, left))
     };
     family.g_1.value() == 0.0 && family.kappa.value() == 0.0 && is_enough(left)
 }

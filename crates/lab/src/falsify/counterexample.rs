@@ -54,8 +54,8 @@ pub fn counterexample_plant(
         for member in ["f", "q"] {
             file[member] = plant.document[member].clone();
         }
-        let values = plant.parameters.list().iter().map(|one| (one.name.clone(), one.value.text.clone().into()));
-        file["parameters"] = values.collect::<serde_json::Map<_, _>>().into();
+        let values = plant.parameters.list().iter().map(|one| (one.name.clone(), one.value.text.clone()));
+        file["parameters"] = values.collect();
     }
     for name in ["input_gain", "actuator"] {
         if let Some(part) = claim.spec.document.get(name) {

@@ -38,7 +38,8 @@ pub(super) fn check(
     checks: &mut Checks,
 ) {
     let Some(stated) = claim.noise.iter().find(|stated| stated.n_o == trial.n_o) else { return };
-    let closed_loop = closed_loop.clone().with_sigma(claim.sigma);
+    let mut closed_loop = closed_loop.clone();
+    closed_loop.regulator.sigma = claim.sigma;
     let Some(steps) = enough_steps(&closed_loop, 0.0, [periodic, &trial.start]) else { return };
     let steps = (steps as usize * FINER).max(STEPS);
     if steps > MOST {

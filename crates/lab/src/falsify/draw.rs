@@ -1,7 +1,7 @@
 //! Drawing plants that touch the bounding functions.
 
 use super::claim::TriedClaim;
-use super::family::{DrawnPlant, Family};
+use super::family::Family;
 use super::fit::fit;
 use super::forcing::{fill, harmonics};
 use super::jacobian::{self, Clock};
@@ -19,7 +19,7 @@ use sigmastar_theory::data::{Bound, Data};
 /// Guarantee: P_x exists, every bounding function holds up to the reach of the claim, the axes included, and q(t,0,0) is
 /// as q_0 says, proved for the coefficients as [`Family::texts`] writes them.
 #[must_use]
-pub fn draw(claim: &TriedClaim, random: &mut Random, left: &mut u64) -> Option<DrawnPlant> {
+pub fn draw(claim: &TriedClaim, random: &mut Random, left: &mut u64) -> Option<Family> {
     let limits = Limits::new(claim);
     let [reach_x, reach_e] = limits.reach;
     let clock =
@@ -77,7 +77,7 @@ pub fn draw(claim: &TriedClaim, random: &mut Random, left: &mut u64) -> Option<D
         harmonics: harmonics(claim, clock.multiple, Random::share, random),
     };
     fill(&mut family, claim);
-    fit(&mut family, claim, left).then_some(DrawnPlant { family })
+    fit(&mut family, claim, left).then_some(family)
 }
 
 #[cfg(test)]
@@ -205,8 +205,8 @@ mod tests {
         let (mut kinds, mut touched) = ([0; 4], [0.0_f64; 12]);
         for _ in 0..12 {
             let plant = draw(&claim, &mut random, &mut { MAX_OPERATIONS }).expect("plants fit");
-            kinds[plant.family.states()] += 1;
-            let here = check(&plant.family, &claim, &mut random);
+            kinds[plant.states()] += 1;
+            let here = check(&plant, &claim, &mut random);
             touched.iter_mut().zip(here).for_each(|(most, (_, share))| *most = most.max(share));
         }
         assert!(kinds[1] > 0 && kinds[2] > 0 && kinds[3] > 0, "{kinds:?}");
@@ -232,8 +232,8 @@ mod tests {
             for _ in 0..8 {
                 let plant =
                     (0..30).find_map(|_| draw(&claim, &mut random, &mut { MAX_OPERATIONS })).expect("a plant fits");
-                assert!(fits(&plant.family, &claim, &mut { MAX_OPERATIONS }));
-                let here = check(&plant.family, &claim, &mut random);
+                assert!(fits(&plant, &claim, &mut { MAX_OPERATIONS }));
+                let here = check(&plant, &claim, &mut random);
                 closest =
                     here.iter().find(|(bound, _)| *bound == Bound::QeMax).map_or(closest, |(_, by)| closest.max(*by));
             }
@@ -241,7 +241,7 @@ mod tests {
             for end in [SectorEnd::Upper, SectorEnd::Lower] {
                 let plant =
                     linear_member(&claim, end, &mut random, &mut { MAX_OPERATIONS }).expect("a linear plant fits");
-                check(&plant.family, &claim, &mut random);
+                check(&plant, &claim, &mut random);
             }
         }
     }
@@ -256,14 +256,14 @@ mod tests {
             for _ in 0..20 {
                 let Some(plant) = draw(&claim, &mut random, &mut { MAX_OPERATIONS }) else { continue };
                 assert!(drawn, "{rate}");
-                assert_eq!((plant.family.g_1.value(), plant.family.kappa.value()), (0.0, 0.0));
-                check(&plant.family, &claim, &mut random);
+                assert_eq!((plant.g_1.value(), plant.kappa.value()), (0.0, 0.0));
+                check(&plant, &claim, &mut random);
             }
             let linear = linear_member(&claim, SectorEnd::Upper, &mut random, &mut { MAX_OPERATIONS });
             assert_eq!(linear.is_some(), drawn, "{rate}");
             let wanted = rate.split(' ').next().unwrap().parse::<f64>().unwrap();
             assert!(linear.is_none_or(|plant| {
-                let text = &plant.family.jacobian[0][0];
+                let text = &plant.jacobian[0][0];
                 let f = Expr::parse(text, Variables::Time).unwrap().to_float().eval(0.0, 0.0);
                 (f + wanted).abs() < 1e-9
             }));
@@ -275,7 +275,7 @@ mod tests {
         let mut random = Random::new(1, 1);
         let none =
             draw(&claim(include_str!("../../../../specs/no-x.json")), &mut random, &mut { MAX_OPERATIONS }).unwrap();
-        assert_eq!((none.family.states(), none.family.texts().0.len()), (0, 0));
+        assert_eq!((none.states(), none.texts().0.len()), (0, 0));
         // A Jacobian without a proved triple draws nothing.
         assert!(
             draw(&claim(include_str!("../../../../specs/paper-example-jacobian.json")), &mut random, &mut {

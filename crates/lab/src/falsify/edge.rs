@@ -110,7 +110,7 @@ pub fn from_the_edge(claim: &TriedClaim) -> Result<Edge, String> {
 /// A plant that the data of a claim describe.
 fn member(claim: &TriedClaim) -> Result<Plant, String> {
     let drawn = drawn_plant(claim, 1, &mut Random::new(0, 1)).ok_or_else(|| no_member(claim).to_owned())?;
-    let states = drawn.family.states();
+    let states = drawn.states();
     let trial = Trial {
         number: 1,
         plant: TriedPlant::Drawn(Box::new(drawn)),
@@ -129,8 +129,7 @@ fn member(claim: &TriedClaim) -> Result<Plant, String> {
 fn start(claim: &TriedClaim, states: usize, regulator: &Regulator) -> Vec<f64> {
     let mut start = boundary(claim, states, regulator, &mut Random::new(0, 1));
     if let Some(own) = &claim.own {
-        let x = own.state_within(0.0, &start[..states]);
-        start[..states].copy_from_slice(&x);
+        own.bring_within(0.0, &mut start);
     }
     start
 }

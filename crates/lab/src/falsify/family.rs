@@ -64,13 +64,6 @@ pub struct FamilyBound {
     pub moving: String,
 }
 
-/// A plant with its coefficients, proved to lie within the families of a claim.
-#[derive(Clone, Debug, PartialEq)]
-pub struct DrawnPlant {
-    /// The coefficients.
-    pub family: Family,
-}
-
 impl FamilyBound {
     /// The bound itself.
     #[must_use]

@@ -1,6 +1,6 @@
 //! What a trial is about, and what became of it.
 
-use super::family::DrawnPlant;
+use super::family::Family;
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::Constant;
 
@@ -26,7 +26,7 @@ impl TrialSettings {
 #[derive(Clone, Debug)]
 pub enum TriedPlant {
     /// Drawn within the families of a claim.
-    Drawn(Box<DrawnPlant>),
+    Drawn(Box<Family>),
     /// The plant that the claim is about.
     Own(Box<Plant>),
 }
@@ -36,7 +36,7 @@ impl TriedPlant {
     #[must_use]
     pub fn names(&self) -> Vec<String> {
         match self {
-            TriedPlant::Drawn(plant) => (1..=plant.family.states()).map(|i| format!("x{i}")).collect(),
+            TriedPlant::Drawn(plant) => (1..=plant.states()).map(|i| format!("x{i}")).collect(),
             TriedPlant::Own(plant) => plant.names.states().to_vec(),
         }
     }
@@ -45,7 +45,7 @@ impl TriedPlant {
     #[must_use]
     pub fn texts(&self) -> (Vec<String>, String) {
         match self {
-            TriedPlant::Drawn(plant) => plant.family.texts(),
+            TriedPlant::Drawn(plant) => plant.texts(),
             TriedPlant::Own(plant) => (plant.f.iter().map(ToString::to_string).collect(), plant.q.to_string()),
         }
     }

@@ -5,7 +5,7 @@ use super::contraction;
 use super::family::{Family, FamilyBound};
 use super::forcing;
 use super::limits::{Limits, positive};
-use super::membership::{respects, respects_signed};
+use super::membership::respects;
 use super::shape::{Number, Shape};
 use sigmastar_exact::number::Portable;
 use sigmastar_lang::expr::{Expr, Variables};
@@ -31,8 +31,7 @@ fn conditions(claim: &TriedClaim) -> impl Iterator<Item = (Bound, &Expr)> {
 
 /// Whether a bound of a family is proved to be at most a bounding function, up to the reach of a claim.
 fn is_met(bound: Bound, by: &FamilyBound, allowed: &Expr, claim: &TriedClaim, left: &mut u64) -> bool {
-    let proof = if bound.is_signed() { respects_signed } else { respects };
-    proof(&by.text(), allowed, &claim.reach, left)
+    respects(bound, &by.text(), allowed, &claim.reach, left)
 }
 
 /// Whether a family is proved to be as the specification says where no coefficient has a say in it.

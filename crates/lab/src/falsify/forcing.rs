@@ -201,7 +201,7 @@ mod tests {
             let mut random = Random::new(11, 12);
             let first = linear_member(&claim, SectorEnd::Upper, &mut random, &mut { MAX_OPERATIONS });
             let others = (0..60).filter_map(|_| draw(&claim, &mut random, &mut { MAX_OPERATIONS })).take(6);
-            let plants: Vec<Family> = first.into_iter().chain(others).map(|plant| plant.family).collect();
+            let plants: Vec<Family> = first.into_iter().chain(others).collect();
             assert_eq!(plants.len(), 7);
             let mut used = 0.0_f64;
             for family in &plants {
@@ -228,8 +228,7 @@ mod tests {
     fn what_q_0_does_not_allow_is_seen() {
         let text = include_str!("../../../../specs/paper-example-harmonics-at-rest.json");
         let claim = TriedClaim::for_tests(Specification::from_json("harmonics", text).unwrap(), [3.0, 4.0]);
-        let family =
-            linear_member(&claim, SectorEnd::Upper, &mut Random::new(1, 1), &mut { MAX_OPERATIONS }).unwrap().family;
+        let family = linear_member(&claim, SectorEnd::Upper, &mut Random::new(1, 1), &mut { MAX_OPERATIONS }).unwrap();
         assert!(is_within(&family, &claim));
         for (order, amplitude, within) in [
             (0, 1.8755, true),

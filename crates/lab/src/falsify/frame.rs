@@ -61,10 +61,16 @@ impl OwnPlant {
     }
 
     /// A state at t = s T whose deviation from x_0 is no larger than this one, wherever within its radius x_0 is.
-    pub(super) fn state_within(&self, s: f64, y: &[f64]) -> Vec<f64> {
+    fn state_within(&self, s: f64, y: &[f64]) -> Vec<f64> {
         let size = DVector::from_column_slice(y).norm();
         let share = if size > 0.0 { (1.0 - self.radius / size).max(0.0) } else { 1.0 };
         self.state(s, &y.iter().map(|part| share * part).collect::<Vec<_>>())
+    }
+
+    /// The same for the x that a start begins with.
+    pub(super) fn bring_within(&self, s: f64, start: &mut [f64]) {
+        let x = &mut start[..self.plant.states()];
+        x.copy_from_slice(&self.state_within(s, x));
     }
 
     /// |y| of a state at t = s T, at least: the approximation of the orbit is taken, and what it may be away from x_0 left out.

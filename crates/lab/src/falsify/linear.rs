@@ -2,7 +2,7 @@
 
 use super::claim::TriedClaim;
 use super::contraction;
-use super::family::{DrawnPlant, Family};
+use super::family::Family;
 use super::fit::{fit, fits};
 use super::forcing::{fill, harmonics};
 use super::jacobian::{self, Clock};
@@ -30,7 +30,7 @@ const ROUNDED: f64 = 1.0 - 1e-7;
 ///
 /// Guarantee: as for `draw`.
 #[must_use]
-pub fn linear_member(claim: &TriedClaim, end: SectorEnd, random: &mut Random, left: &mut u64) -> Option<DrawnPlant> {
+pub fn linear_member(claim: &TriedClaim, end: SectorEnd, random: &mut Random, left: &mut u64) -> Option<Family> {
     let limits = Limits::new(claim);
     let [reach_x, reach_e] = limits.reach;
     let clock = Clock { period: &claim.spec.period.nominal().text, multiple: 1 };
@@ -82,10 +82,10 @@ pub fn linear_member(claim: &TriedClaim, end: SectorEnd, random: &mut Random, le
     };
     let exact = of_gains(1.0);
     if fits(&exact, claim, left) {
-        return Some(DrawnPlant { family: exact });
+        return Some(exact);
     }
     let mut rounded = of_gains(ROUNDED);
-    (fits(&rounded, claim, left) || fit(&mut rounded, claim, left)).then_some(DrawnPlant { family: rounded })
+    (fits(&rounded, claim, left) || fit(&mut rounded, claim, left)).then_some(rounded)
 }
 
 #[cfg(test)]
@@ -104,7 +104,7 @@ mod tests {
         TriedClaim::for_tests(Specification::from_json("tight", &document.to_string()).unwrap(), [3.0, 4.0])
     }
 
-    fn member(claim: &TriedClaim, end: SectorEnd) -> Option<DrawnPlant> {
+    fn member(claim: &TriedClaim, end: SectorEnd) -> Option<Family> {
         linear_member(claim, end, &mut Random::new(1, 1), &mut { MAX_OPERATIONS })
     }
 
@@ -117,7 +117,7 @@ mod tests {
             ("1/3", "X/3 + 2*E/3", "2/3", 0.666_666_6),
             ("1/2", "2*X + min(E, 1)/4", "1/4", 0.25 / 4.0),
         ] {
-            let family = member(&claim(alpha, f, f_e), SectorEnd::Upper).expect(f).family;
+            let family = member(&claim(alpha, f, f_e), SectorEnd::Upper).expect(f);
             assert_eq!(family.jacobian, [[format!("-({alpha})")]]);
             assert!((family.g.1.value() / g - 1.0).abs() < 1e-15, "{f}: {}", family.g.1);
             // q of linear.json: 3 + X + E/4.
@@ -153,7 +153,7 @@ mod tests {
                 document["bounds"]["q_e_max"] = bound.into();
             }
             let spec = Specification::from_json("sector", &document.to_string()).unwrap();
-            let family = member(&TriedClaim::for_tests(spec, [3.0, 4.0]), end).expect("a linear plant fits").family;
+            let family = member(&TriedClaim::for_tests(spec, [3.0, 4.0]), end).expect("a linear plant fits");
             let kept = (family.c.value(), family.damping.value());
             // Nine digits below the norm or beyond the end, where it is rounded.
             assert!((kept.0 - c).abs() + (kept.1 - damping).abs() < 1e-7, "{q_e_max:?} {end:?}: {kept:?}");

@@ -3,6 +3,7 @@
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_lang::expr::{Expr, Variables};
+use sigmastar_theory::data::Bound;
 use std::collections::VecDeque;
 
 /// Bits of the enclosures.
@@ -18,7 +19,7 @@ const MAX_BOXES: usize = 200;
 type Region = [[Rational; 2]; 2];
 
 /// Whether `bound(X, E) <= max{allowed(X, E), 0}` for every (X, E) in [0, reach X] x [0, reach E], the axes and the origin
-/// included.
+/// included; of a bounding function `which` that bounds no norm and may be negative, `bound(X, E) <= allowed(X, E)`.
 ///
 /// Guarantee: if true, it is proved. With D = allowed - bound, on a box with lower corner (X_0, E_0)
 /// `D(X, E) >= D(X_0, E_0) + (X - X_0) min(0, S_X) + (E - E_0) min(0, S_E)` where S_X and S_E are the least slopes of D on
@@ -26,17 +27,7 @@ type Region = [[Rational; 2]; 2];
 /// do. Where D is a polynomial with rational coefficients, none of them negative, that is decided exactly, so that D may be
 /// 0 all over. False where D < 0 somewhere, and where too many boxes would be needed, or more operations than are `left`.
 #[must_use]
-pub fn respects(bound: &str, allowed: &Expr, reach: &[Rational; 2], left: &mut u64) -> bool {
-    holds(bound, allowed, true, reach, left)
-}
-
-/// The same without the positive part: whether `bound(X, E) <= allowed(X, E)`, which bounds no norm and may be negative.
-#[must_use]
-pub fn respects_signed(bound: &str, allowed: &Expr, reach: &[Rational; 2], left: &mut u64) -> bool {
-    holds(bound, allowed, false, reach, left)
-}
-
-fn holds(bound: &str, allowed: &Expr, positive_part: bool, reach: &[Rational; 2], left: &mut u64) -> bool {
+pub fn respects(which: Bound, bound: &str, allowed: &Expr, reach: &[Rational; 2], left: &mut u64) -> bool {
     let texts = [format!("({}) - ({bound})", allowed.text()), format!("-({bound})")];
     let [Ok(difference), Ok(negative)] = texts.map(|text| Expr::parse(&text, Variables::XAndE)) else {
         return false;
@@ -50,7 +41,7 @@ fn holds(bound: &str, allowed: &Expr, positive_part: bool, reach: &[Rational; 2]
         // Where the bounding function may be undefined, so is its positive part.
         let defined = difference.enclose(&side(&region[0]), &side(&region[1])).is_defined();
         let by_function = lower_bound(&difference, region);
-        let by_zero = (defined && positive_part).then(|| lower_bound(&negative, region)).flatten();
+        let by_zero = (defined && !which.is_signed()).then(|| lower_bound(&negative, region)).flatten();
         match (by_function, by_zero) {
             (Some(a), Some(b)) => Some(a.max(b)),
             (a, b) => a.or(b),
@@ -123,11 +114,11 @@ mod tests {
         let (reach, allowed) = ([Rational::from(10), Rational::from(10)], "1.0001*X*E/(1 + X*E)");
         let allowed = Expr::parse(allowed, Variables::XAndE).unwrap();
         let mut left = MAX_OPERATIONS;
-        assert!(!respects("X*E/(1 + X*E)", &allowed, &reach, &mut left));
+        assert!(!respects(Bound::F, "X*E/(1 + X*E)", &allowed, &reach, &mut left));
         let used = MAX_OPERATIONS - left;
         assert!(used > 0 && used < MAX_OPERATIONS / 2, "{used}");
         let mut short = used / 3;
-        assert!(!respects("X*E/(1 + X*E)", &allowed, &reach, &mut short));
+        assert!(!respects(Bound::F, "X*E/(1 + X*E)", &allowed, &reach, &mut short));
         assert!(short < used / 3);
     }
 
@@ -160,7 +151,7 @@ mod tests {
             ("0", "1 + 0*sqrt(X - 1)", false),
         ] {
             let allowed = Expr::parse(allowed, Variables::XAndE).unwrap();
-            assert_eq!(respects(bound, &allowed, &reach, &mut { MAX_OPERATIONS }), fits, "{bound}");
+            assert_eq!(respects(Bound::F, bound, &allowed, &reach, &mut { MAX_OPERATIONS }), fits, "{bound}");
         }
     }
 
@@ -176,7 +167,7 @@ mod tests {
             ("-(2) + min(X, 1)*0.9", "-1 - E/1000", true),
         ] {
             let allowed = Expr::parse(allowed, Variables::XAndE).unwrap();
-            assert_eq!(respects_signed(bound, &allowed, &reach, &mut { MAX_OPERATIONS }), fits, "{bound}");
+            assert_eq!(respects(Bound::QeMax, bound, &allowed, &reach, &mut { MAX_OPERATIONS }), fits, "{bound}");
         }
     }
 }

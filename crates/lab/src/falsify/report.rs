@@ -214,8 +214,7 @@ fn with_member(mut finding: Value, trial: &Trial) -> Value {
         finding["period"] = json!(period.to_f64());
     }
     if !trial.parameters.is_empty() {
-        let values = trial.parameters.iter().map(|(name, value)| (name.clone(), json!(value)));
-        finding["parameters"] = values.collect::<serde_json::Map<_, _>>().into();
+        finding["parameters"] = trial.parameters.iter().cloned().collect();
     }
     finding
 }

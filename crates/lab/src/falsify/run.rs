@@ -1,7 +1,7 @@
 //! The run from the initial set by itself: only that contradicts a claim. A search for the periodic solution that fails says
 //! nothing about the claim, nor does a periodic solution that the run does not come to.
 
-use super::checks::{Checks, norm};
+use super::checks::Checks;
 use super::claim::TriedClaim;
 use super::finding::{Finding, Trial};
 use crate::simulate::{ClosedLoop, IntegrationFailure, Tolerance, flow, trajectory};
@@ -35,8 +35,7 @@ impl Largest {
     /// Takes a state (x, e) at t = s T into account.
     pub(super) fn take(&mut self, claim: &TriedClaim, s: f64, state: &[f64]) {
         let Some((e, x)) = state.split_last() else { return };
-        let x = claim.own.as_ref().map_or_else(|| norm(x), |own| own.distance(s, x));
-        for (largest, size) in self.0.iter_mut().zip([x, e.abs()]) {
+        for (largest, size) in self.0.iter_mut().zip([claim.distance(s, x), e.abs()]) {
             // What is not a number is no size.
             *largest = largest.max(size);
         }

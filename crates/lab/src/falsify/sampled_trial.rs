@@ -1,6 +1,6 @@
 //! A trial of a claim about the law at samples: exactly its gain, its sampling time and its K, at some phase of the grid.
 
-use super::checks::{Checks, PERIODS, norm, unfinished, why_none};
+use super::checks::{Checks, PERIODS, unfinished, why_none};
 use super::claim::TriedClaim;
 use super::finding::{CONTROL, Finding, LYAPUNOV, MULTIPLIER, SATURATION, STEADY_CONTROL, Trial, TriedPlant};
 use super::random::Random;
@@ -8,7 +8,7 @@ use super::run::{self, Largest};
 use super::sampled_claim::SampledClaim;
 use super::start::{boundary, drawn_plant, file, no_member};
 use crate::simulate::{
-    IntegrationFailure, Piece, SampledLoop, SampledRun, SampledSteady, SampledSteadyError, Tolerance,
+    IntegrationFailure, Piece, SampledLoop, SampledRun, SampledSteady, SampledSteadyError, Tolerance, pass_period,
     sampled_periodic_solution,
 };
 use sigmastar_document::progress::Silent;
@@ -33,17 +33,15 @@ pub(super) fn run(claim: &TriedClaim, law: &SampledClaim, mut random: Random, nu
     let claim = &*claim.about(&member);
     let (plant, mut start) = match &claim.own {
         Some(own) => {
-            let n = own.plant.states();
-            let mut start = boundary(claim, n, &regulator, &mut random);
-            let x = own.state_within(phase / claim.spec.period.nominal().to_f64(), &start[..n]);
-            start[..n].copy_from_slice(&x);
+            let mut start = boundary(claim, own.plant.states(), &regulator, &mut random);
+            own.bring_within(phase / claim.spec.period.nominal().to_f64(), &mut start);
             (TriedPlant::Own(Box::new(own.plant.clone())), start)
         }
         None => {
             let Some(plant) = drawn_plant(claim, number, &mut random) else {
                 return Finding::Unfinished(no_member(claim).to_owned());
             };
-            let start = boundary(claim, plant.family.states(), &regulator, &mut random);
+            let start = boundary(claim, plant.states(), &regulator, &mut random);
             (TriedPlant::Drawn(Box::new(plant)), start)
         }
     };
@@ -133,7 +131,8 @@ fn check(claim: &TriedClaim, (trial, gm): (Trial, Option<f64>), sampled: &Sample
     let multiplier = steady.largest_multiplier().unwrap_or(0.0);
     let mut checks = Checks::around(claim, &steady.start, steady.residual, multiplier);
     check_orbit(claim, sampled, &steady, &orbit, &mut checks);
-    if checks.are_broken() && !run::comes_to(&start, &steady.start, |_, y| passed(sampled, y)) {
+    let pass = |_, y: &[f64]| pass_period(sampled, 0, y, Tolerance::ORDINARY);
+    if checks.are_broken() && !run::comes_to(&start, &steady.start, pass) {
         return alone(claim, trial, sampled, run::ELSEWHERE.to_owned());
     }
     match check_approach(claim, (&trial, gm), sampled, &orbit, &mut checks) {
@@ -141,15 +140,6 @@ fn check(claim: &TriedClaim, (trial, gm): (Trial, Option<f64>), sampled: &Sample
         Err(failure @ IntegrationFailure::Escaped { .. }) => alone(claim, trial, sampled, failure.to_string()),
         Err(failure) => unfinished(&failure),
     }
-}
-
-/// The state after a period from one at its start.
-fn passed(sampled: &SampledLoop, y: &[f64]) -> Result<Vec<f64>, IntegrationFailure> {
-    let mut run = SampledRun::new(sampled, 0, y).ok_or(IntegrationFailure::TooMuchWork { t: sampled.time(0) })?;
-    for _ in 0..sampled.samples_rounded_up() {
-        run.advance(1, Tolerance::ORDINARY)?;
-    }
-    Ok(run.whole_state())
 }
 
 /// The finding of a trial for which there is no periodic solution to compare with.
@@ -183,7 +173,7 @@ fn check_orbit(
         for piece in &interval.pieces {
             for (at, state) in piece.states.iter().enumerate() {
                 let s = (piece.t + piece.unit * at as f64) / sampled.period();
-                x = x.max(claim.own.as_ref().map_or_else(|| norm(&state[..n]), |own| own.distance(s, &state[..n])));
+                x = x.max(claim.distance(s, &state[..n]));
                 e = e.max(state[n].abs());
             }
         }
@@ -235,9 +225,7 @@ fn check_approach(
             for (piece, point) in interval.pieces.iter().zip(&of_orbit.pieces) {
                 for (at, (state, point)) in piece.states.iter().zip(&point.states).enumerate() {
                     let difference: Vec<f64> = state.iter().zip(point).map(|(a, b)| a - b).collect();
-                    let own = claim.own.as_ref();
-                    let x = own.map_or_else(|| norm(&difference[..n]), |own| own.norm(&difference[..n]));
-                    let e = difference[n];
+                    let (x, e) = (claim.norm(&difference[..n]), difference[n]);
                     away = [away[0].max(x), away[1].max(e.abs())];
                     // Between samples z is not that of this moment, and its part of the function is at least 0.
                     let rest = e * e + if at == 0 { zeta } else { 0.0 };

@@ -3,7 +3,7 @@
 use super::claim::TriedClaim;
 use super::counterexample::counterexample_plant;
 use super::draw::draw;
-use super::family::DrawnPlant;
+use super::family::Family;
 use super::finding::{Finding, Trial};
 use super::limits::SectorEnd;
 use super::linear::linear_member;
@@ -24,7 +24,7 @@ pub(super) fn file(claim: &TriedClaim, trial: &Trial) -> Result<Plant, Finding> 
 }
 
 /// Draws the plant of a trial.
-pub(super) fn drawn_plant(claim: &TriedClaim, number: u64, random: &mut Random) -> Option<DrawnPlant> {
+pub(super) fn drawn_plant(claim: &TriedClaim, number: u64, random: &mut Random) -> Option<Family> {
     // The first trial is the linear member with the largest gains. A drawn matrix F may leave no room; another one may,
     // and where none does the linear member is left.
     let linear = |end, random: &mut Random| linear_member(claim, end, random, &mut { MAX_OPERATIONS });
@@ -89,7 +89,7 @@ mod tests {
         let mut random = Random::new(3, 4);
         let plant = draw(&claim, &mut random, &mut { MAX_OPERATIONS }).unwrap();
         let regulator = regulator(&claim, claim.sigma, 3);
-        let n = plant.family.states();
+        let n = plant.states();
         let start = boundary(&claim, n, &regulator, &mut random);
         assert!((norm(&start[..n]) - 2.0).abs() < 1e-5 && start[n].abs() == 0.5);
         assert!((regulator.weighted_norm(&start[n + 1..]) - 7.0).abs() < 1e-12);

@@ -1,6 +1,6 @@
 //! One plant, one initial condition, one number of oscillators: simulated and checked.
 
-use super::checks::{Checks, PERIODS, norm, unfinished, why_none};
+use super::checks::{Checks, PERIODS, unfinished, why_none};
 use super::claim::TriedClaim;
 use super::finding::{
     CONTROL, Falsification, Finding, LYAPUNOV, MULTIPLIER, SATURATION, STEADY_CONTROL, Trial, TrialSettings, TriedPlant,
@@ -64,7 +64,7 @@ fn run_trial(claim: &TriedClaim, seed: u64, number: u64) -> Finding {
     let n_o = draw_n_o(claim, &mut random);
     let sigma = claim.sigma * claim.gain_of(ABOVE);
     let regulator = regulator(claim, sigma, n_o);
-    let start = boundary(claim, plant.family.states(), &regulator, &mut random);
+    let start = boundary(claim, plant.states(), &regulator, &mut random);
     let input_gain = claim.member(number, &mut random).input_gain;
     let plant = TriedPlant::Drawn(Box::new(plant));
     let trial = Trial { number, plant, sigma, n_o, start, input_gain, period, parameters: Vec::new(), phase: None };
@@ -81,15 +81,13 @@ fn run_own(claim: &TriedClaim, own: &OwnPlant, mut random: Random, number: u64) 
     let n_o = draw_n_o(claim, &mut random);
     let sigma = claim.sigma * claim.gain_of(OwnPlant::gain(number));
     let regulator = regulator(claim, sigma, n_o);
-    let n = own.plant.states();
-    let mut start = boundary(claim, n, &regulator, &mut random);
+    let mut start = boundary(claim, own.plant.states(), &regulator, &mut random);
     let member = claim.member(number, &mut random);
     let (parameters, input_gain) = (claim.named(&member), member.input_gain);
     let claim = claim.about(&member);
     let own = claim.own.as_ref().unwrap_or(own);
     let period = claim.spec.period.interval().map(|_| own.plant.period.nominal().clone());
-    let x = own.state_within(0.0, &start[..n]);
-    start[..n].copy_from_slice(&x);
+    own.bring_within(0.0, &mut start);
     let closed_loop = with_gain(ClosedLoop::new(&own.plant, regulator), input_gain);
     let plant = TriedPlant::Own(Box::new(own.plant.clone()));
     check(&claim, Trial { number, plant, sigma, n_o, start, input_gain, period, parameters, phase: None }, &closed_loop)
@@ -169,13 +167,8 @@ fn check_orbit(
     let n = closed_loop.states();
     let largest = |of: &dyn Fn(&[f64]) -> f64| orbit.samples.iter().fold(0.0_f64, |size, y| size.max(of(y)));
     let count = orbit.samples.len() as f64;
-    let x = match &claim.own {
-        None => largest(&|y| norm(&y[..n])),
-        Some(own) => {
-            let distances = orbit.samples.iter().enumerate().map(|(at, y)| own.distance(at as f64 / count, &y[..n]));
-            distances.fold(0.0, f64::max)
-        }
-    };
+    let distances = orbit.samples.iter().enumerate().map(|(at, y)| claim.distance(at as f64 / count, &y[..n]));
+    let x = distances.fold(0.0, f64::max);
     let error = orbit.error();
     let e = sup(&error);
     let m = closed_loop.regulator.m();
@@ -225,8 +218,7 @@ fn check_approach(
         let samples = trajectory(closed_loop, t, period, SAMPLES, &y, Tolerance::ORDINARY)?;
         for (at, (sample, point)) in samples.iter().zip(&orbit.samples).enumerate() {
             let difference: Vec<f64> = sample.iter().zip(point).map(|(a, b)| a - b).collect();
-            let own = |own: &OwnPlant| own.norm(&difference[..n]);
-            let (x, e) = (claim.own.as_ref().map_or_else(|| norm(&difference[..n]), own), difference[n]);
+            let (x, e) = (claim.norm(&difference[..n]), difference[n]);
             away = [away[0].max(x), away[1].max(e.abs())];
             // u is linear in (e, z).
             let of = |y: &[f64]| closed_loop.demanded(y, Disturbance::default()).abs();

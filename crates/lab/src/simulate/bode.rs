@@ -65,7 +65,7 @@ mod tests {
         for regulator in regulators() {
             let closed_loop = ClosedLoop::new(&plant, regulator.clone());
             let d = closed_loop.dimension();
-            let (_, jacobian) = closed_loop.linearise(&mut closed_loop.derivative_evaluator(), 0.3, &vec![0.0; d]);
+            let jacobian = closed_loop.linearise(&mut closed_loop.derivative_evaluator(), 0.3, &vec![0.0; d]);
             for omega in frequencies(0.1, 1000.0, 200) {
                 let system = DMatrix::from_fn(d, d, |row, column| {
                     let diagonal = if row == column { omega } else { 0.0 };

@@ -260,12 +260,12 @@ impl<'l> Collocation<'l> {
         (0..n).map(at).collect()
     }
 
-    /// y at a place within the step.
-    pub(super) fn sample(&self, table: &Table, place: f64, y: &[f64], stages: &[f64]) -> Vec<f64> {
+    /// y at a place within the step, whose row is given.
+    pub(super) fn sample(&self, row: &Row, place: f64, y: &[f64], stages: &[f64]) -> Vec<f64> {
         let n = self.closed_loop.states() + 1;
         let mut sample = self.between(place, y, stages);
         sample.resize(y.len(), 0.0);
-        table.row(self.closed_loop, place).apply(&y[n..], Self::nodes_of_e(stages, n), 1, &mut sample[n..]);
+        row.apply(&y[n..], Self::nodes_of_e(stages, n), 1, &mut sample[n..]);
         sample
     }
 
@@ -297,7 +297,7 @@ mod tests {
         let stages = collocation.stages(&table, 0.2, &y).unwrap();
         let ends = [(1.0, 1e-12, collocation.end(&table, &y, &stages))];
         // Between the nodes x and e are polynomials of degree 7.
-        let between = [(0.4, 1e-10, collocation.sample(&table, 0.4, &y, &stages))];
+        let between = [(0.4, 1e-10, collocation.sample(&table.row(&closed_loop, 0.4), 0.4, &y, &stages))];
         for (place, allowed, state) in ends.into_iter().chain(between) {
             let exact = flow(&closed_loop, 0.2, 0.05 * place, &y, Tolerance::TIGHT).unwrap();
             let error = exact.iter().zip(&state).fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()));

@@ -17,18 +17,18 @@ const ITERATIONS: u64 = 6;
 impl ClosedLoop {
     /// Starts counting anew, for another part of a simulation.
     pub fn renew_effort(&self) {
-        self.effort.0.store(0, Ordering::Relaxed);
+        self.effort.store(0, Ordering::Relaxed);
     }
 
     /// The same with only so many operations.
     pub(crate) fn leave(&self, operations: u64) {
-        self.effort.0.store(MAX_OPERATIONS.saturating_sub(operations), Ordering::Relaxed);
+        self.effort.store(MAX_OPERATIONS.saturating_sub(operations), Ordering::Relaxed);
     }
 
     /// The operations that the part of a simulation begun last has taken, of [`MAX_OPERATIONS`].
     #[must_use]
     pub fn spent(&self) -> u64 {
-        self.effort.spent()
+        self.effort.load(Ordering::Relaxed)
     }
 
     /// The operations of one stage of a step: the right side and what the method does with it.
@@ -42,7 +42,7 @@ impl ClosedLoop {
     }
 
     fn left(&self) -> u64 {
-        MAX_OPERATIONS.saturating_sub(self.effort.spent())
+        MAX_OPERATIONS.saturating_sub(self.spent())
     }
 
     /// The operations of an implicit step, with so many columns of variational equations beside the state: what a system of
@@ -64,13 +64,13 @@ impl ClosedLoop {
         if operations > self.left() {
             return Err(IntegrationFailure::TooMuchWork { t });
         }
-        self.effort.0.fetch_add(operations, Ordering::Relaxed);
+        self.effort.fetch_add(operations, Ordering::Relaxed);
         Ok(())
     }
 
     /// Counts stages that were made.
     pub(super) fn count_stages(&self, stages: u64) {
-        self.effort.0.fetch_add(stages.saturating_mul(self.stage_cost()), Ordering::Relaxed);
+        self.effort.fetch_add(stages.saturating_mul(self.stage_cost()), Ordering::Relaxed);
     }
 
     /// Counts fixed steps of four stages that are about to be made from the time t.

@@ -212,7 +212,8 @@ impl<'l> Steps<'l> {
             states.push(if end {
                 made.end.clone()
             } else {
-                self.collocation.sample(table, place, start, &made.stages)
+                let row = table.row(self.collocation.closed_loop, place);
+                self.collocation.sample(&row, place, start, &made.stages)
             });
         }
     }

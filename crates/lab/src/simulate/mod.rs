@@ -38,6 +38,7 @@ pub use report::SimulationReport;
 pub use run::{
     Integrator, LongRun, NoisyRun, PeriodFigures, Simulation, SimulationSettings, SteadyFigures, noisy_run, simulate,
 };
+pub(crate) use sampled::pass_period;
 pub use sampled::{
     Converters, PeriodSums, Piece, SampledLongRun, SampledLoop, SampledRun, SampledSettings, SampledSimulation,
     SampledSimulationReport, SampledSteady, SampledSteadyError, period_derivative, sampled_csv, sampled_figures,

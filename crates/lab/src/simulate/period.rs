@@ -117,7 +117,6 @@ impl<'l> Period<'l> {
     /// y at 0, T/count, ..., T - T/count from y(0); `count` is a multiple of the steps, or divides them.
     pub(super) fn samples(&mut self, y: &[f64], count: usize) -> Result<Vec<Vec<f64>>, IntegrationFailure> {
         let closed_loop = self.collocation.closed_loop;
-        let n = closed_loop.states() + 1;
         let (each, stride) = ((count / self.steps).max(1), (self.steps / count).max(1));
         let places: Vec<f64> = (1..each).map(|k| k as f64 / each as f64).collect();
         let rows: Vec<_> = places.iter().map(|place| self.table.row(closed_loop, *place)).collect();
@@ -129,10 +128,7 @@ impl<'l> Period<'l> {
                 samples.push(y.clone());
             }
             for (place, row) in places.iter().zip(&rows) {
-                let mut sample = self.collocation.between(*place, &y, &stages);
-                sample.resize(y.len(), 0.0);
-                row.apply(&y[n..], Collocation::nodes_of_e(&stages, n), 1, &mut sample[n..]);
-                samples.push(sample);
+                samples.push(self.collocation.sample(row, *place, &y, &stages));
             }
             y = self.collocation.end(&self.table, &y, &stages);
         }

@@ -130,8 +130,6 @@ pub struct SteadyFigures {
     pub rms: f64,
     /// |c_0|, |c_1|, ...
     pub amplitudes: Vec<f64>,
-    /// Samples of e over a period.
-    pub error: Vec<f64>,
     /// The control and the states.
     pub period: PeriodFigures,
 }
@@ -155,7 +153,6 @@ impl SteadyFigures {
             rms: rms(&error),
             amplitudes: amplitudes(&error, harmonics),
             period: PeriodFigures::new(closed_loop, &closed),
-            error,
         })
     }
 }

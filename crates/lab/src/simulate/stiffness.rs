@@ -12,7 +12,7 @@ const STABLE: f64 = 2.6;
 /// The spectral radius of the Jacobian of the closed loop at a time and state; what follows y in `state` is left out.
 fn fastest_mode(closed_loop: &ClosedLoop, t: f64, state: &[f64]) -> Option<f64> {
     let d = closed_loop.dimension();
-    let (_, jacobian) = closed_loop.linearise(&mut closed_loop.derivative_evaluator(), t, state.get(..d)?);
+    let jacobian = closed_loop.linearise(&mut closed_loop.derivative_evaluator(), t, state.get(..d)?);
     spectral_radius(&Mat::from_fn(d, d, |row, column| jacobian[row * d + column]))
 }
 

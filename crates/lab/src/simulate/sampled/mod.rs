@@ -14,4 +14,5 @@ pub use figures::{sampled_csv, sampled_figures};
 pub use report::SampledSimulationReport;
 pub use run::{PeriodSums, SampledLongRun, SampledSettings, SampledSimulation, simulate_sampled};
 pub use sampled_loop::{Converters, Piece, SampledLoop, SampledRun};
+pub(crate) use steady::pass_period;
 pub use steady::{SampledSteady, SampledSteadyError, sampled_periodic_solution, sampled_steady_state};

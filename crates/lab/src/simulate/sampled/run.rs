@@ -146,8 +146,6 @@ impl SampledLongRun {
 /// The outcome of a simulation at samples.
 #[derive(Clone, Debug)]
 pub struct SampledSimulation {
-    /// What was asked for.
-    pub settings: SampledSettings,
     /// The steady state with the figures of its period, or why there is none.
     pub steady: Result<(SampledSteady, PeriodSums), SampledSteadyError>,
     /// The run, or why it ended early.
@@ -183,7 +181,7 @@ pub fn simulate_sampled(
         Ok((steady, sums))
     });
     let long = long_run(sampled, start, settings, progress);
-    SampledSimulation { settings: *settings, steady, long }
+    SampledSimulation { steady, long }
 }
 
 fn long_run(

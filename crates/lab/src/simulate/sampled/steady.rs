@@ -150,13 +150,13 @@ pub fn sampled_periodic_solution(
     if !sampled.converters.are_smooth() {
         return settle(sampled, start);
     }
-    let approach = |period: u32, y: &[f64]| pass(sampled, period as usize, y, Tolerance::ORDINARY);
+    let approach = |period: u32, y: &[f64]| pass_period(sampled, period as usize, y, Tolerance::ORDINARY);
     let derivative =
         |y: &[f64], displacement: f64| Ok(period_derivative(sampled, y, displacement)?.unwrap_or_default());
     let shot = search(
         start,
         approach,
-        |y| shoot(y, |y| pass(sampled, 0, y, Tolerance::TIGHT), |y| derivative(y, DISPLACEMENT)),
+        |y| shoot(y, |y| pass_period(sampled, 0, y, Tolerance::TIGHT), |y| derivative(y, DISPLACEMENT)),
         progress,
     )?;
     let other = derivative(&shot.start, 4.0 * DISPLACEMENT)?;
@@ -165,8 +165,13 @@ pub fn sampled_periodic_solution(
     Ok(SampledSteady { start: shot.start, residual: shot.residual, multipliers: Some(multipliers), uncertainty })
 }
 
-/// The state after a period from one at its start.
-fn pass(sampled: &SampledLoop, period: usize, y: &[f64], tolerance: Tolerance) -> Result<Vec<f64>, IntegrationFailure> {
+/// The state after a period, which is one of so many, from one at its start.
+pub(crate) fn pass_period(
+    sampled: &SampledLoop,
+    period: usize,
+    y: &[f64],
+    tolerance: Tolerance,
+) -> Result<Vec<f64>, IntegrationFailure> {
     let samples = sampled.samples_rounded_up();
     let escaped = IntegrationFailure::Escaped { t: sampled.time(period * samples) };
     let mut run = SampledRun::new(sampled, period * samples, y).ok_or(escaped)?;
@@ -181,7 +186,7 @@ fn settle(sampled: &SampledLoop, start: &[f64]) -> Result<SampledSteady, Sampled
     let mut y = start.to_vec();
     let mut last = f64::INFINITY;
     for _ in 0..MOST_PERIODS {
-        let next = pass(sampled, 0, &y, Tolerance::ORDINARY)?;
+        let next = pass_period(sampled, 0, &y, Tolerance::ORDINARY)?;
         last = max_distance(&next, &y);
         let size = next.iter().fold(1.0, |size: f64, value| size.max(1.0 + value.abs()));
         y = next;
