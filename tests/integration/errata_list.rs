@@ -268,6 +268,6 @@ fn relations_decide_exactly_and_by_enclosures() {
     }
     let exact = Side::from(one.enclosure());
     assert_eq!(Equal.decide(&exact, &one), True);
-    assert!(!Evidence::rigorous("false", 2, Less, 1).is_proved());
-    assert!(!Evidence::cited("true", 1, Less, 2).is_proved());
+    assert!(!Evidence::rigorous("false", (2, Less, 1)).is_proved());
+    assert!(!Evidence::cited("true", (1, Less, 2)).is_proved());
 }

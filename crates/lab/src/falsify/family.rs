@@ -19,7 +19,7 @@ pub struct Harmonic {
 ///
 /// with vectors v, w, m of norm at most 1, phi, phi_q and r as in [`Shape`], psi(s) = s^2/2 or l^2 (1 - cos(s/l)),
 /// factors a, b, d, b_q as in [`Factor`], and A a sum of harmonics of different orders. F is a matrix of texts in t.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Family {
     /// T as it is written in the specification.
     pub period: String,

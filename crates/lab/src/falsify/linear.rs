@@ -8,7 +8,7 @@ use super::forcing::{fill, harmonics};
 use super::jacobian::{self, Clock};
 use super::limits::{Limits, SectorEnd};
 use super::random::Random;
-use super::shape::{Factor, Number, Shape};
+use super::shape::Number;
 use sigmastar_lang::spec::model::LyapunovSource;
 use sigmastar_theory::data::Bound;
 
@@ -64,18 +64,13 @@ pub fn linear_member(claim: &TriedClaim, end: SectorEnd, random: &mut Random, le
             jacobian: jacobian.clone(),
             jacobian_norm: jacobian_norm.clone(),
             g: (directions[0].iter().map(|part| part.times(size.value())).collect(), size),
-            g_1: Number::default(),
-            kappa: Number::default(),
             directions: directions.clone(),
-            shapes: [Shape::Linear; 2],
-            wave: None,
             beta: of_states(limits.at(Bound::Qx, 0.0, 0.0)),
             damping: Number::new(damping),
             c: Number::new(c),
-            delta: Number::default(),
-            saturation: Shape::Linear,
-            factors: [Factor::ONE; 4],
             harmonics: harmonics.clone(),
+            // Every shape is linear, every factor 1, and what is not linear is 0.
+            ..Family::default()
         };
         fill(&mut family, claim);
         family

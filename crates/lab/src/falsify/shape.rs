@@ -42,9 +42,10 @@ impl fmt::Display for Number {
 }
 
 /// A function phi of one variable with phi(0) = 0, |phi'| <= 1, |phi| <= min(|s|, scale) and |phi''| <= 1/scale.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Shape {
     /// phi(s) = s; there is no scale.
+    #[default]
     Linear,
     /// phi(s) = scale tanh(s/scale); its second derivative is at most 4/(3 sqrt 3) = 0.770 times 1/scale.
     Tanh(Number),
@@ -79,8 +80,8 @@ impl Shape {
     }
 }
 
-/// A factor of the time: 1, or cos(k Om t + phase) for k >= 1.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// A factor of the time: 1, which is the default, or cos(k Om t + phase) for k >= 1.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Factor {
     /// k; 0 for the factor 1.
     pub order: u32,

@@ -21,27 +21,30 @@ pub(super) fn regulator_words(regulator: &Regulator) -> String {
 /// The samples of a long run as CSV: t, the states, e, u, and the components of z as z0, z1c, z1s, ...
 #[must_use]
 pub fn csv(plant: &Plant, closed_loop: &ClosedLoop, run: &LongRun) -> String {
+    let n = closed_loop.states();
+    let rows = run.times.iter().zip(&run.states).map(|(t, y)| {
+        let u = closed_loop.control(y, Disturbance::default());
+        [&[*t], &y[..=n], &[u], &y[n + 1..]].concat()
+    });
+    table(plant, closed_loop.regulator.dimension(), rows)
+}
+
+/// Rows of t, the states, e, u, and the components of z, below their names.
+pub(super) fn table(plant: &Plant, dimension: usize, rows: impl Iterator<Item = Vec<f64>>) -> String {
+    let of_regulator = (0..dimension).map(|component| match component {
+        0 => "z0".to_owned(),
+        i => format!("z{}{}", i.div_ceil(2), if i % 2 == 1 { "c" } else { "s" }),
+    });
     let mut header = vec!["t".to_owned()];
     header.extend(plant.names.states().iter().cloned());
     header.extend(["e", "u"].map(str::to_owned));
-    header.extend(regulator_columns(closed_loop.regulator.dimension()));
+    header.extend(of_regulator);
     let mut text = header.join(",") + "\n";
-    let n = closed_loop.states();
-    for (t, y) in run.times.iter().zip(&run.states) {
-        let u = closed_loop.control(y, Disturbance::default());
-        let values = [*t].into_iter().chain(y[..=n].iter().copied()).chain([u]).chain(y[n + 1..].iter().copied());
-        text.push_str(&values.map(|value| format!("{value:?}")).collect::<Vec<_>>().join(","));
+    for row in rows {
+        text.push_str(&row.iter().map(|value| format!("{value:?}")).collect::<Vec<_>>().join(","));
         text.push('\n');
     }
     text
-}
-
-/// The names of the components of z: z0, z1c, z1s, ...
-pub(super) fn regulator_columns(dimension: usize) -> impl Iterator<Item = String> {
-    (0..dimension).map(|component| match component {
-        0 => "z0".to_owned(),
-        i => format!("z{}{}", i.div_ceil(2), if i % 2 == 1 { "c" } else { "s" }),
-    })
 }
 
 /// The names of the files of a simulation's figures.

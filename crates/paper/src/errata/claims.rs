@@ -1,6 +1,7 @@
 //! E15 and E16: sentences that claim too much, constants that are larger than needed.
 
-use super::evidence::{Evidence, Relation};
+use super::evidence::Evidence;
+use super::evidence::Relation::{Equal, Greater, Less};
 use super::kappa::pole_sums;
 use super::numbers::{integer, power, quotient, ratio};
 use super::{Bearing, Class, Erratum, ForData, is_constant, vanishes};
@@ -36,29 +37,21 @@ pub(super) fn e15(data: Option<&Data<'_>>) -> Erratum {
         Evidence::rigorous(
             "P_up = P_low = alpha = mu = b_fe = b_qx = 1, b_fxx = b_fex = b_qe = 0, common h = 1/4: the printed sigma*_a and \
              sigma*_oo",
-            finite,
-            Relation::Equal,
-            infinite,
+            (finite, Equal, infinite),
         ),
         Evidence::rigorous(
             "the bound of z: q of frequency Om, mu = 1, n_l = l^-1.5, mean of zeta'N zeta per mean of q^2: with w = Om/100 and n_o >= \
              100 it is 2/n_100, with w = Om 2/n_1",
-            Rational::from(2) / n_100,
-            Relation::Greater,
-            2,
+            (Rational::from(2) / n_100, Greater, 2),
         ),
         Evidence::rigorous(
             "q = cos(Om t), w = sqrt(3/2) Om, mu = w, n_0 = 2, n_1 = 1: rms(e) falls with 1 + nu^2 g^2 (P:eq:gain_ek); for n_o = 1 \
              this is smaller than for n_o = 0, so the L2 norm increases with n_o",
-            Rational::from(1) + oscillator,
-            Relation::Less,
-            Rational::from(1) + integrator,
+            (Rational::from(1) + oscillator, Less, Rational::from(1) + integrator),
         ),
         Evidence::cited(
             "in the paper's second table, 0.95 * 2 pi, the same happens: rms for n_o = 3 against n_o = 2",
-            ratio(982, 10_000),
-            Relation::Greater,
-            ratio(980, 10_000),
+            (ratio(982, 10_000), Greater, ratio(980, 10_000)),
         ),
     ];
     Erratum {
@@ -99,34 +92,18 @@ pub(super) fn e16(data: Option<&Data<'_>>) -> Erratum {
     let evidence = vec![
         Evidence::rigorous(
             "K_alpha against c, which is enough (P_up/P_low = 1.5512, alpha = 0.58, T = 1): K_alpha/c = 1 + (c-1) e^(-alpha T)",
-            k_alpha / &c,
-            Relation::Greater,
-            1,
+            (k_alpha / &c, Greater, 1),
         ),
-        Evidence::rigorous(
-            "beta against beta_s = beta/2: the quotient at sigma = 40, T = 1",
-            beta,
-            Relation::Greater,
-            1,
-        ),
-        Evidence::rigorous(
-            "2 b_fxx x_p against b_fxx x_p in the contraction matrix: the quotient",
-            2,
-            Relation::Greater,
-            1,
-        ),
+        Evidence::rigorous("beta against beta_s = beta/2: the quotient at sigma = 40, T = 1", (beta, Greater, 1)),
+        Evidence::rigorous("2 b_fxx x_p against b_fxx x_p in the contraction matrix: the quotient", (2, Greater, 1)),
         Evidence::rigorous(
             "54 = 9 (4 + 2) against 1: with b_qt = b_qx b_f = b_qe b_q = 1 the printed 3 (1 + 1) + 54 against (1 + 1 + 1)^2",
-            3 * (1 + 1) + 9 * (4 + 2),
-            Relation::Greater,
-            9,
+            (3 * (1 + 1) + 9 * (4 + 2), Greater, 9),
         ),
-        Evidence::rigorous("T/mu against T/(2 mu) in P:pf:L2_zeta: the quotient", 2, Relation::Greater, 1),
+        Evidence::rigorous("T/mu against T/(2 mu) in P:pf:L2_zeta: the quotient", (2, Greater, 1)),
         Evidence::rigorous(
             "2 against 4 in the denominator of P:eq:ineq_bounds_sigma: rho_12^2/2 against rho_12^2/4 at rho_12 = 1",
-            ratio(1, 2),
-            Relation::Greater,
-            ratio(1, 4),
+            (ratio(1, 2), Greater, ratio(1, 4)),
         ),
     ];
     let for_data = data.map(|data| {

@@ -1,6 +1,7 @@
 //! E5: the second Jury condition.
 
-use super::evidence::{Evidence, Relation};
+use super::evidence::Evidence;
+use super::evidence::Relation::{Greater, Less};
 use super::numbers::ratio;
 use super::{Bearing, Class, Erratum, ForData};
 use rug::Rational;
@@ -18,36 +19,20 @@ pub(super) fn e5(data: Option<&Data<'_>>) -> Erratum {
     let evidence = vec![
         Evidence::rigorous(
             "[[2, 0.1], [0.1, 2]] passes the first condition: 1 - tr + det",
-            Rational::from(1) - trace + &determinant,
-            Relation::Greater,
-            0,
+            (Rational::from(1) - trace + &determinant, Greater, 0),
         ),
-        Evidence::rigorous(
-            "and the printed second one, 1 > -det: -det",
-            Rational::from(-&determinant),
-            Relation::Less,
-            1,
-        ),
-        Evidence::rigorous("which should have read 1 > det: det", determinant, Relation::Greater, 1),
-        Evidence::rigorous(
-            "its rows sum to its spectral radius",
-            Rational::from(&diagonal + &other),
-            Relation::Greater,
-            1,
-        ),
+        Evidence::rigorous("and the printed second one, 1 > -det: -det", (Rational::from(-&determinant), Less, 1)),
+        Evidence::rigorous("which should have read 1 > det: det", (determinant, Greater, 1)),
+        Evidence::rigorous("its rows sum to its spectral radius", (Rational::from(&diagonal + &other), Greater, 1)),
         Evidence::rigorous(
             "K_alpha/alpha = b_fe = b_qe = 1, b_qx = 0, b_fex e_p + 2 b_fxx x_p = 1/2: the right side of the third line of \
              (19), to exceed beta > 0, is negative",
-            third_line,
-            Relation::Less,
-            0,
+            (third_line, Less, 0),
         ),
         Evidence::rigorous(
             "although the matrix [[1/2, 1], [0, beta]] is a contraction for every beta < 1; its largest diagonal entry at \
              beta = 1/2",
-            bracket,
-            Relation::Less,
-            1,
+            (bracket, Less, 1),
         ),
     ];
     Erratum {

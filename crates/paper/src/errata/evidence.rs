@@ -173,9 +173,7 @@ impl Evidence {
     #[must_use]
     pub fn rigorous(
         statement: impl Into<String>,
-        lhs: impl Into<Side>,
-        relation: Relation,
-        rhs: impl Into<Side>,
+        (lhs, relation, rhs): (impl Into<Side>, Relation, impl Into<Side>),
     ) -> Evidence {
         let (lhs, rhs) = (lhs.into(), rhs.into());
         let truth = relation.decide(&lhs, &rhs);
@@ -184,13 +182,8 @@ impl Evidence {
 
     /// A comparison whose numbers come from elsewhere; it claims nothing, whatever the numbers say.
     #[must_use]
-    pub fn cited(
-        statement: impl Into<String>,
-        lhs: impl Into<Side>,
-        relation: Relation,
-        rhs: impl Into<Side>,
-    ) -> Evidence {
-        Evidence { truth: Truth::Undecided, kind: Kind::Cited, ..Evidence::rigorous(statement, lhs, relation, rhs) }
+    pub fn cited(statement: impl Into<String>, inequality: (impl Into<Side>, Relation, impl Into<Side>)) -> Evidence {
+        Evidence { truth: Truth::Undecided, kind: Kind::Cited, ..Evidence::rigorous(statement, inequality) }
     }
 
     /// Whether the relation was proved here.

@@ -1,6 +1,7 @@
 //! E18 to E22: the paper's example, its tables and its noise.
 
-use super::evidence::{Evidence, Relation};
+use super::evidence::Evidence;
+use super::evidence::Relation::{Equal, Greater, GreaterOrEqual, Less};
 use super::numbers::{integer, pi, power, quotient, ratio};
 use super::{Bearing, Class, Erratum, ForData};
 use rug::Rational;
@@ -11,12 +12,10 @@ pub(super) fn e18(data: Option<&Data<'_>>) -> Erratum {
     // At t = 0, exactly: sin 0 = 0, cos 0 = 1.
     let (sine, cosine) = (integer(0).sin(), integer(0).cos());
     let evidence = vec![
-        Evidence::rigorous("the first component of f(0,0,0), sin 0", sine.clone(), Relation::Equal, 0),
+        Evidence::rigorous("the first component of f(0,0,0), sin 0", (sine.clone(), Equal, 0)),
         Evidence::rigorous(
             "the second, cos 0 (1 + sin 0), which the families need to be 0",
-            cosine * (1 + sine),
-            Relation::Equal,
-            1,
+            (cosine * (1 + sine), Equal, 1),
         ),
     ];
     let for_data = data.map(|data| {
@@ -59,9 +58,7 @@ pub(super) fn e19() -> Erratum {
             format!(
                 "{name}: the \"mean square\", less half a unit of its last place, against the square of the supremum, plus half a unit"
             ),
-            mean - mean_half,
-            Relation::Greater,
-            Rational::from(largest.square_ref()),
+            (mean - mean_half, Greater, Rational::from(largest.square_ref())),
         )
     };
     let evidence = vec![
@@ -72,9 +69,7 @@ pub(super) fn e19() -> Erratum {
         row("second table, 2 pi, n_o = 4 (3.04e-8, 1.66e-8)", (304, 10), (166, 10)),
         Evidence::cited(
             "simulation, sigma = 40: rms(e), which rounds to the printed 0.0572",
-            ratio(5722, 100_000),
-            Relation::Less,
-            ratio(5725, 100_000),
+            (ratio(5722, 100_000), Less, ratio(5725, 100_000)),
         ),
     ];
     Erratum {
@@ -91,18 +86,14 @@ pub(super) fn e19() -> Erratum {
 /// E20: the weights of the tables.
 pub(super) fn e20() -> Erratum {
     let evidence = vec![
-        Evidence::rigorous("P:27 asks for n_1 < n_0; with n_0 = 1, n_1 = 1^-1.5", 1, Relation::GreaterOrEqual, 1),
+        Evidence::rigorous("P:27 asks for n_1 < n_0; with n_0 = 1, n_1 = 1^-1.5", (1, GreaterOrEqual, 1)),
         Evidence::cited(
             "floating-point simulation (shooting): noise-free entries that agree with n_0 = 1 to the printed digits, out of 28",
-            28,
-            Relation::Equal,
-            28,
+            (28, Equal, 28),
         ),
         Evidence::cited(
             "the same with n_0 = 2: the largest relative difference (rms, 0.95 * 2 pi, n_o = 2)",
-            ratio(558, 10_000),
-            Relation::Greater,
-            0,
+            (ratio(558, 10_000), Greater, 0),
         ),
     ];
     Erratum {
@@ -123,22 +114,13 @@ pub(super) fn e21() -> Erratum {
     let evidence = vec![
         Evidence::cited(
             "with the slow multiplier 0.940 a period (from a simulation) a transient of 1/1000 is, after 150 periods, 0.940^150/1000",
-            left / 1000u32,
-            Relation::Greater,
-            printed(304, 10).0,
+            (left / 1000u32, Greater, printed(304, 10).0),
         ),
         Evidence::cited(
             "simulation from the stated initial condition: the largest |e| in the 150th period, against the printed one",
-            printed(150, 8).0,
-            Relation::Greater,
-            printed(304, 10).0,
+            (printed(150, 8).0, Greater, printed(304, 10).0),
         ),
-        Evidence::cited(
-            "the exact steady state, by shooting",
-            printed(30_395, 12).0,
-            Relation::Less,
-            printed(3045, 11).0,
-        ),
+        Evidence::cited("the exact steady state, by shooting", (printed(30_395, 12).0, Less, printed(3045, 11).0)),
     ];
     Erratum {
         id: "E21",
@@ -161,25 +143,16 @@ pub(super) fn e22() -> Erratum {
     let all_inside = (-(integer(15_000_000) * tail)).exp();
     let negligible = power(&ratio(1, 10), 400);
     let evidence = vec![
-        Evidence::rigorous("the variance of the samples, noise power over step", variance, Relation::Equal, 100),
+        Evidence::rigorous("the variance of the samples, noise power over step", (variance, Equal, 100)),
         Evidence::rigorous(
             "independent normal samples with deviation 10, before the filter: the probability that 150 s of them stay within 40 \
              is at most",
-            all_inside,
-            Relation::Less,
-            negligible,
+            (all_inside, Less, negligible),
         ),
-        Evidence::cited(
-            "simulation, after the filter, five seeds: the smallest sup|v|",
-            ratio(529, 10),
-            Relation::Greater,
-            40,
-        ),
+        Evidence::cited("simulation, after the filter, five seeds: the smallest sup|v|", (ratio(529, 10), Greater, 40)),
         Evidence::cited(
             "stationary rms of e, n_o = 0: with u = -sigma(e+v) + ..., against the printed law",
-            ratio(31, 1000),
-            Relation::Greater,
-            ratio(12, 1000),
+            (ratio(31, 1000), Greater, ratio(12, 1000)),
         ),
     ];
     Erratum {

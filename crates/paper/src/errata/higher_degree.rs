@@ -1,6 +1,7 @@
 //! E14: relative degree above one, the order of the coefficients.
 
-use super::evidence::{Evidence, Relation};
+use super::evidence::Evidence;
+use super::evidence::Relation::{Equal, Greater, Less};
 use super::numbers::{PRECISION, integer, ratio};
 use super::{Bearing, Class, Erratum, ForData, Side};
 use rug::Rational;
@@ -51,25 +52,16 @@ pub(super) fn e14(data: Option<&Data<'_>>) -> Erratum {
     let evidence = vec![
         Evidence::rigorous(
             "a = (10, 1, 1), the printed s^3 + 10 s^2 + s + 1: Hurwitz by Routh's criterion, a_1 a_2 > a_3 with a_i > 0",
-            a[0] * a[1],
-            Relation::Greater,
-            a[2],
+            (a[0] * a[1], Greater, a[2]),
         ),
         Evidence::rigorous(
             "the companion matrix printed beside it has the characteristic polynomial s^3 + a_3 s^2 + a_2 s + a_1: det(2 I - A)",
-            companion_characteristic(&a, 2),
-            Relation::Equal,
-            Rational::from(8 + a[2] * 4 + a[1] * 2 + a[0]),
+            (companion_characteristic(&a, 2), Equal, Rational::from(8 + a[2] * 4 + a[1] * 2 + a[0])),
         ),
-        Evidence::rigorous("s^3 + s^2 + s + 10 is not Hurwitz: a_3 a_2 against a_1", a[2] * a[1], Relation::Less, a[0]),
-        Evidence::rigorous("it has the real zero r (signs at rationals)", zero, Relation::Less, 0),
-        Evidence::rigorous("and a pair of zeros with the real part -(1+r)/2", real, Relation::Greater, 0),
-        Evidence::rigorous(
-            "and the imaginary part sqrt(1 + r + r^2 - (1+r)^2/4)",
-            imaginary,
-            Relation::Greater,
-            integer(0),
-        ),
+        Evidence::rigorous("s^3 + s^2 + s + 10 is not Hurwitz: a_3 a_2 against a_1", (a[2] * a[1], Less, a[0])),
+        Evidence::rigorous("it has the real zero r (signs at rationals)", (zero, Less, 0)),
+        Evidence::rigorous("and a pair of zeros with the real part -(1+r)/2", (real, Greater, 0)),
+        Evidence::rigorous("and the imaginary part sqrt(1 + r + r^2 - (1+r)^2/4)", (imaginary, Greater, integer(0))),
     ];
     Erratum {
         id: "E14",

@@ -1,6 +1,7 @@
 //! E13 and E23: exact regulation with infinitely many oscillators.
 
-use super::evidence::{Evidence, Relation};
+use super::evidence::Evidence;
+use super::evidence::Relation::{Different, Equal, Greater, Less};
 use super::numbers::{PRECISION, integer, pi, ratio, rational};
 use super::{Bearing, Class, Erratum, ForData};
 use rug::Rational;
@@ -18,22 +19,16 @@ pub(super) fn e13(data: Option<&Data<'_>>) -> Erratum {
     let evidence = vec![
         Evidence::rigorous(
             "q = 1, mu = 1, n_0 = 2: c_0 = -1, and the printed component z_p0 = c_0/mu gives mu M'N z_p = n_0 c_0",
-            Rational::from(&n_0 * &c_0),
-            Relation::Different,
-            c_0.clone(),
+            (Rational::from(&n_0 * &c_0), Different, c_0.clone()),
         ),
-        Evidence::rigorous("while z_p0 = c_0/(mu n_0) gives", Rational::from(&n_0 * &component), Relation::Equal, c_0),
+        Evidence::rigorous("while z_p0 = c_0/(mu n_0) gives", (Rational::from(&n_0 * &component), Equal, c_0)),
         Evidence::rigorous(
             "its norm |z_p|_N^2 = n_0 z_p0^2, against the printed bound b_qt(0,0)/(mu^2 n_1) = 0 of |z_p|_N",
-            norm_squared,
-            Relation::Greater,
-            0,
+            (norm_squared, Greater, 0),
         ),
         Evidence::rigorous(
             "q = cos(2 pi t/T), T = 10, mu = n_1 = 1: |z_p|_N = 1 against the printed bound 2 pi/T",
-            1,
-            Relation::Greater,
-            printed,
+            (1, Greater, printed),
         ),
     ];
     Erratum {
@@ -70,23 +65,17 @@ pub(super) fn e23() -> Erratum {
     let evidence = vec![
         Evidence::rigorous(
             "T = 1: on the block l of the sequence space |Phi z| = (2 pi l/T) |z|, so Phi is unbounded; at l = 10^6 the factor",
-            2 * pi() * integer(block),
-            Relation::Greater,
-            block,
+            (2 * pi() * integer(block), Greater, block),
         ),
         Evidence::rigorous(
             "9 P_up x_a^2 = 9 e_a^2 = 9 h zeta_a^2 = 1: the minimum of P_up |x|^2 + e^2 + h |zeta|^2 outside the initial set is \
              taken on one face; its largest value inside, at a corner, is above",
-            minimum,
-            Relation::Less,
-            level,
+            (minimum, Less, level),
         ),
         Evidence::rigorous(
             "the perturbation is bounded, |M M'N zeta|_N <= Nbar^2 |zeta|_N: with n_0 = 2, n_l = l^-2 the factor Nbar^2 = 2 + \
              pi^2/6",
-            2 + sigmastar_exact::enclosure::Enclosure::pi(PRECISION).sqr() / 6,
-            Relation::Less,
-            rational(&ratio(37, 10)),
+            (2 + sigmastar_exact::enclosure::Enclosure::pi(PRECISION).sqr() / 6, Less, rational(&ratio(37, 10))),
         ),
     ];
     Erratum {

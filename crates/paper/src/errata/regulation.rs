@@ -1,6 +1,7 @@
 //! E10 to E12: what the paper concludes for the size of the periodic error.
 
-use super::evidence::{Evidence, Relation};
+use super::evidence::Evidence;
+use super::evidence::Relation::{Greater, Less, LessOrEqual};
 use super::kappa::{example_weight, printed_example};
 use super::numbers::{PRECISION, integer, pi, quotient, ratio, rational, root};
 use super::square_wave;
@@ -37,22 +38,16 @@ pub(super) fn e10(data: Option<&Data<'_>>) -> Erratum {
         Evidence::rigorous(
             "n_o = 0, n_0 = 2, mu = 10, T = 4, sigma = 4000, q = tanh(2000 sin(pi t/2)): sigma sup|e_p| against sup|q| + \
              Nbar sup sqrt(zeta'N zeta), with the actual sup sqrt(zeta'N zeta) <= sqrt(2)/20 and Nbar = sqrt(n_0): 1 + 1/mu",
-            supremum.clone(),
-            Relation::Greater,
-            by_n_0,
+            (supremum.clone(), Greater, by_n_0),
         ),
         Evidence::rigorous(
             "the same with Nbar^2 = 2 + zeta(1.5), the sum of all the example's weights",
-            supremum.clone(),
-            Relation::Greater,
-            1 + n_bar * state,
+            (supremum.clone(), Greater, 1 + n_bar * state),
         ),
         Evidence::rigorous(
             "the printed constant in place of the actual supremum is not contradicted: zeta_p >= sqrt(kappa_0) sup|q|, and \
              sigma sup|e_p|",
-            supremum,
-            Relation::Less,
-            1 + root(2) * kappa_0.sqrt(),
+            (supremum, Less, 1 + root(2) * kappa_0.sqrt()),
         ),
     ];
     let for_data = data.map(|data| {
@@ -100,11 +95,9 @@ pub(super) fn e11(data: Option<&Data<'_>>) -> Erratum {
         Evidence::rigorous(
             "T = 10, n_o = 100, sigma = 2, mu = 1, w = 2 pi/T, the example's weights, q = cos(101 2 pi t/10): int e^2 against \
              the printed psi_2/(n_o+1)^2",
-            energy.clone(),
-            Relation::Greater,
-            printed.clone(),
+            (energy.clone(), Greater, printed.clone()),
         ),
-        Evidence::rigorous("and with the factor T", energy, Relation::LessOrEqual, 10 * printed),
+        Evidence::rigorous("and with the factor T", (energy, LessOrEqual, 10 * printed)),
     ];
     let for_data = data.map(|data| {
         let (bearing, summary) = match against_one(data.spec.period.nominal()) {
@@ -136,11 +129,9 @@ pub(super) fn e12(data: Option<&Data<'_>>) -> Erratum {
     let evidence = vec![
         Evidence::rigorous(
             "T = 0.1, alpha = 1, F = -1, g = 1: the periodic solution is 1, against the printed (K_{alpha,2}/sqrt(alpha)) |g|_2",
-            1,
-            Relation::Greater,
-            printed,
+            (1, Greater, printed),
         ),
-        Evidence::rigorous("and without the factor T", 1, Relation::LessOrEqual, repaired),
+        Evidence::rigorous("and without the factor T", (1, LessOrEqual, repaired)),
     ];
     let for_data = data.map(|data| {
         let k_alpha = gains::k_alpha(&data.c, &data.alpha, &data.period);

@@ -1,6 +1,7 @@
 //! E1 and E2: the size conditions of the two theorems.
 
-use super::evidence::{Evidence, Relation};
+use super::evidence::Evidence;
+use super::evidence::Relation::{Equal, Greater, Less};
 use super::numbers::{integer, quotient, ratio, rational, root};
 use super::{Bearing, Class, Erratum, ForData};
 use rug::Rational;
@@ -22,22 +23,16 @@ pub(super) fn e1(data: Option<&Data<'_>>) -> Erratum {
     let evidence = vec![
         Evidence::rigorous(
             "second member: 9 P_up x_a^2 <= ((6-1)^2/2 - 9) e_a^2, with the factor",
-            left_of_e,
-            Relation::Equal,
-            ratio(7, 2),
+            (left_of_e, Equal, ratio(7, 2)),
         ),
         Evidence::rigorous(
             "first member: P_low (3 sqrt(2) c + 1)^2/2 = 9 P_up + 3 sqrt(2) sqrt(P_up P_low) + P_low/2, so that \
              9 e_a^2 <= (3 sqrt(2) sqrt(P_up P_low) + P_low/2) x_a^2; the factor of P_low c^2 = P_up",
-            square_of_c,
-            Relation::Equal,
-            9,
+            (square_of_c, Equal, 9),
         ),
         Evidence::rigorous(
             "the two multiplied: 81 <= 3.5 (3 sqrt(2)/c + 1/(2 c^2)); the right side decreases in c >= 1, and at c = 1 it is",
-            product(&integer(1)),
-            Relation::Less,
-            81,
+            (product(&integer(1)), Less, 81),
         ),
     ];
     Erratum {
@@ -73,18 +68,14 @@ pub(super) fn e2(data: Option<&Data<'_>>) -> Erratum {
     let evidence = vec![
         Evidence::rigorous(
             "with k = P_up/P_low it needs 9 k - 6 sqrt(2) sqrt(k) - 2 <= 0, increasing for k >= 1; at k = 1.2952 it is",
-            excess(&four_digits(12_952)),
-            Relation::Less,
-            0,
+            (excess(&four_digits(12_952)), Less, 0),
         ),
-        Evidence::rigorous("and at k = 1.2953 it is", excess(&four_digits(12_953)), Relation::Greater, 0),
+        Evidence::rigorous("and at k = 1.2953 it is", (excess(&four_digits(12_953)), Greater, 0)),
         Evidence::rigorous(
             "its root sqrt(k) = (sqrt(2) + 2)/3, that is k = (6 + 4 sqrt(2))/9, is above",
-            largest_ratio(),
-            Relation::Greater,
-            ratio(12_952, 10_000),
+            (largest_ratio(), Greater, ratio(12_952, 10_000)),
         ),
-        Evidence::rigorous("and below", largest_ratio(), Relation::Less, ratio(12_953, 10_000)),
+        Evidence::rigorous("and below", (largest_ratio(), Less, ratio(12_953, 10_000))),
     ];
     let for_data = data.map(|data| {
         let ratio = &data.p_up / &data.p_low;

@@ -1,6 +1,7 @@
 //! E3 and E4: the stability proof.
 
-use super::evidence::{Evidence, Relation, Side};
+use super::evidence::Relation::{Equal, Greater, GreaterOrEqual, Less, LessOrEqual};
+use super::evidence::{Evidence, Side};
 use super::numbers::{binomial, integer, power, ratio, rational, root};
 use super::{Bearing, Class, Erratum, ForData, vanishes};
 use rug::Rational;
@@ -53,32 +54,24 @@ pub(super) fn e3(data: Option<&Data<'_>>) -> Erratum {
         Evidence::rigorous(
             "n = 1, f = -x + k phi(t) x e, P = 2, alpha = 1, k e_a = 4/3, |phi| <= 1: the Lyapunov inequality 2 P F <= \
              -2 alpha P",
-            Rational::from(&p * -2),
-            Relation::LessOrEqual,
-            Rational::from(&p * -2) * &alpha,
+            (Rational::from(&p * -2), LessOrEqual, Rational::from(&p * -2) * &alpha),
         ),
         Evidence::rigorous(
             "the printed rho_0 = P/(2 P) k e_a passes its test rho_0 <= alpha P_low/3",
-            printed_rho,
-            Relation::LessOrEqual,
-            allowed.clone(),
+            (printed_rho, LessOrEqual, allowed.clone()),
         ),
         Evidence::rigorous(
             "phi(t) = psi(t) = p(sin(2 pi t)), p(s) = C int_0^s (1-u^2)^19 du, is odd and increasing in s, so \
              |phi| <= 1: p(1)",
-            sum(&polynomial),
-            Relation::Equal,
-            1,
+            (sum(&polynomial), Equal, 1),
         ),
-        Evidence::rigorous("the mean of psi^2", mean, Relation::Greater, ratio(3, 4)),
+        Evidence::rigorous("the mean of psi^2", (mean, Greater, ratio(3, 4))),
         Evidence::rigorous(
             "with x_p = 0 and e_p = e_a psi(t) (zero mean: for n_o = 0, or without resonance, the periodic solution \
              for a suitable q(t)) the zero dynamics are x' = (-1 + (4/3) psi^2) x; their Floquet exponent",
-            exponent,
-            Relation::Greater,
-            0,
+            (exponent, Greater, 0),
         ),
-        Evidence::rigorous("with the factor P_up the test refuses: P_up k e_a", true_rho, Relation::Greater, allowed),
+        Evidence::rigorous("with the factor P_up the test refuses: P_up k e_a", (true_rho, Greater, allowed)),
     ];
     let for_data = data.map(|data| {
         let too_small_by = 2 * &data.p_low;
@@ -151,7 +144,7 @@ pub(super) fn e4(data: Option<&Data<'_>>) -> Erratum {
             parts
                 .iter()
                 .zip(is_nonnegative(matrix))
-                .map(|(part, value)| Evidence::rigorous(format!("{what}, {part}"), value, Relation::GreaterOrEqual, 0)),
+                .map(|(part, value)| Evidence::rigorous(format!("{what}, {part}"), (value, GreaterOrEqual, 0))),
         );
     }
     for (name, x) in [("0.2", ratio(1, 5)), ("1", ratio(1, 1))] {
@@ -161,19 +154,13 @@ pub(super) fn e4(data: Option<&Data<'_>>) -> Erratum {
                 "X = {name}: the nonlinear term is radial, so the angle is that of exp(F t) = e^-t [[1,10t],[0,1]] and |x| is at \
                  least that of the linear flow; from (0, 2X) at t = 1 |x|^2 - 4X^2 >= d = 4X^2 (101 e^-2 - 1); 5 d^3 \
                  (increasing in X)"
-            ),
-            5 * (d.sqr() * &d),
-            Relation::Greater,
-            3,
-        ));
+            ), (5 * (d.sqr() * &d), Greater, 3)));
         evidence.push(Evidence::rigorous(
             format!(
                 "X = {name}: from there (|x|^2)' >= 4 |x|^2 (5 (|x|^2 - 4X^2)^3 - 3), so the solution is gone after a \
                  further time of at most"
             ),
-            time_to_infinity(&x),
-            Relation::Less,
-            ratio(1, 100),
+            (time_to_infinity(&x), Less, ratio(1, 100)),
         ));
     }
     Erratum {

@@ -1,6 +1,7 @@
 //! E6 to E9: the transfer from q to the internal model.
 
-use super::evidence::{Evidence, Relation};
+use super::evidence::Evidence;
+use super::evidence::Relation::{Equal, Greater, GreaterOrEqual, Less, LessOrEqual};
 use super::kappa::{ClosedForm, pole_sums, printed_example, printed_pair_holds, proved_kappa_1, transfer};
 use super::numbers::{integer, pi, quotient, ratio, rational};
 use super::{Bearing, Class, Erratum, ForData};
@@ -22,14 +23,12 @@ pub(super) fn e6(data: Option<&Data<'_>>) -> Erratum {
     let printed = printed_example();
     let bound = &printed.kappa_0 + &printed.kappa_1 * rational(&omega_squared);
     let evidence = vec![
-        Evidence::rigorous("n_o = 1, n_0 = 2, n_1 = 1, x^2 = 2/3: g_1(x)^2", g_squared, Relation::Equal, 0),
-        Evidence::rigorous("and g_1'(x)", slope, Relation::Equal, 18),
+        Evidence::rigorous("n_o = 1, n_0 = 2, n_1 = 1, x^2 = 2/3: g_1(x)^2", (g_squared, Equal, 0)),
+        Evidence::rigorous("and g_1'(x)", (slope, Equal, 18)),
         Evidence::rigorous(
             "w = 0.03, mu = 1: zeta* N zeta/|v|^2 = T(x)/w^2 at omega = w x, against the printed kappa_0 + kappa_1 omega^2 \
              (weights n_0 = 2, n_l = l^-1.5)",
-            actual,
-            Relation::Greater,
-            bound,
+            (actual, Greater, bound),
         ),
     ];
     Erratum {
@@ -74,33 +73,23 @@ pub(super) fn e7(data: Option<&Data<'_>>) -> Erratum {
     let evidence = vec![
         Evidence::rigorous(
             "n_o = 0, n_0 = 2, mu = w = 1: T(x) = n_0/(x^2 + mu^2 n_0^2), so T(0); 2/(mu^2 n_0) is printed",
-            at_zero.clone(),
-            Relation::Less,
-            Rational::from(2) / &n_0,
+            (at_zero.clone(), Less, Rational::from(2) / &n_0),
         ),
         Evidence::rigorous(
             "and then P:eq:bound_zetaNzeta_exact, 2 l^2/(mu^2 n_1), which is 0 at l = 0: T(0)",
-            at_zero.clone(),
-            Relation::Greater,
-            0,
+            (at_zero.clone(), Greater, 0),
         ),
         Evidence::rigorous(
             "nu = 1/(2 pi), n_0 = 2: T(0) = 1/(nu^2 n_0) against the printed k0 = 7 n_0/2",
-            slow,
-            Relation::Greater,
-            k0.clone(),
+            (slow, Greater, k0.clone()),
         ),
         Evidence::rigorous(
             "k0 fails for nu < sqrt(2/7)/n_0, where T(0) = 1/(nu^2 n_0) passes it: at equality T(0)",
-            (threshold_squared * &n_0).recip(),
-            Relation::Equal,
-            k0.clone(),
+            ((threshold_squared * &n_0).recip(), Equal, k0.clone()),
         ),
         Evidence::rigorous(
             "in the printed normalisation, w = 1, mu >= 1 and n_0 = 2, k0 is not contradicted at 0: T(0) <= its value at mu = 1",
-            at_zero,
-            Relation::LessOrEqual,
-            k0,
+            (at_zero, LessOrEqual, k0),
         ),
     ];
     let for_data = data.map(|data| {
@@ -137,21 +126,15 @@ pub(super) fn e8(data: Option<&Data<'_>>) -> Erratum {
     let mut evidence = vec![
         Evidence::rigorous(
             "the factor (m+1)^2/m^2, at m = 1, disappears between two lines",
-            factor.clone(),
-            Relation::Equal,
-            4,
+            (factor.clone(), Equal, 4),
         ),
-        Evidence::rigorous("along that route 512/mu^2 becomes, at mu = 1,", factor * 512, Relation::Equal, 2048),
+        Evidence::rigorous("along that route 512/mu^2 becomes, at mu = 1,", (factor * 512, Equal, 2048)),
     ];
     for (where_, lhs, rhs) in closed.comparisons(&printed.kappa_0, &printed.kappa_1) {
         evidence.push(Evidence::rigorous(
             format!(
                 "the printed pair survives at w = mu = 1 and the example's weights, being above the proved closed form: {where_}"
-            ),
-            lhs,
-            Relation::LessOrEqual,
-            rhs,
-        ));
+            ), (lhs, LessOrEqual, rhs)));
     }
     let for_data = data.map(|data| {
         let (bearing, summary) = match printed_pair_holds(data) {
@@ -182,33 +165,25 @@ pub(super) fn e9(data: Option<&Data<'_>>) -> Erratum {
     let square = Rational::from(ratio(827, 1000).square_ref());
     let needed = (transfer(&[Rational::from(2), Rational::from(1)], &Rational::from(1), &square) - 7u32) / square;
     let evidence = vec![
-        Evidence::rigorous("the example's weights: S", printed.s.clone(), Relation::Less, ratio(7_220, 1000)),
-        Evidence::rigorous("a = (2 + sqrt(2)) S", printed.a.clone(), Relation::Less, ratio(24_650, 1000)),
-        Evidence::rigorous("varpi = 1/(48 (a + 2))", printed.varpi.clone(), Relation::Less, ratio(782, 1_000_000)),
-        Evidence::rigorous("the printed kappa_1", printed.kappa_1.clone(), Relation::Greater, 13_000_000),
+        Evidence::rigorous("the example's weights: S", (printed.s.clone(), Less, ratio(7_220, 1000))),
+        Evidence::rigorous("a = (2 + sqrt(2)) S", (printed.a.clone(), Less, ratio(24_650, 1000))),
+        Evidence::rigorous("varpi = 1/(48 (a + 2))", (printed.varpi.clone(), Less, ratio(782, 1_000_000))),
+        Evidence::rigorous("the printed kappa_1", (printed.kappa_1.clone(), Greater, 13_000_000)),
         Evidence::rigorous(
             "the closed form k1 at nu = 1, proved for every n_o; the printed value divided by it",
-            &printed.kappa_1 / &closed.k1,
-            Relation::Greater,
-            80_000,
+            (&printed.kappa_1 / &closed.k1, Greater, 80_000),
         ),
         Evidence::rigorous(
             "with k0 = 7 no k1 below 17.59 will do: (T_1(x) - 7)/x^2 at n_o = 1, x = 0.827, nu = 1",
-            needed.clone(),
-            Relation::Greater,
-            ratio(1759, 100),
+            (needed.clone(), Greater, ratio(1759, 100)),
         ),
         Evidence::cited(
             "and about 17.6 is enough (grid search over n_o and x)",
-            ratio(176, 10),
-            Relation::GreaterOrEqual,
-            needed,
+            (ratio(176, 10), GreaterOrEqual, needed),
         ),
         Evidence::cited(
             "the state bound grows with the root of kappa_1: sqrt(kappa_1/17.6)",
-            (printed.kappa_1 / quotient(176, 10)).sqrt(),
-            Relation::Greater,
-            850,
+            ((printed.kappa_1 / quotient(176, 10)).sqrt(), Greater, 850),
         ),
     ];
     let for_data = data.map(|data| {

@@ -6,7 +6,7 @@ use super::initial_set::{ClaimedSet, claimed_distances};
 use super::joint;
 use super::matrix_inequality;
 use super::paths::Paths;
-use super::sharp::one_sided;
+use super::sharp::{by_norms_conditions, one_sided};
 use super::stability::{DecayCondition, ErrorBox, level_condition};
 use super::{domain_conditions, sign_conditions};
 use crate::data::{Bound, Data, Problem};
@@ -122,18 +122,7 @@ impl ExactEvaluation {
             conditions.extend(matrix_inequality::conditions(data, inequality, place, &sigma, of));
             return ExactEvaluation { z, conditions };
         }
-        conditions.push(Condition::less(
-            "C5",
-            "exact regulation: (h/mu) k_x^2 < 4 w_x a_2",
-            decay.coupling,
-            decay.curvature,
-        ));
-        conditions.push(Condition::less(
-            "C5b",
-            "exact regulation: threshold of the quadratic form < sigma",
-            decay.sigma_threshold,
-            sigma,
-        ));
+        conditions.extend(by_norms_conditions(&decay, &sigma, of));
         ExactEvaluation { z, conditions }
     }
 

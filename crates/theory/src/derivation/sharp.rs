@@ -143,6 +143,7 @@ impl SharpEvaluation {
             true => strict_existence_conditions(data, witness, &bounds, &origin, &gains),
             false => existence_conditions(data, witness, &bounds, &origin, &gains),
         });
+        conditions.extend(refined_conditions(data, witness, &bounds, &origin, &gains));
         let [dist_x, dist_e, dist_z] = claimed_distances(data, &witness.set, [&periodic.x_per, &periodic.e_per, &z]);
         let distances = [&dist_x, &dist_e, &dist_z];
         let inequality = matrix_inequality::proved_for(data, &witness.w_x, &witness.h);
@@ -172,7 +173,7 @@ impl SharpEvaluation {
                 }
                 None => {
                     conditions.extend(one_sided(data, witness.paths.q.place_of_de(), &error_box.sector_at));
-                    conditions.extend(by_norms_conditions(&decay, &sigma));
+                    conditions.extend(by_norms_conditions(&decay, &sigma, ""));
                 }
             }
             reach
@@ -229,12 +230,12 @@ impl SharpEvaluation {
     }
 }
 
-/// C5 by norms.
-fn by_norms_conditions(decay: &DecayCondition<Enclosure>, sigma: &Enclosure) -> [Condition; 2] {
+/// C5 by norms; `of` says of what.
+pub(super) fn by_norms_conditions(decay: &DecayCondition<Enclosure>, sigma: &Enclosure, of: &str) -> [Condition; 2] {
     let (coupling, curvature) = (decay.coupling.clone(), decay.curvature.clone());
-    let what = "threshold of the quadratic form < sigma";
+    let what = format!("{of}threshold of the quadratic form < sigma");
     [
-        Condition::less("C5", "(h/mu) k_x^2 < 4 w_x a_2", coupling, curvature),
+        Condition::less("C5", format!("{of}(h/mu) k_x^2 < 4 w_x a_2"), coupling, curvature),
         Condition::less("C5b", what, decay.sigma_threshold.clone(), sigma.clone()),
     ]
 }
@@ -272,7 +273,7 @@ pub(super) fn one_sided(data: &Data<'_>, place: &str, [x, e]: &[Enclosure; 2]) -
     })
 }
 
-/// (S1), (S2), and (S3) for the refined mean squares.
+/// (S1) and (S2).
 fn existence_conditions(
     data: &Data<'_>,
     witness: &SharpWitness,
@@ -303,12 +304,10 @@ fn existence_conditions(
         }
     };
     let x_rms = ("(c/a_1) b_fe r_e".to_owned(), bounds.x_rms(&squares));
-    let mut conditions = bounds.existence(data, &squares, Relation::LessOrEqual, [x_rms, sup, rms, rate_rms]);
-    conditions.extend(refined_conditions(data, witness, bounds, origin, gains));
-    conditions
+    bounds.existence(data, &squares, Relation::LessOrEqual, [x_rms, sup, rms, rate_rms])
 }
 
-/// (S1), (S2), (S3) with a matrix inequality of existence (derivation, 13.7, (E)).
+/// (S1) and (S2) with a matrix inequality of existence (derivation, 13.7, (E)).
 ///
 /// All that bounds a periodic solution bounds those with l q(t,0,0) in the place of q(t,0,0), 0 < l <= 1, as long as no bound of q
 /// as a whole is used, of which part of q(t,0,0) may be missing. Where each of them is strictly inside of the sizes X_p, E_p, r_x,
@@ -336,9 +335,7 @@ fn strict_existence_conditions(
         (rms, image.e),
         (format!("min{{R_q, R_1/sg, {damped_rate}r_y}}"), image.e_rate),
     ];
-    let mut conditions = bounds.existence(data, &squares, Relation::Less, least);
-    conditions.extend(refined_conditions(data, witness, bounds, origin, gains));
-    conditions
+    bounds.existence(data, &squares, Relation::Less, least)
 }
 
 /// (S3), and (M) of section 10 where kap > 0.

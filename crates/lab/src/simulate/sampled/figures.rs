@@ -3,7 +3,7 @@
 use super::run::{SampledLongRun, SampledSimulation};
 use super::sampled_loop::{Piece, SampledLoop};
 use super::words::loop_words;
-use crate::simulate::figures::{control_axis, over_time, regulator_columns, spectrum, spectrum_curve, transient};
+use crate::simulate::figures::{control_axis, over_time, spectrum, spectrum_curve, table, transient};
 use sigmastar_document::plot::{Curve, Figure, Style};
 use sigmastar_lang::plant::Plant;
 
@@ -11,28 +11,15 @@ use sigmastar_lang::plant::Plant;
 /// for that time follows); z is that of the last sample.
 #[must_use]
 pub fn sampled_csv(plant: &Plant, sampled: &SampledLoop, run: &SampledLongRun) -> String {
-    let mut header = vec!["t".to_owned()];
-    header.extend(plant.names.states().iter().cloned());
-    header.extend(["e", "u"].map(str::to_owned));
-    header.extend(regulator_columns(sampled.regulator.dimension()));
-    let mut text = header.join(",") + "\n";
-    let mut row = |piece: &Piece, at: usize, z: &[f64]| {
-        let state = piece.states.get(at).into_iter().flatten();
-        let t = piece.t + piece.unit * at as f64;
-        let values = [t].into_iter().chain(state.copied()).chain([piece.u]).chain(z.iter().copied());
-        text.push_str(&values.map(|value| format!("{value:?}")).collect::<Vec<_>>().join(","));
-        text.push('\n');
+    let row = |z: &[f64], piece: &Piece, at: usize| {
+        [&[piece.t + piece.unit * at as f64], &piece.states[at][..], &[piece.u], z].concat()
     };
-    for interval in &run.intervals {
-        for piece in &interval.pieces {
-            (0..piece.states.len() - 1).for_each(|at| row(piece, at, &interval.z));
-        }
-    }
-    if let Some((piece, interval)) = run.intervals.last().and_then(|interval| Some((interval.pieces.last()?, interval)))
-    {
-        row(piece, piece.states.len() - 1, &interval.z);
-    }
-    text
+    let pieces =
+        || run.intervals.iter().flat_map(|interval| interval.pieces.iter().map(|piece| (&interval.z[..], piece)));
+    // What is at the end of a piece is the start of the next.
+    let starts = pieces().flat_map(|(z, piece)| (0..piece.states.len() - 1).map(move |at| row(z, piece, at)));
+    let end = pieces().last().map(|(z, piece)| row(z, piece, piece.states.len() - 1));
+    table(plant, sampled.regulator.dimension(), starts.chain(end))
 }
 
 /// The figures of a simulation, each with the name of its file: the error, the states of the plant, the control over the last

@@ -139,11 +139,10 @@ pub(super) fn transfer_rows(data: &Data<'_>, common: &Common<'_>) -> Vec<Row> {
         sound(closed[1].clone(), "section 2, closed form / w^4"),
         sound(common.sharp[1].clone(), "section 2, k1/w^4"),
     ));
-    let z_status = if dominates.is_true() { Status::Sound } else { Status::PrintedUnsound };
     rows.push(row(
         "Z",
         At::Common,
-        number(common.z_printed.clone(), z_status, "P:prop:periodic_solution, zeta_p"),
+        number(common.z_printed.clone(), status, "P:prop:periodic_solution, zeta_p"),
         sound(common.z_repaired.clone(), "section 4"),
         sound(common.own.z.clone(), "section 10.3"),
     ));
