@@ -7,7 +7,6 @@ use super::notation::Notation;
 use super::source::Source;
 use crate::expr::ExprError;
 use sha2::{Digest, Sha256};
-use std::fmt::Write;
 use std::io::Read;
 use std::ops::Range;
 use std::path::Path;
@@ -213,6 +212,16 @@ fn source(label: &str, text: &str) -> Arc<Source> {
     Arc::new(Source { label: label.to_owned(), text: text.to_owned() })
 }
 
+/// The text with sorted keys and without white space; it cannot fail, since every key is a text.
+fn canonical(mut value: serde_json::Value) -> String {
+    value.sort_all_objects();
+    value.to_string()
+}
+
+fn sha256(value: serde_json::Value) -> String {
+    Sha256::digest(canonical(value)).iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
 impl Errors {
     /// The outcome of reading `document`: the value if nothing was reported.
     ///
@@ -390,19 +399,13 @@ impl<'d> Value<'d> {
     /// U+0020 and nothing else escaped (as `serde_json` writes them).
     #[must_use]
     pub fn canonical(&self) -> String {
-        let mut output = String::new();
-        self.node.write_canonical(&mut output);
-        output
+        canonical(self.to_json())
     }
 
     /// SHA-256 of the [canonical form](Value::canonical), in lower-case hexadecimal.
     #[must_use]
     pub fn sha256(&self) -> String {
-        Sha256::digest(self.canonical()).iter().fold(String::with_capacity(64), |mut hex, byte| {
-            // Writing to a string cannot fail.
-            let _ = write!(hex, "{byte:02x}");
-            hex
-        })
+        sha256(self.to_json())
     }
 
     /// The value for `serde_json`, with key order and the text of numbers as in the document.
@@ -418,14 +421,12 @@ impl<'d> Value<'d> {
     /// which is for editors and holds no data.
     #[must_use]
     pub fn embedded(&self) -> (serde_json::Value, String) {
-        let data = match &self.node.content {
-            Content::Object(members) if self.pointer.is_empty() => {
-                let members = members.iter().filter(|member| member.key != SCHEMA).cloned().collect();
-                Node { span: self.node.span.clone(), content: Content::Object(members) }
-            }
-            _ => self.node.clone(),
-        };
-        (data.to_json(), Value { node: &data, ..self.clone() }.sha256())
+        let mut data = self.to_json();
+        if let (true, Some(fields)) = (self.pointer.is_empty(), data.as_object_mut()) {
+            fields.shift_remove(SCHEMA);
+        }
+        let digest = sha256(data.clone());
+        (data, digest)
     }
 
     /// The member of an object, if the value is one and has it.

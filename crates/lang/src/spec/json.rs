@@ -6,7 +6,6 @@ use jsonc_parser::ast;
 use jsonc_parser::common::Ranged;
 use jsonc_parser::{CollectOptions, ParseOptions, parse_to_ast};
 use std::collections::HashSet;
-use std::fmt::Write;
 use std::ops::Range;
 
 /// A value and where it stands, in bytes.
@@ -216,42 +215,6 @@ pub(super) fn escape_pointer(key: &str) -> String {
 }
 
 impl Node {
-    /// The canonical form: keys sorted by their UTF-8 bytes, no white space, numbers as written, strings as
-    /// `serde_json` writes them (`\"`, `\\`, `\b`, `\t`, `\n`, `\f`, `\r`, other characters below U+0020 as
-    /// lower-case `\u00xx`, everything else as itself).
-    pub(super) fn write_canonical(&self, output: &mut String) {
-        match &self.content {
-            Content::Null => output.push_str("null"),
-            Content::Boolean(value) => output.push_str(if *value { "true" } else { "false" }),
-            Content::Number(text) => output.push_str(text),
-            Content::Text(text) => write_string(text, output),
-            Content::Array(elements) => {
-                output.push('[');
-                for (index, element) in elements.iter().enumerate() {
-                    if index > 0 {
-                        output.push(',');
-                    }
-                    element.write_canonical(output);
-                }
-                output.push(']');
-            }
-            Content::Object(members) => {
-                let mut sorted: Vec<&Member> = members.iter().collect();
-                sorted.sort_by(|a, b| a.key.cmp(&b.key));
-                output.push('{');
-                for (index, member) in sorted.into_iter().enumerate() {
-                    if index > 0 {
-                        output.push(',');
-                    }
-                    write_string(&member.key, output);
-                    output.push(':');
-                    member.value.write_canonical(output);
-                }
-                output.push('}');
-            }
-        }
-    }
-
     /// The members of the object at a pointer.
     pub(super) fn members_at(&mut self, pointer: &str) -> Option<&mut Vec<Member>> {
         let steps = pointer.split('/').skip(1).map(|step| step.replace("~1", "/").replace("~0", "~"));
@@ -281,27 +244,6 @@ impl Node {
             ),
         }
     }
-}
-
-fn write_string(text: &str, output: &mut String) {
-    output.push('"');
-    for c in text.chars() {
-        match c {
-            '"' => output.push_str("\\\""),
-            '\\' => output.push_str("\\\\"),
-            '\u{8}' => output.push_str("\\b"),
-            '\t' => output.push_str("\\t"),
-            '\n' => output.push_str("\\n"),
-            '\u{c}' => output.push_str("\\f"),
-            '\r' => output.push_str("\\r"),
-            c if c < ' ' => {
-                // Writing to a string cannot fail.
-                let _ = write!(output, "\\u{:04x}", u32::from(c));
-            }
-            c => output.push(c),
-        }
-    }
-    output.push('"');
 }
 
 /// Where the bytes `range` of a decoded string stand in the document, given the span of its literal (with quotes).
