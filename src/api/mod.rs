@@ -56,7 +56,7 @@ pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 
 use rug::Rational;
 use sigmastar_exact::enclosure::{DEFAULT_PRECISION, Enclosure};
-use sigmastar_lang::spec::{Constant, Document, Errors, positive_constant};
+use sigmastar_lang::spec::{Constant, Document, positive_constant};
 
 /// The smallest double that is not below an exact number.
 fn rounded_up(value: &Rational) -> f64 {
@@ -84,10 +84,8 @@ fn rational(name: &str, text: &str) -> Result<Rational, Error> {
 /// An argument that is an exact positive constant, as in a specification; `name` is what errors call it.
 fn positive(name: &str, text: &str) -> Result<Constant, Error> {
     let document = Document::flag(name, text);
-    let mut errors = Errors::new();
     let place = document.at(&format!("/{name}")).unwrap_or_else(|| document.root());
-    let value = positive_constant(&place, &mut errors);
-    errors.conclude(&document, value).map_err(|errors| Error::argument(name, &errors))
+    place.read(positive_constant).map_err(|errors| Error::argument(name, &errors))
 }
 
 /// JSON as it is written: indented, ending in a line feed.

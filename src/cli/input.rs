@@ -119,8 +119,6 @@ fn constant(
     read: impl Fn(&Value<'_>, &mut Errors) -> Result<Constant, Reported>,
 ) -> Result<Constant, Failure> {
     let document = Document::flag(flag, text);
-    let mut errors = Errors::new();
     let place = document.at(&format!("/{flag}")).unwrap_or_else(|| document.root());
-    let value = read(&place, &mut errors);
-    Ok(errors.conclude(&document, value)?)
+    Ok(place.read(read)?)
 }

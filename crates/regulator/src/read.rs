@@ -9,9 +9,7 @@ use sigmastar_lang::spec::{Document, ErrorKind, Errors, Reported, SpecErrors, Va
 /// # Errors
 /// What is missing, unknown, not a number, not positive, or of the wrong length, in its place.
 pub fn read_regulator(document: &Document) -> Result<Regulator, SpecErrors> {
-    let mut errors = Errors::new();
-    let outcome = read(&document.root(), &mut errors);
-    errors.conclude(document, outcome)
+    document.root().read(read)
 }
 
 fn read(root: &Value<'_>, errors: &mut Errors) -> Result<Regulator, Reported> {
@@ -24,9 +22,9 @@ fn read(root: &Value<'_>, errors: &mut Errors) -> Result<Regulator, Reported> {
     }
     let sigma = file.required("sigma", errors).and_then(|value| positive(&value, errors));
     let mu = file.required("mu", errors).and_then(|value| positive(&value, errors));
-    let frequencies = file.required("frequencies", errors).and_then(|value| list(&value, errors));
+    let frequencies = file.required("frequencies", errors).and_then(|value| value.each(errors, positive));
     let weights = file.required("weights", errors).and_then(|value| {
-        let weights = list(&value, errors)?;
+        let weights = value.each(errors, positive)?;
         let expected = frequencies.as_ref().map_or(weights.len(), |frequencies| frequencies.len() + 1);
         if weights.len() == expected {
             return Ok(weights);
@@ -46,11 +44,6 @@ fn read(root: &Value<'_>, errors: &mut Errors) -> Result<Regulator, Reported> {
     file.finish(errors);
     let nominal = nominal.transpose();
     Ok(Regulator { sigma: sigma?, mu: mu?, frequencies: frequencies?, weights: weights?, nominal: nominal? })
-}
-
-fn list(value: &Value<'_>, errors: &mut Errors) -> Result<Vec<f64>, Reported> {
-    let read: Vec<Result<f64, Reported>> = value.array(errors)?.iter().map(|value| positive(value, errors)).collect();
-    read.into_iter().collect()
 }
 
 pub(super) fn positive(value: &Value<'_>, errors: &mut Errors) -> Result<f64, Reported> {

@@ -13,9 +13,7 @@ use sigmastar_lang::spec::{
 /// # Errors
 /// A field that is missing, unknown, or no finite number, in its place.
 pub fn read_discrete(document: &Document) -> Result<Option<Discrete>, SpecErrors> {
-    let mut errors = Errors::new();
-    let outcome = discrete(&document.root(), &mut errors);
-    errors.conclude(document, outcome)
+    document.root().read(discrete)
 }
 
 fn discrete(root: &Value<'_>, errors: &mut Errors) -> Result<Option<Discrete>, Reported> {
@@ -31,11 +29,10 @@ fn discrete(root: &Value<'_>, errors: &mut Errors) -> Result<Option<Discrete>, R
     let [step, gain, weight_sum, decay, feedthrough] =
         ["step", "K", "weight_sum", "decay", "D"].map(|name| single(&mut file, name, errors));
     let [input, output] =
-        ["Gamma", "C"].map(|name| file.required(name, errors).and_then(|value| numbers(&value, errors)));
-    let phi = file.required("Phi", errors).and_then(|value| {
-        let rows: Vec<_> = value.array(errors)?.iter().map(|row| numbers(row, errors)).collect();
-        rows.into_iter().collect::<Result<Vec<Vec<f64>>, Reported>>()
-    });
+        ["Gamma", "C"].map(|name| file.required(name, errors).and_then(|value| value.each(errors, number)));
+    let phi = file
+        .required("Phi", errors)
+        .and_then(|value| value.each(errors, |row: &Value<'_>, errors| row.each(errors, number)));
     let delayed = file.optional("delay_samples").map_or(Ok(false), |value| read_delay(&value, errors));
     let prediction = match delayed {
         Ok(true) => single(&mut file, "prediction", errors).map(Some),
@@ -66,11 +63,6 @@ fn discrete(root: &Value<'_>, errors: &mut Errors) -> Result<Option<Discrete>, R
         feedthrough: feedthrough?,
         saturation: saturation?,
     }))
-}
-
-fn numbers(value: &Value<'_>, errors: &mut Errors) -> Result<Vec<f64>, Reported> {
-    let read: Vec<Result<f64, Reported>> = value.array(errors)?.iter().map(|value| number(value, errors)).collect();
-    read.into_iter().collect()
 }
 
 fn number(value: &Value<'_>, errors: &mut Errors) -> Result<f64, Reported> {

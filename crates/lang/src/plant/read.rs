@@ -43,9 +43,7 @@ impl Plant {
     /// # Errors
     /// Those of [`Plant::from_json`].
     pub fn from_value(value: &Value<'_>) -> Result<Plant, SpecErrors> {
-        let mut errors = Errors::new();
-        let outcome = read(value, &mut errors);
-        errors.conclude(value.document(), outcome)
+        value.read(read)
     }
 }
 
@@ -86,8 +84,7 @@ fn read(value: &Value<'_>, errors: &mut Errors) -> Result<Plant, Reported> {
     let names = names.with_phase(period.as_ref().map_or_else(|_| Phase::new(&Expr::zero(), true), Period::phase));
     let f = f.and_then(|value| {
         let elements = of_length(&value, names.states().len(), "right sides", errors)?;
-        let read: Vec<Result<_, Reported>> = elements.iter().map(|value| expression(value, &names, errors)).collect();
-        Ok((elements, read.into_iter().collect::<Result<Vec<_>, _>>()?))
+        Ok((elements, value.each(errors, |value, errors| expression(value, &names, errors))?))
     });
     let q = q.and_then(|value| expression(&value, &names, errors).map(|q| (value, q)));
     // A period that is not that of the formulas would be held against the base frequency, which may be right.
@@ -159,8 +156,7 @@ fn read(value: &Value<'_>, errors: &mut Errors) -> Result<Plant, Reported> {
 
 fn read_names(value: &Value<'_>, errors: &mut Errors) -> Result<PlantNames, Reported> {
     let elements = value.array(errors)?;
-    let read: Vec<Result<_, Reported>> = elements.iter().map(|value| value.string(errors).map(str::to_owned)).collect();
-    let read = read.into_iter().collect::<Result<Vec<_>, _>>()?;
+    let read = value.each(errors, |value, errors| value.string(errors).map(str::to_owned))?;
     PlantNames::new(read).map_err(|error| {
         let place = error.index().and_then(|index| elements.get(index)).unwrap_or(value);
         let expected = "expected different names such as x1, other than t, e, pi and the functions";
@@ -210,9 +206,8 @@ fn read_initial(
 ) -> Result<Initial, Reported> {
     let mut object = value.object(errors)?;
     let x = object.required("x", errors).and_then(|value| {
-        let elements = of_length(&value, states, "initial values", errors)?;
-        let read: Vec<Result<f64, Reported>> = elements.iter().map(|value| double(value, constants, errors)).collect();
-        read.into_iter().collect()
+        of_length(&value, states, "initial values", errors)?;
+        value.each(errors, |value, errors| double(value, constants, errors))
     });
     let e = object.required("e", errors).and_then(|value| double(&value, constants, errors));
     let z = match object.optional("z") {
@@ -224,10 +219,7 @@ fn read_initial(
             Err(errors.report(error.help("leave `z` out, or ask for another kind of initial set")))
         }
         Some(value) => {
-            let elements = value.array(errors)?;
-            let read: Vec<Result<f64, Reported>> =
-                elements.iter().map(|value| double(value, constants, errors)).collect();
-            read.into_iter().collect::<Result<Vec<f64>, Reported>>().map(InitialRegulator::Given)
+            value.each(errors, |value, errors| double(value, constants, errors)).map(InitialRegulator::Given)
         }
     };
     object.finish(errors);

@@ -253,6 +253,16 @@ pub struct Value<'d> {
 }
 
 impl<'d> Value<'d> {
+    /// What is read of the value, if nothing is wrong with it.
+    ///
+    /// # Errors
+    /// Everything that `read` reports, in file order.
+    pub fn read<T>(&self, read: impl FnOnce(&Value<'d>, &mut Errors) -> Result<T, Reported>) -> Result<T, SpecErrors> {
+        let mut errors = Errors::new();
+        let outcome = read(self, &mut errors);
+        errors.conclude(self.document, outcome)
+    }
+
     /// The JSON pointer (RFC 6901) of the value.
     #[must_use]
     pub fn pointer(&self) -> &str {
@@ -365,6 +375,19 @@ impl<'d> Value<'d> {
             }
             _ => Err(self.wrong_type("an array", errors)),
         }
+    }
+
+    /// What is read of each element of an array; all of them are read before the first error ends it.
+    ///
+    /// # Errors
+    /// Reports a value that is not an array, and the first error of `read`.
+    pub fn each<T>(
+        &self,
+        errors: &mut Errors,
+        mut read: impl FnMut(&Value<'d>, &mut Errors) -> Result<T, Reported>,
+    ) -> Result<Vec<T>, Reported> {
+        let read: Vec<Result<T, Reported>> = self.array(errors)?.iter().map(|value| read(value, errors)).collect();
+        read.into_iter().collect()
     }
 
     /// The text of a string.

@@ -34,10 +34,7 @@ pub(super) fn read(value: &Value<'_>, period: Option<&Period>, errors: &mut Erro
             let error = list.error(ErrorKind::Range, message).expected(format!("expected {order} entries"));
             return Err(errors.report(error));
         }
-        // Every entry is read, so that all errors are told at once.
-        let row: Vec<Result<JacobianEntry, Reported>> =
-            entries.iter().map(|value| read_entry(value, period, errors)).collect();
-        rows.push(row.into_iter().collect::<Result<Vec<_>, _>>());
+        rows.push(list.each(errors, |value, errors| read_entry(value, period, errors)));
     }
     let rows = rows.into_iter().collect::<Result<Vec<_>, _>>()?;
     Ok(Jacobian { rows, period: period.and_then(|period| period.nominal().exact.clone()) })

@@ -64,9 +64,7 @@ impl Specification {
     /// # Errors
     /// Those of [`Specification::from_json`].
     pub fn from_value(value: &Value<'_>) -> Result<Specification, SpecErrors> {
-        let mut errors = Errors::new();
-        let outcome = read(value, &mut errors);
-        errors.conclude(value.document(), outcome)
+        value.read(read)
     }
 
     /// Errors found after reading, in a string of the specification: `field` is its pointer inside the specification
@@ -199,8 +197,7 @@ fn read_forcing(value: &Value<'_>, errors: &mut Errors) -> Result<KnownForcing, 
             let expected = format!("expected 1 to {MAX_HARMONICS} bounds of |c_0|, |c_1|, ...");
             return Err(errors.report(value.error(ErrorKind::Range, message).expected(expected)));
         }
-        let read: Vec<Result<_, Reported>> = elements.iter().map(|value| nonnegative_constant(value, errors)).collect();
-        read.into_iter().collect()
+        value.each(errors, nonnegative_constant)
     });
     let rest_rms = object.required("rest_rms", errors).and_then(|value| nonnegative_constant(&value, errors));
     let rest_t_rms = object.optional("rest_t_rms").map(|value| nonnegative_constant(&value, errors)).transpose();
@@ -312,8 +309,7 @@ fn read_relative_degree(value: &Value<'_>, errors: &mut Errors) -> Result<Relati
             let expected = format!("expected 1 to {MAX_RELATIVE_DEGREE_COEFFICIENTS} coefficients a_1, ..., a_(r-1)");
             return Err(errors.report(value.error(ErrorKind::Range, message).expected(expected)));
         }
-        let read: Vec<Result<_, Reported>> = elements.iter().map(|value| rational(value, errors)).collect();
-        read.into_iter().collect()
+        value.each(errors, rational)
     });
     object.finish(errors);
     Ok(RelativeDegree { a: a? })

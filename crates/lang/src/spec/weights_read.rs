@@ -64,8 +64,7 @@ fn list(value: &Value<'_>, errors: &mut Errors) -> Result<Vec<super::Constant>, 
         let error = value.error(ErrorKind::Range, message).expected(format!("expected 1 to {MAX_WEIGHTS} weights"));
         return Err(errors.report(error));
     }
-    let read: Vec<Result<_, Reported>> = elements.iter().map(|value| any_constant(value, errors)).collect();
-    read.into_iter().collect()
+    value.each(errors, any_constant)
 }
 
 fn prove(value: &Value<'_>, weights: Weights, errors: &mut Errors) -> Result<Weights, Reported> {

@@ -21,9 +21,7 @@ use sigmastar_theory::transfer::{BoxProof, TransferProof};
 /// # Errors
 /// Every field that is missing, unknown or not an exact rational, with its place.
 pub fn read_witness(document: &Document) -> Result<GivenWitness, SpecErrors> {
-    let mut errors = Errors::new();
-    let outcome = read(&document.root(), &mut errors);
-    errors.conclude(document, outcome)
+    document.root().read(read)
 }
 
 /// The fields of every certificate that are computed again.
@@ -63,18 +61,13 @@ fn read(root: &Value<'_>, errors: &mut Errors) -> Result<GivenWitness, Reported>
 /// # Errors
 /// The first part, where it is missing, or fields that are missing, unknown or not exact rationals, with their places.
 pub fn read_lyapunov(document: &Document) -> Result<ProvedTriples, SpecErrors> {
-    let mut errors = Errors::new();
-    let outcome = (|| {
-        let root = document.root();
-        let mut file = root.object(&mut errors)?;
-        let witness = file.required("witness", &mut errors)?;
-        let mut witness = witness.object(&mut errors)?;
-        let stability = witness.required(STABILITY, &mut errors)?;
-        let stability = read_triple(&stability, &mut errors)?;
-        let existence = witness.optional(EXISTENCE).map(|value| read_triple(&value, &mut errors)).transpose()?;
+    document.root().read(|root, errors| {
+        let mut file = root.object(errors)?;
+        let mut witness = file.required("witness", errors)?.object(errors)?;
+        let stability = read_triple(&witness.required(STABILITY, errors)?, errors)?;
+        let existence = witness.optional(EXISTENCE).map(|value| read_triple(&value, errors)).transpose()?;
         Ok(ProvedTriples { stability, existence })
-    })();
-    errors.conclude(document, outcome)
+    })
 }
 
 pub(super) fn read_triple(value: &Value<'_>, errors: &mut Errors) -> Result<ProvedTriple, Reported> {

@@ -25,21 +25,16 @@ pub fn read_plant_witness(
 ) -> Result<(Plant, OfPlant, ProvedValues), SpecErrors> {
     let embedded = document.at("/plant").map_or_else(
         || {
-            let mut errors = Errors::new();
-            let error = document.root().error(ErrorKind::MissingField, "the field `plant` is missing");
-            let reported = Err(errors.report(error));
-            errors.conclude(document, reported)
+            document.root().read(|root, errors| {
+                Err(errors.report(root.error(ErrorKind::MissingField, "the field `plant` is missing")))
+            })
         },
         |value| Plant::from_value(&value),
     )?;
-    let mut errors = Errors::new();
-    let outcome = document
-        .root()
-        .object(&mut errors)
-        .and_then(|mut file| file.required("witness", &mut errors))
-        .and_then(|value| value.object(&mut errors))
-        .and_then(|mut witness| parts(&mut witness, &embedded, numbers, &mut errors));
-    let (of_plant, values) = errors.conclude(document, outcome)?;
+    let (of_plant, values) = document.root().read(|root, errors| {
+        let mut witness = root.object(errors)?.required("witness", errors)?.object(errors)?;
+        parts(&mut witness, &embedded, numbers, errors)
+    })?;
     Ok((embedded, of_plant, values))
 }
 

@@ -25,9 +25,7 @@ pub fn is_sampled(document: &Document) -> bool {
 /// # Errors
 /// Every field that is missing, unknown or not an exact rational, with its place.
 pub fn read_sampled_witness(document: &Document) -> Result<SampledWitness, SpecErrors> {
-    let mut errors = Errors::new();
-    let outcome = read(&document.root(), &mut errors);
-    errors.conclude(document, outcome)
+    document.root().read(read)
 }
 
 fn read(root: &Value<'_>, errors: &mut Errors) -> Result<SampledWitness, Reported> {

@@ -48,11 +48,7 @@ pub struct StatedNoise {
 pub fn read_claim(document: &Document) -> Result<StatedClaim, SpecErrors> {
     let witness = read_numbers(document)?;
     let root = document.root();
-    let refused = |error| {
-        let mut errors = Errors::new();
-        let reported = Err(errors.report(error));
-        errors.conclude(document, reported)
-    };
+    let refused = |error| root.read(|_, errors| Err(errors.report(error)));
     if document.at("/plant").is_some() {
         let (plant, of_plant, values) = read_plant_witness(document, &witness)?;
         let spec = match specification(&plant, of_plant, values) {

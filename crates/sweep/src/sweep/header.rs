@@ -103,9 +103,7 @@ impl Header {
     /// What is wrong with it.
     pub(super) fn read(line: &str) -> Result<Header, SpecErrors> {
         let document = Document::parse("line", line)?;
-        let mut errors = Errors::new();
-        let header = document.root().object(&mut errors).and_then(|object| read(object, &mut errors));
-        errors.conclude(&document, header)
+        document.root().read(|root, errors| read(root.object(errors)?, errors))
     }
 }
 

@@ -124,9 +124,7 @@ impl Row {
     /// What is wrong with it.
     pub(super) fn read(line: &str) -> Result<Row, SpecErrors> {
         let document = Document::parse("line", line)?;
-        let mut errors = Errors::new();
-        let row = document.root().object(&mut errors).and_then(|object| read(object, &mut errors));
-        errors.conclude(&document, row)
+        document.root().read(|root, errors| read(root.object(errors)?, errors))
     }
 }
 

@@ -47,10 +47,7 @@ impl Study {
     /// # Errors
     /// Everything that is wrong with it, in its place.
     pub fn read(document: &Document) -> Result<Study, SpecErrors> {
-        let mut errors = Errors::new();
-        let root = document.root();
-        let study = root.object(&mut errors).and_then(|object| read(object, document, &mut errors));
-        errors.conclude(document, study)
+        document.root().read(|root, errors| read(root.object(errors)?, document, errors))
     }
 }
 
@@ -118,9 +115,7 @@ fn parameters(value: &Value<'_>, design: Design, errors: &mut Errors) -> Result<
         Design::Grid => None,
         Design::Latin { count, .. } => Some(count),
     };
-    let read: Vec<Result<Parameter, Reported>> =
-        elements.iter().map(|element| Parameter::read(element, latin, errors)).collect();
-    let list = read.into_iter().collect::<Result<Vec<Parameter>, Reported>>()?;
+    let list = value.each(errors, |element, errors| Parameter::read(element, latin, errors))?;
     for (index, parameter) in list.iter().enumerate() {
         if list[..index].iter().any(|earlier| earlier.steps() == parameter.steps()) {
             let message = format!("`{}` is the place of another parameter already", parameter.pointer);

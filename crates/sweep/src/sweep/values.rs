@@ -128,7 +128,7 @@ pub(super) fn read_list(value: &Value<'_>, errors: &mut Errors) -> Result<Values
         return Err(errors.report(value.error(ErrorKind::Range, "there are no values").expected("expected one value")));
     }
     let mut seen = BTreeSet::new();
-    let mut scalar = |element: &Value<'_>| {
+    let scalar = |element: &Value<'_>, errors: &mut Errors| {
         let known = element.numeral().or_else(|| element.text()).is_some() || element.type_name() == "a boolean";
         if !known {
             return Err(element.wrong_type("a number, a string or a Boolean", errors));
@@ -140,9 +140,7 @@ pub(super) fn read_list(value: &Value<'_>, errors: &mut Errors) -> Result<Values
         }
         Ok(scalar)
     };
-    // Every element is looked at, so that all errors are told at once.
-    let read: Vec<Result<Scalar, Reported>> = elements.iter().map(&mut scalar).collect();
-    read.into_iter().collect::<Result<_, _>>().map(Values::List)
+    value.each(errors, scalar).map(Values::List)
 }
 
 /// Reads a range; `count` is that of a Latin hypercube, or is read here.
