@@ -12,11 +12,10 @@ use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_lang::expr::{Expr, ProofSettings, Variables, prove_bounding};
 use sigmastar_lang::spec::Specification;
 use std::hint::black_box;
-use std::path::Path;
 
 fn paper_example() -> Specification {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../specs/paper-example.json");
-    Specification::load(&path).expect("the shipped example is valid")
+    let text = include_str!("../specs/paper-example.json");
+    Specification::from_json("paper-example", text).expect("the shipped example is valid")
 }
 
 fn runs(criterion: &mut Criterion) {

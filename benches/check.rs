@@ -13,8 +13,8 @@ use std::hint::black_box;
 use std::path::{Path, PathBuf};
 
 fn check_and_produce(criterion: &mut Criterion) {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../specs/paper-example.json");
-    let spec = Specification::load(&path).expect("the shipped example is valid");
+    let text = include_str!("../specs/paper-example.json");
+    let spec = Specification::from_json("paper-example", text).expect("the shipped example is valid");
     let kinds = [
         ("sharp", Options::default()),
         ("sharp, by boxes", Options { transfer: TransferChoice::Boxes, ..Options::default() }),

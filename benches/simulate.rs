@@ -22,7 +22,8 @@ fn root() -> PathBuf {
 }
 
 fn closed_loop() -> (ClosedLoop, Vec<f64>) {
-    let plant = Plant::load(&root().join("specs/plants/paper-example.json")).expect("the shipped plant is valid");
+    let text = include_str!("../specs/plants/paper-example.json");
+    let plant = Plant::from_json("paper-example", text).expect("the shipped plant is valid");
     let weights = (0..5).map(|l| if l == 0 { 2.0 } else { f64::from(l).powf(-1.5) }).collect();
     let closed_loop = ClosedLoop::new(&plant, Regulator::new(2.0, 1.0, TAU, weights));
     let start = closed_loop.start(&plant.initial.x, plant.initial.e);

@@ -11,11 +11,10 @@ use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_lang::spec::Specification;
 use sigmastar_theory::transfer::{BoxProof, OscillatorCount, PoleSums, internal_model_poles, smallest_k1};
 use std::hint::black_box;
-use std::path::Path;
 
 fn sums(criterion: &mut Criterion) {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../specs/paper-example.json");
-    let spec = Specification::load(&path).expect("the shipped example is valid");
+    let text = include_str!("../specs/paper-example.json");
+    let spec = Specification::from_json("paper-example", text).expect("the shipped example is valid");
     let data = Data::new(&spec, 128);
     let x = Enclosure::from_rational(&Rational::from((17, 5)), 128);
     let wide = Enclosure::between(&Rational::from((16, 5)), &Rational::from((17, 5)), 128);
@@ -51,8 +50,8 @@ fn sums(criterion: &mut Criterion) {
 }
 
 fn pairs(criterion: &mut Criterion) {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../specs/paper-example.json");
-    let spec = Specification::load(&path).expect("the shipped example is valid");
+    let text = include_str!("../specs/paper-example.json");
+    let spec = Specification::from_json("paper-example", text).expect("the shipped example is valid");
     let data = Data::new(&spec, 128);
     // A little above the optimum for nu = 1/(2 pi), eps = 1/2.
     let exact = |text: &str| Rational::from_str_radix(text, 10).expect("a rational");

@@ -7,7 +7,7 @@ use serde_json::{Value, json as object};
 use sigmastar_document::progress::Silent;
 use sigmastar_lab::simulate::{ClosedLoop, Orbit, rms, steady_state, sup};
 use sigmastar_lang::plant::Plant;
-use sigmastar_lang::spec::{ErrorKind, SpecErrors, Specification};
+use sigmastar_lang::spec::{Document, ErrorKind, SpecErrors, Specification};
 use sigmastar_prove::certify::certify;
 use sigmastar_regulator::Regulator;
 use std::path::{Path, PathBuf};
@@ -349,9 +349,8 @@ fn compared((number, width): (usize, u32), folder: &TempDir) -> String {
         "initial_set": { "kind": "at-rest", "X0": "1/2", "E0": "1/2" }
     });
     let (certificate, _) = certified(folder, &document);
-    let claim =
-        sigmastar_lab::falsify::TriedClaim::from_document(&sigmastar_lang::spec::Document::load(&certificate).unwrap())
-            .unwrap();
+    let certificate = Document::from_bytes("certificate", &std::fs::read(&certificate).unwrap()).unwrap();
+    let claim = sigmastar_lab::falsify::TriedClaim::from_document(&certificate).unwrap();
     let plant = Plant::from_json(name, &document.to_string()).unwrap();
     let sigma = claim.sigma * (1.0 + 1e-6);
     let mut line = format!("{name:<11}{:>5.1} %:", f64::from(width) / 10.0);

@@ -139,7 +139,8 @@ pub fn specification_text(name: &str) -> String {
 
 /// A shipped specification.
 pub fn specification(name: &str) -> Specification {
-    Specification::load(&path(name)).unwrap_or_else(|errors| panic!("{}", errors.render(false)))
+    Specification::from_json(name, &specification_text(name))
+        .unwrap_or_else(|errors| panic!("{}", errors.render(false)))
 }
 
 /// Without the comparison with the other derivations.

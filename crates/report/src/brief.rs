@@ -215,7 +215,7 @@ fn from(spec: &Specification, set: &ClaimedSet, when: &str) -> String {
     let ball =
         ball.map_or_else(String::new, |ball| format!("; so from |x - x_0| <= {}", exact(&ball, Direction::Down)));
     // Without sizes of its own the set is twice the periodic solution, which shrinks with the gain.
-    let own = if spec.initial_set.x0().is_none() && spec.plant().is_none_or(|plant| plant.ball.is_none()) {
+    let own = if spec.initial_set.given()[0].is_none() && spec.plant().is_none_or(|plant| plant.ball.is_none()) {
         "; twice the periodic solution"
     } else {
         ""

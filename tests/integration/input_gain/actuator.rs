@@ -167,7 +167,8 @@ fn the_control_is_that_of_the_actuator() {
         program().args(["certify", "-q", "--no-compare", &file, "--force", "-o"]).arg(&certificate).assert().code(0);
         let checked = json(&program().args(["check", "--format", "json"]).arg(&certificate).output().unwrap().stdout);
         assert_eq!(checked["figures"]["verdict"], "agree", "{checked}");
-        let claim = TriedClaim::from_document(&Document::load(&certificate).unwrap()).unwrap();
+        let document = Document::from_bytes("certificate", &std::fs::read(&certificate).unwrap()).unwrap();
+        let claim = TriedClaim::from_document(&document).unwrap();
         let outcome = falsify(&claim, TrialSettings { trials: 6, seed: 3, only: None }, &Silent);
         let share = |part: &str| {
             let all = outcome.closest();
@@ -195,7 +196,8 @@ fn trials_take_the_ends_first() {
         let file = written(folder.path(), name, &sizes);
         let certificate = folder.path().join("certificate.json");
         program().args(["certify", "-q", "--no-compare", &file, "--force", "-o"]).arg(&certificate).assert().code(0);
-        let claim = TriedClaim::from_document(&Document::load(&certificate).unwrap()).unwrap();
+        let document = Document::from_bytes("certificate", &std::fs::read(&certificate).unwrap()).unwrap();
+        let claim = TriedClaim::from_document(&document).unwrap();
         let found = falsify(&claim, TrialSettings { trials: count(4, 8).into(), seed: 3, only: None }, &Silent);
         let end = |name: &str| sizes[name].as_str().unwrap().parse::<f64>().unwrap();
         let mut gains = Vec::new();

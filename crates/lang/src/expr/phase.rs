@@ -13,21 +13,11 @@ pub(super) const INSTEAD_OF_TIME: &str = "the period is known to an interval onl
 /// What `phase` and `t` are in formulas whose period is a certain constant.
 #[derive(Clone, Debug)]
 pub struct Phase {
-    /// The text of T.
-    period: Arc<str>,
     /// The nodes of 2 pi/T.
     turn: Arc<[Node]>,
     /// Whether T is known exactly; else the formulas may depend on time by the phase alone.
     pub(super) exact: bool,
 }
-
-impl PartialEq for Phase {
-    fn eq(&self, other: &Phase) -> bool {
-        self.period == other.period && self.exact == other.exact
-    }
-}
-
-impl Eq for Phase {}
 
 impl Phase {
     /// The phase for a period T, a constant expression; `exact` says whether `t` may stand beside it. Where T is known to an interval, T is
@@ -37,7 +27,7 @@ impl Phase {
         let node = |kind| Node { kind, span: 0..0 };
         let turn = [NodeKind::Number(2.into()), NodeKind::Pi, NodeKind::Binary(Binary::Mul)].map(node);
         let divided = period.nodes.iter().cloned().chain([node(NodeKind::Binary(Binary::Div))]);
-        Phase { period: period.text.clone(), turn: turn.into_iter().chain(divided).collect(), exact }
+        Phase { turn: turn.into_iter().chain(divided).collect(), exact }
     }
 
     /// The operations of `2 pi/T * t`.

@@ -103,24 +103,6 @@ impl Formulas {
 }
 
 impl Walk {
-    /// The number of outputs.
-    #[must_use]
-    pub fn outputs(&self) -> usize {
-        self.outputs.len()
-    }
-
-    /// The number of operations, numbers and variables.
-    #[must_use]
-    pub fn operations(&self) -> usize {
-        self.terms.len()
-    }
-
-    /// The variables that an output depends on; those of no output are none.
-    #[must_use]
-    pub fn variables(&self, output: usize) -> VariableSet {
-        self.outputs.get(output).map_or(VariableSet::NONE, |&place| self.variables[place])
-    }
-
     /// The variables that the outputs depend on together.
     #[must_use]
     pub fn all_variables(&self) -> VariableSet {

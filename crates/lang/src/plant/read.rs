@@ -8,7 +8,6 @@ use crate::spec::{
     read_parameters, read_period, read_with_ball,
 };
 use rug::Rational;
-use std::path::Path;
 
 /// The `format` of a plant file.
 pub const FORMAT: &str = "sigmastar/plant";
@@ -28,14 +27,6 @@ impl Plant {
     /// that is not periodic with the stated period.
     pub fn from_json(label: &str, text: &str) -> Result<Plant, SpecErrors> {
         Document::parse(label, text).and_then(|document| Plant::from_value(&document.root()))
-    }
-
-    /// Reads a plant from its file.
-    ///
-    /// # Errors
-    /// A file that cannot be read, and those of [`Plant::from_json`].
-    pub fn load(path: &Path) -> Result<Plant, SpecErrors> {
-        Document::load(path).and_then(|document| Plant::from_value(&document.root()))
     }
 
     /// Reads a plant that is a value of a document.

@@ -58,24 +58,24 @@ pub(super) enum Role {
 }
 
 /// Everything that is the same wherever a bounding function is spoken of, in the order of [`Bound`]: its field in a
-/// specification, and its role.
-pub(super) const TABLE: [(Bound, &str, Role); 16] = [
-    (Bound::F, "f", Role::Required),
-    (Bound::Fe, "f_e", Role::Required),
-    (Bound::Fxx, "f_xx", Role::Required),
-    (Bound::Fex, "f_ex", Role::Required),
-    (Bound::Q, "q", Role::Required),
-    (Bound::Qe, "q_e", Role::Required),
-    (Bound::Qx, "q_x", Role::Required),
-    (Bound::Qt, "q_t", Role::Required),
-    (Bound::QRms, "q_rms", Role::Sharper(Bound::Q)),
-    (Bound::QtRms, "q_t_rms", Role::Sharper(Bound::Qt)),
-    (Bound::QeMax, "q_e_max", Role::OneSided(Bound::Qe)),
-    (Bound::Fx, "f_x", Role::Optional),
-    (Bound::Qtx, "q_tx", Role::Optional),
-    (Bound::Qte, "q_te", Role::Optional),
-    (Bound::Rate, "rate", Role::Rate),
-    (Bound::RateExistence, "rate_existence", Role::ProvedRate),
+/// specification, its role, and what it bounds in the words of a report.
+pub(super) const TABLE: [(Bound, &str, Role, &str); 16] = [
+    (Bound::F, "f", Role::Required, "|f|"),
+    (Bound::Fe, "f_e", Role::Required, "|df/de|"),
+    (Bound::Fxx, "f_xx", Role::Required, "|d2f/dxdx|"),
+    (Bound::Fex, "f_ex", Role::Required, "|d2f/dedx|"),
+    (Bound::Q, "q", Role::Required, "|q|"),
+    (Bound::Qe, "q_e", Role::Required, "|dq/de|"),
+    (Bound::Qx, "q_x", Role::Required, "|dq/dx|"),
+    (Bound::Qt, "q_t", Role::Required, "|dq/dt|"),
+    (Bound::QRms, "q_rms", Role::Sharper(Bound::Q), "rms q"),
+    (Bound::QtRms, "q_t_rms", Role::Sharper(Bound::Qt), "rms dq/dt"),
+    (Bound::QeMax, "q_e_max", Role::OneSided(Bound::Qe), "dq/de from above"),
+    (Bound::Fx, "f_x", Role::Optional, "|df/dx|"),
+    (Bound::Qtx, "q_tx", Role::Optional, "|d2q/dtdx|"),
+    (Bound::Qte, "q_te", Role::Optional, "|d2q/dtde|"),
+    (Bound::Rate, "rate", Role::Rate, "contraction of x, from below"),
+    (Bound::RateExistence, "rate_existence", Role::ProvedRate, "the same in the P of existence"),
 ];
 
 impl Bound {
@@ -103,24 +103,7 @@ impl Bound {
     /// What it bounds, in the words of a report.
     #[must_use]
     pub fn of_what(self) -> &'static str {
-        match self {
-            Bound::F => "|f|",
-            Bound::Fe => "|df/de|",
-            Bound::Fxx => "|d2f/dxdx|",
-            Bound::Fex => "|d2f/dedx|",
-            Bound::Q => "|q|",
-            Bound::Qe => "|dq/de|",
-            Bound::Qx => "|dq/dx|",
-            Bound::Qt => "|dq/dt|",
-            Bound::QRms => "rms q",
-            Bound::QtRms => "rms dq/dt",
-            Bound::QeMax => "dq/de from above",
-            Bound::Fx => "|df/dx|",
-            Bound::Qtx => "|d2q/dtdx|",
-            Bound::Qte => "|d2q/dtde|",
-            Bound::Rate => "contraction of x, from below",
-            Bound::RateExistence => "the same in the P of existence",
-        }
+        TABLE[self as usize].3
     }
 
     /// Whether it is of f, or of a derivative by x: without a state there is nothing that it bounds.

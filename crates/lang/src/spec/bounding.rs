@@ -1,6 +1,6 @@
 //! The bounding functions of a specification.
 
-use super::bound::{Bound, Role, TABLE};
+use super::bound::{Bound, TABLE};
 use super::proved_values::ProvedValues;
 use crate::expr::Expr;
 use sigmastar_exact::enclosure::Enclosure;
@@ -48,22 +48,9 @@ impl Bounds {
         }
     }
 
-    /// Reads those of the section `bounds` one by one, all of them before an error is returned.
-    ///
-    /// # Errors
-    /// The first of those that `required` and `optional` return.
-    pub(super) fn read<C, E>(
-        context: &mut C,
-        required: impl Fn(&mut C, &'static str) -> Result<Expr, E>,
-        optional: impl Fn(&mut C, &'static str) -> Result<Option<Expr>, E>,
-    ) -> Result<Bounds, E> {
-        let read = |bound: Bound| match bound.role() {
-            Role::Required => required(context, bound.field()).map(Some),
-            Role::Rate | Role::ProvedRate => Ok(None),
-            Role::Sharper(_) | Role::OneSided(_) | Role::Optional => optional(context, bound.field()),
-        };
-        let all: Vec<_> = Bound::ALL.into_iter().map(read).collect();
-        Ok(Bounds { given: all.into_iter().collect::<Result<_, _>>()?, proved: ProvedValues::default() })
+    /// Those of the section `bounds`, in the order of [`Bound::ALL`].
+    pub(super) fn given(given: Vec<Option<Expr>>) -> Bounds {
+        Bounds { given, proved: ProvedValues::default() }
     }
 
     /// The same with the contraction rate of the section `lyapunov`.

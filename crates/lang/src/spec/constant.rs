@@ -1,7 +1,7 @@
 //! Constants of a document, and the proof of their sign.
 
 use super::document::Value;
-use super::error::{ErrorKind, Errors, Reported};
+use super::error::{ErrorKind, Errors, Reported, SpecError};
 use super::parts::Constant;
 use super::quantity::{Quantity, decide};
 use crate::expr::{Definitions, Expr, ExprError, Variables};
@@ -114,9 +114,32 @@ pub(super) fn read_expression(
 }
 
 /// An error that points at the whole text of a constant, without the quotes.
-pub(super) fn whole(value: &Value<'_>, kind: ErrorKind, message: impl Into<String>) -> super::SpecError {
+pub(super) fn whole(value: &Value<'_>, kind: ErrorKind, message: impl Into<String>) -> SpecError {
     let length = value.text().or_else(|| value.numeral()).map_or(0, str::len);
     value.error_in(kind, &(0..length), message)
+}
+
+/// Why two constants, each with its name, are not proved to be in an order, `<=` or `>=`.
+pub(super) fn not_in_order(
+    value: &Value<'_>,
+    (left, a): (&str, &Constant),
+    relation: &str,
+    (right, b): (&str, &Constant),
+) -> Option<SpecError> {
+    let (a, b) = (Quantity::constant(a), Quantity::constant(b));
+    let holds = if relation == "<=" { a.le(&b) } else { b.le(&a) };
+    let (kind, message) = match holds {
+        Truth::True => return None,
+        Truth::False => {
+            let (a, b) = a.shown_apart(&b);
+            (ErrorKind::Range, format!("{left} {relation} {right} fails: {left} = {a} and {right} = {b}"))
+        }
+        Truth::Undecided => {
+            let message = format!("cannot be decided at {MAX_PRECISION} bits whether {left} {relation} {right}");
+            (ErrorKind::Undecided, message)
+        }
+    };
+    Some(whole(value, kind, message))
 }
 
 /// The constant if the range is proved, else an error that says which of the two other answers it is.

@@ -7,9 +7,7 @@ use super::notation::Notation;
 use super::source::Source;
 use crate::expr::ExprError;
 use sha2::{Digest, Sha256};
-use std::io::Read;
 use std::ops::Range;
-use std::path::Path;
 use std::sync::Arc;
 
 /// The name of the document that a flag of the command line is.
@@ -102,24 +100,6 @@ impl Document {
                 };
                 let error = SpecError::new(ErrorKind::Encoding, "", at..at, message).help(help);
                 Err(SpecErrors::single(source(label, &valid), error))
-            }
-        }
-    }
-
-    /// Reads a document from a file, in the notation of its name, of which never more than [`MAX_BYTES`] and one bytes are
-    /// read.
-    ///
-    /// # Errors
-    /// A file that cannot be read, and those of [`Document::from_bytes_as`].
-    pub fn load(path: &Path) -> Result<Document, SpecErrors> {
-        let (label, notation) = (path.display().to_string(), Notation::of(path));
-        let mut bytes = Vec::new();
-        let read = std::fs::File::open(path).and_then(|file| file.take(MAX_BYTES as u64 + 1).read_to_end(&mut bytes));
-        match read {
-            Ok(_) => Document::from_bytes_as(&label, &bytes, notation),
-            Err(error) => {
-                let error = SpecError::new(ErrorKind::Unreadable, "", 0..0, format!("cannot be read: {error}"));
-                Err(SpecErrors::single(source(&label, ""), error))
             }
         }
     }

@@ -50,58 +50,39 @@ pub enum ErrorKind {
     NotAvailable,
 }
 
-impl ErrorKind {
-    /// All of them.
-    pub const ALL: [ErrorKind; 18] = [
-        ErrorKind::Unreadable,
-        ErrorKind::Limit,
-        ErrorKind::Encoding,
-        ErrorKind::Syntax,
-        ErrorKind::TomlSyntax,
-        ErrorKind::DuplicateKey,
-        ErrorKind::Type,
-        ErrorKind::UnknownField,
-        ErrorKind::MissingField,
-        ErrorKind::Format,
-        ErrorKind::Version,
-        ErrorKind::UnknownName,
-        ErrorKind::Expression,
-        ErrorKind::Range,
-        ErrorKind::Matched,
-        ErrorKind::Weights,
-        ErrorKind::Undecided,
-        ErrorKind::NotAvailable,
-    ];
+/// Their codes, in the order of declaration.
+const CODES: [(ErrorKind, &str); 18] = [
+    (ErrorKind::Unreadable, "unreadable"),
+    (ErrorKind::Limit, "limit"),
+    (ErrorKind::Encoding, "encoding"),
+    (ErrorKind::Syntax, "not-json"),
+    (ErrorKind::TomlSyntax, "not-toml"),
+    (ErrorKind::DuplicateKey, "duplicate-key"),
+    (ErrorKind::Type, "wrong-type"),
+    (ErrorKind::UnknownField, "unknown-field"),
+    (ErrorKind::MissingField, "missing-field"),
+    (ErrorKind::Format, "wrong-format"),
+    (ErrorKind::Version, "wrong-version"),
+    (ErrorKind::UnknownName, "unknown-name"),
+    (ErrorKind::Expression, "expression"),
+    (ErrorKind::Range, "out-of-range"),
+    (ErrorKind::Matched, "not-matched"),
+    (ErrorKind::Weights, "weights"),
+    (ErrorKind::Undecided, "undecided"),
+    (ErrorKind::NotAvailable, "not-available"),
+];
 
+impl ErrorKind {
     /// The short name in diagnostics, as in `error[unknown-field]`.
     #[must_use]
     pub fn code(self) -> &'static str {
-        match self {
-            ErrorKind::Unreadable => "unreadable",
-            ErrorKind::Limit => "limit",
-            ErrorKind::Encoding => "encoding",
-            ErrorKind::Syntax => "not-json",
-            ErrorKind::TomlSyntax => "not-toml",
-            ErrorKind::DuplicateKey => "duplicate-key",
-            ErrorKind::Type => "wrong-type",
-            ErrorKind::UnknownField => "unknown-field",
-            ErrorKind::MissingField => "missing-field",
-            ErrorKind::Format => "wrong-format",
-            ErrorKind::Version => "wrong-version",
-            ErrorKind::UnknownName => "unknown-name",
-            ErrorKind::Expression => "expression",
-            ErrorKind::Range => "out-of-range",
-            ErrorKind::Matched => "not-matched",
-            ErrorKind::Weights => "weights",
-            ErrorKind::Undecided => "undecided",
-            ErrorKind::NotAvailable => "not-available",
-        }
+        CODES[self as usize].1
     }
 
     /// The kind of a [`code`](ErrorKind::code).
     #[must_use]
     pub fn from_code(code: &str) -> Option<ErrorKind> {
-        ErrorKind::ALL.into_iter().find(|kind| kind.code() == code)
+        CODES.iter().find(|(_, own)| *own == code).map(|(kind, _)| *kind)
     }
 }
 
@@ -320,5 +301,19 @@ pub(super) fn list(names: &[&str]) -> String {
             let first: Vec<String> = first.iter().map(|name| format!("`{name}`")).collect();
             format!("{} and `{last}`", first.join(", "))
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_codes_are_in_the_order_of_declaration() {
+        for (index, (kind, code)) in CODES.into_iter().enumerate() {
+            assert_eq!(kind as usize, index);
+            assert_eq!(ErrorKind::from_code(code), Some(kind));
+        }
+        assert_eq!(CODES.len(), ErrorKind::NotAvailable as usize + 1);
     }
 }

@@ -1,6 +1,6 @@
 //! An actuator whose gain is known to an interval (derivation, 13.1): e' = q(t,x,e) + b u with a constant b.
 
-use super::constant::{positive_constant_in, whole};
+use super::constant::{not_in_order, positive_constant_in, whole};
 use super::document::Value;
 use super::error::{ErrorKind, Errors, Reported};
 use super::interval::no_list;
@@ -10,7 +10,7 @@ use super::quantity::Quantity;
 use super::range::{range, standing_for};
 use crate::expr::{Definitions, PlantExpr};
 use rug::Rational;
-use sigmastar_exact::enclosure::{Enclosure, MAX_PRECISION, Truth};
+use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::write_exact;
 
 /// `input_gain`: the gain of the actuator signal, 0 < low <= nominal <= high. The true gain is one constant in `[low, high]`; the
@@ -180,43 +180,20 @@ fn ordered_by(
     no_list(value, errors)?;
     let mut object = value.object(errors)?;
     let nominal = object.required("nominal", errors).and_then(|value| read("nominal", &value, errors));
-    let mut end = |name: &'static str, in_order: fn(&Constant, &Constant) -> Truth, relation: &str| {
+    let mut end = |name: &'static str, relation: &str, side: &str| {
         object.required(name, errors).and_then(|value| {
             let end = read(name, &value, errors)?;
-            match &nominal {
-                Ok(nominal) => ordered(&value, (name, relation, help), end, nominal, in_order, errors),
-                Err(_) => Ok(end),
+            if let Ok(nominal) = &nominal
+                && let Some(error) = not_in_order(&value, (name, &end), relation, ("nominal", nominal))
+            {
+                let expected = format!("expected {side} {}", Quantity::constant(nominal).shown());
+                return Err(errors.report(error.expected(expected).help(help)));
             }
+            Ok(end)
         })
     };
-    let low = end("low", |low, nominal| Quantity::constant(low).le(&Quantity::constant(nominal)), "<=");
-    let high = end("high", |high, nominal| Quantity::constant(nominal).le(&Quantity::constant(high)), ">=");
+    let low = end("low", "<=", "at most");
+    let high = end("high", ">=", "at least");
     object.finish(errors);
     Ok([nominal?, low?, high?])
-}
-
-/// The end of the interval, if it is on its side of the nominal value.
-fn ordered(
-    value: &Value<'_>,
-    (name, relation, help): (&str, &str, &str),
-    end: Constant,
-    nominal: &Constant,
-    in_order: fn(&Constant, &Constant) -> Truth,
-    errors: &mut Errors,
-) -> Result<Constant, Reported> {
-    let (kind, message) = match in_order(&end, nominal) {
-        Truth::True => return Ok(end),
-        Truth::False => {
-            let (end, nominal) = Quantity::constant(&end).shown_apart(&Quantity::constant(nominal));
-            (ErrorKind::Range, format!("{name} {relation} nominal fails: {name} = {end} and nominal = {nominal}"))
-        }
-        Truth::Undecided => {
-            let message = format!("cannot be decided at {MAX_PRECISION} bits whether {name} {relation} nominal");
-            (ErrorKind::Undecided, message)
-        }
-    };
-    let side = if relation == "<=" { "at most" } else { "at least" };
-    let error =
-        whole(value, kind, message).expected(format!("expected {side} {}", Quantity::constant(nominal).shown()));
-    Err(errors.report(error.help(help)))
 }

@@ -2,6 +2,7 @@
 
 use super::error::{ErrorKind, SpecError};
 use sigmastar_exact::number::{MAX_EXPONENT, MAX_LENGTH};
+use std::ops::Range;
 
 /// The largest document that is read, in bytes.
 pub const MAX_BYTES: usize = 1 << 20;
@@ -15,6 +16,17 @@ pub const MAX_VALUES: usize = 100_000;
 pub(super) fn too_large() -> SpecError {
     SpecError::new(ErrorKind::Limit, "", 0..0, format!("the document has more than {MAX_BYTES} bytes"))
         .expected(format!("at most {MAX_BYTES} bytes are read"))
+}
+
+/// `objects` is what the notation calls them.
+pub(super) fn too_deep(objects: &str, pointer: &str, span: Range<usize>) -> SpecError {
+    let message = format!("arrays and {objects} are nested more than {MAX_NESTING} deep");
+    SpecError::new(ErrorKind::Limit, pointer, span, message).expected(format!("at most {MAX_NESTING} levels are read"))
+}
+
+pub(super) fn too_many_values(span: Range<usize>) -> SpecError {
+    SpecError::new(ErrorKind::Limit, "", span, format!("the document has more than {MAX_VALUES} values"))
+        .expected(format!("at most {MAX_VALUES} values are read"))
 }
 
 /// One pass over the bytes, without recursion and before any parser: nesting, number of values, numerals.
@@ -47,13 +59,7 @@ pub(super) fn check(text: &str) -> Result<(), SpecError> {
             b'[' | b'{' => {
                 depth += 1;
                 if depth > MAX_NESTING {
-                    return Err(SpecError::new(
-                        ErrorKind::Limit,
-                        "",
-                        start..at,
-                        format!("arrays and objects are nested more than {MAX_NESTING} deep"),
-                    )
-                    .expected(format!("at most {MAX_NESTING} levels are read")));
+                    return Err(too_deep("objects", "", start..at));
                 }
             }
             b']' | b'}' => depth = depth.saturating_sub(1),
@@ -67,13 +73,7 @@ pub(super) fn check(text: &str) -> Result<(), SpecError> {
             _ => {}
         }
         if values > MAX_VALUES {
-            return Err(SpecError::new(
-                ErrorKind::Limit,
-                "",
-                start..at,
-                format!("the document has more than {MAX_VALUES} values"),
-            )
-            .expected(format!("at most {MAX_VALUES} values are read")));
+            return Err(too_many_values(start..at));
         }
         if !byte.is_ascii_whitespace() {
             previous = byte;

@@ -51,12 +51,6 @@ impl<'d> Object<'d> {
         Object { value, known: Vec::new() }
     }
 
-    /// The object as a value.
-    #[must_use]
-    pub fn value(&self) -> &Value<'d> {
-        &self.value
-    }
-
     /// A field that may be absent.
     pub fn optional(&mut self, name: &'static str) -> Option<Value<'d>> {
         self.known.push(name);

@@ -251,26 +251,6 @@ impl<N: Clone> InitialSet<N> {
         self.map_each(|_, size| number(size))
     }
 
-    /// The X0 that is given.
-    #[must_use]
-    pub fn x0(&self) -> Option<&N> {
-        match self {
-            InitialSet::Paper => None,
-            InitialSet::AtRest { x0, .. } | InitialSet::Aligned { x0, .. } => x0.as_ref(),
-            InitialSet::Box { x0, .. } => Some(x0),
-        }
-    }
-
-    /// The E0 that is given.
-    #[must_use]
-    pub fn e0(&self) -> Option<&N> {
-        match self {
-            InitialSet::Paper => None,
-            InitialSet::AtRest { e0, .. } | InitialSet::Aligned { e0, .. } => e0.as_ref(),
-            InitialSet::Box { e0, .. } => Some(e0),
-        }
-    }
-
     /// The same, where it matters which number it is: 0 for X_0, 1 for E_0, 2 for Z_0.
     #[must_use]
     pub fn map_each<M>(&self, mut number: impl FnMut(usize, &N) -> M) -> InitialSet<M> {

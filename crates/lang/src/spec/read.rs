@@ -1,9 +1,11 @@
 //! From a document to a specification.
 
 use super::actuator::read_actuator;
-use super::bound::Bound;
+use super::bound::{Bound, Role};
 use super::bounding::Bounds;
-use super::constant::{any_constant, expression, nonnegative_constant, positive_constant, positive_constant_in, whole};
+use super::constant::{
+    any_constant, expression, nonnegative_constant, not_in_order, positive_constant, positive_constant_in, whole,
+};
 use super::disturbances::read_disturbances;
 use super::document::{Document, Value};
 use super::error::{ErrorKind, Errors, Reported, SpecErrors};
@@ -19,10 +21,9 @@ use super::sampling::read_delay;
 use super::{sampling, weights_read};
 use crate::expr::{Definitions, Expr, Monomial, Variables};
 use rug::Rational;
-use sigmastar_exact::enclosure::{MAX_PRECISION, Truth};
+use sigmastar_exact::enclosure::Truth;
 use sigmastar_exact::number::write_exact;
 use std::ops::Range;
-use std::path::Path;
 
 /// The `format` of a specification.
 pub const FORMAT: &str = "sigmastar/bounding-spec";
@@ -48,14 +49,6 @@ impl Specification {
     /// [`SpecErrors::is_undecided`] holds.
     pub fn from_json(label: &str, text: &str) -> Result<Specification, SpecErrors> {
         Document::parse(label, text).and_then(|document| Specification::from_value(&document.root()))
-    }
-
-    /// Reads a specification from its file.
-    ///
-    /// # Errors
-    /// A file that cannot be read, and those of [`Specification::from_json`].
-    pub fn load(path: &Path) -> Result<Specification, SpecErrors> {
-        Document::load(path).and_then(|document| Specification::from_value(&document.root()))
     }
 
     /// Reads a specification that is a value of a document, such as the copy in a certificate; pointers and places
@@ -146,8 +139,11 @@ fn read_lyapunov(
     let p_low = positive_field(&mut object, "p_low", errors);
     let p_up = object.required("p_up", errors).and_then(|value| {
         let p_up = positive_constant(&value, errors)?;
-        if let Ok(p_low) = &p_low {
-            in_order(p_low, &p_up, &value, errors)?;
+        if let Ok(p_low) = &p_low
+            && let Some(error) = not_in_order(&value, ("p_low", p_low), "<=", ("p_up", &p_up))
+        {
+            let expected = format!("expected at least {}", Quantity::constant(p_low).shown());
+            return Err(errors.report(error.expected(expected)));
         }
         Ok(p_up)
     });
@@ -157,31 +153,21 @@ fn read_lyapunov(
     Ok((LyapunovSource::Given(Lyapunov { p_low: p_low?, p_up: p_up?, alpha: alpha? }), rate?))
 }
 
-fn in_order(p_low: &Constant, p_up: &Constant, value: &Value<'_>, errors: &mut Errors) -> Result<(), Reported> {
-    let (low, up) = (Quantity::constant(p_low), Quantity::constant(p_up));
-    let (kind, message) = match low.le(&up) {
-        Truth::True => return Ok(()),
-        Truth::False => {
-            let (low, up) = low.shown_apart(&up);
-            (ErrorKind::Range, format!("p_low <= p_up fails: p_low = {low} and p_up = {up}"))
-        }
-        Truth::Undecided => {
-            (ErrorKind::Undecided, format!("cannot be decided at {MAX_PRECISION} bits whether p_low <= p_up"))
-        }
-    };
-    let error = whole(value, kind, message).expected(format!("expected at least {}", low.shown()));
-    Err(errors.report(error))
-}
-
 fn read_bounds(value: &Value<'_>, errors: &mut Errors) -> Result<Bounds, Reported> {
     let mut object = value.object(errors)?;
-    let bounds = Bounds::read(
-        &mut (&mut object, &mut *errors),
-        |(object, errors), field| object.required(field, errors).and_then(|value| bounding_function(&value, errors)),
-        |(object, errors), field| object.optional(field).map(|value| bounding_function(&value, errors)).transpose(),
-    );
+    let read = |bound: Bound| match bound.role() {
+        Role::Required => {
+            object.required(bound.field(), errors).and_then(|value| bounding_function(&value, errors)).map(Some)
+        }
+        Role::Rate | Role::ProvedRate => Ok(None),
+        Role::Sharper(_) | Role::OneSided(_) | Role::Optional => {
+            object.optional(bound.field()).map(|value| bounding_function(&value, errors)).transpose()
+        }
+    };
+    // All of them are read before the first error ends it.
+    let all: Vec<Result<_, Reported>> = Bound::ALL.into_iter().map(read).collect();
     object.finish(errors);
-    bounds
+    Ok(Bounds::given(all.into_iter().collect::<Result<_, _>>()?))
 }
 
 fn bounding_function(value: &Value<'_>, errors: &mut Errors) -> Result<Expr, Reported> {

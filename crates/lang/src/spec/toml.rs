@@ -27,7 +27,7 @@ pub(super) fn parse(text: &str) -> Result<Node, SpecError> {
 fn refused(text: &str, error: &toml::de::Error) -> SpecError {
     let at = error.span().unwrap_or(0..0);
     if ["recursion limit", "cannot recurse further; max recursion depth met"].contains(&error.message()) {
-        return too_deep("", at);
+        return limits::too_deep("tables", "", at);
     }
     if error.message() == "duplicate key" {
         let key = text.get(at.clone()).unwrap_or_default();
@@ -38,11 +38,6 @@ fn refused(text: &str, error: &toml::de::Error) -> SpecError {
     }
     SpecError::new(ErrorKind::TomlSyntax, "", at, format!("not valid TOML: {}", error.message()))
         .help("the name of the file ends in `.toml`, so it is read as TOML; formulas stand in quotes")
-}
-
-fn too_deep(pointer: &str, span: Range<usize>) -> SpecError {
-    let message = format!("arrays and tables are nested more than {MAX_NESTING} deep");
-    SpecError::new(ErrorKind::Limit, pointer, span, message).expected(format!("at most {MAX_NESTING} levels are read"))
 }
 
 /// A value of the parser; the root is a table without a place.
@@ -62,9 +57,7 @@ impl Reader<'_> {
     fn value(&mut self, span: Range<usize>, value: Value<'_, '_>) -> Result<Node, SpecError> {
         self.values += 1;
         if self.values > MAX_VALUES {
-            let message = format!("the document has more than {MAX_VALUES} values");
-            let error = SpecError::new(ErrorKind::Limit, "", span, message);
-            return Err(error.expected(format!("at most {MAX_VALUES} values are read")));
+            return Err(limits::too_many_values(span));
         }
         let content = match value {
             Value::Table(table) | Value::Other(DeValue::Table(table)) => {
@@ -135,7 +128,11 @@ impl Reader<'_> {
 
     /// Refuses an array or table that is nested too deep: it is in as many others as its path has steps.
     fn nested(&self, span: &Range<usize>) -> Result<(), SpecError> {
-        if self.path.len() < MAX_NESTING { Ok(()) } else { Err(too_deep(&self.pointer(), span.clone())) }
+        if self.path.len() < MAX_NESTING {
+            Ok(())
+        } else {
+            Err(limits::too_deep("tables", &self.pointer(), span.clone()))
+        }
     }
 
     fn error(&self, kind: ErrorKind, span: Range<usize>, message: &str) -> SpecError {

@@ -21,7 +21,6 @@ use sigmastar_exact::number::{Direction, round_f64};
 use sigmastar_lang::expr::Evaluator;
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{Bound, PeriodicMatrix, TrigonometricVector};
-use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -30,7 +29,7 @@ fn rational(text: &str) -> Rational {
 }
 
 fn paper() -> Plant {
-    Plant::load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../specs/plants/paper-example.json")).unwrap()
+    Plant::from_json("paper-example", include_str!("../../../../specs/plants/paper-example.json")).unwrap()
 }
 
 /// The orbit by Runge and Kutta, and its Fourier coefficients to nine digits.

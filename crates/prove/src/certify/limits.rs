@@ -45,7 +45,7 @@ impl FloatLimits {
             (Limited::Actuator, actuator),
         ];
         let nominal = spec.input_gain.as_ref().map_or(1.0, |gain| gain.nominal.to_f64());
-        let start = float(peak).zip(spec.initial_set.e0().map(Constant::to_f64));
+        let start = float(peak).zip(spec.initial_set.given()[1].map(Constant::to_f64));
         let beyond = start.filter(|(asked, e0)| asked < e0).map(|(asked, e0)| [asked, e0]);
         limits.iter().any(|(_, limit)| limit.is_some()).then_some(FloatLimits { limits, nominal, beyond })
     }

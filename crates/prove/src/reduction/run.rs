@@ -195,7 +195,8 @@ impl Prepared {
                         run.with_gains_of(spec, proposal);
                     }
                     // Joint metrics, and the weights of a matrix inequality, are those of the smallest gain.
-                    let plant = self.plant.as_ref().filter(|plant| options.compare && plant.initial_set.x0().is_none());
+                    let plant =
+                        self.plant.as_ref().filter(|plant| options.compare && plant.initial_set.given()[0].is_none());
                     if let Some(plant) = plant.filter(|_| smallest && run.goes_far())
                         && let Ok(by_norms) = reduce_by_norms_quickly(plant)
                     {

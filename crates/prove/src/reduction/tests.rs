@@ -26,7 +26,7 @@ const NOTHING: f64 = 1e-5;
 
 fn shipped(name: &str) -> Plant {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../specs/plants");
-    Plant::load(&folder.join(name).with_extension("json")).unwrap()
+    Plant::from_json(name, &std::fs::read_to_string(folder.join(name).with_extension("json")).unwrap()).unwrap()
 }
 
 /// No value is below what 20,000 points reach (with `SIGMASTAR_CASES=all` 100,000, and of every plant), and none is more than 5 % above, but for those

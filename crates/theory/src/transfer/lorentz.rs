@@ -161,10 +161,11 @@ mod tests {
     use super::*;
     use rug::Rational;
     use sigmastar_lang::spec::Specification;
-    use std::path::Path;
+
+    const PAPER_EXAMPLE: &str = include_str!("../../../../specs/paper-example.json");
 
     fn paper_example() -> Specification {
-        Specification::load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../specs/paper-example.json")).unwrap()
+        Specification::from_json("paper-example", PAPER_EXAMPLE).unwrap()
     }
 
     /// T_N(x) from its definition, in doubles: good to 1e-9 away from the poles.
@@ -248,14 +249,11 @@ mod tests {
     #[test]
     fn tails_of_the_weights_are_upper_bounds() {
         let paper = paper_example();
-        let text =
-            std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../../specs/paper-example.json"));
         let family = r#"{ "family": "power", "n0": "2", "epsilon": "1/2" }"#;
         // Nearly l n_l = const, for which the bound from W2 is nearly attained.
         let flat = r#"{"family": "explicit", "values": ["2"], "tail": {"coefficient": "1", "exponent": "1.001"}}"#;
-        let text = text.unwrap();
-        assert!(text.contains(family));
-        let flat = Specification::from_json("flat", &text.replace(family, flat)).unwrap();
+        assert!(PAPER_EXAMPLE.contains(family));
+        let flat = Specification::from_json("flat", &PAPER_EXAMPLE.replace(family, flat)).unwrap();
         for (spec, exponent) in [(&paper, 1.5), (&flat, 1.001)] {
             let data = Data::new(spec, 128);
             for first in [1, 2, 5, 30] {
