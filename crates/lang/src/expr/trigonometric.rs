@@ -2,6 +2,7 @@
 
 use super::Expr;
 use super::enclose::{binary, power, unary};
+use super::fourier::Fourier;
 use super::monomial::Monomial;
 use super::syntax::{Argument, Binary, NodeKind, Unary};
 use rug::Rational;
@@ -11,14 +12,8 @@ use std::ops::Range;
 /// The highest harmonic that is read.
 pub const MAX_HARMONIC: usize = 32;
 
-/// `mean + sum_k (a_k cos(k w t) + b_k sin(k w t))`, w = 2 pi / period, with enclosed coefficients.
-#[derive(Clone, Debug)]
-pub struct TrigonometricPolynomial {
-    /// The mean over a period.
-    pub mean: Enclosure,
-    /// (a_k, b_k) for k = 1, 2, ...
-    pub harmonics: Vec<[Enclosure; 2]>,
-}
+/// A trigonometric polynomial with enclosed coefficients.
+pub type TrigonometricPolynomial = Fourier<Enclosure>;
 
 /// Why an expression in t is not read as a trigonometric polynomial, and where.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -41,11 +36,6 @@ enum Term {
 }
 
 impl TrigonometricPolynomial {
-    /// A constant.
-    fn constant(mean: Enclosure) -> TrigonometricPolynomial {
-        TrigonometricPolynomial { mean, harmonics: Vec::new() }
-    }
-
     /// The coefficients of `exp(i k w t)`, k = 0, 1, ..., as (real, imaginary); those of -k are their conjugates.
     fn complex(&self) -> Vec<[Enclosure; 2]> {
         let zero = Enclosure::zero(self.mean.precision());
@@ -56,8 +46,7 @@ impl TrigonometricPolynomial {
     /// The product with a number.
     #[must_use]
     pub fn scaled(&self, factor: &Enclosure) -> TrigonometricPolynomial {
-        let harmonics = self.harmonics.iter().map(|[a, b]| [a * factor, b * factor]).collect();
-        TrigonometricPolynomial { mean: &self.mean * factor, harmonics }
+        self.map(|part| part * factor)
     }
 
     /// The derivative with respect to the angle w t.
@@ -70,18 +59,7 @@ impl TrigonometricPolynomial {
     /// The sum of the two, the second multiplied by `sign`.
     #[must_use]
     pub fn plus(&self, other: &TrigonometricPolynomial, sign: i64) -> TrigonometricPolynomial {
-        let zero = Enclosure::zero(self.mean.precision());
-        let none = [zero.clone(), zero];
-        let count = self.harmonics.len().max(other.harmonics.len());
-        let at = |list: &[[Enclosure; 2]], k: usize| list.get(k).unwrap_or(&none).clone();
-        let sum = |a: &Enclosure, b: &Enclosure| a + b * sign;
-        let harmonics = (0..count)
-            .map(|k| {
-                let ([a, b], [c, d]) = (at(&self.harmonics, k), at(&other.harmonics, k));
-                [sum(&a, &c), sum(&b, &d)]
-            })
-            .collect();
-        TrigonometricPolynomial { mean: sum(&self.mean, &other.mean), harmonics }
+        self.with(other, &Enclosure::zero(self.mean.precision()), |a, b| a + b * sign)
     }
 
     /// The product: the convolution of the complex coefficients.

@@ -2,6 +2,7 @@
 
 use super::parameters::Parameters;
 use super::parts::{Constant, Domain, Lyapunov, OrbitCurve, PeriodicMatrix};
+use crate::expr::Fourier;
 use rug::Rational;
 
 /// `|x_0 - xb|` is at most `radius` in the norm of y (derivation, 11.2).
@@ -18,13 +19,7 @@ pub struct ProvedOrbit {
 }
 
 /// `mean + sum_k (a_k cos(k w t) + b_k sin(k w t))`, w = 2 pi / period.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Wave {
-    /// The mean.
-    pub mean: Rational,
-    /// (a_k, b_k) for k = 1, 2, ...
-    pub harmonics: Vec<[Rational; 2]>,
-}
+pub type Wave = Fourier<Rational>;
 
 /// `qb(t)`, and what is proved of it: `|q(t,x_0,0) - qb| <= rest`, and its derivative in t at most `rest_t`, for all t
 /// (derivation, 11.4).
@@ -43,19 +38,18 @@ pub struct ProvedForcing {
 }
 
 impl ProvedForcing {
+    /// `qb(t)` of the nominal plant.
+    #[must_use]
+    pub fn nominal(&self) -> Wave {
+        Wave { mean: self.mean.clone(), harmonics: self.harmonics.clone() }
+    }
+
     /// `qb(t)` at these `p_i - p_i^0`.
     #[must_use]
     pub fn at(&self, deviations: &[Rational]) -> Wave {
-        let mut wave = Wave { mean: self.mean.clone(), harmonics: self.harmonics.clone() };
-        for (part, deviation) in self.sensitivities.iter().zip(deviations) {
-            wave.mean += Rational::from(&part.mean * deviation);
-            let missing = part.harmonics.len().saturating_sub(wave.harmonics.len());
-            wave.harmonics.extend((0..missing).map(|_| [Rational::new(), Rational::new()]));
-            for (own, more) in wave.harmonics.iter_mut().zip(&part.harmonics) {
-                own.iter_mut().zip(more).for_each(|(own, more)| *own += Rational::from(more * deviation));
-            }
-        }
-        wave
+        self.sensitivities.iter().zip(deviations).fold(self.nominal(), |wave, (part, deviation)| {
+            wave.with(part, &Rational::new(), |own, more| own + Rational::from(more * deviation))
+        })
     }
 }
 

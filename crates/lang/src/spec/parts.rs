@@ -1,6 +1,6 @@
 //! The parts of a specification, with every number exact.
 
-use crate::expr::{Expr, Monomial, Variables};
+use crate::expr::{Expr, Fourier, Monomial, Variables};
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::write_exact;
@@ -111,23 +111,12 @@ pub enum JacobianEntry {
     Interval(Box<[Constant; 2]>),
 }
 
-/// `P(t) = mean + sum_k (cos_k cos(k w t) + sin_k sin(k w t))`, w = 2 pi / period, with symmetric rational matrices.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct PeriodicMatrix {
-    /// The rows of the mean.
-    pub mean: Vec<Vec<Rational>>,
-    /// The rows of (cos_k, sin_k) for k = 1, 2, ...; empty for a constant matrix.
-    pub harmonics: Vec<[Vec<Vec<Rational>>; 2]>,
-}
+/// `P(t) = mean + sum_k (cos_k cos(k w t) + sin_k sin(k w t))`, w = 2 pi / period, with symmetric rational matrices,
+/// each by its rows.
+pub type PeriodicMatrix = Fourier<Vec<Vec<Rational>>>;
 
 /// `mean + sum_k (cos_k cos(k w t) + sin_k sin(k w t))` with exact vectors, w = 2 pi / period.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct TrigonometricVector {
-    /// The mean.
-    pub mean: Vec<Rational>,
-    /// (cos_k, sin_k) for k = 1, 2, ...; empty for a constant vector.
-    pub harmonics: Vec<[Vec<Rational>; 2]>,
-}
+pub type TrigonometricVector = Fourier<Vec<Rational>>;
 
 /// `centre(t) + sum_i (p_i - p_i^0) sensitivity_i(t)`, for the parameters p of which intervals are known and their nominal values
 /// p^0: a curve for each member of a family of plants (derivation, 13.2).
@@ -154,21 +143,12 @@ impl OrbitCurve {
     /// The curve at these `p_i - p_i^0`.
     #[must_use]
     pub fn at(&self, deviations: &[Rational]) -> TrigonometricVector {
-        let mut curve = self.centre.clone();
-        for (part, deviation) in self.sensitivities.iter().zip(deviations) {
-            let add = |own: &mut Vec<Rational>, more: &[Rational]| {
-                own.iter_mut().zip(more).for_each(|(own, more)| *own += Rational::from(more * deviation));
-            };
-            let zeros = || vec![Rational::new(); curve.mean.len()];
-            let missing = part.harmonics.len().saturating_sub(curve.harmonics.len());
-            let more: Vec<_> = (0..missing).map(|_| [zeros(), zeros()]).collect();
-            curve.harmonics.extend(more);
-            add(&mut curve.mean, &part.mean);
-            for (own, more) in curve.harmonics.iter_mut().zip(&part.harmonics) {
-                own.iter_mut().zip(more).for_each(|(own, more)| add(own, more));
-            }
-        }
-        curve
+        let zero = vec![Rational::new(); self.centre.mean.len()];
+        self.sensitivities.iter().zip(deviations).fold(self.centre.clone(), |curve, (part, deviation)| {
+            curve.with(part, &zero, |own, more| {
+                own.iter().zip(more).map(|(own, more)| own + Rational::from(more * deviation)).collect()
+            })
+        })
     }
 
     /// The most harmonics of a part.

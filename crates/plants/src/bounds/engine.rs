@@ -109,9 +109,7 @@ impl Engine {
         let others = tubes.collect::<Result<Vec<Tube>, RegionError>>()?;
         let region = &first.region;
         let order = plant.states();
-        let fits = |matrix: &PeriodicMatrix| {
-            std::iter::once(&matrix.mean).chain(matrix.harmonics.iter().flatten()).all(|rows| is_symmetric(rows, order))
-        };
+        let fits = |matrix: &PeriodicMatrix| matrix.parts().all(|rows| is_symmetric(rows, order));
         let matrices = [matrix, existence];
         let count = plant.parameters.intervals().count();
         let alike = |tube: &Tube| tube.parameters.len() == count && tube.region.matrix() == region.matrix();

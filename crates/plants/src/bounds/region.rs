@@ -1,7 +1,7 @@
 //! The tube on which bounds are asked for.
 
 use rug::Rational;
-use sigmastar_lang::spec::{OrbitCurve, TrigonometricVector};
+use sigmastar_lang::spec::OrbitCurve;
 use sigmastar_matrix::inverse;
 use thiserror::Error;
 
@@ -41,8 +41,7 @@ impl Region {
         let orbit = orbit.into();
         let order = matrix.len();
         let fits = |vector: &Vec<Rational>| vector.len() == order;
-        let of_order = |part: &TrigonometricVector| fits(&part.mean) && part.harmonics.iter().flatten().all(fits);
-        if !matrix.iter().all(fits) || !orbit.parts().all(of_order) {
+        if !matrix.iter().all(fits) || !orbit.parts().flat_map(|curve| curve.parts()).all(fits) {
             return Err(RegionError::Shape);
         }
         if radius < 0 {

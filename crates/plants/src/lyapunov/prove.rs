@@ -119,10 +119,9 @@ const MAX_HALVINGS: u32 = 11;
 pub fn prove(family: &Family, witness: &ProvedTriple) -> Result<(), NotProved> {
     let order = family.order();
     let ProvedTriple { matrix, p_low, p_up, alpha } = witness;
-    let parts = || std::iter::once(&matrix.mean).chain(matrix.harmonics.iter().flatten());
     let positive = [p_low, p_up, alpha].iter().all(|number| **number > 0);
     // A matrix that varies needs a period that the family is known to have; a constant one has every period.
-    if order == 0 || !positive || !parts().all(|rows| is_symmetric(rows, order)) {
+    if order == 0 || !positive || !matrix.parts().all(|rows| is_symmetric(rows, order)) {
         return Err(NotProved::Shape);
     }
     let precision = family.frequency.precision();
@@ -171,11 +170,7 @@ pub fn prove(family: &Family, witness: &ProvedTriple) -> Result<(), NotProved> {
 
 /// The entries of a matrix, row by row.
 fn entries(matrix: &PeriodicMatrix, precision: u32) -> Vec<Vec<TrigonometricPolynomial>> {
-    let rational = |value: &Rational| Enclosure::from_rational(value, precision);
-    let entry = |i: usize, j: usize| TrigonometricPolynomial {
-        mean: rational(&matrix.mean[i][j]),
-        harmonics: matrix.harmonics.iter().map(|[a, b]| [rational(&a[i][j]), rational(&b[i][j])]).collect(),
-    };
+    let entry = |i: usize, j: usize| matrix.map(|rows| Enclosure::from_rational(&rows[i][j], precision));
     let order = matrix.mean.len();
     (0..order).map(|i| (0..order).map(|j| entry(i, j)).collect()).collect()
 }

@@ -3,28 +3,23 @@
 use super::taylor::Taylor;
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_lang::expr::TrigonometricPolynomial;
 use sigmastar_lang::spec::TrigonometricVector;
 
 /// The precision of the enclosures, in bits: cells lose a dozen of them, and a defect is some 40 below the terms.
 pub(super) const PRECISION: u32 = 96;
 
 /// A trigonometric polynomial `mean + sum_k (cos_k cos(2 pi k s) + sin_k sin(2 pi k s))`, s = t/T, with enclosed coefficients.
-#[derive(Clone, Debug)]
-pub(super) struct Wave {
-    pub(super) mean: Enclosure,
-    pub(super) harmonics: Vec<[Enclosure; 2]>,
-}
+pub(super) type Wave = TrigonometricPolynomial;
 
-/// Rational coefficients as a wave.
-pub(super) fn wave<'a>(mean: &Rational, harmonics: impl Iterator<Item = [&'a Rational; 2]>) -> Wave {
-    let enclose = |value: &Rational| Enclosure::from_rational(value, PRECISION);
-    Wave { mean: enclose(mean), harmonics: harmonics.map(|pair| pair.map(enclose)).collect() }
+/// A rational coefficient as one of a wave.
+pub(super) fn enclose(value: &Rational) -> Enclosure {
+    Enclosure::from_rational(value, PRECISION)
 }
 
 /// The components of a vector as waves.
 pub(super) fn waves(vector: &TrigonometricVector) -> Vec<Wave> {
-    let component = |i: usize| wave(&vector.mean[i], vector.harmonics.iter().map(|[a, b]| [&a[i], &b[i]]));
-    (0..vector.mean.len()).map(component).collect()
+    (0..vector.mean.len()).map(|i| vector.map(|part| enclose(&part[i]))).collect()
 }
 
 /// `count` cells of equal length that cover [0, 1] in s = t/T, and what every expansion on them needs.

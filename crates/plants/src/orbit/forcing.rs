@@ -1,6 +1,6 @@
 //! The harmonics of q(t, x_0, 0) (derivation, 11.4): proposed in doubles, the rest proved.
 
-use super::cells::wave;
+use super::cells::enclose;
 use super::coordinates::Coordinates;
 use super::curve::{MAX_HARMONICS, PRECISION};
 use super::defect::{CELLS, CLOSE, ORDER, first_exponent, largest};
@@ -104,9 +104,7 @@ fn propose(plant: &Plant, orbit: &OrbitCurve) -> Option<(Wave, Vec<Wave>)> {
         // Rounded as what is added, and not as the quotient.
         let wave = rounded(change.mean[0], &pairs[..count])?;
         let width = Rational::from_f64(width)?;
-        let over = |value: &Rational| Rational::from(value / &width);
-        let harmonics = wave.harmonics.iter().map(|pair| pair.each_ref().map(over)).collect();
-        Some(Wave { mean: over(&wave.mean), harmonics })
+        Some(wave.map(|value| Rational::from(value / &width)))
     });
     let sensitivities = sensitivities.collect::<Option<_>>()?;
     Some((rounded(mean, &pairs[..count])?, sensitivities))
@@ -280,15 +278,12 @@ fn rests_on(
     exponent: u32,
 ) -> Result<([Enclosure; 2], [Enclosure; 2]), OrbitNotProved> {
     let n = around.plant.states();
-    let of_wave =
-        |mean: &Rational, harmonics: &[[Rational; 2]]| wave(mean, harmonics.iter().map(|pair| [&pair[0], &pair[1]]));
-    let qb = of_wave(&forcing.mean, &forcing.harmonics);
-    let parts: Vec<_> = forcing.sensitivities.iter().map(|part| of_wave(&part.mean, &part.harmonics)).collect();
+    let qb = forcing.nominal().map(enclose);
+    let parts: Vec<_> = forcing.sensitivities.iter().map(|part| part.map(enclose)).collect();
     let curve = around.curve(exponent, std::iter::once(&qb).chain(&parts));
     let parameters = &around.members.parameters;
     let cells = &curve.cells;
-    let exact = |value: &Rational| Enclosure::from_rational(value, PRECISION);
-    let (radius, defect, zero) = (exact(&proved.radius), exact(&proved.defect), Enclosure::zero(PRECISION));
+    let (radius, defect, zero) = (enclose(&proved.radius), enclose(&proved.defect), Enclosure::zero(PRECISION));
     let reach: Vec<Enclosure> = around.l.iter().map(|row| norm(row.iter().cloned(), PRECISION) * &radius).collect();
     // The norm of a row times L.
     let norm_of = |row: &[Enclosure]| {

@@ -1,6 +1,6 @@
 //! The proof of the orbit (derivation, 11.2).
 
-use super::cells::{Wave, wave};
+use super::cells::{Wave, enclose};
 use super::coordinates::Coordinates;
 use super::curve::{Curve, MAX_HARMONICS, PRECISION};
 use super::defect::{CELLS, CLOSE, ORDER, bound, first_exponent};
@@ -84,17 +84,14 @@ impl<'a> Around<'a> {
         if orbit.sensitivities.len() != plant.parameters.intervals().count() {
             return Err(OrbitNotProved::Shape("the orbit has not one sensitivity for each parameter with an interval"));
         }
-        let vectors =
-            || orbit.parts().flat_map(|part| std::iter::once(&part.mean).chain(part.harmonics.iter().flatten()));
-        if vectors().any(|vector| vector.len() != n) {
+        if orbit.parts().flat_map(|curve| curve.parts()).any(|vector| vector.len() != n) {
             return Err(OrbitNotProved::Shape("a vector of the orbit has another length"));
         }
         let matrix = &coordinates.p;
         if orbit.harmonics().max(matrix.harmonics.len()) > MAX_HARMONICS {
             return Err(OrbitNotProved::Shape("too many harmonics"));
         }
-        let parts = || std::iter::once(&matrix.mean).chain(matrix.harmonics.iter().flatten());
-        if !parts().all(|rows| is_symmetric(rows, n)) {
+        if !matrix.parts().all(|rows| is_symmetric(rows, n)) {
             return Err(OrbitNotProved::Shape("P is not symmetric of the order of the plant"));
         }
         if coordinates.l.len() != n || coordinates.l.iter().any(|row| row.len() != n) {
@@ -111,8 +108,6 @@ impl<'a> Around<'a> {
         for i in 0..orbit.sensitivities.len() {
             slopes.extend(formulas.derivatives(&f, PlantVariable::Parameter(i)));
         }
-        let entry =
-            |i: usize, j: usize| wave(&matrix.mean[i][j], matrix.harmonics.iter().map(|[a, b]| [&a[i][j], &b[i][j]]));
         Ok(Around {
             plant,
             members: Members::new(plant, orbit),
@@ -122,7 +117,7 @@ impl<'a> Around<'a> {
             l: enclosed(&coordinates.l, PRECISION),
             inverse: enclosed(&inverted, PRECISION),
             matrix,
-            p: Symmetric::from_fn(n, entry),
+            p: Symmetric::from_fn(n, |i, j| matrix.map(|rows| enclose(&rows[i][j]))),
         })
     }
 

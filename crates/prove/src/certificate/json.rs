@@ -3,6 +3,7 @@
 use rug::Rational;
 use serde_json::Value;
 use sigmastar_exact::number::write_exact;
+use sigmastar_lang::expr::Fourier;
 
 /// An object from pairs, in their order.
 #[must_use]
@@ -18,6 +19,23 @@ pub fn exact(value: &Rational) -> Value {
 
 pub(super) fn text(value: impl Into<String>) -> Value {
     Value::String(value.into())
+}
+
+/// A list that is left out where it is empty.
+pub(super) fn listed(name: &'static str, values: impl Iterator<Item = Value>) -> Option<(&'static str, Value)> {
+    let values: Vec<Value> = values.collect();
+    (!values.is_empty()).then(|| (name, Value::Array(values)))
+}
+
+/// The mean in a field of its own, and `harmonics` where there are some: `cos` and `sin` of k = 1, 2, ...
+pub(super) fn series<T>(
+    mean: &'static str,
+    series: &Fourier<T>,
+    json: impl Fn(&T) -> Value,
+) -> Vec<(&'static str, Value)> {
+    let harmonic = |[cos, sin]: &[T; 2]| object([("cos", json(cos)), ("sin", json(sin))]);
+    let harmonics = listed("harmonics", series.harmonics.iter().map(harmonic));
+    std::iter::once((mean, json(&series.mean))).chain(harmonics).collect()
 }
 
 pub(super) fn vector(values: &[Rational]) -> Value {

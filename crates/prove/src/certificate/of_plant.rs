@@ -3,12 +3,12 @@
 use super::fields::{
     CELLS, EXISTENCE_INEQUALITY, INEQUALITY, JOINT_INEQUALITY, NumberFields, SENSITIVITIES, SPLITTING,
 };
-use super::json::{exact, object, rows, vector};
+use super::json::{exact, listed, object, rows, series, vector};
 use rug::Rational;
 use serde_json::Value;
 use sigmastar_lang::spec::{
     Interval, JointInequality, JointStability, Level, MatrixInequality, Metric, ProvedCell, ProvedForcing, ProvedOrbit,
-    ProvedValue, ProvedValues, SampledInequalities, Specification, Splitting, TrigonometricVector,
+    ProvedValue, ProvedValues, SampledInequalities, Specification, Splitting, TrigonometricVector, Wave,
 };
 
 /// `coordinates`, `orbit` and `forcing` or `cells`, and `bounds`, and the matrix inequalities that are used; none where the data do not come from a plant's formulas.
@@ -80,10 +80,7 @@ fn inequality_json(known: &MatrixInequality) -> Value {
 }
 
 fn orbit_json(orbit: &ProvedOrbit) -> Value {
-    let part = |part: &TrigonometricVector| {
-        let harmonic = |[cos, sin]: &[Vec<Rational>; 2]| object([("cos", vector(cos)), ("sin", vector(sin))]);
-        with_harmonics(vector(&part.mean), part.harmonics.iter().map(harmonic).collect())
-    };
+    let part = |curve: &TrigonometricVector| series("mean", curve, |part| vector(part));
     let sizes = [("defect", &orbit.defect), ("tube", &orbit.tube), ("radius", &orbit.radius)];
     let sizes = sizes.map(|(name, value)| (name, exact(value)));
     let sensitivities = listed(SENSITIVITIES, orbit.approximation.sensitivities.iter().map(|one| object(part(one))));
@@ -91,25 +88,10 @@ fn orbit_json(orbit: &ProvedOrbit) -> Value {
 }
 
 fn forcing_json(forcing: &ProvedForcing) -> Value {
-    let part = |mean: &Rational, harmonics: &[[Rational; 2]]| {
-        let harmonic = |[cos, sin]: &[Rational; 2]| object([("cos", exact(cos)), ("sin", exact(sin))]);
-        with_harmonics(exact(mean), harmonics.iter().map(harmonic).collect())
-    };
-    let sensitivities =
-        listed(SENSITIVITIES, forcing.sensitivities.iter().map(|one| object(part(&one.mean, &one.harmonics))));
+    let part = |wave: &Wave| series("mean", wave, exact);
+    let sensitivities = listed(SENSITIVITIES, forcing.sensitivities.iter().map(|one| object(part(one))));
     let rests = [("rest", exact(&forcing.rest)), ("rest_t", exact(&forcing.rest_t))];
-    object(part(&forcing.mean, &forcing.harmonics).into_iter().chain(sensitivities).chain(rests))
-}
-
-/// `mean`, and `harmonics` where there are some.
-fn with_harmonics(mean: Value, harmonics: Vec<Value>) -> Vec<(&'static str, Value)> {
-    std::iter::once(("mean", mean)).chain(listed("harmonics", harmonics.into_iter())).collect()
-}
-
-/// A list that is left out where it is empty.
-fn listed(name: &'static str, values: impl Iterator<Item = Value>) -> Option<(&'static str, Value)> {
-    let values: Vec<Value> = values.collect();
-    (!values.is_empty()).then(|| (name, Value::Array(values)))
+    object(part(&forcing.nominal()).into_iter().chain(sensitivities).chain(rests))
 }
 
 fn values_json(values: &ProvedValues) -> Value {

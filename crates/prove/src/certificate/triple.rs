@@ -1,7 +1,6 @@
 //! The Lyapunov triple of a Jacobian as a part of a certificate.
 
-use super::json::{object, rows, text};
-use rug::Rational;
+use super::json::{rows, series, text};
 use serde_json::{Map, Value};
 use sigmastar_lang::spec::Specification;
 use sigmastar_lang::spec::model::{Lyapunov, LyapunovSource, PeriodicMatrix};
@@ -9,13 +8,7 @@ use sigmastar_lang::spec::model::{Lyapunov, LyapunovSource, PeriodicMatrix};
 /// P(t) as fields: `P` are the rows of the mean, and `harmonics`, where there are any, lists `cos` and `sin` of k = 1, 2, ...
 #[must_use]
 pub fn matrix_json(matrix: &PeriodicMatrix) -> Map<String, Value> {
-    let mut fields = Map::new();
-    fields.insert("P".to_owned(), rows(&matrix.mean));
-    if !matrix.harmonics.is_empty() {
-        let one = |[cos, sin]: &[Vec<Vec<Rational>>; 2]| object([("cos", rows(cos)), ("sin", rows(sin))]);
-        fields.insert("harmonics".to_owned(), Value::Array(matrix.harmonics.iter().map(one).collect()));
-    }
-    fields
+    series("P", matrix, |part| rows(part)).into_iter().map(|(name, value)| (name.to_owned(), value)).collect()
 }
 
 /// The parts `witness.lyapunov` and `witness.lyapunov_existence` of a certificate: P(t) and the triple of each; none where the

@@ -37,19 +37,8 @@ pub fn nominal_ball(plant: &OfPlant, x_0: &Rational) -> Option<Rational> {
 }
 
 fn difference(a: &TrigonometricVector, b: &TrigonometricVector) -> TrigonometricVector {
-    let minus = |a: Option<&Vec<Rational>>, b: Option<&Vec<Rational>>| -> Vec<Rational> {
-        let at =
-            |list: Option<&Vec<Rational>>, i: usize| list.and_then(|list| list.get(i)).cloned().unwrap_or_default();
-        let length = a.or(b).map_or(0, Vec::len);
-        (0..length).map(|i| at(a, i) - at(b, i)).collect()
-    };
-    let harmonics = a.harmonics.len().max(b.harmonics.len());
-    let part =
-        |k: usize, i: usize| minus(a.harmonics.get(k).map(|pair| &pair[i]), b.harmonics.get(k).map(|pair| &pair[i]));
-    TrigonometricVector {
-        mean: minus(Some(&a.mean), Some(&b.mean)),
-        harmonics: (0..harmonics).map(|k| [part(k, 0), part(k, 1)]).collect(),
-    }
+    let zero = vec![Rational::new(); a.mean.len()];
+    a.with(b, &zero, |a, b| a.iter().zip(b).map(|(a, b)| Rational::from(a - b)).collect())
 }
 
 /// A number that `|K x(t)|` never exceeds: `|K m| + sum_k sqrt(|K a_k|^2 + |K b_k|^2)`.
