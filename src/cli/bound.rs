@@ -12,11 +12,7 @@ use sigmastar_prove::reduction::reduce_by_norms;
 use sigmastar_studies::bounding::bounding_specification;
 
 /// Runs the command and returns the exit code.
-pub fn run(args: &BoundArgs) -> u8 {
-    attempt(args).unwrap_or_else(|failure| failure.tell(super::format::Format::Text, args.quiet))
-}
-
-fn attempt(args: &BoundArgs) -> Result<u8, Failure> {
+pub fn run(args: &BoundArgs) -> Result<u8, Failure> {
     let file = args.replace.asked(args.output.as_deref(), Input::Plant(&args.plant), "the specification")?;
     let asked = args.domain.as_deref().map(domain).transpose()?;
     let plant = Asked::read(&args.plant)?.plant("`bound`")?;

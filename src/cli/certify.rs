@@ -27,11 +27,7 @@ use std::path::Path;
 const TOLD_MORE: &str = "; `--progress` tells how far it is";
 
 /// Runs the command and returns the exit code.
-pub fn run(args: &CertifyArgs) -> u8 {
-    attempt(args).unwrap_or_else(|failure| failure.tell(args.format, args.quiet))
-}
-
-fn attempt(args: &CertifyArgs) -> Result<u8, Failure> {
+pub fn run(args: &CertifyArgs) -> Result<u8, Failure> {
     // What is wrong with the call is said before any work is done.
     let is_page = |path: &&Path| path.extension().is_some_and(|end| end == "html" || end == "htm");
     if let Some(page) = args.output.as_deref().filter(is_page) {

@@ -16,17 +16,12 @@ use std::io::{Cursor, Read};
 use std::path::Path;
 
 /// Runs the command and returns the exit code: that of the independent checker.
-pub fn run(args: &CheckArgs) -> u8 {
-    match answer(args) {
-        Ok((report, page)) => {
-            // The words of the checker's report are its own.
-            let words = || Made::new(vec![Block::Code(report.text(args.verbose))], report.json());
-            let answer = page.unwrap_or_else(words);
-            let text = output::report(&answer, args.format);
-            output::data(&text).map_or_else(|code| code, |()| report.verdict.exit_code())
-        }
-        Err(failure) => failure.tell(args.format, false),
-    }
+pub fn run(args: &CheckArgs) -> Result<u8, Failure> {
+    let (report, page) = answer(args)?;
+    // The words of the checker's report are its own.
+    let words = || Made::new(vec![Block::Code(report.text(args.verbose))], report.json());
+    let text = output::report(&page.unwrap_or_else(words), args.format);
+    Ok(output::data(&text).err().unwrap_or(report.verdict.exit_code()))
 }
 
 /// The answer, and of a valid certificate the page where one is asked for.

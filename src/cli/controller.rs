@@ -3,7 +3,6 @@
 use super::args::{ControllerArgs, RegulatorForm};
 use super::failure::Failure;
 use super::files::{Input, OutputFile, write_together};
-use super::format::Format;
 use super::given::{Given, Regulated};
 use super::input;
 use super::output::{self, shown};
@@ -16,11 +15,7 @@ use sigmastar_regulator::{Convergence, Design, Discrete, Regulator};
 use std::path::{Path, PathBuf};
 
 /// Runs the command and returns the exit code.
-pub fn run(args: &ControllerArgs) -> u8 {
-    attempt(args).unwrap_or_else(|failure| failure.tell(Format::Text, false))
-}
-
-fn attempt(args: &ControllerArgs) -> Result<u8, Failure> {
+pub fn run(args: &ControllerArgs) -> Result<u8, Failure> {
     let (input, what) = (Input::Specification(&args.spec), "the regulator");
     let output = args.replace.asked(args.output.as_deref(), input, what)?;
     let c = match args.format {
@@ -96,7 +91,7 @@ fn attempt(args: &ControllerArgs) -> Result<u8, Failure> {
     };
     match output {
         Some(file) => file.write(text).map(|()| 0),
-        None => Ok(output::data(&text).map_or_else(|code| code, |()| 0)),
+        None => Ok(output::data(&text).err().unwrap_or(0)),
     }
 }
 

@@ -7,16 +7,12 @@ use super::subject::Asked;
 use sigmastar_paper::errata::ErrataReport;
 
 /// Runs the command and returns the exit code.
-pub fn run(args: &ErrataArgs) -> u8 {
-    attempt(args).unwrap_or_else(|failure| failure.tell(args.format, false))
-}
-
-fn attempt(args: &ErrataArgs) -> Result<u8, Failure> {
+pub fn run(args: &ErrataArgs) -> Result<u8, Failure> {
     let spec = match &args.spec {
         Some(path) => Some(Asked::read(path)?.specification("`errata`")?),
         None => None,
     };
     let report = ErrataReport::new(spec.as_ref());
     let text = output::report(&report, args.format);
-    Ok(output::data(&text).map_or_else(|code| code, |()| 0))
+    Ok(output::data(&text).err().unwrap_or(0))
 }

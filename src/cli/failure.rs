@@ -51,7 +51,7 @@ impl Failure {
             if !quiet {
                 output::remark(&format!("{verdict}; the errors are in the JSON on standard output"));
             }
-            return output::data(&output::json_text(&value)).map_or_else(|code| code, |()| verdict.exit_code());
+            return output::data(&output::json_text(&value)).err().unwrap_or(verdict.exit_code());
         }
         match self {
             Failure::Documents(all) => output::diagnostics(all),

@@ -13,11 +13,7 @@ use sigmastar_lab::falsify::{
 use sigmastar_prove::certify::Verdict;
 
 /// Runs the command and returns the exit code.
-pub fn run(args: &FalsifyArgs) -> u8 {
-    attempt(args).unwrap_or_else(|failure| failure.tell(args.format, args.quiet))
-}
-
-fn attempt(args: &FalsifyArgs) -> Result<u8, Failure> {
+pub fn run(args: &FalsifyArgs) -> Result<u8, Failure> {
     let input = Input::Certificate(&args.certificate);
     let output = args.replace.asked(args.output.as_deref(), input, "the counterexample")?;
     let others: Vec<_> =

@@ -10,11 +10,7 @@ use sigmastar_prove::reduction::study;
 use sigmastar_report::{LyapunovReport, OrbitReport};
 
 /// Runs the command and returns the exit code.
-pub fn run(args: &LyapunovArgs) -> u8 {
-    attempt(args).unwrap_or_else(|failure| failure.tell(args.format, false))
-}
-
-fn attempt(args: &LyapunovArgs) -> Result<u8, Failure> {
+pub fn run(args: &LyapunovArgs) -> Result<u8, Failure> {
     let spec = match Asked::read(&args.spec)?.subject()? {
         Subject::Specification(spec) => spec,
         Subject::Plant(plant) => return of_plant(&plant, args),
@@ -29,12 +25,12 @@ fn attempt(args: &LyapunovArgs) -> Result<u8, Failure> {
     let resolution =
         resolution.map_err(|failure| Failure::Documents(Refusal::Jacobian(failure.to_string()).errors(&spec)))?;
     let report = LyapunovReport::new(resolution).ok_or_else(given)?;
-    Ok(Shortened::new(&report, args.format, args.full).show(false).map_or_else(|code| code, |()| 0))
+    Ok(Shortened::new(&report, args.format, args.full).show(false).err().unwrap_or(0))
 }
 
 /// The zero dynamics of a plant.
 fn of_plant(plant: &Plant, args: &LyapunovArgs) -> Result<u8, Failure> {
     let study = study(plant).map_err(|refusal| Failure::Documents(refusal.errors(plant)))?;
     let report = OrbitReport { plant, study: &study };
-    Ok(Shortened::new(&report, args.format, args.full).show(false).map_or_else(|code| code, |()| 0))
+    Ok(Shortened::new(&report, args.format, args.full).show(false).err().unwrap_or(0))
 }

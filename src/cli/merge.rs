@@ -3,7 +3,6 @@
 use super::args::MergeArgs;
 use super::failure::Failure;
 use super::files::Input;
-use super::format::Format;
 use super::output::{self, shown};
 use super::sweep::{existing, unreadable};
 use sigmastar_prove::certify::Verdict;
@@ -11,11 +10,7 @@ use sigmastar_sweep::sweep::{Merge, Results, summary};
 use std::path::Path;
 
 /// Runs the command and returns the exit code.
-pub fn run(args: &MergeArgs) -> u8 {
-    attempt(args).unwrap_or_else(|failure| failure.tell(Format::Text, false))
-}
-
-fn attempt(args: &MergeArgs) -> Result<u8, Failure> {
+pub fn run(args: &MergeArgs) -> Result<u8, Failure> {
     let mut file = None;
     let mut merge: Option<Merge> = None;
     for path in &args.files {
@@ -38,7 +33,7 @@ fn attempt(args: &MergeArgs) -> Result<u8, Failure> {
     let results = merge.finish(args.incomplete).map_err(|error| unreadable(&error))?;
     file.write(results.text())?;
     let text = summary(&results, false);
-    Ok(output::data(&text).map_or_else(|code| code, |()| Verdict::Certified.exit_code()))
+    Ok(output::data(&text).err().unwrap_or(Verdict::Certified.exit_code()))
 }
 
 fn read(path: &Path) -> Result<Results, Failure> {

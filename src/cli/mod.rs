@@ -40,6 +40,7 @@ mod write_files;
 
 use args::{Cli, Command, command};
 use clap::FromArgMatches;
+use format::Format;
 use sigmastar_prove::certify::Verdict;
 use std::process::ExitCode;
 
@@ -59,27 +60,28 @@ pub fn run() -> ExitCode {
         }
     };
     colour::choose(cli.color);
-    let code = match cli.command {
-        Command::Certify(args) => certify::run(&args),
-        Command::Sampling(args) => sampling::run(&args),
-        Command::Sweep(args) => sweep::run(&args),
-        Command::Merge(args) => merge::run(&args),
-        Command::Tune(args) => tune::run(&args),
-        Command::Transfer(args) => transfer::run(&args),
-        Command::Check(args) => check::run(&args),
-        Command::Controller(args) => controller::run(&args),
-        Command::Simulate(args) => simulate::run(&args),
-        Command::Reproduce(args) => reproduce::run(&args),
-        Command::Falsify(args) => falsify::run(&args),
-        Command::Errata(args) => errata::run(&args),
-        Command::Lyapunov(args) => lyapunov::run(&args),
-        Command::Bound(args) => bound::run(&args),
-        Command::Rate(args) => rate::run(&args),
-        Command::New(args) => write_files::new(&args),
-        Command::Convert(args) => write_files::convert(&args),
-        Command::Schema(args) => write_files::schema(&args),
-        Command::Completions { shell } => pages::completions(shell),
-        Command::Man => pages::man(),
+    // What comes of the command, and how a failure of it is told: in which format, and whether quietly.
+    let (outcome, format, quiet) = match cli.command {
+        Command::Certify(args) => (certify::run(&args), args.format, args.quiet),
+        Command::Sampling(args) => (sampling::run(&args), args.format, args.quiet),
+        Command::Sweep(args) => (sweep::run(&args), Format::Text, args.quiet),
+        Command::Merge(args) => (merge::run(&args), Format::Text, false),
+        Command::Tune(args) => (tune::run(&args), args.format, args.quiet),
+        Command::Transfer(args) => (transfer::run(&args), args.format, args.quiet),
+        Command::Check(args) => (check::run(&args), args.format, false),
+        Command::Controller(args) => (controller::run(&args), Format::Text, false),
+        Command::Simulate(args) => (simulate::run(&args), args.format, args.quiet),
+        Command::Reproduce(args) => (reproduce::run(&args), Format::Text, args.quiet),
+        Command::Falsify(args) => (falsify::run(&args), args.format, args.quiet),
+        Command::Errata(args) => (errata::run(&args), args.format, false),
+        Command::Lyapunov(args) => (lyapunov::run(&args), args.format, false),
+        Command::Bound(args) => (bound::run(&args), Format::Text, args.quiet),
+        Command::Rate(args) => (rate::run(&args), args.format, args.quiet),
+        Command::New(args) => (write_files::new(&args), Format::Text, false),
+        Command::Convert(args) => (write_files::convert(&args), Format::Text, false),
+        Command::Schema(args) => (Ok(write_files::schema(&args)), Format::Text, false),
+        Command::Completions { shell } => (Ok(pages::completions(shell)), Format::Text, false),
+        Command::Man => (Ok(pages::man()), Format::Text, false),
     };
-    ExitCode::from(code)
+    ExitCode::from(outcome.unwrap_or_else(|failure| failure.tell(format, quiet)))
 }

@@ -13,11 +13,7 @@ use sigmastar_report::RateReport;
 use sigmastar_studies::rate::{MAX_OSCILLATORS, NoRates, certified_rates};
 
 /// Runs the command and returns the exit code.
-pub fn run(args: &RateArgs) -> u8 {
-    attempt(args).unwrap_or_else(|failure| failure.tell(args.format, args.quiet))
-}
-
-fn attempt(args: &RateArgs) -> Result<u8, Failure> {
+pub fn run(args: &RateArgs) -> Result<u8, Failure> {
     let n_o = finite_counts(&args.n_o, MAX_OSCILLATORS)?;
     let asked = Asked::read(&args.spec)?;
     let subject = asked.subject()?;
@@ -61,5 +57,5 @@ fn attempt(args: &RateArgs) -> Result<u8, Failure> {
     };
     let Some(report) = RateReport::new(&run, &sigma, found) else { return Ok(Verdict::Undecided.exit_code()) };
     let text = output::report(&report, args.format);
-    Ok(output::data(&text).map_or_else(|code| code, |()| 0))
+    Ok(output::data(&text).err().unwrap_or(0))
 }

@@ -3,7 +3,6 @@
 use super::args::{PartArg, ReproduceArgs};
 use super::failure::Failure;
 use super::files::Input;
-use super::format::Format;
 use super::output;
 use super::progress::Bar;
 use sigmastar_document::{Extent, Readable};
@@ -14,11 +13,7 @@ use sigmastar_paper::reproduce::{FIGURE_FILES, Parts, ReproductionReport, Reprod
 const PAPER_PLANT: &str = include_str!("../../specs/plants/paper-example.json");
 
 /// Runs the command and returns the exit code.
-pub fn run(args: &ReproduceArgs) -> u8 {
-    attempt(args).unwrap_or_else(|failure| failure.tell(Format::Text, args.quiet))
-}
-
-fn attempt(args: &ReproduceArgs) -> Result<u8, Failure> {
+pub fn run(args: &ReproduceArgs) -> Result<u8, Failure> {
     let has = |part| args.only.is_empty() || args.only.contains(&part);
     let parts = Parts {
         table_1: has(PartArg::Table1),
@@ -46,5 +41,5 @@ fn attempt(args: &ReproduceArgs) -> Result<u8, Failure> {
     for (name, text) in files {
         args.replace.file(&args.output.join(name), Input::None, "the report")?.write(text)?;
     }
-    Ok(output::data(&markdown).map_or_else(|code| code, |()| 0))
+    Ok(output::data(&markdown).err().unwrap_or(0))
 }

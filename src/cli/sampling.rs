@@ -15,11 +15,7 @@ use sigmastar_report::{SamplingReport, sampling_figure};
 use sigmastar_studies::sampling::{OfPlant, OfSpecification, SamplingStudy, Unfit};
 
 /// Runs the command and returns the exit code.
-pub fn run(args: &SamplingArgs) -> u8 {
-    attempt(args).unwrap_or_else(|failure| failure.tell(args.format, args.quiet))
-}
-
-fn attempt(args: &SamplingArgs) -> Result<u8, Failure> {
+pub fn run(args: &SamplingArgs) -> Result<u8, Failure> {
     let plot = args.plot.as_deref().map(|path| svg_file(path, &args.spec, args.replace)).transpose()?;
     let subject = Asked::read(&args.spec)?.subject()?;
     let (name, sha256, period) =
@@ -49,7 +45,7 @@ fn attempt(args: &SamplingArgs) -> Result<u8, Failure> {
     let report = SamplingReport { study: &study, name: &name, sha256: &sha256 };
     let text = output::report(&report, args.format);
     let verdict = if study.has_pair() { Verdict::Certified } else { Verdict::Undecided };
-    Ok(output::data(&text).map_or_else(|code| code, |()| verdict.exit_code()))
+    Ok(output::data(&text).err().unwrap_or(verdict.exit_code()))
 }
 
 fn draw(study: &SamplingStudy, file: &OutputFile, quiet: bool) -> Result<(), Failure> {

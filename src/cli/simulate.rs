@@ -20,15 +20,15 @@ use sigmastar_prove::certify::Verdict;
 use sigmastar_regulator::{Design, Regulator, read_regulator};
 
 /// Runs the command and returns the exit code.
-pub fn run(args: &SimulateArgs) -> u8 {
-    let outcome = Called::read(args).and_then(|called| match called.step {
-        None => attempt(args, called.plant, called.sigma.as_ref()),
-        Some(step) => simulate_sampled::attempt(args, called.plant, called.sigma.as_ref(), &step),
-    });
-    outcome.unwrap_or_else(|failure| failure.tell(args.format, args.quiet))
+pub fn run(args: &SimulateArgs) -> Result<u8, Failure> {
+    let called = Called::read(args)?;
+    match called.step {
+        None => in_continuous_time(args, called.plant, called.sigma.as_ref()),
+        Some(step) => simulate_sampled::run(args, called.plant, called.sigma.as_ref(), &step),
+    }
 }
 
-fn attempt(args: &SimulateArgs, plant: Plant, sigma: Option<&Constant>) -> Result<u8, Failure> {
+fn in_continuous_time(args: &SimulateArgs, plant: Plant, sigma: Option<&Constant>) -> Result<u8, Failure> {
     let csv_file = args.replace.asked(args.csv.as_deref(), Input::Plant(&args.plant), "the samples")?;
     let power = args.noise_power.as_deref().map(|text| input::positive("--noise-power", text)).transpose()?;
     let gain = args.input_gain.as_deref().map(|text| input::positive("--input-gain", text)).transpose()?;

@@ -21,7 +21,7 @@ use sigmastar_regulator::{Design, Discrete, Regulator, WrongDimension, read_disc
 ///
 /// # Errors
 /// What is wrong with the call or its files.
-pub fn attempt(args: &SimulateArgs, plant: Plant, sigma: Option<&Constant>, step: &Constant) -> Result<u8, Failure> {
+pub fn run(args: &SimulateArgs, plant: Plant, sigma: Option<&Constant>, step: &Constant) -> Result<u8, Failure> {
     let csv_file = args.replace.asked(args.csv.as_deref(), Input::Plant(&args.plant), "the samples")?;
     let converters = converters(args, step)?;
     let limit = args.saturation.as_deref().map(|text| input::positive("--saturation", text)).transpose()?;

@@ -3,7 +3,6 @@
 use super::args::{Replace, SweepArgs};
 use super::failure::Failure;
 use super::files::{Input, OutputFile};
-use super::format::Format;
 use super::output::{reason, shown};
 use super::progress::Bar;
 use super::subject::Asked;
@@ -23,11 +22,7 @@ use std::sync::{Mutex, PoisonError};
 const MAX_RESULTS: u64 = 1 << 29;
 
 /// Runs the command and returns the exit code.
-pub fn run(args: &SweepArgs) -> u8 {
-    attempt(args).unwrap_or_else(|failure| failure.tell(Format::Text, args.quiet))
-}
-
-fn attempt(args: &SweepArgs) -> Result<u8, Failure> {
+pub fn run(args: &SweepArgs) -> Result<u8, Failure> {
     let study = Study::read(&input::document(&args.study)?)?;
     let subject = subject_path(&study, &args.study);
     let document = subject.as_deref().map(Asked::read).transpose()?.map(|asked| asked.document);
@@ -94,7 +89,7 @@ fn attempt(args: &SweepArgs) -> Result<u8, Failure> {
         true => Verdict::Undecided,
         false => Verdict::Certified,
     };
-    Ok(output::data(&text).map_or_else(|code| code, |()| verdict.exit_code()))
+    Ok(output::data(&text).err().unwrap_or(verdict.exit_code()))
 }
 
 /// The path of the subject, where the study does not have it in it: relative to the study, or to the current folder of a
@@ -153,7 +148,7 @@ fn one_case(sweep: &Sweep, index: u64) -> Result<u8, Failure> {
         return Err(Failure::call(message, "cases are counted from 0"));
     }
     let text = output::json_text(&sweep.case(index)?.document.root().to_json());
-    Ok(output::data(&text).map_or_else(|code| code, |()| Verdict::Certified.exit_code()))
+    Ok(output::data(&text).err().unwrap_or(Verdict::Certified.exit_code()))
 }
 
 fn shard(text: &str) -> Result<Shard, Failure> {

@@ -17,11 +17,7 @@ use sigmastar_theory::transfer::{PairChoice, PairError, TransferStudy};
 use std::path::Path;
 
 /// Runs the command and returns the exit code.
-pub fn run(args: &TransferArgs) -> u8 {
-    attempt(args).unwrap_or_else(|failure| failure.tell(args.format, args.quiet))
-}
-
-fn attempt(args: &TransferArgs) -> Result<u8, Failure> {
+pub fn run(args: &TransferArgs) -> Result<u8, Failure> {
     let plot = args.plot.as_deref().map(|path| svg_file(path, &args.spec, args.replace)).transpose()?;
     let pair = match (&args.k0, &args.minimise) {
         (Some(text), _) => PairChoice::SmallestK1(input::positive("--k0", text)?),
@@ -57,9 +53,8 @@ fn attempt(args: &TransferArgs) -> Result<u8, Failure> {
             output::remark(&format!("the plot is in `{}`", file.name()));
         }
     }
-    Ok(Shortened::new(&TransferReport(&study), args.format, args.full)
-        .show(args.quiet)
-        .map_or_else(|code| code, |()| Verdict::Certified.exit_code()))
+    let shown = Shortened::new(&TransferReport(&study), args.format, args.full);
+    Ok(shown.show(args.quiet).err().unwrap_or(Verdict::Certified.exit_code()))
 }
 
 /// The file of the plot, whose name says what is in it.
@@ -76,8 +71,8 @@ pub fn svg_file(path: &Path, input: &Path, replace: Replace) -> Result<OutputFil
 fn no_pair(args: &TransferArgs, error: &PairError) -> u8 {
     let verdict = if error.is_refuted() { Verdict::Refuted } else { Verdict::Undecided };
     if args.format == Format::Json {
-        return output::data(&output::json_text(&pair_failure_json(verdict, error)))
-            .map_or_else(|code| code, |()| verdict.exit_code());
+        let text = output::json_text(&pair_failure_json(verdict, error));
+        return output::data(&text).err().unwrap_or(verdict.exit_code());
     }
     output::error(&error.to_string(), error.way_out());
     output::remark(&verdict.to_string());

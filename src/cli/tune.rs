@@ -15,11 +15,7 @@ use sigmastar_sweep::tune::{Goal, Settings, TuneError, TuningReport, parameters,
 const N_O: u32 = 5;
 
 /// Runs the command and returns the exit code.
-pub fn run(args: &TuneArgs) -> u8 {
-    attempt(args).unwrap_or_else(|failure| failure.tell(args.format, args.quiet))
-}
-
-fn attempt(args: &TuneArgs) -> Result<u8, Failure> {
+pub fn run(args: &TuneArgs) -> Result<u8, Failure> {
     let file =
         args.replace.asked(args.output.as_deref(), Input::Specification(&args.spec), "the tuned specification")?;
     let Asked { document, .. } = Asked::read(&args.spec)?;
@@ -58,7 +54,7 @@ fn attempt(args: &TuneArgs) -> Result<u8, Failure> {
         }
     }
     let verdict = if tuning.has_claim() { Verdict::Certified } else { Verdict::Undecided };
-    Ok(output::data(&text).map_or_else(|code| code, |()| verdict.exit_code()))
+    Ok(output::data(&text).err().unwrap_or(verdict.exit_code()))
 }
 
 fn wrong(error: &TuneError) -> Failure {

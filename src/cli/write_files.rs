@@ -3,23 +3,17 @@
 use super::args::{ConvertArgs, NewArg, NewArgs, SchemaArgs};
 use super::failure::Failure;
 use super::files::{Input, OutputFile};
-use super::format::Format;
 use super::{input, output};
 use sigmastar_lang::spec::{Document, Notation};
 
 /// Writes a JSON Schema to standard output; returns the exit code.
 pub fn schema(args: &SchemaArgs) -> u8 {
     let text = output::json_text(&args.name.schema().json());
-    output::data(&text).map_or_else(|code| code, |()| 0)
+    output::data(&text).err().unwrap_or(0)
 }
 
-/// Writes a template; returns the exit code.
-pub fn new(args: &NewArgs) -> u8 {
-    template(args).unwrap_or_else(|failure| failure.tell(Format::Text, false))
-}
-
-/// The template in the notation that the name of its file says; JSON has no comments.
-fn template(args: &NewArgs) -> Result<u8, Failure> {
+/// Writes a template, in the notation that the name of its file says; returns the exit code. JSON has no comments.
+pub fn new(args: &NewArgs) -> Result<u8, Failure> {
     let path = args.output.as_deref();
     let [commented, toml] = match args.kind {
         NewArg::Spec => [include_str!("templates/spec.jsonc"), include_str!("templates/spec.toml")],
@@ -38,11 +32,7 @@ fn template(args: &NewArgs) -> Result<u8, Failure> {
 }
 
 /// Writes a document as JSON; returns the exit code.
-pub fn convert(args: &ConvertArgs) -> u8 {
-    converted(args).unwrap_or_else(|failure| failure.tell(Format::Text, false))
-}
-
-fn converted(args: &ConvertArgs) -> Result<u8, Failure> {
+pub fn convert(args: &ConvertArgs) -> Result<u8, Failure> {
     let file = args.replace.asked(args.output.as_deref(), Input::Specification(&args.file), "the JSON")?;
     let document = input::document(&args.file)?;
     write(&output::json_text(&document.root().to_json()), file)
@@ -52,6 +42,6 @@ fn converted(args: &ConvertArgs) -> Result<u8, Failure> {
 fn write(text: &str, file: Option<OutputFile>) -> Result<u8, Failure> {
     match file {
         Some(file) => file.write(text).map(|()| 0),
-        None => Ok(output::data(text).map_or_else(|code| code, |()| 0)),
+        None => Ok(output::data(text).err().unwrap_or(0)),
     }
 }
