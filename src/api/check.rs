@@ -3,22 +3,9 @@
 use super::report::Report as Rendered;
 use super::subject::Subject;
 use proofs_check::Report;
-use proofs_check::verdict::Verdict;
 use sigmastar_document::{Block, Made};
 
-/// The answer of the independent checker.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[non_exhaustive]
-pub enum CheckVerdict {
-    /// The claim is proved again.
-    Valid,
-    /// A rule is certainly violated.
-    Invalid,
-    /// The text is no certificate that is read.
-    BadInput,
-    /// A rule could be neither proved nor refuted: nothing is claimed.
-    Undecided,
-}
+pub use proofs_check::verdict::Verdict as CheckVerdict;
 
 /// What the independent checker says about a certificate.
 #[derive(Clone, Debug)]
@@ -53,12 +40,7 @@ impl CheckReport {
     fn new(report: &Report) -> CheckReport {
         let subject = report.proved.as_ref().map(|proved| &proved.subject);
         CheckReport {
-            verdict: match report.verdict {
-                Verdict::Valid => CheckVerdict::Valid,
-                Verdict::Invalid => CheckVerdict::Invalid,
-                Verdict::BadInput => CheckVerdict::BadInput,
-                Verdict::Undecided => CheckVerdict::Undecided,
-            },
+            verdict: report.verdict,
             flawless: report.is_flawless(),
             statement: subject.map(|subject| subject.statement.clone()),
             sha256: subject.map(|subject| subject.digest.clone()),

@@ -12,7 +12,9 @@ use sigmastar_prove::certify::{
 };
 use sigmastar_prove::reduction::Run;
 use sigmastar_report::RateReport;
-use sigmastar_studies::rate::{self, MAX_OSCILLATORS, Method, NoRates, certified_rates};
+use sigmastar_studies::rate::{self, MAX_OSCILLATORS, NoRates, certified_rates};
+
+pub use sigmastar_studies::rate::Method as RateMethod;
 
 /// Rates of convergence at one gain, for several numbers of oscillators. They are no part of a certificate, and no independent
 /// program checks them.
@@ -33,16 +35,6 @@ pub struct Rate {
     closed_loop: Option<(String, f64, RateMethod)>,
     oscillators: Option<(String, f64)>,
     spectral: Option<f64>,
-}
-
-/// How the rate of a closed loop was proved.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[non_exhaustive]
-pub enum RateMethod {
-    /// By a Lyapunov function for this number of oscillators and gain, from a Riccati equation.
-    Riccati,
-    /// By the Lyapunov function of the certificate and the paper's constants c and kappa.
-    Kappa,
 }
 
 impl Rates {
@@ -81,11 +73,7 @@ impl Rate {
             n_o: rates.n_o,
             closed_loop: rates.closed_loop.as_ref().map(|(rate, method)| {
                 let (exact, down) = both(rate);
-                let method = match method {
-                    Method::Riccati => RateMethod::Riccati,
-                    Method::Kappa => RateMethod::Kappa,
-                };
-                (exact, down, method)
+                (exact, down, *method)
             }),
             oscillators: rates.oscillators.as_ref().map(both),
             spectral: rates.spectral,

@@ -2,7 +2,7 @@
 
 use sigmastar_document::{Extent, Made, Readable};
 use sigmastar_prove::reduction::Run;
-use sigmastar_report::{Origin, RunReport};
+use sigmastar_report::{Origin, run_report};
 use std::fmt;
 
 /// The form of a report. The content is the same in each.
@@ -26,14 +26,14 @@ pub struct Report {
 }
 
 impl Report {
-    pub(super) fn of(report: &impl Readable) -> Report {
+    pub(super) fn of(report: &dyn Readable) -> Report {
         Report { made: Box::new(Made::of(report)) }
     }
 
     /// That of `sigmastar certify`; `again` where a witness was decided again.
     pub(super) fn of_run(run: &Run<'_>, again: bool) -> Report {
         let origin = if again { Origin::Witness } else { Origin::Search };
-        Report::of(&RunReport::new(run, &[], origin))
+        Report::of(&*run_report(run, &[], origin))
     }
 
     pub(super) fn new(made: Made) -> Report {

@@ -19,7 +19,7 @@ use sigmastar_prove::certificate::{certificate_of, is_sampled, read_for};
 use sigmastar_prove::certify::{FarStart, Limits, NoRatesOfClaim, rate_counts, unusual_mu};
 use sigmastar_prove::rate::bound::MAX_OSCILLATORS;
 use sigmastar_prove::reduction::{INITIAL_SET, Prepared, Run, Shrunk, Stage, Unwatched, Watch, shrunk};
-use sigmastar_report::{Origin, RunReport};
+use sigmastar_report::{Origin, run_report};
 use sigmastar_theory::derivation::targets::{Target, TargetKind};
 use std::path::Path;
 
@@ -119,7 +119,7 @@ pub fn run(args: &CertifyArgs) -> Result<u8, Failure> {
         decide_again(&mut run);
     }
     let origin = if witness.is_some() { Origin::Witness } else { Origin::Search };
-    let report = RunReport::new(&run, &targets, origin);
+    let report = run_report(&run, &targets, origin);
     let page = args.format == Format::Html;
     stages.begin(Step::Figures);
     let drawn = (page || args.plots.is_some()).then(|| Drawn::of(&run)).flatten();
@@ -134,8 +134,8 @@ pub fn run(args: &CertifyArgs) -> Result<u8, Failure> {
         }
     }
     let shown = match drawn.filter(|_| page) {
-        Some(drawn) => Shortened::new(&drawn.in_front_of_the_rest(&report), args.format, args.full),
-        None => Shortened::new(&report, args.format, args.full),
+        Some(drawn) => Shortened::new(&drawn.in_front_of_the_rest(&*report), args.format, args.full),
+        None => Shortened::new(&*report, args.format, args.full),
     };
     let code = tell(args, &run, &shown, output.as_ref())?;
     if let Some(far) = plant.and_then(|plant| far_start(&run, plant)) {

@@ -40,7 +40,7 @@ impl Drawn {
     }
 
     /// A report with the figures behind what it says first.
-    pub fn in_front_of_the_rest(self, report: &impl Readable) -> Made {
+    pub fn in_front_of_the_rest(self, report: &dyn Readable) -> Made {
         let mut blocks = report.blocks();
         let place = blocks.iter().position(|block| matches!(block, Block::Detail)).unwrap_or(blocks.len());
         let figures = self.figures.into_iter().flatten().map(Block::Drawing);

@@ -26,11 +26,11 @@ pub fn data(text: &str) -> Result<(), u8> {
 }
 
 /// A report in the format that was asked for.
-pub fn report(report: &impl Readable, format: Format) -> String {
+pub fn report(report: &dyn Readable, format: Format) -> String {
     written(report, format, Extent::Full)
 }
 
-fn written(report: &impl Readable, format: Format, extent: Extent) -> String {
+fn written(report: &dyn Readable, format: Format, extent: Extent) -> String {
     match format {
         Format::Text => report.text(extent),
         Format::Markdown => report.markdown(extent),
@@ -47,7 +47,7 @@ pub struct Shortened {
 
 impl Shortened {
     /// The report as it is written. HTML and JSON are whole in any case.
-    pub fn new(report: &impl Readable, format: Format, full: bool) -> Shortened {
+    pub fn new(report: &dyn Readable, format: Format, full: bool) -> Shortened {
         if full || !matches!(format, Format::Text | Format::Markdown) {
             return Shortened { text: written(report, format, Extent::Full), more: false };
         }

@@ -9,7 +9,7 @@ use sigmastar_lang::spec::Document;
 use sigmastar_prove::certificate::{is_stated, read_for, stated_counts};
 use sigmastar_prove::certify::{NoRatesOfClaim, Options};
 use sigmastar_prove::reduction::Prepared;
-use sigmastar_report::{Origin, RunReport};
+use sigmastar_report::{Origin, run_report};
 use std::path::Path;
 
 /// The page of a certificate that the checker found valid; `words` are the checker's. `None` where the claim that the witness proves here is
@@ -28,8 +28,8 @@ pub fn page(path: &Path, certificate: Document, words: String) -> Result<Option<
     if !is_stated(&run, &certificate) {
         return Ok(None);
     }
-    let report = RunReport::new(&run, &[], Origin::Checked);
-    let drawn = Drawn::of(&run).map_or_else(|| Made::of(&report), |drawn| drawn.in_front_of_the_rest(&report));
+    let report = run_report(&run, &[], Origin::Checked);
+    let drawn = Drawn::of(&run).map_or_else(|| Made::of(&*report), |drawn| drawn.in_front_of_the_rest(&*report));
     let mut blocks = drawn.blocks();
     let place = blocks.iter().position(|block| matches!(block, Block::Verdict(_))).map_or(0, |verdict| verdict + 1);
     let decided = [

@@ -19,7 +19,7 @@ impl Made {
 
     /// That of a report, with the same content in every format.
     #[must_use]
-    pub fn of(report: &impl Readable) -> Made {
+    pub fn of(report: &dyn Readable) -> Made {
         Made { blocks: report.blocks(), json: report.json() }
     }
 }

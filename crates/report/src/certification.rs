@@ -11,7 +11,7 @@ use sigmastar_theory::derivation::consequences::MAX_OSCILLATORS;
 use sigmastar_theory::derivation::targets::{Consequences, Target};
 
 /// Everything that a report is made from.
-pub struct Report<'r> {
+pub(super) struct Report<'r> {
     run: &'r Certification<'r>,
     consequences: Option<Consequences>,
     origin: Origin,
@@ -23,8 +23,7 @@ impl<'r> Report<'r> {
     ///
     /// Guarantee: the certified figures in it follow from the conditions that the run proved; without a certified
     /// claim there are none.
-    #[must_use]
-    pub fn new(run: &'r Certification<'r>, targets: &[Target], origin: Origin) -> Report<'r> {
+    pub(super) fn new(run: &'r Certification<'r>, targets: &[Target], origin: Origin) -> Report<'r> {
         let consequences = run.consequences(targets);
         let unanswered = consequences.is_none() && !targets.is_empty();
         Report { run, consequences, origin, unanswered }

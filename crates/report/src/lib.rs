@@ -39,15 +39,11 @@ mod transfer;
 mod verdict;
 mod words;
 
-pub use certification::Report;
 pub use failures::{call_failure_json, failure_json};
 pub use lyapunov::LyapunovReport;
 pub use orbit::OrbitReport;
 pub use origin::Origin;
 pub use rate::RateReport;
-pub use run::run_remarks;
-pub use run::{RunReport, run_sentence};
-pub use sampled::SampledReport;
+pub use run::{run_remarks, run_report, run_sentence};
 pub use sampling::{SamplingReport, sampling_figure};
 pub use transfer::{TransferReport, pair_failure_json, transfer_figure};
-pub use verdict::sentence;

@@ -34,20 +34,30 @@ fn attempt<'r>(run: &'r Certification<'_>) -> Attempt<'r> {
 /// One sentence: what failed.
 pub(super) fn sentence(run: &Certification<'_>) -> String {
     let what = match attempt(run) {
-        Attempt::Proved => match run.unproved_bounds.first() {
-            Some(problem) => {
-                format!("the bounding function {} could not be proved: {}", problem.which.field(), problem.sentence())
-            }
-            None => "the claim was not proved".to_owned(),
-        },
-        Attempt::Failing(conditions) => match conditions.first() {
-            Some(condition) => format!("condition {} is {}", condition.id, truth(condition)),
-            None => "the conditions were not proved".to_owned(),
-        },
+        Attempt::Proved => first_unproved(&run.unproved_bounds, "the claim was not proved"),
+        Attempt::Failing(conditions) => first_failing(conditions),
         Attempt::NotFound(obstacle) => obstacle.sentence(),
     };
     let word = if run.verdict == Verdict::Refuted { "Refuted" } else { "Undecided" };
     format!("{word}: no sigma is certified here; {what}. Nothing is claimed about the plant either way.")
+}
+
+/// The first bounding function that is not proved, in words, or what is said without one.
+pub(super) fn first_unproved(problems: &[BoundingProblem], without: &str) -> String {
+    match problems.first() {
+        Some(problem) => {
+            format!("the bounding function {} could not be proved: {}", problem.which.field(), problem.sentence())
+        }
+        None => without.to_owned(),
+    }
+}
+
+/// The first condition that is not proved, in words.
+pub(super) fn first_failing(conditions: &[Condition]) -> String {
+    match conditions.first() {
+        Some(condition) => format!("condition {} is {}", condition.id, truth(condition)),
+        None => "the conditions were not proved".to_owned(),
+    }
 }
 
 /// The figures of what failed, and what to try.
@@ -101,7 +111,7 @@ pub(super) fn rest_of(heading: &str, items: Vec<String>) -> Vec<Block> {
     if rest.is_empty() { Vec::new() } else { vec![Block::heading(heading), Block::List(rest)] }
 }
 
-pub(super) fn truth(condition: &Condition) -> &'static str {
+fn truth(condition: &Condition) -> &'static str {
     match condition.truth() {
         Truth::True => "proved",
         Truth::False => "refuted for this witness",

@@ -8,7 +8,7 @@ use sigmastar_document::{Block, Readable, Table, clean};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, write_exact};
 use sigmastar_prove::certify::Certification;
-use sigmastar_studies::rate::{Method, Rates};
+use sigmastar_studies::rate::Rates;
 
 /// Rates for several n_o at one gain.
 pub struct RateReport {
@@ -41,9 +41,7 @@ impl RateReport {
             rates,
         })
     }
-}
 
-impl RateReport {
     /// The rates over n_o + 1, which is positive, so that both axes are logarithmic. It is drawn from doubles and claims nothing.
     fn figure(&self) -> Figure {
         let curve = |label: &str, of: &dyn Fn(&Rates) -> Option<f64>| {
@@ -70,14 +68,6 @@ impl RateReport {
     }
 }
 
-/// How a rate was proved, as reports name it.
-fn name(method: Method) -> &'static str {
-    match method {
-        Method::Riccati => "riccati",
-        Method::Kappa => "kappa",
-    }
-}
-
 impl Readable for RateReport {
     fn blocks(&self) -> Vec<Block> {
         let mut table = Table::new(&[
@@ -99,7 +89,7 @@ impl Readable for RateReport {
                 rates.lemma.as_ref().map_or_else(unknown, |(_, rate)| exact(rate, Direction::Down)),
                 rates.lemma.as_ref().map_or_else(unknown, |(largest, _)| exact(largest, Direction::Up)),
                 rates.closed_loop.as_ref().map_or_else(unknown, |(rate, _)| exact(rate, Direction::Down)),
-                rates.closed_loop.as_ref().map_or_else(String::new, |(_, method)| name(*method).to_owned()),
+                rates.closed_loop.as_ref().map_or_else(String::new, |(_, method)| method.to_string()),
                 rates.by_kappa.as_ref().map_or_else(unknown, margin),
             ]);
         }
@@ -150,7 +140,7 @@ impl Readable for RateReport {
                     "p": write_exact(largest), "kappa": "every kappa > 0", "rate": write_exact(rate),
                 })),
                 "closed_loop": rates.closed_loop.as_ref().map(|(rate, _)| write_exact(rate)),
-                "closed_loop_by": rates.closed_loop.as_ref().map(|(_, method)| name(*method)),
+                "closed_loop_by": rates.closed_loop.as_ref().map(|(_, method)| method.to_string()),
                 "closed_loop_by_kappa": rates.by_kappa.as_ref().map(|rate| rate.lower_decimal(6)),
             })
         };

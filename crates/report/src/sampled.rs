@@ -4,7 +4,9 @@ use super::failures::{FORMAT, VERSION, errors_json};
 use super::for_n_o::{rates_json, sampled_section};
 use super::json::{actuator, bounds_json, conditions_with_truth, control, input_gain, interval_costs, targets_json};
 use super::limits;
-use super::obstacles::{SLOWER, SMALLER_START, again, describe, first_of, other_gain, rest_of, wider};
+use super::obstacles::{
+    SLOWER, SMALLER_START, again, describe, first_failing, first_of, first_unproved, other_gain, rest_of, wider,
+};
 use super::of_plant::plant_json;
 use super::remarks::sampled_remarks;
 use super::sets::{Boxes, Sizes};
@@ -19,11 +21,11 @@ use sigmastar_exact::enclosure::{Enclosure, Truth};
 use sigmastar_exact::number::{Direction, write_exact};
 use sigmastar_prove::certificate::{no_plant_json, set_fields};
 use sigmastar_prove::certify::{Outcome, SampledCertification, SampledProof, Verdict};
-use sigmastar_prove::search::{Failing, Obstacle};
+use sigmastar_prove::search::Failing;
 use sigmastar_theory::derivation::targets::{SampledConsequences, Target};
 
 /// Everything that the report is made from.
-pub struct SampledReport<'r> {
+pub(super) struct SampledReport<'r> {
     run: &'r SampledCertification<'r>,
     consequences: Option<SampledConsequences>,
     origin: Origin,
@@ -32,120 +34,10 @@ pub struct SampledReport<'r> {
 
 impl<'r> SampledReport<'r> {
     /// The report of a run, with answers to the targets.
-    #[must_use]
-    pub fn new(run: &'r SampledCertification<'r>, targets: &[Target], origin: Origin) -> SampledReport<'r> {
+    pub(super) fn new(run: &'r SampledCertification<'r>, targets: &[Target], origin: Origin) -> SampledReport<'r> {
         let consequences = run.consequences(targets);
         let unanswered = consequences.is_none() && !targets.is_empty();
         SampledReport { run, consequences, origin, unanswered }
-    }
-
-    /// The verdict of a run in one sentence.
-    #[must_use]
-    pub fn sentence_of(run: &'r SampledCertification<'r>) -> String {
-        SampledReport { run, consequences: None, origin: Origin::Search, unanswered: false }.sentence()
-    }
-
-    /// The verdict in one sentence.
-    #[must_use]
-    pub fn sentence(&self) -> String {
-        let run = self.run;
-        let step = clean(&run.sampling.text());
-        match run.claim() {
-            Some(proof) => certified(run, proof),
-            None => format!(
-                "{}: nothing is certified at the sampling period h = {step}{}; {}. Nothing is claimed about the plant either way.",
-                if run.verdict == Verdict::Refuted { "Refuted" } else { "Undecided" },
-                run.given_gain.as_ref().map_or_else(String::new, |gain| format!(" with sigma = {}", write_exact(gain))),
-                self.obstacle(),
-            ),
-        }
-    }
-
-    fn obstacle(&self) -> String {
-        let run = self.run;
-        if run.given_gain.as_ref().is_some_and(|gain| run.sampling.fits(gain).is_false()) {
-            return "h sigma exceeds 1: the law would overshoot from sample to sample".to_owned();
-        }
-        match &run.outcome {
-            Outcome::NotFound(obstacle) => obstacle.sentence(),
-            Outcome::NotProved { failing, .. } => match failing.first() {
-                Some(condition) => format!("condition {} is {}", condition.id, super::obstacles::truth(condition)),
-                None => "the conditions were not proved".to_owned(),
-            },
-            Outcome::Proved(_) => match run.unproved_bounds.first() {
-                Some(problem) => {
-                    format!(
-                        "the bounding function {} could not be proved: {}",
-                        problem.which.field(),
-                        problem.sentence()
-                    )
-                }
-                None => "the arguments of the bounding functions are not bounded".to_owned(),
-            },
-        }
-    }
-
-    fn advice(&self) -> Vec<String> {
-        let run = self.run;
-        let mut items = Vec::new();
-        match &run.outcome {
-            Outcome::NotFound(Obstacle { failing: Failing::Hold { given, .. }, .. }) => {
-                items.push(
-                    if *given { "a smaller gain, or a shorter sampling period" } else { "a shorter sampling period" }
-                        .to_owned(),
-                );
-            }
-            Outcome::NotFound(Obstacle { failing: Failing::Delay { .. }, .. }) => {
-                items.push("a shorter sampling period, or a smaller mu".to_owned());
-            }
-            Outcome::NotFound(Obstacle {
-                failing: Failing::Sampling | Failing::Coupling | Failing::Existence, ..
-            }) => {
-                if run.given_gain.is_some() {
-                    items.push("another gain, or none: without --sigma the smallest one is sought".to_owned());
-                }
-                items
-                    .push("a shorter sampling period: `sigmastar sampling` lists which gains go with which".to_owned());
-                items.push(
-                    "a smaller mu: theta = h mu Nbar^2/2 is what the oscillators lose to the sampling".to_owned(),
-                );
-            }
-            Outcome::NotFound(Obstacle { failing: Failing::Limit { which, .. }, .. }) => {
-                items.extend(run.given_gain.as_ref().map(|_| other_gain(*which).to_owned()));
-                items.push(format!("{}, a smaller initial set, or a shorter sampling period", wider(*which)));
-            }
-            Outcome::NotFound(Obstacle { failing: Failing::NotDecidedAgain { refused }, .. }) => {
-                items.push(again(*refused).to_owned());
-            }
-            Outcome::NotFound(Obstacle { failing: Failing::Start { .. }, .. }) => {
-                items.push(SMALLER_START.to_owned());
-            }
-            Outcome::NotFound(Obstacle { failing: Failing::Rate { .. }, .. }) => {
-                items.push(format!("{SLOWER}, or a shorter sampling period"));
-            }
-            Outcome::NotFound(_) => {
-                items.push(
-                    "the continuous-time claim first, without a sampling period: its report says more".to_owned(),
-                );
-            }
-            Outcome::NotProved { failing, .. } => {
-                let undecided = failing.iter().all(|condition| condition.truth() == Truth::Undecided);
-                items.push(match (undecided, self.origin.is_given()) {
-                    (true, _) => "raise --precision-limit".to_owned(),
-                    (false, true) => "search again (without --witness): another witness may exist".to_owned(),
-                    (false, false) => {
-                        "other units of time, x and e, in which the data have ordinary magnitudes".to_owned()
-                    }
-                });
-            }
-            Outcome::Proved(_) => {
-                items.push(
-                    "rewrite the bounding function as sums, products and compositions of nondecreasing functions"
-                        .to_owned(),
-                );
-            }
-        }
-        items
     }
 
     fn basis(&self) -> Vec<String> {
@@ -196,6 +88,79 @@ impl<'r> SampledReport<'r> {
     fn limit(&self) -> Option<String> {
         let (proposal, limit) = self.run.found?;
         Some(format!("{}. The margin of the forms is about {}.", limit.describe(), estimate(1.0 - proposal.radius)))
+    }
+}
+
+/// The verdict in one sentence.
+pub(super) fn sentence(run: &SampledCertification<'_>) -> String {
+    let step = clean(&run.sampling.text());
+    match run.claim() {
+        Some(proof) => certified(run, proof),
+        None => format!(
+            "{}: nothing is certified at the sampling period h = {step}{}; {}. Nothing is claimed about the plant either way.",
+            if run.verdict == Verdict::Refuted { "Refuted" } else { "Undecided" },
+            run.given_gain.as_ref().map_or_else(String::new, |gain| format!(" with sigma = {}", write_exact(gain))),
+            obstacle(run),
+        ),
+    }
+}
+
+fn obstacle(run: &SampledCertification<'_>) -> String {
+    if run.given_gain.as_ref().is_some_and(|gain| run.sampling.fits(gain).is_false()) {
+        return "h sigma exceeds 1: the law would overshoot from sample to sample".to_owned();
+    }
+    match &run.outcome {
+        Outcome::NotFound(obstacle) => obstacle.sentence(),
+        Outcome::NotProved { failing, .. } => first_failing(failing),
+        Outcome::Proved(_) => {
+            first_unproved(&run.unproved_bounds, "the arguments of the bounding functions are not bounded")
+        }
+    }
+}
+
+/// What to try where nothing is certified.
+fn advice(run: &SampledCertification<'_>, rechecked: bool) -> Vec<String> {
+    let mut items: Vec<String> = Vec::new();
+    let mut add = |text: &str| items.push(text.to_owned());
+    match &run.outcome {
+        Outcome::NotFound(obstacle) => obstacle_advice(run, obstacle.failing, &mut add),
+        Outcome::NotProved { failing, .. } => {
+            let undecided = failing.iter().all(|condition| condition.truth() == Truth::Undecided);
+            add(match (undecided, rechecked) {
+                (true, _) => "raise --precision-limit",
+                (false, true) => "search again (without --witness): another witness may exist",
+                (false, false) => "other units of time, x and e, in which the data have ordinary magnitudes",
+            });
+        }
+        Outcome::Proved(_) => {
+            add("rewrite the bounding function as sums, products and compositions of nondecreasing functions");
+        }
+    }
+    items
+}
+
+fn obstacle_advice(run: &SampledCertification<'_>, failing: Failing, add: &mut dyn FnMut(&str)) {
+    match failing {
+        Failing::Hold { given: true, .. } => add("a smaller gain, or a shorter sampling period"),
+        Failing::Hold { .. } => add("a shorter sampling period"),
+        Failing::Delay { .. } => add("a shorter sampling period, or a smaller mu"),
+        Failing::Sampling | Failing::Coupling | Failing::Existence => {
+            if run.given_gain.is_some() {
+                add("another gain, or none: without --sigma the smallest one is sought");
+            }
+            add("a shorter sampling period: `sigmastar sampling` lists which gains go with which");
+            add("a smaller mu: theta = h mu Nbar^2/2 is what the oscillators lose to the sampling");
+        }
+        Failing::Limit { which, .. } => {
+            if run.given_gain.is_some() {
+                add(other_gain(which));
+            }
+            add(&format!("{}, a smaller initial set, or a shorter sampling period", wider(which)));
+        }
+        Failing::NotDecidedAgain { refused } => add(again(refused)),
+        Failing::Start { .. } => add(SMALLER_START),
+        Failing::Rate { .. } => add(&format!("{SLOWER}, or a shorter sampling period")),
+        _ => add("the continuous-time claim first, without a sampling period: its report says more"),
     }
 }
 
@@ -287,7 +252,7 @@ impl Readable for SampledReport<'_> {
         let run = self.run;
         let name = clean(&run.spec.name);
         let name = if name.is_empty() { "(no name)" } else { &name };
-        let mut blocks = vec![Block::Title(format!("{name}: {}", run.verdict)), Block::Verdict(self.sentence())];
+        let mut blocks = vec![Block::Title(format!("{name}: {}", run.verdict)), Block::Verdict(sentence(run))];
         blocks.extend(sampled_remarks(run).into_iter().map(Block::says));
         if self.unanswered {
             blocks.push(Block::says(consequences::UNANSWERED));
@@ -309,7 +274,7 @@ impl Readable for SampledReport<'_> {
             };
             blocks.extend(first_of("Conditions that are not proved:", failing.clone()));
             blocks.push(Block::says("What to try:"));
-            blocks.push(Block::List(self.advice()));
+            blocks.push(Block::List(advice(run, self.origin.is_given())));
             blocks.push(Block::Detail);
             blocks.extend(rest_of("Further conditions that are not proved", failing));
         }
@@ -328,7 +293,7 @@ impl Readable for SampledReport<'_> {
         let run = self.run;
         let mut report = json!({
             "format": FORMAT, "version": VERSION, "regulator": "digital",
-            "verdict": run.verdict.to_string(), "statement": self.sentence(), "remarks": sampled_remarks(run),
+            "verdict": run.verdict.to_string(), "statement": sentence(run), "remarks": sampled_remarks(run),
             "no_plant": run.no_plant.as_ref().map(no_plant_json), "derivation": "sharp",
             "specification": { "name": run.spec.name, "sha256": run.spec.sha256 },
             "sampling_period": run.sampling.text(), "samples": run.sampling.samples,
@@ -364,7 +329,7 @@ impl Readable for SampledReport<'_> {
             }
             report["error_box"] = json!({ "D_x": write_exact(&witness.d_x), "D_e": write_exact(&witness.d_e) });
         } else {
-            report["advice"] = json!(self.advice());
+            report["advice"] = json!(advice(run, self.origin.is_given()));
         }
         if let Some(gain) = input_gain(run.spec) {
             report["input_gain"] = gain;

@@ -16,8 +16,7 @@ use sigmastar_prove::certify::{Certification, Verdict};
 use sigmastar_theory::transfer::TransferProof;
 
 /// The verdict in one sentence that a control engineer understands.
-#[must_use]
-pub fn sentence(run: &Certification<'_>) -> String {
+pub(super) fn sentence(run: &Certification<'_>) -> String {
     let spec = run.spec;
     match (run.sigma_star(), run.claimed_set()) {
         (Some(sigma), Some(set)) => format!(

@@ -4,9 +4,10 @@ use crate::interval::Interval;
 use std::fmt;
 
 /// The answer about a certificate.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum Verdict {
-    /// Every rule is satisfied: the claim is proved again, and everything that is stored is right.
+    /// Every rule is satisfied: the claim is proved again.
     Valid,
     /// A rule is certainly violated.
     Invalid,

@@ -15,6 +15,7 @@ use sigmastar_prove::rate::oscillators::{OscillatorMatrix, ProvedLyapunov};
 use sigmastar_prove::rate::riccati;
 use sigmastar_prove::rate::small_gain::SmallGain;
 use sigmastar_theory::data::Data;
+use std::fmt;
 
 /// The largest number of oscillators for which rates are worked out: matrices of order up to 407.
 pub const MAX_OSCILLATORS: u32 = 200;
@@ -23,12 +24,22 @@ pub const MAX_OSCILLATORS: u32 = 200;
 const SHARES: [f64; 7] = [0.9999, 0.999, 0.99, 0.95, 0.9, 0.75, 0.5];
 
 /// How a rate of the closed loop was proved.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum Method {
-    /// By a Lyapunov function of its own, from a Riccati equation.
+    /// By a Lyapunov function for this number of oscillators and gain, from a Riccati equation.
     Riccati,
-    /// By the paper's c and kappa, from the Lyapunov function of the certificate.
+    /// By the Lyapunov function of the certificate and the paper's constants c and kappa.
     Kappa,
+}
+
+impl fmt::Display for Method {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Method::Riccati => "riccati",
+            Method::Kappa => "kappa",
+        })
+    }
 }
 
 /// What was found for one n_o; rates in 1/time.
