@@ -3,7 +3,7 @@
 use super::args::BoundArgs;
 use super::failure::Failure;
 use super::files::Input;
-use super::progress::{Audience, Working};
+use super::progress::working;
 use super::subject::Asked;
 use super::{input, output};
 use rug::Rational;
@@ -16,8 +16,7 @@ pub fn run(args: &BoundArgs) -> Result<u8, Failure> {
     let file = args.replace.asked(args.output.as_deref(), Input::Plant(&args.plant), "the specification")?;
     let asked = args.domain.as_deref().map(domain).transpose()?;
     let plant = Asked::read(&args.plant)?.plant("`bound`")?;
-    let audience = if args.quiet { Audience::Nobody } else { Audience::Everywhere };
-    let working = Working::new("finding the orbit and proving the plant's bounds", "", audience);
+    let working = working("finding the orbit and proving the plant's bounds", "", args.quiet);
     let refused = |refusal: sigmastar_prove::reduction::PlantRefusal| Failure::Documents(refusal.errors(&plant));
     let reduced = reduce_by_norms(&plant).map_err(refused)?;
     let bounded = bounding_specification(&plant, &reduced.spec, asked).map_err(refused)?;

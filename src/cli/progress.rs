@@ -46,63 +46,61 @@ impl Progress for Bar {
 }
 
 /// How often the sign of life of a terminal moves.
-const TICK: Duration = Duration::from_millis(120);
+pub const TICK: Duration = Duration::from_millis(120);
 
-/// Says after a second what is worked on, until it is dropped: with a running clock on a terminal, else in one line, where
-/// that is wanted. For work of which nobody knows how much is left.
-pub struct Working {
+/// Does something after a while, unless it is dropped before. What it does is given a channel on which nothing is ever sent, and which
+/// ends when this is dropped.
+pub struct Later {
     stop: Option<Sender<()>>,
     thread: Option<JoinHandle<()>>,
 }
 
-/// Where [`Working`] speaks.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Audience {
-    /// Nowhere: `--quiet`.
-    Nobody,
-    /// On a terminal, and where standard error is a file or a pipe.
-    Everywhere,
-}
-
-impl Working {
-    /// Starts to wait; `what` completes "sigmastar: ...", and of work that may take long `more` says how to hear of its parts.
-    pub fn new(what: &'static str, more: &'static str, audience: Audience) -> Working {
-        let terminal = stderr().is_terminal();
-        if audience == Audience::Nobody {
-            return Working { stop: None, thread: None };
-        }
+impl Later {
+    /// Starts to wait.
+    pub fn new(patience: Duration, act: impl FnOnce(&Receiver<()>) + Send + 'static) -> Later {
         let (stop, stopped) = channel();
-        let speak = move || {
-            if !is_late(&stopped, PATIENCE) {
-                return;
+        let wait = move || {
+            if is_late(&stopped, patience) {
+                act(&stopped);
             }
-            if !terminal {
-                output::remark(&format!("{what}; this may take minutes{more}"));
-                return;
-            }
-            let spinner = ProgressBar::new_spinner().with_message(what).with_elapsed(PATIENCE);
-            // The template is a constant, and one that is read.
-            if let Ok(style) = ProgressStyle::with_template("sigmastar: {msg} {spinner} {elapsed}") {
-                spinner.set_style(style);
-            }
-            spinner.enable_steady_tick(TICK);
-            // Nothing is ever sent: this returns when the sender is dropped.
-            let _ = stopped.recv();
-            spinner.finish_and_clear();
         };
         // Without a thread the work goes on, in silence.
-        let thread = std::thread::Builder::new().spawn(speak).ok();
-        Working { stop: Some(stop), thread }
+        Later { stop: Some(stop), thread: std::thread::Builder::new().spawn(wait).ok() }
     }
 }
 
-impl Drop for Working {
+impl Drop for Later {
     fn drop(&mut self) {
         drop(self.stop.take());
         if let Some(thread) = self.thread.take() {
             // It has only written to standard error; there is nothing to be done about a panic of a library in it.
             let _ = thread.join();
         }
+    }
+}
+
+/// Says after a second what is worked on, until it is dropped: with a running clock on a terminal, else in one line. For work of which
+/// nobody knows how much is left: `what` completes "sigmastar: ...", and of work that may take long `more` says how to hear of its parts.
+pub fn working(what: &'static str, more: &'static str, quiet: bool) -> Option<Later> {
+    let speak = move |stopped: &Receiver<()>| {
+        if !stderr().is_terminal() {
+            output::remark(&format!("{what}; this may take minutes{more}"));
+            return;
+        }
+        let spinner = ProgressBar::new_spinner().with_message(what).with_elapsed(PATIENCE);
+        give_clock(&spinner);
+        spinner.enable_steady_tick(TICK);
+        let _ = stopped.recv();
+        spinner.finish_and_clear();
+    };
+    (!quiet).then(|| Later::new(PATIENCE, speak))
+}
+
+/// What a line with a running clock looks like.
+pub fn give_clock(bar: &ProgressBar) {
+    // The template is a constant, and one that is read.
+    if let Ok(style) = ProgressStyle::with_template("sigmastar: {msg} {spinner} {elapsed}") {
+        bar.set_style(style);
     }
 }
 
@@ -125,7 +123,7 @@ mod tests {
 
     #[test]
     fn quiet_work_starts_no_thread() {
-        assert!(Working::new("testing", "", Audience::Nobody).thread.is_none());
-        assert!(Working::new("testing", "", Audience::Everywhere).thread.is_some());
+        assert!(working("testing", "", true).is_none());
+        assert!(working("testing", "", false).is_some_and(|later| later.thread.is_some()));
     }
 }

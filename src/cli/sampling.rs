@@ -3,7 +3,7 @@
 use super::args::SamplingArgs;
 use super::failure::Failure;
 use super::files::OutputFile;
-use super::progress::{Audience, Working};
+use super::progress::working;
 use super::subject::{Asked, Subject, proved};
 use super::transfer::svg_file;
 use super::{input, output};
@@ -25,17 +25,16 @@ pub fn run(args: &SamplingArgs) -> Result<u8, Failure> {
     }
     let steps = args.sampling_period.as_deref().map(|list| steps(list, &period)).transpose()?;
     let gains = args.sigma.as_deref().map(gains).transpose()?;
-    let audience = if args.quiet { Audience::Nobody } else { Audience::Everywhere };
     let study = match subject {
         Subject::Plant(plant) => {
-            let _working = Working::new("finding the orbit, proving the bounds of every pair", "", audience);
+            let _working = working("finding the orbit, proving the bounds of every pair", "", args.quiet);
             let study =
                 with_sampled_pairs(&plant, |pairs| SamplingStudy::new(&OfPlant { pairs }, &period, steps, gains));
             study.map_err(|refusal| Failure::Documents(refusal.errors(&plant)))?
         }
         specification @ Subject::Specification(_) => {
             let spec = proved(specification, args.quiet)?.0;
-            let _working = Working::new("certifying pairs of a gain and a sampling period", "", audience);
+            let _working = working("certifying pairs of a gain and a sampling period", "", args.quiet);
             SamplingStudy::new(&OfSpecification { spec: &spec }, &period, steps, gains)
         }
     };

@@ -3,13 +3,12 @@
 //! How long a stage takes is not known beforehand, so no time is foretold; parts are counted where there are some.
 
 use super::output;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use super::progress::{Later, TICK, give_clock};
+use indicatif::{ProgressBar, ProgressDrawTarget};
 use sigmastar_prove::reduction::{Stage, Watch};
 use std::fmt;
 use std::io::{IsTerminal, stderr};
-use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::sync::{Mutex, PoisonError};
-use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
 /// How long a run takes before it is shown on a terminal.
@@ -17,9 +16,6 @@ const PATIENCE: Duration = Duration::from_secs(2);
 
 /// How long a log is silent within a stage.
 const PAUSE: Duration = Duration::from_secs(5);
-
-/// How often the clock moves.
-const TICK: Duration = Duration::from_millis(120);
 
 /// A stage of a call of `certify`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -85,8 +81,7 @@ pub struct Stages {
     at: Mutex<String>,
     /// When the log was last told of parts.
     told: Mutex<Instant>,
-    stop: Option<Sender<()>>,
-    thread: Option<JoinHandle<()>>,
+    shown: Option<Later>,
 }
 
 impl Stages {
@@ -100,9 +95,9 @@ impl Stages {
         };
         let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::hidden());
         let (start, at) = (Instant::now(), Mutex::default());
-        let mut stages = Stages { steps, audience, bar, start, at, told: Mutex::new(start), stop: None, thread: None };
+        let mut stages = Stages { steps, audience, bar, start, at, told: Mutex::new(start), shown: None };
         if audience == Audience::Terminal {
-            stages.show_later();
+            stages.shown = Some(stages.show_later());
         }
         stages
     }
@@ -152,22 +147,13 @@ impl Stages {
     }
 
     /// Shows the line after a while, with a clock.
-    fn show_later(&mut self) {
-        // The template is a constant, and one that is read.
-        if let Ok(style) = ProgressStyle::with_template("sigmastar: {msg} {spinner} {elapsed}") {
-            self.bar.set_style(style);
-        }
-        let (stop, stopped) = channel::<()>();
+    fn show_later(&self) -> Later {
+        give_clock(&self.bar);
         let bar = self.bar.clone();
-        let show = move || {
-            if stopped.recv_timeout(PATIENCE) == Err(RecvTimeoutError::Timeout) {
-                bar.set_draw_target(ProgressDrawTarget::stderr());
-                bar.enable_steady_tick(TICK);
-            }
-        };
-        // Without a thread the work goes on, in silence.
-        self.thread = std::thread::Builder::new().spawn(show).ok();
-        self.stop = Some(stop);
+        Later::new(PATIENCE, move |_| {
+            bar.set_draw_target(ProgressDrawTarget::stderr());
+            bar.enable_steady_tick(TICK);
+        })
     }
 }
 
@@ -191,11 +177,8 @@ impl Watch for Stages {
 
 impl Drop for Stages {
     fn drop(&mut self) {
-        drop(self.stop.take());
-        if let Some(thread) = self.thread.take() {
-            // It has only written to standard error; there is nothing to be done about a panic of a library in it.
-            let _ = thread.join();
-        }
+        // The line is shown before it is cleared, or never.
+        drop(self.shown.take());
         self.bar.finish_and_clear();
     }
 }

@@ -4,7 +4,7 @@ use super::failure::Failure;
 use super::given::Given;
 use super::input;
 use super::output::{json_text, shown};
-use super::progress::{Audience, Working};
+use super::progress::{Later, working};
 use sigmastar_lang::plant::{FORMAT as PLANT, Plant};
 use sigmastar_lang::spec::{Document, Specification};
 use sigmastar_prove::certificate::{FORMAT as CERTIFICATE, embedded};
@@ -103,20 +103,17 @@ pub fn proved(subject: Subject, quiet: bool) -> Result<(Specification, Option<Sh
 }
 
 /// Says what takes long of a subject's data, if anything does, and `more` of how to hear of it.
-pub fn proving(subject: &Subject, more: &'static str, quiet: bool) -> Option<Working> {
+pub fn proving(subject: &Subject, more: &'static str, quiet: bool) -> Option<Later> {
     match subject {
-        Subject::Specification(spec) => spec.lyapunov.triple().is_none().then(|| seeking_triple(more, quiet)),
-        Subject::Plant(_) => {
-            let audience = if quiet { Audience::Nobody } else { Audience::Everywhere };
-            Some(Working::new("finding the orbit and proving the plant's bounds", more, audience))
-        }
+        Subject::Specification(spec) if spec.lyapunov.triple().is_some() => None,
+        Subject::Specification(_) => seeking_triple(more, quiet),
+        Subject::Plant(_) => working("finding the orbit and proving the plant's bounds", more, quiet),
     }
 }
 
 /// Says that a triple is sought, where that takes long.
-pub fn seeking_triple(more: &'static str, quiet: bool) -> Working {
-    let audience = if quiet { Audience::Nobody } else { Audience::Everywhere };
-    Working::new("finding and proving the Lyapunov triple of the Jacobian", more, audience)
+pub fn seeking_triple(more: &'static str, quiet: bool) -> Option<Later> {
+    working("finding and proving the Lyapunov triple of the Jacobian", more, quiet)
 }
 
 /// The document with another sampling period, or itself where it has no internal model: what is wrong with it is told as ever.
