@@ -1,8 +1,8 @@
 //! Attempts to break a certificate: floating point, no claim.
 
-use super::error::{Error, ErrorKind};
-use super::json_text;
+use super::error::Error;
 use super::report::Report;
+use super::{in_range, json_text};
 use sigmastar_document::progress::Silent;
 use sigmastar_lab::falsify::{
     Falsification as Found, FalsificationReport, TrialSettings, TriedClaim, counterexample_plant,
@@ -60,10 +60,7 @@ impl Falsification {
 /// # Errors
 /// What is wrong with the certificate; [`Range`](ErrorKind::Range) for no trials, or more than a million.
 pub fn falsify(name: &str, certificate: &[u8], trials: u32, seed: u64) -> Result<Falsification, Error> {
-    if !(1..=MAX_TRIALS).contains(&trials) {
-        let message = format!("trials: {trials} is out of range");
-        return Err(Error::new(ErrorKind::Range, message, &format!("choose 1 to {MAX_TRIALS}")));
-    }
+    in_range("trials", trials, 1..=MAX_TRIALS)?;
     let claim = TriedClaim::from_document(&Document::from_bytes(name, certificate)?)?;
     let settings = TrialSettings { trials: u64::from(trials), seed, only: None };
     let found: Found = sigmastar_lab::falsify::falsify(&claim, settings, &Silent);

@@ -1,6 +1,6 @@
 //! The front door: what a program that depends on this library uses, re-exported at the crate root.
 //!
-//! No type of another crate appears in it. Exact numbers are text, in the notation of specifications; doubles are
+//! No type of another crate appears in it, but for enums that it re-exports. Exact numbers are text, in the notation of specifications; doubles are
 //! rounded to the safe side, which is stated with each.
 
 mod bound;
@@ -86,6 +86,15 @@ fn positive(name: &str, text: &str) -> Result<Constant, Error> {
     let document = Document::flag(name, text);
     let place = document.at(&format!("/{name}")).unwrap_or_else(|| document.root());
     place.read(positive_constant).map_err(|errors| Error::argument(name, &errors))
+}
+
+/// That a whole number is in range; `name` is what errors call it.
+fn in_range(name: &str, number: u32, range: std::ops::RangeInclusive<u32>) -> Result<(), Error> {
+    if range.contains(&number) {
+        return Ok(());
+    }
+    let help = format!("choose {} to {}", range.start(), range.end());
+    Err(Error::new(ErrorKind::Range, format!("{name}: {number} is out of range"), &help))
 }
 
 /// JSON as it is written: indented, ending in a line feed.

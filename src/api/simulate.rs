@@ -1,9 +1,9 @@
 //! Simulations: floating point, no claim.
 
 use super::error::{Error, ErrorKind};
-use super::positive;
 use super::report::Report;
 use super::subject::Subject;
+use super::{in_range, positive};
 use sigmastar_document::progress::Silent;
 use sigmastar_lab::simulate::{
     ClosedLoop, Integrator, SampledLoop, SampledSettings, SampledSimulationReport, SimulationReport,
@@ -12,7 +12,6 @@ use sigmastar_lab::simulate::{
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::Constant;
 use sigmastar_regulator::{Design, Regulator, WrongDimension};
-use std::ops::RangeInclusive;
 
 /// The most oscillators of a simulation.
 const MAX_OSCILLATORS: u32 = 200;
@@ -95,18 +94,10 @@ impl SimulationOptions {
     /// # Errors
     /// A number that is out of range.
     fn in_range(&self) -> Result<(), Error> {
-        let many = 1..=100_000;
-        let numbers: [(&str, u32, RangeInclusive<u32>); 4] = [
-            ("n_o", self.n_o.unwrap_or(0), 0..=MAX_OSCILLATORS),
-            ("periods", self.periods, many.clone()),
-            ("samples", self.samples, many),
-            ("harmonics", self.harmonics, 1..=1000),
-        ];
-        let wrong = numbers.iter().find(|(_, number, range)| !range.contains(number));
-        wrong.map_or(Ok(()), |(name, number, range)| {
-            let help = format!("choose {} to {}", range.start(), range.end());
-            Err(Error::new(ErrorKind::Range, format!("{name}: {number} is out of range"), &help))
-        })
+        in_range("n_o", self.n_o.unwrap_or(0), 0..=MAX_OSCILLATORS)?;
+        in_range("periods", self.periods, 1..=100_000)?;
+        in_range("samples", self.samples, 1..=100_000)?;
+        in_range("harmonics", self.harmonics, 1..=1000)
     }
 }
 

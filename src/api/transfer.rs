@@ -56,9 +56,7 @@ impl TransferBound {
     pub fn excess(&self) -> Option<f64> {
         self.excess
     }
-}
 
-impl TransferBound {
     fn new(data: &Data<'_>, pair: &CertifiedPair) -> TransferBound {
         let excess = pair.excess(data).map(|excess| excess.upper_f64());
         let up = [rounded_up(&pair.k0), rounded_up(&pair.k1)];

@@ -1,9 +1,9 @@
 //! Better values of the free numbers of a document.
 
 use super::error::{Error, ErrorKind};
-use super::json_text;
 use super::report::Report;
 use super::subject::Subject;
+use super::{in_range, json_text};
 use sigmastar_document::progress::Silent;
 use sigmastar_regulator::MAX_EXPORTED_OSCILLATORS;
 use sigmastar_sweep::tune::{self, Goal, MAX_TRIES, Settings, TuneError, TuningReport, parameters};
@@ -110,18 +110,14 @@ impl Tuned {
 /// number that is out of range; a document that is too large with other values.
 pub fn tune(subject: impl Into<Subject>, options: &TuneOptions) -> Result<Tuned, Error> {
     let Subject { read, source } = subject.into();
-    if !(2..=MAX_TRIES).contains(&options.tries) {
-        let help = format!("choose 2 to {MAX_TRIES}");
-        return Err(Error::new(ErrorKind::Range, format!("tries: {} is out of range", options.tries), &help));
-    }
+    in_range("tries", options.tries, 2..=MAX_TRIES)?;
     let goal = match options.goal {
         TuneGoal::SigmaStar => Goal::Sigma,
         TuneGoal::Feedback => Goal::Feedback,
-        TuneGoal::ErrorAt(n_o) if n_o > MAX_EXPORTED_OSCILLATORS => {
-            let help = format!("choose 0 to {MAX_EXPORTED_OSCILLATORS}");
-            return Err(Error::new(ErrorKind::Range, format!("error_at: {n_o} is out of range"), &help));
+        TuneGoal::ErrorAt(n_o) => {
+            in_range("error_at", n_o, 0..=MAX_EXPORTED_OSCILLATORS)?;
+            Goal::Error(u64::from(n_o))
         }
-        TuneGoal::ErrorAt(n_o) => Goal::Error(u64::from(n_o)),
     };
     let n_o = match goal {
         Goal::Error(n_o) => n_o,

@@ -14,7 +14,6 @@ use sigmastar_regulator::export::{Provenance, Scope};
 
 /// A certificate, as far as a regulator goes. What it says is taken as it is.
 pub struct Given {
-    sha256: String,
     sigma_star: Rational,
     /// The sampling period, K and Nb2, where it is about the regulator at samples: sigma* then is its only gain.
     sampled: Option<(Sampling, SampledGain)>,
@@ -53,17 +52,7 @@ impl Given {
         };
         let counts = (0..MAX_COUNTS).filter(|_| in_doubles).filter_map(stated);
         let rounding = counts.filter_map(|n_o| n_o.integer(&mut Errors::new()).ok()).collect();
-        let sha256 = document.root().sha256();
-        Ok(Given {
-            sha256,
-            sigma_star,
-            sampled,
-            with_actuator,
-            statement,
-            rounding,
-            made_for,
-            document: document.clone(),
-        })
+        Ok(Given { sigma_star, sampled, with_actuator, statement, rounding, made_for, document: document.clone() })
     }
 
     /// sigma*, rounded up to a double: the gain that is exported is certified too. Of the regulator at samples, and with an actuator,
@@ -131,7 +120,7 @@ impl Given {
             }
         };
         Provenance {
-            sha256: self.sha256.clone(),
+            sha256: self.document.root().sha256(),
             sigma_star: write_exact(&self.sigma_star),
             one_gain: self.sampled.is_some() || self.with_actuator,
             statement: self.statement.clone(),

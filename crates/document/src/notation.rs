@@ -44,7 +44,7 @@ fn number(word: &str) -> Option<bool> {
 }
 
 /// The same number with one digit before the point and an exponent; 0 stays 0.
-fn scientific(number: &str) -> String {
+pub(super) fn scientific(number: &str) -> String {
     if number.contains('e') {
         return number.to_owned();
     }

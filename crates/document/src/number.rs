@@ -1,5 +1,6 @@
 //! Numbers as they are printed: claims rounded outward, estimates marked as such by their section.
 
+use super::notation::scientific;
 use rug::Rational;
 use sigmastar_exact::enclosure::{self, Enclosure};
 use sigmastar_exact::number::{Direction, Portable, round_f64, round_rational, write_exact};
@@ -9,20 +10,9 @@ const DIGITS: usize = 4;
 
 /// The same decimal with an exponent, where it starts with many zeros, or ends with so many that they would look like digits.
 fn shorter(text: String) -> String {
-    let (sign, size) = text.strip_prefix('-').map_or(("", text.as_str()), |size| ("-", size));
-    let (digits, exponent) = match size.strip_prefix("0.000") {
-        Some(fraction) => {
-            let digits = fraction.trim_start_matches('0');
-            (digits, format!("-{}", 4 + fraction.len() - digits.len()))
-        }
-        None if size.len() > DIGITS + 3 && size.bytes().all(|c| c.is_ascii_digit()) => {
-            (size.trim_end_matches('0'), (size.len() - 1).to_string())
-        }
-        None => return text,
-    };
-    let Some(first) = digits.get(..1) else { return text };
-    let dot = if digits.len() > 1 { "." } else { "" };
-    format!("{sign}{first}{dot}{}e{exponent}", &digits[1..])
+    let size = text.strip_prefix('-').unwrap_or(&text);
+    let is_long = size.len() > DIGITS + 3 && size.bytes().all(|c| c.is_ascii_digit());
+    if is_long || size.starts_with("0.000") { scientific(&text) } else { text }
 }
 
 /// An upper bound, rounded up.

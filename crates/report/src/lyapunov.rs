@@ -64,28 +64,14 @@ impl Readable for LyapunovReport {
             ]);
         }
         blocks.push(Block::Table(table));
-        blocks.push(Block::heading("Floquet exponents (floating point, not certified)"));
-        blocks.push(Block::says(
-            "Of the middle of the Jacobian, in 1/time. Minus the largest real part bounds alpha for every P(t).",
-        ));
-        let mut table = Table::new(&["real part", "imaginary part"]);
-        for [re, im] in &self.resolution.candidates.floquet {
-            table.push([estimate(*re), estimate(*im)]);
-        }
-        blocks.push(Block::Table(table));
+        blocks.extend(floquet_section("Of the middle of the Jacobian", &self.resolution.candidates.floquet));
         blocks
     }
 
     /// As JSON: `{"format": "sigmastar/lyapunov", "version": 1, ...}`.
     fn json(&self) -> Value {
         let Lyapunov { p_low, p_up, alpha, .. } = &self.triple;
-        let mut report = json!({ "format": "sigmastar/lyapunov", "version": 1, "verdict": "certified" });
-        for (name, value) in matrix_json(&self.matrix) {
-            report[name] = value;
-        }
-        for (name, value) in [("p_low", p_low), ("p_up", p_up), ("alpha", alpha)] {
-            report[name] = json!(value.text);
-        }
+        let mut report = proved_json(&self.matrix, [p_low, p_up, alpha].map(|value| value.text.clone()));
         let tried = self.resolution.candidates.found.iter().zip(&self.resolution.sigmas);
         let candidates = tried.map(|(candidate, sigma)| {
             json!({
@@ -98,6 +84,31 @@ impl Readable for LyapunovReport {
         report["floquet_exponents_not_certified"] = floquet.collect();
         report
     }
+}
+
+/// The section on Floquet exponents, those of `whose`.
+pub(super) fn floquet_section(whose: &str, exponents: &[[f64; 2]]) -> [Block; 3] {
+    let mut table = Table::new(&["real part", "imaginary part"]);
+    for [re, im] in exponents {
+        table.push([estimate(*re), estimate(*im)]);
+    }
+    [
+        Block::heading("Floquet exponents (floating point, not certified)"),
+        Block::says(format!("{whose}, in 1/time. Minus the largest real part bounds alpha for every P(t).")),
+        Block::Table(table),
+    ]
+}
+
+/// The first fields of the report as JSON: P(t), and its p_low, p_up and alpha.
+pub(super) fn proved_json(matrix: &PeriodicMatrix, triple: [String; 3]) -> Value {
+    let mut report = json!({ "format": "sigmastar/lyapunov", "version": 1, "verdict": "certified" });
+    for (name, value) in matrix_json(matrix) {
+        report[name] = value;
+    }
+    for (name, value) in ["p_low", "p_up", "alpha"].into_iter().zip(triple) {
+        report[name] = json!(value);
+    }
+    report
 }
 
 fn row_text(row: &[Rational]) -> String {

@@ -11,7 +11,7 @@ use sigmastar_lang::spec::{
     ExistenceInequality, Interval, JointStability, MatrixInequality, OfPlant, Parameter, ProvedValue, SampledExistence,
     SampledInequalities, SampledInequality, Specification, Splitting, TrigonometricVector,
 };
-use sigmastar_prove::certificate::{joint_existence_json, joint_stability_json};
+use sigmastar_prove::certificate::{joint_existence_json, joint_stability_json, rows};
 use sigmastar_prove::certify::{claimed_ball, nominal_ball};
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
 
@@ -249,9 +249,6 @@ fn matrix(name: &str, rows: &[Vec<Rational>]) -> Block {
 /// The same as JSON; null where the data are those of a specification.
 pub(super) fn plant_json(spec: &Specification, set: Option<&ClaimedSet>) -> Value {
     let Some(plant) = spec.plant() else { return Value::Null };
-    let rows = |matrix: &[Vec<Rational>]| -> Vec<Vec<String>> {
-        matrix.iter().map(|row| row.iter().map(write_exact).collect()).collect()
-    };
     let ball = set.and_then(|set| claimed_ball(plant, &set.x0));
     let harmonics = plant.cells.iter().map(|cell| cell.orbit.approximation.harmonics()).max().unwrap_or(0);
     let values: Vec<Value> = spec

@@ -1,12 +1,13 @@
 //! The report of `sigmastar lyapunov` on a plant: its orbit, the coordinates in which it contracts, what was tried.
 
+use super::lyapunov::{floquet_section, proved_json};
 use rug::Rational;
 use serde_json::{Value, json};
 use sigmastar_document::number::{estimate, exact};
 use sigmastar_document::{Block, Readable, Table, clean};
 use sigmastar_exact::number::{Direction, write_exact};
 use sigmastar_lang::plant::Plant;
-use sigmastar_prove::certificate::{matrix_json, members};
+use sigmastar_prove::certificate::{members, rows};
 use sigmastar_prove::reduction::OrbitStudy;
 
 /// The report on the zero dynamics of a plant.
@@ -42,7 +43,7 @@ impl Readable for OrbitReport<'_> {
                 exact(&orbit.alpha, Direction::Down)
             )),
             Block::heading("L, by rows"),
-            Block::List(rows(&coordinates.l)),
+            Block::List(rows_text(&coordinates.l)),
         ];
         let p = if coordinates.p.harmonics.is_empty() { "P is the identity." } else { "P varies with t." };
         blocks.push(Block::says(p));
@@ -50,35 +51,19 @@ impl Readable for OrbitReport<'_> {
         blocks.push(Block::heading("Candidates (floating point)"));
         let mut table = Table::new(&["rate", "degree of P", "<L"]);
         for candidate in candidates {
-            let l = rows(&candidate.l).join(" ");
+            let l = rows_text(&candidate.l).join(" ");
             table.push([estimate(candidate.rate), candidate.p.harmonics.len().to_string(), l]);
         }
         blocks.push(Block::Table(table));
-        blocks.push(Block::heading("Floquet exponents (floating point, not certified)"));
-        blocks
-            .push(Block::says("Along the orbit, in 1/time. Minus the largest real part bounds alpha for every P(t)."));
-        let mut table = Table::new(&["real part", "imaginary part"]);
-        for [re, im] in floquet {
-            table.push([estimate(*re), estimate(*im)]);
-        }
-        blocks.push(Block::Table(table));
+        blocks.extend(floquet_section("Along the orbit", floquet));
         blocks
     }
 
     /// As JSON: `{"format": "sigmastar/lyapunov", "version": 1, ...}`.
     fn json(&self) -> Value {
         let OrbitStudy { coordinates, orbit, candidates, floquet } = self.study;
-        let matrix = |rows: &[Vec<Rational>]| -> Vec<Vec<String>> {
-            rows.iter().map(|row| row.iter().map(write_exact).collect()).collect()
-        };
-        let mut report = json!({ "format": "sigmastar/lyapunov", "version": 1, "verdict": "certified" });
-        for (name, value) in matrix_json(&coordinates.p) {
-            report[name] = value;
-        }
-        for (name, value) in [("p_low", &orbit.p_low), ("p_up", &orbit.p_up), ("alpha", &orbit.alpha)] {
-            report[name] = json!(write_exact(value));
-        }
-        report["coordinates"] = json!(matrix(&coordinates.l));
+        let mut report = proved_json(&coordinates.p, [&orbit.p_low, &orbit.p_up, &orbit.alpha].map(write_exact));
+        report["coordinates"] = rows(&coordinates.l);
         report["orbit"] = json!({
             "harmonics": orbit.orbit.harmonics(), "defect": write_exact(&orbit.defect),
             "tube": write_exact(&orbit.tube), "radius": write_exact(&orbit.radius),
@@ -86,7 +71,7 @@ impl Readable for OrbitReport<'_> {
         let tried = candidates.iter().map(|candidate| {
             json!({
                 "alpha": estimate(candidate.rate), "degree": candidate.p.harmonics.len(),
-                "coordinates": matrix(&candidate.l),
+                "coordinates": rows(&candidate.l),
             })
         });
         report["candidates_estimates"] = tried.collect();
@@ -95,6 +80,6 @@ impl Readable for OrbitReport<'_> {
     }
 }
 
-fn rows(matrix: &[Vec<Rational>]) -> Vec<String> {
+fn rows_text(matrix: &[Vec<Rational>]) -> Vec<String> {
     matrix.iter().map(|row| format!("[{}]", row.iter().map(write_exact).collect::<Vec<_>>().join(", "))).collect()
 }

@@ -1,7 +1,7 @@
 //! The fields of a certificate. It is written by the program; the schema is for readers of it.
 
 use super::shape::{Field, Shape, Sign, any_list, list, may, must};
-use super::{plant, specification};
+use super::{parts, plant, specification};
 use sigmastar_lang::spec::{
     Bound, JointInequality, Level, MatrixInequality, Metric, ProvedValue, SampledInequality, Splitting,
 };
@@ -110,10 +110,7 @@ fn claim(sampled: bool, of_plant: bool) -> Vec<Field> {
         ]);
     }
     // An interval of one constant that the whole claim is about.
-    let covered = |name, title, text, [nominal, low, high]: [(&str, &str); 3]| {
-        let end = |name, (title, text)| must(name, title, text, Shape::Constant(Sign::Positive));
-        may(name, title, text, Shape::Object(vec![end("nominal", nominal), end("low", low), end("high", high)]))
-    };
+    let covered = |name, title, text, ends| may(name, title, text, parts::interval(Sign::Positive, ends));
     fields.push(covered(
         "input_gain",
         "Input gain",

@@ -61,44 +61,40 @@ pub(super) fn internal_model() -> Field {
     must("internal_model", "Internal model", "The oscillators of the regulator.", Shape::Object(fields))
 }
 
+/// The nominal value of a constant and the ends of the interval that it is from, each with its title and its description.
+pub(super) fn interval(sign: Sign, ends: [(&'static str, &'static str); 3]) -> Shape {
+    let fields = ["nominal", "low", "high"].into_iter().zip(ends);
+    Shape::Object(fields.map(|(name, (title, text))| must(name, title, text, Shape::Constant(sign))).collect())
+}
+
 /// `period`.
 pub(super) fn period() -> Field {
-    let fields = vec![
-        must("nominal", "Nominal period", "What the oscillators, exports and figures are about.", POSITIVE),
-        must("low", "Shortest period", "The true period is at least this, at most the nominal one.", POSITIVE),
-        must("high", "Longest period", "The true period is at most this, at least the nominal one.", POSITIVE),
+    let ends = [
+        ("Nominal period", "What the oscillators, exports and figures are about."),
+        ("Shortest period", "The true period is at least this, at most the nominal one."),
+        ("Longest period", "The true period is at most this, at least the nominal one."),
     ];
     must(
         "period",
         "Period T",
         "The period of f and q in t, in units of time; or an interval of one constant, with time in formulas as `phase`, which is \
          2 pi t/T, and without `matched`.",
-        Shape::OneOf(vec![POSITIVE, Shape::Object(fields)]),
+        Shape::OneOf(vec![POSITIVE, interval(Sign::Positive, ends)]),
     )
 }
 
 /// `input_gain`.
 pub(super) fn input_gain() -> Field {
-    let fields = vec![
-        must("nominal", "Nominal gain", "What the regulator divides its control by.", POSITIVE),
-        must(
-            "low",
-            "Smallest gain",
-            "The true gain of the actuator is at least this, at most the nominal one.",
-            POSITIVE,
-        ),
-        must(
-            "high",
-            "Largest gain",
-            "The true gain of the actuator is at most this, at least the nominal one.",
-            POSITIVE,
-        ),
+    let ends = [
+        ("Nominal gain", "What the regulator divides its control by."),
+        ("Smallest gain", "The true gain of the actuator is at least this, at most the nominal one."),
+        ("Largest gain", "The true gain of the actuator is at most this, at least the nominal one."),
     ];
     may(
         "input_gain",
         "Input gain",
         "An actuator whose gain is one constant that is known to an interval: e' = q + gain u. Without it the gain is 1.",
-        Shape::Object(fields),
+        interval(Sign::Positive, ends),
     )
 }
 

@@ -1,7 +1,8 @@
 //! The fields of a plant.
 
 use super::parts::{
-    POSITIVE, actuator, arithmetic, disturbance, header, initial_set, input_gain, internal_model, measurement, period,
+    POSITIVE, actuator, arithmetic, disturbance, header, initial_set, input_gain, internal_model, interval,
+    measurement, period,
 };
 use super::shape::{Field, Shape, Sign, any_list, may, must};
 use sigmastar_lang::plant::{FORMAT, VERSIONS};
@@ -21,10 +22,10 @@ pub(super) fn fields(whole: bool) -> Vec<Field> {
         must("x", "x", "The model holds for |x - x_0(t)| up to this.", POSITIVE),
         must("e", "e", "The model holds for |e| up to this.", POSITIVE),
     ];
-    let interval = vec![
-        must("nominal", "Nominal value", "What is expected, a rational number.", number()),
-        must("low", "Low", "The least value, a rational number.", number()),
-        must("high", "High", "The largest value, a rational number.", number()),
+    let ends = [
+        ("Nominal value", "What is expected, a rational number."),
+        ("Low", "The least value, a rational number."),
+        ("High", "The largest value, a rational number."),
     ];
     let mut fields = header(FORMAT, &VERSIONS, whole);
     fields.extend([
@@ -48,7 +49,7 @@ pub(super) fn fields(whole: bool) -> Vec<Field> {
             "Constants by their names, which may stand for them in f, q, period, initial, initial_set, domain, and in mu, \
              base_frequency and sampling_period of internal_model; at most 12. Of at most 4 an interval may be given: these \
              stand in f and q alone, and the claim is for every constant value in it.",
-            Shape::Map(Box::new(Shape::OneOf(vec![number(), Shape::Object(interval)]))),
+            Shape::Map(Box::new(Shape::OneOf(vec![number(), interval(Sign::Any, ends)]))),
         ),
         may(
             "initial",

@@ -43,6 +43,7 @@ pub(super) fn vector(values: &[Rational]) -> Value {
 }
 
 /// Lists of exact rationals.
-pub(super) fn rows(matrix: &[Vec<Rational>]) -> Value {
+#[must_use]
+pub fn rows(matrix: &[Vec<Rational>]) -> Value {
     matrix.iter().map(|row| vector(row)).collect()
 }

@@ -15,7 +15,7 @@ mod triple;
 mod write;
 
 pub use fields::{NumberFields, RefinedSquares, set_fields};
-pub use json::{exact, object};
+pub use json::{exact, object, rows};
 pub use of_plant::{joint_existence_json, joint_stability_json, plant_parts};
 pub use read::{embedded, read_lyapunov, read_witness};
 pub use read_plant::read_plant_witness;
