@@ -3,18 +3,18 @@
 //! Nothing is decided here. Each function takes the bytes of documents and texts of numbers, and returns a dictionary with what
 //! was found, or with the error; `python/sigmastar` makes objects and exceptions of them.
 
+mod dict;
 mod told;
-mod told_beside;
 mod work;
 
+use dict::Dict;
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use sigmastar::{
-    Certificate, CertifyOptions, Error, SimulationOptions, Study, Subject, TransferChoice, TransferOptions, TuneGoal,
-    TuneOptions,
+    CertifyOptions, Error, SimulationOptions, Study, Subject, TransferChoice, TransferOptions, TuneGoal, TuneOptions,
 };
 use std::cell::RefCell;
-use told::{Told, ToldCase, ToldCertificate, ToldCheck, ToldRates, ToldRegulator, ToldSampled, ToldTransfer};
-use told_beside::{ToldBounded, ToldFalsification, ToldPairs, ToldReport, ToldSimulation, ToldTuning};
+use told::answer;
 use work::outside;
 
 /// A document: what errors call it, and its bytes.
@@ -47,15 +47,15 @@ struct Options {
 }
 
 impl Options {
-    fn read(self) -> Result<CertifyOptions, PyErr> {
-        let wrong = |what: &str, word: &str, known: &str| {
-            Err(pyo3::exceptions::PyValueError::new_err(format!("{what}: `{word}` is none of {known}")))
-        };
+    fn read(self) -> PyResult<CertifyOptions> {
         let transfer = match self.transfer.as_str() {
             "best" => TransferChoice::Best,
             "boxes" => TransferChoice::Boxes,
             "closed-form" => TransferChoice::ClosedForm,
-            other => return wrong("transfer", other, "`best`, `boxes`, `closed-form`"),
+            other => {
+                let wrong = format!("transfer: `{other}` is none of `best`, `boxes`, `closed-form`");
+                return Err(PyValueError::new_err(wrong));
+            }
         };
         let options = CertifyOptions::new().transfer(transfer).compare(self.compare);
         let options = options.precision_limit(self.precision_limit);
@@ -69,75 +69,50 @@ impl Options {
 }
 
 #[pyfunction]
-fn certify(py: Python<'_>, file: File, options: Options) -> PyResult<Told<ToldCertificate>> {
+fn certify(py: Python<'_>, file: File, options: Options) -> PyResult<Dict> {
     let options = options.read()?;
-    outside(py, move || {
-        let certificate: Result<Certificate, Error> =
-            subject(&file).and_then(|subject| sigmastar::certify(subject, &options));
-        certificate.map(|certificate| ToldCertificate::from(&certificate)).into()
-    })
+    outside(py, move || sigmastar::certify(subject(&file)?, &options).map(told::certificate))
 }
 
 #[pyfunction]
-fn reread(py: Python<'_>, file: File) -> PyResult<Told<ToldCertificate>> {
-    outside(py, move || {
-        let certificate = sigmastar::reread(&file.0, &file.1);
-        certificate.map(|certificate| ToldCertificate::from(&certificate)).into()
-    })
+fn reread(py: Python<'_>, file: File) -> PyResult<Dict> {
+    outside(py, move || sigmastar::reread(&file.0, &file.1).map(told::certificate))
 }
 
 #[pyfunction]
-fn bound(py: Python<'_>, file: File, domain: Option<(String, String)>) -> PyResult<Told<ToldBounded>> {
+fn bound(py: Python<'_>, file: File, domain: Option<(String, String)>) -> PyResult<Dict> {
     outside(py, move || {
         let domain = domain.as_ref().map(|(x, e)| [x.as_str(), e.as_str()]);
-        let bounded = subject(&file).and_then(|subject| sigmastar::bounding_specification(subject, domain));
-        bounded.map(|bounded| ToldBounded::from(&bounded)).into()
+        sigmastar::bounding_specification(subject(&file)?, domain).map(told::bounded)
     })
 }
 
 #[pyfunction]
-fn lyapunov(py: Python<'_>, file: File) -> PyResult<Told<ToldReport>> {
+fn lyapunov(py: Python<'_>, file: File) -> PyResult<Dict> {
     outside(py, move || {
-        let report = subject(&file).and_then(sigmastar::lyapunov);
-        report.map(|report| ToldReport::from(&report)).into()
+        let report = sigmastar::lyapunov(subject(&file)?)?;
+        Ok(Dict::new().with("reports", told::reports(&report)))
     })
 }
 
 #[pyfunction]
-fn sampling(
-    py: Python<'_>,
-    file: File,
-    periods: Option<Vec<String>>,
-    sigmas: Option<Vec<String>>,
-) -> PyResult<Told<ToldPairs>> {
+fn sampling(py: Python<'_>, file: File, periods: Option<Vec<String>>, sigmas: Option<Vec<String>>) -> PyResult<Dict> {
     outside(py, move || {
         let periods: Option<Vec<&str>> = periods.as_ref().map(|all| all.iter().map(String::as_str).collect());
         let sigmas: Option<Vec<&str>> = sigmas.as_ref().map(|all| all.iter().map(String::as_str).collect());
-        let pairs =
-            subject(&file).and_then(|subject| sigmastar::sampling(subject, periods.as_deref(), sigmas.as_deref()));
-        pairs.map(|pairs| ToldPairs::from(&pairs)).into()
+        sigmastar::sampling(subject(&file)?, periods.as_deref(), sigmas.as_deref()).map(told::pairs)
     })
 }
 
 #[pyfunction]
-fn tune(
-    py: Python<'_>,
-    file: File,
-    over: String,
-    feedback: bool,
-    error_at: Option<u32>,
-    tries: u32,
-) -> PyResult<Told<ToldTuning>> {
+fn tune(py: Python<'_>, file: File, over: String, feedback: bool, error_at: Option<u32>, tries: u32) -> PyResult<Dict> {
     let goal = match error_at {
         Some(n_o) => TuneGoal::ErrorAt(n_o),
         None if feedback => TuneGoal::Feedback,
         None => TuneGoal::SigmaStar,
     };
     let options = TuneOptions::new().over(over).goal(goal).tries(tries);
-    outside(py, move || {
-        let tuned = subject(&file).and_then(|subject| sigmastar::tune(subject, &options));
-        tuned.map(|tuned| ToldTuning::from(&tuned)).into()
-    })
+    outside(py, move || sigmastar::tune(subject(&file)?, &options).map(told::tuning))
 }
 
 /// The options of `simulate`.
@@ -162,19 +137,13 @@ impl From<Run> for SimulationOptions {
 }
 
 #[pyfunction]
-fn simulate(py: Python<'_>, file: File, run: Run) -> PyResult<Told<ToldSimulation>> {
-    outside(py, move || {
-        let simulation = subject(&file).and_then(|plant| sigmastar::simulate(plant, &run.into()));
-        simulation.map(|simulation| ToldSimulation::from(&simulation)).into()
-    })
+fn simulate(py: Python<'_>, file: File, run: Run) -> PyResult<Dict> {
+    outside(py, move || sigmastar::simulate(subject(&file)?, &run.into()).map(told::simulation))
 }
 
 #[pyfunction]
-fn falsify(py: Python<'_>, file: File, trials: u32, seed: u64) -> PyResult<Told<ToldFalsification>> {
-    outside(py, move || {
-        let found = sigmastar::falsify(&file.0, &file.1, trials, seed);
-        found.map(|found| ToldFalsification::from(&found)).into()
-    })
+fn falsify(py: Python<'_>, file: File, trials: u32, seed: u64) -> PyResult<Dict> {
+    outside(py, move || sigmastar::falsify(&file.0, &file.1, trials, seed).map(told::falsification))
 }
 
 /// The text of a certificate. Bytes that are none end in a character that no certificate has there, so that the checker refuses
@@ -192,28 +161,21 @@ fn check(
     certificate: Vec<u8>,
     against: Option<File>,
     sampling_period: Option<String>,
-) -> PyResult<Told<ToldCheck>> {
+) -> PyResult<Dict> {
     outside(py, move || {
         let text = as_text(certificate);
-        let report = match against {
-            None => Ok(sigmastar::check(&text)),
-            Some(file) => subject(&file)
-                .and_then(|subject| match &sampling_period {
-                    None => Ok(subject),
-                    Some(period) => subject.at_samples(period),
-                })
-                .map(|subject| sigmastar::check_against(&text, subject)),
+        let report = match (&against, &sampling_period) {
+            (None, _) => sigmastar::check(&text),
+            (Some(file), None) => sigmastar::check_against(&text, subject(file)?),
+            (Some(file), Some(period)) => sigmastar::check_against(&text, subject(file)?.at_samples(period)?),
         };
-        report.map(|report| ToldCheck::from(&report)).into()
+        Ok(told::check(report))
     })
 }
 
 #[pyfunction]
-fn rates(py: Python<'_>, file: File, sigma: Option<String>, n_o: Vec<u32>) -> PyResult<Told<ToldRates>> {
-    outside(py, move || {
-        let rates = subject(&file).and_then(|subject| sigmastar::rates(subject, sigma.as_deref(), &n_o));
-        rates.map(|rates| ToldRates::from(&rates)).into()
-    })
+fn rates(py: Python<'_>, file: File, sigma: Option<String>, n_o: Vec<u32>) -> PyResult<Dict> {
+    outside(py, move || sigmastar::rates(subject(&file)?, sigma.as_deref(), &n_o).map(told::rates))
 }
 
 #[pyfunction]
@@ -223,26 +185,23 @@ fn transfer(
     k0: Option<String>,
     minimise: Option<(String, String)>,
     n_o: Option<Vec<Option<u64>>>,
-) -> PyResult<Told<ToldTransfer>> {
+) -> PyResult<Dict> {
     let options = k0.into_iter().fold(TransferOptions::new(), TransferOptions::k0);
     let options = minimise.into_iter().fold(options, |options, (a, b)| options.cheapest(a, b));
     let options = n_o.into_iter().fold(options, TransferOptions::n_o);
-    outside(py, move || {
-        let study = subject(&file).and_then(|subject| sigmastar::transfer_study(subject, &options));
-        study.map(|study| ToldTransfer::from(&study)).into()
-    })
+    outside(py, move || sigmastar::transfer_study(subject(&file)?, &options).map(told::transfer))
 }
 
 #[pyfunction]
-fn regulator(file: File, sigma: &str, n_o: u32) -> Told<ToldRegulator> {
+fn regulator(file: File, sigma: &str, n_o: u32) -> Dict {
     let regulator = subject(&file).and_then(|subject| sigmastar::regulator_matrices(subject, sigma, n_o));
-    regulator.map(ToldRegulator::from).into()
+    answer(regulator.map(told::regulator))
 }
 
 #[pyfunction]
-fn sampled_regulator(file: File, sigma: &str, n_o: u32, step: &str) -> Told<ToldSampled> {
+fn sampled_regulator(file: File, sigma: &str, n_o: u32, step: &str) -> Dict {
     let regulator = subject(&file).and_then(|subject| sigmastar::sampled_regulator(subject, sigma, n_o, step));
-    regulator.map(ToldSampled::from).into()
+    answer(regulator.map(told::sampled))
 }
 
 /// The path of the subject of a study, where the study does not have it in it.
@@ -258,47 +217,38 @@ fn study_subject(file: File) -> Option<String> {
 }
 
 #[pyfunction]
-fn study_count(files: StudyFiles) -> Told<(String, u64)> {
-    study(&files).map(|study| (study.name().to_owned(), study.cases())).into()
+fn study_count(files: StudyFiles) -> Dict {
+    answer(study(&files).map(|study| (study.name().to_owned(), study.cases())))
 }
 
 #[pyfunction]
-fn study_case(files: StudyFiles, index: u64) -> Told<ToldCase> {
-    study(&files).and_then(|study| study.case(index)).map(ToldCase::from).into()
+fn study_case(files: StudyFiles, index: u64) -> Dict {
+    answer(study(&files).and_then(|study| study.case(index)).map(told::case))
 }
 
 #[pyfunction]
-fn run_case(py: Python<'_>, files: StudyFiles, index: u64) -> PyResult<Told<String>> {
-    outside(py, move || study(&files).and_then(|study| study.run_case(index)).into())
+fn run_case(py: Python<'_>, files: StudyFiles, index: u64) -> PyResult<Dict> {
+    outside(py, move || study(&files)?.run_case(index))
 }
 
 #[pyfunction]
-fn study_results(py: Python<'_>, files: StudyFiles, lines: Vec<String>) -> PyResult<Told<String>> {
-    outside(py, move || study(&files).and_then(|study| study.results(lines.iter().map(String::as_str))).into())
+fn study_results(py: Python<'_>, files: StudyFiles, lines: Vec<String>) -> PyResult<Dict> {
+    outside(py, move || study(&files)?.results(lines.iter().map(String::as_str)))
 }
 
 #[pymodule]
-fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
-    module.add("VERSION", sigmastar::VERSION)?;
-    module.add("MAX_BYTES", Subject::MAX_BYTES)?;
-    module.add("LARGEST_PRECISION_LIMIT", CertifyOptions::LARGEST_PRECISION_LIMIT)?;
-    module.add_function(wrap_pyfunction!(certify, module)?)?;
-    module.add_function(wrap_pyfunction!(reread, module)?)?;
-    module.add_function(wrap_pyfunction!(bound, module)?)?;
-    module.add_function(wrap_pyfunction!(lyapunov, module)?)?;
-    module.add_function(wrap_pyfunction!(sampling, module)?)?;
-    module.add_function(wrap_pyfunction!(tune, module)?)?;
-    module.add_function(wrap_pyfunction!(simulate, module)?)?;
-    module.add_function(wrap_pyfunction!(falsify, module)?)?;
-    module.add_function(wrap_pyfunction!(check, module)?)?;
-    module.add_function(wrap_pyfunction!(rates, module)?)?;
-    module.add_function(wrap_pyfunction!(transfer, module)?)?;
-    module.add_function(wrap_pyfunction!(regulator, module)?)?;
-    module.add_function(wrap_pyfunction!(sampled_regulator, module)?)?;
-    module.add_function(wrap_pyfunction!(study_subject, module)?)?;
-    module.add_function(wrap_pyfunction!(study_count, module)?)?;
-    module.add_function(wrap_pyfunction!(study_case, module)?)?;
-    module.add_function(wrap_pyfunction!(run_case, module)?)?;
-    module.add_function(wrap_pyfunction!(study_results, module)?)?;
-    Ok(())
+mod _native {
+    #[pymodule_export]
+    use super::{
+        bound, certify, check, falsify, lyapunov, rates, regulator, reread, run_case, sampled_regulator, sampling,
+        simulate, study_case, study_count, study_results, study_subject, transfer, tune,
+    };
+    use sigmastar::{CertifyOptions, Subject};
+
+    #[pymodule_export]
+    const VERSION: &str = sigmastar::VERSION;
+    #[pymodule_export]
+    const MAX_BYTES: usize = Subject::MAX_BYTES;
+    #[pymodule_export]
+    const LARGEST_PRECISION_LIMIT: u32 = CertifyOptions::LARGEST_PRECISION_LIMIT;
 }

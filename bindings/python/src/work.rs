@@ -1,7 +1,10 @@
 //! Long work beside the interpreter: other threads of Python go on, and Ctrl-C is heard.
 
+use crate::dict::{Dict, Value};
+use crate::told::answer;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
+use sigmastar::Error;
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::thread;
 use std::time::Duration;
@@ -12,22 +15,22 @@ const POLL: Duration = Duration::from_millis(50);
 /// The stack of the main thread of a program, so that what the program can read can be read here.
 const STACK: usize = 8 << 20;
 
-/// Runs work in a thread of its own and waits for it without the interpreter's lock.
+/// Runs work in a thread of its own, waits for it without the interpreter's lock, and tells what it found or why it found nothing.
 ///
 /// Where a signal handler raises, as that of Ctrl-C does, the exception is raised at once; the thread is left to itself, and what
 /// it finds is dropped.
 ///
 /// # Errors
 /// The exception of a signal handler, a thread that cannot be started, and one that panicked.
-pub fn outside<T: Send + 'static>(py: Python<'_>, work: impl FnOnce() -> T + Send + 'static) -> PyResult<T> {
+pub fn outside<T: Value>(py: Python<'_>, work: impl FnOnce() -> Result<T, Error> + Send + 'static) -> PyResult<Dict> {
     let (sender, mut receiver) = channel();
     // Nobody may be there any more to receive.
-    thread::Builder::new().stack_size(STACK).spawn(move || drop(sender.send(work())))?;
+    thread::Builder::new().stack_size(STACK).spawn(move || drop(sender.send(answer(work()))))?;
     loop {
         let (received, back) = py.detach(move || (receiver.recv_timeout(POLL), receiver));
         receiver = back;
         match received {
-            Ok(found) => return Ok(found),
+            Ok(told) => return Ok(told),
             Err(RecvTimeoutError::Timeout) => py.check_signals()?,
             Err(RecvTimeoutError::Disconnected) => {
                 return Err(PyRuntimeError::new_err(
