@@ -1,6 +1,6 @@
 //! Families whose box of parameters is cut into cells: certified where one tube is too wide, checked, tried, and decided again.
 
-use super::support::{every, json, program};
+use super::support::{certified_by, checked, decided_again, every, program, read, stored};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
@@ -18,55 +18,35 @@ pub(super) fn family([low, high]: [&str; 2]) -> Value {
     })
 }
 
-fn stored(folder: &TempDir, name: &str, value: &Value) -> PathBuf {
-    let file = folder.path().join(name);
-    std::fs::write(&file, value.to_string()).unwrap();
-    file
-}
-
-fn certified(folder: &TempDir, plant: &Value, threads: &str) -> (PathBuf, Value) {
-    let (file, certificate) = (stored(folder, "plant.json", plant), folder.path().join("certificate.json"));
-    let mut call = program();
-    call.env("RAYON_NUM_THREADS", threads).arg("certify").arg(&file);
-    let output =
-        call.args(["--quiet", "--no-compare", "--force", "--format", "json", "-o"]).arg(&certificate).output().unwrap();
-    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
-    (certificate, json(&output.stdout))
-}
-
-fn checked(certificate: &Path) -> Value {
-    json(&program().args(["check", "--format", "json"]).arg(certificate).output().unwrap().stdout)
-}
-
-/// The verdict on a plant with the witness of a certificate.
-fn again(plant: &Path, certificate: &Path) -> Value {
-    let mut call = program();
-    call.arg("certify").arg(plant).args(["--quiet", "--no-compare", "--format", "json", "--witness"]).arg(certificate);
-    json(&call.output().unwrap().stdout)["verdict"].clone()
+fn certified(folder: &Path, plant: &Value, threads: &str) -> (PathBuf, Value) {
+    let mut program = program();
+    program.env("RAYON_NUM_THREADS", threads);
+    certified_by(program, folder, plant, &["--no-compare"])
 }
 
 /// The box is cut, the same on any number of threads; every number counts in every cell, for both programs.
 #[test]
 fn a_wide_family_is_certified_in_cells() {
-    let folder = TempDir::new().unwrap();
+    let temporary = TempDir::new().unwrap();
+    let folder = temporary.path();
     // A night takes one with twice as many cells.
     let [ends, within, beyond] = match every(2) {
         1 => [["1.4", "2.6"], ["1.5", "2.1"], ["1.3", "2.6"]],
         _ => [["1.7", "2.3"], ["1.75", "2.1"], ["1.6", "2.3"]],
     };
     let plant = family(ends);
-    let (file, report) = certified(&folder, &plant, "1");
-    let certificate = json(&std::fs::read(&file).unwrap());
+    let (file, report) = certified(folder, &plant, "1");
+    let certificate = read(&file);
     let cells = certificate["witness"]["cells"].as_array().expect("cells").clone();
     assert!(cells.len() > 1 && cells.len() <= 64, "{}", cells.len());
     assert_eq!(report["plant"]["cells"], cells.len());
     assert!(report["plant"]["cells_because"].as_str().is_some_and(|why| why.contains("affine in the parameters")));
     assert!(certificate["witness"]["orbit"].is_null() && certificate["witness"]["forcing"].is_null());
     assert_eq!(checked(&file)["verdict"], "valid");
-    let own = stored(&folder, "plant.json", &plant);
-    assert_eq!(again(&own, &file), "certified");
+    let again = |plant: &Value, certificate: &Path| decided_again(folder, plant, certificate).1["verdict"].clone();
+    assert_eq!(again(&plant, &file), "certified");
     // For part of the box too, and not beyond it.
-    let other = |ends: [&str; 2]| again(&stored(&folder, "other.json", &family(ends)), &file);
+    let other = |ends: [&str; 2]| again(&family(ends), &file);
     assert_eq!(other(within), "certified");
     assert_ne!(other(beyond), "certified");
     // What the claim says of members is not broken by simulations, at the ends and inside.
@@ -76,8 +56,8 @@ fn a_wide_family_is_certified_in_cells() {
     let forged = |name: &str, change: &dyn Fn(&mut Vec<Value>)| {
         let mut forged = certificate.clone();
         change(forged["witness"]["cells"].as_array_mut().unwrap());
-        let file = stored(&folder, name, &forged);
-        [again(&own, &file) == "certified", checked(&file)["verdict"] == "valid"]
+        let file = stored(folder, name, &forged);
+        [again(&plant, &file) == "certified", checked(&file)["verdict"] == "valid"]
     };
     let none = [false; 2];
     for left_out in (0..cells.len()).step_by(every(3)) {
@@ -97,23 +77,24 @@ fn a_wide_family_is_certified_in_cells() {
     assert_eq!(forged("small.json", &|cells| cells[last]["orbit"]["defect"] = "1e-9".into()), none);
     let mut both = certificate.clone();
     both["witness"]["orbit"] = cells[0]["orbit"].clone();
-    assert_ne!(again(&own, &stored(&folder, "both.json", &both)), "certified");
+    assert_ne!(again(&plant, &stored(folder, "both.json", &both)), "certified");
 
-    let (file, _) = certified(&folder, &plant, "3");
-    assert_eq!(json(&std::fs::read(&file).unwrap()), certificate);
+    let (file, _) = certified(folder, &plant, "3");
+    assert_eq!(read(&file), certificate);
 }
 
 /// No more cells than are needed, and none for a box with a member at a corner that is not stable.
 #[test]
 fn cells_only_where_they_help() {
-    let folder = TempDir::new().unwrap();
-    let (file, report) = certified(&folder, &family(["1.95", "2.05"]), "2");
+    let temporary = TempDir::new().unwrap();
+    let folder = temporary.path();
+    let (file, report) = certified(folder, &family(["1.95", "2.05"]), "2");
     assert_eq!(report["plant"]["cells"], 1);
     assert_eq!(report["plant"]["cells_because"], Value::Null);
-    assert!(json(&std::fs::read(&file).unwrap())["witness"]["cells"].is_null());
+    assert!(read(&file)["witness"]["cells"].is_null());
     let mut unstable = family(["-1", "3"]);
     unstable["f"][0] = "-a*x + e/5 + 2 + sin(2*pi*t)".into();
-    let unstable = stored(&folder, "unstable.json", &unstable);
+    let unstable = stored(folder, "unstable.json", &unstable);
     let refused = program().args(["certify", "--quiet"]).arg(&unstable).output().unwrap();
     assert_eq!(refused.status.code(), Some(3), "{}", String::from_utf8_lossy(&refused.stdout));
 }

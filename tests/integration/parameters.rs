@@ -1,6 +1,8 @@
 //! Named constants of a plant: each counts as the number that it stands for, from the file to the certificate.
 
-use super::support::{every, json, program};
+use super::support::{
+    certified_in, checked, decided_again, document, every, in_one_line, json, number, program, read, stored,
+};
 use serde_json::{Value, json};
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::ErrorKind;
@@ -8,14 +10,9 @@ use std::path::{Path, PathBuf};
 use std::process::Output;
 use tempfile::TempDir;
 
-fn shipped(name: &str) -> Value {
-    let text = std::fs::read(Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("specs/plants/{name}.json")));
-    json(&text.expect("shipped"))
-}
-
 /// The paper's example with names for some of its numbers, or with these numbers in parentheses.
 fn example(named: bool) -> Value {
-    let mut plant = shipped("paper-example");
+    let mut plant = document("plants/paper-example");
     let parameters = [("k", "1/5"), ("c", "0.1"), ("two", "2"), ("T", "1"), ("m", "3 - 2")];
     let put = |text: &str| {
         if named {
@@ -45,32 +42,7 @@ fn example(named: bool) -> Value {
 }
 
 fn certified(folder: &TempDir, plant: &Value) -> (PathBuf, Value) {
-    certified_with(folder, plant, &["--no-compare"])
-}
-
-fn certified_with(folder: &TempDir, plant: &Value, flags: &[&str]) -> (PathBuf, Value) {
-    let (file, certificate) = (folder.path().join("plant.json"), folder.path().join("certificate.json"));
-    std::fs::write(&file, plant.to_string()).unwrap();
-    let output = program()
-        .arg("certify")
-        .arg(&file)
-        .args(flags)
-        .args(["--quiet", "--force", "--format", "json", "-o"])
-        .arg(&certificate)
-        .output();
-    let output = output.unwrap();
-    assert_eq!(
-        output.status.code(),
-        Some(0),
-        "{}{}",
-        String::from_utf8_lossy(&output.stderr),
-        String::from_utf8_lossy(&output.stdout)
-    );
-    (certificate, json(&output.stdout))
-}
-
-fn checked(certificate: &Path) -> Value {
-    json(&program().args(["check", "--format", "json"]).arg(certificate).output().unwrap().stdout)
+    certified_in(folder.path(), plant, &["--no-compare"])
 }
 
 /// The certificates differ in the notation of the plant alone, and the checker, which reads names by its own code, accepts both.
@@ -80,15 +52,14 @@ fn a_parameter_is_its_number() {
     let mut certificates = [true, false].map(|named| {
         let (file, _) = certified(&folder, &example(named));
         assert_eq!(checked(&file)["verdict"], "valid", "{:#}", checked(&file));
-        json(&std::fs::read(&file).unwrap())
+        read(&file)
     });
     assert_eq!(certificates[0]["plant"]["parameters"]["k"], "1/5");
     for certificate in &mut certificates {
         let fields = certificate.as_object_mut().unwrap();
         fields.remove("plant");
         fields.remove("plant_sha256");
-        let words = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
-        let statement = fields["claim"]["statement"].as_str().map(words);
+        let statement = fields["claim"]["statement"].as_str().map(in_one_line);
         fields["claim"]["statement"] = statement.into();
     }
     let [with, without] = &certificates;
@@ -100,35 +71,33 @@ fn a_parameter_is_its_number() {
 #[test]
 fn another_number_is_another_plant() {
     let folder = TempDir::new().unwrap();
-    let mut plant = shipped("motor-axis");
+    let mut plant = document("plants/motor-axis");
     plant["f"][0] = "-200*i + k*e + 40*sin(100*pi*t)".into();
     plant["parameters"] = json!({ "k": "150", "spare": 7, "more": 1 });
     let (file, report) = certified(&folder, &plant);
     assert_eq!(checked(&file)["verdict"], "valid");
     let remarks = report["remarks"].to_string() + &report["sentence"].to_string();
     let text =
-        program().arg("certify").arg(folder.path().join("plant.json")).args(["--quiet", "--full"]).output().unwrap();
+        program().arg("certify").arg(folder.path().join("input.json")).args(["--quiet", "--full"]).output().unwrap();
     let text = String::from_utf8_lossy(&text.stdout).into_owned();
-    let flat = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let flat = in_one_line(&text);
     assert!(flat.contains("the parameters spare, more are used nowhere"), "{remarks} {text}");
     assert!(flat.contains("parameters: k = 150, spare = 7, more = 1"), "{text}");
 
-    let mut forged = json(&std::fs::read(&file).unwrap());
+    let mut forged = read(&file);
     forged["plant"]["parameters"]["k"] = "1500".into();
-    std::fs::write(&file, forged.to_string()).unwrap();
-    assert_ne!(checked(&file)["verdict"], "valid");
+    assert_ne!(checked(&stored(folder.path(), "forged.json", &forged))["verdict"], "valid");
     // With the digest of that plant too.
     let sha256 = Plant::from_json("plant", &forged["plant"].to_string()).unwrap().sha256;
     forged["plant_sha256"] = sha256.into();
-    std::fs::write(&file, forged.to_string()).unwrap();
-    assert_eq!(checked(&file)["verdict"], "invalid");
+    assert_eq!(checked(&stored(folder.path(), "forged.json", &forged))["verdict"], "invalid");
 }
 
 #[test]
 fn what_is_wrong_with_parameters_is_told_in_its_place() {
     use ErrorKind::{Expression, Range, UnknownName};
     let with = |parameters: Value, place: &str, value: Value| {
-        let mut plant = shipped("motor-axis");
+        let mut plant = document("plants/motor-axis");
         plant["parameters"] = parameters;
         if !place.is_empty() {
             *plant.pointer_mut(place).unwrap() = value;
@@ -186,14 +155,13 @@ weights = { family = "power", n0 = "2", epsilon = "1/2" }
     let text = std::fs::read_to_string(&rows).unwrap();
     let lines: Vec<Value> = text.lines().map(|line| json(line.as_bytes())).collect();
     assert_eq!(lines[0]["parameters"], json!([{ "pointer": "/parameters/a", "name": "a" }]));
-    let gain = |line: &Value| line["sigma_star"].as_str().and_then(|text| text.parse::<f64>().ok()).expect("a gain");
     assert_eq!((&lines[1]["values"], &lines[2]["values"]), (&json!(["1"]), &json!(["3"])));
-    assert!(gain(&lines[1]) > 0.0 && gain(&lines[2]) > 0.0);
+    assert!(lines[1..].iter().all(|line| number(&line["sigma_star"]) > 0.0));
 }
 
 /// The paper's example with two numbers in intervals.
 fn family(k: [&str; 2], c: [&str; 2]) -> Value {
-    let mut plant = shipped("paper-example");
+    let mut plant = document("plants/paper-example");
     for (side, number, name) in [(0, "x1/5", "k*x1"), (1, "x2^2/10", "c*x2^2")] {
         plant["f"][side] = plant["f"][side].as_str().unwrap().replacen(number, name, 1).into();
     }
@@ -202,17 +170,9 @@ fn family(k: [&str; 2], c: [&str; 2]) -> Value {
     plant
 }
 
-/// What the certificate of a plant is refused with when another plant is asked for with its witness.
-fn with_witness(folder: &TempDir, certificate: &Path, plant: &Value) -> Value {
-    let file = folder.path().join("other.json");
-    std::fs::write(&file, plant.to_string()).unwrap();
-    let call = program()
-        .arg("certify")
-        .arg(&file)
-        .args(["--quiet", "--no-compare", "--format", "json", "--witness"])
-        .arg(certificate)
-        .output();
-    json(&call.unwrap().stdout)
+/// The verdict on a plant with the witness of a certificate.
+fn again(folder: &TempDir, plant: &Value, certificate: &Path) -> Value {
+    decided_again(folder.path(), plant, certificate).1["verdict"].clone()
 }
 
 /// One gain for every member, not far above that of the nominal plant; the witness is decided again, for a narrower box too, and not
@@ -221,16 +181,16 @@ fn with_witness(folder: &TempDir, certificate: &Path, plant: &Value) -> Value {
 fn a_family_is_certified_and_decided_again() {
     let folder = TempDir::new().unwrap();
     let plant = family(["0.18", "0.22"], ["0", "0.2"]);
-    let (file, report) = certified_with(&folder, &plant, &[]);
-    let sigma: f64 = report["sigma_star"].as_str().and_then(|text| text.parse().ok()).expect("a gain");
+    let (file, report) = certified_in(folder.path(), &plant, &[]);
+    let sigma = number(&report["sigma_star"]);
     // By norms 9.15 were expected; (M) takes less.
     assert!(sigma > 6.1 && sigma < 8.0, "{sigma}");
     // An interval that is closed leaves less to prove.
     for name in ["k", "c"] {
-        let cost: f64 = report["sigma_star_without_interval_estimates"][name].as_str().unwrap().parse().unwrap();
+        let cost = number(&report["sigma_star_without_interval_estimates"][name]);
         assert!(cost > 6.0 && cost < sigma, "{name}: {cost}");
     }
-    let certificate = json(&std::fs::read(&file).unwrap());
+    let certificate = read(&file);
     assert_eq!(certificate["claim"]["parameters"]["c"], json!({ "nominal": "0.1", "low": "0", "high": "0.2" }));
     let statement = certificate["claim"]["statement"].as_str().unwrap();
     assert!(
@@ -240,9 +200,9 @@ fn a_family_is_certified_and_decided_again() {
     for part in ["orbit", "forcing"] {
         assert_eq!(certificate["witness"][part]["sensitivities"].as_array().map(Vec::len), Some(2), "{part}");
     }
-    assert_eq!(with_witness(&folder, &file, &plant)["verdict"], "certified");
-    assert_eq!(with_witness(&folder, &file, &family(["0.19", "0.21"], ["0.05", "0.15"]))["verdict"], "certified");
-    assert_ne!(with_witness(&folder, &file, &family(["0.1", "0.3"], ["0", "0.2"]))["verdict"], "certified");
+    assert_eq!(again(&folder, &plant, &file), "certified");
+    assert_eq!(again(&folder, &family(["0.19", "0.21"], ["0.05", "0.15"]), &file), "certified");
+    assert_ne!(again(&folder, &family(["0.1", "0.3"], ["0", "0.2"]), &file), "certified");
     assert_eq!(checked(&file)["verdict"], "valid");
 }
 
@@ -250,7 +210,7 @@ fn a_family_is_certified_and_decided_again() {
 #[test]
 fn an_interval_that_is_closed_never_costs_more() {
     let folder = TempDir::new().unwrap();
-    let mut plant = shipped("linear");
+    let mut plant = document("plants/linear");
     plant["states"] = json!(["w", "i"]);
     plant["f"] = json!(["-d*w + e", "w - 2*i"]);
     plant["q"] = json!("i/2 - e + cos(2*pi*t)");
@@ -258,8 +218,7 @@ fn an_interval_that_is_closed_never_costs_more() {
     plant["initial"] = json!({ "x": ["0", "0"], "e": "0" });
     plant["initial_set"] = json!({ "kind": "aligned" });
     plant["internal_model"]["mu"] = json!(2);
-    let (_, report) = certified_with(&folder, &plant, &[]);
-    let number = |value: &Value| value.as_str().and_then(|text| text.parse::<f64>().ok()).expect("a number");
+    let (_, report) = certified_in(folder.path(), &plant, &[]);
     let cost = number(&report["sigma_star_without_interval_estimates"]["d"]);
     assert!(cost <= 1.001 * number(&report["sigma_star"]), "{cost}");
 }
@@ -268,13 +227,12 @@ fn an_interval_that_is_closed_never_costs_more() {
 #[test]
 fn what_an_interval_costs_is_near_the_gain_without_it() {
     let folder = TempDir::new().unwrap();
-    let mut plant = shipped("motor-axis");
+    let mut plant = document("plants/motor-axis");
     plant["q"] = json!("(100*i - b*e - 40*tanh(e) + 2000 + 1500*cos(100*pi*t) + 400*sin(200*pi*t))/J");
     let intervals =
         json!({ "J": { "nominal": 1, "low": "0.7", "high": "1.3" }, "b": { "nominal": 60, "low": 30, "high": 90 } });
     plant["parameters"] = intervals.clone();
     plant["input_gain"] = json!({ "nominal": "1/J", "low": "0.9/J", "high": "1.1/J" });
-    let number = |value: &Value| value.as_str().and_then(|text| text.parse::<f64>().ok()).expect("a number");
     for (sampling, names, sigma, costs) in [
         (None, &["J", "b"][..], "sigma_star", "sigma_star_without_interval_estimates"),
         (Some("1/20000"), &["b"], "sigma", "sigma_without_interval_estimates"),
@@ -286,7 +244,7 @@ fn what_an_interval_costs_is_near_the_gain_without_it() {
             plant["internal_model"]["sampling_period"] = period.into();
         }
         plant["parameters"] = intervals.clone();
-        let (_, report) = certified_with(&folder, &plant, &[]);
+        let (_, report) = certified_in(folder.path(), &plant, &[]);
         for &name in names {
             plant["parameters"] = intervals.clone();
             plant["parameters"][name] = intervals[name]["nominal"].clone();
@@ -341,10 +299,9 @@ fn what_is_wrong_with_intervals_is_told() {
     }
     let folder = TempDir::new().unwrap();
     let refused = |plant: Value, words: &str| {
-        let file = folder.path().join("plant.json");
-        std::fs::write(&file, plant.to_string()).unwrap();
+        let file = stored(folder.path(), "plant.json", &plant);
         let output = program().arg("certify").arg(&file).arg("--quiet").output().unwrap();
-        let said = String::from_utf8_lossy(&output.stderr).split_whitespace().collect::<Vec<_>>().join(" ");
+        let said = in_one_line(&String::from_utf8_lossy(&output.stderr));
         assert!(output.status.code() != Some(0) && said.contains(words), "{said}");
     };
     // A corner whose zero dynamics are unstable.
@@ -373,19 +330,18 @@ fn members_of_a_family_are_tried() {
         assert_eq!(trial["parameters"], json!({ "k": k, "c": c }));
     }
     let inside = |trial: &Value, name: &str, ends: [f64; 2]| {
-        let value: f64 = trial["parameters"][name].as_str().unwrap().parse().unwrap();
+        let value = number(&trial["parameters"][name]);
         value > ends[0] && value < ends[1]
     };
     assert!(trials[4..].iter().all(|trial| inside(trial, "k", [0.14, 0.26]) && inside(trial, "c", [0.0, 0.2])));
     // Far below the gain a member of the family breaks a bound.
-    let mut lower = json(&std::fs::read(&file).unwrap());
+    let mut lower = read(&file);
     for place in [&["claim", "sigma_star"], &["witness", "sigma"]] {
         if let Some(sigma) = lower[place[0]].get_mut(place[1]) {
             *sigma = "1/10".into();
         }
     }
-    let forged = folder.path().join("forged.json");
-    std::fs::write(&forged, lower.to_string()).unwrap();
+    let forged = stored(folder.path(), "forged.json", &lower);
     assert_eq!(json(&falsified(&forged, &["--trials", "12"]).stdout)["refuted"], true);
 
     let member = folder.path().join("member.json");
@@ -393,7 +349,7 @@ fn members_of_a_family_are_tried() {
     let report = json(&falsified(&file, &[&only[..], &[member.to_str().unwrap()]].concat()).stdout);
     // c is chosen, so that the second corner is that of the largest k.
     assert_eq!(report["trials"][0]["parameters"], json!({ "k": "0.26", "c": "0.05" }));
-    let plant = json(&std::fs::read(&member).unwrap());
+    let plant = read(&member);
     assert_eq!(plant["parameters"], json!({ "k": "0.26", "c": "0.05", "T": "1" }));
     assert!(!Plant::from_json("member", &plant.to_string()).unwrap().is_family());
     let described = plant["description"].as_str().unwrap();
@@ -416,14 +372,13 @@ fn members_start_within_the_set_wherever_their_orbits_are() {
             "weights": { "family": "power", "n0": "2", "epsilon": "1/2" } }
     });
     let (file, _) = certified(&folder, &plant);
-    let certificate = json(&std::fs::read(&file).unwrap());
-    let numbers = |value: &Value| value.as_str().unwrap().parse::<f64>().unwrap();
+    let certificate = read(&file);
     let [radius, x_0, d_x] = [
         &certificate["witness"]["orbit"]["radius"],
         &certificate["claim"]["initial_set"]["X0"],
         &certificate["witness"]["D_x"],
     ]
-    .map(numbers);
+    .map(number);
     assert!(radius > 1e-4 && d_x < x_0 * (1.0 + 1e-5), "{radius} {x_0} {d_x}");
     let report = json(&falsified(&file, &["--trials", "20"]).stdout);
     let trials = report["trials"].as_array().unwrap();
@@ -437,11 +392,11 @@ fn members_start_within_the_set_wherever_their_orbits_are() {
 #[test]
 fn a_member_is_simulated() {
     let folder = TempDir::new().unwrap();
-    let file = folder.path().join("plant.json");
     let simulated = |plant: &Value, more: &[&str]| {
-        std::fs::write(&file, plant.to_string()).unwrap();
         let mut call = program();
-        call.arg("simulate").arg(&file).args(["--sigma", "8", "--n-o", "1", "--format", "json"]);
+        call.arg("simulate")
+            .arg(stored(folder.path(), "plant.json", plant))
+            .args(["--sigma", "8", "--n-o", "1", "--format", "json"]);
         call.args(more).output().unwrap()
     };
     let mut plant = family(["0.18", "0.22"], ["0", "0.2"]);
@@ -479,7 +434,7 @@ fn what_is_wrong_with_a_value_of_a_parameter_is_told() {
     let mut plant = family(["0.18", "0.22"], ["0", "0.2"]);
     plant["parameters"]["damping"] = "1".into();
     let (file, _) = certified(&folder, &plant);
-    let plant = folder.path().join("plant.json");
+    let plant = folder.path().join("input.json");
     let said = |command: &str, values: &[&str]| {
         let mut call = program();
         let file = if command == "simulate" { &plant } else { &file };
@@ -489,7 +444,7 @@ fn what_is_wrong_with_a_value_of_a_parameter_is_told() {
         }
         let output = call.output().unwrap();
         assert_eq!(output.status.code(), Some(2), "{values:?}");
-        String::from_utf8_lossy(&output.stderr).split_whitespace().collect::<Vec<_>>().join(" ")
+        in_one_line(&String::from_utf8_lossy(&output.stderr))
     };
     for (command, values, words) in [
         ("simulate", &["k"][..], "--parameter k has no value"),

@@ -1,7 +1,10 @@
 //! A period that is known to an interval, and oscillators that are not tuned exactly (docs/mathematics.md, 13.3): what is read and refused,
 //! what is certified, and what simulations make of it.
 
-use crate::support::{ROOT, cases, json, program, specification_text, utf8};
+use crate::support::{
+    ROOT, assert_valid, cases, certified_in, checked, decided_again, document as shipped, json, number, program, read,
+    stored, utf8,
+};
 use rayon::prelude::*;
 use serde_json::{Value, json as object};
 use sigmastar_document::progress::Silent;
@@ -11,12 +14,7 @@ use sigmastar_lang::spec::{Document, ErrorKind, SpecErrors, Specification};
 use sigmastar_prove::certify::certify;
 use sigmastar_regulator::Regulator;
 use std::path::{Path, PathBuf};
-use std::process::Output;
 use tempfile::TempDir;
-
-fn shipped(name: &str) -> Value {
-    serde_json::from_str(&specification_text(name)).unwrap()
-}
 
 fn interval(nominal: &str, low: &str, high: &str) -> Value {
     object!({ "nominal": nominal, "low": low, "high": high })
@@ -41,43 +39,21 @@ fn in_phase(period: &Value) -> Value {
     plant
 }
 
-fn file(folder: &TempDir, document: &Value) -> PathBuf {
-    let path = folder.path().join("input.json");
-    std::fs::write(&path, document.to_string()).unwrap();
-    path
-}
-
 fn certified(folder: &TempDir, document: &Value) -> (PathBuf, Value) {
-    let certificate = folder.path().join("certificate.json");
-    let output = program()
-        .arg("certify")
-        .arg(file(folder, document))
-        .args(["--quiet", "--no-compare", "--force", "--format", "json", "-o"])
-        .arg(&certificate)
-        .output()
-        .unwrap();
-    assert_eq!(output.status.code(), Some(0), "{}{}", utf8(output.stderr), utf8(output.stdout));
-    (certificate, json(&output.stdout))
+    certified_in(folder.path(), document, &["--no-compare"])
 }
 
-/// The checker's answer.
-fn checked(certificate: &Path) -> Value {
-    json(&program().args(["check", "--format", "json"]).arg(certificate).output().unwrap().stdout)
+/// The exit code of the document with the witness of a certificate, decided again.
+fn again(folder: &TempDir, document: &Value, certificate: &Path) -> Option<i32> {
+    decided_again(folder.path(), document, certificate).0
 }
 
-/// The document with the witness of a certificate, decided again.
-fn again(folder: &TempDir, document: &Value, certificate: &Path) -> Output {
-    let mut command = program();
-    command
-        .arg("certify")
-        .arg(file(folder, document))
-        .args(["--quiet", "--no-compare", "--format", "json", "--witness"])
-        .arg(certificate);
-    command.output().unwrap()
-}
-
-fn sigma_star(report: &Value) -> f64 {
-    report["sigma_star"].as_str().unwrap().parse().unwrap()
+/// The periods of trials that refute nothing.
+fn periods_tried(certificate: &Path, trials: &str) -> Vec<f64> {
+    let call = program().arg("falsify").arg(certificate).args(["--trials", trials, "--format", "json", "-q"]).output();
+    let trials = json(&call.unwrap().stdout);
+    assert_eq!(trials["refuted"], false, "{trials:#}");
+    trials["trials"].as_array().unwrap().iter().filter_map(|one| one["period"].as_f64()).collect()
 }
 
 fn errors<T>(outcome: Result<T, SpecErrors>) -> Vec<(ErrorKind, String, String)> {
@@ -155,12 +131,12 @@ fn a_plant_is_certified_for_every_period_of_the_interval() {
     let period = interval("1", "0.998", "1.002");
     let plant = in_phase(&period);
     let (certificate, report) = certified(&folder, &plant);
-    let written = json(&std::fs::read(&certificate).unwrap());
+    let written = read(&certificate);
     let point = in_phase(&interval("1", "1", "2/2"));
     let mut exact = in_phase(&"1".into());
     let [of_point, of_exact] = [&point, &exact].map(|plant| {
         let (file, report) = certified(&folder, plant);
-        (json(&std::fs::read(file).unwrap()), report)
+        (read(file), report)
     });
     assert_eq!(of_point.1["sigma_star"], of_exact.1["sigma_star"]);
     assert_eq!(of_point.0["witness"], of_exact.0["witness"]);
@@ -169,9 +145,8 @@ fn a_plant_is_certified_for_every_period_of_the_interval() {
     exact["f"] = shipped("plants/paper-example")["f"].clone();
     exact["q"] = shipped("plants/paper-example")["q"].clone();
     let in_time = certified(&folder, &exact).1;
-    assert!((sigma_star(&in_time) / sigma_star(&of_exact.1) - 1.0).abs() < 1e-4);
-
-    assert!(sigma_star(&report) > sigma_star(&of_exact.1));
+    let [sigma, of_exact, in_time] = [&report, &of_exact.1, &in_time].map(|report| number(&report["sigma_star"]));
+    assert!((in_time / of_exact - 1.0).abs() < 1e-4 && sigma > of_exact, "{sigma} {of_exact} {in_time}");
     assert_eq!(written["claim"]["period"], period);
     let statement = written["claim"]["statement"].as_str().unwrap();
     let said = "with every period in [0.998, 1.002] (one constant T; nominal 1), mu = 1 and base frequency 2*pi (which";
@@ -182,26 +157,21 @@ fn a_plant_is_certified_for_every_period_of_the_interval() {
     assert_eq!(written["witness"]["transfer"]["proof"], "boxes");
     assert!(written["witness"].get("exact_regulation").is_none());
     std::fs::write(&certificate, written.to_string()).unwrap();
-    assert_eq!(again(&folder, &plant, &certificate).status.code(), Some(0));
-    let check = checked(&certificate);
-    assert_eq!([&check["verdict"], &check["figures"]["verdict"]], ["valid", "agree"], "{check:#}");
+    assert_eq!(again(&folder, &plant, &certificate), Some(0));
+    assert_valid(&certificate);
     // It is no proof of a wider interval, nor without the sensitivities of the clock.
-    assert_ne!(again(&folder, &in_phase(&interval("1", "0.99", "1.01")), &certificate).status.code(), Some(0));
+    assert_ne!(again(&folder, &in_phase(&interval("1", "0.99", "1.01")), &certificate), Some(0));
     for part in ["orbit", "forcing"] {
         let mut forged = written.clone();
         forged["witness"][part]["sensitivities"][0]["mean"] = written["witness"][part]["mean"].clone();
         forged["witness"][part]["sensitivities"][0]["harmonics"] = written["witness"][part]["harmonics"].clone();
         std::fs::write(&certificate, forged.to_string()).unwrap();
-        assert_ne!(again(&folder, &plant, &certificate).status.code(), Some(0), "{part}");
+        assert_ne!(again(&folder, &plant, &certificate), Some(0), "{part}");
     }
     // What is claimed holds at both ends of the period and inside.
     std::fs::write(&certificate, written.to_string()).unwrap();
-    let trials =
-        program().arg("falsify").arg(&certificate).args(["--trials", "4", "--format", "json", "--quiet"]).output();
-    let trials = json(&trials.unwrap().stdout);
-    assert_eq!(trials["refuted"], false, "{trials:#}");
-    let tried: Vec<f64> =
-        trials["trials"].as_array().unwrap().iter().map(|one| one["period"].as_f64().unwrap()).collect();
+    let tried = periods_tried(&certificate, "4");
+    assert_eq!(tried.len(), 4);
     assert!(tried[..2] == [1.002, 0.998] && tried.iter().all(|period| (0.998..=1.002).contains(period)), "{tried:?}");
 }
 
@@ -212,18 +182,12 @@ fn a_specification_is_certified_for_every_period_of_the_interval() {
     let spec = with_period("paper-example-harmonics-at-rest", &interval("1", "0.98", "1.02"));
     let (certificate, report) = certified(&folder, &spec);
     assert_eq!(report["period"], spec["period"]);
-    let check = checked(&certificate);
-    assert_eq!([&check["verdict"], &check["figures"]["verdict"]], ["valid", "agree"], "{check:#}");
-    assert_eq!(again(&folder, &spec, &certificate).status.code(), Some(0));
+    assert_valid(&certificate);
+    assert_eq!(again(&folder, &spec, &certificate), Some(0));
     let wider = with_period("paper-example-harmonics-at-rest", &interval("1", "0.5", "2"));
-    assert_ne!(again(&folder, &wider, &certificate).status.code(), Some(0));
-    let trials =
-        program().arg("falsify").arg(&certificate).args(["--trials", "5", "--format", "json", "--quiet"]).output();
-    let trials = json(&trials.unwrap().stdout);
-    assert_eq!(trials["refuted"], false, "{trials:#}");
-    let tried: Vec<f64> =
-        trials["trials"].as_array().unwrap().iter().filter_map(|one| one["period"].as_f64()).collect();
-    assert!(tried.starts_with(&[0.98, 1.02]), "{trials:#}");
+    assert_ne!(again(&folder, &wider, &certificate), Some(0));
+    let tried = periods_tried(&certificate, "5");
+    assert!(tried.starts_with(&[0.98, 1.02]), "{tried:?}");
 }
 
 /// With an exact period and another base frequency a plant is certified, the checker agrees, and the report says what oscillators are worth.
@@ -235,41 +199,25 @@ fn a_mistuned_plant_is_certified_and_its_error_bounded_by_the_number_of_oscillat
     let (certificate, report) = certified(&folder, &plant);
     assert_eq!(checked(&certificate)["verdict"], "valid");
     let consequences = &report["consequences"];
-    let sups: Vec<f64> = consequences["error_bounds"]
-        .as_array()
-        .unwrap()
-        .iter()
-        .map(|row| row["sup"].as_str().unwrap().parse().unwrap())
-        .collect();
+    let rows = consequences["error_bounds"].as_array().unwrap();
+    let sups: Vec<f64> = rows.iter().map(|row| number(&row["sup"])).collect();
     assert!(sups.windows(2).all(|pair| pair[1] <= pair[0]) && sups[10] < 0.25 * sups[0], "{sups:?}");
     let mistuned = &consequences["mistuned"];
-    let largest: f64 = mistuned["largest"].as_str().unwrap().parse().unwrap();
+    let largest = number(&mistuned["largest"]);
     assert!((largest - 0.005 / 1.005).abs() < 1e-12, "{mistuned}");
     let [last, enough] = ["last_that_pays", "enough"].map(|name| mistuned[name].as_u64().unwrap());
     assert!((4..20).contains(&last) && enough > 0 && enough < last, "{mistuned}");
     assert!(sups[7] == sups[10] && last <= 20);
     let answer = |target: f64| {
-        let mut command = program();
-        command.arg("certify").arg(file(&folder, &plant)).args([
-            "--no-compare",
-            "--format",
-            "json",
-            "--quiet",
-            "--target-sup",
-        ]);
-        let answer = json(&command.arg(target.to_string()).output().unwrap().stdout);
-        answer["consequences"]["targets"][0].clone()
+        let flags = ["--no-compare", "--target-sup", &target.to_string()];
+        certified_in(folder.path(), &plant, &flags).1["consequences"]["targets"][0].clone()
     };
     let [reached, not_reached] = [1.1, 0.9].map(|factor| answer(factor * sups[10]));
     assert_eq!([&reached["answer"], &not_reached["answer"]], ["reached", "not reached"], "{reached}");
     assert!(reached["n_o"].as_u64().unwrap() <= enough);
-    let text = program()
-        .arg("certify")
-        .arg(file(&folder, &plant))
-        .args(["--no-compare", "--full", "--quiet"])
-        .output()
-        .unwrap();
-    let text = utf8(text.stdout).replace('\n', " ");
+    let call =
+        program().args(["certify", "--no-compare", "--full", "-q"]).arg(folder.path().join("input.json")).output();
+    let text = utf8(call.unwrap().stdout).replace('\n', " ");
     assert!(text.contains(&format!("An oscillator pays up to k = {last}")), "{text}");
 }
 
@@ -278,7 +226,14 @@ fn simulations_take_another_period() {
     let folder = TempDir::new().unwrap();
     let run = |plant: &Value, flags: &[&str]| {
         let mut command = program();
-        command.arg("simulate").arg(file(&folder, plant)).args(["--sigma", "8", "--n-o", "2", "--periods", "2"]);
+        command.arg("simulate").arg(stored(folder.path(), "plant.json", plant)).args([
+            "--sigma",
+            "8",
+            "--n-o",
+            "2",
+            "--periods",
+            "2",
+        ]);
         command.args(["--format", "json"]).args(flags).output().unwrap()
     };
     let plant = in_phase(&interval("1", "0.98", "1.02"));

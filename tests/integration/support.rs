@@ -112,6 +112,70 @@ pub fn utf8(output: Vec<u8>) -> String {
     String::from_utf8(output).expect("UTF-8")
 }
 
+/// A text with single spaces in the place of its line breaks and indents.
+pub fn in_one_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// A decimal or a fraction that is written as text.
+#[track_caller]
+pub fn number(value: &Value) -> f64 {
+    let parts = value.as_str().and_then(|text| text.split('/').map(|part| part.parse().ok()).collect());
+    let parts: Vec<f64> = parts.unwrap_or_else(|| panic!("{value} is no number"));
+    parts.into_iter().reduce(|numerator, denominator| numerator / denominator).expect("a part at least")
+}
+
+/// What stands in a file of JSON.
+#[track_caller]
+pub fn read(path: impl AsRef<Path>) -> Value {
+    json(&std::fs::read(path).expect("it is there"))
+}
+
+/// Writes a document into a folder.
+pub fn stored(folder: &Path, name: &str, document: &Value) -> PathBuf {
+    let path = folder.join(name);
+    std::fs::write(&path, document.to_string()).expect("a folder for tests");
+    path
+}
+
+/// Certifies a document, which is written into a folder: the certificate, beside it, and the report.
+#[track_caller]
+pub fn certified_in(folder: &Path, document: &Value, flags: &[&str]) -> (PathBuf, Value) {
+    certified_by(program(), folder, document, flags)
+}
+
+/// The same by a program that is set up otherwise.
+#[track_caller]
+pub fn certified_by(mut program: Command, folder: &Path, document: &Value, flags: &[&str]) -> (PathBuf, Value) {
+    let (input, certificate) = (stored(folder, "input.json", document), folder.join("certificate.json"));
+    program.arg("certify").arg(input).args(flags).args(["--quiet", "--force", "--format", "json", "-o"]);
+    let output = program.arg(&certificate).output().expect("the program runs");
+    assert_eq!(output.status.code(), Some(0), "{}{}", utf8(output.stderr), utf8(output.stdout));
+    (certificate, json(&output.stdout))
+}
+
+/// What the program says of a document with the witness of a certificate, decided again: its code and its report.
+#[track_caller]
+pub fn decided_again(folder: &Path, document: &Value, certificate: &Path) -> (Option<i32>, Value) {
+    let call = ["certify", "--quiet", "--no-compare", "--format", "json", "--witness"];
+    let input = stored(folder, "again.json", document);
+    let output = program().args(call).arg(certificate).arg(input).output().expect("the program runs");
+    (output.status.code(), json(&output.stdout))
+}
+
+/// The checker's answer to a certificate.
+#[track_caller]
+pub fn checked(certificate: &Path) -> Value {
+    json(&program().args(["check", "--format", "json"]).arg(certificate).output().expect("the program runs").stdout)
+}
+
+/// Asserts that the checker accepts a certificate and every figure of it.
+#[track_caller]
+pub fn assert_valid(certificate: &Path) {
+    let answer = checked(certificate);
+    assert_eq!([&answer["verdict"], &answer["figures"]["verdict"]], ["valid", "agree"], "{answer:#}");
+}
+
 /// The JSON files of a folder of the repository, sorted.
 pub fn files(folder: &str) -> Vec<PathBuf> {
     let mut files: Vec<PathBuf> = std::fs::read_dir(Path::new(ROOT).join(folder))
@@ -135,6 +199,11 @@ fn path(name: &str) -> PathBuf {
 /// The text of a shipped specification.
 pub fn specification_text(name: &str) -> String {
     std::fs::read_to_string(path(name)).expect("shipped")
+}
+
+/// A shipped specification or plant, as a document to change.
+pub fn document(name: &str) -> Value {
+    json(specification_text(name).as_bytes())
 }
 
 /// A shipped specification.
