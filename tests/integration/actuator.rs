@@ -1,7 +1,7 @@
 //! An actuator that saturates, limits of the error and the control, and the rows of larger gains (docs/mathematics.md, 13.5): what is certified,
 //! that no member of a claim saturates, and what a regulator and a simulation make of it.
 
-use crate::support::{count, every, json, options, program, specification_text, utf8};
+use crate::support::{count, document, every, json, number, options, program, specification_text, utf8};
 use proofs_check::verdict::Verdict as Answer;
 use serde_json::{Value, json as object};
 use sigmastar_document::progress::Silent;
@@ -17,7 +17,7 @@ const NAME: &str = "paper-example-rms-at-rest";
 
 /// A shipped file with other members.
 fn text(name: &str, members: &[(&str, Value)]) -> String {
-    let mut document: Value = serde_json::from_str(&specification_text(name)).unwrap();
+    let mut document = document(name);
     for (pointer, value) in members {
         let (parent, member) = pointer.rsplit_once('/').unwrap();
         document.pointer_mut(parent).unwrap()[member] = value.clone();
@@ -145,7 +145,7 @@ fn from_the_set_the_actuator_never_saturates() {
         };
         let trials = count(2, 6).into();
         let outcome = tried(&made, trials);
-        let gain: f64 = made["claim"]["sigma"].as_str().unwrap().parse().unwrap();
+        let gain = number(&made["claim"]["sigma"]);
         let mut largest = 0.0_f64;
         for finding in &outcome.findings {
             let Finding::Holds { trial, shares } = finding else { panic!("{name}: {finding:?}") };
@@ -155,7 +155,7 @@ fn from_the_set_the_actuator_never_saturates() {
         }
         assert!(largest <= 1.0 && (largest > 0.02 || name.ends_with("linear")), "{name}: {largest}");
         // Of what it asks for a tenth.
-        let max: f64 = members[0].1["max"].as_str().unwrap().parse().unwrap();
+        let max = number(&members[0].1["max"]);
         let mut forged = made.clone();
         let less = format!("{:.9}", 0.5 * largest * max);
         let about = if forged.get("plant").is_some() { "plant" } else { "specification" };
@@ -196,10 +196,6 @@ fn written(folder: &Path, name: &str, text: &str) -> String {
 fn report(arguments: &[&str]) -> (i32, Value) {
     let output = program().arg("certify").args(arguments).args(["--format", "json", "-q"]).output().unwrap();
     (output.status.code().unwrap(), json(&output.stdout))
-}
-
-fn number(value: &Value) -> f64 {
-    value.as_str().unwrap().parse().unwrap()
 }
 
 /// The gain that is certified keeps what was asked for, hardly a smaller one does, and what cannot be kept is undecided.

@@ -2,7 +2,8 @@
 //! simulation starts.
 
 use crate::controller::{array, constant, controller, installed};
-use crate::support::{PLANT_TEXT, ROOT, certificate, json, options, program, specification_text, utf8};
+use crate::controller_c::gcc;
+use crate::support::{PLANT_TEXT, ROOT, certificate, document, json, number, options, program, utf8};
 use serde_json::{Value, json as object};
 use sigmastar_document::progress::Silent;
 use sigmastar_lab::falsify::{Finding, TrialSettings, TriedClaim, falsify};
@@ -24,7 +25,7 @@ fn stored() -> Value {
 
 /// A shipped specification with another kind of set and another sampling period.
 fn read(name: &str, kind: &str, step: Option<&str>) -> Specification {
-    let mut document: Value = serde_json::from_str(&specification_text(name)).unwrap();
+    let mut document = document(name);
     document["initial_set"] = object!({ "kind": kind });
     if let Some(step) = step {
         document["internal_model"]["sampling_period"] = step.into();
@@ -95,14 +96,13 @@ fn a_report_says_what_else_a_plant_could_have() {
         let output = program().arg("certify").arg(&file).args(["--quiet", "--format", "json"]).assert().code(0);
         json(&output.get_output().stdout)
     };
-    let number = |report: &Value, name: &str| report[name].as_str().map(|text| text.parse::<f64>().unwrap());
     let [rest, aligned] = ["at-rest", "aligned"].map(report);
-    let [of_rest, gain] = [&rest, &aligned].map(|report| number(report, "sigma_star").unwrap());
-    let estimate = number(&rest, "sigma_star_aligned_estimate").unwrap();
+    let [of_rest, gain] = [&rest, &aligned].map(|report| number(&report["sigma_star"]));
+    let estimate = number(&rest["sigma_star_aligned_estimate"]);
     assert!((estimate / gain - 1.0).abs() < 0.02 && gain < of_rest, "{estimate} {gain} {of_rest}");
     assert_eq!(aligned["sigma_star_aligned_estimate"], Value::Null);
     for (report, gain) in [(&rest, of_rest), (&aligned, gain)] {
-        let by_norms = number(report, "sigma_star_by_norms_estimate").unwrap();
+        let by_norms = number(&report["sigma_star_by_norms_estimate"]);
         assert!(by_norms > 1.05 * gain && by_norms < 2.0 * gain, "{by_norms} {gain}");
     }
 }
@@ -115,7 +115,7 @@ fn a_plant_is_certified_and_checked() {
     std::fs::write(&plant, aligned_plant().to_string()).unwrap();
     program().arg("certify").arg(&plant).args(["--quiet", "-o"]).arg(&file).assert().code(0);
     let certificate = json(&std::fs::read(&file).unwrap());
-    let gain: f64 = certificate["claim"]["sigma_star"].as_str().unwrap().parse().unwrap();
+    let gain = number(&certificate["claim"]["sigma_star"]);
     assert!(gain <= 7.6, "{gain}");
     is_flawless(&certificate);
 }
@@ -167,9 +167,7 @@ fn exported(folder: &Path, n_o: u32, errors: &[f64]) -> PathBuf {
     std::fs::write(&main, text).unwrap();
     let binary = folder.join("law");
     for other in [&folder.join("law_example.c"), &main] {
-        let strict = ["-std=c99", "-O2", "-Wall", "-Wextra", "-pedantic", "-Werror", "-o"];
-        let gcc = Command::new("gcc").args(strict).arg(&binary).arg(&source).arg(other).output().unwrap();
-        assert!(gcc.status.success(), "{}", String::from_utf8_lossy(&gcc.stderr));
+        gcc(&[&source, other], &binary);
     }
     binary
 }
@@ -243,7 +241,7 @@ fn every_export_says_the_start() {
 /// of q proves the claim.
 #[test]
 fn a_slope_that_grows_with_x_is_taken_along_the_other_path() {
-    let mut document: Value = serde_json::from_str(&specification_text("linear")).unwrap();
+    let mut document = document("linear");
     document["bounds"]["q_e"] = "exp(exp(X))".into();
     document["initial_set"] = object!({ "kind": "box", "X0": "10", "E0": "1", "Z0": "0" });
     let made = certificate(&Specification::from_json("steep", &document.to_string()).unwrap());

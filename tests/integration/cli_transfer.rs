@@ -1,6 +1,6 @@
 //! `sigmastar transfer`: exit codes, streams, the JSON fields, the picture.
 
-use crate::support::{self, EXAMPLE, EXAMPLE_TEXT, program, utf8};
+use crate::support::{self, EXAMPLE, EXAMPLE_TEXT, number, program, utf8};
 use assert_cmd::Command;
 use predicates::prelude::*;
 use predicates::str::{contains, is_empty};
@@ -16,10 +16,6 @@ fn transfer(args: &[&str]) -> Command {
 fn json(args: &[&str]) -> Value {
     let output = transfer(args).args(["--format", "json"]).assert().code(0).stderr(is_empty());
     support::json(&output.get_output().stdout)
-}
-
-fn number(value: &Value) -> f64 {
-    value.as_str().expect("a number as text").parse().expect("a decimal")
 }
 
 #[test]

@@ -40,6 +40,11 @@ fn run_c(folder: &Path, n_o: u32, limit: Option<&str>, steps: u32) -> Vec<u64> {
         call.args(["--saturation", limit]);
     }
     call.args(["--format", "c", "-o"]).arg(&source).assert().success().stdout("").stderr("");
+    outputs(&source, steps)
+}
+
+/// The bits of every output of an exported regulator over the signal.
+pub fn outputs(source: &Path, steps: u32) -> Vec<u64> {
     let inputs: Vec<String> = (0..steps).map(|k| format!("0x{:016x}ULL", signal(k).to_bits())).collect();
     let main = format!(
         "#include \"regulator.h\"\n#include <stdio.h>\n#include <string.h>\n\
@@ -49,12 +54,11 @@ fn run_c(folder: &Path, n_o: u32, limit: Option<&str>, steps: u32) -> Vec<u64> {
          u = sigmastar_step(&c, e); memcpy(&bits, &u, 8); printf(\"%llx\\n\", bits); }} return 0; }}\n",
         inputs.join(", ")
     );
-    let (main_file, program): (PathBuf, PathBuf) = (folder.join("main.c"), folder.join("main"));
+    let (main_file, program) = (source.with_file_name("main.c"), source.with_file_name("main"));
     std::fs::write(&main_file, main).unwrap();
-    gcc(&[&source, &main_file], &program);
+    gcc(&[source, &main_file], &program);
     let output = Process::new(&program).output().unwrap();
-    let text = utf8(output.stdout);
-    text.lines().map(|line| u64::from_str_radix(line, 16).unwrap()).collect()
+    utf8(output.stdout).lines().map(|line| u64::from_str_radix(line, 16).unwrap()).collect()
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! `sigmastar falsify` from the command line.
 
-use crate::support::{every, json, sigmastar, specification_text};
+use crate::support::{certified_in, document, every, json, number, read, sigmastar, stored};
 use predicates::prelude::*;
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -13,19 +13,15 @@ fn certificate(name: &str) -> Value {
     let mut made = MADE.lock().unwrap_or_else(PoisonError::into_inner);
     let make = || {
         let folder = tempfile::tempdir().unwrap();
-        let file = folder.path().join("certificate.json");
-        let call = ["certify", &format!("specs/{name}.json"), "--no-compare", "-q", "-o"];
-        sigmastar(&call).arg(&file).assert().success();
-        json(&std::fs::read(file).unwrap())
+        certified(&document(name), folder.path())
     };
     made.entry(name.to_owned()).or_insert_with(make).clone()
 }
 
 /// Runs `falsify` on a certificate and returns the exit code, the report and the counterexample, if one was written.
 fn falsify(certificate: &Value, folder: &Path, trials: &str, more: &[&str]) -> (i32, Value, Option<String>) {
-    let file = folder.join("tried.json");
+    let file = stored(folder, "tried.json", certificate);
     let counterexample = folder.join("counterexample.json");
-    std::fs::write(&file, certificate.to_string()).unwrap();
     let _ = std::fs::remove_file(&counterexample);
     let mut command = sigmastar(&["falsify", "--trials", trials, "--format", "json", "--quiet", "-o"]);
     let output = command.arg(&counterexample).arg(&file).args(more).output().unwrap();
@@ -46,7 +42,7 @@ fn shipped_certificates_withstand_the_trials() {
 
 /// Only F = -20 has the rate 20 within |f| <= 20 X: no other plant fits.
 fn tight() -> Value {
-    let mut spec: Value = serde_json::from_str(&specification_text("linear")).unwrap();
+    let mut spec = document("linear");
     spec["lyapunov"] = serde_json::json!({ "p_low": "1", "p_up": "1", "alpha": "20" });
     for (field, text) in [("f", "20*X + 2000*E"), ("f_e", "2000"), ("q", "1 + X/1000 + E/4"), ("q_x", "1/1000")] {
         spec["bounds"][field] = Value::String(text.to_owned());
@@ -55,11 +51,7 @@ fn tight() -> Value {
 }
 
 fn certified(spec: &Value, folder: &Path) -> Value {
-    let (file, certificate) = (folder.join("spec.json"), folder.join("certificate.json"));
-    std::fs::write(&file, spec.to_string()).unwrap();
-    let mut command = sigmastar(&["certify", "--no-compare", "-q", "-o"]);
-    command.arg(&certificate).arg(&file).assert().success();
-    serde_json::from_slice(&std::fs::read(certificate).unwrap()).unwrap()
+    read(certified_in(folder, spec, &["--no-compare"]).0)
 }
 
 #[test]
@@ -83,7 +75,7 @@ fn a_tight_f_leaves_its_linear_member() {
 #[test]
 fn stiff_trials_come_to_their_end() {
     let folder = tempfile::tempdir().unwrap();
-    let mut spec: Value = serde_json::from_str(&specification_text("linear")).unwrap();
+    let mut spec = document("linear");
     spec["bounds"]["f"] = Value::String("20*X + 2e6*E".to_owned());
     spec["bounds"]["f_e"] = Value::String("2e6".to_owned());
     let (code, report, counterexample) = falsify(&certified(&spec, folder.path()), folder.path(), "2", &[]);
@@ -197,7 +189,7 @@ fn the_worst_plant_is_named_and_can_be_simulated_again() {
     let (code, report, _) = falsify(&certificate, folder.path(), "6", &["--seed", "3"]);
     assert_eq!(code, 0, "{report}");
     let worst = &report["worst"];
-    let number = worst["trial"].as_u64().unwrap();
+    let trial = worst["trial"].as_u64().unwrap();
     let trials = report["trials"].as_array().unwrap();
     for closest in report["closest"].as_array().unwrap() {
         let share = |trial: &Value| {
@@ -211,17 +203,17 @@ fn the_worst_plant_is_named_and_can_be_simulated_again() {
         assert!(general.iter().any(|name| closest["quantity"] == *name) || worst["share"].as_f64().unwrap() >= largest);
     }
     let (tried, plant) = (folder.path().join("tried.json"), folder.path().join("plant.json"));
-    let mut command = sigmastar(&["falsify", "--seed", "3", "--trial", &number.to_string(), "-o"]);
+    let mut command = sigmastar(&["falsify", "--seed", "3", "--trial", &trial.to_string(), "-o"]);
     let output = command.arg(&plant).arg(&tried).output().unwrap();
     assert_eq!(output.status.code(), Some(0));
     let (text, remark) = (String::from_utf8(output.stdout).unwrap(), String::from_utf8(output.stderr).unwrap());
-    assert!(text.contains(&format!("Trial {number}, sigma = ")) && text.contains("The worst plant"), "{text}");
+    assert!(text.contains(&format!("Trial {trial}, sigma = ")) && text.contains("The worst plant"), "{text}");
     assert!(remark.contains("the plant is in"), "{remark}");
     let written = std::fs::read_to_string(plant).unwrap();
     assert_eq!(json(written.as_bytes()), worst["plant"]);
     let again = simulated_again(&written, &["--periods", "2"]);
-    let bound: f64 = certificate["claim"]["periodic_solution"]["e"].as_str().unwrap().parse().unwrap();
-    let by_trial = trials[number as usize - 1]["shares"].as_array().unwrap();
+    let bound = number(&certificate["claim"]["periodic_solution"]["e"]);
+    let by_trial = trials[trial as usize - 1]["shares"].as_array().unwrap();
     let of = by_trial.iter().find(|share| share["quantity"] == "sup|e| of the periodic solution").unwrap();
     let [again, then] = [again["steady_state"]["sup_e"].as_f64().unwrap() / bound, of["share"].as_f64().unwrap()];
     assert!((again - then).abs() <= 1e-3 * then + 1e-9 && then <= 1.0, "{again} {then}");
@@ -236,7 +228,7 @@ fn a_counterexample_can_be_seen_in_its_samples() {
     let folder = tempfile::tempdir().unwrap();
     let mut altered = certificate("no-x");
     altered["claim"]["sigma_star"] = Value::String("1/230".to_owned());
-    let radius: f64 = altered["witness"]["D_e"].as_str().unwrap().parse().unwrap();
+    let radius = number(&altered["witness"]["D_e"]);
     let (_, report, counterexample) = falsify(&altered, folder.path(), "8", &[]);
     let found = report["trials"].as_array().unwrap().iter().find(|trial| trial["finding"] == "violated").unwrap();
     let csv = folder.path().join("samples.csv");
@@ -260,8 +252,7 @@ fn a_triple_that_is_not_proved_draws_nothing() {
     let folder = tempfile::tempdir().unwrap();
     let mut altered = certificate("paper-example-jacobian");
     altered["witness"]["lyapunov"]["alpha"] = Value::String("2".to_owned());
-    let file = folder.path().join("altered.json");
-    std::fs::write(&file, altered.to_string()).unwrap();
+    let file = stored(folder.path(), "altered.json", &altered);
     let assert = sigmastar(&["falsify", "--trials", "1"]).arg(&file).assert();
     assert.code(2).stdout("").stderr(predicate::str::contains("this triple is not proved"));
 }

@@ -4,7 +4,7 @@
 //! `SIGMASTAR_CASES=0..40 cargo test --release --test integration families_random -- --nocapture` runs them all, with 500 members each.
 
 use crate::plants_random;
-use crate::support::{cases, json, program};
+use crate::support::{cases, checked, json, number, program, read, stored};
 use rand::rngs::StdRng;
 use rand::seq::SliceRandom;
 use rand::{RngExt, SeedableRng};
@@ -85,8 +85,7 @@ fn random_families_are_certified_and_valid_and_no_member_breaks_a_bound() {
     let (mut certified, mut refuted, mut simulated) = (0, 0, 0);
     // Numbered from 1: that one shows in an ordinary run that a gain much too small is found.
     for seed in seeds.map(|seed| seed + 1) {
-        let file = folder.path().join(format!("{seed}.json"));
-        std::fs::write(&file, family(seed).to_string()).unwrap();
+        let file = stored(folder.path(), &format!("{seed}.json"), &family(seed));
         let certificate = folder.path().join(format!("{seed}.certificate.json"));
         let output = program()
             .arg("certify")
@@ -101,14 +100,14 @@ fn random_families_are_certified_and_valid_and_no_member_breaks_a_bound() {
             continue;
         }
         certified += 1;
-        let checked = answer("check", &certificate, &[]);
+        let checked = checked(&certificate);
         assert_eq!(checked["verdict"], "valid", "{seed}: {checked:#}");
         let trials = answer("falsify", &certificate, &["--quiet", "--trials", &members.to_string()]);
         assert_eq!(trials["refuted"], false, "{seed}: {trials:#}");
         simulated += trials["trials"].as_array().unwrap().iter().filter(|trial| trial["finding"] == "holds").count();
         // The same claim of a gain that is much too small.
-        let mut smaller = json(&std::fs::read(&certificate).unwrap());
-        let sigma: f64 = report["sigma_star"].as_str().unwrap().parse().unwrap();
+        let mut smaller = read(&certificate);
+        let sigma = number(&report["sigma_star"]);
         smaller["claim"]["sigma_star"] = format!("{:.12}", sigma / 50.0).into();
         std::fs::write(&certificate, smaller.to_string()).unwrap();
         let trials = answer("falsify", &certificate, &["--quiet", "--trials", &members.min(50).to_string()]);

@@ -1,19 +1,15 @@
 //! What a first use runs into at the command line; beside each the case that nearly does.
 
-use crate::support::{EXAMPLE, every, program, utf8};
+use crate::support::{self, EXAMPLE, every, json as parsed, number, program, read, stored, utf8};
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
 /// A call, with a shipped file in another form at its end: the exit code, and both streams in one line.
 fn told(command: &[&str], name: &str, change: impl FnOnce(&mut Value)) -> (i32, String) {
     let folder = TempDir::new().expect("a folder");
-    let path = folder.path().join("file.json");
-    let mut value: Value = serde_json::from_str(&std::fs::read_to_string(name).expect("shipped")).expect("JSON");
+    let mut value = read(name);
     change(&mut value);
-    std::fs::write(&path, value.to_string()).expect("written");
-    let output = program().args(command).arg(&path).output().expect("the program runs");
-    let text = utf8(output.stdout) + &utf8(output.stderr);
-    (output.status.code().expect("a code"), text.split_whitespace().collect::<Vec<_>>().join(" "))
+    support::told(program().args(command).arg(stored(folder.path(), "file.json", &value)))
 }
 
 const LINEAR: &str = "specs/plants/linear.json";
@@ -162,7 +158,7 @@ fn what_rates_at_samples_cost_is_told() {
 fn a_place_that_a_study_does_not_find_is_told_with_those_there_are() {
     let with = |place: &str, name: &str| {
         told(&["sweep", "--case", "0"], "specs/studies/linear.json", |study| {
-            let mut plant: Value = serde_json::from_str(&std::fs::read_to_string(LINEAR).unwrap()).unwrap();
+            let mut plant = read(LINEAR);
             plant["parameters"] = json!({ "k": "1", "c": "2" });
             study["subject"] = plant;
             study["parameters"] = json!([{ place: name, "values": ["1", "2"] }]);
@@ -226,9 +222,7 @@ fn of_text(command: &[&str], name: &str, text: &str) -> (i32, String) {
     let folder = TempDir::new().expect("a folder");
     let path = folder.path().join(name);
     std::fs::write(&path, text).expect("written");
-    let output = program().args(command).arg(&path).output().expect("the program runs");
-    let text = utf8(output.stdout) + &utf8(output.stderr);
-    (output.status.code().expect("a code"), text.split_whitespace().collect::<Vec<_>>().join(" "))
+    support::told(program().args(command).arg(&path))
 }
 
 #[test]
@@ -249,16 +243,14 @@ fn the_smallest_gain_beside_a_limit_is_that_of_the_plant() {
         let (code, text) =
             of_text(&[&["certify", "--no-compare", "-q", "--format", "json"], flags].concat(), "pump.toml", PUMP);
         assert_eq!(code, 0, "{text}");
-        serde_json::from_str(&text).expect("JSON")
+        parsed(text.as_bytes())
     };
-    let number =
-        |report: &Value, name: &str| report[name].as_str().and_then(|text| text.parse::<f64>().ok()).expect("a number");
-    let smallest = number(&report(&[]), "sigma_star");
+    let smallest = number(&report(&[])["sigma_star"]);
     for limit in [["--peak-error", "0.01"], ["--steady-error", "0.01"]] {
         let limited = report(&limit);
-        let estimate = number(&limited, "sigma_star_estimate");
+        let estimate = number(&limited["sigma_star_estimate"]);
         assert!((estimate / smallest - 1.0).abs() < 0.01, "{limit:?}: {estimate}, {smallest}");
-        assert!(number(&limited, "sigma_star") > 10.0 * smallest, "{limited}");
+        assert!(number(&limited["sigma_star"]) > 10.0 * smallest, "{limited}");
     }
 }
 
@@ -349,7 +341,7 @@ fn what_limits_a_gain_at_samples_is_what_it_would_fall_without() {
         let h = format!("1/{samples}");
         let call = ["certify", "--no-compare", "-q", "--format", "json", "--sampling-period", &h, name];
         let output = program().args(call).args(flags).output().expect("the program runs");
-        let report: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+        let report = parsed(&output.stdout);
         report["limit"]["name"].as_str().expect("a limit").to_owned()
     };
     let rms = "specs/paper-example-rms-at-rest.json";

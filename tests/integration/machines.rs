@@ -4,7 +4,7 @@
 use crate::controller::installed;
 use crate::controller_c::gcc;
 use crate::gallery::{compare_figure, is_rounded, page, table};
-use crate::support::{ROOT, every, json, program, utf8};
+use crate::support::{ROOT, assert_valid, every, json, program, utf8};
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -80,11 +80,11 @@ fn the_machines_are_certified_checked_and_exported() {
         let (certificate, report) = certified(folder.path(), &name, &gain);
         let columns = wrong(&cells, states(&name), &report);
         assert!(columns.is_empty(), "docs/machines.md, {name}: {columns:?} in\n{cells:?}\n{report:#}");
-        valid(&certificate);
+        assert_valid(&certificate);
         let output = program().args(["falsify", "-q", "--trials", "2"]).arg(&certificate).output().unwrap();
         assert!(output.status.success(), "{name}: {}", utf8(output.stderr));
         let (certificate, _) = certified(folder.path(), &name, &[gain[0], gain[1], "--sampling-period", &cells[9]]);
-        valid(&certificate);
+        assert_valid(&certificate);
         compiles(folder.path(), &certificate);
     }
 }
@@ -92,12 +92,6 @@ fn the_machines_are_certified_checked_and_exported() {
 fn states(name: &str) -> usize {
     let output = program().args(["convert", &format!("specs/machines/{name}.toml")]).output().unwrap();
     json(&output.stdout)["states"].as_array().map_or(0, Vec::len)
-}
-
-fn valid(certificate: &Path) {
-    let output = program().args(["check", "--format", "json"]).arg(certificate).output().unwrap();
-    let answer = json(&output.stdout);
-    assert_eq!(answer["verdict"], "valid", "{answer:#}");
 }
 
 /// The law of a certificate as C, with ten oscillators.

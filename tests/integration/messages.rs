@@ -1,6 +1,6 @@
 //! What a newcomer writes by mistake, and what is said to it; beside each the case that nearly is the mistake.
 
-use crate::support::{EXAMPLE, program, utf8};
+use crate::support::{EXAMPLE, document, in_one_line, program, utf8};
 use serde_json::Value;
 use std::path::PathBuf;
 
@@ -14,8 +14,7 @@ fn file(name: &str, content: &str) -> (tempfile::TempDir, PathBuf) {
 
 /// The linear plant with another q, and perhaps with a state of this name.
 fn plant(q: &str, state: Option<&str>) -> String {
-    let text = std::fs::read_to_string("specs/plants/linear.json").unwrap();
-    let mut plant: Value = serde_json::from_str(&text).unwrap();
+    let mut plant = document("plants/linear");
     plant["q"] = q.into();
     if let Some(name) = state {
         plant["states"] = vec![name].into();
@@ -102,7 +101,7 @@ fn what_is_no_certificate_yet_is_certified_first() {
     for (name, what) in [("specs/plants/linear.json", "a plant"), ("specs/no-x.json", "a specification")] {
         for command in ["falsify", "check"] {
             let (code, text) = told(&[command], std::path::Path::new(name));
-            let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
+            let text = in_one_line(&text);
             assert_eq!(code, 2, "{command} {name}: {text}");
             let first = "is to be certified first: `sigmastar certify FILE -o CERTIFICATE`";
             assert!(text.contains(what) && text.contains(first), "{command} {name}: {text}");
@@ -119,7 +118,7 @@ fn what_is_no_certificate_yet_is_certified_first() {
 /// What is certified of the paper's example with these flags: the exit code, and both streams in one line.
 fn certified(flags: &[&str]) -> (i32, String) {
     let (code, text) = told(&[&["certify", "--no-compare"], flags].concat(), std::path::Path::new(EXAMPLE));
-    (code, text.split_whitespace().collect::<Vec<_>>().join(" "))
+    (code, in_one_line(&text))
 }
 
 #[test]

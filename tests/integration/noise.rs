@@ -1,7 +1,7 @@
 //! Noise of the measurement and disturbances in claims for given n_o (docs/mathematics.md, 13.6, Proposition N): what a certificate says, that the
 //! checker decides it, and that trials hold it and break a forged one.
 
-use crate::support::{json, program, specification_text, utf8};
+use crate::support::{document, json, number, program, specification_text, utf8};
 use serde_json::{Value, json as object};
 use sigmastar_document::progress::Silent;
 use sigmastar_lab::falsify::{Falsification, Finding, TrialSettings, TriedClaim, falsify};
@@ -10,7 +10,7 @@ use std::path::Path;
 
 /// A shipped specification with other members.
 fn with(name: &str, members: &[(&str, Value)]) -> String {
-    let mut document: Value = serde_json::from_str(&specification_text(name)).unwrap();
+    let mut document = document(name);
     for (member, value) in members {
         document[*member] = value.clone();
     }
@@ -39,10 +39,6 @@ const AT: [&str; 4] = ["--sigma", "60", "--n-o", "0,2"];
 fn example(folder: &Path) -> (Value, Value) {
     let (report, certificate) = certify(folder, &with("paper-example-at-rest", &inputs()), &AT);
     (report, certificate.expect("certified"))
-}
-
-fn number(value: &Value) -> f64 {
-    value.as_str().expect("a number").parse().expect("a decimal")
 }
 
 #[test]
@@ -173,18 +169,11 @@ fn trials_hold_the_bounds_and_break_smaller_ones() {
 #[test]
 fn noise_of_a_plant_is_bounded_by_norms() {
     let folder = tempfile::tempdir().unwrap();
-    let disturbed = |name: &str, members: &[(&str, Value)]| {
-        let mut plant = json(&std::fs::read(format!("specs/plants/{name}.json")).unwrap());
-        for (member, value) in members {
-            plant[*member] = value.clone();
-        }
-        plant.to_string()
-    };
     let small = [("measurement", object!({ "quantum": "1/1000" })), ("disturbance", object!("1/20"))];
     let large = [("measurement", object!({ "quantum": "1/50" })), ("disturbance", object!("20"))];
     let cases: [(String, &[&str]); 2] = [
-        (disturbed("pendulum", &small), &["--sigma", "1.7", "--n-o", "0,4"]),
-        (disturbed("motor-axis", &large), &["--sampling-period", "1/20000", "--sigma", "80", "--n-o", "0,4"]),
+        (with("plants/pendulum", &small), &["--sigma", "1.7", "--n-o", "0,4"]),
+        (with("plants/motor-axis", &large), &["--sampling-period", "1/20000", "--sigma", "80", "--n-o", "0,4"]),
     ];
     for (text, call) in cases {
         let (report, certificate) = certify(folder.path(), &text, call);
@@ -199,7 +188,7 @@ fn noise_of_a_plant_is_bounded_by_norms() {
     }
     // Without noise, or without a list, it is the matrix inequality with its smaller gain.
     let sigma = |text: &str, call: &[&str]| number(&certify(folder.path(), text, call).0["sigma_star"]);
-    let [plain, with_noise] = [disturbed("pendulum", &[]), disturbed("pendulum", &small)];
+    let [plain, with_noise] = [with("plants/pendulum", &[]), with("plants/pendulum", &small)];
     let least = sigma(&plain, &["--n-o", "0"]);
     assert!(least == sigma(&with_noise, &[]) && least < sigma(&with_noise, &["--n-o", "0"]));
 }

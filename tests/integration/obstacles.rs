@@ -1,7 +1,7 @@
 //! What keeps something from being certified is told with its true cause, and what helps for that; and plants whose base
 //! frequency is not that of their period are certified.
 
-use crate::support::{every, json, program};
+use crate::support::{self, checked, every, program, read, stored};
 use serde_json::Value;
 use std::path::Path;
 
@@ -12,8 +12,7 @@ fn plant(name: &str, changes: &[(&str, &str)]) -> String {
 
 /// A document of `specs` with other fields.
 fn changed(name: &str, changes: &[(&str, &str)]) -> String {
-    let text = std::fs::read_to_string(format!("{}/specs/{name}.json", crate::support::ROOT)).unwrap();
-    let mut document: Value = serde_json::from_str(&text).unwrap();
+    let mut document = support::document(name);
     for (pointer, value) in changes {
         let field = document.pointer_mut(pointer).unwrap_or_else(|| panic!("{pointer}"));
         *field = serde_json::from_str(value).unwrap_or_else(|_| Value::String((*value).to_owned()));
@@ -23,9 +22,7 @@ fn changed(name: &str, changes: &[(&str, &str)]) -> String {
 
 /// The exit code of `certify`, and what it tells.
 fn certify(text: &str, more: &[&str]) -> (i32, String) {
-    let output = program().args(["certify", "-", "--full"]).args(more).write_stdin(text.to_owned()).output().unwrap();
-    let words = [output.stdout, output.stderr].map(|stream| String::from_utf8(stream).unwrap()).join("\n");
-    (output.status.code().unwrap(), words.split_whitespace().collect::<Vec<_>>().join(" "))
+    support::told(program().args(["certify", "-", "--full"]).args(more).write_stdin(text.to_owned()))
 }
 
 fn certificate(folder: &Path, name: &str, text: &str) -> String {
@@ -42,8 +39,7 @@ fn other_base_frequencies_are_certified_and_valid() {
     for (at, frequency) in ["pi", "101*pi/100", "sqrt(2)*pi"].into_iter().enumerate().step_by(every(3)) {
         let changes = [("/internal_model/matched", "false"), ("/internal_model/base_frequency", frequency)];
         let file = certificate(folder.path(), &format!("duffing-{at}"), &plant("duffing", &changes));
-        let output = program().args(["check", "--format", "json", &file]).output().unwrap();
-        assert_eq!(json(&output.stdout)["verdict"], "valid", "{frequency}");
+        assert_eq!(checked(Path::new(&file))["verdict"], "valid", "{frequency}");
     }
 }
 
@@ -80,10 +76,9 @@ fn the_witness_of_another_plant_is_told() {
     assert_eq!(code, 3, "{told}");
     assert!(told.contains("made for another plant") && told.contains("without --witness"), "{told}");
     assert!(!told.contains("ordinary size"), "{told}");
-    let mut forged: Value = serde_json::from_str(&std::fs::read_to_string(&own).unwrap()).unwrap();
+    let mut forged = read(&own);
     forged["witness"]["orbit"]["radius"] = "1/10000000000000000000000000000000000".into();
-    let file = folder.path().join("forged.json");
-    std::fs::write(&file, forged.to_string()).unwrap();
+    let file = stored(folder.path(), "forged.json", &forged);
     let (code, told) = certify(&plant("paper-example", &[]), &["--witness", file.to_str().unwrap()]);
     assert!(code == 3 && !told.contains("another plant"), "{told}");
 }

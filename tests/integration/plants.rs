@@ -2,7 +2,10 @@
 //! other commands make of it.
 
 use crate::gallery;
-use crate::support::{every, files, json, made, program, stem};
+use crate::support::{
+    assert_valid, certified_in, checked, decided_again, document, every, files, json, made, number, program, read,
+    stem, stored,
+};
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -46,25 +49,11 @@ fn reported(folder: &Path, name: &str) -> (PathBuf, Value) {
     (file, report)
 }
 
-/// The certificate of a plant, written into a folder, and its gain.
-fn certified(folder: &Path, name: &str) -> (PathBuf, f64) {
-    let (file, report) = reported(folder, name);
-    let sigma = report["sigma_star"].as_str().and_then(|text| text.parse().ok());
-    (file, sigma.unwrap_or_else(|| panic!("{name}: {}", report["sigma_star"])))
-}
-
-fn checked(certificate: &Path) -> Value {
-    let output = program().args(["check", "--format", "json"]).arg(certificate).output().unwrap();
-    json(&output.stdout)
-}
-
 /// The certificate with one number replaced.
 fn altered(certificate: &Path, pointer: &str, value: &str) -> PathBuf {
-    let mut document: Value = serde_json::from_str(&std::fs::read_to_string(certificate).unwrap()).unwrap();
+    let mut document = read(certificate);
     *document.pointer_mut(pointer).unwrap_or_else(|| panic!("{pointer}")) = value.into();
-    let file = certificate.with_extension("altered.json");
-    std::fs::write(&file, document.to_string()).unwrap();
-    file
+    stored(certificate.parent().unwrap(), "altered.json", &document)
 }
 
 #[test]
@@ -82,12 +71,10 @@ fn the_shipped_plants_are_certified_and_checked() {
     let mut gains = BTreeMap::new();
     for (name, most) in CERTIFIED.into_iter().step_by(every(5)) {
         let (certificate, report) = reported(folder.path(), name);
-        let sigma: f64 = report["sigma_star"].as_str().and_then(|text| text.parse().ok()).expect("a gain");
+        let sigma = number(&report["sigma_star"]);
         assert!(sigma <= most, "{name}: {sigma}");
         gallery::compare(name, &report);
-        let answer = checked(&certificate);
-        assert_eq!(answer["verdict"], "valid", "{name}: {answer:#}");
-        assert_eq!(answer["figures"]["verdict"], "agree", "{name}: {answer:#}");
+        assert_valid(&certificate);
         gains.insert(name, sigma);
     }
     // The gain does not depend on the units and the axes in which a plant is written.
@@ -113,12 +100,9 @@ fn plants_that_have_no_certificate_are_told_why() {
 #[test]
 fn the_witness_of_a_plant_is_decided_again() {
     let folder = TempDir::new().unwrap();
-    let (certificate, _) = certified(folder.path(), "motor-axis");
-    let again = |certificate: &Path| {
-        let call = ["certify", "specs/plants/motor-axis.json", "--quiet", "--format", "json", "--witness"];
-        let output = program().args(call).arg(certificate).output().unwrap();
-        (output.status.code(), json(&output.stdout))
-    };
+    let (certificate, _) = reported(folder.path(), "motor-axis");
+    let plant = document("plants/motor-axis");
+    let again = |certificate: &Path| decided_again(folder.path(), &plant, certificate);
     assert_eq!(again(&certificate).0, Some(0));
     for (pointer, value) in [
         ("/witness/orbit/defect", "1e-40"),
@@ -141,7 +125,7 @@ fn the_witness_of_a_plant_is_decided_again() {
 #[test]
 fn a_plants_own_simulation_does_not_contradict_its_certificate() {
     let folder = TempDir::new().unwrap();
-    let (certificate, sigma) = certified(folder.path(), "pendulum");
+    let (certificate, of_claim) = reported(folder.path(), "pendulum");
     let falsify = |certificate: &Path| {
         let call = ["falsify", "--trials", "6", "--format", "json", "--quiet"];
         let output = program().args(call).arg(certificate).output().unwrap();
@@ -157,7 +141,7 @@ fn a_plants_own_simulation_does_not_contradict_its_certificate() {
     assert_eq!(report["worst"]["plant"]["states"], serde_json::json!(["theta", "omega"]));
     // A set that is larger than the error box is contradicted.
     let (code, _) = falsify(&altered(&certificate, "/claim/initial_set/X0", "30"));
-    assert_eq!(code, Some(1), "sigma = {sigma}");
+    assert_eq!(code, Some(1), "sigma = {}", of_claim["sigma_star"]);
 }
 
 /// Rates and the regulator of a plant.
@@ -170,7 +154,7 @@ fn other_commands_take_plants() {
     let report = json(&output.stdout);
     assert_eq!((output.status.code(), report["verdict"].as_str()), (Some(0), Some("certified")));
     // x' = -200 x + ...: no P has a larger rate.
-    let alpha: f64 = report["alpha"].as_str().and_then(|text| text.parse().ok()).unwrap();
+    let alpha = number(&report["alpha"]);
     assert!(alpha <= 200.0 && alpha > 198.0, "{alpha}");
     assert_eq!(report["floquet_exponents_not_certified"], serde_json::json!([["-200", "0"]]));
     let output = program().args(["lyapunov", "specs/plants/invalid/unstable.json"]).output().unwrap();
@@ -180,17 +164,14 @@ fn other_commands_take_plants() {
     assert_eq!(json(&output.stdout)["format"], "sigmastar/controller");
 }
 
-/// A plant that is written here, in a file.
-fn written(folder: &Path, states: &[&str], f: &[&str], q: &str, set: &Value) -> PathBuf {
-    let plant = serde_json::json!({
+/// A plant that is written here.
+fn written(states: &[&str], f: &[&str], q: &str, set: &Value) -> Value {
+    serde_json::json!({
         "format": "sigmastar/plant", "version": 1, "name": "test", "period": "1", "states": states, "f": f, "q": q,
         "internal_model": { "mu": "1", "base_frequency": "2*pi", "matched": true,
             "weights": { "family": "power", "n0": "2", "epsilon": "1/2" } },
         "initial_set": set,
-    });
-    let file = folder.join("plant.json");
-    std::fs::write(&file, plant.to_string()).unwrap();
-    file
+    })
 }
 
 /// The ball of the claim is not below an irrational one that was asked for, and the checker agrees.
@@ -198,12 +179,9 @@ fn written(folder: &Path, states: &[&str], f: &[&str], q: &str, set: &Value) -> 
 fn irrational_balls_are_covered() {
     let folder = TempDir::new().unwrap();
     let set = serde_json::json!({ "kind": "at-rest", "ball": "sqrt(2)/10" });
-    let plant = written(folder.path(), &["x", "y"], &["-x + e", "x - 2*y"], "y + sin(2*pi*t)", &set);
-    let certificate = folder.path().join("certificate.json");
-    let output = program().arg("certify").arg(&plant).args(["--quiet", "-o"]).arg(&certificate).output().unwrap();
-    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
-    let document: Value = serde_json::from_str(&std::fs::read_to_string(&certificate).unwrap()).unwrap();
-    assert_eq!(document["claim"]["initial_set"]["ball"], "0.141421356238");
+    let plant = written(&["x", "y"], &["-x + e", "x - 2*y"], "y + sin(2*pi*t)", &set);
+    let (certificate, _) = certified_in(folder.path(), &plant, &[]);
+    assert_eq!(read(&certificate)["claim"]["initial_set"]["ball"], "0.141421356238");
     assert_eq!(checked(&certificate)["verdict"], "valid");
     assert_ne!(checked(&altered(&certificate, "/claim/initial_set/ball", "0.141421356237"))["verdict"], "valid");
 }
@@ -214,13 +192,8 @@ fn too_many_states_are_refused_with_their_number() {
     let folder = TempDir::new().unwrap();
     let names = ["a", "b", "c", "d", "g", "h", "k"];
     let f = names.map(|name| format!("-{name} + e"));
-    let plant = written(
-        folder.path(),
-        &names,
-        &f.each_ref().map(String::as_str),
-        "a",
-        &serde_json::json!({ "kind": "at-rest" }),
-    );
+    let plant = written(&names, &f.each_ref().map(String::as_str), "a", &serde_json::json!({ "kind": "at-rest" }));
+    let plant = stored(folder.path(), "plant.json", &plant);
     let output = program().arg("certify").arg(&plant).arg("--quiet").output().unwrap();
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
     assert_eq!(output.status.code(), Some(2), "{said}");
@@ -272,8 +245,7 @@ fn the_rate_of_stability_is_none_in_the_p_of_existence() {
         "claim": { "derivation": "sharp", "sigma_star": "0.5", "initial_set": { "X0": "5.2", "E0": "4.6", "Z0": "0" } },
     });
     let decided = |certificate: &Value| {
-        let file = folder.path().join("witness.json");
-        std::fs::write(&file, certificate.to_string()).unwrap();
+        let file = stored(folder.path(), "witness.json", certificate);
         let output = program().arg("certify").arg(&plant).args(["--quiet", "--witness"]).arg(&file).output().unwrap();
         (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
     };
@@ -288,11 +260,11 @@ fn the_rate_of_stability_is_none_in_the_p_of_existence() {
 #[test]
 fn a_false_matrix_of_existence_is_refused() {
     let folder = TempDir::new().unwrap();
-    let (certificate, _) = certified(folder.path(), "pendulum");
-    let document: Value = serde_json::from_str(&std::fs::read_to_string(&certificate).unwrap()).unwrap();
+    let (certificate, _) = reported(folder.path(), "pendulum");
+    let document = read(&certificate);
     let bounds = document["witness"]["bounds"].as_array().unwrap();
     let at = bounds.iter().position(|entry| entry["bound"] == "rate_existence").unwrap();
-    let rate: f64 = bounds[at]["value"].as_str().unwrap().parse().unwrap();
+    let rate = number(&bounds[at]["value"]);
     let rate_place = format!("/witness/bounds/{at}/value");
     for (pointer, value) in [
         ("/witness/lyapunov_existence/alpha", "1.1".to_owned()),
@@ -305,9 +277,11 @@ fn a_false_matrix_of_existence_is_refused() {
     .step_by(every(2))
     {
         let false_one = altered(&certificate, pointer, &value);
-        let call = ["certify", "specs/plants/pendulum.json", "--quiet", "--witness"];
-        let output = program().args(call).arg(&false_one).output().unwrap();
-        assert_ne!(output.status.code(), Some(0), "{pointer}");
+        assert_ne!(
+            decided_again(folder.path(), &crate::support::document("plants/pendulum"), &false_one).0,
+            Some(0),
+            "{pointer}"
+        );
         let answer = checked(&false_one);
         assert_ne!(answer["verdict"], "valid", "{pointer}: {answer:#}");
     }
@@ -320,7 +294,7 @@ fn a_claim_at_samples_by_matrix_inequalities() {
     let certificate = folder.path().join("axis.json");
     let call = ["certify", "specs/plants/motor-axis.json", "--quiet", "--sampling-period", "1/50000"];
     assert!(program().args(call).arg("-o").arg(&certificate).output().unwrap().status.success());
-    let document: Value = serde_json::from_str(&std::fs::read_to_string(&certificate).unwrap()).unwrap();
+    let document = read(&certificate);
     let names: Vec<&str> =
         document["conditions"].as_array().unwrap().iter().map(|condition| condition["id"].as_str().unwrap()).collect();
     assert!(names.contains(&"C5x") && names.contains(&"C5e") && !names.contains(&"C5h"), "{names:?}");
@@ -340,9 +314,7 @@ fn a_claim_at_samples_by_matrix_inequalities() {
     // The fields of continuous time are none here.
     let mut other = document;
     other["witness"]["matrix_inequality"] = serde_json::json!({ "X": "1", "E": "10", "rate": "1", "sigma": "1" });
-    let forged = folder.path().join("forged.json");
-    std::fs::write(&forged, other.to_string()).unwrap();
-    let output = again(&forged);
+    let output = again(&stored(folder.path(), "forged.json", &other));
     let told = String::from_utf8(output.stderr).unwrap();
     assert!(!output.status.success() && told.contains("lambda"), "{told}");
 }

@@ -4,7 +4,7 @@
 //!
 //! `SIGMASTAR_CASES=0..200 cargo test --release --test integration random_linear` takes other seeds than an ordinary run.
 
-use crate::support::{cases, json, program};
+use crate::support::{cases, checked, json, number, program, stored};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 use serde_json::{Value, json as value};
@@ -190,8 +190,7 @@ fn identity(n: usize) -> Vec<Vec<f64>> {
 
 /// The gain, certified and checked; a reason without one.
 fn gain(folder: &Path, name: &str, plant: &Value) -> Result<f64, String> {
-    let file = folder.join(format!("{name}.json"));
-    std::fs::write(&file, plant.to_string()).unwrap();
+    let file = stored(folder, &format!("{name}.json"), plant);
     let certificate = folder.join(format!("{name}.certificate.json"));
     let call = ["--quiet", "--no-compare", "--format", "json", "-o"];
     let output = program().arg("certify").arg(&file).args(call).arg(&certificate).output().unwrap();
@@ -199,12 +198,11 @@ fn gain(folder: &Path, name: &str, plant: &Value) -> Result<f64, String> {
     if report["verdict"] != "certified" {
         return Err(report["errors"].to_string());
     }
-    let output = program().args(["check", "--format", "json"]).arg(&certificate).output().unwrap();
-    let answer = json(&output.stdout);
+    let answer = checked(&certificate);
     if answer["verdict"] != "valid" {
         return Err(format!("the checker: {answer}"));
     }
-    Ok(report["sigma_star"].as_str().and_then(|text| text.parse().ok()).expect("a gain"))
+    Ok(number(&report["sigma_star"]))
 }
 
 #[test]

@@ -2,7 +2,7 @@
 //!
 //! `SIGMASTAR_CASES=0..40 cargo test --release --test integration random_plants` takes other seeds than an ordinary run.
 
-use crate::support::{cases, every, json, program};
+use crate::support::{cases, certified_in, checked, every, json, number, program, stored};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 use serde_json::json as value;
@@ -190,7 +190,6 @@ fn what_takes_the_checker_many_boxes_is_proved_with_room() {
         "q": "0.45*e + 0.94*x1 + 0.38*sin(x3) + 0.63*cos(2*pi*t) - 0.02*e^3",
     });
     let folder = TempDir::new().unwrap();
-    let (file, certificate) = (folder.path().join("plant.json"), folder.path().join("certificate.json"));
     for (mut plant, largest) in [(three, 0.14), (five, 3.6)].into_iter().step_by(every(2)) {
         plant["format"] = "sigmastar/plant".into();
         plant["version"] = 1.into();
@@ -201,13 +200,9 @@ fn what_takes_the_checker_many_boxes_is_proved_with_room() {
             "mu": "1", "base_frequency": "2*pi", "matched": true,
             "weights": { "family": "power", "n0": "2", "epsilon": "1/2" },
         });
-        std::fs::write(&file, plant.to_string()).unwrap();
         // It is not written without being decided again.
-        let call = ["--quiet", "--force", "--no-compare", "--format", "json", "-o"];
-        let output = program().arg("certify").arg(&file).args(call).arg(&certificate).output().unwrap();
-        let report = json(&output.stdout);
-        assert_eq!(report["verdict"], "certified", "{report:#}");
-        let sigma = report["sigma_star"].as_str().and_then(|text| text.parse::<f64>().ok()).expect("a gain");
+        let (certificate, report) = certified_in(folder.path(), &plant, &["--no-compare"]);
+        let sigma = number(&report["sigma_star"]);
         assert!(sigma < largest && certificate.is_file(), "{sigma}");
     }
 }
@@ -217,8 +212,7 @@ fn all_that_is_certified_is_valid(plant: fn(u64) -> serde_json::Value) {
     let (mut certified, mut valid) = (0, 0);
     let seeds = cases(SEEDS[0], SEEDS[1]);
     for seed in seeds.clone() {
-        let file = folder.path().join(format!("{seed}.json"));
-        std::fs::write(&file, plant(seed).to_string()).unwrap();
+        let file = stored(folder.path(), &format!("{seed}.json"), &plant(seed));
         let certificate = folder.path().join(format!("{seed}.certificate.json"));
         let call = ["--quiet", "--no-compare", "--format", "json", "-o"];
         let output = program().arg("certify").arg(&file).args(call).arg(&certificate).output().unwrap();
@@ -230,8 +224,7 @@ fn all_that_is_certified_is_valid(plant: fn(u64) -> serde_json::Value) {
             continue;
         }
         certified += 1;
-        let output = program().args(["check", "--format", "json"]).arg(&certificate).output().unwrap();
-        let answer = json(&output.stdout);
+        let answer = checked(&certificate);
         assert_ne!(answer["verdict"], "invalid", "{seed}: {answer:#}");
         let all = answer["verdict"] == "valid";
         println!("{seed}: {}", if all { "valid".to_owned() } else { answer.to_string() });

@@ -1,20 +1,12 @@
 //! `sigmastar rate` and `sigmastar lyapunov`: what is proved stands next to what floating point says.
 
-use crate::support::{EXAMPLE_TEXT, program, specification_text};
+use crate::support::{EXAMPLE_TEXT, in_one_line, number, program, read, specification_text};
 use serde_json::Value;
 
 fn run(arguments: &[&str]) -> (i32, Value, String) {
     let output = program().args(arguments).args(["--format", "json"]).output().expect("it runs");
     let value = serde_json::from_slice(&output.stdout).unwrap_or(Value::Null);
     (output.status.code().unwrap_or(-1), value, String::from_utf8_lossy(&output.stderr).into_owned())
-}
-
-fn number(value: &Value) -> f64 {
-    let text = value.as_str().expect("a number as text");
-    match text.split_once('/') {
-        Some((p, q)) => p.parse::<f64>().expect("p") / q.parse::<f64>().expect("q"),
-        None => text.parse().expect("a number"),
-    }
 }
 
 /// The rates fall with n_o, stay below the spectral abscissa and come close to it; sigma* is the same for all.
@@ -125,7 +117,7 @@ fn ranges_are_read_and_rates_are_not_called_certified() {
     let counts: Vec<_> = report["rates"].as_array().expect("rates").iter().map(|rate| rate["n_o"].as_u64()).collect();
     assert_eq!(counts, [Some(3), Some(0), Some(1)]);
     let output = program().args(["rate", "specs/no-x.json", "--n-o", "0..1"]).output().expect("it runs");
-    let text = String::from_utf8_lossy(&output.stdout).split_whitespace().collect::<Vec<_>>().join(" ");
+    let text = in_one_line(&String::from_utf8_lossy(&output.stdout));
     assert!(text.contains("no independent program checks them") && !text.contains("certified"), "{text}");
 }
 
@@ -153,7 +145,7 @@ fn the_certificate_carries_p_and_is_decided_again() {
     // No larger than with the triple that paper-example.json ships.
     let (_, shipped, _) = run(&["certify", "specs/paper-example.json", "--no-compare"]);
     assert!(number(&report["sigma_star"]) <= number(&shipped["sigma_star"]));
-    let mut certificate: Value = serde_json::from_str(&std::fs::read_to_string(&file).unwrap()).unwrap();
+    let mut certificate = read(&file);
     assert!(certificate["witness"]["lmi"]["l_x"].is_string());
     assert_eq!(certificate["specification"]["lyapunov"]["jacobian"].as_array().map(Vec::len), Some(2));
     let (code, again, _) = run(&["certify", spec, "--no-compare", "--witness", name]);
@@ -226,7 +218,7 @@ fn the_states_behind_a_filter_are_not_claimed() {
         let file = file.to_str().expect("a plain name").to_owned();
         let (code, report, _) = run(&["rate", &file, "--n-o", "0"]);
         let output = program().args(["rate", &file, "--n-o", "0"]).output().expect("it runs");
-        (code, report, String::from_utf8_lossy(&output.stdout).split_whitespace().collect::<Vec<_>>().join(" "))
+        (code, report, in_one_line(&String::from_utf8_lossy(&output.stdout)))
     };
     let (code, report, text) = with(r#"["1/1000"]"#);
     assert_eq!((code, &report["state"]), (0, &Value::from("(x, e, z)")));

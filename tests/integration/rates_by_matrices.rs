@@ -1,6 +1,7 @@
 //! Rates for given n_o of plants whose stability is proved by (M) or (Jm) (docs/mathematics.md, 13.6, Propositions R_D and R_P): against the loops themselves.
 
-use crate::support::{every, json, program};
+use super::rates_of_claims::{shares, step};
+use crate::support::{every, json, number, program, read};
 use serde_json::Value;
 
 /// A plant, 1.5 sigma*, and its period in floating point; with `SIGMASTAR_CASES=all` those of [`MORE`] too.
@@ -24,10 +25,6 @@ const MORE: [(&str, &str, f64); 6] = [
 
 fn answer(arguments: &[&str]) -> Value {
     json(&program().args(arguments).args(["--format", "json"]).output().expect("it runs").stdout)
-}
-
-fn number(value: &Value) -> f64 {
-    value.as_str().expect("a number").parse().expect("a decimal")
 }
 
 /// By the median at least 0.3 of the rate at which the loop returns to its periodic solution, and never more than it.
@@ -72,55 +69,24 @@ fn pendulum(sigma: f64, time: f64, [theta, omega, e, z0, z1, z2]: [f64; 6]) -> [
     ]
 }
 
-fn step(sigma: f64, time: f64, h: f64, state: [f64; 6]) -> [f64; 6] {
-    let add = |a: [f64; 6], b: [f64; 6], c: f64| std::array::from_fn(|i| a[i] + c * b[i]);
-    let k1 = pendulum(sigma, time, state);
-    let k2 = pendulum(sigma, time + h / 2.0, add(state, k1, h / 2.0));
-    let k3 = pendulum(sigma, time + h / 2.0, add(state, k2, h / 2.0));
-    let k4 = pendulum(sigma, time + h, add(state, k3, h));
-    std::array::from_fn(|i| state[i] + h / 6.0 * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i]))
-}
-
 /// Solutions from e on the edge of the set stay below factor exp(-rate t), for 40 periods.
 #[test]
 fn solutions_decay_as_it_is_claimed() {
     const STEPS: usize = 500;
-    let (sigma, h) = (0.8, 1.0 / STEPS as f64);
     let report = answer(&["certify", "specs/plants/pendulum.json", "--sigma", "0.8", "--n-o", "1", "--no-compare"]);
     let rate = &report["for_n_o"][0];
     let (rate, factor) = (number(&rate["rate"]), number(&rate["factor"]));
     let e_0 = number(&report["initial_set"]["E0"]);
-    let run = |mut state: [f64; 6], periods: usize, mut see: Box<dyn FnMut(usize, [f64; 6]) + '_>| {
-        for i in 0..periods * STEPS {
-            see(i, state);
-            state = step(sigma, (i % STEPS) as f64 * h, h, state);
-        }
-        state
-    };
-    // The orbit without a regulator and an error, where the set is, and the periodic solution, after a long time.
+    // The orbit without a regulator and an error, where the set is.
+    let field = |time, state| pendulum(0.8, time, state);
     let mut orbit = [0.0; 6];
     for i in 0..60 * STEPS {
-        orbit = step(sigma, (i % STEPS) as f64 * h, h, [orbit[0], orbit[1], 0.0, 0.0, 0.0, 0.0]);
+        let start = [orbit[0], orbit[1], 0.0, 0.0, 0.0, 0.0];
+        orbit = step(&field, (i % STEPS) as f64 / STEPS as f64, 1.0 / STEPS as f64, start);
     }
-    let settled = run([0.0; 6], 200, Box::new(|_, _| {}));
-    let mut periodic = Vec::new();
-    run(settled, 1, Box::new(|_, state| periodic.push(state[2])));
-    for e in [e_0, -e_0] {
-        let mut worst = 0.0_f64;
-        let start = [orbit[0], orbit[1], 0.999 * e, 0.0, 0.0, 0.0];
-        run(
-            start,
-            40,
-            Box::new(|i, state| {
-                let error = (state[2] - periodic[i % STEPS]).abs();
-                // What is left of the transient in the periodic solution, and of rounding.
-                if error > 1e-8 {
-                    worst = worst.max(error / (factor * (-rate * i as f64 * h).exp()));
-                }
-            }),
-        );
-        assert!(worst <= 1.0 && worst > 1e-4, "{e}: {worst}");
-    }
+    let starts = [e_0, -e_0].map(|e| [orbit[0], orbit[1], 0.999 * e, 0.0, 0.0, 0.0]);
+    let found = shares(&field, [STEPS, 200], [rate, factor], &starts);
+    assert!(found.iter().all(|share| *share <= 1.0 && *share > 1e-4), "{found:?}");
 }
 
 /// What proves it is in the certificate, in its shape; a witness that is decided again has rates as well.
@@ -132,7 +98,6 @@ fn the_certificate_has_the_slopes() {
     let run = |arguments: &[&str]| program().args(arguments).output().expect("it runs").status.code();
     assert_eq!(run(&["certify", plant, "--sigma", "23", "--n-o", "2,0", "-o", &first, "--no-compare"]), Some(0));
     assert_eq!(run(&["certify", plant, "--witness", &first, "--n-o", "0,2", "-o", &again, "--no-compare"]), Some(0));
-    let read = |path: &str| json(&std::fs::read(path).expect("written"));
     let (first, again) = (read(&first), read(&again));
     assert_eq!(first["claim"], again["claim"]);
     assert_eq!(first["witness"], again["witness"]);

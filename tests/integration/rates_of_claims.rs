@@ -1,11 +1,11 @@
 //! Rates for given n_o as a part of claims (derivation, 13.6): against the loops that the data allow, and along solutions.
 
-use crate::support::{Shipped, answer, certified, json, program};
+use crate::support::{Shipped, answer, certified, json, number, options, program, read};
 use faer::Mat;
 use rug::Rational;
 use serde_json::Value;
 use sigmastar_prove::certificate::certificate_json;
-use sigmastar_prove::certify::{Options, Wanted, certify_for};
+use sigmastar_prove::certify::{Wanted, certify_for};
 use sigmastar_prove::rate::found::RateForCount;
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::stability::ErrorBox;
@@ -61,9 +61,8 @@ fn rates_are_near_those_of_the_loops() {
     let mut shares: Vec<(f64, String)> = Vec::new();
     for Shipped { name, spec, run, .. } in certified() {
         let gain = run.sigma_star().expect("certified") * Rational::from((3, 2));
-        let options = Options { compare: false, ..Options::default() };
         let mut run =
-            certify_for(spec, options, Wanted { gain: Some(&gain), ..Wanted::default() }).expect("not refuted");
+            certify_for(spec, options(), Wanted { gain: Some(&gain), ..Wanted::default() }).expect("not refuted");
         assert_eq!(run.sigma_star(), Some(&gain), "{name}");
         run.prove_rates(&COUNTS).expect("by norms");
         let proof = run.sharp.proved().expect("certified");
@@ -104,13 +103,47 @@ fn paper(sigma: f64, time: f64, [x, y, e, z0, z1, z2]: [f64; 6]) -> [f64; 6] {
     [f[0], f[1], q - sigma * e + s, -sigma * e, turn * z2 - sigma * e, -turn * z1 + turn * e]
 }
 
-fn step(sigma: f64, time: f64, h: f64, state: [f64; 6]) -> [f64; 6] {
+/// A step of the method of Runge and Kutta.
+pub fn step(field: &dyn Fn(f64, [f64; 6]) -> [f64; 6], time: f64, h: f64, state: [f64; 6]) -> [f64; 6] {
     let add = |a: [f64; 6], b: [f64; 6], c: f64| std::array::from_fn(|i| a[i] + c * b[i]);
-    let k1 = paper(sigma, time, state);
-    let k2 = paper(sigma, time + h / 2.0, add(state, k1, h / 2.0));
-    let k3 = paper(sigma, time + h / 2.0, add(state, k2, h / 2.0));
-    let k4 = paper(sigma, time + h, add(state, k3, h));
+    let k1 = field(time, state);
+    let k2 = field(time + h / 2.0, add(state, k1, h / 2.0));
+    let k3 = field(time + h / 2.0, add(state, k2, h / 2.0));
+    let k4 = field(time + h, add(state, k3, h));
     std::array::from_fn(|i| state[i] + h / 6.0 * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i]))
+}
+
+/// The largest share of factor exp(-rate t) that |e - e_per| takes from each start, for 40 periods of 1 in so many steps each. The third state is e, and
+/// e_per is what is left of it after so many periods from 0.
+pub fn shares(
+    field: &dyn Fn(f64, [f64; 6]) -> [f64; 6],
+    [steps, settled]: [usize; 2],
+    [rate, factor]: [f64; 2],
+    starts: &[[f64; 6]],
+) -> Vec<f64> {
+    let h = 1.0 / steps as f64;
+    let run = |mut state: [f64; 6], periods: usize, see: &mut dyn FnMut(usize, [f64; 6])| {
+        for i in 0..periods * steps {
+            see(i, state);
+            state = step(field, (i % steps) as f64 * h, h, state);
+        }
+        state
+    };
+    let settled = run([0.0; 6], settled, &mut |_, _| {});
+    let mut periodic = Vec::new();
+    run(settled, 1, &mut |_, state| periodic.push(state[2]));
+    let worst = |start: &[f64; 6]| {
+        let mut worst = 0.0_f64;
+        run(*start, 40, &mut |i, state| {
+            let error = (state[2] - periodic[i % steps]).abs();
+            // What is left of the transient in the periodic solution, and of rounding.
+            if error > 1e-8 {
+                worst = worst.max(error / (factor * (-rate * i as f64 * h).exp()));
+            }
+        });
+        worst
+    };
+    starts.iter().map(worst).collect()
 }
 
 /// Solutions of a plant within the data, from the boundary of the set, stay below factor exp(-rate t), for 40 periods.
@@ -119,43 +152,15 @@ fn solutions_decay_as_it_is_claimed() {
     let spec = "specs/paper-example-at-rest.json";
     let found = answer(&["certify", spec, "--sigma", "45", "--n-o", "1", "--no-compare", "--format", "json"]);
     let report = json(&found.stdout);
-    let number = |value: &Value| value.as_str().expect("a number").parse::<f64>().expect("a decimal");
     let rate = &report["for_n_o"][0];
     let (rate, factor) = (number(&rate["rate"]), number(&rate["factor"]));
     let [x_0, e_0] = ["X0", "E0"].map(|name| number(&report["initial_set"][name]));
-    const STEPS: usize = 4000;
-    let (sigma, h) = (45.0, 1.0 / STEPS as f64);
-    let run = |mut state: [f64; 6], periods: usize, mut see: Box<dyn FnMut(usize, [f64; 6]) + '_>| {
-        for i in 0..periods * STEPS {
-            see(i, state);
-            state = step(sigma, (i % STEPS) as f64 * h, h, state);
-        }
-        state
-    };
-    // The periodic solution, after a long time.
-    let settled = run([0.0; 6], 120, Box::new(|_, _| {}));
-    let mut periodic = Vec::new();
-    run(settled, 1, Box::new(|_, state| periodic.push(state[2])));
-    let mut slowest = 0.0_f64;
     // x_0(0) of section 9.
-    for [x, y, e] in [[1.0, 0.0, 1.0], [0.0, 1.0, -1.0], [-0.7, 0.7, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, -1.0]] {
-        let start = [-0.17869 + 0.999 * x_0 * x, 0.073256 + 0.999 * x_0 * y, e_0 * e, 0.0, 0.0, 0.0];
-        let mut worst = 0.0_f64;
-        run(
-            start,
-            40,
-            Box::new(|i, state| {
-                let error = (state[2] - periodic[i % STEPS]).abs();
-                // What is left of the transient in the periodic solution, and of rounding.
-                if error > 1e-8 {
-                    worst = worst.max(error / (factor * (-rate * i as f64 * h).exp()));
-                }
-            }),
-        );
-        assert!(worst <= 1.0 && worst > 0.0, "{x} {y} {e}: {worst}");
-        slowest = slowest.max(worst);
-    }
-    assert!(slowest > 1e-3, "nothing is near the bound: {slowest}");
+    let starts = [[1.0, 0.0, 1.0], [0.0, 1.0, -1.0], [-0.7, 0.7, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, -1.0]]
+        .map(|[x, y, e]| [-0.17869 + 0.999 * x_0 * x, 0.073256 + 0.999 * x_0 * y, e_0 * e, 0.0, 0.0, 0.0]);
+    let found = shares(&|time, state| paper(45.0, time, state), [4000, 120], [rate, factor], &starts);
+    assert!(found.iter().all(|share| *share <= 1.0 && *share > 0.0), "{found:?}");
+    assert!(found.iter().any(|share| *share > 1e-3), "nothing is near the bound: {found:?}");
 }
 
 #[test]
@@ -183,7 +188,6 @@ fn a_witness_is_read_beside_rates() {
     let spec = "specs/no-x.json";
     assert_eq!(run(&["certify", spec, "--n-o", "2,0", "-o", &first, "--no-compare"]), Some(0));
     assert_eq!(run(&["certify", spec, "--witness", &first, "--n-o", "0,2", "-o", &again, "--no-compare"]), Some(0));
-    let read = |path: &str| json(&std::fs::read(path).expect("written"));
     let (first, again) = (read(&first), read(&again));
     assert_eq!(first["claim"], again["claim"]);
     assert_eq!(first["witness"], again["witness"]);
@@ -199,7 +203,6 @@ fn a_gain_for_rates_that_are_asked_for() {
             program().args(["certify", file, "--n-o", "0,4", "--format", "json", "-q"]).args(more).output().unwrap();
         (output.status.code(), json(&output.stdout))
     };
-    let number = |value: &Value| value.as_str().unwrap().parse::<f64>().unwrap();
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("certificate.json");
     let (code, found) = report(&["--rate", "3", "-o", path.to_str().unwrap()]);
@@ -242,7 +245,6 @@ fn at_samples_a_plant_of_which_rates_are_asked_rests_on_norms() {
         let call = ["certify", "specs/plants/motor-axis.json", "--sampling-period", "1/20000", "--no-compare", "-q"];
         json(&program().args(call).args(["--format", "json"]).args(more).output().unwrap().stdout)
     };
-    let number = |value: &Value| value.as_str().unwrap().parse::<f64>().unwrap();
     let [least, with_rates, fast, kept] =
         [&[][..], &["--n-o", "4"], &["--n-o", "4", "--rate", "4.7"], &["--peak-error", "120"]].map(report);
     assert!(number(&with_rates["sigma"]) > number(&least["sigma"]));

@@ -1,16 +1,12 @@
 //! What reports say of states, of what vanishes, of the data that lower the gain, and with how many digits.
 
-use crate::support::{every, program, utf8};
+use crate::support::{every, in_one_line, number, program, utf8};
 use serde_json::Value;
 
 fn certify(args: &[&str]) -> String {
     let output = program().arg("certify").args(args).output().expect("the program runs");
     assert_eq!(output.status.code(), Some(0), "{args:?}: {}", utf8(output.stderr));
     utf8(output.stdout)
-}
-
-fn in_one_line(text: &str) -> String {
-    text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 /// Of a plant it is x - x_0(t) that vanishes; within bounding functions x is that deviation; without states there is e alone.
@@ -58,8 +54,8 @@ fn sensitivities(args: &[&str]) -> (Vec<String>, Vec<f64>, f64) {
         serde_json::from_str(&certify(&[args, &["--format", "json", "--no-compare"]].concat())).unwrap();
     let list = report["sensitivities"].as_array().unwrap();
     let names = list.iter().map(|entry| entry["datum"].as_str().unwrap().to_owned()).collect();
-    let gains = list.iter().map(|entry| entry["estimate"].as_str().unwrap().parse().unwrap()).collect();
-    (names, gains, report["sigma_star"].as_str().unwrap().parse().unwrap())
+    let gains = list.iter().map(|entry| number(&entry["estimate"])).collect();
+    (names, gains, number(&report["sigma_star"]))
 }
 
 /// What is said to lower sigma* most is the first of all that the file states, the initial set among it; and it does.

@@ -2,7 +2,7 @@
 //! what claims for given n_o say of it.
 
 use crate::controller::constant;
-use crate::support::{Shipped, certified, every, json, program, specification_text};
+use crate::support::{Shipped, certified, certified_in, document, every, json, number, program, read};
 use rug::Rational;
 use serde_json::{Value, json as object};
 use sigmastar_exact::enclosure::Enclosure;
@@ -120,7 +120,7 @@ fn shares(pair: &Pair, z: &[f64], m: f64) -> [f64; 2] {
 /// Random states and errors of all sizes, at the edge of cancelling, with and without a nominal gain that no double is; subnormal numbers too.
 #[test]
 fn the_code_never_rounds_more_than_is_counted() {
-    let mut document: Value = serde_json::from_str(&specification_text("paper-example")).unwrap();
+    let mut document = document("paper-example");
     let plain = document.clone();
     document["input_gain"] = object!({ "nominal": "3/7", "low": "0.4", "high": "0.5" });
     let mut random = Random(11);
@@ -233,7 +233,6 @@ fn rounding_alone_is_small_of_plants() {
         let output = program().arg("certify").arg(&file).args(call).args(*more).output().unwrap();
         let report = json(&output.stdout);
         assert_eq!(output.status.code(), Some(0), "{name}: {report:#}");
-        let number = |value: &Value| value.as_str().expect("a number").parse::<f64>().unwrap();
         let e_0 = number(&report["initial_set"]["E0"]);
         for found in report["for_n_o"].as_array().unwrap() {
             let share = number(&found["noise"]["limit"]) / e_0;
@@ -246,16 +245,11 @@ fn rounding_alone_is_small_of_plants() {
 /// A certificate of the paper's example with these members, and its report.
 fn written(members: &[(&str, Value)], arguments: &[&str]) -> (Value, Value) {
     let folder = tempfile::tempdir().expect("a folder");
-    let [file, certificate] = ["spec.json", "certificate.json"].map(|name| folder.path().join(name));
-    let mut document: Value = serde_json::from_str(&specification_text("paper-example-at-rest")).unwrap();
+    let mut document = document("paper-example-at-rest");
     members.iter().for_each(|(name, value)| document[*name] = value.clone());
-    std::fs::write(&file, document.to_string()).unwrap();
-    let mut call = program();
-    call.arg("certify").arg(&file).args(["--sigma", "60"]).args(arguments);
-    let output = call.args(["--no-compare", "--format", "json", "-o"]).arg(&certificate).output().unwrap();
-    let report = json(&output.stdout);
-    assert_eq!(output.status.code(), Some(0), "{report}");
-    (report, json(&std::fs::read(&certificate).unwrap()))
+    let flags = [&["--no-compare", "--sigma", "60"], arguments].concat();
+    let (certificate, report) = certified_in(folder.path(), &document, &flags);
+    (report, read(certificate))
 }
 
 const AT: [&str; 4] = ["--sampling-period", "1/500", "--n-o", "0,2"];
@@ -317,7 +311,7 @@ fn where_rounding_does_not_count_a_remark_or_a_reason_says_so() {
 /// Single precision is an error that says what the code does.
 #[test]
 fn single_precision_is_refused() {
-    let mut document: Value = serde_json::from_str(&specification_text("paper-example")).unwrap();
+    let mut document = document("paper-example");
     document["arithmetic"] = "single".into();
     let errors = Specification::from_json("single", &document.to_string()).expect_err("refused");
     assert!(errors.to_string().contains("double precision"), "{errors}");

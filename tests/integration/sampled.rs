@@ -1,6 +1,6 @@
 //! The regulator at samples, end to end: reading, certifying, the certificate and what reads it, the table, the export.
 
-use crate::support::{files, json, program, stem, utf8};
+use crate::support::{files, in_one_line, json, number, program, read, stem, utf8};
 use rug::Rational;
 use serde_json::{Value, json as object};
 use sigmastar_exact::number::{Direction, parse_decimal, round_rational, write_exact};
@@ -310,7 +310,7 @@ fn the_program_certifies_checks_its_file_and_exports_the_law() {
     let source = path("axis.c");
     program().args(["controller", &certificate, "--n-o", "10", "--format", "c", "-o", &source]).assert().code(0);
     let header = std::fs::read_to_string(path("axis.h")).unwrap();
-    let words = header.replace("\n *", " ").split_whitespace().collect::<Vec<_>>().join(" ");
+    let words = in_one_line(&header.replace("\n *", " "));
     assert!(words.contains("The law at samples here is the one that is claimed"), "{header}");
     assert!(
         words.contains("every phase of the sampling grid") && !words.contains("does not cover sampling"),
@@ -322,7 +322,7 @@ fn the_program_certifies_checks_its_file_and_exports_the_law() {
         (&export["certificate"]["covers_law"], &export["certificate"]["sigma"]),
         (&object!(true), &object!("25"))
     );
-    let claimed: Value = serde_json::from_str(&std::fs::read_to_string(&certificate).unwrap()).unwrap();
+    let claimed = read(&certificate);
     let gain: Rational = {
         let text = claimed["claim"]["gain"].as_str().unwrap();
         parse_decimal(text).unwrap()
@@ -346,7 +346,6 @@ fn targets_are_answered_at_samples() {
             [&["certify", AT_REST, "--sampling-period", "1/100", "--no-compare", "--format", "json"], targets].concat();
         json(&program().args(call).assert().code(0).get_output().stdout)
     };
-    let number = |value: &Value| value.as_str().expect("a number").parse::<f64>().unwrap();
     let plain = report(&[])["consequences"].clone();
     assert_eq!((&plain["most"], &plain["targets"]), (&object!(49), &object!([])));
     let rows = plain["error_bounds"].as_array().expect("rows");
@@ -406,7 +405,6 @@ fn the_table_lists_pairs_that_certify() {
     let [by_step, by_gain, round] = [rows("by_sampling_period"), rows("by_sigma"), rows("round")];
     assert_eq!((by_step.len(), by_gain.len()), (2, 2));
     assert_eq!(by_gain[1]["outcome"], object!("not certified"));
-    let number = |value: &Value| value.as_str().unwrap().parse::<f64>().unwrap();
     assert!(number(&by_step[0]["sigma"]) > number(&by_step[1]["sigma"]));
     // Only of the gain that has a period; no longer, and 1, 2 or 5 times a power of ten.
     assert_eq!((round.len(), &round[0]["round"], &round[0]["sigma"]), (1, &object!("sampling_period"), &object!("22")));
@@ -446,7 +444,7 @@ fn shipped_specifications_are_certified_at_long_samples() {
         let table = json(&program().args(call).output().unwrap().stdout);
         let row = &table["by_sigma"][0];
         let product = match row["outcome"].as_str() {
-            Some("certified") => row["h_sigma"].as_str().and_then(|text| text.parse().ok()).unwrap(),
+            Some("certified") => number(&row["h_sigma"]),
             _ => 0.0,
         };
         println!("{}: h sigma = {product}", stem(&path));

@@ -2,6 +2,7 @@
 //! samples: from the boundary of the certified set every bound of the claim holds, for few and for the most oscillators.
 
 use crate::controller::installed;
+use crate::controller_c::gcc;
 use crate::sampled::at_samples;
 use crate::sampled_falsify::{CERTIFICATE, DELAYED, SAMPLES};
 use crate::support::{PLANT_TEXT, json, program, specification_text};
@@ -157,9 +158,7 @@ fn export(folder: &Path, (certificate, says): (&Path, [&str; 2]), sigma: &Consta
     }
     std::fs::write(&main, MAIN).unwrap();
     for other in [&main, &folder.join("law_example.c")] {
-        let strict = ["-std=c99", "-O2", "-Wall", "-Wextra", "-pedantic", "-Werror", "-o"];
-        let gcc = Command::new("gcc").args(strict).arg(&binary).arg(&source).arg(other).output().unwrap();
-        assert!(gcc.status.success(), "{}", String::from_utf8_lossy(&gcc.stderr));
+        gcc(&[&source, other], &binary);
         if other == &main {
             std::fs::copy(&binary, folder.join("loop")).unwrap();
         }

@@ -117,6 +117,13 @@ pub fn in_one_line(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
+/// The exit code of a call, and both streams in one line.
+#[track_caller]
+pub fn told(call: &mut Command) -> (i32, String) {
+    let output = call.output().expect("the program runs");
+    (output.status.code().expect("a code"), in_one_line(&[utf8(output.stdout), utf8(output.stderr)].join("\n")))
+}
+
 /// A decimal or a fraction that is written as text.
 #[track_caller]
 pub fn number(value: &Value) -> f64 {

@@ -1,78 +1,39 @@
 //! The transfer bound against its plain definition: T_N(x) = g_N'(x)/(1 + nu^2 g_N(x)^2), summed pole by pole.
 
-use rug::ops::Pow;
-use rug::{Float, Rational};
+use crate::transfer_sums::{Family, explicit, plain_transfer, power};
+use rug::{Float, Integer, Rational};
 use sigmastar_exact::enclosure::Truth;
 use sigmastar_exact::number::{Direction, round_rational};
-use sigmastar_lang::spec::Specification;
 use sigmastar_theory::data::Data;
 use sigmastar_theory::transfer::{BoxProof, TradeOff, TransferProof, closed_form_pair, decide};
 
-const BITS: u32 = 200;
-
-fn specification(mu: &str, matched: bool, weights: &str) -> Specification {
-    let frequency = if matched { "2*pi" } else { "1" };
-    let text = format!(
-        r#"{{"format": "sigmastar/bounding-spec", "version": 1, "name": "transfer", "period": "1",
-        "lyapunov": {{"p_low": 1, "p_up": 1, "alpha": 1}},
-        "bounds": {{"f": 0, "f_e": 0, "f_xx": 0, "f_ex": 0, "q": 1, "q_e": 0, "q_x": 0, "q_t": 1}},
-        "internal_model": {{"mu": "{mu}", "base_frequency": "{frequency}", "matched": {matched}, "weights": {weights}}},
-        "initial_set": {{"kind": "paper"}}}}"#
-    );
-    Specification::from_json("transfer", &text).unwrap()
-}
-
-/// Weights as JSON, and the same weights as numbers.
-type Family = (String, Box<dyn Fn(u32) -> Float>);
-
-fn float(value: f64) -> Float {
-    Float::with_val(BITS, value)
-}
-
-fn power(n0: f64, epsilon: f64) -> Family {
-    let json = format!(r#"{{"family": "power", "n0": "{n0}", "epsilon": "{epsilon}"}}"#);
-    (json, Box::new(move |l| if l == 0 { float(n0) } else { float(f64::from(l)).pow(float(-1.0 - epsilon)) }))
-}
-
-fn explicit(values: &'static [f64], coefficient: f64, exponent: f64) -> Family {
-    let list: Vec<String> = values.iter().map(|v| format!("\"{v}\"")).collect();
-    let json = format!(
-        r#"{{"family": "explicit", "values": [{}], "tail": {{"coefficient": "{coefficient}", "exponent": "{exponent}"}}}}"#,
-        list.join(", ")
-    );
-    let value = move |l: u32| match values.get(l as usize) {
-        Some(value) => float(*value),
-        None => float(coefficient) * float(f64::from(l)).pow(float(-exponent)),
-    };
-    (json, Box::new(value))
-}
-
-fn families() -> Vec<Family> {
-    vec![
-        power(2.0, 0.5),
-        power(1.0009765625, 0.0078125),
-        power(50.0, 1.0),
-        explicit(&[2.0, 1.0, 0.375, 0.25], 1.25, 1.5),
-        explicit(&[1.5], 1.0, 2.0),
+fn families() -> [Family; 5] {
+    [
+        power("2", "0.5", "1"),
+        power("1.0009765625", "0.0078125", "1"),
+        power("50", "1", "1"),
+        explicit(&["2", "1", "0.375", "0.25"], "1.25", "1.5", "1"),
+        explicit(&["1.5"], "1", "2", "1"),
     ]
 }
 
-/// T_N(x) by the definition, for x that is no integer.
-fn transfer(n: &dyn Fn(u32) -> Float, poles: u32, x: &Float, nu: &Float) -> Float {
-    let (mut g, mut slope) = (float(0.0), float(0.0));
-    let mut pole = |l: f64, c: &Float| {
-        let distance = Float::with_val(BITS, l - x);
-        g += Float::with_val(BITS, c / &distance);
-        slope += Float::with_val(BITS, c / distance.square());
-    };
-    pole(0.0, &n(0));
-    for l in 1..=poles {
-        let half = n(l) / 2u32;
-        pole(l.into(), &half);
-        pole(-f64::from(l), &half);
+/// Asserts that T_N is nowhere above k0 + k1 x^2, with so many poles, at points that are no integers.
+fn assert_above(family: &Family, [k0, k1]: [&Rational; 2], counts: &[u64], points: &[Rational]) {
+    for count in counts {
+        let weights = family.weights(*count);
+        for x in points {
+            let bound = x.clone().square() * k1 + k0;
+            let value = plain_transfer(&weights, &family.nu, x);
+            assert!(value <= bound, "{} nu = {} N = {count} x = {x}: {value} > {bound}", family.json, family.nu);
+        }
     }
-    let scaled = Float::with_val(BITS, nu * &g).square();
-    slope / (scaled + 1u32)
+}
+
+/// On both sides of these integers at 0.49/2^(j - 1), as far as that is not negative.
+fn near(integers: &[i64], j: impl Iterator<Item = u32> + Clone) -> Vec<Rational> {
+    let offsets = j.flat_map(|j| [-49, 49].map(|offset| Rational::from((offset, 100)) >> (j - 1)));
+    let points = integers.iter().flat_map(|m| offsets.clone().map(move |offset| offset + m));
+    points.filter(|x| *x >= 0).collect()
 }
 
 fn up(value: &sigmastar_exact::enclosure::Enclosure) -> Rational {
@@ -81,9 +42,11 @@ fn up(value: &sigmastar_exact::enclosure::Enclosure) -> Rational {
 
 #[test]
 fn the_closed_form_is_above_the_definition() {
-    for (json, n) in families() {
+    let points = near(&[0, 1, 2, 3, 5, 7, 8, 20, 21], [1, 2, 3, 5, 10, 30].into_iter());
+    for family in families() {
         for mu in ["0.01", "0.159", "1", "30"] {
-            let spec = specification(mu, false, &json);
+            let family = family.with_mu(mu);
+            let spec = family.specification();
             let data = Data::new(&spec, 128);
             let (k0, k1) = closed_form_pair(&data);
             let (k0, k1) = (up(&k0), up(&k1));
@@ -93,54 +56,32 @@ fn the_closed_form_is_above_the_definition() {
             {
                 assert_ne!(decide(&data, &k0, &k1, &TransferProof::ClosedForm).0, Truth::True);
             }
-            let nu = Float::with_val(BITS, Float::parse(mu).unwrap());
-            for poles in [0, 1, 2, 3, 7, 20] {
-                for m in [0_u32, 1, 2, 3, 5, 7, 8, 20, 21] {
-                    for j in [1, 2, 3, 5, 10, 30] {
-                        for sign in [-1.0, 1.0] {
-                            let x: Float = float(f64::from(m)) + float(sign * 0.49) * float(2.0).pow(1 - j);
-                            if x < 0 {
-                                continue;
-                            }
-                            let bound = Float::with_val(BITS, x.square_ref()) * &k1 + &k0;
-                            let value = transfer(&*n, poles, &x, &nu);
-                            assert!(value <= bound, "{json} mu = {mu} N = {poles} x = {x}: {value} > {bound}");
-                        }
-                    }
-                }
-            }
+            assert_above(&family, [&k0, &k1], &[0, 1, 2, 3, 7, 20], &points);
         }
     }
 }
 
 #[test]
 fn matched_pairs_are_above_the_definition_at_integers_and_tight() {
-    for (json, n) in families() {
+    // The pole itself is removable; this close to it the value has settled.
+    let points = [0, 1, 2, 3, 6, 7, 40, 41].map(|m| Rational::from((1, Integer::from(1) << 60)) + m);
+    for family in families() {
         for mu in ["0.01", "1", "6", "200"] {
-            let spec = specification(mu, true, &json);
+            let mut family = family.with_mu(mu);
+            let spec = family.specification_at("2*pi", true);
             let data = Data::new(&spec, 128);
-            let pi = Float::with_val(BITS, rug::float::Constant::Pi);
-            let nu = Float::with_val(BITS, Float::parse(mu).unwrap()) / (pi * 2u32);
+            family.nu /= Float::with_val(family.nu.prec(), rug::float::Constant::Pi) * 2u32;
             let candidates = TradeOff::matched(&data).candidates;
             assert!(!candidates.is_empty());
             for (index, (k0, k1, k)) in candidates.into_iter().enumerate() {
                 let slightly_up = |v: f64| Rational::from_f64(v * (1.0 + 1e-10)).unwrap();
                 let (k0, k1) = (slightly_up(k0), slightly_up(k1));
                 let proof = TransferProof::Matched { k };
-                assert_eq!(decide(&data, &k0, &k1, &proof).0, Truth::True, "{json} {mu} {index}");
+                assert_eq!(decide(&data, &k0, &k1, &proof).0, Truth::True, "{} {mu} {index}", family.json);
                 let lower = &k1 * Rational::from((98, 100));
-                assert_eq!(decide(&data, &k0, &lower, &proof).0, Truth::False, "{json} {mu} {index}");
-                if index % 8 != 0 {
-                    continue;
-                }
-                for poles in [0, 1, 2, 6, 40] {
-                    for m in [0_u32, 1, 2, 3, 6, 7, 40, 41] {
-                        // The pole itself is removable; this close to it the value has settled.
-                        let x: Float = float(f64::from(m)) + float(2.0).pow(-60);
-                        let bound = Float::with_val(BITS, x.square_ref()) * &k1 + &k0;
-                        let value = transfer(&*n, poles, &x, &nu);
-                        assert!(value <= bound, "{json} mu = {mu} N = {poles} x = {m}: {value} > {bound}");
-                    }
+                assert_eq!(decide(&data, &k0, &lower, &proof).0, Truth::False, "{} {mu} {index}", family.json);
+                if index % 8 == 0 {
+                    assert_above(&family, [&k0, &k1], &[0, 1, 2, 6, 40], &points);
                 }
             }
         }
@@ -149,9 +90,9 @@ fn matched_pairs_are_above_the_definition_at_integers_and_tight() {
 
 #[test]
 fn matched_proofs_need_a_matched_frequency_and_a_moderate_k() {
-    let (json, _) = power(2.0, 0.5);
+    let family = power("2", "0.5", "1");
     let (large, proof) = (Rational::from(1_000_000_000), |k| TransferProof::Matched { k });
-    let matched = specification("1", true, &json);
+    let matched = family.specification_at("2*pi", true);
     let data = Data::new(&matched, 128);
     assert_eq!(decide(&data, &large, &large, &proof(1)).0, Truth::True);
     assert_eq!(decide(&data, &large, &large, &proof(4096)).0, Truth::True);
@@ -162,18 +103,19 @@ fn matched_proofs_need_a_matched_frequency_and_a_moderate_k() {
     for (k0, expected) in [((19_739, 1000), Truth::False), ((19_740, 1000), Truth::True)] {
         assert_eq!(decide(&data, &Rational::from(k0), &large, &proof(1)).0, expected);
     }
-    let unmatched = specification("1", false, &json);
+    let unmatched = family.specification();
     assert_eq!(decide(&Data::new(&unmatched, 128), &large, &large, &proof(1)).0, Truth::False);
 }
 
 #[test]
 fn proofs_by_boxes_are_above_the_definition() {
     let (mut tried, mut proved) = (0, 0);
-    for (json, n) in families() {
+    let points = near(&[0, 1, 2, 3, 5, 20, 40, 41], 1..14);
+    for family in families() {
         for mu in ["0.05", "0.3", "1"] {
-            let spec = specification(mu, false, &json);
+            let family = family.with_mu(mu);
+            let spec = family.specification();
             let data = Data::new(&spec, 128);
-            let nu = Float::with_val(BITS, Float::parse(mu).unwrap());
             let candidates = TradeOff::curve(&data).candidates;
             for (k0, k1, _) in candidates.into_iter().skip(20).step_by(25).take(2) {
                 let (k0, k1) = (Rational::from_f64(k0).unwrap(), Rational::from_f64(k1 * 1.03).unwrap());
@@ -183,21 +125,7 @@ fn proofs_by_boxes_are_above_the_definition() {
                 proved += 1;
                 let proof = TransferProof::Boxes(proof);
                 assert_eq!(decide(&data, &k0, &k1, &proof).0, Truth::True);
-                for poles in [0, 1, 2, 3, 7, 40] {
-                    for m in [0_u32, 1, 2, 3, 5, 20, 40, 41] {
-                        for j in 1..14 {
-                            for sign in [-1.0, 1.0] {
-                                let x: Float = float(f64::from(m)) + float(sign * 0.49) * float(2.0).pow(1 - j);
-                                if x < 0 {
-                                    continue;
-                                }
-                                let bound = Float::with_val(BITS, x.square_ref()) * &k1 + &k0;
-                                let value = transfer(&*n, poles, &x, &nu);
-                                assert!(value <= bound, "{json} mu = {mu} N = {poles} x = {x}: {value} > {bound}");
-                            }
-                        }
-                    }
-                }
+                assert_above(&family, [&k0, &k1], &[0, 1, 2, 3, 7, 40], &points);
             }
         }
     }

@@ -14,13 +14,14 @@ use sigmastar_theory::transfer::{
 
 const BITS: u32 = 320;
 
-/// Weights as JSON and as numbers: n_0, ..., n_L and then coefficient * l^-p.
-struct Family {
-    json: String,
+/// Weights as JSON and as numbers, n_0, ..., n_L and then coefficient * l^-p; and mu, with nu = mu for the base frequency 1.
+#[derive(Clone)]
+pub struct Family {
+    pub json: String,
     listed: Vec<Float>,
     coefficient: Float,
     p: Float,
-    nu: Float,
+    pub nu: Float,
     mu: String,
 }
 
@@ -53,7 +54,7 @@ fn rational(text: &str) -> Float {
     text.split_once('/').map_or_else(|| float(text), |(over, under)| float(over) / float(under))
 }
 
-fn power(n0: &str, epsilon: &str, mu: &str) -> Family {
+pub fn power(n0: &str, epsilon: &str, mu: &str) -> Family {
     Family {
         json: format!(r#"{{"family": "power", "n0": "{n0}", "epsilon": "{epsilon}"}}"#),
         listed: vec![float(n0)],
@@ -64,7 +65,7 @@ fn power(n0: &str, epsilon: &str, mu: &str) -> Family {
     }
 }
 
-fn explicit(values: &[&str], coefficient: &str, exponent: &str, mu: &str) -> Family {
+pub fn explicit(values: &[&str], coefficient: &str, exponent: &str, mu: &str) -> Family {
     let list: Vec<String> = values.iter().map(|value| format!("\"{value}\"")).collect();
     let tail = format!(r#"{{"coefficient": "{coefficient}", "exponent": "{exponent}"}}"#);
     Family {
@@ -89,23 +90,28 @@ fn families() -> Vec<Family> {
 }
 
 impl Family {
-    fn specification(&self) -> Specification {
-        self.specification_at("1")
+    pub fn with_mu(&self, mu: &str) -> Family {
+        Family { nu: rational(mu), mu: mu.to_owned(), ..self.clone() }
     }
 
-    fn specification_at(&self, frequency: &str) -> Specification {
+    pub fn specification(&self) -> Specification {
+        self.specification_at("1", false)
+    }
+
+    /// Nothing but the weights; the period is 1.
+    pub fn specification_at(&self, frequency: &str, matched: bool) -> Specification {
         let text = format!(
             r#"{{"format": "sigmastar/bounding-spec", "version": 1, "name": "sums", "period": "1",
             "lyapunov": {{"p_low": 1, "p_up": 1, "alpha": 1}},
             "bounds": {{"f": 0, "f_e": 0, "f_xx": 0, "f_ex": 0, "q": 1, "q_e": 0, "q_x": 0, "q_t": 1}},
-            "internal_model": {{"mu": "{}", "base_frequency": "{}", "weights": {}}},
+            "internal_model": {{"mu": "{}", "base_frequency": "{frequency}", "matched": {matched}, "weights": {}}},
             "initial_set": {{"kind": "paper"}}}}"#,
-            self.mu, frequency, self.json
+            self.mu, self.json
         );
         Specification::from_json("sums", &text).unwrap()
     }
 
-    fn weights(&self, last: u64) -> Vec<Float> {
+    pub fn weights(&self, last: u64) -> Vec<Float> {
         let tail = |l: u64| Float::with_val(BITS, l).pow(Float::with_val(BITS, -&self.p)) * &self.coefficient;
         (0..=last).map(|l| self.listed.get(l as usize).cloned().unwrap_or_else(|| tail(l))).collect()
     }
@@ -147,7 +153,8 @@ fn group(sums: &PoleSums, x: &Enclosure) -> [Enclosure; 2] {
     }
 }
 
-fn plain_transfer(weights: &[Float], nu: &Float, x: &Rational) -> Float {
+/// T by its definition, for x that is no pole.
+pub fn plain_transfer(weights: &[Float], nu: &Float, x: &Rational) -> Float {
     let [g, slope] = plain_group(weights, x);
     slope / ((g * nu).square() + 1u32)
 }
@@ -420,7 +427,7 @@ fn the_poles_give_the_transfer_function_as_lorentzians() {
             }
             let slowest = slowest_decay(&data, &poles);
             // In 1/time: the same poles over the base frequency are three times as fast at three times that.
-            let faster = slowest_decay(&Data::new(&family.specification_at("3"), 128), &poles);
+            let faster = slowest_decay(&Data::new(&family.specification_at("3", false), 128), &poles);
             assert!((faster / &slowest).contains(&Rational::from(3)));
             assert!(slowest.is_positive().is_true());
             assert!(poles.iter().all(|pole| slowest.lower() <= pole.imaginary_part().upper()));

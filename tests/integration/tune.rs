@@ -1,6 +1,6 @@
 //! `sigmastar tune`.
 
-use crate::support::{EXAMPLE, EXAMPLE_TEXT, ROOT, json, program, specification_text, utf8};
+use crate::support::{EXAMPLE, EXAMPLE_TEXT, ROOT, json, number, program, specification_text, utf8};
 use predicates::str::{contains, is_empty};
 use serde_json::Value;
 use std::fs;
@@ -11,10 +11,6 @@ fn tune(spec: &str, arguments: &[&str], code: i32) -> Value {
     let mut command = program();
     command.args(["tune", "-", "-q", "--format", "json"]).args(arguments).write_stdin(spec);
     json(&command.assert().code(code).get_output().stdout)
-}
-
-fn number(value: &Value) -> f64 {
-    value.as_str().and_then(|text| text.parse().ok()).unwrap_or_else(|| panic!("{value} is no number"))
 }
 
 /// The certified gain of a specification.

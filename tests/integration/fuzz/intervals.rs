@@ -20,12 +20,16 @@ const BITS: u32 = 40;
 /// Points in each operand.
 const MEMBERS: usize = 6;
 
-/// What the two programs' intervals have in common.
-trait Arithmetic: Clone + std::fmt::Debug {
-    fn new(lower: Float, upper: Float) -> Self;
-    fn ends(&self) -> [Float; 2];
+/// The operations of [`ONE`] and [`TWO`] by their places there.
+trait Operations {
     fn one(&self, operation: usize) -> Self;
     fn two(&self, other: &Self, operation: usize) -> Self;
+}
+
+/// What the two programs' intervals have in common.
+trait Arithmetic: Operations + Clone + std::fmt::Debug {
+    fn new(lower: Float, upper: Float) -> Self;
+    fn ends(&self) -> [Float; 2];
     fn power(&self, exponent: i32) -> Self;
     /// Whether it is certainly less, and less or equal.
     fn compare(&self, other: &Self) -> [Option<bool>; 2];
@@ -49,7 +53,7 @@ where
     domain.then(|| rounded(value, round)).flatten()
 }
 
-/// Functions of one argument in the order of [`Arithmetic::one`]; `None` outside of the domain.
+/// Functions of one argument in the order of [`Operations::one`]; `None` outside of the domain.
 const ONE: [(&str, One); 14] = [
     ("neg", |x, r| rounded(-x, r)),
     ("abs", |x, r| rounded(x.abs_ref(), r)),
@@ -67,7 +71,7 @@ const ONE: [(&str, One); 14] = [
     ("to itself", |x, r| rounded(x, r)),
 ];
 
-/// Operations on two in the order of [`Arithmetic::two`].
+/// Operations on two in the order of [`Operations::two`].
 const TWO: [(&str, Two); 9] = [
     ("+", |a, b, r| rounded(a + b, r)),
     ("-", |a, b, r| rounded(a - b, r)),
@@ -83,6 +87,48 @@ const TWO: [(&str, Two); 9] = [
     }),
 ];
 
+/// The operations of both programs have the same names.
+macro_rules! operations {
+    ($type:ty) => {
+        impl Operations for $type {
+            fn one(&self, operation: usize) -> $type {
+                match ONE[operation].0 {
+                    "neg" => -self,
+                    "abs" => self.abs(),
+                    "recip" => self.recip(),
+                    "sqr" => self.sqr(),
+                    "sqrt" => self.sqrt(),
+                    "exp" => self.exp(),
+                    "log" => self.log(),
+                    "sin" => self.sin(),
+                    "cos" => self.cos(),
+                    "tan" => self.tan(),
+                    "atan" => self.atan(),
+                    "tanh" => self.tanh(),
+                    "coth" => self.coth(),
+                    _ => self.hull(self).intersect(self),
+                }
+            }
+
+            fn two(&self, other: &$type, operation: usize) -> $type {
+                match TWO[operation].0 {
+                    "+" => self + other,
+                    "-" => self - other,
+                    "*" => self * other,
+                    "/" => self / other,
+                    "min" => self.min(other),
+                    "max" => self.max(other),
+                    "pow" => self.pow(other),
+                    _ => self.hull(other),
+                }
+            }
+        }
+    };
+}
+
+operations!(Enclosure);
+operations!(Interval);
+
 impl Arithmetic for Enclosure {
     fn new(lower: Float, upper: Float) -> Enclosure {
         Enclosure::new(lower, upper)
@@ -90,38 +136,6 @@ impl Arithmetic for Enclosure {
 
     fn ends(&self) -> [Float; 2] {
         [self.lower(), self.upper()]
-    }
-
-    fn one(&self, operation: usize) -> Enclosure {
-        match ONE[operation].0 {
-            "neg" => self.negate(),
-            "abs" => self.abs(),
-            "recip" => self.recip(),
-            "sqr" => self.sqr(),
-            "sqrt" => self.sqrt(),
-            "exp" => self.exp(),
-            "log" => self.log(),
-            "sin" => self.sin(),
-            "cos" => self.cos(),
-            "tan" => self.tan(),
-            "atan" => self.atan(),
-            "tanh" => self.tanh(),
-            "coth" => self.coth(),
-            _ => self.hull(self).intersect(self),
-        }
-    }
-
-    fn two(&self, other: &Enclosure, operation: usize) -> Enclosure {
-        match TWO[operation].0 {
-            "+" => self + other,
-            "-" => self - other,
-            "*" => self * other,
-            "/" => self / other,
-            "min" => self.min(other),
-            "max" => self.max(other),
-            "pow" => self.pow(other),
-            _ => self.hull(other),
-        }
     }
 
     fn power(&self, exponent: i32) -> Enclosure {
@@ -143,38 +157,6 @@ impl Arithmetic for Interval {
 
     fn ends(&self) -> [Float; 2] {
         [self.lo().into_owned(), self.hi().into_owned()]
-    }
-
-    fn one(&self, operation: usize) -> Interval {
-        match ONE[operation].0 {
-            "neg" => -self,
-            "abs" => self.abs(),
-            "recip" => self.recip(),
-            "sqr" => self.sqr(),
-            "sqrt" => self.sqrt(),
-            "exp" => self.exp(),
-            "log" => self.log(),
-            "sin" => self.sin(),
-            "cos" => self.cos(),
-            "tan" => self.tan(),
-            "atan" => self.atan(),
-            "tanh" => self.tanh(),
-            "coth" => self.coth(),
-            _ => self.hull(self).intersect(self),
-        }
-    }
-
-    fn two(&self, other: &Interval, operation: usize) -> Interval {
-        match TWO[operation].0 {
-            "+" => self + other,
-            "-" => self - other,
-            "*" => self * other,
-            "/" => self / other,
-            "min" => self.min(other),
-            "max" => self.max(other),
-            "pow" => self.pow(other),
-            _ => self.hull(other),
-        }
     }
 
     fn power(&self, exponent: i32) -> Interval {

@@ -1,8 +1,9 @@
 //! What reaches the plant: every export divides by the nominal gain, and the true gain acts in simulations and in trials.
 
-use super::{gain, text, written};
+use super::{gain, text, with, written};
 use crate::controller::{array, constant, controller, installed, signal};
-use crate::support::{count, json, program, utf8};
+use crate::controller_c::outputs;
+use crate::support::{certified_in, checked, count, json, number, program, read, utf8};
 use serde_json::Value;
 use sigmastar_document::progress::Silent;
 use sigmastar_lab::falsify::{Finding, TrialSettings, TriedClaim, falsify};
@@ -11,7 +12,6 @@ use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{Document, Specification};
 use sigmastar_regulator::{Design, Stepper, read_regulator};
 use std::path::Path;
-use std::process::Command;
 
 const NOMINAL: &str = "2.5";
 
@@ -87,28 +87,13 @@ fn c_code_with_a_nominal_gain_agrees_with_the_stepper() {
         let form: Vec<&str> = ["--format", "c"].into_iter().chain(limited).collect();
         let source = utf8(exported(folder.path(), &form, "regulator.c"));
         assert!(source.contains("static const double nominal = "), "{source}");
-        let inputs: Vec<String> = (0..1000).map(|k| format!("0x{:016x}ULL", signal(k).to_bits())).collect();
-        let main = format!(
-            "#include \"regulator.h\"\n#include <stdio.h>\n#include <string.h>\n\
-             static const unsigned long long inputs[] = {{ {} }};\n\
-             int main(void) {{ sigmastar_controller c; unsigned i; sigmastar_reset(&c);\n\
-             for (i = 0; i < 1000; i++) {{ double e, u; unsigned long long bits; memcpy(&e, &inputs[i], 8);\n\
-             u = sigmastar_step(&c, e); memcpy(&bits, &u, 8); printf(\"%llx\\n\", bits); }} return 0; }}\n",
-            inputs.join(", ")
-        );
-        std::fs::write(folder.path().join("main.c"), main).unwrap();
-        let build =
-            ["-std=c99", "-O2", "-Wall", "-Wextra", "-pedantic", "-Werror", "regulator.c", "main.c", "-o", "main"];
-        let gcc = Command::new("gcc").current_dir(folder.path()).args(build).output().unwrap();
-        assert!(gcc.status.success(), "{}", String::from_utf8_lossy(&gcc.stderr));
-        let printed = utf8(Command::new(folder.path().join("main")).output().unwrap().stdout);
+        let printed = outputs(&folder.path().join("regulator.c"), 1000);
         let design = Design::new(&spec.internal_model, &sigma, 3).for_actuator(spec.input_gain.as_ref());
         let limit = limit.map(|text| constant(text).to_f64());
         let law = design.discretise(&constant("1/100")).unwrap().saturated(limit);
         let mut stepper = Stepper::new(design.regulator(), law);
         let controls: Vec<f64> = (0..1000).map(|k| stepper.step(signal(k))).collect();
-        let expected: Vec<String> = controls.iter().map(|u| format!("{:x}", u.to_bits())).collect();
-        assert_eq!(printed.lines().collect::<Vec<_>>(), expected, "{limit:?}");
+        assert!(controls.iter().map(|u| u.to_bits()).eq(printed), "{limit:?}");
         if let Some(limit) = limit {
             assert!(controls.iter().all(|u| u.abs() <= limit) && controls.contains(&limit));
         }
@@ -160,15 +145,13 @@ fn the_true_gain_acts_in_simulations() {
 #[test]
 fn the_control_is_that_of_the_actuator() {
     let folder = tempfile::tempdir().unwrap();
-    let certificate = folder.path().join("certificate.json");
     let found = |nominal: f64| {
         let sizes = [nominal, 0.8 * nominal, 1.25 * nominal].map(|gain| gain.to_string());
-        let file = written(folder.path(), "no-x", &gain(&sizes[0], &sizes[1], &sizes[2]));
-        program().args(["certify", "-q", "--no-compare", &file, "--force", "-o"]).arg(&certificate).assert().code(0);
-        let checked = json(&program().args(["check", "--format", "json"]).arg(&certificate).output().unwrap().stdout);
-        assert_eq!(checked["figures"]["verdict"], "agree", "{checked}");
-        let document = Document::from_bytes("certificate", &std::fs::read(&certificate).unwrap()).unwrap();
-        let claim = TriedClaim::from_document(&document).unwrap();
+        let file = with("no-x", &gain(&sizes[0], &sizes[1], &sizes[2]));
+        let (certificate, _) = certified_in(folder.path(), &file, &["--no-compare"]);
+        let answer = checked(&certificate);
+        assert_eq!(answer["figures"]["verdict"], "agree", "{answer}");
+        let claim = TriedClaim::from_document(&Document::from_bytes("certificate", &std::fs::read(&certificate).unwrap()).unwrap()).unwrap();
         let outcome = falsify(&claim, TrialSettings { trials: 6, seed: 3, only: None }, &Silent);
         let share = |part: &str| {
             let all = outcome.closest();
@@ -193,13 +176,10 @@ fn the_control_is_that_of_the_actuator() {
 fn trials_take_the_ends_first() {
     let folder = tempfile::tempdir().unwrap();
     for (name, sizes) in [("no-x", gain("2", "1.8", "2.2")), ("plants/paper-example", interval())] {
-        let file = written(folder.path(), name, &sizes);
-        let certificate = folder.path().join("certificate.json");
-        program().args(["certify", "-q", "--no-compare", &file, "--force", "-o"]).arg(&certificate).assert().code(0);
-        let document = Document::from_bytes("certificate", &std::fs::read(&certificate).unwrap()).unwrap();
-        let claim = TriedClaim::from_document(&document).unwrap();
+        let (certificate, _) = certified_in(folder.path(), &with(name, &sizes), &["--no-compare"]);
+        let claim = TriedClaim::from_document(&Document::from_bytes("certificate", &std::fs::read(&certificate).unwrap()).unwrap()).unwrap();
         let found = falsify(&claim, TrialSettings { trials: count(4, 8).into(), seed: 3, only: None }, &Silent);
-        let end = |name: &str| sizes[name].as_str().unwrap().parse::<f64>().unwrap();
+        let end = |name: &str| number(&sizes[name]);
         let mut gains = Vec::new();
         for finding in &found.findings {
             let Finding::Holds { trial, shares } = finding else { panic!("{name}: {finding:?}") };
@@ -212,7 +192,7 @@ fn trials_take_the_ends_first() {
         let call =
             program().args(["falsify", "-q", "--trial", "2", "--force", "-o"]).arg(&plant).arg(&certificate).assert();
         call.code(0);
-        let plant = json(&std::fs::read(&plant).unwrap());
+        let plant = read(&plant);
         assert_eq!(plant["input_gain"], sizes);
         assert!(plant["description"].as_str().unwrap().contains(&format!("--input-gain {:?}", end("high"))));
     }

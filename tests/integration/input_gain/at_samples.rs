@@ -2,7 +2,7 @@
 //! 13.1): what is certified, what of a witness is refused, and what trials say.
 
 use super::{gain, text};
-use crate::support::{every, json, program, utf8};
+use crate::support::{certified_in, decided_again, document, every, in_one_line, json, number, program, read, utf8};
 use rug::Rational;
 use serde_json::{Value, json as object};
 use sigmastar_document::progress::Silent;
@@ -15,8 +15,7 @@ use std::path::{Path, PathBuf};
 
 /// A shipped specification at so many samples a period of 1, with an input gain or without one.
 fn spec(name: &str, samples: u32, gain: Option<Value>) -> Specification {
-    let plain = crate::support::specification_text(name);
-    let mut file: Value = serde_json::from_str(&gain.map_or(plain, |gain| text(name, &gain))).unwrap();
+    let mut file = gain.map_or_else(|| document(name), |gain| shipped(name, &gain));
     file["internal_model"]["sampling_period"] = format!("1/{samples}").into();
     Specification::from_json(name, &file.to_string()).unwrap()
 }
@@ -30,23 +29,20 @@ fn witness(run: &SampledCertification<'_>) -> SampledWitness {
     run.claim().expect("certified").witness.clone()
 }
 
-/// Writes a file and certifies it at samples; the certificate is beside it.
-fn certified(folder: &Path, file: &Value, step: &str) -> (PathBuf, PathBuf, Value) {
-    let [plant, certificate] = ["input.json", "certificate.json"].map(|name| folder.join(name));
-    std::fs::write(&plant, file.to_string()).unwrap();
-    let call = ["--quiet", "--force", "--format", "json", "--sampling-period", step, "-o"];
-    let output = program().arg("certify").arg(&plant).args(call).arg(&certificate).assert().code(0);
-    (plant, certificate, json(&output.get_output().stdout))
+/// A file certified at samples: the certificate and the report.
+fn certified(folder: &Path, file: &Value, step: &str) -> (PathBuf, Value) {
+    certified_in(folder, file, &["--sampling-period", step])
 }
 
-/// The exit code of a file that is decided again with the witness of a certificate.
-fn again(certificate: &Path, file: &Path) -> Option<i32> {
-    let call = ["certify", "-q", "--no-compare", "--witness"];
-    program().args(call).arg(certificate).arg(file).output().unwrap().status.code()
+/// The exit code of a file at such samples, decided again with the witness of a certificate.
+fn again(folder: &Path, file: &Value, step: &str, certificate: &Path) -> Option<i32> {
+    let mut file = file.clone();
+    file["internal_model"]["sampling_period"] = step.into();
+    decided_again(folder, &file, certificate).0
 }
 
 fn shipped(name: &str, gain: &Value) -> Value {
-    serde_json::from_str(&text(name, gain)).unwrap()
+    json(text(name, gain).as_bytes())
 }
 
 /// With the gain known the claim is the one without the field, number by number; what is put out is over the nominal gain.
@@ -60,8 +56,8 @@ fn a_gain_that_is_known_changes_no_number() {
     }
     assert_eq!(known["claim"]["input_gain"], gain("4", "4", "4"));
     for bound in ["steady", "transient"] {
-        let number = |file: &Value| file["claim"]["control"][bound].as_str().unwrap().parse::<f64>().unwrap();
-        assert!((number(&plain) / number(&known) / 4.0 - 1.0).abs() < 1e-9, "{bound}");
+        let [plain, known] = [&plain, &known].map(|file| number(&file["claim"]["control"][bound]));
+        assert!((plain / known / 4.0 - 1.0).abs() < 1e-9, "{bound}");
     }
 }
 
@@ -131,20 +127,22 @@ fn a_witness_is_decided_again_and_every_altered_one_is_refused() {
 fn the_claim_and_the_report_say_so() {
     let folder = tempfile::tempdir().unwrap();
     let file = shipped("no-x", &gain("2", "1.8", "2.5"));
-    let (input, certificate, report) = certified(folder.path(), &file, "1/200");
+    let (certificate, report) = certified(folder.path(), &file, "1/200");
     assert_eq!(report["input_gain"], gain("2", "1.8", "2.5"));
     assert!(report["statement"].as_str().unwrap().contains("every constant input gain from 1.8 to 2.5"));
-    let number = |value: &Value| value.as_str().unwrap().parse::<f64>().unwrap();
     assert!(number(&report["sigma_without_interval_estimates"]["input_gain"]) < number(&report["sigma"]));
-    let written = json(&std::fs::read(&certificate).unwrap());
+    let written = read(&certificate);
     assert_eq!(written["claim"]["input_gain"], gain("2", "1.8", "2.5"));
     let statement = written["claim"]["statement"].as_str().unwrap();
     let expected = "for every number of oscillators n_o < 200/2 and every phase of the sampling grid and every input gain in [1.8, 2.5] (one \
                     constant; the regulator divides by the nominal 2), with period T = 1, ";
     assert!(statement.contains(expected), "{statement}");
-    assert_eq!(again(&certificate, &input), Some(0));
+    let input = folder.path().join("input.json");
+    let again_by_flag =
+        program().args(["certify", "-q", "--no-compare", "--witness"]).arg(&certificate).arg(&input).output();
+    assert_eq!(again_by_flag.unwrap().status.code(), Some(0));
     let said = utf8(program().arg("certify").arg(&input).args(["--sampling-period", "1/200"]).output().unwrap().stdout);
-    let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
+    let said = in_one_line(&said);
     assert!(said.contains("input gain: any constant from 1.8 to 2.5; the regulator divides by 2"), "{said}");
     assert!(said.contains("with input_gain known exactly"), "{said}");
     // A claim about another interval than the document's is refused.
@@ -171,28 +169,22 @@ fn the_claim_and_the_report_say_so() {
 fn plants_are_certified_for_every_gain_of_the_interval() {
     let folder = tempfile::tempdir().unwrap();
     let file = shipped("plants/motor-axis", &gain("1", "0.9", "1.1"));
-    let (_, certificate, report) = certified(folder.path(), &file, "1/10000");
-    let sigma: f64 = report["sigma"].as_str().unwrap().parse().unwrap();
+    let (certificate, report) = certified(folder.path(), &file, "1/10000");
+    let sigma = number(&report["sigma"]);
     // 20.29 for a gain that is known.
     assert!((20.5..22.5).contains(&sigma), "{sigma}");
-    let written = json(&std::fs::read(&certificate).unwrap());
+    let written = read(&certificate);
     assert!(written["witness"].get("matrix_inequality").is_some());
-    let of = |gain: &Value, more: &str| {
-        let other = folder.path().join("other.json");
-        let mut file = shipped("plants/motor-axis", gain);
-        file["internal_model"]["sampling_period"] = more.into();
-        std::fs::write(&other, file.to_string()).unwrap();
-        again(&certificate, &other)
-    };
-    assert_eq!(of(&gain("1", "0.9", "1.1"), "1/10000"), Some(0));
-    assert_eq!(of(&gain("5", "4.5", "5.5"), "1/10000"), Some(0));
-    assert_ne!(of(&gain("1", "0.6", "1.1"), "1/10000"), Some(0));
-    assert_ne!(of(&gain("1", "0.9", "1.6"), "1/10000"), Some(0));
+    let of = |gain: &Value| again(folder.path(), &shipped("plants/motor-axis", gain), "1/10000", &certificate);
+    assert_eq!(of(&gain("1", "0.9", "1.1")), Some(0));
+    assert_eq!(of(&gain("5", "4.5", "5.5")), Some(0));
+    assert_ne!(of(&gain("1", "0.6", "1.1")), Some(0));
+    assert_ne!(of(&gain("1", "0.9", "1.6")), Some(0));
 }
 
 /// A motor axis two constants of which are known to intervals, with an uncertain gain or without one.
 fn family(interval: [&str; 2], gain: Option<Value>) -> Value {
-    let mut file: Value = serde_json::from_str(&crate::support::specification_text("plants/motor-axis")).unwrap();
+    let mut file = document("plants/motor-axis");
     file["f"][0] = "-200*i + c*e + 40*sin(100*pi*t)".into();
     file["q"] = "100*i - d*e - 40*tanh(e) + 2000 + 1500*cos(100*pi*t) + 400*sin(200*pi*t)".into();
     file["parameters"] = object!({
@@ -210,14 +202,13 @@ fn family(interval: [&str; 2], gain: Option<Value>) -> Value {
 fn families_are_certified_at_samples() {
     let folder = tempfile::tempdir().unwrap();
     let file = family(["145", "155"], Some(gain("2", "1.9", "2.1")));
-    let (_, certificate, report) = certified(folder.path(), &file, "1/10000");
-    let number = |value: &Value| value.as_str().unwrap().parse::<f64>().unwrap();
+    let (certificate, report) = certified(folder.path(), &file, "1/10000");
     let sigma = number(&report["sigma"]);
     assert!((20.29..45.0).contains(&sigma), "{sigma}");
     let costs = report["sigma_without_interval_estimates"].as_object().unwrap();
     assert_eq!(costs.keys().collect::<Vec<_>>(), ["input_gain", "c", "d"]);
     assert!(costs.values().all(|cost| number(cost) <= sigma * 1.01), "{costs:?}");
-    let written = json(&std::fs::read(&certificate).unwrap());
+    let written = read(&certificate);
     let statement = written["claim"]["statement"].as_str().unwrap();
     assert!(
         statement
@@ -227,13 +218,7 @@ fn families_are_certified_at_samples() {
     );
     assert_eq!(written["claim"]["parameters"]["c"], object!({ "nominal": "150", "low": "145", "high": "155" }));
     // Decided again; of a wider family it is no witness.
-    let of = |plant: &Value| {
-        let mut plant = plant.clone();
-        plant["internal_model"]["sampling_period"] = "1/10000".into();
-        let other = folder.path().join("other.json");
-        std::fs::write(&other, plant.to_string()).unwrap();
-        again(&certificate, &other)
-    };
+    let of = |plant: &Value| again(folder.path(), plant, "1/10000", &certificate);
     assert_eq!(of(&file), Some(0));
     assert_ne!(of(&family(["100", "200"], Some(gain("2", "1.9", "2.1")))), Some(0));
     let trials = program().arg("falsify").arg(&certificate).args(["-q", "--format", "json", "--trials", "9"]).output();

@@ -6,7 +6,10 @@ mod at_samples;
 mod loops;
 mod of_parameters;
 
-use crate::support::{ROOT, cases, every, json, options, program, specification_text, utf8};
+use crate::support::{
+    assert_valid, cases, certified_in, checked, decided_again, document, every, json, number, options, program, read,
+    specification_text, stored, utf8,
+};
 use serde_json::{Value, json as object};
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{
@@ -20,14 +23,19 @@ fn gain(nominal: &str, low: &str, high: &str) -> Value {
     object!({ "nominal": nominal, "low": low, "high": high })
 }
 
-/// A shipped file with an input gain, as text.
-fn text(name: &str, gain: &Value) -> String {
-    let mut document: Value = serde_json::from_str(&specification_text(name)).unwrap();
+/// A shipped file with an input gain.
+fn with(name: &str, gain: &Value) -> Value {
+    let mut document = document(name);
     document["input_gain"] = gain.clone();
-    document.to_string()
+    document
 }
 
-fn read(name: &str, gain: &Value) -> Result<Specification, SpecErrors> {
+/// The same as text.
+fn text(name: &str, gain: &Value) -> String {
+    with(name, gain).to_string()
+}
+
+fn parsed(name: &str, gain: &Value) -> Result<Specification, SpecErrors> {
     Specification::from_json(name, &text(name, gain))
 }
 
@@ -37,20 +45,18 @@ fn sigma_star(run: &Certification<'_>) -> f64 {
 
 /// Writes a shipped file with an input gain into a folder.
 fn written(folder: &Path, name: &str, gain: &Value) -> String {
-    let file = folder.join("input.json");
-    std::fs::write(&file, text(name, gain)).unwrap();
-    file.to_str().unwrap().to_owned()
+    stored(folder, "input.json", &with(name, gain)).to_str().unwrap().to_owned()
 }
 
 #[test]
 fn three_positive_constants_in_order() {
-    let fine = read("linear", &gain("2", "9/5", "sqrt(5)")).unwrap().input_gain.unwrap();
+    let fine = parsed("linear", &gain("2", "9/5", "sqrt(5)")).unwrap().input_gain.unwrap();
     assert!(!fine.is_nominal() && fine.exact_factors().is_none());
     let [low, high] = fine.factors(128).unwrap().map(|factor| factor.midpoint_f64());
     assert!((low - 0.9).abs() < 1e-15 && (high - 5f64.sqrt() / 2.0).abs() < 1e-15);
-    let known = read("linear", &gain("2", "2", "4/2")).unwrap().input_gain.unwrap();
+    let known = parsed("linear", &gain("2", "2", "4/2")).unwrap().input_gain.unwrap();
     assert!(known.is_nominal() && known.factors(128).is_none());
-    assert!(read("linear", &object!(null)).is_err());
+    assert!(parsed("linear", &object!(null)).is_err());
     for (wrong, kind, pointer) in [
         (gain("1", "1.1", "2"), ErrorKind::Range, "/input_gain/low"),
         (gain("1", "0.9", "0.99"), ErrorKind::Range, "/input_gain/high"),
@@ -64,18 +70,14 @@ fn three_positive_constants_in_order() {
             "/input_gain/hihg",
         ),
     ] {
-        let errors = read("linear", &wrong).unwrap_err();
+        let errors = parsed("linear", &wrong).unwrap_err();
         let first = &errors.errors()[0];
         assert_eq!((first.kind, first.pointer.as_str()), (kind, pointer), "{wrong}: {}", errors.render(false));
     }
     // The same in TOML, and of a plant.
     let toml = "[input_gain]\nnominal = 1\nlow = 0.8\nhigh = 1.25\n";
-    let plant = std::fs::read_to_string(Path::new(ROOT).join("specs/plants/linear.json")).unwrap();
-    let mut plant: Value = serde_json::from_str(&plant).unwrap();
-    plant["input_gain"] = gain("1", "1.1", "2");
-    assert!(Plant::from_json("plant", &plant.to_string()).is_err());
-    plant["input_gain"] = gain("1", "0.8", "1.25");
-    let plant = Plant::from_json("plant", &plant.to_string()).unwrap();
+    assert!(Plant::from_json("plant", &text("plants/linear", &gain("1", "1.1", "2"))).is_err());
+    let plant = Plant::from_json("plant", &text("plants/linear", &gain("1", "0.8", "1.25"))).unwrap();
     let document = Document::parse_as("toml", toml, Notation::Toml).unwrap();
     let value = document.at("/input_gain").unwrap();
     let read = read_input_gain(&value, &Parameters::default(), &mut Errors::new());
@@ -87,7 +89,7 @@ fn three_positive_constants_in_order() {
 fn a_gain_that_is_known_changes_no_number() {
     for name in ["paper-example-harmonics-at-rest", "damped"] {
         let plain = Specification::from_json(name, &specification_text(name)).unwrap();
-        let known = read(name, &gain("3", "3", "3")).unwrap();
+        let known = parsed(name, &gain("3", "3", "3")).unwrap();
         let [plain, known] = [&plain, &known].map(|spec| certificate_json(&certify(spec, options()).unwrap()).unwrap());
         for part in ["witness", "conditions", "constants"] {
             assert_eq!(plain[part], known[part], "{name}: {part}");
@@ -106,7 +108,7 @@ fn reference_values() {
         ("paper-example-rms-at-rest", 19.0, 19.7),
         ("motor-axis", 2999.0, 3000.3),
     ] {
-        let spec = read(name, &gain("1", "0.8", "1.25")).unwrap();
+        let spec = parsed(name, &gain("1", "0.8", "1.25")).unwrap();
         let run = certify(&spec, options()).unwrap();
         let sigma = sigma_star(&run);
         assert!((least..most).contains(&sigma), "{name}: {sigma}");
@@ -127,14 +129,14 @@ fn a_wider_interval_needs_no_smaller_gain() {
         let name = names[seed as usize % names.len()];
         let mut before = 0.0;
         for (low, high) in &ends {
-            let spec = read(name, &gain("1", low, high)).unwrap();
+            let spec = parsed(name, &gain("1", low, high)).unwrap();
             let sigma = sigma_star(&certify(&spec, options()).unwrap());
             assert!(sigma >= before * (1.0 - 1e-5), "{name}: {sigma} for {low} to {high}, {before} before");
             before = sigma;
         }
     }
     // Beyond sqrt(b_hi) < 2 + sqrt(b_lo) there is none, and that is what is said.
-    let spec = read("linear", &gain("1", "1", "9")).unwrap();
+    let spec = parsed("linear", &gain("1", "1", "9")).unwrap();
     let run = certify(&spec, options()).unwrap();
     assert!(run.sigma_star().is_none());
     let folder = tempfile::tempdir().unwrap();
@@ -151,12 +153,11 @@ fn the_claim_and_the_report_say_so() {
     let call = program().args(["certify", &file, "--format", "json", "-o"]).arg(&certificate).assert().code(0);
     let report = json(&call.get_output().stdout);
     assert_eq!(report["input_gain"], gain("2", "1.8", "2.5"));
-    let number = |name: &str| report[name].as_str().unwrap().parse::<f64>().unwrap();
-    assert!(number("sigma_star_nominal_gain_estimate") < number("sigma_star"));
+    assert!(number(&report["sigma_star_nominal_gain_estimate"]) < number(&report["sigma_star"]));
     assert!(report["statement"].as_str().unwrap().contains("every constant input gain from 1.8 to 2.5"));
     let text = utf8(program().args(["certify", &file]).assert().code(0).get_output().stdout.clone());
     assert!(text.contains("the regulator divides by 2; with the gain known") && text.lines().count() <= 27, "{text}");
-    let written = json(&std::fs::read(&certificate).unwrap());
+    let written = read(&certificate);
     assert_eq!(written["claim"]["input_gain"], gain("2", "1.8", "2.5"));
     assert_eq!(written["specification"]["input_gain"], gain("2", "1.8", "2.5"));
     let statement = written["claim"]["statement"].as_str().unwrap();
@@ -192,20 +193,17 @@ fn plants_are_certified_for_every_gain_of_the_interval() {
         [("plants/paper-example", 9.46, "matrix_inequality"), ("plants/converter", 1745.0, "existence_inequality")]
     {
         let interval = if name.ends_with("converter") { gain("1", "0.9", "1.1") } else { gain("1", "0.8", "1.25") };
-        let file = written(folder.path(), name, &interval);
-        let certificate = folder.path().join("certificate.json");
-        program().args(["certify", "-q", "--no-compare", &file, "--force", "-o"]).arg(&certificate).assert().code(0);
-        let written = json(&std::fs::read(&certificate).unwrap());
-        let sigma: f64 = written["claim"]["sigma_star"].as_str().unwrap().parse().unwrap();
+        let (certificate, _) = certified_in(folder.path(), &with(name, &interval), &["--no-compare"]);
+        let written = read(&certificate);
+        let sigma = number(&written["claim"]["sigma_star"]);
         assert!(sigma < most && written["witness"].get(inequality).is_some(), "{name}: {sigma}");
         assert!(written["witness"].get("joint_inequality").is_none());
         let named = |id: &str| written["conditions"].as_array().unwrap().iter().any(|condition| condition["id"] == id);
         assert!(named("C5B") && (inequality == "matrix_inequality" || named("E4")));
-        program().args(["certify", "-q", &file, "--witness"]).arg(&certificate).assert().code(0);
+        let again = |gain: &Value| decided_again(folder.path(), &with(name, gain), &certificate).0;
+        assert_eq!(again(&interval), Some(0));
         // The inequality of a smaller interval is not one of a larger one.
-        let wider = written_wider(folder.path(), name);
-        let refused = program().args(["certify", "-q", &wider, "--witness"]).arg(&certificate).assert().failure();
-        assert!(refused.get_output().status.code() != Some(0));
+        assert_ne!(again(&gain("1", "0.4", "3")), Some(0));
     }
 }
 
@@ -213,29 +211,13 @@ fn plants_are_certified_for_every_gain_of_the_interval() {
 #[test]
 fn the_checker_believes_the_interval_that_was_proved() {
     let folder = tempfile::tempdir().unwrap();
-    let (file, forged) = (folder.path().join("certificate.json"), folder.path().join("forged.json"));
     for name in ["paper-example", "plants/paper-example", "plants/converter"].into_iter().step_by(every(2)) {
-        let input = written(folder.path(), name, &gain("1", "0.8", "1.25"));
-        program().args(["certify", "-q", "--no-compare", "--force", &input, "-o"]).arg(&file).assert().code(0);
-        let report =
-            |file: &Path| json(&program().args(["check", "--format", "json"]).arg(file).output().unwrap().stdout);
-        let checked = report(&file);
-        assert_eq!(
-            (&checked["verdict"], &checked["figures"]["verdict"]),
-            (&object!("valid"), &object!("agree")),
-            "{name}"
-        );
-        let mut certificate = json(&std::fs::read(&file).unwrap());
-        certificate["claim"]["input_gain"]["high"] = "1.3".into();
-        std::fs::write(&forged, certificate.to_string()).unwrap();
-        assert_eq!(report(&forged)["verdict"], "invalid", "{name}");
+        let (certificate, _) = certified_in(folder.path(), &with(name, &gain("1", "0.8", "1.25")), &["--no-compare"]);
+        assert_valid(&certificate);
+        let mut forged = read(&certificate);
+        forged["claim"]["input_gain"]["high"] = "1.3".into();
+        assert_eq!(checked(&stored(folder.path(), "forged.json", &forged))["verdict"], "invalid", "{name}");
     }
-}
-
-fn written_wider(folder: &Path, name: &str) -> String {
-    let file = folder.join("wider.json");
-    std::fs::write(&file, text(name, &gain("1", "0.4", "3"))).unwrap();
-    file.to_str().unwrap().to_owned()
 }
 
 /// What does not honour an input gain says so.

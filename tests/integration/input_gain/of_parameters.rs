@@ -1,6 +1,6 @@
 //! A gain of the actuator that depends on parameters of which intervals are known: the motor of the guide.
 
-use super::super::support::{json, program};
+use crate::support::{self, certified_in, json, number, program, read, stored};
 use serde_json::{Value, json as object};
 use std::path::Path;
 
@@ -22,27 +22,18 @@ fn motor(gain: &Value) -> Value {
     })
 }
 
-fn certified(folder: &Path, gain: &Value) -> (Value, Value) {
-    let [input, output] = ["motor.json", "certificate.json"].map(|name| folder.join(name));
-    std::fs::write(&input, motor(gain).to_string()).unwrap();
-    let mut certify = program();
-    certify.args(["certify", "-q", "--force", "--no-compare", "--format", "json", "-o"]).arg(&output).arg(&input);
-    let report = json(&certify.assert().code(0).get_output().stdout);
-    (report, json(&std::fs::read(&output).unwrap()))
-}
-
 fn checked(folder: &Path, certificate: &Value) -> Value {
-    let file = folder.join("checked.json");
-    std::fs::write(&file, certificate.to_string()).unwrap();
-    json(&program().args(["check", "--format", "json"]).arg(&file).output().unwrap().stdout)
+    support::checked(&stored(folder, "checked.json", certificate))
 }
 
 #[test]
 fn one_gain_serves_every_motor_and_every_drive() {
     let folder = tempfile::tempdir().unwrap();
-    let (report, certificate) = certified(folder.path(), &object!({ "nominal": "1/J", "low": "0.9/J", "high": "g/J" }));
+    let motor = motor(&object!({ "nominal": "1/J", "low": "0.9/J", "high": "g/J" }));
+    let (certificate, report) = certified_in(folder.path(), &motor, &["--no-compare"]);
+    let certificate = read(certificate);
     let claim = &certificate["claim"];
-    let sigma: f64 = claim["sigma_star"].as_str().unwrap().parse().unwrap();
+    let sigma = number(&claim["sigma_star"]);
     assert!((92.9..93.1).contains(&sigma), "{sigma}");
     assert_eq!(claim["input_gain"], object!({ "nominal": "1", "low": "0.9/J", "high": "1.1/J" }));
     let statement = claim["statement"].as_str().unwrap();
@@ -50,7 +41,7 @@ fn one_gain_serves_every_motor_and_every_drive() {
     let answer = checked(folder.path(), &certificate);
     assert_eq!((&answer["verdict"], &answer["figures"]["verdict"]), (&object!("valid"), &object!("agree")));
     // The ball about the nominal orbit is within the ball about the member's own.
-    let radius = |name: &str| report["plant"][name].as_str().unwrap().parse::<f64>().unwrap();
+    let radius = |name: &str| number(&report["plant"][name]);
     assert!(radius("nominal_ball") > 0.0 && radius("nominal_ball") <= radius("ball"));
 
     let mut forged = certificate.clone();
@@ -66,16 +57,12 @@ fn one_gain_serves_every_motor_and_every_drive() {
 #[test]
 fn the_ball_about_the_nominal_orbit() {
     let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("family.json");
     let mut family = motor(&object!({ "nominal": "1", "low": "1", "high": "1" }));
     family["parameters"] = object!({ "J": "1", "b": "60", "k": { "nominal": "200", "low": "190", "high": "210" } });
     family["f"][0] = "-k*i + 150*e + 40*sin(100*pi*t)".into();
     family["initial_set"] = object!({ "kind": "at-rest", "X0": "1", "E0": "20" });
-    std::fs::write(&file, family.to_string()).unwrap();
-    let mut certify = program();
-    certify.args(["certify", "-q", "--no-compare", "--format", "json"]).arg(&file);
-    let report = json(&certify.assert().code(0).get_output().stdout);
-    let radius = |name: &str| report["plant"][name].as_str().unwrap().parse::<f64>().unwrap();
+    let (_, report) = certified_in(folder.path(), &family, &["--no-compare"]);
+    let radius = |name: &str| number(&report["plant"][name]);
     let less = radius("ball") - radius("nominal_ball");
     assert!((0.00296..0.0035).contains(&less), "{less}");
 }
@@ -84,8 +71,8 @@ fn the_ball_about_the_nominal_orbit() {
 #[test]
 fn a_member_has_its_own_gain() {
     let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("motor.json");
-    std::fs::write(&file, motor(&object!({ "nominal": "1/J", "low": "1/J", "high": "1/J" })).to_string()).unwrap();
+    let motor = motor(&object!({ "nominal": "1/J", "low": "1/J", "high": "1/J" }));
+    let file = stored(folder.path(), "motor.json", &motor);
     let run = |arguments: &[&str]| {
         let mut simulate = program();
         simulate.args(["simulate", "-q", "--sigma", "100", "--n-o", "1", "--format", "json"]).arg(&file);
