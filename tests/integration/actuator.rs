@@ -1,11 +1,10 @@
 //! An actuator that saturates, limits of the error and the control, and the rows of larger gains (docs/mathematics.md, 13.5): what is certified,
 //! that no member of a claim saturates, and what a regulator and a simulation make of it.
 
-use crate::support::{count, document, every, json, number, options, program, specification_text, utf8};
+use crate::support::{count, document, every, json, number, options, program, specification_text, tried, utf8};
 use proofs_check::verdict::Verdict as Answer;
 use serde_json::{Value, json as object};
-use sigmastar_document::progress::Silent;
-use sigmastar_lab::falsify::{Finding, TrialSettings, TriedClaim, falsify};
+use sigmastar_lab::falsify::Finding;
 use sigmastar_lang::spec::{Document, Specification};
 use sigmastar_prove::certificate::{certificate_json, certificate_of, read_witness};
 use sigmastar_prove::certify::{Certification, Options, Outcome, Verdict, certify, recheck};
@@ -139,12 +138,8 @@ fn from_the_set_the_actuator_never_saturates() {
         let made = certificate(&text(name, &members));
         let answer = proofs_check::check(made.to_string().as_bytes());
         assert_eq!(answer.verdict, Answer::Valid, "{name}: {}", answer.text(false));
-        let tried = |certificate: &Value, trials: u64| {
-            let claim = TriedClaim::from_document(&Document::parse("certificate", &certificate.to_string()).unwrap());
-            falsify(&claim.unwrap(), TrialSettings { trials, seed: 3, only: None }, &Silent)
-        };
         let trials = count(2, 6).into();
-        let outcome = tried(&made, trials);
+        let outcome = tried(&made, trials, 3);
         let gain = number(&made["claim"]["sigma"]);
         let mut largest = 0.0_f64;
         for finding in &outcome.findings {
@@ -161,7 +156,7 @@ fn from_the_set_the_actuator_never_saturates() {
         let about = if forged.get("plant").is_some() { "plant" } else { "specification" };
         forged[about]["actuator"]["max"] = less.clone().into();
         forged["claim"]["actuator"]["max"] = less.into();
-        let found = tried(&forged, trials);
+        let found = tried(&forged, trials, 3);
         let (_, violation) = found.counterexample().expect("it asks for more");
         assert_eq!(violation.quantity, ON_THE_WAY, "{name}");
     }
@@ -173,8 +168,7 @@ fn the_bounds_of_the_control_are_no_larger_than_they_need_be() {
     let mut best = [0.0_f64; 2];
     for name in ["linear", NAME, "plants/linear", "plants/duffing"] {
         let made = certificate(&specification_text(name));
-        let claim = TriedClaim::from_document(&Document::parse("certificate", &made.to_string()).unwrap()).unwrap();
-        let outcome = falsify(&claim, TrialSettings { trials: count(6, 250).into(), seed: 5, only: None }, &Silent);
+        let outcome = tried(&made, count(6, 250).into(), 5);
         assert!(outcome.counterexample().is_none(), "{name}");
         for closest in outcome.closest() {
             match closest.quantity {

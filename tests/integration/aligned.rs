@@ -3,15 +3,17 @@
 
 use crate::controller::{array, constant, controller, installed};
 use crate::controller_c::gcc;
-use crate::support::{PLANT_TEXT, ROOT, certificate, document, json, number, options, program, utf8};
+use crate::sampled;
+use crate::support::{
+    self, PLANT_TEXT, ROOT, certificate, certified_in, document, json, number, options, program, tried, utf8,
+};
 use serde_json::{Value, json as object};
-use sigmastar_document::progress::Silent;
-use sigmastar_lab::falsify::{Finding, TrialSettings, TriedClaim, falsify};
+use sigmastar_lab::falsify::Finding;
 use sigmastar_lab::simulate::ClosedLoop;
 use sigmastar_lang::plant::Plant;
-use sigmastar_lang::spec::{Document, Specification};
+use sigmastar_lang::spec::Specification;
 use sigmastar_prove::certificate::sampled_certificate_json;
-use sigmastar_prove::certify::{Ladder, certify, certify_sampled};
+use sigmastar_prove::certify::certify;
 use sigmastar_regulator::Design;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -20,7 +22,7 @@ use std::process::Command;
 const STORED: &str = "proofs-check/tests/certificates/paper-example-aligned.sharp.json";
 
 fn stored() -> Value {
-    json(&std::fs::read(Path::new(ROOT).join(STORED)).unwrap())
+    support::read(Path::new(ROOT).join(STORED))
 }
 
 /// A shipped specification with another kind of set and another sampling period.
@@ -68,8 +70,7 @@ fn the_gain_is_below_the_one_at_rest() {
 fn the_gain_at_samples_is_no_larger_than_the_one_at_rest() {
     let certified = |kind: &str| {
         let spec = read("paper-example-rms-at-rest", kind, Some("1/500"));
-        let sampling = spec.internal_model.sampling.clone().unwrap();
-        let run = certify_sampled(&spec, &sampling, None, None, Ladder::default()).unwrap();
+        let run = sampled::run(&spec, None);
         (run.claim().expect("it certifies").witness.sigma.to_f64(), sampled_certificate_json(&run).unwrap())
     };
     let ((of_rest, _), (gain, certificate)) = (certified("at-rest"), certified("aligned"));
@@ -89,12 +90,9 @@ fn aligned_plant() -> Value {
 fn a_report_says_what_else_a_plant_could_have() {
     let folder = tempfile::tempdir().unwrap();
     let report = |kind: &str| {
-        let mut plant: Value = json(&std::fs::read(Path::new(ROOT).join("specs/plants/paper-example.json")).unwrap());
+        let mut plant = document("plants/paper-example");
         plant["initial_set"] = object!({ "kind": kind });
-        let file = folder.path().join(format!("{kind}.json"));
-        std::fs::write(&file, plant.to_string()).unwrap();
-        let output = program().arg("certify").arg(&file).args(["--quiet", "--format", "json"]).assert().code(0);
-        json(&output.get_output().stdout)
+        certified_in(folder.path(), &plant, &[]).1
     };
     let [rest, aligned] = ["at-rest", "aligned"].map(report);
     let [of_rest, gain] = [&rest, &aligned].map(|report| number(&report["sigma_star"]));
@@ -111,10 +109,7 @@ fn a_report_says_what_else_a_plant_could_have() {
 #[test]
 fn a_plant_is_certified_and_checked() {
     let folder = tempfile::tempdir().unwrap();
-    let (plant, file) = (folder.path().join("plant.json"), folder.path().join("certificate.json"));
-    std::fs::write(&plant, aligned_plant().to_string()).unwrap();
-    program().arg("certify").arg(&plant).args(["--quiet", "-o"]).arg(&file).assert().code(0);
-    let certificate = json(&std::fs::read(&file).unwrap());
+    let certificate = support::read(certified_in(folder.path(), &aligned_plant(), &[]).0);
     let gain = number(&certificate["claim"]["sigma_star"]);
     assert!(gain <= 7.6, "{gain}");
     is_flawless(&certificate);
@@ -259,9 +254,7 @@ fn a_slope_that_grows_with_x_is_taken_along_the_other_path() {
 /// Plants within the bounds, from the boundary of the set, where zeta is 0: nothing contradicts the claim.
 #[test]
 fn no_trial_contradicts_an_aligned_claim() {
-    let document = Document::parse("certificate", &stored().to_string()).unwrap();
-    let claim = TriedClaim::from_document(&document).unwrap();
-    let outcome = falsify(&claim, TrialSettings { trials: 6, seed: 3, only: None }, &Silent);
+    let outcome = tried(&stored(), 6, 3);
     assert_eq!(outcome.findings.len(), 6);
     for finding in &outcome.findings {
         let Finding::Holds { trial, .. } = finding else { panic!("{finding:?}") };

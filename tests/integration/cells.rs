@@ -1,21 +1,15 @@
 //! Families whose box of parameters is cut into cells: certified where one tube is too wide, checked, tried, and decided again.
 
-use super::support::{certified_by, checked, decided_again, every, program, read, stored};
+use super::support::{certified_by, checked, decided_again, every, plant, program, read, stored};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
 /// `x' = -a x - x^3/20 + e/5 + 2 + sin(2 pi t)` with a in these: the mean of the orbit is about 2/a.
 pub(super) fn family([low, high]: [&str; 2]) -> Value {
-    json!({
-        "format": "sigmastar/plant", "version": 1, "name": "One state", "period": "1", "states": ["x"],
-        "parameters": { "a": { "nominal": "2", "low": low, "high": high } },
-        "f": ["-a*x - x^3/20 + e/5 + 2 + sin(2*pi*t)"], "q": "x + sin(2*pi*t)",
-        "internal_model": {
-            "mu": "1", "base_frequency": "2*pi", "matched": true,
-            "weights": { "family": "power", "n0": "2", "epsilon": "1/2" },
-        },
-    })
+    let mut plant = plant(&["x"], &["-a*x - x^3/20 + e/5 + 2 + sin(2*pi*t)"], "x + sin(2*pi*t)");
+    plant["parameters"] = json!({ "a": { "nominal": "2", "low": low, "high": high } });
+    plant
 }
 
 fn certified(folder: &Path, plant: &Value, threads: &str) -> (PathBuf, Value) {

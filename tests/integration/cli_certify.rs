@@ -206,15 +206,18 @@ fn nothing_is_written_without_a_certificate() {
 
 #[test]
 fn the_same_bytes_with_any_number_of_threads() {
-    let run = |threads: &str, format: &str| {
-        let output = certify(&[EXAMPLE, "--format", format]).env("RAYON_NUM_THREADS", threads).assert().code(0);
-        output.get_output().stdout.clone()
+    let folder = TempDir::new().expect("a temporary folder");
+    let file = folder.path().join("certificate.json");
+    let run = |spec: &str, threads: &str, format: &str| {
+        let mut call = certify(&[spec, "--format", format, "--force", "-o"]);
+        let report = call.arg(&file).env("RAYON_NUM_THREADS", threads).assert().code(0).get_output().stdout.clone();
+        (report, fs::read(&file).expect("written"))
     };
     for format in ["text", "markdown", "json"] {
-        let once = run("1", format);
-        assert_eq!(once, run("2", format), "{format}");
+        assert_eq!(run(EXAMPLE, "1", format), run(EXAMPLE, "2", format), "{format}");
     }
-    assert_eq!(run("2", "json"), run("2", "json"));
+    assert_eq!(run(EXAMPLE, "2", "json"), run(EXAMPLE, "2", "json"));
+    assert_eq!(run("specs/linear.json", "1", "json"), run("specs/linear.json", "5", "json"));
 }
 
 #[cfg(unix)]

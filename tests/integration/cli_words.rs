@@ -1,6 +1,6 @@
 //! What a first user runs into: how wrong calls and wrong files are told.
 
-use crate::support::{EXAMPLE, EXAMPLE_TEXT, PLANT, ROOT, json, sigmastar, utf8};
+use crate::support::{EXAMPLE, EXAMPLE_TEXT, PLANT, ROOT, json, number, sigmastar, utf8};
 use predicates::prelude::*;
 use predicates::str::{contains, is_empty};
 use serde_json::Value;
@@ -143,10 +143,8 @@ fn a_smaller_initial_set_has_a_size() {
     // The gain is that of the file with this set, and the share that of what was asked for, rounded down.
     let sigma = certified["sigma_star"].as_str().expect("a gain");
     assert!(more.starts_with(&format!(" is certified, with sigma* = {sigma}; it is 0.")), "{said}");
-    let number = |name: &str| {
-        let set: Value = serde_json::from_str(suggested).expect("JSON");
-        set[name].as_str().and_then(|text| text.parse::<f64>().ok()).expect("a number")
-    };
+    let suggestion = json(suggested.as_bytes());
+    let number = |name: &str| number(&suggestion[name]);
     let share = more.split_once("; it is ").and_then(|(_, rest)| rest.split_once(" of the one")).expect("a share").0;
     let share: f64 = share.parse().expect("a number");
     let least = number("X0").min(number("E0") / 4.0);

@@ -1,8 +1,9 @@
 //! `sigmastar controller`: the exported forms agree with each other, with the formulas and with the Rust stepper.
 
+use crate::sampled_rates::exponential;
 use crate::support::{json, program, specification, utf8};
 use assert_cmd::Command;
-use faer::{Col, Mat, Scale};
+use faer::{Col, Scale};
 use predicates::prelude::*;
 use sigmastar_lang::spec::{Constant, Document, Errors, Specification, positive_constant};
 use sigmastar_regulator::{Design, Stepper};
@@ -33,18 +34,6 @@ pub fn installed(program: &str, arguments: &[&str]) -> bool {
         println!("skipped: `{program} {}` does not run here", arguments.join(" "));
     }
     found
-}
-
-/// e^(A) by scaling and a Taylor series.
-fn exponential(matrix: &Mat<f64>) -> Mat<f64> {
-    let scaled = Scale(1.0 / 1024.0) * matrix;
-    let mut term = Mat::identity(matrix.nrows(), matrix.nrows());
-    let mut sum = term.clone();
-    for k in 1..20 {
-        term = Scale(1.0 / f64::from(k)) * &term * &scaled;
-        sum += &term;
-    }
-    (0..10).fold(sum, |power, _| &power * &power)
 }
 
 /// What an array of an archive is said to hold (in NumPy's words), its shape and its bytes.

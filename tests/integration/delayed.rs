@@ -2,8 +2,8 @@
 //! certified, and refused where it has no claim.
 
 use crate::controller::{constant, example};
-use crate::sampled_falsify::{DELAYED, certified, tried};
-use crate::support::{EXAMPLE_TEXT, count, every, program};
+use crate::sampled_falsify::{DELAYED, certified, forged};
+use crate::support::{self, EXAMPLE_TEXT, count, every, files, program, stem, stored, tried};
 use faer::Mat;
 use serde_json::{Value, json};
 use sigmastar_lab::falsify::Finding;
@@ -184,18 +184,15 @@ fn a_claim_is_certified_and_decided_again() {
 
 #[test]
 fn falsify_finds_nothing_in_a_true_claim_and_what_is_wrong_in_a_forged_one() {
-    for finding in &tried(&DELAYED, count(2, 6).into()).findings {
+    for finding in &tried(&DELAYED, count(2, 6).into(), 1).findings {
         let Finding::Holds { shares, .. } = finding else { panic!("{finding:?}") };
         assert!(shares.iter().all(|(_, share)| *share <= 1.0), "{shares:?}");
     }
     for (place, factor) in
         [("/claim/periodic_solution/e", 0.01), ("/claim/control/transient", 0.01), ("/witness/D_e", 0.03)]
     {
-        let mut forged = DELAYED.clone();
-        let number = forged.pointer_mut(place).unwrap();
-        let value = number.as_str().unwrap().parse::<f64>().unwrap();
-        *number = format!("{:?}", value * factor).into();
-        assert!(tried(&forged, count(2, 4).into()).counterexample().is_some(), "{place}");
+        let forged = forged(&DELAYED, place, factor);
+        assert!(tried(&forged, count(2, 4).into(), 1).counterexample().is_some(), "{place}");
     }
 }
 
@@ -209,7 +206,7 @@ fn with_an_input_gain() {
     });
     let report = proofs_check::check(certificate.to_string().as_bytes());
     assert!(report.is_flawless(), "{}", report.text(false));
-    for finding in &tried(&certificate, count(2, 4).into()).findings {
+    for finding in &tried(&certificate, count(2, 4).into(), 1).findings {
         assert!(matches!(finding, Finding::Holds { .. }), "{finding:?}");
     }
 }
@@ -249,12 +246,11 @@ fn what_is_refused() {
     assert!(read(&alone).unwrap_err().to_string().contains("is of the regulator at samples"));
     // Too large a load: mu of 300 at 200 samples has h mu Nb2 > 1.
     let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("asked.json");
-    let mut document: Value = serde_json::from_str(EXAMPLE_TEXT).unwrap();
+    let mut document = support::document("paper-example");
     document["internal_model"]["sampling_period"] = "1/200".into();
     document["internal_model"]["delay_samples"] = 1.into();
     document["internal_model"]["mu"] = "300".into();
-    std::fs::write(&file, document.to_string()).unwrap();
+    let file = stored(folder.path(), "asked.json", &document);
     let output = program().arg("certify").arg(&file).args(["-q", "--sigma", "100"]).output().unwrap();
     assert_eq!(output.status.code(), Some(3));
     let text = String::from_utf8(output.stdout).unwrap();
@@ -265,41 +261,26 @@ fn what_is_refused() {
     assert!(String::from_utf8(output.stderr).unwrap().contains("3 K h Nb2/2"));
 }
 
-/// Plants of which a claim with a delay is tried: in an ordinary run the first two.
-const PLANTS: [&str; 12] = [
-    "motor-axis",
-    "pendulum",
-    "chain",
-    "converter",
-    "duffing",
-    "linear",
-    "paper-example",
-    "paper-example-ball",
-    "paper-example-paper-set",
-    "paper-example-rotated",
-    "relative-degree-2",
-    "relative-degree-2-domain",
-];
-
-/// Where a gain is certified with a delay the loop at its periodic solution is stable, up to the largest number of oscillators.
+/// Where a gain of a shipped plant is certified with a delay the loop at its periodic solution is stable, up to the largest number of oscillators; an
+/// ordinary run takes two plants.
 #[test]
 fn plants_are_stable_at_the_gains_that_are_certified() {
     let folder = tempfile::tempdir().unwrap();
     let answer = |arguments: &[&str]| -> Value {
         let output = program().args(arguments).args(["--format", "json"]).output().unwrap();
-        serde_json::from_slice(&output.stdout).unwrap()
+        support::json(&output.stdout)
     };
     let (mut certified, mut largest) = (0, 0.0_f64);
     let all = every(2) == 1;
-    for name in PLANTS.iter().take(if all { PLANTS.len() } else { 2 }) {
+    let plants = files("specs/plants");
+    let two = ["motor-axis", "pendulum"];
+    for name in plants.iter().map(|path| stem(path)).filter(|name| all || two.contains(name)) {
         for samples in if all { vec![20_u32, 50, 101, 200] } else { vec![50] } {
-            let text = std::fs::read_to_string(format!("specs/plants/{name}.json")).unwrap();
-            let mut plant: Value = serde_json::from_str(&text).unwrap();
+            let mut plant = support::document(&format!("plants/{name}"));
             let period = plant["period"].as_str().unwrap().to_owned();
             plant["internal_model"]["sampling_period"] = format!("({period})/{samples}").into();
             plant["internal_model"]["delay_samples"] = 1.into();
-            let file = folder.path().join(format!("{name}-{samples}.json"));
-            std::fs::write(&file, plant.to_string()).unwrap();
+            let file = stored(folder.path(), &format!("{name}-{samples}.json"), &plant);
             let file = file.to_str().unwrap();
             let report = answer(&["certify", file, "-q", "--no-compare"]);
             let Some(sigma) = report["sigma"].as_str() else {

@@ -1,19 +1,19 @@
 //! `docs/formats.md` against the readers and against what the program writes: no example on it is wrong, and no field
 //! that is read or written is missing from it.
 
-use crate::support::{forged, refuted_witness};
-use assert_cmd::Command;
-use serde_json::{Map, Value, json};
+use crate::sampled;
+use crate::schemas::properties_of;
+use crate::support::{EXAMPLE, PLANT, ROOT, forged, options, program, read, refuted_witness, stored};
+use serde_json::{Value, json};
 use sigmastar_lang::plant::Plant;
-use sigmastar_lang::spec::{Document, SpecErrors, Specification};
+use sigmastar_lang::spec::{Document, Specification};
 use sigmastar_prove::certificate::{certificate_json, sampled_certificate_json};
-use sigmastar_prove::certify::{Ladder, Options, TransferChoice, certify, certify_sampled, resolve};
+use sigmastar_prove::certify::{Options, TransferChoice, certify, resolve};
 use sigmastar_regulator::read_regulator;
+use sigmastar_schema::Schema;
 use sigmastar_sweep::sweep::Study;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::OnceLock;
-
-const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 
 /// How many blocks of each kind there are at least.
 const LEAST: [(&str, usize); 19] = [
@@ -231,13 +231,10 @@ fn certificate(spec: &Specification, options: Options) -> Value {
 
 /// Runs the program and reads what it writes to standard output; with the exit code.
 fn run(code: i32, arguments: &[&str]) -> Value {
-    let mut command = Command::cargo_bin("sigmastar").expect("the program is built");
-    let output = command.current_dir(ROOT).args(arguments).assert().code(code);
+    let output = program().args(arguments).assert().code(code);
     parsed(&String::from_utf8_lossy(&output.get_output().stdout), &arguments.join(" "))
 }
 
-const EXAMPLE: &str = "specs/paper-example.json";
-const PLANT: &str = "specs/plants/paper-example.json";
 const AT_REST: &str = "specs/paper-example-rms-at-rest.json";
 const VALID: &str = "proofs-check/tests/certificates/paper-example.means.json";
 
@@ -256,7 +253,7 @@ fn certificates() -> Vec<Value> {
         let file = parsed(&file(&format!("proofs-check/tests/certificates/{name}.json")), name);
         specification(&file["specification"].to_string(), name)
     };
-    let quick = Options { compare: false, ..Options::default() };
+    let quick = options();
     let mut all = vec![
         certificate(&example, Options::default()),
         certificate(&example, Options { transfer: TransferChoice::Boxes, ..Options::default() }),
@@ -280,24 +277,20 @@ fn sampled_certificate() -> Value {
     let mut document = parsed(&file("specs/paper-example-rms-at-rest.json"), "the example at rest");
     document["internal_model"]["sampling_period"] = json!("1/1000");
     let spec = specification(&document.to_string(), "sampled");
-    let sampling = spec.internal_model.sampling.clone().expect("it is given");
-    let run =
-        certify_sampled(&spec, &sampling, Some(&25.into()), None, Ladder::default()).expect("the bounds are proved");
-    sampled_certificate_json(&run).expect("it certifies")
+    sampled_certificate_json(&sampled::run(&spec, Some("25"))).expect("it certifies")
 }
 
 /// The lines of a sweep at samples with a case that is certified, one that is not and one that is refused.
 fn swept() -> Vec<Value> {
     let folder = tempfile::tempdir().expect("a folder");
-    let [study, results] = ["study.json", "results.jsonl"].map(|name| folder.path().join(name).display().to_string());
-    let document = json!({
+    let results = folder.path().join("results.jsonl").display().to_string();
+    let study = json!({
         "format": "sigmastar/study", "version": 1, "name": "study", "subject": parsed(&file(AT_REST), AT_REST),
         "sampling_period": "1/100", "design": "grid",
         "parameters": [{ "pointer": "/internal_model/mu", "values": ["1", "1000", "-1"] }],
     });
-    std::fs::write(&study, document.to_string()).expect("written");
-    let mut command = Command::cargo_bin("sigmastar").expect("the program is built");
-    command.args(["sweep", "-q", &study, "-o", &results]).assert().code(0);
+    let study = stored(folder.path(), "study.json", &study);
+    program().args(["sweep", "-q", "-o", &results]).arg(study).assert().code(0);
     let text = std::fs::read_to_string(&results).expect("written");
     let lines: Vec<Value> = text.lines().map(|line| parsed(line, "a line")).collect();
     assert!(lines.iter().any(|line| line["reason"].is_string()) && lines.iter().any(|line| line["errors"].is_array()));
@@ -321,10 +314,9 @@ fn written() -> &'static BTreeMap<&'static str, Vec<Value>> {
         let other = |arguments: &[&str]| run(0, &[arguments, &json].concat());
         let reproduced = |only: &str, name: &str| {
             let folder = path(name);
-            let mut command = Command::cargo_bin("sigmastar").expect("the program is built");
             let noise = ["--seeds", "1", "--noise-steps", "1000"];
-            command.args(["reproduce", "-q", "--only", only, "-o", &folder]).args(noise).assert().code(0);
-            parsed(&std::fs::read_to_string(format!("{folder}/report.json")).expect("written"), only)
+            program().args(["reproduce", "-q", "--only", only, "-o", &folder]).args(noise).assert().code(0);
+            read(format!("{folder}/report.json"))
         };
         let falsify = ["falsify", "-q", "--trials", "2", VALID];
         let swept = swept();
@@ -467,9 +459,8 @@ fn every_example_is_right() {
 fn csv_is_written(block: &Block) {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("samples.csv");
-    let mut command = Command::cargo_bin("sigmastar").expect("the program is built");
     let arguments = ["simulate", "-q", PLANT, "--sigma", "2", "--n-o", "1", "--periods", "1", "--samples", "2"];
-    command.current_dir(ROOT).args(arguments).arg("--csv").arg(&path).assert().code(0);
+    program().args(arguments).arg("--csv").arg(&path).assert().code(0);
     let text = std::fs::read_to_string(path).expect("written");
     assert!(text.starts_with(&block.text), "{}: {text}", block.place());
 }
@@ -512,70 +503,15 @@ fn every_field_that_is_written_is_named() {
     assert!(missing.is_empty(), "docs/formats.md does not name\n{}", missing.join("\n"));
 }
 
-/// The fields that a reader knows at a place, as it tells them for a field that it does not know.
-fn known(read: impl Fn(&str) -> Option<SpecErrors>, document: &Value, pointer: &str) -> Vec<String> {
-    let mut document = document.clone();
-    let place = document.pointer_mut(pointer).and_then(Value::as_object_mut).expect("an object at this place");
-    place.insert("zzzzzzzzzzzzzzzzzzzz".to_owned(), Value::Null);
-    let errors = read(&document.to_string()).unwrap_or_else(|| panic!("{pointer}: an unknown field is read"));
-    let help =
-        errors.errors().iter().filter_map(|error| error.help.as_deref()).find(|help| help.contains("fields known"));
-    let list = help.and_then(|help| help.split_once(" are ")).unwrap_or_else(|| panic!("{pointer}: {errors}")).1;
-    let words = list.split(|c: char| !(c.is_alphanumeric() || c == '_'));
-    words.filter(|word| !["", "and"].contains(word)).map(str::to_owned).collect()
-}
-
+/// The schemas know exactly the fields that the readers know (`schemas.rs`).
 #[test]
 fn every_field_that_is_read_is_named() {
     let named = named(&page());
-    let with = |fields: &[(&str, Value)]| {
-        let part: Map<String, Value> = fields.iter().map(|(name, value)| ((*name).to_owned(), value.clone())).collect();
-        parsed(&replaced(&Value::Object(part)), "the example")
-    };
-    let spec = |text: &str| Specification::from_json("x", text).err();
-    let plant = |text: &str| Plant::from_json("x", text).err();
-    let example = with(&[
-        ("domain", json!({ "X": 1, "E": 1 })),
-        ("q_0", json!({ "harmonics": [1], "rest_rms": 1 })),
-        ("relative_degree", json!({ "a": [1] })),
-        ("initial_set", json!({ "kind": "box", "X0": 0, "E0": 0, "Z0": 0 })),
-    ]);
-    let mut all = Vec::new();
-    let parts = ["", "/lyapunov", "/bounds", "/q_0", "/domain", "/internal_model", "/initial_set", "/relative_degree"];
-    for pointer in parts {
-        all.push(("specification", pointer, known(spec, &example, pointer)));
+    for schema in Schema::ALL {
+        let mut fields = BTreeSet::new();
+        properties_of(&schema.json(), &mut fields);
+        let missing: Vec<&String> =
+            fields.iter().filter(|name| !named.contains(name.trim_start_matches('$'))).collect();
+        assert!(missing.is_empty() && fields.len() > 15, "docs/formats.md does not name {missing:?}");
     }
-    let weights = json!({ "family": "explicit", "values": [2, 1], "tail": { "coefficient": 1, "exponent": "3/2" } });
-    let model = json!({ "mu": 1, "base_frequency": 1, "weights": weights });
-    let explicit = with(&[("internal_model", model), ("initial_set", json!({ "kind": "at-rest" }))]);
-    let jacobian = with(&[("lyapunov", json!({ "jacobian": [["-1"]] }))]);
-    for (document, pointer) in [
-        (&example, "/internal_model/weights"),
-        (&explicit, "/internal_model/weights"),
-        (&explicit, "/internal_model/weights/tail"),
-        (&explicit, "/initial_set"),
-        (&jacobian, "/lyapunov"),
-    ] {
-        all.push(("specification", pointer, known(spec, document, pointer)));
-    }
-    let document = parsed(&file(PLANT), PLANT);
-    for pointer in ["", "/initial", "/internal_model"] {
-        all.push(("plant", pointer, known(plant, &document, pointer)));
-    }
-    let study = |text: &str| Study::read(&Document::parse("x", text).expect("JSON")).err();
-    let mut document = parsed(&file("specs/studies/linear.json"), "the study");
-    for pointer in ["", "/parameters/0", "/parameters/0/linear"] {
-        all.push(("study", pointer, known(study, &document, pointer)));
-    }
-    document["design"] = json!("latin");
-    (document["count"], document["seed"]) = (json!(2), json!(1));
-    all.push(("study", "", known(study, &document, "")));
-    let fields: BTreeSet<&String> = all.iter().flat_map(|(.., names)| names).collect();
-    assert!(fields.len() > 40 && fields.iter().any(|name| *name == "q_t_rms"), "{fields:?}");
-    let missing: Vec<_> = all
-        .iter()
-        .flat_map(|(what, pointer, names)| names.iter().map(move |name| (what, pointer, name)))
-        .filter(|(.., name)| !named.contains(*name))
-        .collect();
-    assert!(missing.is_empty(), "docs/formats.md does not name {missing:?}");
 }

@@ -50,10 +50,28 @@ pub fn is_rounded(shown: &str, value: &Value, up: bool) -> bool {
     0.0 <= distance && distance <= unit
 }
 
+/// The bound of sup|e| with so many oscillators.
+pub fn error_bound(report: &Value, n_o: u64) -> &Value {
+    let bounds = report["consequences"]["error_bounds"].as_array().expect("a matched plant");
+    bounds.iter().find(|row| row["n_o"] == n_o).map_or(&Value::Null, |row| &row["sup"])
+}
+
+/// Asserts that nothing is wrong in a row that is right, and that each of these cells in the place of its own is told with its column.
+pub fn wrong_cells_are_found(
+    right: &[String],
+    wrong: impl Fn(&[String]) -> Vec<&'static str>,
+    cases: &[(usize, &str, &str)],
+) {
+    assert_eq!(wrong(right), Vec::<&str>::new());
+    for (cell, text, column) in cases {
+        let mut cells = right.to_vec();
+        (*text).clone_into(&mut cells[*cell]);
+        assert_eq!(wrong(&cells), [*column], "{text}");
+    }
+}
+
 /// What is wrong in the row of a plant beside the report of its certificate.
 fn wrong(cells: &[String], states: usize, report: &Value) -> Vec<&'static str> {
-    let bounds = report["consequences"]["error_bounds"].as_array().expect("a matched plant");
-    let at = |n_o: u64| bounds.iter().find(|row| row["n_o"] == n_o).map_or(&Value::Null, |row| &row["sup"]);
     let ball = &report["plant"]["ball"];
     let words = report["binding"].as_str().expect("what sets the gain");
     [
@@ -62,8 +80,8 @@ fn wrong(cells: &[String], states: usize, report: &Value) -> Vec<&'static str> {
         ("ball", if ball.is_null() { cells[3] == "-" } else { is_rounded(&cells[3], ball, false) }),
         ("e", is_rounded(&cells[4], &report["initial_set"]["E0"], false)),
         ("z", is_rounded(&cells[5], &report["initial_set"]["Z0"], false)),
-        ("n_o = 0", is_rounded(&cells[6], at(0), true)),
-        ("n_o = 10", is_rounded(&cells[7], at(10), true)),
+        ("n_o = 0", is_rounded(&cells[6], error_bound(report, 0), true)),
+        ("n_o = 10", is_rounded(&cells[7], error_bound(report, 10), true)),
         ("limited by", MECHANISMS.iter().any(|(name, start)| cells[8] == *name && words.starts_with(start))),
     ]
     .into_iter()
@@ -92,8 +110,7 @@ fn figures_that_are_not_the_programs_are_found() {
         "consequences": { "error_bounds": [{ "n_o": 0, "sup": "12.926915" }, { "n_o": 10, "sup": "0.21537" }] },
     });
     let right = ["`a`", "1", "28.378", "16.42", "25.85", "0", "12.93", "0.2154", "dq/de"].map(str::to_owned);
-    assert_eq!(wrong(&right, 1, &report), Vec::<&str>::new());
-    for (cell, text, column) in [
+    let cases = [
         (1, "2", "states"),
         (2, "28.379", "sigma*"),
         (3, "-", "ball"),
@@ -105,11 +122,8 @@ fn figures_that_are_not_the_programs_are_found() {
         (7, "0.2153", "n_o = 10"),
         (7, "0.2156", "n_o = 10"),
         (8, "start of z", "limited by"),
-    ] {
-        let mut cells = right.clone();
-        text.clone_into(&mut cells[cell]);
-        assert_eq!(wrong(&cells, 1, &report), [column], "{text}");
-    }
+    ];
+    wrong_cells_are_found(&right, |cells| wrong(cells, 1, &report), &cases);
 }
 
 /// The gains at samples.
@@ -160,8 +174,17 @@ fn drawings_are_compared_to_a_pixel() {
     assert!(!same_drawing(drawing, &drawing.replace("sigma", "mu")));
 }
 
+/// The figure of a plant or machine in the documents against the one that the program draws of it at a gain.
+pub fn compare_response(name: &str, file: &str, sigma: &str) {
+    let folder = TempDir::new().unwrap();
+    let call = ["simulate", file, "--sigma", sigma, "--n-o", "3", "--periods", "6", "--samples", "50", "--plots"];
+    let output = program().args(call).arg(folder.path()).output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{name}: {}", utf8(output.stderr));
+    compare_figure(name, &folder.path().join("response.svg"));
+}
+
 /// A figure of the documents against the one that the program drew into a folder.
-pub fn compare_figure(name: &str, drawn: &Path) {
+fn compare_figure(name: &str, drawn: &Path) {
     let drawn = std::fs::read_to_string(drawn).unwrap();
     let shipped: PathBuf = Path::new(ROOT).join(format!("docs/figures/{name}.svg"));
     if std::env::var_os("SIGMASTAR_FIGURES").is_some_and(|value| value == "write") {
@@ -187,15 +210,9 @@ fn the_figure_of_the_readme_is_what_the_program_draws() {
 /// The figures of the gallery. `SIGMASTAR_FIGURES=write` draws them again.
 #[test]
 fn the_figures_of_the_gallery_are_what_the_program_draws() {
-    let folder = TempDir::new().unwrap();
     let text = page("gallery.md");
     for (name, cells) in plants() {
-        let plant = format!("specs/plants/{name}.json");
-        let call =
-            ["simulate", &plant, "--sigma", &cells[2], "--n-o", "3", "--periods", "6", "--samples", "50", "--force"];
-        let output = program().args(call).arg("--plots").arg(folder.path()).output().unwrap();
-        assert_eq!(output.status.code(), Some(0), "{name}: {}", utf8(output.stderr));
-        compare_figure(&name, &folder.path().join("response.svg"));
+        compare_response(&name, &format!("specs/plants/{name}.json"), &cells[2]);
         assert!(text.contains(&format!("(figures/{name}.svg)")), "docs/gallery.md does not show {name}");
     }
 }

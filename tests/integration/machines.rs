@@ -3,7 +3,7 @@
 
 use crate::controller::installed;
 use crate::controller_c::gcc;
-use crate::gallery::{compare_figure, is_rounded, page, table};
+use crate::gallery::{compare_response, error_bound, is_rounded, page, table, wrong_cells_are_found};
 use crate::support::{ROOT, assert_valid, every, json, program, utf8};
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
@@ -37,15 +37,13 @@ fn certified(folder: &Path, name: &str, flags: &[&str]) -> (PathBuf, Value) {
 
 /// What is wrong in the row of a machine beside the report at its gain.
 fn wrong(cells: &[String], states: usize, report: &Value) -> Vec<&'static str> {
-    let bounds = report["consequences"]["error_bounds"].as_array().expect("a matched plant");
-    let at = |n_o: u64| bounds.iter().find(|row| row["n_o"] == n_o).map_or(&Value::Null, |row| &row["sup"]);
     [
         ("states", cells[1] == states.to_string()),
         ("sigma", report["sigma_star"] == *cells[3]),
         ("ball", is_rounded(&cells[4], &report["plant"]["ball"], false)),
         ("e", is_rounded(&cells[5], &report["initial_set"]["E0"], false)),
-        ("n_o = 0", is_rounded(&cells[6], at(0), true)),
-        ("n_o = 10", is_rounded(&cells[7], at(10), true)),
+        ("n_o = 0", is_rounded(&cells[6], error_bound(report, 0), true)),
+        ("n_o = 10", is_rounded(&cells[7], error_bound(report, 10), true)),
         ("u", is_rounded(&cells[8], &report["control"]["steady"], true)),
     ]
     .into_iter()
@@ -110,14 +108,8 @@ fn compiles(folder: &Path, certificate: &Path) {
 /// The figures of the page. `SIGMASTAR_FIGURES=write` draws them again.
 #[test]
 fn the_figures_of_the_machines_are_what_the_program_draws() {
-    let folder = TempDir::new().unwrap();
     for (name, cells) in machines() {
-        let machine = format!("specs/machines/{name}.toml");
-        let call =
-            ["simulate", &machine, "--sigma", &cells[3], "--n-o", "3", "--periods", "6", "--samples", "50", "--force"];
-        let output = program().args(call).arg("--plots").arg(folder.path()).output().unwrap();
-        assert_eq!(output.status.code(), Some(0), "{name}: {}", utf8(output.stderr));
-        compare_figure(&name, &folder.path().join("response.svg"));
+        compare_response(&name, &format!("specs/machines/{name}.toml"), &cells[3]);
     }
 }
 
@@ -130,8 +122,7 @@ fn figures_that_are_not_the_programs_are_found() {
     });
     let right = ["`a`", "1", "656.774", "3000", "0.05", "20", "1.316", "0.03006", "0.1515", "1/20000"];
     let right = right.map(str::to_owned);
-    assert_eq!(wrong(&right, 1, &report), Vec::<&str>::new());
-    for (cell, text, column) in [
+    let cases = [
         (1, "2", "states"),
         (3, "3001", "sigma"),
         (4, "0.051", "ball"),
@@ -139,11 +130,8 @@ fn figures_that_are_not_the_programs_are_found() {
         (6, "1.315", "n_o = 0"),
         (7, "0.03005", "n_o = 10"),
         (8, "0.1514", "u"),
-    ] {
-        let mut cells = right.clone();
-        text.clone_into(&mut cells[cell]);
-        assert_eq!(wrong(&cells, 1, &report), [column], "{text}");
-    }
+    ];
+    wrong_cells_are_found(&right, |cells| wrong(cells, 1, &report), &cases);
 }
 
 /// The script of the comparison has the data of the machine; where python-control is installed it prints what the page shows.

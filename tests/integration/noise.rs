@@ -1,11 +1,9 @@
 //! Noise of the measurement and disturbances in claims for given n_o (docs/mathematics.md, 13.6, Proposition N): what a certificate says, that the
 //! checker decides it, and that trials hold it and break a forged one.
 
-use crate::support::{document, json, number, program, specification_text, utf8};
+use crate::support::{document, json, number, program, specification_text, tried, utf8};
 use serde_json::{Value, json as object};
-use sigmastar_document::progress::Silent;
-use sigmastar_lab::falsify::{Falsification, Finding, TrialSettings, TriedClaim, falsify};
-use sigmastar_lang::spec::Document;
+use sigmastar_lab::falsify::Finding;
 use std::path::Path;
 
 /// A shipped specification with other members.
@@ -136,17 +134,11 @@ fn where_there_is_none_the_reason_is_told() {
     assert!(report["for_n_o"][0].get("noise").is_none() && !report["remarks"].to_string().contains("--n-o"));
 }
 
-fn trials(certificate: &Value, trials: u64) -> Falsification {
-    let document = Document::parse("certificate", &certificate.to_string()).unwrap();
-    let claim = TriedClaim::from_document(&document).unwrap();
-    falsify(&claim, TrialSettings { trials, seed: 1, only: None }, &Silent)
-}
-
 #[test]
 fn trials_hold_the_bounds_and_break_smaller_ones() {
     let folder = tempfile::tempdir().unwrap();
     let (_, certificate) = example(folder.path());
-    let outcome = trials(&certificate, 12);
+    let outcome = tried(&certificate, 12, 1);
     assert!(outcome.counterexample().is_none(), "{:?}", outcome.counterexample());
     let closest = outcome.closest();
     let share = |part: &str| closest.iter().find(|closest| closest.quantity.contains(part)).expect("tried").share;
@@ -157,7 +149,7 @@ fn trials_hold_the_bounds_and_break_smaller_ones() {
         let value = &mut forged["claim"]["for_n_o"][i]["noise"]["limit"];
         *value = format!("{:e}", 0.5 * limit * number(value)).into();
     }
-    let outcome = trials(&forged, 12);
+    let outcome = tried(&forged, 12, 1);
     let broken = |finding: &Finding| matches!(finding, Finding::Violated(_, violation) if violation.quantity.contains("in the limit"));
     assert!(outcome.findings.iter().any(broken));
     let path = folder.path().join("certificate.json");
@@ -184,7 +176,7 @@ fn noise_of_a_plant_is_bounded_by_norms() {
         }
         let checked = proofs_check::check(certificate.to_string().as_bytes());
         assert!(checked.is_flawless(), "{}", checked.text(false));
-        assert!(trials(&certificate, 4).counterexample().is_none());
+        assert!(tried(&certificate, 4, 1).counterexample().is_none());
     }
     // Without noise, or without a list, it is the matrix inequality with its smaller gain.
     let sigma = |text: &str, call: &[&str]| number(&certify(folder.path(), text, call).0["sigma_star"]);

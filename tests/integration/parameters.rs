@@ -1,13 +1,14 @@
 //! Named constants of a plant: each counts as the number that it stands for, from the file to the certificate.
 
 use super::support::{
-    certified_in, checked, decided_again, document, every, in_one_line, json, number, program, read, stored,
+    certified_in, checked, decided_again, document, every, in_one_line, json, number, plant, program, read, stored,
 };
 use serde_json::{Value, json};
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::process::Output;
+use std::sync::LazyLock;
 use tempfile::TempDir;
 
 /// The paper's example with names for some of its numbers, or with these numbers in parentheses.
@@ -312,15 +313,22 @@ fn falsified(certificate: &Path, more: &[&str]) -> Output {
     program().arg("falsify").arg(certificate).args(["--quiet", "--format", "json"]).args(more).output().unwrap()
 }
 
+/// A family with two constants, one of which stands in the internal model, too; and its certificate.
+static WITH_CONSTANTS: LazyLock<(Value, Value)> = LazyLock::new(|| {
+    let mut plant = family(["0.14", "0.26"], ["0", "0.2"]);
+    plant["parameters"]["T"] = "1".into();
+    plant["parameters"]["damping"] = "1".into();
+    plant["internal_model"]["base_frequency"] = "2*pi/T".into();
+    let folder = TempDir::new().unwrap();
+    let (certificate, _) = certified(&folder, &plant);
+    (plant, read(certificate))
+});
+
 /// The corners come first, then members inside, each about its own orbit; a trial's file is one plant, which any simulation runs.
 #[test]
 fn members_of_a_family_are_tried() {
     let folder = TempDir::new().unwrap();
-    let mut plant = family(["0.14", "0.26"], ["0", "0.2"]);
-    // A constant that stands in the internal model, too.
-    plant["parameters"]["T"] = "1".into();
-    plant["internal_model"]["base_frequency"] = "2*pi/T".into();
-    let (file, _) = certified(&folder, &plant);
+    let file = stored(folder.path(), "certificate.json", &WITH_CONSTANTS.1);
     let report = json(&falsified(&file, &["--trials", "6"]).stdout);
     assert_eq!(report["refuted"], false);
     let trials = report["trials"].as_array().unwrap();
@@ -350,7 +358,7 @@ fn members_of_a_family_are_tried() {
     // c is chosen, so that the second corner is that of the largest k.
     assert_eq!(report["trials"][0]["parameters"], json!({ "k": "0.26", "c": "0.05" }));
     let plant = read(&member);
-    assert_eq!(plant["parameters"], json!({ "k": "0.26", "c": "0.05", "T": "1" }));
+    assert_eq!(plant["parameters"], json!({ "k": "0.26", "c": "0.05", "T": "1", "damping": "1" }));
     assert!(!Plant::from_json("member", &plant.to_string()).unwrap().is_family());
     let described = plant["description"].as_str().unwrap();
     let flags = described.split_once(" with ").and_then(|(_, flags)| flags.strip_suffix('.')).unwrap();
@@ -363,14 +371,9 @@ fn members_of_a_family_are_tried() {
 #[test]
 fn members_start_within_the_set_wherever_their_orbits_are() {
     let folder = TempDir::new().unwrap();
-    let plant = json!({
-        "format": "sigmastar/plant", "version": 1, "name": "x by itself", "period": "1", "states": ["x"],
-        "f": ["-a*x + cos(2*pi*t)"], "q": "x/2 - e + sin(2*pi*t)",
-        "parameters": { "a": { "nominal": "2", "low": "1.5", "high": "2.5" } },
-        "initial_set": { "kind": "box", "ball": "1", "E0": "1", "Z0": "0" },
-        "internal_model": { "mu": "1", "base_frequency": "2*pi", "matched": true,
-            "weights": { "family": "power", "n0": "2", "epsilon": "1/2" } }
-    });
+    let mut plant = plant(&["x"], &["-a*x + cos(2*pi*t)"], "x/2 - e + sin(2*pi*t)");
+    plant["parameters"] = json!({ "a": { "nominal": "2", "low": "1.5", "high": "2.5" } });
+    plant["initial_set"] = json!({ "kind": "box", "ball": "1", "E0": "1", "Z0": "0" });
     let (file, _) = certified(&folder, &plant);
     let certificate = read(&file);
     let [radius, x_0, d_x] = [
@@ -431,10 +434,8 @@ fn a_member_is_simulated() {
 #[test]
 fn what_is_wrong_with_a_value_of_a_parameter_is_told() {
     let folder = TempDir::new().unwrap();
-    let mut plant = family(["0.18", "0.22"], ["0", "0.2"]);
-    plant["parameters"]["damping"] = "1".into();
-    let (file, _) = certified(&folder, &plant);
-    let plant = folder.path().join("input.json");
+    let plant = stored(folder.path(), "plant.json", &WITH_CONSTANTS.0);
+    let file = stored(folder.path(), "certificate.json", &WITH_CONSTANTS.1);
     let said = |command: &str, values: &[&str]| {
         let mut call = program();
         let file = if command == "simulate" { &plant } else { &file };
@@ -451,8 +452,8 @@ fn what_is_wrong_with_a_value_of_a_parameter_is_told() {
         ("simulate", &["k=0.2", "k=0.2"], "gives `k` twice"),
         ("simulate", &["k=1/0"], "no value that can be enclosed"),
         ("simulate", &["dampin=2"], "did you mean `damping`?"),
-        ("simulate", &["zeta=2"], "its parameters are k, c, damping"),
-        ("falsify", &["k=0.3"], "the value of `k` is outside of [0.18, 0.22]"),
+        ("simulate", &["zeta=2"], "its parameters are k, c, T, damping"),
+        ("falsify", &["k=0.3"], "the value of `k` is outside of [0.14, 0.26]"),
         ("falsify", &["k=sqrt(2)/7"], "k is not known to be rational"),
         // Known exactly: the claim is about this number alone.
         ("falsify", &["damping=1"], "the claim is about no interval of a parameter `damping`"),

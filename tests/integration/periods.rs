@@ -2,8 +2,8 @@
 //! what is certified, and what simulations make of it.
 
 use crate::support::{
-    ROOT, assert_valid, cases, certified_in, checked, decided_again, document as shipped, json, number, program, read,
-    stored, utf8,
+    ROOT, assert_valid, cases, certified_in, checked, claim, decided_again, document as shipped, json, number, program,
+    read, stored, utf8,
 };
 use rayon::prelude::*;
 use serde_json::{Value, json as object};
@@ -304,8 +304,7 @@ fn compared((number, width): (usize, u32), folder: &TempDir) -> String {
         "initial_set": { "kind": "at-rest", "X0": "1/2", "E0": "1/2" }
     });
     let (certificate, _) = certified(folder, &document);
-    let certificate = Document::from_bytes("certificate", &std::fs::read(&certificate).unwrap()).unwrap();
-    let claim = sigmastar_lab::falsify::TriedClaim::from_document(&certificate).unwrap();
+    let claim = claim(&read(certificate));
     let plant = Plant::from_json(name, &document.to_string()).unwrap();
     let sigma = claim.sigma * (1.0 + 1e-6);
     let mut line = format!("{name:<11}{:>5.1} %:", f64::from(width) / 10.0);

@@ -3,8 +3,8 @@
 
 use crate::gallery;
 use crate::support::{
-    assert_valid, certified_in, checked, decided_again, document, every, files, json, made, number, program, read,
-    stem, stored,
+    assert_valid, certified_in, checked, decided_again, document, every, files, json, made, number, plant, program,
+    read, stem, stored,
 };
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
@@ -164,22 +164,12 @@ fn other_commands_take_plants() {
     assert_eq!(json(&output.stdout)["format"], "sigmastar/controller");
 }
 
-/// A plant that is written here.
-fn written(states: &[&str], f: &[&str], q: &str, set: &Value) -> Value {
-    serde_json::json!({
-        "format": "sigmastar/plant", "version": 1, "name": "test", "period": "1", "states": states, "f": f, "q": q,
-        "internal_model": { "mu": "1", "base_frequency": "2*pi", "matched": true,
-            "weights": { "family": "power", "n0": "2", "epsilon": "1/2" } },
-        "initial_set": set,
-    })
-}
-
 /// The ball of the claim is not below an irrational one that was asked for, and the checker agrees.
 #[test]
 fn irrational_balls_are_covered() {
     let folder = TempDir::new().unwrap();
-    let set = serde_json::json!({ "kind": "at-rest", "ball": "sqrt(2)/10" });
-    let plant = written(&["x", "y"], &["-x + e", "x - 2*y"], "y + sin(2*pi*t)", &set);
+    let mut plant = plant(&["x", "y"], &["-x + e", "x - 2*y"], "y + sin(2*pi*t)");
+    plant["initial_set"] = serde_json::json!({ "kind": "at-rest", "ball": "sqrt(2)/10" });
     let (certificate, _) = certified_in(folder.path(), &plant, &[]);
     assert_eq!(read(&certificate)["claim"]["initial_set"]["ball"], "0.141421356238");
     assert_eq!(checked(&certificate)["verdict"], "valid");
@@ -192,7 +182,7 @@ fn too_many_states_are_refused_with_their_number() {
     let folder = TempDir::new().unwrap();
     let names = ["a", "b", "c", "d", "g", "h", "k"];
     let f = names.map(|name| format!("-{name} + e"));
-    let plant = written(&names, &f.each_ref().map(String::as_str), "a", &serde_json::json!({ "kind": "at-rest" }));
+    let plant = plant(&names, &f.each_ref().map(String::as_str), "a");
     let plant = stored(folder.path(), "plant.json", &plant);
     let output = program().arg("certify").arg(&plant).arg("--quiet").output().unwrap();
     let said = String::from_utf8_lossy(&output.stderr).into_owned();

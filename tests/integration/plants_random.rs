@@ -2,7 +2,7 @@
 //!
 //! `SIGMASTAR_CASES=0..40 cargo test --release --test integration random_plants` takes other seeds than an ordinary run.
 
-use crate::support::{cases, certified_in, checked, every, json, number, program, stored};
+use crate::support::{self, cases, certified_in, checked, every, json, number, program, stored};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 use serde_json::json as value;
@@ -169,37 +169,29 @@ fn saturating_random_plants_are_certified_and_valid() {
 /// gain. An ordinary run takes the first.
 #[test]
 fn what_takes_the_checker_many_boxes_is_proved_with_room() {
-    let three = value!({
-        "states": ["x1", "x2", "x3"],
-        "f": [
+    let three = support::plant(
+        &["x1", "x2", "x3"],
+        &[
             "1.83*x2 - 0.19*x2 - 0.01*x1^3 + 0.15*e",
             "-1.83*x1 - 1.46*x2 + 0.17*x1 - 0.13*cos(2*pi*t) - 0.20*e",
             "-1.26*x3 + 0.14*x1 - 0.02*x3^3",
         ],
-        "q": "-0.21*e + 0.67*x2 + 0.04*sin(x3) + 0.76*cos(2*pi*t) - 0.09*e^3",
-    });
-    let five = value!({
-        "states": ["x1", "x2", "x3", "x4", "x5"],
-        "f": [
+        "-0.21*e + 0.67*x2 + 0.04*sin(x3) + 0.76*cos(2*pi*t) - 0.09*e^3",
+    );
+    let five = support::plant(
+        &["x1", "x2", "x3", "x4", "x5"],
+        &[
             "1.17*x2 + 0.04*x3 - 0.26*e",
             "-1.17*x1 - 0.59*x2 - 0.01*x4 - 0.03*x2^3",
             "1.55*x4 + 0.19*sin(x1)",
             "-1.55*x3 - 0.41*x4 - 0.15*x2 + 0.05*sin(x4) - 0.34*e",
             "-2.44*x5 - 0.16*x5^3",
         ],
-        "q": "0.45*e + 0.94*x1 + 0.38*sin(x3) + 0.63*cos(2*pi*t) - 0.02*e^3",
-    });
+        "0.45*e + 0.94*x1 + 0.38*sin(x3) + 0.63*cos(2*pi*t) - 0.02*e^3",
+    );
     let folder = TempDir::new().unwrap();
     for (mut plant, largest) in [(three, 0.14), (five, 3.6)].into_iter().step_by(every(2)) {
-        plant["format"] = "sigmastar/plant".into();
-        plant["version"] = 1.into();
-        plant["name"] = "many boxes".into();
-        plant["period"] = "1".into();
         plant["initial_set"] = value!({ "kind": "box", "ball": "1/4", "E0": "1/2", "Z0": "0" });
-        plant["internal_model"] = value!({
-            "mu": "1", "base_frequency": "2*pi", "matched": true,
-            "weights": { "family": "power", "n0": "2", "epsilon": "1/2" },
-        });
         // It is not written without being decided again.
         let (certificate, report) = certified_in(folder.path(), &plant, &["--no-compare"]);
         let sigma = number(&report["sigma_star"]);

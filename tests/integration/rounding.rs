@@ -7,7 +7,7 @@ use rug::Rational;
 use serde_json::{Value, json as object};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, round_rational};
-use sigmastar_lang::spec::{Constant, Specification};
+use sigmastar_lang::spec::{Constant, Sampling, Specification};
 use sigmastar_prove::certify::{Ladder, SampledCertification, certify_sampled};
 use sigmastar_prove::rate::sampled::rounding::{ComputedLaw, Rounded};
 use sigmastar_regulator::{Design, Stepper};
@@ -158,12 +158,12 @@ fn in_doubles(spec: &Specification) -> Option<Specification> {
         document["internal_model"]["sampling_period"] = format!("({})/{samples}", spec.period.nominal().text).into();
         document["arithmetic"] = "double".into();
         let spec = Specification::from_json("doubles", &document.to_string()).ok()?;
-        claim(&spec).is_some().then_some(spec)
+        claim(&spec, spec.internal_model.sampling.as_ref()?).is_some().then_some(spec)
     })
 }
 
-fn claim(spec: &Specification) -> Option<SampledCertification<'_>> {
-    let sampling = spec.internal_model.sampling.as_ref()?;
+/// The claim at 1.5 times the least gain at samples.
+pub fn claim<'s>(spec: &'s Specification, sampling: &Sampling) -> Option<SampledCertification<'s>> {
     let least = certify_sampled(spec, sampling, None, None, Ladder::default()).ok()?;
     let gain = round_rational(&(&least.claim()?.witness.sigma * Rational::from((3, 2))), 6, Direction::Up);
     let run = certify_sampled(spec, sampling, Some(&gain), None, Ladder::default()).ok()?;
@@ -179,7 +179,8 @@ fn rounding_alone_is_small() {
             println!("{name}: no claim at samples");
             continue;
         };
-        let mut run = claim(&spec).expect("found");
+        let sampling = spec.internal_model.sampling.as_ref().expect("given");
+        let mut run = claim(&spec, sampling).expect("found");
         run.prove_rates(&COUNTS).expect("by norms");
         let start = run.claim().expect("certified").witness.set.e0.to_f64();
         for found in &run.for_n_o {

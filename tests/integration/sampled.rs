@@ -36,7 +36,8 @@ fn sampled(step: &str) -> Specification {
     Specification::from_json("sampled", &document("sampling_period", step.into())).unwrap()
 }
 
-fn run<'s>(spec: &'s Specification, gain: Option<&str>) -> SampledCertification<'s> {
+/// The run at the samples of a specification, at a gain or at the smallest.
+pub fn run<'s>(spec: &'s Specification, gain: Option<&str>) -> SampledCertification<'s> {
     let sampling = spec.internal_model.sampling.clone().unwrap();
     let gain = gain.map(|gain| parse_decimal(gain).unwrap());
     certify_sampled(spec, &sampling, gain.as_ref(), None, Ladder::default()).unwrap()

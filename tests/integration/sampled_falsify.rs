@@ -1,11 +1,9 @@
 //! `falsify` on certificates of the law at samples: true ones hold at every n_o and phase that is tried, forged ones do not.
 
-use crate::support::{EXAMPLE_TEXT, every, json, program};
+use crate::support::{EXAMPLE_TEXT, every, json, number, program, read, stored, tried};
 use serde_json::Value;
-use sigmastar_document::progress::Silent;
-use sigmastar_exact::number::parse_decimal;
-use sigmastar_lab::falsify::{Falsification, Finding, TrialSettings, TriedClaim, falsify};
-use sigmastar_lang::spec::{Document, Specification};
+use sigmastar_lab::falsify::Finding;
+use sigmastar_lang::spec::Specification;
 use sigmastar_prove::certificate::sampled_certificate_json;
 use sigmastar_prove::certify::{Ladder, certify_sampled};
 use std::sync::LazyLock;
@@ -31,17 +29,9 @@ pub fn certified(change: impl FnOnce(&mut Value)) -> Value {
     sampled_certificate_json(&run).expect("certified")
 }
 
-fn claim(certificate: &Value) -> TriedClaim {
-    TriedClaim::from_document(&Document::parse("certificate", &certificate.to_string()).unwrap()).unwrap()
-}
-
-pub fn tried(certificate: &Value, trials: u64) -> Falsification {
-    falsify(&claim(certificate), TrialSettings { trials, seed: 1, only: None }, &Silent)
-}
-
 #[test]
 fn a_true_claim_holds() {
-    let outcome = tried(&CERTIFICATE, 8);
+    let outcome = tried(&CERTIFICATE, 8, 1);
     let (mut tried_n_o, mut phases) = (Vec::new(), Vec::new());
     for finding in &outcome.findings {
         let Finding::Holds { trial, shares } = finding else { panic!("{finding:?}") };
@@ -65,12 +55,10 @@ fn a_true_claim_holds() {
 }
 
 /// One number of the certificate replaced by that times a factor.
-fn forged(pointer: &str, factor: f64) -> Value {
-    let mut certificate = CERTIFICATE.clone();
-    let number = certificate.pointer_mut(pointer).unwrap_or_else(|| panic!("{pointer}"));
-    let parts = number.as_str().unwrap().split('/').map(|part| parse_decimal(part).unwrap().to_f64());
-    let value = parts.reduce(|a, b| a / b).unwrap();
-    *number = format!("{:?}", value * factor).into();
+pub fn forged(certificate: &Value, pointer: &str, factor: f64) -> Value {
+    let mut certificate = certificate.clone();
+    let value = certificate.pointer_mut(pointer).unwrap_or_else(|| panic!("{pointer}"));
+    *value = format!("{:?}", number(value) * factor).into();
     certificate
 }
 
@@ -94,7 +82,7 @@ fn a_forged_claim_is_contradicted() {
     .into_iter()
     .step_by(every(4))
     {
-        let outcome = tried(&forged(pointer, factor), trials);
+        let outcome = tried(&forged(&CERTIFICATE, pointer, factor), trials, 1);
         let Some((trial, violation)) = outcome.counterexample() else {
             panic!(
                 "{pointer}: {:?}",
@@ -110,7 +98,7 @@ fn a_forged_claim_is_contradicted() {
 fn a_certificate_whose_samples_are_no_period_is_not_tried() {
     let mut certificate = CERTIFICATE.clone();
     certificate["claim"]["samples"] = 150.into();
-    let outcome = tried(&certificate, 2);
+    let outcome = tried(&certificate, 2, 1);
     assert!(outcome.findings.iter().all(|finding| matches!(finding, Finding::Unfinished(_))), "{:?}", outcome.findings);
 }
 
@@ -118,8 +106,7 @@ fn a_certificate_whose_samples_are_no_period_is_not_tried() {
 #[test]
 fn the_command_reports_and_writes_the_plant() {
     let folder = tempfile::tempdir().unwrap();
-    let (file, plant) = (folder.path().join("certificate.json"), folder.path().join("plant.json"));
-    std::fs::write(&file, CERTIFICATE.to_string()).unwrap();
+    let (file, plant) = (stored(folder.path(), "certificate.json", &CERTIFICATE), folder.path().join("plant.json"));
     let call = || {
         let mut call = program();
         call.arg("falsify").arg(&file).args(["-q", "--format", "json"]);
@@ -130,7 +117,7 @@ fn the_command_reports_and_writes_the_plant() {
     assert!(report.get("sigma_star").is_none() && report["trials"][1]["phase"].as_f64().unwrap() > 0.0);
     assert!(report["worst"]["phase"].is_number());
     call().args(["--trial", "2", "-o"]).arg(&plant).assert().code(0);
-    let written: Value = serde_json::from_str(&std::fs::read_to_string(&plant).unwrap()).unwrap();
+    let written = read(&plant);
     let description = written["description"].as_str().unwrap();
     let flags = description.strip_prefix("Simulate it with ").unwrap().trim_end_matches('.').replace('"', "");
     assert!(flags.starts_with("--sigma 75.0 --n-o 99 --sampled 0.005 --phase 0."), "{flags}");
@@ -138,7 +125,7 @@ fn the_command_reports_and_writes_the_plant() {
     simulated.code(0).stdout(predicates::str::contains("it attracts its neighbours"));
     call().args(["--base-frequency", "3*pi"]).assert().code(2);
     // A forged one: exit code 1 and a counterexample.
-    std::fs::write(&file, forged("/claim/initial_set/E0", 40.0).to_string()).unwrap();
+    std::fs::write(&file, forged(&CERTIFICATE, "/claim/initial_set/E0", 40.0).to_string()).unwrap();
     let report =
         json(&call().args(["--trials", "2", "--force", "-o"]).arg(&plant).assert().code(1).get_output().stdout);
     assert_eq!(report["refuted"], true);

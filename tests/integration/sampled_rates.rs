@@ -1,12 +1,12 @@
 //! Rates for given n_o at samples as a part of claims (derivation, 13.6): against the loops that the data allow, and along solutions.
 
 use crate::controller::{constant, example};
+use crate::rounding::claim;
 use crate::support::{Shipped, certified, every, json, program};
 use faer::Mat;
 use rug::Rational;
 use serde_json::Value;
 use sigmastar_exact::enclosure::Enclosure;
-use sigmastar_exact::number::{Direction, round_rational};
 use sigmastar_lang::spec::Specification;
 use sigmastar_prove::certify::{Ladder, SampledCertification, certify_sampled};
 use sigmastar_regulator::{Design, Stepper};
@@ -19,7 +19,7 @@ const COUNTS: [u32; 4] = [0, 1, 4, 10];
 const SAMPLES: [u32; 7] = [60, 120, 250, 500, 2000, 8000, 30000];
 
 /// exp of a matrix, by squaring.
-fn exponential(matrix: &Mat<f64>) -> Mat<f64> {
+pub fn exponential(matrix: &Mat<f64>) -> Mat<f64> {
     let n = matrix.nrows();
     let size = (0..n).map(|i| (0..n).map(|j| matrix[(i, j)].abs()).sum::<f64>()).fold(0.0, f64::max);
     let halvings = (size.log2().ceil().max(0.0) as i32) + 6;
@@ -145,11 +145,7 @@ fn rates_at_samples_are_near_those_of_the_loops() {
             document["internal_model"]["sampling_period"] =
                 format!("({})/{samples}", spec.period.nominal().text).into();
             let sampling = Specification::from_json("sampled", &document.to_string()).ok()?.internal_model.sampling?;
-            let least = certify_sampled(spec, &sampling, None, None, Ladder::default()).ok()?;
-            let gain = &least.claim()?.witness.sigma * Rational::from((3, 2));
-            let gain = round_rational(&gain, 6, Direction::Up);
-            let run = certify_sampled(spec, &sampling, Some(&gain), None, Ladder::default()).ok()?;
-            run.claim().is_some().then_some(run)
+            claim(spec, &sampling)
         });
         let Some(mut run) = found else {
             println!("{name}: no claim at samples");

@@ -35,48 +35,15 @@ fn linear(rate: f64) -> Plant {
 
 /// (x, y, e, u, cos, sin)' = A (x, y, e, u, cos, sin).
 fn generator(rate: f64) -> DMatrix<f64> {
-    DMatrix::from_row_slice(
-        6,
-        6,
-        &[
-            -1.0,
-            0.0,
-            0.5,
-            0.0,
-            0.5,
-            0.0, //
-            rate,
-            -rate,
-            rate,
-            0.0,
-            0.0,
-            0.0, //
-            1.0,
-            -0.5,
-            -1.0 / 3.0,
-            1.0,
-            0.0,
-            1.0, //
-            0.0,
-            0.0,
-            0.0,
-            0.0,
-            0.0,
-            0.0, //
-            0.0,
-            0.0,
-            0.0,
-            0.0,
-            0.0,
-            -TAU, //
-            0.0,
-            0.0,
-            0.0,
-            0.0,
-            TAU,
-            0.0,
-        ],
-    )
+    let rows = [
+        [-1.0, 0.0, 0.5, 0.0, 0.5, 0.0],
+        [rate, -rate, rate, 0.0, 0.0, 0.0],
+        [1.0, -0.5, -1.0 / 3.0, 1.0, 0.0, 1.0],
+        [0.0; 6],
+        [0.0, 0.0, 0.0, 0.0, 0.0, -TAU],
+        [0.0, 0.0, 0.0, 0.0, TAU, 0.0],
+    ];
+    DMatrix::from_fn(6, 6, |i, j| rows[i][j])
 }
 
 /// Between samples a linear plant moves by the exponential of its matrix, however stiff it is; so with a delay, a limit, and

@@ -2,7 +2,7 @@
 //! the fields that the readers know.
 
 use crate::no_plant::{JACOBIAN, write};
-use crate::support::{ROOT, certify_all, files, program, stem, utf8};
+use crate::support::{ROOT, certified_in, certify_all, document, files, program, read, stem, utf8};
 use crate::validator::Validator;
 use serde_json::{Map, Value, json};
 use sigmastar_lang::plant::Plant;
@@ -318,7 +318,7 @@ fn names(value: &Value, found: &mut BTreeSet<String>) {
 }
 
 /// The names of all properties.
-fn properties_of(schema: &Value, found: &mut BTreeSet<String>) {
+pub fn properties_of(schema: &Value, found: &mut BTreeSet<String>) {
     if let Some(properties) = schema.get("properties").and_then(Value::as_object) {
         for (name, schema) in properties {
             found.insert(name.clone());
@@ -342,68 +342,38 @@ fn properties_of(schema: &Value, found: &mut BTreeSet<String>) {
 fn the_schema_of_certificates_is_that_of_what_is_written() {
     let validator = validator(Schema::Certificate);
     let fresh = certify_all(&["no-x", "paper-example"]);
-    // One whose Jacobian contradicts its bounds.
     let folder = tempfile::tempdir().expect("a folder");
-    let (spec, file) = (write(folder.path(), JACOBIAN, "2.1*X", "0"), folder.path().join("certificate.json"));
-    program().args(["certify", "-q", "--no-compare", &spec, "-o"]).arg(&file).assert().code(0);
-    let contradicted = parsed(&file);
-    // A plant whose existence rests on a matrix inequality.
-    let (plant, file) = (format!("{ROOT}/specs/plants/converter.json"), folder.path().join("plant.certificate.json"));
-    program().args(["certify", "-q", "--no-compare", &plant, "-o"]).arg(&file).assert().code(0);
-    // One at samples, where stability and existence rest on matrix inequalities.
-    let (axis, sampled) =
-        (format!("{ROOT}/specs/plants/motor-axis.json"), folder.path().join("sampled.certificate.json"));
-    program()
-        .args(["certify", "-q", "--no-compare", &axis, "--sampling-period", "1/50000", "-o"])
-        .arg(&sampled)
-        .assert()
-        .code(0);
-    // An actuator whose gain is known to an interval.
-    let uncertain = with("specs/no-x.json", &[("input_gain", json!({ "nominal": 1, "low": 0.9, "high": 1.1 }))]);
-    let (spec, of_gain) = (folder.path().join("gain.json"), folder.path().join("gain.certificate.json"));
-    std::fs::write(&spec, uncertain.to_string()).expect("a file");
-    program().args(["certify", "-q", "--no-compare"]).arg(&spec).arg("-o").arg(&of_gain).assert().code(0);
-    // Noise and a disturbance, for given n_o.
-    let inputs = [("measurement", json!({ "noise": "1e-6", "quantum": "1e-6" })), ("disturbance", json!("1e-6"))];
-    let (spec, of_noise) = (folder.path().join("noise.json"), folder.path().join("noise.certificate.json"));
-    std::fs::write(&spec, with("specs/no-x.json", &inputs).to_string()).expect("a file");
-    let asked = ["certify", "-q", "--no-compare", "--sigma", "6", "--n-o", "1"];
-    program().args(asked).arg(&spec).arg("-o").arg(&of_noise).assert().code(0);
-    // Rounding, for given n_o at samples.
-    let doubles = [("arithmetic", json!("double"))];
-    let (spec, of_doubles) = (folder.path().join("doubles.json"), folder.path().join("doubles.certificate.json"));
-    std::fs::write(&spec, with("specs/no-x.json", &doubles).to_string()).expect("a file");
-    let asked = ["certify", "-q", "--no-compare", "--sigma", "6.5", "--sampling-period", "(1)/120", "--n-o", "1"];
-    program().args(asked).arg(&spec).arg("-o").arg(&of_doubles).assert().code(0);
-    // A rate of a plant whose claim rests on a matrix inequality.
-    let of_slopes = folder.path().join("slopes.certificate.json");
-    program()
-        .args(["certify", "-q", "--no-compare", &axis, "--sigma", "23", "--n-o", "1", "-o"])
-        .arg(&of_slopes)
-        .assert()
-        .code(0);
-    // The same on a path with a corner, where the parts of the derivatives are known apart.
-    let (example, of_parts) =
-        (format!("{ROOT}/specs/plants/paper-example.json"), folder.path().join("parts.certificate.json"));
-    program()
-        .args(["certify", "-q", "--no-compare", &example, "--sigma", "9.1", "--n-o", "0", "-o"])
-        .arg(&of_parts)
-        .assert()
-        .code(0);
-    // A family whose parameters are cut into cells.
-    let (plant, of_family) = (folder.path().join("family.json"), folder.path().join("family.certificate.json"));
-    std::fs::write(&plant, super::cells::family(["1.7", "2.3"]).to_string()).expect("a file");
-    program().args(["certify", "-q", "--no-compare"]).arg(&plant).arg("-o").arg(&of_family).assert().code(0);
+    let contradicted = parsed(Path::new(&write(folder.path(), JACOBIAN, "2.1*X", "0")));
+    let axis = document("plants/motor-axis");
+    let no_x = |fields: &[(&str, Value)]| with("specs/no-x.json", fields);
+    let uncertain = no_x(&[("input_gain", json!({ "nominal": 1, "low": 0.9, "high": 1.1 }))]);
+    let noisy = no_x(&[("measurement", json!({ "noise": "1e-6", "quantum": "1e-6" })), ("disturbance", json!("1e-6"))]);
+    let doubles = no_x(&[("arithmetic", json!("double"))]);
+    let made: [(&Value, &[&str]); 9] = [
+        // One whose Jacobian contradicts its bounds.
+        (&contradicted, &[]),
+        // A plant whose existence rests on a matrix inequality.
+        (&document("plants/converter"), &[]),
+        // One at samples, where stability and existence rest on matrix inequalities.
+        (&axis, &["--sampling-period", "1/50000"]),
+        // An actuator whose gain is known to an interval.
+        (&uncertain, &[]),
+        // Noise and a disturbance, for given n_o; and rounding, at samples.
+        (&noisy, &["--sigma", "6", "--n-o", "1"]),
+        (&doubles, &["--sigma", "6.5", "--sampling-period", "(1)/120", "--n-o", "1"]),
+        // A rate of a plant whose claim rests on a matrix inequality.
+        (&axis, &["--sigma", "23", "--n-o", "1"]),
+        // The same on a path with a corner, where the parts of the derivatives are known apart.
+        (&document("plants/paper-example"), &["--sigma", "9.1", "--n-o", "0"]),
+        // A family whose parameters are cut into cells.
+        (&super::cells::family(["1.7", "2.3"]), &[]),
+    ];
+    let made = made
+        .map(|(document, flags)| read(certified_in(folder.path(), document, &[&["--no-compare"], flags].concat()).0));
     let mut used = BTreeSet::new();
-    let made = [&file, &sampled, &of_gain, &of_noise, &of_doubles, &of_slopes, &of_parts, &of_family];
-    let made = made.map(|path| parsed(path));
-    for certificate in [contradicted].into_iter().chain(made) {
-        assert_eq!(validator.complaints(&certificate), None);
-        names(&certificate, &mut used);
-    }
-    for shipped in &fresh {
-        assert_eq!(validator.complaints(&shipped.certificate), None, "{}", shipped.name);
-        names(&shipped.certificate, &mut used);
+    for certificate in made.iter().chain(fresh.iter().map(|shipped| &shipped.certificate)) {
+        assert_eq!(validator.complaints(certificate), None, "{}", certificate["claim"]["statement"]);
+        names(certificate, &mut used);
     }
     let stored = ["certificates", "sampled", "plants", "actuator", "rates", "noise", "arithmetic"];
     let stored = stored.map(|name| format!("proofs-check/tests/{name}"));

@@ -1,23 +1,23 @@
 //! "From a plant to a controller that ships" (docs/guide/ships.md): its commands run, and say what the page says.
 
 use crate::controller::installed;
-use crate::support::{every, json, program};
+use crate::controller_c::gcc;
+use crate::support::{every, json, made, number, program};
 use serde_json::Value;
 use std::path::Path;
-use std::process::Command;
 
 const FILE: &str = "specs/shipping/motor-axis.toml";
 
-fn report(folder: &Path, more: &[&str]) -> (i32, Value) {
-    let certificate = folder.join("axis.certificate.json");
-    let call = ["certify", FILE, "--n-o", "0,4,10", "--format", "json", "-q", "--force", "-o"];
-    let output = program().args(call).arg(certificate).args(more).output().unwrap();
-    (output.status.code().unwrap(), json(&output.stdout))
+/// The exit code, the report and the certificate of a call on the page, made once.
+fn certified(more: &[&str]) -> (i32, Value, Vec<u8>) {
+    let call = ["certify", FILE, "--n-o", "0,4,10", "--format", "json", "-q"];
+    let (output, certificate) = made(&[&call[..], more].concat());
+    (output.status.code().unwrap(), json(&output.stdout), certificate)
 }
 
 /// A bound in four digits, rounded up, and the shortest way to write it.
 fn up(value: &Value) -> String {
-    let value: f64 = value.as_str().expect("a number").parse().unwrap();
+    let value = number(value);
     let unit = 10f64.powi(value.log10().floor() as i32 - 3);
     let rounded = ((value / unit - 1e-9).ceil() * unit * 1e6).round() / 1e6;
     rounded.to_string()
@@ -26,7 +26,6 @@ fn up(value: &Value) -> String {
 #[test]
 fn the_page_says_what_its_commands_say() {
     let page = std::fs::read_to_string("docs/guide/ships.md").unwrap();
-    let folder = tempfile::tempdir().unwrap();
     let lines: Vec<&str> = page.lines().filter(|line| line.starts_with('|')).collect();
     let line = |start: &str| *lines.iter().find(|line| line.starts_with(start)).unwrap_or_else(|| panic!("{start}"));
     for (asked, flags) in [
@@ -34,11 +33,10 @@ fn the_page_says_what_its_commands_say() {
         ("--peak-error 25", &["--peak-error", "25"]),
         ("--peak-error 60", &["--peak-error", "60"]),
     ] {
-        let (code, report) = report(folder.path(), flags);
+        let (code, report, _) = certified(flags);
         assert_eq!(code, 0, "{report:#}");
         let own = &report["gains"][0];
-        let [steady, transient] = ["steady", "transient"].map(|part| own["control"][part].as_str().unwrap());
-        let control = steady.parse::<f64>().unwrap() + transient.parse::<f64>().unwrap();
+        let control = number(&own["control"]["steady"]) + number(&own["control"]["transient"]);
         let four = &report["for_n_o"][1];
         let cells = [
             report["sigma"].as_str().unwrap().to_owned(),
@@ -59,7 +57,7 @@ fn the_page_says_what_its_commands_say() {
     }
     // Its search tries many gains.
     if every(2) == 1 {
-        let (code, missed) = report(folder.path(), &["--peak-error", "60", "--rate", "4"]);
+        let (code, missed, _) = certified(&["--peak-error", "60", "--rate", "4"]);
         let said = missed["statement"].as_str().unwrap();
         assert!(
             code == 3 && said.contains("n_o = 10 is not proved to be at least 4") && said.contains("about 1.41"),
@@ -71,9 +69,10 @@ fn the_page_says_what_its_commands_say() {
 #[test]
 fn its_controller_compiles_and_its_header_says_all_of_it() {
     let folder = tempfile::tempdir().unwrap();
-    let (code, _) = report(folder.path(), &["--peak-error", "60"]);
+    let (code, _, made) = certified(&["--peak-error", "60"]);
     assert_eq!(code, 0);
     let [certificate, source] = ["axis.certificate.json", "axis.c"].map(|name| folder.path().join(name));
+    std::fs::write(&certificate, made).unwrap();
     program().arg("check").arg(&certificate).assert().success();
     let call = ["--n-o", "4", "--format", "c", "-o"];
     program().arg("controller").arg(&certificate).args(call).arg(&source).assert().success();
@@ -88,8 +87,6 @@ fn its_controller_compiles_and_its_header_says_all_of_it() {
         assert!(header.contains(words), "{words}: {header}");
     }
     if installed("gcc", &["--version"]) {
-        let strict = ["-std=c99", "-Wall", "-Wextra", "-pedantic", "-Werror", "-c", "-o"];
-        let gcc = Command::new("gcc").args(strict).arg(folder.path().join("axis.o")).arg(&source).output().unwrap();
-        assert!(gcc.status.success(), "{}", String::from_utf8_lossy(&gcc.stderr));
+        gcc(&[Path::new("-c"), &source], &folder.path().join("axis.o"));
     }
 }

@@ -2,8 +2,10 @@
 
 use assert_cmd::Command;
 use rayon::prelude::*;
-use serde_json::Value;
-use sigmastar_lang::spec::Specification;
+use serde_json::{Value, json};
+use sigmastar_document::progress::Silent;
+use sigmastar_lab::falsify::{Falsification, TrialSettings, TriedClaim, falsify};
+use sigmastar_lang::spec::{Document, Specification};
 use sigmastar_prove::certificate::certificate_json;
 use sigmastar_prove::certify::{Certification, Options, certify, resolve};
 use std::collections::HashMap;
@@ -183,6 +185,18 @@ pub fn assert_valid(certificate: &Path) {
     assert_eq!([&answer["verdict"], &answer["figures"]["verdict"]], ["valid", "agree"], "{answer:#}");
 }
 
+/// The claim of a certificate, for trials.
+#[track_caller]
+pub fn claim(certificate: &Value) -> TriedClaim {
+    TriedClaim::from_document(&Document::parse("certificate", &certificate.to_string()).unwrap()).unwrap()
+}
+
+/// What so many trials of a claim say.
+#[track_caller]
+pub fn tried(certificate: &Value, trials: u64, seed: u64) -> Falsification {
+    falsify(&claim(certificate), TrialSettings { trials, seed, only: None }, &Silent)
+}
+
 /// The JSON files of a folder of the repository, sorted.
 pub fn files(folder: &str) -> Vec<PathBuf> {
     let mut files: Vec<PathBuf> = std::fs::read_dir(Path::new(ROOT).join(folder))
@@ -217,6 +231,15 @@ pub fn document(name: &str) -> Value {
 pub fn specification(name: &str) -> Specification {
     Specification::from_json(name, &specification_text(name))
         .unwrap_or_else(|errors| panic!("{}", errors.render(false)))
+}
+
+/// A plant with mu = 1 and period 1.
+pub fn plant(states: &[&str], f: &[&str], q: &str) -> Value {
+    json!({
+        "format": "sigmastar/plant", "version": 1, "name": "test", "period": "1", "states": states, "f": f, "q": q,
+        "internal_model": { "mu": "1", "base_frequency": "2*pi", "matched": true,
+            "weights": { "family": "power", "n0": "2", "epsilon": "1/2" } },
+    })
 }
 
 /// Without the comparison with the other derivations.

@@ -1,6 +1,6 @@
 //! Parameter studies: exact cases, rows that are those of `certify`, sweeps that are killed, shards.
 
-use crate::support::{ROOT, program, utf8};
+use crate::support::{ROOT, plant, program, utf8};
 use predicates::str::contains;
 use serde_json::{Value, json};
 use sigmastar_lang::spec::{Document, ErrorKind};
@@ -418,13 +418,8 @@ fn plants_and_samples_are_swept() {
 /// X0 of a plant is in the coordinates of its certificate, but where the set is asked for as a ball: then it is that ball, of x.
 #[test]
 fn a_line_says_what_its_set_bounds() {
-    let plant = json!({
-        "format": "sigmastar/plant", "version": 1, "name": "two states", "period": "1", "states": ["a", "b"],
-        "f": ["-a + 4*b", "-4*b + sin(2*pi*t)"], "q": "1 + a/8 + cos(2*pi*t)",
-        "initial_set": { "kind": "aligned", "ball": "1/3", "E0": "1" },
-        "internal_model": { "mu": "1", "base_frequency": "2*pi", "matched": true,
-            "weights": { "family": "power", "n0": "2", "epsilon": "1/2" } },
-    });
+    let mut plant = plant(&["a", "b"], &["-a + 4*b", "-4*b + sin(2*pi*t)"], "1 + a/8 + cos(2*pi*t)");
+    plant["initial_set"] = json!({ "kind": "aligned", "ball": "1/3", "E0": "1" });
     let sweep = |plant: &Value| {
         let run = Run::new(&json!({
             "format": "sigmastar/study", "version": 1, "name": "sets", "design": "grid", "subject": plant,

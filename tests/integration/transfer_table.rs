@@ -1,6 +1,7 @@
 //! Certified pairs near the optimum: against a dense search, against plain sums at random points, and slightly smaller.
 
 use crate::support::every;
+use crate::transfer_sums::power;
 use rand::rngs::StdRng;
 use rand::{Rng, SeedableRng};
 use rayon::prelude::*;
@@ -15,15 +16,7 @@ const BITS: u32 = 200;
 
 /// n_0 = 2, n_l = l^-(1+eps), mu = 1 and this base frequency, so nu = 1/w.
 fn specification(frequency: &str, epsilon: &str) -> Specification {
-    let text = format!(
-        r#"{{"format": "sigmastar/bounding-spec", "version": 1, "name": "weights only", "period": "1",
-        "lyapunov": {{"p_low": "1", "p_up": "1", "alpha": "1"}},
-        "bounds": {{"f": "0", "f_e": "0", "f_xx": "0", "f_ex": "0", "q": "1", "q_e": "0", "q_x": "0", "q_t": "1"}},
-        "internal_model": {{"mu": "1", "base_frequency": "{frequency}",
-          "weights": {{"family": "power", "n0": "2", "epsilon": "{epsilon}"}}}},
-        "initial_set": {{"kind": "paper"}}}}"#
-    );
-    Specification::from_json("test", &text).unwrap()
+    power("2", epsilon, "1").specification_at(frequency, false)
 }
 
 /// One row of the table: the base frequency, epsilon, k0 in units of 1/(nu^2 n_0) or as a number, the allowed k1.

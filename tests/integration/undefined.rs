@@ -1,11 +1,11 @@
 //! Every operation that is written must be defined where it is used, whatever it is multiplied with: what is nowhere defined is
 //! never certified, in a plant or in a specification, through whichever simplification it goes.
 
-use crate::support::EXAMPLE_TEXT;
+use crate::support::{self, EXAMPLE_TEXT};
 use proofs_check::expr::ARGUMENTS;
 use proofs_check::verdict::Verdict;
 use rug::Rational;
-use serde_json::{Value, json};
+use serde_json::Value;
 use sigmastar::{CertifyOptions, ErrorKind, Subject, certify};
 use sigmastar_lang::expr::{Expr, ProofSettings, Variables, prove_bounding};
 use sigmastar_lang::plant::Plant;
@@ -84,15 +84,7 @@ fn in_place(index: usize, variable: &str) -> String {
 }
 
 fn plant(f: &str, q: &str) -> String {
-    json!({
-        "format": "sigmastar/plant", "version": 1, "name": "undefined", "period": "1", "states": ["x"],
-        "f": [format!("-x + e/2{f}")], "q": format!("x/4 + cos(2*pi*t){q}"),
-        "internal_model": {
-            "mu": "1", "base_frequency": "2*pi", "matched": true,
-            "weights": { "family": "power", "n0": "2", "epsilon": "1/2" }
-        }
-    })
-    .to_string()
+    support::plant(&["x"], &[&format!("-x + e/2{f}")], &format!("x/4 + cos(2*pi*t){q}")).to_string()
 }
 
 fn refused(what: &str, answer: Result<sigmastar::Certificate, sigmastar::Error>) {

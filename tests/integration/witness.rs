@@ -315,20 +315,6 @@ fn a_wrong_exact_regulation_claim_spoils_the_certificate() {
     assert!(certificate_json(&run).is_none());
 }
 
-#[test]
-fn the_same_bytes_with_any_number_of_threads() {
-    for name in ["paper-example", "linear"] {
-        let spec = specification(name);
-        let bytes = || certificate_json(&certify(&spec, Options::default()).unwrap()).unwrap().to_string();
-        let first = bytes();
-        assert_eq!(first, bytes(), "{name}");
-        for threads in [1, 2, 5] {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            assert_eq!(first, pool.install(bytes), "{name}, {threads} threads");
-        }
-    }
-}
-
 fn sigma(name: &str) -> f64 {
     parse(find(name).certificate["claim"]["sigma_star"].as_str().unwrap()).to_f64()
 }

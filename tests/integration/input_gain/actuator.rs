@@ -3,10 +3,9 @@
 use super::{gain, text, with, written};
 use crate::controller::{array, constant, controller, installed, signal};
 use crate::controller_c::outputs;
-use crate::support::{certified_in, checked, count, json, number, program, read, utf8};
+use crate::support::{certified_in, checked, claim, count, json, number, program, read, tried, utf8};
 use serde_json::Value;
-use sigmastar_document::progress::Silent;
-use sigmastar_lab::falsify::{Finding, TrialSettings, TriedClaim, falsify};
+use sigmastar_lab::falsify::Finding;
 use sigmastar_lab::simulate::{ClosedLoop, Tolerance, flow};
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{Document, Specification};
@@ -151,8 +150,8 @@ fn the_control_is_that_of_the_actuator() {
         let (certificate, _) = certified_in(folder.path(), &file, &["--no-compare"]);
         let answer = checked(&certificate);
         assert_eq!(answer["figures"]["verdict"], "agree", "{answer}");
-        let claim = TriedClaim::from_document(&Document::from_bytes("certificate", &std::fs::read(&certificate).unwrap()).unwrap()).unwrap();
-        let outcome = falsify(&claim, TrialSettings { trials: 6, seed: 3, only: None }, &Silent);
+        let certificate = read(certificate);
+        let (claim, outcome) = (claim(&certificate), tried(&certificate, 6, 3));
         let share = |part: &str| {
             let all = outcome.closest();
             all.iter().find(|closest| closest.quantity.contains(part)).map(|closest| closest.share).expect("tried")
@@ -177,8 +176,7 @@ fn trials_take_the_ends_first() {
     let folder = tempfile::tempdir().unwrap();
     for (name, sizes) in [("no-x", gain("2", "1.8", "2.2")), ("plants/paper-example", interval())] {
         let (certificate, _) = certified_in(folder.path(), &with(name, &sizes), &["--no-compare"]);
-        let claim = TriedClaim::from_document(&Document::from_bytes("certificate", &std::fs::read(&certificate).unwrap()).unwrap()).unwrap();
-        let found = falsify(&claim, TrialSettings { trials: count(4, 8).into(), seed: 3, only: None }, &Silent);
+        let found = tried(&read(&certificate), count(4, 8).into(), 3);
         let end = |name: &str| number(&sizes[name]);
         let mut gains = Vec::new();
         for finding in &found.findings {

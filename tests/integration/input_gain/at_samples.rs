@@ -2,14 +2,16 @@
 //! 13.1): what is certified, what of a witness is refused, and what trials say.
 
 use super::{gain, text};
-use crate::support::{certified_in, decided_again, document, every, in_one_line, json, number, program, read, utf8};
+use crate::sampled::run;
+use crate::support::{
+    certified_in, decided_again, document, every, in_one_line, json, number, program, read, tried, utf8,
+};
 use rug::Rational;
 use serde_json::{Value, json as object};
-use sigmastar_document::progress::Silent;
-use sigmastar_lab::falsify::{Finding, TrialSettings, TriedClaim, falsify};
+use sigmastar_lab::falsify::Finding;
 use sigmastar_lang::spec::{Document, Specification};
 use sigmastar_prove::certificate::{read_sampled_witness, sampled_certificate_json};
-use sigmastar_prove::certify::{Ladder, SampledCertification, Verdict, certify_sampled, recheck_sampled};
+use sigmastar_prove::certify::{Ladder, SampledCertification, Verdict, recheck_sampled};
 use sigmastar_theory::derivation::sampled::SampledWitness;
 use std::path::{Path, PathBuf};
 
@@ -18,11 +20,6 @@ fn spec(name: &str, samples: u32, gain: Option<Value>) -> Specification {
     let mut file = gain.map_or_else(|| document(name), |gain| shipped(name, &gain));
     file["internal_model"]["sampling_period"] = format!("1/{samples}").into();
     Specification::from_json(name, &file.to_string()).unwrap()
-}
-
-fn run(spec: &Specification) -> SampledCertification<'_> {
-    let sampling = spec.internal_model.sampling.clone().unwrap();
-    certify_sampled(spec, &sampling, None, None, Ladder::default()).unwrap()
 }
 
 fn witness(run: &SampledCertification<'_>) -> SampledWitness {
@@ -50,7 +47,7 @@ fn shipped(name: &str, gain: &Value) -> Value {
 fn a_gain_that_is_known_changes_no_number() {
     let name = "paper-example-rms-at-rest";
     let (plain, known) = (spec(name, 200, None), spec(name, 200, Some(gain("4", "4", "4"))));
-    let [plain, known] = [&plain, &known].map(|spec| sampled_certificate_json(&run(spec)).unwrap());
+    let [plain, known] = [&plain, &known].map(|spec| sampled_certificate_json(&run(spec, None)).unwrap());
     for part in ["witness", "conditions"] {
         assert_eq!(plain[part], known[part], "{part}");
     }
@@ -68,17 +65,17 @@ fn an_interval_costs_about_what_it_costs_in_continuous_time() {
     let mut before = 0.0;
     for (low, high) in [("1", "1"), ("0.95", "1.1"), ("0.8", "1.25"), ("0.5", "2")] {
         let own = spec(name, 400, Some(gain("1", low, high)));
-        let sigma = witness(&run(&own)).sigma.to_f64();
+        let sigma = witness(&run(&own, None)).sigma.to_f64();
         assert!(sigma > 1.02 * before, "{low} {high}: {sigma} {before}");
         before = sigma;
     }
     let own = spec(name, 4000, Some(gain("1", "0.8", "1.25")));
-    let sigma = witness(&run(&own)).sigma.to_f64();
+    let sigma = witness(&run(&own, None)).sigma.to_f64();
     // 19.63 in continuous time, for every larger gain, with coarser bounds of single harmonics.
     assert!((19.0..19.7).contains(&sigma), "{sigma}");
     // Beyond sqrt(b_hi) < 2 + sqrt(b_lo) there is none.
     let wide = spec(name, 400, Some(gain("1", "1", "9")));
-    let run = run(&wide);
+    let run = run(&wide, None);
     assert_eq!(run.verdict, Verdict::Undecided);
     assert!(run.outcome.attempt().is_none());
 }
@@ -87,7 +84,7 @@ fn an_interval_costs_about_what_it_costs_in_continuous_time() {
 #[test]
 fn a_witness_is_decided_again_and_every_altered_one_is_refused() {
     let own = spec("paper-example-rms-at-rest", 100, Some(gain("1", "0.8", "1.25")));
-    let witness = witness(&run(&own));
+    let witness = witness(&run(&own, None));
     let verdict = |witness: &SampledWitness| recheck_sampled(&own, witness, Ladder::default()).unwrap().verdict;
     assert_eq!(verdict(&witness), Verdict::Certified);
     let smaller = Rational::from((97, 100));
@@ -256,12 +253,10 @@ fn trials_with_an_uncertain_gain() {
         let period = file["period"].as_str().map_or_else(|| file["period"].to_string(), str::to_owned);
         file["internal_model"]["sampling_period"] = format!("({period})/{samples}").into();
         let own = Specification::from_json(name, &file.to_string()).unwrap();
-        let run = run(&own);
+        let run = run(&own, None);
         // So few samples are too few for some.
         let Some(certificate) = sampled_certificate_json(&run) else { continue };
-        let document = |file: &Value| Document::parse("certificate", &file.to_string()).unwrap();
-        let claim = TriedClaim::from_document(&document(&certificate)).unwrap();
-        let outcome = falsify(&claim, TrialSettings { trials: 10, seed: 3, only: None }, &Silent);
+        let outcome = tried(&certificate, 10, 3);
         let mut gains = Vec::new();
         for finding in &outcome.findings {
             match finding {
@@ -278,8 +273,7 @@ fn trials_with_an_uncertain_gain() {
         assert!(gains.iter().all(|gain| (ends[0]..=ends[1]).contains(gain)));
         let mut forged = certificate.clone();
         forged["claim"]["periodic_solution"]["zeta"] = "1e-4".into();
-        let forged = TriedClaim::from_document(&document(&forged)).unwrap();
-        let outcome = falsify(&forged, TrialSettings { trials: 4, seed: 3, only: None }, &Silent);
+        let outcome = tried(&forged, 4, 3);
         assert!(outcome.counterexample().is_some_and(|(trial, _)| trial.input_gain.is_some()), "{name}");
     }
     assert!(largest > 0.05, "{largest}");

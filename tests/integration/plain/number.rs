@@ -1,6 +1,7 @@
 //! Real numbers to 400 bits, without enclosures: what the second computation counts in.
 
 use rug::{Float, Rational};
+use std::borrow::Borrow;
 use std::ops::{Add, Div, Mul, Sub};
 
 /// Working precision in bits.
@@ -12,28 +13,16 @@ pub struct R(pub Float);
 
 macro_rules! operator {
     ($trait:ident, $method:ident) => {
-        impl $trait<&R> for &R {
+        impl<T: Borrow<R>> $trait<T> for &R {
             type Output = R;
-            fn $method(self, other: &R) -> R {
-                R(Float::with_val(BITS, $trait::$method(&self.0, &other.0)))
+            fn $method(self, other: T) -> R {
+                R(Float::with_val(BITS, $trait::$method(&self.0, &other.borrow().0)))
             }
         }
-        impl $trait<R> for &R {
+        impl<T: Borrow<R>> $trait<T> for R {
             type Output = R;
-            fn $method(self, other: R) -> R {
-                $trait::$method(self, &other)
-            }
-        }
-        impl $trait<&R> for R {
-            type Output = R;
-            fn $method(self, other: &R) -> R {
+            fn $method(self, other: T) -> R {
                 $trait::$method(&self, other)
-            }
-        }
-        impl $trait<R> for R {
-            type Output = R;
-            fn $method(self, other: R) -> R {
-                $trait::$method(&self, &other)
             }
         }
     };
