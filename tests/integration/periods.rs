@@ -10,7 +10,7 @@ use serde_json::{Value, json as object};
 use sigmastar_document::progress::Silent;
 use sigmastar_lab::simulate::{ClosedLoop, Orbit, rms, steady_state, sup};
 use sigmastar_lang::plant::Plant;
-use sigmastar_lang::spec::{Document, ErrorKind, SpecErrors, Specification};
+use sigmastar_lang::spec::{ErrorKind, SpecErrors, Specification};
 use sigmastar_prove::certify::certify;
 use sigmastar_regulator::Regulator;
 use std::path::{Path, PathBuf};

@@ -85,6 +85,7 @@ impl Region {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use sigmastar_lang::spec::TrigonometricVector;
 
     fn rows(entries: &[&[i32]]) -> Vec<Vec<Rational>> {
         entries.iter().map(|row| row.iter().map(|entry| Rational::from(*entry)).collect()).collect()
@@ -93,7 +94,7 @@ mod tests {
     #[test]
     fn the_inverse_is_exact() {
         let region = |entries: &[&[i32]]| {
-            let orbit = TrigonometricVector { mean: vec![Rational::new(); entries.len()], harmonics: Vec::new() };
+            let orbit = TrigonometricVector::constant(vec![Rational::new(); entries.len()]);
             Region::new(rows(entries), orbit, Rational::from(1))
         };
         assert_eq!(region(&[&[0, 1], &[1, 1]]).unwrap().inverse(), rows(&[&[-1, 1], &[1, 0]]));
