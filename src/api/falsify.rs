@@ -58,7 +58,7 @@ impl Falsification {
 /// against its bounds. `name` is what errors call the certificate. The same seed gives the same trials.
 ///
 /// # Errors
-/// What is wrong with the certificate; [`Range`](ErrorKind::Range) for no trials, or more than a million.
+/// What is wrong with the certificate; [`Range`](super::ErrorKind::Range) for no trials, or more than a million.
 pub fn falsify(name: &str, certificate: &[u8], trials: u32, seed: u64) -> Result<Falsification, Error> {
     in_range("trials", trials, 1..=MAX_TRIALS)?;
     let claim = TriedClaim::from_document(&Document::from_bytes(name, certificate)?)?;

@@ -185,22 +185,19 @@ impl SpecificationBuilder {
     /// The base frequency w > 0 of the internal model, which need not fit the period.
     #[must_use]
     pub fn base_frequency(self, frequency: &str) -> SpecificationBuilder {
-        self.within("internal_model", "base_frequency", text(frequency)).within(
-            "internal_model",
-            "matched",
-            false.into(),
-        )
+        self.with_base_frequency(frequency, false)
     }
 
     /// The base frequency of the internal model, with the assertion that it is exactly `2 pi / period`. That is proved, or
     /// refused.
     #[must_use]
     pub fn matched_base_frequency(self, frequency: &str) -> SpecificationBuilder {
-        self.within("internal_model", "base_frequency", text(frequency)).within(
-            "internal_model",
-            "matched",
-            true.into(),
-        )
+        self.with_base_frequency(frequency, true)
+    }
+
+    fn with_base_frequency(self, frequency: &str, matched: bool) -> SpecificationBuilder {
+        let model = "internal_model";
+        self.within(model, "base_frequency", text(frequency)).within(model, "matched", matched.into())
     }
 
     /// An actuator whose gain is one constant from `low` to `high`, `low <= nominal <= high`: the regulator divides its control by

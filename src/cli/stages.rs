@@ -94,12 +94,9 @@ impl Stages {
             (false, false) => Audience::Nobody,
         };
         let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::hidden());
+        let shown = (audience == Audience::Terminal).then(|| show_later(&bar));
         let (start, at) = (Instant::now(), Mutex::default());
-        let mut stages = Stages { steps, audience, bar, start, at, told: Mutex::new(start), shown: None };
-        if audience == Audience::Terminal {
-            stages.shown = Some(stages.show_later());
-        }
-        stages
+        Stages { steps, audience, bar, start, at, told: Mutex::new(start), shown }
     }
 
     /// Whether somebody is told.
@@ -145,16 +142,16 @@ impl Stages {
             }
         }
     }
+}
 
-    /// Shows the line after a while, with a clock.
-    fn show_later(&self) -> Later {
-        give_clock(&self.bar);
-        let bar = self.bar.clone();
-        Later::new(PATIENCE, move |_| {
-            bar.set_draw_target(ProgressDrawTarget::stderr());
-            bar.enable_steady_tick(TICK);
-        })
-    }
+/// Shows a line after a while, with a clock.
+fn show_later(bar: &ProgressBar) -> Later {
+    give_clock(bar);
+    let bar = bar.clone();
+    Later::new(PATIENCE, move |_| {
+        bar.set_draw_target(ProgressDrawTarget::stderr());
+        bar.enable_steady_tick(TICK);
+    })
 }
 
 impl Watch for Stages {

@@ -46,6 +46,14 @@ impl Table {
         Table { columns, rows: Vec::new(), bars: Vec::new() }
     }
 
+    /// A table of these rows.
+    #[must_use]
+    pub fn of<R: IntoIterator<Item = String>>(titles: &[&str], rows: impl IntoIterator<Item = R>) -> Table {
+        let mut table = Table::new(titles);
+        rows.into_iter().for_each(|row| table.push(row));
+        table
+    }
+
     /// Appends a row; cells that are missing are empty, and surplus ones are dropped.
     pub fn push(&mut self, cells: impl IntoIterator<Item = String>) {
         let mut row: Vec<String> = cells.into_iter().take(self.columns.len()).collect();

@@ -71,11 +71,8 @@ pub(super) fn sampled_section(consequences: &SampledConsequences) -> Vec<Block> 
 }
 
 fn table(by_n_o: &[(u64, ErrorBounds)]) -> Table {
-    let mut table = Table::new(&["n_o", "rms(e) at most", "sup|e| at most"]);
-    for (n_o, bounds) in by_n_o {
-        table.push([n_o.to_string(), upper(&bounds.rms), upper(&bounds.sup)]);
-    }
-    table
+    let row = |(n_o, bounds): &(u64, ErrorBounds)| [n_o.to_string(), upper(&bounds.rms), upper(&bounds.sup)];
+    Table::of(&["n_o", "rms(e) at most", "sup|e| at most"], by_n_o.iter().map(row))
 }
 
 /// The answers to the targets, if there are any, where so many oscillators were looked at.

@@ -38,16 +38,13 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
 
 /// The rates, one a line.
 fn rates<P, Q>(found: &[ForCount<P, Q>]) -> Table {
-    let mut table = Table::new(&["n_o", "rate in 1/time", "factor in the unit of e", "<limited by"]);
-    for ForCount { n_o, bound, .. } in found {
-        table.push(match bound {
-            None => [n_o.to_string(), "not proved".to_owned(), String::new(), String::new()],
-            Some(RateBound { rate, factor, limit, .. }) => {
-                [n_o.to_string(), exact(rate, Direction::Down), exact(factor, Direction::Up), limited_by(*limit)]
-            }
-        });
-    }
-    table
+    let row = |ForCount { n_o, bound, .. }: &ForCount<P, Q>| match bound {
+        None => [n_o.to_string(), "not proved".to_owned(), String::new(), String::new()],
+        Some(RateBound { rate, factor, limit, .. }) => {
+            [n_o.to_string(), exact(rate, Direction::Down), exact(factor, Direction::Up), limited_by(*limit)]
+        }
+    };
+    Table::of(&["n_o", "rate in 1/time", "factor in the unit of e", "<limited by"], found.iter().map(row))
 }
 
 /// What noise and a disturbance do to the error, where the document has them.

@@ -54,16 +54,15 @@ impl Readable for LyapunovReport {
         blocks.push(Block::says(
             "Floating point: what was tried, by its rate. The one with the smallest sigma* that could be proved is the one above.",
         ));
-        let mut table = Table::new(&["alpha", "p_up/p_low", "degree of P", "sigma*"]);
-        for (candidate, sigma) in self.resolution.candidates.found.iter().zip(&self.resolution.sigmas) {
-            table.push([
+        let tried = self.resolution.candidates.found.iter().zip(&self.resolution.sigmas).map(|(candidate, sigma)| {
+            [
                 estimate(candidate.alpha),
                 estimate(candidate.ratio),
                 candidate.matrix.harmonics.len().to_string(),
                 sigma.map_or_else(|| "-".to_owned(), estimate),
-            ]);
-        }
-        blocks.push(Block::Table(table));
+            ]
+        });
+        blocks.push(Block::Table(Table::of(&["alpha", "p_up/p_low", "degree of P", "sigma*"], tried)));
         blocks.extend(floquet_section("Of the middle of the Jacobian", &self.resolution.candidates.floquet));
         blocks
     }
@@ -88,14 +87,10 @@ impl Readable for LyapunovReport {
 
 /// The section on Floquet exponents, those of `whose`.
 pub(super) fn floquet_section(whose: &str, exponents: &[[f64; 2]]) -> [Block; 3] {
-    let mut table = Table::new(&["real part", "imaginary part"]);
-    for [re, im] in exponents {
-        table.push([estimate(*re), estimate(*im)]);
-    }
     [
         Block::heading("Floquet exponents (floating point, not certified)"),
         Block::says(format!("{whose}, in 1/time. Minus the largest real part bounds alpha for every P(t).")),
-        Block::Table(table),
+        Block::Table(Table::of(&["real part", "imaginary part"], exponents.iter().map(|parts| parts.map(estimate)))),
     ]
 }
 

@@ -49,12 +49,11 @@ impl Readable for OrbitReport<'_> {
         blocks.push(Block::says(p));
         blocks.push(Block::Detail);
         blocks.push(Block::heading("Candidates (floating point)"));
-        let mut table = Table::new(&["rate", "degree of P", "<L"]);
-        for candidate in candidates {
-            let l = rows_text(&candidate.l).join(" ");
-            table.push([estimate(candidate.rate), candidate.p.harmonics.len().to_string(), l]);
-        }
-        blocks.push(Block::Table(table));
+        let tried = candidates.iter().map(|candidate| {
+            let degree = candidate.p.harmonics.len().to_string();
+            [estimate(candidate.rate), degree, rows_text(&candidate.l).join(" ")]
+        });
+        blocks.push(Block::Table(Table::of(&["rate", "degree of P", "<L"], tried)));
         blocks.extend(floquet_section("Along the orbit", floquet));
         blocks
     }

@@ -37,20 +37,14 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
         blocks.push(Block::says(
             "What each interval costs: sigma* with it closed to its nominal value, sought the whole way again and not decided.",
         ));
-        let mut table = Table::new(&["<exactly known", "sigma*"]);
-        for (name, sigma) in &run.interval_costs {
-            table.push([name.clone(), sigma.map_or_else(|| "none found".to_owned(), estimate)]);
-        }
-        blocks.push(Block::Table(table));
+        let costs = run.interval_costs.iter().map(|(name, sigma)| [name.clone(), found(*sigma)]);
+        blocks.push(Block::Table(Table::of(&["<exactly known", "sigma*"], costs)));
     }
     blocks.extend(ingredients(run).map(Block::Table));
     if !run.without_optional.is_empty() {
         blocks.push(Block::says("What the optional data bring: sigma* without each."));
-        let mut table = Table::new(&["<without", "sigma*"]);
-        for (datum, sigma) in &run.without_optional {
-            table.push([datum.field().to_owned(), sigma.map_or_else(|| "none found".to_owned(), estimate)]);
-        }
-        blocks.push(Block::Table(table));
+        let without = run.without_optional.iter().map(|(datum, sigma)| [datum.field().to_owned(), found(*sigma)]);
+        blocks.push(Block::Table(Table::of(&["<without", "sigma*"], without)));
     }
     let shown: Vec<_> = run.sensitivities.iter().filter(|(_, gain)| *gain >= 1e-6).collect();
     if let Some((datum, gain)) = shown.first() {
@@ -63,13 +57,16 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
             estimate(100.0 * gain),
             compared(run)
         )));
-        let mut table = Table::new(&["<1 % better", "lowers sigma* by"]);
-        for (datum, gain) in &shown {
-            table.push([name(run.spec, *datum), format!("{} %", estimate(100.0 * gain))]);
-        }
+        let rows = shown.iter().map(|(datum, gain)| [name(run.spec, *datum), format!("{} %", estimate(100.0 * gain))]);
+        let table = Table::of(&["<1 % better", "lowers sigma* by"], rows);
         blocks.push(Block::Table(table.with_bars(shown.iter().map(|(_, gain)| *gain).collect())));
     }
     blocks
+}
+
+/// A gain that was sought.
+fn found(sigma: Option<f64>) -> String {
+    sigma.map_or_else(|| "none found".to_owned(), estimate)
 }
 
 /// What a start with z = M e would bring.
@@ -136,9 +133,7 @@ fn ingredients(run: &Certification<'_>) -> Option<Table> {
         gain("sigma*", &proof.witness.sigma),
     ];
     entries.extend(run.exact.as_ref().map(|claim| gain("sigma*_oo (n_o infinite)", &claim.witness.sigma)));
-    let mut table = Table::new(&["<sigma* and the two terms of C5 that it exceeds", "1/time"]);
-    for (name, _, text) in &entries {
-        table.push([name.clone(), text.clone()]);
-    }
+    let rows = entries.iter().map(|(name, _, text)| [name.clone(), text.clone()]);
+    let table = Table::of(&["<sigma* and the two terms of C5 that it exceeds", "1/time"], rows);
     Some(table.with_bars(entries.into_iter().map(|(_, value, _)| value).collect()))
 }

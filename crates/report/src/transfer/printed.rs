@@ -50,15 +50,14 @@ pub(super) fn section(printed: &PrintedChecks, data: &Data<'_>, pair: &Certified
             constants.push([format!("lambda, m = {m}"), text]);
         }
     }
-    let mut checks = Table::new(&["<printed statement", "printed", "needed", "<"]);
-    for check in &printed.checks {
+    let checks = printed.checks.iter().map(|check| {
         let verdict = match check.holds {
             Truth::True => "holds",
             Truth::False => "fails",
             Truth::Undecided => "undecided",
         };
-        checks.push([check.what.to_owned(), compact(&check.printed), compact(&check.needed), verdict.to_owned()]);
-    }
+        [check.what.to_owned(), compact(&check.printed), compact(&check.needed), verdict.to_owned()]
+    });
     vec![
         Block::Aside("Printed, repaired and proved constants".to_owned()),
         Block::says(
@@ -66,7 +65,7 @@ pub(super) fn section(printed: &PrintedChecks, data: &Data<'_>, pair: &Certified
              m = 0, which it needs, its lambda is not defined (E7).",
         ),
         Block::Table(constants),
-        Block::Table(checks),
+        Block::Table(Table::of(&["<printed statement", "printed", "needed", "<"], checks)),
         Block::says(sentence(&printed.status)),
     ]
 }
