@@ -5,6 +5,7 @@ use super::gain_row::GainRow;
 use super::matrix_checks::MatrixChecks;
 use super::no_plant::NoPlant;
 use super::options::{Limits, Options};
+use super::pool::is_better;
 use super::proof::{Decided, Outcome, Proof, RepairedProof, SharpProof};
 use super::verdict::Verdict;
 use crate::rate::found::RateForCount;
@@ -142,6 +143,13 @@ impl Certification<'_> {
     #[must_use]
     pub fn is_smallest(&self) -> bool {
         self.given_gain.is_none() && self.limits.is_empty() && self.spec.actuator.is_none()
+    }
+
+    /// Whether this claim has a smaller gain than another one, or at the same gain a smaller bound of |e|.
+    #[must_use]
+    pub fn is_better_than(&self, other: &Certification<'_>) -> bool {
+        let [one, other] = [self, other].map(|run| run.sharp.proved().filter(|_| run.claim().is_some()));
+        one.zip(other).is_some_and(|(one, other)| is_better(one, other))
     }
 
     /// Whether this run, without a claim, comes closer to what was to be kept than another one.

@@ -4,7 +4,6 @@
 //! refuses is a [`Refusal`].
 
 mod ball;
-mod best;
 mod bounding;
 mod certification;
 mod consequences;
@@ -18,6 +17,7 @@ mod matrix_checks;
 mod no_plant;
 mod nominal_ball;
 mod options;
+mod pool;
 mod produce;
 mod proof;
 mod rates;
@@ -33,17 +33,18 @@ mod start;
 mod verdict;
 
 pub use ball::{claimed_ball, covers_ball, inverse_norm, within_ball};
-pub use best::Wanted;
 pub use bounding::{BoundingProblem, prove_on_domain, prove_up_to};
 pub use certification::{Alternatives, Certification, ExactClaim, PrintedFigure, RelativeDegreeGains};
 pub use decide::{decide, decide_exact};
 pub use gain_row::{GainRow, SHOWN_N_O};
+pub use gains::ROWS;
 pub use jacobian::{MAX_SEARCHES, Resolution, resolve, resolve_with, with_triple};
 pub use matrix_checks::{ContractionCheck, MatrixChecks, SylvesterCheck};
 pub use no_plant::{ExceededBy, NoPlant, has_states, no_plant};
 pub use nominal_ball::nominal_ball;
 pub use options::{Ladder, Limits, Options, TransferChoice};
-pub use produce::{certify, certify_for, recheck};
+pub use pool::{Member, Wanted};
+pub use produce::{certify, certify_for, certify_member, recheck};
 pub use proof::{Decidable, Decided, GivenWitness, Outcome, Proof, RepairedProof, SampledProof, SharpProof, Witness};
 pub use rates::{NoRatesOfClaim, rate_counts};
 pub use refusal::{Refusal, WITHOUT_INPUT_GAIN, not_available_with_input_gain};

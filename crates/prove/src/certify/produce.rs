@@ -1,6 +1,5 @@
 //! The whole run: prove the bounding functions, search, round, decide, in each derivation.
 
-use super::best::{BestSharp, Wanted, best_sharp, model};
 use super::bounding::{BoundingProblem, prove_on_domain, prove_up_to};
 use super::certification::{Alternatives, Certification, ExactClaim, PrintedFigure, RelativeDegreeGains};
 use super::constants::Columns;
@@ -8,12 +7,13 @@ use super::decide::{decide, decide_exact};
 use super::matrix_checks::MatrixChecks;
 use super::no_plant::no_plant;
 use super::options::{Limits, Options};
+use super::pool::{BestSharp, Member, Wanted, model};
 use super::proof::{GivenWitness, Outcome, Proof, RepairedProof, SharpProof, Witness, failing};
 use super::refusal::Refusal;
 use super::round::{TransferKind, exact_claim, round_repaired};
 use super::sensitivity::{aligned, ranked, with_nominal_gain};
 use super::verdict::Verdict;
-use crate::search::{Failing, FloatModel, SharpProposal, search_printed, search_repaired, without_optional_data};
+use crate::search::{Failing, FloatModel, Goal, SharpProposal, search_printed, search_repaired, without_optional_data};
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, round_f64};
@@ -50,10 +50,31 @@ pub fn certify_for<'s>(
     if spec.internal_model.sampling.is_some() {
         return Err(Refusal::Sampled);
     }
-    let data = Data::new(spec, options.ladder.start.max(53));
+    let member = Member::new(spec, asked.start, options);
+    let mut run = certify_member(&member, options, asked)?;
+    if options.compare {
+        run.set_gains(&[member]);
+    }
+    Ok(run)
+}
+
+/// The same of a member of a pool, without the rows of larger gains ([`Certification::set_gains`]).
+///
+/// # Errors
+/// Those of [`certify`].
+pub fn certify_member<'s>(
+    member: &Member<'s>,
+    options: Options,
+    asked: Wanted<'_>,
+) -> Result<Certification<'s>, Refusal> {
+    let Member { spec, data, .. } = member;
+    let spec = *spec;
+    if spec.internal_model.sampling.is_some() {
+        return Err(Refusal::Sampled);
+    }
     let mut unproved = undecided_or_error(prove_on_domain(spec))?;
 
-    let paper_model = model(&data, TransferKind::ClosedForm);
+    let paper_model = model(data, TransferKind::ClosedForm);
     // From a plant's formulas only the data of the claim are computed; the other derivations know of no input gain, and
     // of no interval of the period: their K_alpha falls as T grows.
     let others = spec.plant().is_none() && data.input_gain.is_none() && spec.period.interval().is_none();
@@ -61,20 +82,19 @@ pub fn certify_for<'s>(
     let others = others && spec.actuator.is_none();
     let repaired = (options.compare && others).then(|| match search_repaired(&paper_model) {
         Err(obstacle) => Outcome::NotFound(obstacle),
-        Ok(proposal) => round_repaired(&data, &paper_model, &proposal, options.ladder).into(),
+        Ok(proposal) => round_repaired(data, &paper_model, &proposal, options.ladder).into(),
     });
-    let BestSharp { model: sharp_model, proposal, outcome: sharp, smallest_gain } = best_sharp(&data, options, asked);
-    let near = proposal;
+    let BestSharp { model: sharp_model, proposal, outcome: sharp, smallest_gain } = member.best(asked);
     // Figures about the smallest gain say nothing about one that is given.
     let limited = spec.actuator.is_some() || asked.limits.is_some_and(|limits| !limits.is_empty());
     let proposal = proposal.filter(|_| asked.gain.is_none() && !limited);
     let sharp = proved_up_to_arguments(spec, sharp, Some(&mut unproved))?;
     let repaired = repaired.map(|outcome| proved_up_to_arguments(spec, outcome, None)).transpose()?;
-    let printed = if others { printed_figure(&data, &paper_model) } else { PrintedFigure::default() };
+    let printed = if others { printed_figure(data, &paper_model) } else { PrintedFigure::default() };
     let exact = match (&sharp, spec.internal_model.matched) {
         // It is of another gain.
         (Outcome::Proved(proof), true) if spec.actuator.is_none() => {
-            exact_claim(&data, &sharp_model, &proof.witness.set, options.ladder)
+            exact_claim(data, &sharp_model.with_goal(Goal::default()), &proof.witness.set, options.ladder)
                 // Its error box has its own size, and may reach beyond the arguments of the other derivations.
                 .filter(|claim| {
                     let ExactWitness { d_x, d_e, .. } = &claim.witness;
@@ -84,10 +104,7 @@ pub fn certify_for<'s>(
         _ => None,
     };
     let parts = Parts { sharp, repaired, printed, exact, exact_failing: Vec::new(), unproved, proposal };
-    let mut run = assemble(spec, options, &data, parts, &sharp_model)?;
-    if let Some(near) = near.filter(|_| options.compare) {
-        run.set_gains(&sharp_model, &near);
-    }
+    let run = assemble(spec, options, data, parts, &sharp_model)?;
     let limits = asked.limits.cloned().unwrap_or_default();
     Ok(Certification { given_gain: asked.gain.cloned(), limits, smallest_gain, ..run })
 }

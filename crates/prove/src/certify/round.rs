@@ -158,20 +158,6 @@ pub(super) fn round_sharp(
     })
 }
 
-/// The same at a gain with a pair that is proved, and one attempt with numbers of either length.
-pub(super) fn round_again(
-    data: &Data<'_>,
-    model: &FloatModel,
-    (proposal, sigma): (&SharpProposal, &Rational),
-    pair: ProvedPair,
-    ladder: Ladder,
-) -> Option<SharpProof> {
-    [(SHORT_DIGITS, 1e-6), (LONG_DIGITS, 1e-6)].into_iter().find_map(|attempt| {
-        let witness = sharp_witness(data, model, (proposal, sigma.clone()), &mut |_| Some(pair.clone()), attempt)?;
-        Some(decide(data.spec, witness, ladder)).filter(|proof| proof.truth().is_true())
-    })
-}
-
 fn sharp_witness(
     data: &Data<'_>,
     model: &FloatModel,

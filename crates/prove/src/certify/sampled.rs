@@ -93,6 +93,15 @@ impl SampledCertification<'_> {
         Some([size.x_per.clone(), size.e_per.clone(), zeta, z])
     }
 
+    /// Whether this claim has a smaller gain than another one, or at the same gain a smaller bound of |e|; any is better than none.
+    #[must_use]
+    pub fn is_better_than(&self, other: &SampledCertification<'_>) -> bool {
+        match (self.claim(), other.claim()) {
+            (Some(one), Some(other)) => is_better(one, other),
+            (one, other) => one.is_some() && other.is_none(),
+        }
+    }
+
     /// Bounds of the control, if certified.
     #[must_use]
     pub fn control(&self) -> Option<&Control<Enclosure>> {
@@ -111,6 +120,14 @@ impl SampledCertification<'_> {
         let data = Data::new(self.spec, 128);
         data.bound(Bound::F, &data.zero(), &data.zero()).is_positive().is_true()
     }
+}
+
+/// Whether a proof has every condition where the other has not, or a smaller gain, or at the same gain a smaller bound of |e|.
+fn is_better(one: &SampledProof, other: &SampledProof) -> bool {
+    let key = |proof: &SampledProof| (!proof.truth().is_true(), proof.witness.sigma.clone());
+    let [first, second] = [one, other].map(key);
+    let peak = |proof: &SampledProof| proof.evaluation.peak.upper_f64();
+    first < second || (first == second && peak(one) < peak(other))
 }
 
 fn arguments(proof: &SampledProof) -> [Enclosure; 2] {
@@ -167,8 +184,17 @@ pub fn certify_sampled_within<'s>(
         (Err(obstacle), _) => (Outcome::NotFound(obstacle), None),
         (Ok(proposal), None) => {
             let proof = round(&data, (sampling, &law.1), (&model, &search), (&proposal, gain), ladder);
+            // At a gain that is given the one with which e goes the least far.
+            let model = model.with_goal(Goal::Peak);
+            let search_peak = SampledSearch::new(&model, law.0.clone());
+            let nearest = gain.and_then(|gain| search_peak.near(&proposal, Some(gain.to_f64())).ok());
+            let nearest = nearest.and_then(|found| {
+                round(&data, (sampling, &law.1), (&model, &search_peak), (&found, gain), ladder)
+            });
             let limit = search.limit(&proposal);
-            (proof.into(), Some((proposal, limit)))
+            let both = [proof, nearest].into_iter().flatten();
+            let best = both.reduce(|known, other| if is_better(&other, &known) { other } else { known });
+            (best.into(), Some((proposal, limit)))
         }
         (Ok(least), Some(within)) => {
             let keep = Keep { limits, within, least, start };

@@ -1,6 +1,6 @@
 //! Which datum of the file would lower sigma* most. Floating point: an explanation, not a claim.
 
-use super::best::model as model_of;
+use super::pool::model as model_of;
 use super::proof::SharpProof;
 use super::round::TransferKind;
 use crate::search::{Datum, FloatModel, SharpProposal, search_sharp_near, sensitivities};

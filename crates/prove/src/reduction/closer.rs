@@ -1,7 +1,7 @@
 //! A smaller gain with which a plant's loop keeps to limits, by bounds that are proved for the sets of that gain (derivation, 13.5).
 
 use super::coordinates::Chosen;
-use super::proofs::{Proofs, Reduced, WithoutJoint};
+use super::proofs::{Proofs, Reduced, ProvedData};
 use super::reduce::reduce_to;
 use super::watch::{Searches, Stage, Watch};
 use sigmastar_exact::number::Portable;
@@ -18,9 +18,9 @@ const WORTH: f64 = 0.02;
 pub(super) fn closer(
     plant: &Plant,
     [least, found]: [f64; 2],
-    within: impl Fn(&WithoutJoint) -> Option<f64>,
+    within: impl Fn(&ProvedData) -> Option<f64>,
     watch: &dyn Watch,
-) -> Option<WithoutJoint> {
+) -> Option<ProvedData> {
     watch.enter(Stage::Limits);
     let searches = Searches::new(1, watch);
     // The coordinates are the same for all gains.

@@ -4,7 +4,7 @@ use super::cells::Cells;
 use super::choice::{gain_near, with_search};
 use super::coordinates::CoordinateSearch;
 use super::proofs::{Along, Near};
-use super::reduce::{reduce, whole, with_cells};
+use super::reduce::{Beside, reduce, whole, with_cells};
 use super::sampled::{RestsOn, reduce_sampled};
 use super::sampled_matrix::MatrixAtSamples;
 use super::sampling::Sampling as Samples;
@@ -28,7 +28,7 @@ pub(super) fn interval_costs(
 ) -> Vec<(String, Option<f64>)> {
     let gain = |closed: &Plant, watch: &dyn Watch| {
         let known = near.and_then(|near| Some(sigma * ratio(near, closed, watch)?));
-        let found = known.or_else(|| reduce(closed, None, watch).ok().map(|found| found.proposal.sigma));
+        let found = known.or_else(|| reduce(closed, Beside::Nothing, watch).ok().map(|found| found.proposal.sigma));
         found.map(|found| found.min(sigma))
     };
     costs(closed(plant), gain, watch)

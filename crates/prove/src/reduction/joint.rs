@@ -90,24 +90,20 @@ struct JointSearch<'a> {
     places: [RefCell<Vec<Place>>; 2],
 }
 
-/// What is proved with a smaller gain than that of `reduced`, by joint metrics near the proposal that it was made of; itself where
-/// nothing is.
+/// What is proved with a smaller gain than that of `reduced`, by joint metrics near the proposal that it was made of.
 pub(super) fn with_joint_metrics(
     proofs: &Proofs<'_>,
     model: &FloatModel,
     known: &SharpProposal,
-    reduced: Reduced,
-) -> Reduced {
+    reduced: &Reduced,
+) -> Option<Reduced> {
     if !(1..=MOST_STATES).contains(&proofs.states()) {
-        return reduced;
+        return None;
     }
     let search = JointSearch { proofs, model, known, places: Default::default() };
     let known = reduced.proposal.sigma;
     let found = search.least(known).and_then(|found| search.proved(&found, known));
-    match found.filter(|found| found.proposal.sigma < reduced.proposal.sigma) {
-        Some(found) => Reduced { without_joint: Some(Box::new((reduced.spec, reduced.proposal))), ..found },
-        None => reduced,
-    }
+    found.filter(|found| found.proposal.sigma < known)
 }
 
 impl JointSearch<'_> {
@@ -261,7 +257,7 @@ impl JointSearch<'_> {
         let joint = |values: ProvedValues| ProvedValues { joint_existence: existence, joint_stability, ..values };
         let (with_values, spec) = self.proofs.with_needed(&needed, joint).ok()?;
         let proposal = search_sharp_near(&with_values, &proposal).ok()?;
-        Some(Reduced { spec, proposal, alternatives: Alternatives::default(), without_joint: None, near: None })
+        Some(Reduced { spec, proposal, alternatives: Alternatives::default(), others: Vec::new(), near: None })
     }
 }
 

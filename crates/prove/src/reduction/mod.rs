@@ -38,9 +38,9 @@ mod watch;
 mod witness;
 
 pub use again::decide_again;
-pub use proofs::{Reduced, bounds_around};
+pub use proofs::{ProvedData, Reduced, bounds_around};
 pub use proved_at_samples::ReducedSampled;
-pub use reduce::{reduce, reduce_by_norms};
+pub use reduce::{Beside, reduce, reduce_by_norms};
 pub use refusal::{MAX_STATES, PlantRefusal};
 pub use run::{Certified, Prepared, Run, StateStart};
 pub use sampled::{RestsOn, SampledPairs, reduce_sampled, with_sampled_pairs};

@@ -37,8 +37,9 @@ pub struct Reduced {
     pub proposal: SharpProposal,
     /// What else was looked at.
     pub alternatives: Alternatives,
-    /// Where the gain rests on joint metrics, the same without them: of a larger gain it says more.
-    pub without_joint: Option<Box<WithoutJoint>>,
+    /// Other data of the plant in the same coordinates, and where the search for their gains may start: those without joint metrics, where the gain
+    /// rests on such, and those for larger gains. Of a larger gain than the smallest one they may say more.
+    pub others: Vec<ProvedData>,
     /// The choice that it was proved of, for a family.
     pub(super) near: Option<Box<Near>>,
 }
@@ -57,8 +58,8 @@ pub(super) struct Near {
     pub(super) gain: f64,
 }
 
-/// A specification without joint metrics, and where the search for its gain may start.
-pub type WithoutJoint = (Specification, SharpProposal);
+/// A specification whose data were proved, and where the search for its gain may start.
+pub type ProvedData = (Specification, SharpProposal);
 
 /// The transfer constants that a claim will use: without a matched base frequency those of the closed form may be so much larger
 /// that no gain is found with them.

@@ -15,6 +15,8 @@ pub struct ReducedSampled {
     pub proposal: SampledProposal,
     /// The choice that it was proved of, for a family and by matrix inequalities.
     pub(super) near: Option<Box<Near>>,
+    /// Other data at a gain that is given, and where the search for a witness may start: one of them may say more.
+    pub others: Vec<(Specification, SampledProposal)>,
 }
 
 /// That the law has no numbers for this sampling period.

@@ -9,7 +9,7 @@ use super::refusal::{MAX_STATES, PlantRefusal};
 use super::sampling::Sampling;
 use super::values::prove_bounds;
 use super::watch::{Stage, Unwatched, Watch};
-use crate::certify::Alternatives;
+use crate::certify::{Alternatives, ROWS};
 use crate::search::FloatModel;
 use rug::Rational;
 use sigmastar_exact::parallel;
@@ -37,25 +37,68 @@ const WORTH_A_REMARK: f64 = 0.01;
 /// What is proved at last, from what a matrix inequality proves with the least gain.
 pub(super) type Last<'l> = dyn Fn(&Proofs<'_>, &Chosen, Reduced) -> Reduced + 'l;
 
+/// The larger gains of which data are proved beside those of the smallest one: each data bound the periodic solution, and how far solutions go,
+/// at the gain that they are for and above.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Beside<'g> {
+    /// None.
+    Nothing,
+    /// Those of a table of larger gains.
+    Rows,
+    /// The same, and one that is given.
+    Gain(&'g Rational),
+}
+
+/// A gain that is given has data of its own where it is not within this share of one of the table.
+const OWN: f64 = 1e-3;
+
+impl Beside<'_> {
+    /// The gains, where the smallest one is this.
+    fn gains(self, smallest: f64) -> Vec<f64> {
+        let rows = || ROWS.map(|tenths| smallest * f64::from(tenths) / 10.0);
+        match self {
+            Beside::Nothing => Vec::new(),
+            Beside::Rows => rows().to_vec(),
+            Beside::Gain(gain) => {
+                let gain = gain.to_f64();
+                let own = rows().iter().all(|row| (row / gain - 1.0).abs() > OWN) && gain > smallest;
+                rows().into_iter().chain(own.then_some(gain)).collect()
+            }
+        }
+    }
+}
+
 /// Proves the data that the sharp derivation needs, at the arguments where it will need them.
 ///
-/// Guarantee: every value of the specification holds for the plant, relative to its orbit and in the coordinates of its
+/// Guarantee: every value of each specification holds for the plant, relative to its orbit and in the coordinates of its
 /// [`OfPlant`](sigmastar_lang::spec::OfPlant); f and q have the period, and are smooth up to the largest arguments. That the gain comes out
-/// small is not claimed. For a gain that is given and large enough without joint metrics none are sought, for they are those of the least
-/// gain and bound the periodic solution of a larger one less well: the values are proved for the sets of that gain, where they can be.
+/// small is not claimed. What is found does not depend on the gains beside, but for their own data.
 ///
 /// # Errors
 /// What could not be proved or found.
-pub fn reduce(plant: &Plant, gain: Option<&Rational>, watch: &dyn Watch) -> Result<Reduced, PlantRefusal> {
-    let last = |proofs: &Proofs<'_>, chosen: &Chosen, proved: Reduced| match gain {
-        Some(gain) if *gain >= proved.proposal.sigma => {
-            proofs.for_gain(chosen, &proved, gain.to_f64()).unwrap_or(proved)
-        }
+pub fn reduce(plant: &Plant, beside: Beside<'_>, watch: &dyn Watch) -> Result<Reduced, PlantRefusal> {
+    let last = |proofs: &Proofs<'_>, chosen: &Chosen, proved: Reduced| {
+        let for_gains = |smallest: f64| {
+            // The data of a smaller gain are the base of those of larger ones.
+            let gains: Vec<f64> =
+                beside.gains(smallest).into_iter().filter(|gain| *gain > proved.proposal.sigma).collect();
+            let data = parallel::map(&gains, |gain| proofs.for_gain(chosen, &proved, *gain));
+            data.into_iter().flatten().map(|data| (data.spec, data.proposal)).collect::<Vec<_>>()
+        };
         // Joint metrics are not proved for an uncertain input gain.
-        _ if chosen.model.input_gain.is_some() => proved,
-        _ => {
-            watch.enter(Stage::Metrics);
-            with_joint_metrics(proofs, &chosen.model, &chosen.proposal, proved)
+        if chosen.model.input_gain.is_some() {
+            let others = for_gains(proved.proposal.sigma);
+            return Reduced { others, ..proved };
+        }
+        watch.enter(Stage::Metrics);
+        let joint = with_joint_metrics(proofs, &chosen.model, &chosen.proposal, &proved);
+        match joint {
+            Some(found) => {
+                let larger = for_gains(found.proposal.sigma);
+                let others = std::iter::once((proved.spec, proved.proposal)).chain(larger).collect();
+                Reduced { others, ..found }
+            }
+            None => Reduced { others: for_gains(proved.proposal.sigma), ..proved },
         }
     };
     reduce_to(plant, &last, watch)

@@ -4,18 +4,19 @@ mod seeking;
 
 use super::closer::closer;
 use super::interval_costs::{costs_at_samples, interval_costs};
-use super::proofs::{WithoutJoint, bounds_around};
-use super::reduce::{reduce_by_norms_quickly, reduce_by_norms_watched};
+use super::proofs::{ProvedData, bounds_around};
+use super::reduce::{Beside, reduce_by_norms_quickly, reduce_by_norms_watched};
 use super::subject::{Sought, SoughtAtSamples};
 use super::watch::{Searches, Stage, Unwatched, Watch};
 use super::{FreeNumbers, RestsOn, Subject, Witness};
 use crate::certify::{
-    Alternatives, Certification, Limits, NoRatesOfClaim, Options, Refusal, SampledCertification, Verdict, Wanted,
-    certify_for, certify_sampled_within, claimed_ball, recheck, recheck_sampled,
+    Alternatives, Certification, Limits, Member, NoRatesOfClaim, Options, Refusal, SampledCertification, Verdict,
+    Wanted, certify_for, certify_member, certify_sampled_within, claimed_ball, recheck, recheck_sampled,
 };
-use crate::search::Failing;
+use crate::search::{Failing, SharpProposal};
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_exact::parallel;
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::model::LyapunovSource;
 use sigmastar_lang::spec::{Document, Sampling, SpecErrors, Specification};
@@ -40,12 +41,24 @@ pub struct Prepared {
     limits: Limits,
     /// About the smallest gain, where `gain` was not given but found above it.
     found_above: Option<f64>,
-    /// The plant, where it is one whose least gain is sought.
+    /// The plant, where it is one and the claim need not rest on norms.
     plant: Option<Box<Plant>>,
     /// The data of that plant by norms, where bounds are to be kept: of a larger gain than the least one they may say more.
-    by_norms: Option<Box<WithoutJoint>>,
+    by_norms: Option<Box<ProvedData>>,
+    /// The same in the coordinates that are proposed first, once the bound of |e| at the smallest gain is found to be far above the set.
+    quick: OnceLock<Option<Box<ProvedData>>>,
     /// Those for a gain with which bounds are kept, once one is found.
-    closer: OnceLock<Option<Box<WithoutJoint>>>,
+    closer: OnceLock<Option<Box<ProvedData>>>,
+}
+
+/// What data are wanted of a subject.
+pub(super) struct Ask {
+    /// The gain, where it is given.
+    pub(super) gain: Option<Rational>,
+    /// What a claim may rest on.
+    pub(super) on: RestsOn,
+    /// Whether data for larger gains are wanted beside; they are where the gain is given.
+    pub(super) rows: bool,
 }
 
 /// What a run found out. What it claims is about the regulator at samples where the subject asks for that.
@@ -99,22 +112,27 @@ impl Prepared {
     /// # Errors
     /// Those of [`Prepared::new`].
     pub fn watched(subject: Subject, gain: Option<Rational>, watch: &dyn Watch) -> Result<Prepared, Vec<SpecErrors>> {
-        Prepared::resting(subject, (gain, RestsOn::Either), watch)
+        Prepared::resting(subject, Ask { gain, on: RestsOn::Either, rows: false }, watch)
     }
 
     /// The same of a claim that may be asked to rest on norms; in continuous time the data are those of the smallest gain then.
     pub(super) fn resting(
         subject: Subject,
-        (gain, on): (Option<Rational>, RestsOn),
+        Ask { gain, on, rows }: Ask,
         watch: &dyn Watch,
     ) -> Result<Prepared, Vec<SpecErrors>> {
         let plant = match &subject {
-            Subject::Plant(plant) if gain.is_none() && on == RestsOn::Either => Some(plant.clone()),
+            Subject::Plant(plant) if on == RestsOn::Either => Some(plant.clone()),
             _ => None,
         };
         match subject.sampling().cloned() {
             None => {
-                let (spec, start) = subject.proved_with_alternatives((gain.as_ref(), on), watch)?;
+                let beside = match &gain {
+                    Some(gain) => Beside::Gain(gain),
+                    None if rows => Beside::Rows,
+                    None => Beside::Nothing,
+                };
+                let (spec, start) = subject.proved_with_alternatives((beside, on), watch)?;
                 Ok(Prepared { plant, ..Prepared::of(spec, Start::Continuous(start), gain) })
             }
             Some(sampling) => {
@@ -126,8 +144,8 @@ impl Prepared {
     }
 
     fn of(spec: Specification, start: Start, gain: Option<Rational>) -> Prepared {
-        let limits = Limits::default();
-        Prepared { spec, start, gain, limits, found_above: None, plant: None, by_norms: None, closer: OnceLock::new() }
+        let (limits, [quick, closer]) = (Limits::default(), [OnceLock::new(), OnceLock::new()]);
+        Prepared { spec, start, gain, limits, found_above: None, plant: None, by_norms: None, quick, closer }
     }
 
     /// The data of a subject as the witness of a certificate has them, each proved again: nothing is searched for.
@@ -144,7 +162,8 @@ impl Prepared {
     #[must_use]
     pub fn within(self, limits: Limits, watch: &dyn Watch) -> Prepared {
         let kept = !limits.is_empty() || self.spec.actuator.is_some();
-        let plant = self.plant.as_ref().filter(|_| kept && matches!(self.start, Start::Continuous(_)));
+        let sought = kept && self.gain.is_none() && matches!(self.start, Start::Continuous(_));
+        let plant = self.plant.as_ref().filter(|_| sought);
         let by_norms = |plant: &Plant| {
             watch.enter(Stage::Limits);
             reduce_by_norms_watched(plant, &Searches::new(1, watch)).ok()
@@ -174,33 +193,24 @@ impl Prepared {
         let run = match &self.start {
             Start::Continuous(start) => {
                 let proposal = start.as_ref().map(|sought| &sought.proposal);
-                let other = start.as_ref().and_then(|sought| sought.without_joint.as_deref());
-                let by_norms = self.by_norms.as_deref();
-                let wanted = Wanted { start: proposal, gain, limits: Some(&self.limits) };
-                let run = certify_for(spec, options, wanted);
-                // Of a larger gain than the smallest one joint metrics, and matrices, say less.
-                let run = other.into_iter().chain(by_norms).filter(|_| !smallest).fold(run, |run, (spec, proposal)| {
-                    match (run, certify_for(spec, options, Wanted { start: Some(proposal), ..wanted })) {
-                        (Ok(run), Ok(other)) => better(run, other),
-                        (Err(_), other) => other,
-                        (run, Err(_)) => run,
-                    }
+                let pool = self.pool(start.as_deref(), options, watch);
+                let wanted = Wanted { start: None, gain, limits: Some(&self.limits) };
+                // The data that were proved for the smallest gain know it best.
+                let asked = if smallest { &pool[..1] } else { &pool[..] };
+                let runs = asked.iter().map(|member| certify_member(member, options, wanted));
+                let run = runs.reduce(|run, other| match (run, other) {
+                    (Ok(run), Ok(other)) => Ok(better(run, other)),
+                    (Err(_), other) => other,
+                    (run, Err(_)) => run,
                 });
+                // There is a member at least.
+                let run = run.unwrap_or_else(|| certify_for(spec, options, wanted));
                 run.and_then(|run| self.closer(run, options, watch)).map(|mut run| {
                     watch.enter(Stage::Comparison);
-                    // The data that were proved for the smallest gain know it best.
                     run.smallest_gain =
                         run.smallest_gain.map(|least| proposal.map_or(least, |known| known.sigma.min(least)));
-                    if let Some((spec, proposal)) = other.filter(|_| smallest) {
-                        run.with_gains_of(spec, proposal);
-                    }
-                    // Joint metrics, and the weights of a matrix inequality, are those of the smallest gain.
-                    let plant =
-                        self.plant.as_ref().filter(|plant| options.compare && plant.initial_set.given()[0].is_none());
-                    if let Some(plant) = plant.filter(|_| smallest && run.goes_far())
-                        && let Ok(by_norms) = reduce_by_norms_quickly(plant)
-                    {
-                        run.with_gains_of(&by_norms.spec, &by_norms.proposal);
+                    if options.compare {
+                        run.set_gains(&pool);
                     }
                     let alternatives = start.as_ref().filter(|_| smallest).map(|sought| sought.alternatives);
                     if let Some(Alternatives { by_norms, aligned, nominal_gain }) = alternatives
@@ -225,9 +235,17 @@ impl Prepared {
             }
             Start::Sampled(sampling, start) => {
                 let wanted = (gain, &self.limits);
-                let near = start.as_ref().and_then(|(_, near)| near.as_deref());
-                let start = start.as_ref().map(|(proposal, _)| proposal);
-                certify_sampled_within(spec, sampling, wanted, start, options.ladder).map(|mut run| {
+                let near = start.as_ref().and_then(|sought| sought.near.as_deref());
+                let others = start.as_ref().map_or(&[][..], |sought| &sought.others);
+                let start = start.as_ref().map(|sought| &sought.proposal);
+                let run = |spec, start| certify_sampled_within(spec, sampling, wanted, start, options.ladder);
+                let others = others.iter().map(|(spec, proposal)| run(spec, Some(proposal)));
+                let run = others.fold(run(spec, start), |known, other| match (known, other) {
+                    (Ok(known), Ok(other)) => Ok(if other.is_better_than(&known) { other } else { known }),
+                    (Err(_), other) => other,
+                    (known, Err(_)) => known,
+                });
+                run.map(|mut run| {
                     let claimed = run.claim().map(|proof| proof.witness.sigma.to_f64());
                     if let Some(sigma) = claimed.filter(|_| options.compare && smallest) {
                         watch.enter(Stage::Comparison);
@@ -255,6 +273,28 @@ impl Prepared {
 }
 
 impl Prepared {
+    /// All data, the first of them those for the smallest gain.
+    fn pool<'s>(&'s self, start: Option<&'s Sought>, options: Options, watch: &dyn Watch) -> Vec<Member<'s>> {
+        let others = start.map_or(&[][..], |sought| &sought.others);
+        let others = others.iter().chain(self.by_norms.as_deref());
+        let data: Vec<(&Specification, Option<&SharpProposal>)> =
+            std::iter::once((&self.spec, start.map(|sought| &sought.proposal)))
+                .chain(others.map(|(spec, proposal)| (spec, Some(proposal))))
+                .collect();
+        let mut pool = parallel::map(&data, |(spec, start)| Member::new(spec, *start, options));
+        // Joint metrics, and the weights of a matrix inequality, are those of the smallest gain.
+        let plant = self.plant.as_ref().filter(|plant| plant.initial_set.given()[0].is_none());
+        let plant = plant.filter(|_| options.compare || self.gain.is_some());
+        if let Some(plant) = plant.filter(|_| pool[0].goes_far() == Some(true)) {
+            watch.enter(Stage::Comparison);
+            let quick = || reduce_by_norms_quickly(plant).ok().map(|found| Box::new((found.spec, found.proposal)));
+            if let Some((spec, proposal)) = self.quick.get_or_init(quick).as_deref() {
+                pool.push(Member::new(spec, Some(proposal), options));
+            }
+        }
+        pool
+    }
+
     /// The run with a smaller gain that keeps to the limits by bounds that are proved for it, where there is one.
     fn closer<'s>(
         &'s self,
@@ -263,32 +303,36 @@ impl Prepared {
         watch: &dyn Watch,
     ) -> Result<Certification<'s>, Refusal> {
         let gains = run.smallest_gain.zip(run.sigma_star().map(Rational::to_f64));
-        let Some((plant, (least, found))) = self.plant.as_deref().zip(gains) else { return Ok(run) };
+        let Some((plant, (least, found))) = self.plant.as_deref().filter(|_| self.gain.is_none()).zip(gains) else {
+            return Ok(run);
+        };
         let wanted = Wanted { limits: Some(&self.limits), ..Wanted::default() };
-        let gain = |(spec, proposal): &WithoutJoint| {
-            let run = certify_for(spec, options, Wanted { start: Some(proposal), ..wanted }).ok()?;
+        let certified = |(spec, proposal): &'s ProvedData| {
+            certify_member(&Member::new(spec, Some(proposal), options), options, wanted)
+        };
+        let gain = |(spec, proposal): &ProvedData| {
+            let run = certify_member(&Member::new(spec, Some(proposal), options), options, wanted).ok()?;
             run.sigma_star().map(Rational::to_f64)
         };
         let data = self.closer.get_or_init(|| closer(plant, [least, found], gain, watch).map(Box::new));
         match data.as_deref() {
-            Some((spec, proposal)) => {
-                better(run, certify_for(spec, options, Wanted { start: Some(proposal), ..wanted })?)
-            }
+            Some(data) => Ok(better(run, certified(data)?)),
             None => Ok(run),
         }
     }
 }
 
-/// The one with the smaller gain of two runs, or with one at all; where neither has one, the one that comes closer to what is asked for.
-fn better<'s>(first: Certification<'s>, second: Certification<'s>) -> Result<Certification<'s>, Refusal> {
-    let takes_second = match (first.sigma_star(), second.sigma_star()) {
-        (Some(one), Some(other)) => other < one,
-        (None, None) => second.closer_to_limits_than(&first),
-        (one, _) => one.is_none(),
+/// The one with the smaller gain of two runs, or at the same gain with the smaller bound of |e|, or with a gain at all; where neither has one, the
+/// one that comes closer to what is asked for.
+fn better<'s>(first: Certification<'s>, second: Certification<'s>) -> Certification<'s> {
+    let takes_second = match (first.claim().is_some(), second.claim().is_some()) {
+        (true, true) => second.is_better_than(&first),
+        (false, false) => second.closer_to_limits_than(&first),
+        (one, _) => !one,
     };
     let smallest_gain = [first.smallest_gain, second.smallest_gain].into_iter().flatten().reduce(f64::min);
     let taken = if takes_second { second } else { first };
-    Ok(Certification { smallest_gain, ..taken })
+    Certification { smallest_gain, ..taken }
 }
 
 /// What decides and samples bounds of the plant behind a specification, read from the copy of it that a certificate has.

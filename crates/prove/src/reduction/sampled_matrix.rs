@@ -14,7 +14,7 @@ use crate::search::{
     SampledSearch, active_level, weight_h,
 };
 use rug::Rational;
-use sigmastar_exact::number::{Direction, round_f64};
+use sigmastar_exact::number::{Direction, Portable, round_f64};
 use sigmastar_exact::parallel;
 use sigmastar_lang::spec::{
     self, PeriodicMatrix, ProvedValues, SampledExistence, SampledGain, SampledInequalities, SampledInequality,
@@ -30,6 +30,9 @@ use std::sync::Arc;
 const NEXT: f64 = 1.06;
 const GAINS: usize = 60;
 const STEPS: usize = 6;
+
+/// The steps in which a gain that is given is come to from the smallest one.
+const PARTS: u32 = 3;
 
 /// The radii that are aimed at, in turn: what is left below 1 is for what the samples have missed, and for few boxes.
 const TARGETS: [f64; 3] = [0.985, 0.95, 0.85];
@@ -150,8 +153,8 @@ impl<'a> MatrixAtSamples<'a> {
     /// The bounds and inequalities at the gain that is given, or at the smallest one that is found, and is below that of norms.
     pub(super) fn reduce(&self, gain: Option<&Rational>, by_norms: Option<f64>) -> Option<ReducedSampled> {
         if let Some(gain) = gain {
-            let found = self.scan_at(gain.to_f64())?;
-            return self.proved(&found, gain);
+            let at_once = self.scan_at(gain.to_f64()).and_then(|found| self.proved(&found, gain));
+            return at_once.or_else(|| self.from_below(gain));
         }
         let largest = by_norms.map_or(f64::INFINITY, |sigma| sigma * WORTH).min(self.law.step.recip());
         let start = self.start(self.chosen.proposal.sigma);
@@ -231,6 +234,24 @@ impl<'a> MatrixAtSamples<'a> {
             }
         }
         Some(best)
+    }
+
+    /// At a gain that is given from what is found at the smallest one, which the inequalities may be followed from.
+    fn from_below(&self, gain: &Rational) -> Option<ReducedSampled> {
+        let (start, sigma) = (self.start(self.chosen.proposal.sigma), gain.to_f64());
+        TARGETS.into_iter().find_map(|target| {
+            let mut found = self.least(&start, target, self.law.step.recip())?;
+            // As far above it as it is rounded.
+            let short = round_f64(found.sigma, DIGITS_OF_GAIN, Direction::Up)?.to_f64();
+            if sigma < short {
+                return None;
+            }
+            for part in (1..=PARTS).rev() {
+                let next = found.sigma * ((sigma / found.sigma).portable_ln() / f64::from(part)).portable_exp();
+                found = self.at(&At { sigma: if part == 1 { sigma } else { next }, ..self.again(&found) })?;
+            }
+            self.proved(&found, gain)
+        })
     }
 
     /// What is found at a gain that is given.
@@ -344,7 +365,7 @@ impl<'a> MatrixAtSamples<'a> {
             let values = proofs.values(&at).ok()?;
             let spec = self.along.specification(proofs.plant, values).ok()?;
             let proposal = found_again(&spec, self.sampling, &proposal, Some(found.sigma)).ok()?;
-            Some(ReducedSampled { spec, proposal, near: None })
+            Some(ReducedSampled { spec, proposal, near: None, others: Vec::new() })
         })
     }
 

@@ -1,6 +1,7 @@
 //! How much smaller the initial set of a plant may have to be, where no gain is found for the one that is asked for.
 
 use super::watch::{Stage, Unwatched, Watch};
+use super::run::Ask;
 use super::{Prepared, RestsOn, Subject};
 use crate::certify::{Limits, Options};
 use rug::Rational;
@@ -73,7 +74,10 @@ fn certified(
 ) -> Option<Rational> {
     let plain = gain.is_none() && limits.is_empty() && counts.is_empty() && subject.actuator().is_none();
     let prepared = match plain {
-        true => Prepared::resting(subject, (None, RestsOn::WithoutJoint), &Unwatched),
+        true => {
+            let ask = Ask { gain: None, on: RestsOn::WithoutJoint, rows: false };
+            Prepared::resting(subject, ask, &Unwatched)
+        }
         false => Prepared::seeking(&subject, gain.cloned(), (limits, counts), options, &Unwatched),
     };
     let prepared = prepared.ok()?;

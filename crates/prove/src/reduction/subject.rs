@@ -1,8 +1,7 @@
 //! What is certified: a bounding specification, or a plant by its formulas.
 
-use super::proofs::{Near, Reduced, WithoutJoint};
-use super::reduce::reduce_by_norms_watched;
-use super::reduce::reduce_without_joint;
+use super::proofs::{Near, ProvedData, Reduced};
+use super::reduce::{Beside, reduce_by_norms_watched, reduce_without_joint};
 use super::watch::{Stage, Unwatched, Watch};
 use super::{ReducedSampled, RestsOn, reduce, reduce_sampled};
 use crate::certify::{Alternatives, WITHOUT_INPUT_GAIN, not_available_with_input_gain, with_triple};
@@ -18,14 +17,20 @@ use sigmastar_lang::spec::{
 pub(super) struct Sought {
     pub(super) proposal: SharpProposal,
     pub(super) alternatives: Alternatives,
-    /// The same without joint metrics, where there are some.
-    pub(super) without_joint: Option<Box<WithoutJoint>>,
+    /// Other data, and where the search for their gains may start.
+    pub(super) others: Vec<ProvedData>,
     /// The choice that the data were proved of.
     pub(super) near: Option<Box<Near>>,
 }
 
 /// The same at samples.
-pub(super) type SoughtAtSamples = (SampledProposal, Option<Box<Near>>);
+pub(super) struct SoughtAtSamples {
+    pub(super) proposal: SampledProposal,
+    /// Other data at a gain that is given, and where the search for a witness may start.
+    pub(super) others: Vec<(Specification, SampledProposal)>,
+    /// The choice that the data were proved of.
+    pub(super) near: Option<Box<Near>>,
+}
 
 /// Where documents have their sampling period.
 pub const SAMPLING_PERIOD: &str = "/internal_model/sampling_period";
@@ -181,14 +186,14 @@ impl Subject {
     /// # Errors
     /// What keeps the data from being proved, at its place; not empty.
     pub fn proved(self) -> Result<(Specification, Option<SharpProposal>), Vec<SpecErrors>> {
-        let (spec, start) = self.proved_with_alternatives((None, RestsOn::Either), &Unwatched)?;
+        let (spec, start) = self.proved_with_alternatives((Beside::Nothing, RestsOn::Either), &Unwatched)?;
         Ok((spec, start.map(|sought| sought.proposal)))
     }
 
-    /// The same for a gain that is given or for the smallest one, with what the search of a plant saw beside.
+    /// The same with what is proved of a plant beside, for larger gains and otherwise.
     pub(super) fn proved_with_alternatives(
         self,
-        (gain, on): (Option<&Rational>, RestsOn),
+        (beside, on): (Beside<'_>, RestsOn),
         watch: &dyn Watch,
     ) -> Result<(Specification, Option<Box<Sought>>), Vec<SpecErrors>> {
         match self {
@@ -199,13 +204,13 @@ impl Subject {
             }
             Subject::Plant(plant) => {
                 let reduced = match on {
-                    RestsOn::Either => reduce(&plant, gain, watch),
+                    RestsOn::Either => reduce(&plant, beside, watch),
                     RestsOn::WithoutJoint => reduce_without_joint(&plant, watch),
                     RestsOn::Norms => reduce_by_norms_watched(&plant, watch),
                 };
                 let reduced = reduced.map_err(|refusal| refusal.errors(&plant))?;
-                let Reduced { spec, proposal, alternatives, without_joint, near } = reduced;
-                Ok((spec, Some(Box::new(Sought { proposal, alternatives, without_joint, near }))))
+                let Reduced { spec, proposal, alternatives, others, near } = reduced;
+                Ok((spec, Some(Box::new(Sought { proposal, alternatives, others, near }))))
             }
         }
     }
@@ -224,8 +229,8 @@ impl Subject {
             Subject::Plant(plant) => {
                 let reduced =
                     reduce_sampled(&plant, sampling, asked, watch).map_err(|refusal| refusal.errors(&plant))?;
-                let ReducedSampled { spec, proposal, near } = reduced;
-                Ok((spec, Some((proposal, near))))
+                let ReducedSampled { spec, proposal, near, others } = reduced;
+                Ok((spec, Some(SoughtAtSamples { proposal, others, near })))
             }
             specification @ Subject::Specification(_) => {
                 watch.enter(Stage::Triple);

@@ -103,7 +103,7 @@ impl Proofs<'_> {
         Ok(search_sharp_near(&with_values, proposal).map(|proposal| {
             (
                 with_values,
-                Reduced { spec, proposal, alternatives: Alternatives::default(), without_joint: None, near: None },
+                Reduced { spec, proposal, alternatives: Alternatives::default(), others: Vec::new(), near: None },
             )
         }))
     }

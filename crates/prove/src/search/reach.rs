@@ -7,6 +7,7 @@ use super::obstacle::{Failing, Obstacle};
 use super::periodic::PeriodicSet;
 use super::threshold::ByMatrix;
 use rug::Rational;
+use sigmastar_exact::number::Portable;
 use sigmastar_theory::derivation::control::{self, Answer};
 use sigmastar_theory::derivation::harmonics::AtOrigin;
 use sigmastar_theory::derivation::initial_set::distances;
@@ -27,6 +28,9 @@ pub fn start_distances(model: &FloatModel, set: &PeriodicSet) -> [f64; 3] {
 
 /// How far the threshold stays below the gain where it is not what is made small, for rounding; what is proved with its weights is not moved.
 const BELOW: f64 = 1.0 - 1e-6;
+
+/// What e and u may go further for x to go e times less far, as a share.
+const OF_STATES: f64 = 1e-3;
 
 /// What multiplies what in the control.
 #[derive(Clone, Copy, Debug)]
@@ -65,6 +69,8 @@ pub(super) fn weighed(
         Goal::Control => reach(model, &at, distances, law).transient,
         Goal::Peak => reach(model, &at, distances, law).error,
     };
+    // Where x hardly acts on e any box of x serves, and it shall not be larger than it needs to be.
+    let cost = cost * (1.0 + OF_STATES * at.rho.portable_ln());
     if cost.is_finite() { Ok(AtSigma { cost, ..at }) } else { Err(Failing::NotFinite(None).into()) }
 }
 

@@ -213,17 +213,19 @@ impl<'m> SampledSearch<'m> {
         Ok(SampledProposal { sigma, floors, rho: at.rho, eta: at.eta, radius: at.threshold })
     }
 
-    /// The best witness at sigma.
+    /// The best witness at sigma; where the shapes of a scan have none, one near that of the smallest sigma.
     ///
     /// # Errors
     /// What stands in the way.
     pub fn at_gain(&self, sigma: f64) -> Result<SampledProposal, Obstacle> {
         self.model.in_range()?;
-        let found = self.proposal(sigma, tiny(self.model), None)?;
-        if found.radius > LARGEST {
-            return Err(Failing::Sampling.into());
-        }
-        Ok(self.with_ordinary_floors(found))
+        let refused = match self.proposal(sigma, tiny(self.model), None) {
+            Ok(found) if found.radius <= LARGEST => return Ok(self.with_ordinary_floors(found)),
+            Ok(_) => Failing::Sampling.into(),
+            Err(obstacle) => obstacle,
+        };
+        let smallest = self.smallest().ok().filter(|smallest| smallest.sigma <= sigma).ok_or(refused)?;
+        self.near(&smallest, Some(sigma)).map_err(|_| refused)
     }
 
     /// What is bounded at the gain of a proposal.

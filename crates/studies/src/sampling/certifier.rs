@@ -4,8 +4,8 @@ use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_lang::spec::{InternalModel, Sampling, Specification};
 use sigmastar_prove::certify::{Ladder, Outcome, SampledCertification, certify_sampled, sampled_model};
-use sigmastar_prove::reduction::{PlantRefusal, SampledPairs};
-use sigmastar_prove::search::{Extreme, Failing, FloatModel, Obstacle, SampledLimit, SampledSearch, search_sharp};
+use sigmastar_prove::reduction::{PlantRefusal, RestsOn, SampledPairs};
+use sigmastar_prove::search::{Closest, Extreme, Failing, FloatModel, Obstacle, SampledLimit, SampledSearch, search_sharp};
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::sampled::SampledLaw;
 use sigmastar_theory::transfer::TradeOff;
@@ -115,22 +115,37 @@ pub struct OfPlant<'p> {
     pub pairs: &'p SampledPairs<'p>,
 }
 
+/// What keeps a plant from a pair.
+fn obstacle(refusal: PlantRefusal) -> Obstacle {
+    match refusal {
+        PlantRefusal::NoGain(obstacle) => obstacle,
+        _ => Failing::Bounds.into(),
+    }
+}
+
 impl Certifier for OfPlant<'_> {
     fn continuous(&self) -> Result<f64, Obstacle> {
-        Ok(self.pairs.continuous())
+        self.pairs.continuous().map_err(obstacle)
     }
 
     fn pair(&self, sampling: &Sampling, gain: Option<&Rational>) -> Result<Pair, Obstacle> {
-        let reduced = self.pairs.reduce(sampling, gain).map_err(|refusal| match refusal {
-            PlantRefusal::NoGain(obstacle) => obstacle,
-            _ => Failing::Bounds.into(),
-        })?;
-        let run = certify_sampled(&reduced.spec, sampling, gain, Some(&reduced.proposal), Ladder::default());
-        run.map_err(|_| Obstacle::from(Failing::Bounds)).and_then(|run| Pair::new(&run))
+        let reduced = self.pairs.reduce(sampling, (gain, RestsOn::Either)).map_err(obstacle)?;
+        let first = (&reduced.spec, &reduced.proposal);
+        let all = std::iter::once(first).chain(reduced.others.iter().map(|(spec, proposal)| (spec, proposal)));
+        let mut closest = Closest::default();
+        let mut best: Option<SampledCertification<'_>> = None;
+        for (spec, proposal) in all {
+            match certify_sampled(spec, sampling, gain, Some(proposal), Ladder::default()) {
+                Ok(run) if best.as_ref().is_none_or(|known| run.is_better_than(known)) => best = Some(run),
+                Ok(_) => {}
+                Err(_) => closest.record(Failing::Bounds.into()),
+            }
+        }
+        closest.or(best).and_then(|run| Pair::new(&run))
     }
 
     fn promise(&self, sampling: &Sampling, gain: f64) -> Result<(), Obstacle> {
-        let found = self.pairs.search(sampling, |search| search.at_gain(gain).map(drop));
+        let found = self.pairs.search(sampling, |search| search.at_gain(gain).map(drop)).map_err(obstacle)?;
         found.unwrap_or_else(|| Err(beyond(sampling)))
     }
 

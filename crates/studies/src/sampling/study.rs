@@ -83,11 +83,17 @@ impl SamplingStudy {
             let found = certifier.pair(&sampling, None);
             Row { asked: Asked::Step(sampling), found }
         };
+        let by_step: Vec<Row> = steps.into_iter().map(of_step).collect();
         let of_gain = |gain: Rational| {
-            let found = longest(certifier, period, &gain);
+            let known = by_step.iter().filter_map(|row| row.found.as_ref().ok()).filter(|pair| pair.sigma == gain);
+            let fewer = |a: &Pair, b: &Pair| a.sampling.samples.cmp(&b.sampling.samples);
+            let longest = longest(certifier, period, &gain);
+            let found = match known.chain(longest.as_ref().ok()).min_by(|a, b| fewer(a, b)) {
+                Some(pair) => Ok(pair.clone()),
+                None => longest,
+            };
             Row { asked: Asked::Gain(gain), found }
         };
-        let by_step = steps.into_iter().map(of_step).collect();
         let by_gain: Vec<Row> = gains.into_iter().map(of_gain).collect();
         let pairs = by_gain.iter().filter_map(|row| row.found.as_ref().ok());
         let round = pairs.map(|pair| rounded(certifier, period, pair)).collect();

@@ -1,6 +1,6 @@
 //! The smallest gain for which a claim has what is asked of it (derivation, 13.5, 13.6).
 
-use super::{Prepared, RestsOn, Run, Start, Subject, Watch};
+use super::{Ask, Prepared, RestsOn, Run, Start, Subject, Watch};
 use crate::certify::{Limits, Options};
 use rug::Rational;
 use sigmastar_exact::number::{Direction, round_f64};
@@ -27,6 +27,8 @@ struct Search<'q> {
     counts: &'q [u32],
     /// Without comparisons.
     options: Options,
+    /// Whether data for larger gains are wanted beside those of the smallest one.
+    rows: bool,
     watch: &'q dyn Watch,
 }
 
@@ -52,7 +54,8 @@ impl Prepared {
         options: Options,
         watch: &dyn Watch,
     ) -> Result<Prepared, Vec<SpecErrors>> {
-        let search = Search { subject, limits, counts, options: Options { compare: false, ..options }, watch };
+        let rows = options.compare || !limits.is_empty() || subject.actuator().is_some();
+        let search = Search { subject, limits, counts, options: Options { compare: false, ..options }, rows, watch };
         match (&limits.rate, gain) {
             (_, Some(gain)) => Ok(search.at(Some(gain))?.within(limits.clone(), watch)),
             (None, None) => search.within_limits(),
@@ -73,7 +76,7 @@ impl Prepared {
 
 impl Search<'_> {
     fn by_norms(&self, gain: Option<Rational>) -> Result<Prepared, Vec<SpecErrors>> {
-        Prepared::resting(self.subject.clone(), (gain, RestsOn::Norms), self.watch)
+        Prepared::resting(self.subject.clone(), Ask { gain, on: RestsOn::Norms, rows: false }, self.watch)
     }
 
     /// Whether what is asked can be had of a claim by norms alone: rates at samples, and what noise does.
@@ -86,7 +89,10 @@ impl Search<'_> {
         let by_norms = || self.by_norms(gain.clone()).ok().filter(|prepared| prepared.reaches(gain.as_ref()));
         match self.asks_for_norms().then(by_norms).flatten() {
             Some(prepared) => Ok(prepared),
-            None => Prepared::watched(self.subject.clone(), gain, self.watch),
+            None => {
+                let ask = Ask { gain, on: RestsOn::Either, rows: self.rows };
+                Prepared::resting(self.subject.clone(), ask, self.watch)
+            }
         }
     }
 
