@@ -1,12 +1,15 @@
 //! Certifying: the whole way from a document to a certificate, or to the reason why there is none.
 
 use super::certificate::Certificate;
+use super::check::CheckVerdict;
 use super::condition::Condition;
 use super::error::{Error, ErrorKind};
+use super::json_text;
 use super::options::{Asked, CertifyOptions};
 use super::report::Report;
 use super::subject::Subject;
-use sigmastar_prove::reduction::{Prepared, Run, Subject as Read, Unwatched, at_samples};
+use sigmastar_prove::certificate::certificate_of;
+use sigmastar_prove::reduction::{Checked, Prepared, Run, Subject as Read, Unwatched, at_samples};
 use sigmastar_report::run_sentence;
 
 /// Certifies a specification or a plant: a Lyapunov triple for a Jacobian or the orbit and bounds of a plant, the search for a
@@ -48,9 +51,23 @@ fn run(subject: &Subject, options: &CertifyOptions) -> Result<Certificate, Error
     }
     let prepared = Prepared::seeking(&asked.read, gain, (&limits, &counts), options, &Unwatched)
         .map_err(|all| Error::documents(&all))?;
-    let mut run = prepared.certify(options).map_err(|all| Error::documents(&all))?;
+    let run = prepared.certify_checked(options, &checked, &Unwatched);
+    let mut run = run.map_err(|all| Error::documents(&all))?;
     run.prove_rates(&counts).map_err(Error::no_rates)?;
+    if !counts.is_empty() {
+        run.answered(checked(&run));
+    }
     Certificate::new(&run, &asked, false).ok_or_else(|| not_certified(&run))
+}
+
+/// What the independent checker says of the certificate of a run.
+fn checked(run: &Run<'_>) -> Checked {
+    let Some(certificate) = certificate_of(run) else { return Checked::Decided };
+    match proofs_check::check(json_text(&certificate).as_bytes()).verdict {
+        CheckVerdict::Valid => Checked::Decided,
+        CheckVerdict::Undecided => Checked::GivenUp,
+        _ => Checked::Refused,
+    }
 }
 
 /// Why a run has no certificate: the bounding functions that are not proved, or what the report says in one sentence.

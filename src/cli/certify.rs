@@ -10,7 +10,7 @@ use super::output::{Shortened, shown};
 use super::stages::{Stages, Step};
 use super::subject::{Asked, Subject, proving, with_sampling_period};
 use super::{input, output};
-use proofs_check::verdict::Verdict as Checked;
+use proofs_check::verdict::Verdict;
 use sigmastar_document::number::estimate;
 use sigmastar_exact::number::write_exact;
 use sigmastar_lang::plant::Plant;
@@ -18,7 +18,7 @@ use sigmastar_lang::spec::{ErrorKind, SpecErrors};
 use sigmastar_prove::certificate::{certificate_of, is_sampled, read_for};
 use sigmastar_prove::certify::{FarStart, Limits, NoRatesOfClaim, rate_counts, unusual_mu};
 use sigmastar_prove::rate::bound::MAX_OSCILLATORS;
-use sigmastar_prove::reduction::{INITIAL_SET, Prepared, Run, Shrunk, Stage, Unwatched, Watch, shrunk};
+use sigmastar_prove::reduction::{Checked, INITIAL_SET, Prepared, Run, Shrunk, Stage, Unwatched, Watch, shrunk};
 use sigmastar_report::{Origin, run_report};
 use sigmastar_theory::derivation::targets::{Target, TargetKind};
 use std::path::Path;
@@ -111,12 +111,12 @@ pub fn run(args: &CertifyArgs) -> Result<u8, Failure> {
             &Unwatched
         }
     };
-    let mut run = prepared.certify_watched(args.options(), watch).map_err(Failure::Documents)?;
+    let mut run = prepared.certify_checked(args.options(), &checked, watch).map_err(Failure::Documents)?;
     stages.begin(Step::Rates);
     run.prove_rates(&counts).map_err(no_rates)?;
-    if output.is_some() {
+    if !counts.is_empty() {
         stages.begin(Step::Checked);
-        decide_again(&mut run);
+        run.answered(checked(&run));
     }
     let origin = if witness.is_some() { Origin::Witness } else { Origin::Search };
     let report = run_report(&run, &targets, origin);
@@ -185,7 +185,7 @@ fn steps(args: &CertifyArgs, subject: &Subject) -> Vec<Step> {
         (Subject::Specification(_), _) => Vec::new(),
     };
     let rates = args.n_o.is_some().then_some(Step::Rates);
-    let checked = args.output.is_some().then_some(Step::Checked);
+    let checked = args.n_o.is_some().then_some(Step::Checked);
     let figures = (args.format == Format::Html || args.plots.is_some()).then_some(Step::Figures);
     let claim = if args.witness.is_some() { Step::Decision } else { Step::Of(Stage::Witness) };
     data.into_iter().map(Step::Of).chain([claim]).chain(rates).chain(checked).chain(figures).collect()
@@ -233,12 +233,13 @@ fn targets(args: &CertifyArgs) -> Result<Vec<Target>, Failure> {
     given.map(|(kind, text)| input::target(kind, flag(kind), text)).collect()
 }
 
-/// Nothing is written, and nothing said to be certified, that the independent checker does not decide as well.
-fn decide_again(run: &mut Run<'_>) {
-    let Some(certificate) = certificate_of(run) else { return };
+/// What the independent checker says of the certificate that would be written: nothing is said to be certified that it does not decide as well.
+fn checked(run: &Run<'_>) -> Checked {
+    let Some(certificate) = certificate_of(run) else { return Checked::Decided };
     match proofs_check::check(output::json_text(&certificate).as_bytes()).verdict {
-        Checked::Valid => {}
-        verdict => run.is_not_decided_again(verdict != Checked::Undecided),
+        Verdict::Valid => Checked::Decided,
+        Verdict::Undecided => Checked::GivenUp,
+        _ => Checked::Refused,
     }
 }
 

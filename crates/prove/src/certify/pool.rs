@@ -11,6 +11,7 @@ use crate::search::{
     Failing, FloatModel, Goal, Obstacle, SharpProposal, largest_at, search_sharp, search_sharp_at, search_sharp_near,
 };
 use rug::Rational;
+use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_lang::spec::Specification;
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::sharp::{SharpEvaluation, SharpWitness};
@@ -103,8 +104,7 @@ impl Least {
         let near = start.and_then(|known| search_sharp_near(&model, known).ok());
         let proposal = near.map_or_else(|| search_sharp(&model), Ok);
         let attempt = proposal.as_ref().ok();
-        let attempt =
-            attempt.and_then(|proposal| round_sharp(data, &model, proposal, (kind, None), options.ladder));
+        let attempt = attempt.and_then(|proposal| round_sharp(data, &model, proposal, (kind, None), options.ladder));
         Least { kind, model, proposal, attempt }
     }
 
@@ -245,8 +245,13 @@ pub(super) fn is_better(one: &SharpProof, other: &SharpProof) -> bool {
 }
 
 fn has_smaller_peak(one: &SharpProof, other: &SharpProof) -> bool {
-    let [first, second] = [one, other].map(|proof| proof.evaluation.peak.upper_f64());
-    first < second || (second.is_nan() && !first.is_nan())
+    smaller([one, other].map(|proof| &proof.evaluation.peak))
+}
+
+/// Whether the first of two bounds is smaller; what is no number is larger than all.
+pub(super) fn smaller(bounds: [&Enclosure; 2]) -> bool {
+    let [first, second] = bounds.map(|bound| Some(bound.upper_f64()).filter(|upper| !upper.is_nan()));
+    first.unwrap_or(f64::INFINITY) < second.unwrap_or(f64::INFINITY)
 }
 
 pub(super) fn model(data: &Data<'_>, kind: TransferKind) -> FloatModel {

@@ -6,6 +6,7 @@ use super::gain_row::GainRow;
 use super::limits::{FloatLimits, NEAR, ROOMS};
 use super::no_plant::{NoPlant, no_plant};
 use super::options::{Ladder, Limits};
+use super::pool::smaller;
 use super::produce::undecided_or_error;
 use super::proof::{Outcome, SampledProof};
 use super::refusal::Refusal;
@@ -126,8 +127,7 @@ impl SampledCertification<'_> {
 fn is_better(one: &SampledProof, other: &SampledProof) -> bool {
     let key = |proof: &SampledProof| (!proof.truth().is_true(), proof.witness.sigma.clone());
     let [first, second] = [one, other].map(key);
-    let peak = |proof: &SampledProof| proof.evaluation.peak.upper_f64();
-    first < second || (first == second && peak(one) < peak(other))
+    first < second || (first == second && smaller([one, other].map(|proof| &proof.evaluation.peak)))
 }
 
 fn arguments(proof: &SampledProof) -> [Enclosure; 2] {
@@ -188,9 +188,8 @@ pub fn certify_sampled_within<'s>(
             let model = model.with_goal(Goal::Peak);
             let search_peak = SampledSearch::new(&model, law.0.clone());
             let nearest = gain.and_then(|gain| search_peak.near(&proposal, Some(gain.to_f64())).ok());
-            let nearest = nearest.and_then(|found| {
-                round(&data, (sampling, &law.1), (&model, &search_peak), (&found, gain), ladder)
-            });
+            let nearest = nearest
+                .and_then(|found| round(&data, (sampling, &law.1), (&model, &search_peak), (&found, gain), ladder));
             let limit = search.limit(&proposal);
             let both = [proof, nearest].into_iter().flatten();
             let best = both.reduce(|known, other| if is_better(&other, &known) { other } else { known });

@@ -1,11 +1,12 @@
 //! A smaller gain with which a plant's loop keeps to limits, by bounds that are proved for the sets of that gain (derivation, 13.5).
 
 use super::coordinates::Chosen;
-use super::proofs::{Proofs, Reduced, ProvedData};
+use super::proofs::{Proofs, ProvedData, Reduced};
 use super::reduce::reduce_to;
 use super::watch::{Searches, Stage, Watch};
 use sigmastar_exact::number::Portable;
 use sigmastar_lang::plant::Plant;
+use sigmastar_theory::derivation::paths::Path;
 
 /// Gains that are tried between the least one and what is found.
 const STEPS: usize = 4;
@@ -24,7 +25,7 @@ pub(super) fn closer(
     watch.enter(Stage::Limits);
     let searches = Searches::new(1, watch);
     // The coordinates are the same for all gains.
-    let last = |proofs: &Proofs<'_>, chosen: &Chosen, proved: Reduced| {
+    let last = |proofs: &Proofs<'_>, (chosen, _): (&Chosen, Option<Path>), proved: Reduced| {
         let (mut least, mut found, mut best) = (least, found, None);
         for _ in 0..STEPS {
             if found < least * (1.0 + WORTH) {

@@ -31,11 +31,14 @@ const FURTHER: f64 = 1.02;
 /// By what share of the gain of norms, at few samples, one by a matrix inequality is far better.
 pub(super) const FAR_BETTER: f64 = 0.9;
 
+/// A proved gain that is less than so many times the one of samples is near it.
+const NEAR_SAMPLES: f64 = 1.1;
+
 /// What an aligned start must take from a gain to be worth a remark.
 const WORTH_A_REMARK: f64 = 0.01;
 
-/// What is proved at last, from what a matrix inequality proves with the least gain.
-pub(super) type Last<'l> = dyn Fn(&Proofs<'_>, &Chosen, Reduced) -> Reduced + 'l;
+/// What is proved at last, from what norms, or a matrix inequality on a path, prove with the least gain.
+pub(super) type Last<'l> = dyn Fn(&Proofs<'_>, (&Chosen, Option<Path>), Reduced) -> Reduced + 'l;
 
 /// The larger gains of which data are proved beside those of the smallest one: each data bound the periodic solution, and how far solutions go,
 /// at the gain that they are for and above.
@@ -77,7 +80,7 @@ impl Beside<'_> {
 /// # Errors
 /// What could not be proved or found.
 pub fn reduce(plant: &Plant, beside: Beside<'_>, watch: &dyn Watch) -> Result<Reduced, PlantRefusal> {
-    let last = |proofs: &Proofs<'_>, chosen: &Chosen, proved: Reduced| {
+    let last = |proofs: &Proofs<'_>, (chosen, path): (&Chosen, Option<Path>), proved: Reduced| {
         let for_gains = |smallest: f64| {
             // The data of a smaller gain are the base of those of larger ones.
             let gains: Vec<f64> =
@@ -85,8 +88,8 @@ pub fn reduce(plant: &Plant, beside: Beside<'_>, watch: &dyn Watch) -> Result<Re
             let data = parallel::map(&gains, |gain| proofs.for_gain(chosen, &proved, *gain));
             data.into_iter().flatten().map(|data| (data.spec, data.proposal)).collect::<Vec<_>>()
         };
-        // Joint metrics are not proved for an uncertain input gain.
-        if chosen.model.input_gain.is_some() {
+        // Joint metrics are not proved for an uncertain input gain, and lower a gain by a matrix inequality.
+        if chosen.model.input_gain.is_some() || path.is_none() {
             let others = for_gains(proved.proposal.sigma);
             return Reduced { others, ..proved };
         }
@@ -140,26 +143,37 @@ fn in_cells(
     with_cells(plant, cells, candidates, watch, |_, sampling| {
         let starts = starts(candidates, sampling);
         // A descent by norms is worth its time where a matrix inequality does not do far better from the same start.
-        if let Ok((p, rough)) = &starts
-            && let Ok(starts) = with_search(sampling, Some(Path::Straight), |search| Ok(search.for_matrix(rough)))
-            && let Some(found) = best_by_matrix(p, &starts, sampling)
-            && found.chosen.proposal.sigma < FAR_BETTER * rough.best.proposal.sigma
-            && let Ok(proved) = found.proved(sampling, rough.best.proposal.sigma, last)
-        {
-            return Ok(proved);
-        }
-        let (along, chosen) = best_by_norms(candidates, &starts, sampling)?;
+        let far_better = starts.as_ref().ok().and_then(|(p, rough)| {
+            let starts = with_search(sampling, Some(Path::Straight), |search| Ok(search.for_matrix(rough))).ok()?;
+            let found = best_by_matrix(p, &starts, sampling)?;
+            let known = rough.best.proposal.sigma;
+            (found.chosen.proposal.sigma < FAR_BETTER * known).then(|| found.proved(sampling, Some(known)).ok())?
+        });
+        let far_better = match far_better {
+            // What is proved may be far above what the samples promise; without a choice of coordinates norms take no descent.
+            Some(found) if found.is_near() && plant.states() > 1 => return found.finished(sampling, last),
+            found => found,
+        };
+        let (along, chosen) = match best_by_norms(candidates, &starts, sampling) {
+            Ok(found) => found,
+            Err(refusal) => return far_better.map_or(Err(refusal), |found| found.finished(sampling, last)),
+        };
         let by_matrix = best_by_matrix(&along.coordinates.p, &[Start::from(&chosen)], sampling);
-        let by_matrix = by_matrix.and_then(|found| found.proved(sampling, chosen.proposal.sigma, last).ok());
-        match by_matrix {
-            Some(found) if found.proposal.sigma < chosen.proposal.sigma => Ok(found),
-            // What norms prove is above the samples.
-            Some(found) => Ok(by_norms(&along, sampling, &chosen)
-                .ok()
-                .filter(|other| other.proposal.sigma < found.proposal.sigma)
-                .unwrap_or(found)),
-            None => by_norms(&along, sampling, &chosen),
-        }
+        let by_matrix = by_matrix.and_then(|found| found.proved(sampling, Some(chosen.proposal.sigma)).ok());
+        let smaller = |a: &Proved, b: &Proved| a.reduced.proposal.sigma.total_cmp(&b.reduced.proposal.sigma);
+        let by_matrix = by_matrix.into_iter().chain(far_better).min_by(smaller);
+        // What norms prove is above the samples.
+        let least = chosen.proposal.sigma;
+        let by_norms = || Found { along, chosen, path: None }.proved(sampling, None);
+        let best = match by_matrix {
+            Some(found) if found.reduced.proposal.sigma < least => found,
+            Some(found) => match by_norms() {
+                Ok(other) if other.reduced.proposal.sigma < found.reduced.proposal.sigma => other,
+                _ => found,
+            },
+            None => by_norms()?,
+        };
+        best.finished(sampling, last)
     })
 }
 
@@ -176,7 +190,9 @@ pub fn reduce_by_norms(plant: &Plant) -> Result<Reduced, PlantRefusal> {
 /// # Errors
 /// Those of [`reduce_by_norms`].
 pub(super) fn reduce_by_norms_watched(plant: &Plant, watch: &dyn Watch) -> Result<Reduced, PlantRefusal> {
-    with_coordinates(plant, watch, by_norms)
+    with_coordinates(plant, watch, |along, sampling, chosen| {
+        Ok(Found { along, chosen, path: None }.proved(sampling, None)?.reduced)
+    })
 }
 
 /// The same in the coordinates that are proposed first where they lead to a gain: for rows beside a claim. The gain may be larger than that of
@@ -191,25 +207,19 @@ pub fn reduce_by_norms_quickly(plant: &Plant) -> Result<Reduced, PlantRefusal> {
             with_constant(p, sampling, None, |search| search.with(best.shape(), Some(&best.proposal)))
         });
         let (along, chosen) = as_proposed.or_else(|_| best_by_norms(candidates, &starts, sampling))?;
-        by_norms(&along, sampling, &chosen)
+        Ok(Found { along, chosen, path: None }.proved(sampling, None)?.reduced)
     })
-}
-
-/// The data of a choice, proved.
-fn by_norms(along: &Along, sampling: &Sampling<'_>, chosen: &Chosen) -> Result<Reduced, PlantRefusal> {
-    let proved = prove_bounds(&Proofs::new(along, sampling)?, chosen)?;
-    Ok(Reduced { near: near(sampling, along, chosen, None).map(Box::new), ..proved })
 }
 
 /// Finds and proves the orbit, chooses the coordinates by norms, and goes on from there.
 pub(super) fn with_coordinates<T>(
     plant: &Plant,
     watch: &dyn Watch,
-    prove: impl FnOnce(&Along, &Sampling<'_>, &Chosen) -> Result<T, PlantRefusal>,
+    prove: impl FnOnce(Along, &Sampling<'_>, Chosen) -> Result<T, PlantRefusal>,
 ) -> Result<T, PlantRefusal> {
     with_candidates(plant, watch, |candidates, sampling| {
         let (along, chosen) = best_by_norms(candidates, &starts(candidates, sampling), sampling)?;
-        prove(&along, sampling, &chosen)
+        prove(along, sampling, chosen)
     })
 }
 
@@ -266,31 +276,55 @@ pub(super) fn with_cells<T>(
     prove(&along, &sampling)
 }
 
-/// What was found by a matrix inequality.
-struct FoundByMatrix {
+/// What was found in floating point.
+struct Found {
     along: Along,
     chosen: Chosen,
-    path: Path,
+    /// The path of the matrix inequality of stability; norms without.
+    path: Option<Path>,
 }
 
-impl FoundByMatrix {
+/// The same with its data proved.
+struct Proved {
+    found: Found,
+    reduced: Reduced,
+    /// About the gain by norms, beside one by a matrix inequality.
+    by_norms: Option<f64>,
+}
+
+impl Found {
     /// The gain with what a corner has to take from it.
     fn cost(&self) -> f64 {
-        let corner = if self.path == Path::Straight { 1.0 } else { 1.0 + WORTH_A_CORNER };
+        let corner = if self.path == Some(Path::Straight) { 1.0 } else { 1.0 + WORTH_A_CORNER };
         self.chosen.proposal.sigma * corner
     }
 
-    /// The data of it, proved, and what norms and an aligned start would give beside.
-    fn proved(&self, sampling: &Sampling<'_>, by_norms: f64, last: &Last<'_>) -> Result<Reduced, PlantRefusal> {
-        let FoundByMatrix { along, chosen, path } = self;
-        let proofs = Proofs::new(along, sampling)?;
-        let proved = last(&proofs, chosen, prove_bounds(&proofs, chosen)?);
+    fn proved(self, sampling: &Sampling<'_>, by_norms: Option<f64>) -> Result<Proved, PlantRefusal> {
+        let Found { along, chosen, path } = &self;
+        let proved = prove_bounds(&Proofs::new(along, sampling)?, chosen)?;
+        let reduced = Reduced { near: near(sampling, along, chosen, *path).map(Box::new), ..proved };
+        Ok(Proved { found: self, reduced, by_norms })
+    }
+}
+
+impl Proved {
+    /// Whether the proved gain is near the one that samples promise.
+    fn is_near(&self) -> bool {
+        self.reduced.proposal.sigma < NEAR_SAMPLES * self.found.chosen.proposal.sigma
+    }
+
+    /// With what is proved at last, and what norms and an aligned start would give beside.
+    fn finished(self, sampling: &Sampling<'_>, last: &Last<'_>) -> Result<Reduced, PlantRefusal> {
+        let Proved { found: Found { along, chosen, path }, reduced, by_norms } = self;
+        let near = reduced.near;
+        let proofs = Proofs::new(&along, sampling)?;
+        let proved = last(&proofs, (&chosen, path), Reduced { near: None, ..reduced });
+        let Some(path) = path else { return Ok(Reduced { near, ..proved }) };
         // It is one of (M): beside joint metrics it may be larger than what they prove from another start.
         let lower = |aligned: &f64| *aligned < proved.proposal.sigma * (1.0 - WORTH_A_REMARK);
-        let aligned = aligned(sampling, chosen, *path).filter(lower);
-        let nominal_gain = with_nominal_gain(sampling, along, chosen, *path);
-        let alternatives = Alternatives { by_norms: Some(by_norms), aligned, nominal_gain };
-        let near = near(sampling, along, chosen, Some(*path)).map(Box::new);
+        let aligned = aligned(sampling, &chosen, path).filter(lower);
+        let nominal_gain = with_nominal_gain(sampling, &along, &chosen, path);
+        let alternatives = Alternatives { by_norms, aligned, nominal_gain };
         Ok(Reduced { alternatives, near, ..proved })
     }
 }
@@ -323,16 +357,16 @@ fn with_nominal_gain(sampling: &Sampling<'_>, along: &Along, chosen: &Chosen, pa
 
 /// The best coordinates near one of these starts, and the gain with them, where stability is proved by a matrix
 /// inequality; none where P moves, where there is nothing to gain, and where the gain is not smaller by what is worth it.
-fn best_by_matrix(p: &PeriodicMatrix, starts: &[Start], sampling: &Sampling<'_>) -> Option<FoundByMatrix> {
+fn best_by_matrix(p: &PeriodicMatrix, starts: &[Start], sampling: &Sampling<'_>) -> Option<Found> {
     let is_small = |start: &Start| start.proposal.sigma * sampling.model.period < AS_GOOD_AS_NONE;
     if !p.harmonics.is_empty() || starts.iter().any(is_small) {
         return None;
     }
     let near = |start: &Start, path: Path, limit: f64| {
         let (along, chosen) = with_constant(p, sampling, Some(path), |search| search.choose_near(start, limit)).ok()?;
-        Some(FoundByMatrix { along, chosen, path })
+        Some(Found { along, chosen, path: Some(path) })
     };
-    let smaller = |a: &FoundByMatrix, b: &FoundByMatrix| a.cost().total_cmp(&b.cost());
+    let smaller = |a: &Found, b: &Found| a.cost().total_cmp(&b.cost());
     // The straight one says which of the starts is the best.
     let straight: Vec<_> = parallel::map(starts, |start| near(start, Path::Straight, f64::INFINITY));
     let straight = straight.into_iter().flatten().min_by(smaller);

@@ -1,22 +1,19 @@
 //! The whole way from a subject to a decided claim, of either regulator.
 
+mod deciding;
 mod seeking;
 
-use super::closer::closer;
-use super::interval_costs::{costs_at_samples, interval_costs};
+pub use deciding::Checked;
+
 use super::proofs::{ProvedData, bounds_around};
-use super::reduce::{Beside, reduce_by_norms_quickly, reduce_by_norms_watched};
+use super::reduce::{Beside, reduce_by_norms_watched};
 use super::subject::{Sought, SoughtAtSamples};
 use super::watch::{Searches, Stage, Unwatched, Watch};
 use super::{FreeNumbers, RestsOn, Subject, Witness};
-use crate::certify::{
-    Alternatives, Certification, Limits, Member, NoRatesOfClaim, Options, Refusal, SampledCertification, Verdict,
-    Wanted, certify_for, certify_member, certify_sampled_within, claimed_ball, recheck, recheck_sampled,
-};
-use crate::search::{Failing, SharpProposal};
+use crate::certify::{Certification, Limits, NoRatesOfClaim, SampledCertification, Verdict, claimed_ball};
+use crate::search::{Failing, SampledProposal};
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
-use sigmastar_exact::parallel;
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::model::LyapunovSource;
 use sigmastar_lang::spec::{Document, Sampling, SpecErrors, Specification};
@@ -49,6 +46,14 @@ pub struct Prepared {
     quick: OnceLock<Option<Box<ProvedData>>>,
     /// Those for a gain with which bounds are kept, once one is found.
     closer: OnceLock<Option<Box<ProvedData>>>,
+    /// Data by norms, once the independent checker gives up on the claims of all others.
+    last: OnceLock<Option<Last>>,
+}
+
+/// Data by norms, of the regulator in continuous time or of the one at samples.
+enum Last {
+    Continuous(Box<ProvedData>),
+    Sampled(Box<Specification>, SampledProposal),
 }
 
 /// What data are wanted of a subject.
@@ -145,7 +150,8 @@ impl Prepared {
 
     fn of(spec: Specification, start: Start, gain: Option<Rational>) -> Prepared {
         let (limits, [quick, closer]) = (Limits::default(), [OnceLock::new(), OnceLock::new()]);
-        Prepared { spec, start, gain, limits, found_above: None, plant: None, by_norms: None, quick, closer }
+        let (plant, by_norms, last) = (None, None, OnceLock::new());
+        Prepared { spec, start, gain, limits, found_above: None, plant, by_norms, quick, closer, last }
     }
 
     /// The data of a subject as the witness of a certificate has them, each proved again: nothing is searched for.
@@ -172,167 +178,6 @@ impl Prepared {
         let by_norms = reduced.map(|reduced| Box::new((reduced.spec, reduced.proposal)));
         Prepared { limits, by_norms, ..self }
     }
-
-    /// Searches, rounds and decides. Hypothesis: the options fit ([`Options::misfit`]).
-    ///
-    /// # Errors
-    /// What the data are refused for, at its place; not empty.
-    pub fn certify(&self, options: Options) -> Result<Run<'_>, Vec<SpecErrors>> {
-        self.certify_watched(options, &Unwatched)
-    }
-
-    /// The same, while somebody waits.
-    ///
-    /// # Errors
-    /// Those of [`Prepared::certify`].
-    pub fn certify_watched(&self, options: Options, watch: &dyn Watch) -> Result<Run<'_>, Vec<SpecErrors>> {
-        watch.enter(Stage::Witness);
-        let (spec, gain) = (&self.spec, self.gain.as_ref());
-        // Figures about the smallest gain say nothing about another one.
-        let smallest = gain.is_none() && self.limits.is_empty() && spec.actuator.is_none();
-        let run = match &self.start {
-            Start::Continuous(start) => {
-                let proposal = start.as_ref().map(|sought| &sought.proposal);
-                let pool = self.pool(start.as_deref(), options, watch);
-                let wanted = Wanted { start: None, gain, limits: Some(&self.limits) };
-                // The data that were proved for the smallest gain know it best.
-                let asked = if smallest { &pool[..1] } else { &pool[..] };
-                let runs = asked.iter().map(|member| certify_member(member, options, wanted));
-                let run = runs.reduce(|run, other| match (run, other) {
-                    (Ok(run), Ok(other)) => Ok(better(run, other)),
-                    (Err(_), other) => other,
-                    (run, Err(_)) => run,
-                });
-                // There is a member at least.
-                let run = run.unwrap_or_else(|| certify_for(spec, options, wanted));
-                run.and_then(|run| self.closer(run, options, watch)).map(|mut run| {
-                    watch.enter(Stage::Comparison);
-                    run.smallest_gain =
-                        run.smallest_gain.map(|least| proposal.map_or(least, |known| known.sigma.min(least)));
-                    if options.compare {
-                        run.set_gains(&pool);
-                    }
-                    let alternatives = start.as_ref().filter(|_| smallest).map(|sought| sought.alternatives);
-                    if let Some(Alternatives { by_norms, aligned, nominal_gain }) = alternatives
-                        && let Some(sigma) = run.sigma_star().map(Rational::to_f64)
-                    {
-                        // From few samples norms may seem to need less than they do.
-                        run.alternatives.by_norms = by_norms.filter(|by_norms| *by_norms > sigma);
-                        run.alternatives.aligned = run.alternatives.aligned.or(aligned);
-                        let nominal_gain = run.alternatives.nominal_gain.or(nominal_gain);
-                        run.alternatives.nominal_gain = nominal_gain.filter(|nominal| *nominal < sigma);
-                    }
-                    let compared = self.plant.as_ref().filter(|_| smallest && options.compare && run.claim().is_some());
-                    if let (Some(plant), Some(sigma)) = (compared, run.sigma_star().map(Rational::to_f64)) {
-                        let near = start.as_ref().and_then(|sought| sought.near.as_deref());
-                        run.interval_costs = interval_costs((plant, near), sigma, watch);
-                    }
-                    if self.found_above.is_some() {
-                        (run.given_gain, run.smallest_gain) = (None, self.found_above);
-                    }
-                    Run::Continuous(Box::new(run))
-                })
-            }
-            Start::Sampled(sampling, start) => {
-                let wanted = (gain, &self.limits);
-                let near = start.as_ref().and_then(|sought| sought.near.as_deref());
-                let others = start.as_ref().map_or(&[][..], |sought| &sought.others);
-                let start = start.as_ref().map(|sought| &sought.proposal);
-                let run = |spec, start| certify_sampled_within(spec, sampling, wanted, start, options.ladder);
-                let others = others.iter().map(|(spec, proposal)| run(spec, Some(proposal)));
-                let run = others.fold(run(spec, start), |known, other| match (known, other) {
-                    (Ok(known), Ok(other)) => Ok(if other.is_better_than(&known) { other } else { known }),
-                    (Err(_), other) => other,
-                    (known, Err(_)) => known,
-                });
-                run.map(|mut run| {
-                    let claimed = run.claim().map(|proof| proof.witness.sigma.to_f64());
-                    if let Some(sigma) = claimed.filter(|_| options.compare && smallest) {
-                        watch.enter(Stage::Comparison);
-                        let subject = (spec, self.plant.as_deref().map(|plant| (plant, near)));
-                        run.interval_costs = costs_at_samples(subject, (sampling, sigma), options.ladder, watch);
-                    }
-                    if options.compare {
-                        run.set_gains(start, options.ladder);
-                    }
-                    if self.found_above.is_some() {
-                        run.given_gain = None;
-                    }
-                    Run::Sampled(Box::new(run))
-                })
-            }
-            Start::Given(FreeNumbers::Continuous(witness)) => {
-                recheck(spec, witness, options).map(|run| Run::Continuous(Box::new(run)))
-            }
-            Start::Given(FreeNumbers::Sampled(witness)) => {
-                recheck_sampled(spec, witness, options.ladder).map(|run| Run::Sampled(Box::new(run)))
-            }
-        };
-        run.map_err(|refusal: Refusal| refusal.errors(spec))
-    }
-}
-
-impl Prepared {
-    /// All data, the first of them those for the smallest gain.
-    fn pool<'s>(&'s self, start: Option<&'s Sought>, options: Options, watch: &dyn Watch) -> Vec<Member<'s>> {
-        let others = start.map_or(&[][..], |sought| &sought.others);
-        let others = others.iter().chain(self.by_norms.as_deref());
-        let data: Vec<(&Specification, Option<&SharpProposal>)> =
-            std::iter::once((&self.spec, start.map(|sought| &sought.proposal)))
-                .chain(others.map(|(spec, proposal)| (spec, Some(proposal))))
-                .collect();
-        let mut pool = parallel::map(&data, |(spec, start)| Member::new(spec, *start, options));
-        // Joint metrics, and the weights of a matrix inequality, are those of the smallest gain.
-        let plant = self.plant.as_ref().filter(|plant| plant.initial_set.given()[0].is_none());
-        let plant = plant.filter(|_| options.compare || self.gain.is_some());
-        if let Some(plant) = plant.filter(|_| pool[0].goes_far() == Some(true)) {
-            watch.enter(Stage::Comparison);
-            let quick = || reduce_by_norms_quickly(plant).ok().map(|found| Box::new((found.spec, found.proposal)));
-            if let Some((spec, proposal)) = self.quick.get_or_init(quick).as_deref() {
-                pool.push(Member::new(spec, Some(proposal), options));
-            }
-        }
-        pool
-    }
-
-    /// The run with a smaller gain that keeps to the limits by bounds that are proved for it, where there is one.
-    fn closer<'s>(
-        &'s self,
-        run: Certification<'s>,
-        options: Options,
-        watch: &dyn Watch,
-    ) -> Result<Certification<'s>, Refusal> {
-        let gains = run.smallest_gain.zip(run.sigma_star().map(Rational::to_f64));
-        let Some((plant, (least, found))) = self.plant.as_deref().filter(|_| self.gain.is_none()).zip(gains) else {
-            return Ok(run);
-        };
-        let wanted = Wanted { limits: Some(&self.limits), ..Wanted::default() };
-        let certified = |(spec, proposal): &'s ProvedData| {
-            certify_member(&Member::new(spec, Some(proposal), options), options, wanted)
-        };
-        let gain = |(spec, proposal): &ProvedData| {
-            let run = certify_member(&Member::new(spec, Some(proposal), options), options, wanted).ok()?;
-            run.sigma_star().map(Rational::to_f64)
-        };
-        let data = self.closer.get_or_init(|| closer(plant, [least, found], gain, watch).map(Box::new));
-        match data.as_deref() {
-            Some(data) => Ok(better(run, certified(data)?)),
-            None => Ok(run),
-        }
-    }
-}
-
-/// The one with the smaller gain of two runs, or at the same gain with the smaller bound of |e|, or with a gain at all; where neither has one, the
-/// one that comes closer to what is asked for.
-fn better<'s>(first: Certification<'s>, second: Certification<'s>) -> Certification<'s> {
-    let takes_second = match (first.claim().is_some(), second.claim().is_some()) {
-        (true, true) => second.is_better_than(&first),
-        (false, false) => second.closer_to_limits_than(&first),
-        (one, _) => !one,
-    };
-    let smallest_gain = [first.smallest_gain, second.smallest_gain].into_iter().flatten().reduce(f64::min);
-    let taken = if takes_second { second } else { first };
-    Certification { smallest_gain, ..taken }
 }
 
 /// What decides and samples bounds of the plant behind a specification, read from the copy of it that a certificate has.
@@ -366,9 +211,13 @@ impl Run<'_> {
         Ok(())
     }
 
-    /// Takes the claim back because the independent checker does not come to it: it refuses the certificate, or gives up.
-    pub fn is_not_decided_again(&mut self, refused: bool) {
-        let reason = Failing::NotDecidedAgain { refused };
+    /// Takes the claim back where the independent checker does not come to it.
+    pub fn answered(&mut self, checked: Checked) {
+        let reason = match checked {
+            Checked::Decided => return,
+            Checked::GivenUp => Failing::NotDecidedAgain { refused: false },
+            Checked::Refused => Failing::NotDecidedAgain { refused: true },
+        };
         match self {
             Run::Continuous(run) => run.take_back(reason),
             Run::Sampled(run) => run.take_back(reason),

@@ -47,7 +47,7 @@ fn values_are_above_random_points_and_near_them() {
     ];
     names.par_iter().step_by(if all { 1 } else { 3 }).for_each(|name| {
         let plant = shipped(name);
-        let reduced = reduce(&plant, None, &Unwatched).unwrap();
+        let reduced = reduce(&plant, Beside::Nothing, &Unwatched).unwrap();
         let (_, samples) = bounds_around(&plant, reduced.spec.plant().unwrap()).unwrap();
         let radius = reduced.spec.plant().unwrap().largest(|cell| &cell.orbit.radius).to_f64();
         let points = random_points(plant.states(), if all { 100_000 } else { 20_000 });
@@ -107,7 +107,7 @@ impl Watch for Heard {
 fn candidates_are_counted() {
     let tried = |name: &str| {
         let heard = Heard::default();
-        reduce(&shipped(name), None, &heard).unwrap();
+        reduce(&shipped(name), Beside::Nothing, &heard).unwrap();
         heard.tried.into_inner()
     };
     let (few, many) = (tried("linear"), tried("duffing"));
@@ -128,7 +128,7 @@ fn cells_gains_and_comparisons_are_counted() {
     let prepared = Prepared::watched(subject, None, &heard).unwrap();
     let tried = heard.tried.load(Ordering::Relaxed);
     assert!(tried > 0, "{tried}");
-    prepared.certify_watched(Options::default(), &heard).unwrap();
+    prepared.certify_checked(Options::default(), &|_| Checked::Decided, &heard).unwrap();
     let (_, parts) = heard.parts.into_inner().unwrap();
     assert!(parts.iter().any(|(stage, of)| *stage == Stage::Orbit && *of > 2), "{parts:?}");
     let mut searched = heard.searched.into_inner().unwrap();

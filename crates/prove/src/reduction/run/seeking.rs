@@ -1,6 +1,6 @@
 //! The smallest gain for which a claim has what is asked of it (derivation, 13.5, 13.6).
 
-use super::{Ask, Prepared, RestsOn, Run, Start, Subject, Watch};
+use super::{Ask, Checked, Prepared, RestsOn, Run, Start, Subject, Watch};
 use crate::certify::{Limits, Options};
 use rug::Rational;
 use sigmastar_exact::number::{Direction, round_f64};
@@ -99,7 +99,9 @@ impl Search<'_> {
     fn within_limits(&self) -> Result<Prepared, Vec<SpecErrors>> {
         let prepared = self.at(None)?.within(self.limits.clone(), self.watch);
         let certifies = |prepared: &Prepared| {
-            prepared.certify_watched(self.options, self.watch).is_ok_and(|run| run.certified().is_some())
+            prepared
+                .certify_checked(self.options, &|_| Checked::Decided, self.watch)
+                .is_ok_and(|run| run.certified().is_some())
         };
         let plant_at_samples = matches!(self.subject, Subject::Plant(_)) && self.subject.sampling().is_some();
         let has_other = plant_at_samples && !self.asks_for_norms() && !self.limits.is_empty();
@@ -155,7 +157,7 @@ impl Search<'_> {
 
     /// The gain that is certified with it, and the slowest rate.
     fn tried(&self, prepared: Prepared) -> (Prepared, Option<(Rational, Option<Rational>)>) {
-        let mut run = prepared.certify_watched(self.options, self.watch).ok();
+        let mut run = prepared.certify_checked(self.options, &|_| Checked::Decided, self.watch).ok();
         let sigma = run.as_ref().and_then(|run| Some(run.certified()?.sigma.clone()));
         let rate = run.as_mut().and_then(|run| run.slowest_rate(self.counts));
         drop(run);
