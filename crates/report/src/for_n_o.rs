@@ -6,7 +6,7 @@ use sigmastar_document::number::{estimate, exact};
 use sigmastar_document::{Block, Table};
 use sigmastar_exact::number::{Direction, write_exact};
 use sigmastar_lang::spec::Specification;
-use sigmastar_prove::certify::{Certification, SampledCertification};
+use sigmastar_prove::certify::{Certification, RowNoise, SampledCertification};
 use sigmastar_prove::rate::bound::RateBound;
 use sigmastar_prove::rate::found::ForCount;
 use sigmastar_prove::rate::noise::{NoNoiseBound, NoiseBound};
@@ -26,6 +26,7 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
         ),
         Block::Table(rates(&run.for_n_o)),
     ];
+    blocks.extend(not_proved(&run.for_n_o, &run.why_no_rate()));
     if run.matrix_arguments().is_some() && run.for_n_o.iter().any(|found| found.bound.is_none()) {
         blocks.push(Block::says(
             "The claim rests on a matrix inequality, and its rates on the first derivatives on the whole error box: where the loop would grow with \
@@ -34,6 +35,11 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
     }
     blocks.extend(noise_section(run));
     blocks
+}
+
+/// Why some of the rates are not proved.
+fn not_proved<P, Q>(found: &[ForCount<P, Q>], why: &str) -> Option<Block> {
+    found.iter().any(|found| found.bound.is_none()).then(|| Block::says(format!("Not proved: {why}.")))
 }
 
 /// The rates, one a line.
@@ -51,7 +57,41 @@ fn rates<P, Q>(found: &[ForCount<P, Q>]) -> Table {
 fn noise_section(run: &Certification<'_>) -> Vec<Block> {
     let words = format!("With {}, any measurable signals,", run.spec.disturbances.in_words());
     let said = Said { title: "Noise and disturbances", words, without: "them", decay: "lambda in 1/time", place: "" };
-    disturbed(run.spec, asked(&run.for_n_o, |proof| &proof.witness.rate), &said)
+    let asked = asked(&run.for_n_o, |proof| &proof.witness.rate);
+    let elsewhere = at_other_gains(&asked, (run.sigma_star(), &run.noise_of_rows));
+    let mut blocks = disturbed(run.spec, asked, &said);
+    blocks.extend(elsewhere);
+    blocks
+}
+
+/// By what share a deviation has to be smaller at another gain to be told.
+const LESS: f64 = 0.99;
+
+/// At which other gain of the table noise and a disturbance are bounded, where they are not at this one, and where the bound is least.
+fn at_other_gains(
+    asked: &[(u32, Result<Shown, NoNoiseBound>)],
+    (own, rows): (Option<&Rational>, &[RowNoise]),
+) -> Vec<Block> {
+    let mut blocks = Vec::new();
+    for (n_o, noise) in asked {
+        let there: Vec<&RowNoise> = rows.iter().filter(|row| row.n_o == *n_o && Some(&row.sigma) != own).collect();
+        let [first, least] = [there.first(), there.iter().min_by(|a, b| a.limit.cmp(&b.limit))];
+        let (Some(first), Some(least)) = (first, least) else { continue };
+        let at =
+            |row: &RowNoise| format!("{} at the gain {}", exact(&row.limit, Direction::Up), write_exact(&row.sigma));
+        let mut parts = Vec::new();
+        if noise.is_err() {
+            parts.push(format!("of the larger gains that are compared it is proved first with {}", at(first)));
+        }
+        let than = noise.as_ref().map_or(&first.limit, |own| &own.limit);
+        if least.limit.to_f64() < LESS * than.to_f64() {
+            parts.push(format!("the least in the limit that is proved is {}", at(least)));
+        }
+        if !parts.is_empty() {
+            blocks.push(Block::says(format!("n_o = {n_o}: {}.", parts.join("; "))));
+        }
+    }
+    blocks
 }
 
 /// The arithmetic of the law at samples.
@@ -147,13 +187,13 @@ fn limited_by(limit: Limit) -> String {
 }
 
 /// What was found as JSON; none where no number was asked about.
-pub(super) fn rates_json<P, Q>(found: &[ForCount<P, Q>]) -> Option<Value> {
-    (!found.is_empty()).then(|| found.iter().map(one_json).collect())
+pub(super) fn rates_json<P, Q>(found: &[ForCount<P, Q>], why_not: &str) -> Option<Value> {
+    (!found.is_empty()).then(|| found.iter().map(|found| one_json(found, why_not)).collect())
 }
 
-fn one_json<P, Q>(ForCount { n_o, bound, noise }: &ForCount<P, Q>) -> Value {
+fn one_json<P, Q>(ForCount { n_o, bound, noise }: &ForCount<P, Q>, why_not: &str) -> Value {
     let mut value = match bound {
-        None => json!({ "n_o": n_o, "rate": null, "factor": null, "limited_by": null }),
+        None => json!({ "n_o": n_o, "rate": null, "factor": null, "limited_by": format!("not proved: {why_not}") }),
         Some(RateBound { rate, factor, limit, .. }) => json!({
             "n_o": n_o, "rate": write_exact(rate), "factor": write_exact(factor), "limited_by": limited_by(*limit),
         }),
@@ -184,6 +224,7 @@ pub(super) fn sampled_section(run: &SampledCertification<'_>) -> Vec<Block> {
         Block::Table(rates(&run.for_n_o)),
     ]
     .into_iter()
+    .chain(not_proved(&run.for_n_o, &run.why_no_rate()))
     .chain(sampled_noise(run))
     .collect()
 }
@@ -200,5 +241,10 @@ fn sampled_noise(run: &SampledCertification<'_>) -> Vec<Block> {
     };
     let place = " at the sampling instants, between samples too the bound at all times";
     let said = Said { title, words, without, decay: "c of a sample", place };
-    disturbed(run.spec, asked(&run.for_n_o, |proof| &proof.witness.c), &said)
+    let asked = asked(&run.for_n_o, |proof| &proof.witness.c);
+    let own = run.claim().map(|proof| &proof.witness.sigma);
+    let elsewhere = at_other_gains(&asked, (own, &run.noise_of_rows));
+    let mut blocks = disturbed(run.spec, asked, &said);
+    blocks.extend(elsewhere);
+    blocks
 }

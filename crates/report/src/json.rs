@@ -68,7 +68,13 @@ pub(super) fn report(run: &Certification<'_>, consequences: Option<&Consequences
         ("plant", plant_json(run.spec, run.claimed_set())),
         ("printed", printed(run)),
         ("binding", json!(run.binding.map(Binding::describe))),
-        ("binding_advice", json!(run.binding.map(|binding| binding.advice(run.spec.plant().is_some())))),
+        (
+            "binding_advice",
+            json!(
+                run.binding
+                    .map(|binding| binding.advice(run.spec.plant().is_some(), run.spec.initial_set.is_aligned()))
+            ),
+        ),
         ("without_optional", without_optional(run)),
         ("sensitivities", sensitivities(run)),
         ("sigma_star_aligned_estimate", json!(run.alternatives.aligned.map(estimate))),
@@ -80,7 +86,7 @@ pub(super) fn report(run: &Certification<'_>, consequences: Option<&Consequences
     ] {
         report[name] = value;
     }
-    if let Some(rates) = rates_json(&run.for_n_o) {
+    if let Some(rates) = rates_json(&run.for_n_o, &run.why_no_rate()) {
         report["for_n_o"] = rates;
     }
     if let Some(actuator) = actuator(run.spec) {

@@ -165,11 +165,10 @@ fn obstacle_advice(run: &Certification<'_>, obstacle: Obstacle, add: &mut dyn Fn
     let domain = run.spec.domain.as_ref();
     match obstacle.failing {
         Failing::Magnitude(_) => add("units of time, x, e and q in which the numbers are of ordinary size"),
-        Failing::NotFinite(Some(bound)) if run.spec.plant().is_some() => {
-            add(&format!(
-                "of a plant {} is known as far as the smallest gain needs it: another gain, or the plant without this witness",
-                bound.field()
-            ));
+        Failing::Beyond { .. } => {
+            add(
+                "another gain, or the plant without this witness: its bounds are known as far as the smallest gain needs them",
+            );
         }
         Failing::NotFinite(Some(bound)) => {
             add(&smaller(run));
@@ -201,7 +200,8 @@ fn obstacle_advice(run: &Certification<'_>, obstacle: Obstacle, add: &mut dyn Fn
             if let Some(gain) = run.given_gain.as_ref().map(|_| other_gain(which)) {
                 add(gain);
             }
-            add(&format!("{}, or a smaller initial set", wider(which)));
+            add(wider(which));
+            run.divisor_that_keeps().iter().for_each(|divisor| add(&smaller_by(*divisor)));
         }
         Failing::NotDecidedAgain { refused } => add(again(refused)),
         Failing::Start { .. } => add(SMALLER_START),
@@ -227,6 +227,11 @@ pub(super) fn again(refused: bool) -> &'static str {
 
 /// What a limit below the start asks for.
 pub(super) const SMALLER_START: &str = "a smaller `E0`, or a limit above it";
+
+/// The smaller set from which a limit is kept.
+pub(super) fn smaller_by(divisor: u32) -> String {
+    format!("a smaller initial set: with all of its sizes divided by {divisor} the limit is kept")
+}
 
 /// What a rate that is not proved asks for.
 pub(super) const SLOWER: &str = "a smaller rate, or fewer oscillators";

@@ -19,7 +19,11 @@ pub fn remarks(run: &Certification<'_>) -> Vec<String> {
         let cause = far_above_its_samples(&run.spec.bounds.proved_values().entries).unwrap_or_else(|| {
             let of_plant = run.spec.plant().is_some();
             run.binding.map_or_else(String::new, |binding| {
-                format!(" It is set by {}. {}", binding.describe(), binding.advice(of_plant))
+                format!(
+                    " It is set by {}. {}",
+                    binding.describe(),
+                    binding.advice(of_plant, run.spec.initial_set.is_aligned())
+                )
             })
         });
         remarks.push(format!("Remark: sigma* is above 10^4 divided by the period.{cause}"));

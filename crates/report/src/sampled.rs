@@ -5,7 +5,8 @@ use super::for_n_o::{rates_json, sampled_section};
 use super::json::{actuator, bounds_json, conditions_with_truth, control, input_gain, interval_costs, targets_json};
 use super::limits;
 use super::obstacles::{
-    SLOWER, SMALLER_START, again, describe, first_failing, first_of, first_unproved, other_gain, rest_of, wider,
+    SLOWER, SMALLER_START, again, describe, first_failing, first_of, first_unproved, other_gain, rest_of, smaller_by,
+    wider,
 };
 use super::of_plant::plant_json;
 use super::remarks::sampled_remarks;
@@ -155,7 +156,8 @@ fn obstacle_advice(run: &SampledCertification<'_>, failing: Failing, add: &mut d
             if run.given_gain.is_some() {
                 add(other_gain(which));
             }
-            add(&format!("{}, a smaller initial set, or a shorter sampling period", wider(which)));
+            add(&format!("{}, or a shorter sampling period", wider(which)));
+            run.divisor_that_keeps().iter().for_each(|divisor| add(&smaller_by(*divisor)));
         }
         Failing::NotDecidedAgain { refused } => add(again(refused)),
         Failing::Start { .. } => add(SMALLER_START),
@@ -313,7 +315,7 @@ impl Readable for SampledReport<'_> {
             let [x, e, zeta, z] = periodic.each_ref().map(full);
             report["periodic_solution"] = json!({ "x": x, "e": e, "zeta": zeta, "z": z });
             report["control"] = control(run.control());
-            if let Some(rates) = rates_json(&run.for_n_o) {
+            if let Some(rates) = rates_json(&run.for_n_o, &run.why_no_rate()) {
                 report["for_n_o"] = rates;
             }
             if let Some(SampledConsequences { by_n_o, targets, most }) = &self.consequences {

@@ -18,7 +18,11 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
     let Some(binding) = run.binding else { return Vec::new() };
     let mut blocks = vec![
         Block::heading("What sets sigma* (estimates)"),
-        Block::says(format!("sigma* is set by {}. {}", binding.describe(), binding.advice(run.spec.plant().is_some()))),
+        Block::says(format!(
+            "sigma* is set by {}. {}",
+            binding.describe(),
+            binding.advice(run.spec.plant().is_some(), run.spec.initial_set.is_aligned())
+        )),
     ];
     blocks.extend(run.alternatives.by_norms.map(|sigma| {
         Block::says(format!(

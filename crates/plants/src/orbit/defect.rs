@@ -37,9 +37,14 @@ pub(super) fn bound(
     slopes: &Walk,
     inverse: &[Vec<Enclosure>],
 ) -> Result<Enclosure, OrbitNotProved> {
+    largest(&on_cells(curve, walk, slopes, inverse), curve.cells.count)
+}
+
+/// The same of each cell; not bounded where f is not smooth near one.
+fn on_cells(curve: &Curve, walk: &Walk, slopes: &Walk, inverse: &[Vec<Enclosure>]) -> Vec<Enclosure> {
     let cells = &curve.cells;
     let parameters = &curve.members.parameters;
-    let bounds: Vec<Enclosure> = parallel::numbered(cells.count, |cell| {
+    parallel::numbered(cells.count, |cell| {
         let states = curve.states(cell, ORDER + 1);
         let f = curve.along(walk, cell, (&states, &parameters.nominal), ORDER);
         let difference = [0, 1].map(|which| -> Vec<Taylor> {
@@ -56,8 +61,14 @@ pub(super) fn bound(
             along.iter().zip(&parameters.reaches).fold(own, |sum, (part, reach)| sum + bound(part) * reach)
         });
         norm(components, PRECISION)
-    });
-    largest(&bounds, cells.count)
+    })
+}
+
+/// The middle of the cell with the largest bound, in periods.
+pub(super) fn worst(curve: &Curve, walk: &Walk, slopes: &Walk, inverse: &[Vec<Enclosure>]) -> f64 {
+    let bounds: Vec<f64> = on_cells(curve, walk, slopes, inverse).iter().map(Enclosure::upper_f64).collect();
+    let worst = (0..bounds.len()).max_by(|a, b| bounds[*a].total_cmp(&bounds[*b])).unwrap_or_default();
+    (worst as f64 + 0.5) / curve.cells.count as f64
 }
 
 /// D_i for each parameter.

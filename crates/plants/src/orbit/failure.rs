@@ -107,6 +107,24 @@ pub enum OrbitNotProved {
         /// Where, in periods.
         s: f64,
     },
+    /// The defect is small at sampled times, and between them f changes too fast for what is proved of it.
+    #[error(
+        "f(t,xb,0) changes so fast near t/T = {} that {cells} steps of a period do not resolve it: at sampled times the orbit that was found has the \
+         defect {}, and what is proved of it between them is {}",
+        short(*s),
+        short(*sampled),
+        short(*proved)
+    )]
+    NotResolved {
+        /// Where, in periods.
+        s: f64,
+        /// The steps.
+        cells: usize,
+        /// The defect at sampled times.
+        sampled: f64,
+        /// The bound of it.
+        proved: f64,
+    },
     /// `(c/alpha) eps <= r < rho` fails for every tube that was tried.
     #[error("the defect {} is too large for every tube in which the contraction is proved: r would be {}", short(*defect), short(*radius))]
     DefectTooLarge {
@@ -144,6 +162,23 @@ pub enum OrbitNotProved {
     /// P is not proved to be positive definite and bounded.
     #[error("p_low I <= P(t) <= p_up I is not proved: {0}")]
     Bounds(String),
+}
+
+impl OrbitNotProved {
+    /// What to try.
+    #[must_use]
+    pub fn way_out(&self) -> &'static str {
+        match self {
+            OrbitNotProved::NotResolved { .. } => {
+                "the periodic solution may well exist; other units change nothing. A corner of a right side that is hardly rounded, or a switch, has \
+                 to be wider for this proof (and is another model then)"
+            }
+            OrbitNotProved::DefectTooLarge { .. } => {
+                "right sides that are smoother in t along the orbit, or a larger rate of the zero dynamics: the radius is the defect over that rate"
+            }
+            _ => "write the plant in units in which its numbers are of ordinary size",
+        }
+    }
 }
 
 /// A number of a message, in few digits.

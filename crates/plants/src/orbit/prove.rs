@@ -3,7 +3,7 @@
 use super::cells::{Wave, enclose};
 use super::coordinates::Coordinates;
 use super::curve::{Curve, MAX_HARMONICS, PRECISION};
-use super::defect::{CELLS, CLOSE, ORDER, bound, first_exponent};
+use super::defect::{CELLS, CLOSE, ORDER, bound, first_exponent, worst};
 use super::failure::OrbitNotProved;
 use super::linear::enclosed;
 use super::members::Members;
@@ -33,6 +33,9 @@ const ROOM: [f64; 3] = [1e-6, 1e-4, 1e-2];
 
 /// Significant digits of the numbers of the proof.
 const DIGITS: u32 = 6;
+
+/// A defect that is proved to be so many times what it is at sampled times is not resolved.
+const UNRESOLVED: f64 = 100.0;
 
 /// The least defect that is stated, so that it is positive.
 const LEAST_DEFECT: f64 = 1e-30;
@@ -147,6 +150,16 @@ impl<'a> Around<'a> {
             }
         }
         best
+    }
+
+    /// Why a defect that is proved is too large, where that is not `sampled`, the one at sampled times.
+    fn too_large(&self, proved: f64, sampled: f64, radius: f64) -> OrbitNotProved {
+        if proved <= UNRESOLVED * sampled.max(LEAST_DEFECT) {
+            return OrbitNotProved::DefectTooLarge { defect: proved, radius };
+        }
+        let curve = self.curve(*CELLS.end(), std::iter::empty());
+        let s = worst(&curve, &self.f, &self.slopes, &self.inverse);
+        OrbitNotProved::NotResolved { s, cells: curve.cells.count, sampled, proved }
     }
 
     fn prove_rate(&self, alpha: &Rational, tube: &Rational) -> Result<(), OrbitNotProved> {
@@ -265,9 +278,9 @@ pub fn prove_orbit_at(
                 Err(reason) => failure = Some(reason),
             }
         }
-        failure = failure.or(Some(OrbitNotProved::DefectTooLarge { defect: proved, radius: radius.to_f64() }));
+        failure = failure.or_else(|| Some(around.too_large(proved, sampled.defect, radius.to_f64())));
     }
-    Err(failure.unwrap_or(OrbitNotProved::DefectTooLarge { defect: proved, radius: f64::INFINITY }))
+    Err(failure.unwrap_or_else(|| around.too_large(proved, sampled.defect, f64::INFINITY)))
 }
 
 /// The proofs of the orbits of cells of a family, with one alpha, p_low and p_up, which serve in each of them (derivation, 13.2).

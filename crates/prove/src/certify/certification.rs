@@ -7,6 +7,7 @@ use super::no_plant::NoPlant;
 use super::options::{Limits, Options};
 use super::pool::is_better;
 use super::proof::{Decided, Outcome, Proof, RepairedProof, SharpProof};
+use super::row_noise::RowNoise;
 use super::verdict::Verdict;
 use crate::rate::found::RateForCount;
 use crate::search::{Binding, Datum, Failing, Obstacle, OptionalDatum};
@@ -109,6 +110,8 @@ pub struct Certification<'s> {
     pub interval_costs: Vec<(String, Option<f64>)>,
     /// Bounds at the gain of the claim and at larger ones; empty without a claim, with an actuator, and where no search was made.
     pub gains: Vec<GainRow>,
+    /// What is proved of noise at the gains of these rows, for the numbers of oscillators that were asked about.
+    pub noise_of_rows: Vec<RowNoise>,
     /// Bounding functions that were neither proved nor refuted.
     pub unproved_bounds: Vec<BoundingProblem>,
     /// Every constant in the three derivations.
@@ -155,9 +158,12 @@ impl Certification<'_> {
     /// Whether this run, without a claim, comes closer to what was to be kept than another one.
     #[must_use]
     pub fn closer_to_limits_than(&self, other: &Certification<'_>) -> bool {
+        // What a claim keeps to comes first.
         let missed = |run: &Certification<'_>| match &run.sharp {
-            Outcome::NotFound(Obstacle { failing: Failing::Limit { asked, least, .. }, .. }) => least / asked,
-            _ => f64::INFINITY,
+            Outcome::NotFound(Obstacle { failing: Failing::Limit { asked, least, proved, .. }, .. }) => {
+                (!proved, least / asked)
+            }
+            _ => (true, f64::INFINITY),
         };
         missed(self) < missed(other)
     }

@@ -5,7 +5,7 @@ use super::round::rounded_sigma;
 use crate::search::{Failing, Goal, Largest, Limited, Obstacle};
 use rug::Rational;
 use sigmastar_exact::number::Portable;
-use sigmastar_lang::spec::{Constant, Specification};
+use sigmastar_lang::spec::{Actuator, Constant, Specification};
 
 /// What a claim is to keep to in floating point, with what the actuator takes.
 #[derive(Clone, Copy, Debug)]
@@ -20,7 +20,7 @@ pub(super) struct FloatLimits {
 /// The gains of a search, over the smallest one.
 const SHARES: [f64; 15] = [1.0, 1.02, 1.05, 1.1, 1.2, 1.35, 1.5, 1.75, 2.0, 2.5, 3.0, 4.0, 5.0, 7.0, 10.0];
 
-/// So many doublings more where only bounds are asked for that fall with the gain.
+/// So many doublings more: all of them where only bounds are asked for that fall with the gain, else while what is missed falls.
 const DOUBLINGS: i32 = 40;
 
 /// Steps of the bisection between a gain that does not do and one that does.
@@ -117,7 +117,7 @@ impl FloatLimits {
         }
         let rounded = |sigma: f64| rounded_sigma(sigma, 0.0).map_or(sigma, |sigma| sigma.to_f64()).min(largest);
         let falls = !self.has(Limited::Control) && !self.has(Limited::Actuator);
-        let further = (1..=DOUBLINGS).map(|k| 10.0 * 2f64.portable_powi(k)).filter(|_| falls);
+        let further = (1..=DOUBLINGS).map(|k| 10.0 * 2f64.portable_powi(k));
         let gains: Vec<f64> = match given {
             true => vec![least],
             false => SHARES.into_iter().chain(further).map(|share| rounded(least * share)).collect(),
@@ -125,15 +125,18 @@ impl FloatLimits {
         let mut closest: Option<Missed> = None;
         let mut obstacle = None;
         let mut below = None;
-        for sigma in gains {
+        for (tried, sigma) in gains.into_iter().enumerate() {
             match self.best(sigma, &at) {
                 Ok(found) if found.missed.share() <= 1.0 - room => {
                     let Some(below) = below else { return Ok(found) };
                     return Ok(self.between(below, found, room, rounded, &at));
                 }
                 Ok(found) => {
-                    if closest.is_none_or(|known| found.missed.share() < known.share()) {
+                    let closer = closest.is_none_or(|known| found.missed.share() < known.share());
+                    if closer {
                         closest = Some(found.missed);
+                    } else if tried >= SHARES.len() && !falls {
+                        break;
                     }
                 }
                 Err(reason) => obstacle = obstacle.or(Some(reason)),
@@ -171,6 +174,23 @@ impl FloatLimits {
         }
         found
     }
+}
+
+/// The same question with another value of one limit.
+pub(super) fn with_limit(
+    spec: &Specification,
+    limits: &Limits,
+    which: Limited,
+    value: &Rational,
+) -> (Specification, Limits) {
+    let (mut spec, mut limits) = (spec.clone(), limits.clone());
+    match which {
+        Limited::SteadyError => limits.steady_error = Some(value.clone()),
+        Limited::PeakError => limits.peak_error = Some(value.clone()),
+        Limited::Control => limits.control = Some(value.clone()),
+        Limited::Actuator => spec.actuator = Some(Actuator { max: Constant::rational(value) }),
+    }
+    (spec, limits)
 }
 
 /// A proposal, what its error box is chosen for, and the limit that it comes closest to.
@@ -213,6 +233,6 @@ impl Missed {
 
     fn failing(self) -> Failing {
         let Missed { which, asked, least, sigma } = self;
-        Failing::Limit { which, asked, least, sigma }
+        Failing::Limit { which, asked, least, sigma, proved: false }
     }
 }

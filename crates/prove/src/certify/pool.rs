@@ -77,6 +77,11 @@ impl<'s> Member<'s> {
         Member { spec, data, options, least }
     }
 
+    /// The same data about a specification that differs in what is to be kept alone.
+    pub(super) fn about<'t>(&self, spec: &'t Specification) -> Member<'t> {
+        Member::new(spec, self.least.iter().find_map(|least| least.proposal.as_ref().ok()), self.options)
+    }
+
     /// The proof with the smallest gain.
     pub(super) fn smallest(&self) -> Option<&SharpProof> {
         let proofs = self.least.iter().filter_map(Least::proved);

@@ -4,6 +4,7 @@ use super::bounding::{BoundingProblem, prove_on_domain, prove_up_to};
 use super::certification::{Alternatives, Certification, ExactClaim, PrintedFigure, RelativeDegreeGains};
 use super::constants::Columns;
 use super::decide::{decide, decide_exact};
+use super::least_limit::with_least_kept;
 use super::matrix_checks::MatrixChecks;
 use super::no_plant::no_plant;
 use super::options::{Limits, Options};
@@ -13,7 +14,9 @@ use super::refusal::Refusal;
 use super::round::{TransferKind, exact_claim, round_repaired};
 use super::sensitivity::{aligned, ranked, with_nominal_gain};
 use super::verdict::Verdict;
-use crate::search::{Failing, FloatModel, Goal, SharpProposal, search_printed, search_repaired, without_optional_data};
+use crate::search::{
+    Failing, FloatModel, Goal, Obstacle, SharpProposal, search_printed, search_repaired, without_optional_data,
+};
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, round_f64};
@@ -85,6 +88,18 @@ pub fn certify_member<'s>(
         Ok(proposal) => round_repaired(data, &paper_model, &proposal, options.ladder).into(),
     });
     let BestSharp { model: sharp_model, proposal, outcome: sharp, smallest_gain } = member.best(asked);
+    let sharp = match sharp {
+        Outcome::NotFound(Obstacle { failing, at }) if options.compare => {
+            let none = Limits::default();
+            let failing = with_least_kept(spec, asked.limits.unwrap_or(&none), failing, |spec, limits, _| {
+                let found = member.about(spec).best(Wanted { limits: Some(limits), ..asked }).outcome;
+                let proved = proved_up_to_arguments(spec, found, None).ok()?;
+                proved.proved().map(|proof| proof.witness.sigma.to_f64())
+            });
+            Outcome::NotFound(Obstacle { failing, at })
+        }
+        sharp => sharp,
+    };
     // Figures about the smallest gain say nothing about one that is given.
     let limited = spec.actuator.is_some() || asked.limits.is_some_and(|limits| !limits.is_empty());
     let proposal = proposal.filter(|_| asked.gain.is_none() && !limited);
@@ -210,6 +225,7 @@ fn assemble<'s>(
         interval_costs: Vec::new(),
         without_optional,
         gains: Vec::new(),
+        noise_of_rows: Vec::new(),
         unproved_bounds: unproved,
         constants: constants.rows,
         for_n_o: Vec::new(),

@@ -15,7 +15,7 @@ use crate::rate::sampled::rounding::measured;
 use crate::search::Failing;
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
-use sigmastar_exact::number::write_exact;
+use sigmastar_exact::number::{Direction, round_f64, write_exact};
 use sigmastar_exact::parallel;
 use sigmastar_lang::spec::{MatrixInequality, Specification};
 use sigmastar_plants::bounds::{Engine, FloatSuprema};
@@ -30,8 +30,6 @@ use sigmastar_theory::derivation::stability::level_condition;
 pub enum NoRatesOfClaim {
     /// It is about the regulator at samples with a delay.
     WithDelay,
-    /// Its stability at samples is proved by (Ms).
-    BySampledMatrix,
     /// This number is not below half of these samples.
     NotBelowHalf(u32, u32),
     /// It rests on the derivatives of a plant, which could not be had again from its formulas.
@@ -49,11 +47,6 @@ impl NoRatesOfClaim {
         match self {
             NoRatesOfClaim::WithDelay => {
                 format!("{option}: not available with `delay_samples`: rates at samples are of the law without a delay")
-            }
-            NoRatesOfClaim::BySampledMatrix => {
-                format!(
-                    "{option}: not available for a claim by (Ms): rates at samples are proved from norms of the error system, which it does not have"
-                )
             }
             NoRatesOfClaim::NotBelowHalf(n_o, samples) => {
                 format!(
@@ -82,7 +75,7 @@ impl NoRatesOfClaim {
         match self {
             NoRatesOfClaim::WithDelay => "leave it or the delay out",
             NoRatesOfClaim::NotBelowHalf(..) => "ask for smaller numbers, or take a shorter sampling period",
-            NoRatesOfClaim::BySampledMatrix | NoRatesOfClaim::OfFormulas => {
+            NoRatesOfClaim::OfFormulas => {
                 "leave it out; a bounding specification of the plant (`sigmastar bound`) has a claim by norms"
             }
             NoRatesOfClaim::TooMany(_) => "ask for fewer, or write several certificates",
@@ -136,7 +129,14 @@ impl Certification<'_> {
         self.for_n_o = for_n_o(self.spec, proof, &counts);
         self.make_room(&counts);
         self.set_rates_of_rows(&counts, None);
+        self.set_noise_of_rows(&counts);
         Ok(())
+    }
+
+    /// Why a rate that was asked about is not proved.
+    #[must_use]
+    pub fn why_no_rate(&self) -> String {
+        NO_DECAY.to_owned()
     }
 
     /// The same of a claim that rests on the derivatives of a plant, by what decides and samples them around its orbit; of noise nothing is
@@ -167,6 +167,19 @@ impl Certification<'_> {
         self.set_rates_of_rows(&counts, Some(engine.states()));
         Ok(())
     }
+}
+
+/// Why a rate is not proved from the error box.
+const NO_DECAY: &str = "no decay was found that is proved for all derivatives of the error box at this gain";
+
+/// A gain for words, to six digits.
+fn shown(sigma: f64) -> String {
+    round_f64(sigma, 6, Direction::Up).as_ref().map_or_else(|| sigma.to_string(), write_exact)
+}
+
+/// Whether stability at samples is proved by (Ms).
+pub(super) fn by_sampled_matrix(spec: &Specification, proof: &SampledProof) -> bool {
+    sampled::matrix_inequality::proved_for(&Data::new(spec, proof.precision), &proof.witness).is_some()
 }
 
 /// X and E of the inequality by which stability is proved in a proof.
@@ -328,14 +341,31 @@ impl SampledCertification<'_> {
             self.for_n_o = Vec::new();
             return Ok(());
         };
-        let data = Data::new(self.spec, proof.precision);
-        if sampled::matrix_inequality::proved_for(&data, &proof.witness).is_some() {
-            return Err(NoRatesOfClaim::BySampledMatrix);
+        if by_sampled_matrix(self.spec, proof) {
+            // It has no norms of the error system, from which rates are proved at samples.
+            let noise = || self.spec.disturbances.any_at_samples().then_some(Err(NoNoiseBound::ByMatrices));
+            self.for_n_o =
+                counts.iter().map(|n_o| SampledRateForCount { n_o: *n_o, bound: None, noise: noise() }).collect();
+        } else {
+            self.for_n_o = for_n_o_at_samples(self.spec, proof, &counts);
+            self.make_room(&counts);
         }
-        self.for_n_o = for_n_o_at_samples(self.spec, proof, &counts);
-        self.make_room(&counts);
         self.set_rates_of_rows(&counts);
+        self.set_noise_of_rows(&counts);
         Ok(())
+    }
+
+    /// Why a rate that was asked about is not proved.
+    #[must_use]
+    pub fn why_no_rate(&self) -> String {
+        if !self.claim().is_some_and(|proof| by_sampled_matrix(self.spec, proof)) {
+            return NO_DECAY.to_owned();
+        }
+        let from = match self.norms_from {
+            Some(sigma) => format!("they prove a claim at the gain {}", shown(sigma)),
+            None => "they prove no claim at this gain".to_owned(),
+        };
+        format!("the claim rests on (Ms), and rates at samples are proved from norms: {from}")
     }
 
     /// The sentences of the claim about them, each with a space before it.

@@ -3,6 +3,7 @@
 use super::bounding::{BoundingProblem, prove_on_domain, prove_up_to};
 use super::decide::decide;
 use super::gain_row::GainRow;
+use super::least_limit::with_least_kept;
 use super::limits::{FloatLimits, NEAR, ROOMS};
 use super::no_plant::{NoPlant, no_plant};
 use super::options::{Ladder, Limits};
@@ -14,6 +15,7 @@ use super::round::{
     LONG_DIGITS, RoundedBox, SHORT_DIGITS, box_with, claimed_set, first_proved, nearest, room, rounded_box,
     rounded_sigma,
 };
+use super::row_noise::RowNoise;
 use super::verdict::Verdict;
 use crate::rate::found::SampledRateForCount;
 use crate::search::{
@@ -59,6 +61,10 @@ pub struct SampledCertification<'s> {
     pub interval_costs: Vec<(String, Option<f64>)>,
     /// Bounds at the gain of the claim and at larger ones; empty without a claim, with an actuator, and where nothing is compared.
     pub gains: Vec<GainRow>,
+    /// What is proved of noise at the gains of these rows, for the numbers of oscillators that were asked about.
+    pub noise_of_rows: Vec<RowNoise>,
+    /// About the gain at which norms prove a claim, where this one rests on (Ms), has another gain and that was looked for.
+    pub norms_from: Option<f64>,
     /// Rates for the numbers of oscillators that were asked about.
     pub for_n_o: Vec<SampledRateForCount>,
 }
@@ -197,7 +203,19 @@ pub fn certify_sampled_within<'s>(
         }
         (Ok(least), Some(within)) => {
             let keep = Keep { limits, within, least, start };
-            (kept(&data, (sampling, &law), &model, keep, gain, ladder), None)
+            let outcome = match kept(&data, (sampling, &law), &model, keep, gain, ladder) {
+                Outcome::NotFound(Obstacle { failing, at }) => {
+                    let failing = with_least_kept(spec, limits, failing, |spec, limits, within| {
+                        let data = Data::new(spec, data.precision);
+                        let found =
+                            kept(&data, (sampling, &law), &model, Keep { limits, within, least, start }, gain, ladder);
+                        found.proved().map(|proof| proof.witness.sigma.to_f64())
+                    });
+                    Outcome::NotFound(Obstacle { failing, at })
+                }
+                outcome => outcome,
+            };
+            (outcome, None)
         }
     };
     let run = assemble(spec, sampling, gain, (outcome, found), unproved)?;
@@ -337,6 +355,8 @@ fn assemble<'s>(
         unproved_bounds: unproved,
         interval_costs: Vec::new(),
         gains: Vec::new(),
+        noise_of_rows: Vec::new(),
+        norms_from: None,
         for_n_o: Vec::new(),
     })
 }

@@ -1,11 +1,13 @@
 //! A smaller initial set for which a specification is certified that is not certified as it is.
 
 use super::certification::Certification;
-use super::options::{Options, TransferChoice};
-use super::produce::certify;
+use super::options::{Ladder, Options, TransferChoice};
+use super::pool::Wanted;
+use super::produce::{certify, certify_for};
+use super::sampled::{SampledCertification, certify_sampled_within};
 use crate::search::{FloatModel, smaller_set};
 use rug::Rational;
-use sigmastar_exact::number::{Direction, round_rational};
+use sigmastar_exact::number::{Direction, round_f64, round_rational};
 use sigmastar_lang::spec::model::{Constant, InitialSet, Specification};
 use sigmastar_theory::data::Data;
 use sigmastar_theory::transfer::TradeOff;
@@ -13,6 +15,9 @@ use sigmastar_theory::transfer::TradeOff;
 /// The shares, in percent, of a proposed size that are certified in turn until one succeeds: the search that proposes and
 /// the one that certifies differ by rounding alone, so the first nearly always does.
 const SHARES: [u32; 6] = [100, 98, 95, 90, 75, 50];
+
+/// By what all sizes of a set are divided, in turn, where limits are not kept.
+const DIVISORS: [u32; 3] = [2, 8, 64];
 
 /// Digits of the sizes, and of their share of what was asked for.
 const DIGITS: u32 = 3;
@@ -35,7 +40,47 @@ pub enum SmallerChoice {
     Proposed(Option<InitialSet<Rational>>),
 }
 
+/// The set with all sizes that it states divided, rounded up; `None` where it states none.
+fn divided(set: &InitialSet, divisor: u32) -> Option<InitialSet> {
+    let mut states = false;
+    let set = set.map_each(|_, size| {
+        let size = size.to_f64() / f64::from(divisor);
+        states |= size > 0.0;
+        Constant::rational(&round_f64(size, DIGITS, Direction::Up).unwrap_or_default())
+    });
+    states.then_some(set)
+}
+
+impl SampledCertification<'_> {
+    /// [`Certification::divisor_that_keeps`] at samples.
+    #[must_use]
+    pub fn divisor_that_keeps(&self) -> Option<u32> {
+        DIVISORS.into_iter().find(|divisor| {
+            let Some(initial_set) = divided(&self.spec.initial_set, *divisor) else { return false };
+            let spec = Specification { initial_set, ..self.spec.clone() };
+            let asked = (self.given_gain.as_ref(), &self.limits);
+            let run = certify_sampled_within(&spec, &self.sampling, asked, None, Ladder::default());
+            run.is_ok_and(|run| run.claim().is_some())
+        })
+    }
+}
+
 impl Certification<'_> {
+    /// The first of a few numbers by which all sizes of the initial set can be divided for the limits to be kept that are not kept from the set
+    /// itself; `None` where none of them does, and where the set states no sizes. Bounds of a plant hold for its smaller sets, too.
+    ///
+    /// Guarantee: with it a claim that keeps to the limits is proved.
+    #[must_use]
+    pub fn divisor_that_keeps(&self) -> Option<u32> {
+        DIVISORS.into_iter().find(|divisor| {
+            let Some(initial_set) = divided(&self.spec.initial_set, *divisor) else { return false };
+            let spec = Specification { initial_set, ..self.spec.clone() };
+            let wanted = Wanted { gain: self.given_gain.as_ref(), limits: Some(&self.limits), start: None };
+            let run = certify_for(&spec, Options { compare: false, ..self.options }, wanted);
+            run.is_ok_and(|run| run.claim().is_some())
+        })
+    }
+
     /// The largest smaller initial set that is certified: a size is proposed in floating point, to about 1 %, and certified
     /// as `certify` of a file with that set does it.
     ///

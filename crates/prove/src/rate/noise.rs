@@ -114,7 +114,8 @@ impl NoNoiseBound {
             }
             NoNoiseBound::NotFound => "not proved: no Pi was found".to_owned(),
             NoNoiseBound::LeavesBox { limit, .. } => format!(
-                "not proved: e may deviate by about {}, for which the error box has no room; a larger gain makes room, as a rule",
+                "not proved: e may deviate by about {}, for which the error box has no room; a box that has asks for a larger gain, which lets \
+                 less of a disturbance through and more of the noise",
                 shown(limit)
             ),
             NoNoiseBound::BeyondDoubles { what, size } => format!(

@@ -76,13 +76,12 @@ impl CoordinateSearch<'_> {
     }
 
     /// The best choice near a known one, of another search for the same plant. A search that is at a gain above `limit` before it looks at
-    /// many samples is given up.
+    /// many samples is given up; so is one that is not smaller than `by_norms` by what is worth it.
     ///
     /// # Errors
-    /// The obstacle, where no gain is found, or none that is smaller by what is worth it.
-    pub fn choose_near(&self, known: &Start, limit: f64) -> Result<Chosen, Obstacle> {
-        let proposal = &known.proposal;
-        let too_large = || Obstacle::from(Failing::Gain { given: proposal.sigma, smallest: None });
+    /// The obstacle, where no such gain is found.
+    pub fn choose_near(&self, known: &Start, by_norms: f64, limit: f64) -> Result<Chosen, Obstacle> {
+        let too_large = || Obstacle::from(Failing::Gain { given: known.proposal.sigma, smallest: None });
         let mut at = known.clone();
         // Where L is not varied, the third descent would repeat the second.
         let descents = if at.l.nrows() > MOST_STATES { TURNS } else { TURNS + 1 };
@@ -95,8 +94,8 @@ impl CoordinateSearch<'_> {
             }
             let varied = if turn == 0 { Varied::Shape } else { Varied::Coordinates };
             at = self.descend(&at, varied).ok_or_else(too_large)?;
-            let hopeless = at.proposal.binding == Binding::Existence && at.proposal.sigma > NEARLY * proposal.sigma;
-            if hopeless || at.proposal.sigma > FAR * proposal.sigma {
+            let hopeless = at.proposal.binding == Binding::Existence && at.proposal.sigma > NEARLY * by_norms;
+            if hopeless || at.proposal.sigma > FAR * by_norms {
                 return Err(too_large());
             }
             if best.as_ref().is_none_or(|best| at.proposal.sigma < best.proposal.sigma) {
@@ -110,7 +109,7 @@ impl CoordinateSearch<'_> {
         let at = best.ok_or_else(too_large)?;
         let closer = self.descend(&Start { room: CLOSE, ..at.clone() }, Varied::Coordinates);
         let at = closer.filter(|closer| closer.proposal.sigma < at.proposal.sigma).unwrap_or(at);
-        if at.proposal.sigma > limit.min(WORTH_A_MATRIX * proposal.sigma) {
+        if at.proposal.sigma > limit.min(WORTH_A_MATRIX * by_norms) {
             return Err(too_large());
         }
         let found = self.at_many_samples(&at)?;

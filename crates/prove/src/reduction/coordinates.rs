@@ -72,6 +72,10 @@ const TOGETHER: Descent = Descent { restarts: 1, iterations: 120, tolerance: 1e-
 /// How far above a gain the arguments are taken.
 pub(super) const NEAR: f64 = 1e-9;
 
+/// The gains at which the points that matter are looked for, over that of a proposal, in turn: what few points promise need not be there at
+/// more.
+const WHERE_IT_MATTERS: [f64; 5] = [1.0, 1.05, 1.25, 2.0, 4.0];
+
 /// What a P of existence must take from sigma* to be worth its room in a certificate.
 const WORTH: f64 = 1e-3;
 
@@ -306,9 +310,8 @@ impl CoordinateSearch<'_> {
         };
         // The P of stability as another one, to begin with.
         let second = second.clone().or_else(|| (of_second > 0).then(|| DMatrix::identity(n, n)));
-        let density = self
-            .focus(Shape { l, second: second.as_ref(), energy }, proposal)
-            .map_or(Density::Coarse, Density::Focused);
+        let focus = self.focus_near(Shape { l, second: second.as_ref(), energy }, proposal).ok()?;
+        let density = focus.map_or(Density::Coarse, Density::Focused);
         let of_shape = if self.by_matrix.is_some() { 2 } else { 0 };
         // Where L stays, what was sampled serves again.
         let same =
@@ -375,6 +378,22 @@ impl CoordinateSearch<'_> {
         Ok(estimates.extreme(&[[set.x_p, set.e_p], error_box], inequality))
     }
 
+    /// The same near a proposal, at the first of a few gains at which there are such points; none where every point is looked at instead.
+    ///
+    /// # Errors
+    /// The obstacle, where there are none and pairs of points would have to be sought anew for every candidate, which takes minutes.
+    fn focus_near(&self, shape: Shape<'_>, known: &SharpProposal) -> Result<Option<Focus>, Obstacle> {
+        let mut first = None;
+        for more in WHERE_IT_MATTERS {
+            match self.focus(shape, &SharpProposal { sigma: known.sigma * more, ..*known }) {
+                Ok(focus) => return Ok(Some(focus)),
+                Err(obstacle) => first = first.or(Some(obstacle)),
+            }
+        }
+        let in_pairs = self.by_matrix.is_some_and(|path| path != Path::Straight);
+        first.filter(|_| in_pairs).map_or(Ok(None), Err)
+    }
+
     /// The choice with a P of existence of its own, where that is worth it.
     pub(super) fn with_second(&self, single: Chosen) -> Chosen {
         if !(2..=MOST_STATES).contains(&single.l.nrows()) {
@@ -397,7 +416,7 @@ impl CoordinateSearch<'_> {
     /// # Errors
     /// The obstacle, where no gain is found.
     pub fn with(&self, shape: Shape<'_>, near: Option<&SharpProposal>) -> Result<Chosen, Obstacle> {
-        let focus = near.and_then(|known| self.focus(shape, known).ok());
+        let focus = near.map_or(Ok(None), |known| self.focus_near(shape, known))?;
         let model = self.model(shape, &Density::Fine(focus.and_then(|focus| focus.corners)));
         let reshaped = |known: &SharpProposal, [of_rho, of_eta]: [f64; 2]| {
             let SharpParameters { rho, eta, .. } = known.parameters;
@@ -413,8 +432,9 @@ impl CoordinateSearch<'_> {
                     found.min_by(|a, b| a.sigma.total_cmp(&b.sigma)).ok_or(obstacle)
                 })?
             }
-            Some(known) => search_sharp_near(&model, known).or_else(|_| search_sharp(&model))?,
-            None => search_sharp(&model)?,
+            // What few samples promise may be far from what there is, and without states a search takes next to nothing.
+            Some(known) if shape.l.nrows() > 0 => search_sharp_near(&model, known).or_else(|_| search_sharp(&model))?,
+            _ => search_sharp(&model)?,
         };
         let proposal = best_shape_near(&model, proposal);
         let Shape { l, second, energy } = shape;

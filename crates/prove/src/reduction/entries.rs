@@ -21,6 +21,9 @@ const DIGITS: u32 = 8;
 /// What is tried, as powers of ten, where a bound that is 0 on the orbit itself is so small that nothing sets its size.
 const SMALL: [i32; 8] = [-15, -12, -9, -6, -3, 0, 3, 6];
 
+/// Without states a bound holds for every X, and is stated so far: the shape of an error box is then free.
+const WITHOUT_STATES: u32 = 1_000_000;
+
 /// Boxes that a proof of a small value may take.
 const SMALL_EFFORT: usize = 1 << 10;
 
@@ -150,6 +153,33 @@ impl Needed {
         [larger(&self.x_p, &self.x_b), larger(&self.e_p, &self.e_b)]
     }
 
+    /// With every X as far as nothing is in the way of it where there are no states.
+    fn without_states(&self) -> Needed {
+        let far = |x: &Rational| Rational::from(x * WITHOUT_STATES);
+        let Needed { e_p, e_per, e_b, paths, second, by_joint, .. } = self;
+        let inequality = self.inequality.clone().map(|known| MatrixInequality { x: far(&known.x), ..known });
+        let existence = self.existence.clone().map(|known| ExistenceInequality { x: far(&known.x), ..known });
+        let SampledInequalities { stability: of_box, existence: of_set } = self.at_samples.clone();
+        let at_samples = SampledInequalities {
+            stability: of_box.map(|known| SampledInequality { x: far(&known.x), ..known }),
+            existence: of_set.map(|known| SampledExistence { x: far(&known.x), ..known }),
+        };
+        Needed {
+            x_p: far(&self.x_p),
+            x_per: far(&self.x_per),
+            x_b: far(&self.x_b),
+            e_p: e_p.clone(),
+            e_per: e_per.clone(),
+            e_b: e_b.clone(),
+            paths: *paths,
+            second: *second,
+            by_joint: *by_joint,
+            inequality,
+            existence,
+            at_samples,
+        }
+    }
+
     /// Which bound is used where (derivation, 11.3).
     fn list(&self) -> Vec<(Bound, Rational, Rational)> {
         let Needed { x_p, e_p, second, .. } = self;
@@ -184,6 +214,8 @@ pub(super) fn prove_all(
     watch: &dyn Watch,
 ) -> Result<ProvedValues, PlantRefusal> {
     watch.enter(Stage::Bounds);
+    let wide = (engine.states() == 0).then(|| needed.without_states());
+    let needed = wide.as_ref().unwrap_or(needed);
     let inequality = || match &needed.inequality {
         None => Ok(None),
         Some(wanted) => {

@@ -51,6 +51,11 @@ impl<V> Grid<V> {
         Grid { source: Box::new(source), axes, nodes }
     }
 
+    /// The first X and the first E of which nothing is known: the last nodes.
+    fn ends(&self) -> [f64; 2] {
+        self.axes.each_ref().map(|axis| axis.nodes.last().copied().unwrap_or(0.0))
+    }
+
     /// What `value` says of the nodes, at (X, E).
     #[must_use]
     pub fn at(&self, [x, e]: [f64; 2], value: impl Fn(&V) -> f64) -> Option<f64> {
@@ -134,8 +139,9 @@ pub fn functions(
     });
     let function = |(index, bound): (usize, &Bound)| {
         let grid = grids[Asked::group(*bound)].clone();
+        let ends = grid.ends();
         let at = move |x: f64, e: f64| grid.at([x, e], |values: &Values| values[index]).unwrap_or(f64::NAN);
-        (*bound, FloatBound::Function(Arc::new(at)))
+        (*bound, FloatBound::Function { of: Arc::new(at), ends })
     };
     let wanted = |bound: &&Bound| existence || **bound != Bound::RateExistence;
     TABLE.iter().filter(wanted).enumerate().map(function).collect()

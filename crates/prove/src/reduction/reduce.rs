@@ -363,7 +363,8 @@ fn best_by_matrix(p: &PeriodicMatrix, starts: &[Start], sampling: &Sampling<'_>)
         return None;
     }
     let near = |start: &Start, path: Path, limit: f64| {
-        let (along, chosen) = with_constant(p, sampling, Some(path), |search| search.choose_near(start, limit)).ok()?;
+        let choose = |search: &CoordinateSearch<'_>| search.choose_near(start, start.proposal.sigma, limit);
+        let (along, chosen) = with_constant(p, sampling, Some(path), choose).ok()?;
         Some(Found { along, chosen, path: Some(path) })
     };
     let smaller = |a: &Found, b: &Found| a.cost().total_cmp(&b.cost());

@@ -117,11 +117,7 @@ impl PlantRefusal {
                      of them",
                 ),
             ),
-            PlantRefusal::OrbitNotProved(failure) => undecided(
-                "/f",
-                failure.to_string(),
-                Some("write the plant in units in which its numbers are of ordinary size"),
-            ),
+            PlantRefusal::OrbitNotProved(failure) => undecided("/f", failure.to_string(), Some(failure.way_out())),
             PlantRefusal::NoContraction => undecided(
                 "/f",
                 "no matrix P was found in which the zero dynamics x' = f(t,x,0) contract along their periodic solution"
@@ -180,8 +176,12 @@ fn no_gain(obstacle: &Obstacle) -> String {
 
 /// Whether a smaller initial set may be all that it takes.
 fn is_of_set(obstacle: &Obstacle) -> bool {
-    use Failing::{Bounds, Coupling, Curvature, DomainE, DomainX, NotFinite, Unproved};
-    matches!(obstacle.failing, NotFinite(Some(_)) | DomainX | DomainE | Curvature | Coupling | Bounds | Unproved(_))
+    use Failing::{Beyond, Bounds, Coupling, Curvature, DomainE, DomainX, NotFinite, Unproved};
+    let failing = obstacle.failing;
+    matches!(
+        failing,
+        NotFinite(Some(_)) | DomainX | DomainE | Curvature | Coupling | Bounds | Unproved(_) | Beyond { .. }
+    )
 }
 
 /// The initial set, where the plant states one.
@@ -215,7 +215,11 @@ fn help(obstacle: &Obstacle) -> &'static str {
         }
         Failing::NotFinite(Some(_)) => {
             "a smaller initial set (`at-rest` without sizes is the smallest): around this one the error box reaches where a \
-             right side has no finite derivative, or is far larger than the orbit"
+             right side has no finite derivative"
+        }
+        Failing::Beyond { .. } => {
+            "another gain, units in which x, e and q are of one size, or less coupling between e and x; of a plant whose derivatives vary a smaller \
+             initial set"
         }
         Failing::Existence => {
             "a larger rate of the zero dynamics, less coupling between e and x, or units in which the numbers are of one size"
@@ -231,7 +235,7 @@ fn help(obstacle: &Obstacle) -> &'static str {
             "a smaller initial set (`at-rest` without sizes is the smallest), or less coupling between e and x"
         }
         Failing::Gain { .. } => "a larger gain, or none: the smallest one is then sought",
-        Failing::Limit { .. } => "a larger limit, or a smaller initial set",
+        Failing::Limit { .. } => "a larger limit",
         Failing::NotDecidedAgain { .. } => {
             "narrower intervals or a smaller initial set, of which fewer boxes are to be decided"
         }

@@ -44,6 +44,8 @@ pub struct Prepared {
     by_norms: Option<Box<ProvedData>>,
     /// The same in the coordinates that are proposed first, once the bound of |e| at the smallest gain is found to be far above the set.
     quick: OnceLock<Option<Box<ProvedData>>>,
+    /// About the gain at which norms prove a claim at samples, where this one rests on a matrix inequality and rates are asked for.
+    norms_from: Option<f64>,
     /// Those for a gain with which bounds are kept, once one is found.
     closer: OnceLock<Option<Box<ProvedData>>>,
     /// Data by norms, once the independent checker gives up on the claims of all others.
@@ -149,9 +151,19 @@ impl Prepared {
     }
 
     fn of(spec: Specification, start: Start, gain: Option<Rational>) -> Prepared {
-        let (limits, [quick, closer]) = (Limits::default(), [OnceLock::new(), OnceLock::new()]);
-        let (plant, by_norms, last) = (None, None, OnceLock::new());
-        Prepared { spec, start, gain, limits, found_above: None, plant, by_norms, quick, closer, last }
+        Prepared {
+            spec,
+            start,
+            gain,
+            limits: Limits::default(),
+            found_above: None,
+            plant: None,
+            by_norms: None,
+            quick: OnceLock::new(),
+            norms_from: None,
+            closer: OnceLock::new(),
+            last: OnceLock::new(),
+        }
     }
 
     /// The data of a subject as the witness of a certificate has them, each proved again: nothing is searched for.

@@ -42,6 +42,7 @@ pub struct SampledPairs<'p> {
     /// The coordinates of the matrix inequality, on the straight path near the starts, and near those by norms.
     of_rough: OnceLock<Option<(Along, Chosen)>>,
     near_norms: OnceLock<Option<(Along, Chosen)>>,
+    without_norms: OnceLock<Option<(Along, Chosen)>>,
 }
 
 /// The coordinates of norms.
@@ -99,9 +100,18 @@ pub fn with_sampled_pairs<T>(plant: &Plant, with: impl FnOnce(&SampledPairs<'_>)
 
 impl<'p> SampledPairs<'p> {
     fn new(plant: &'p Plant, candidates: &'p [Coordinates], sampled: &'p Sampling<'p>) -> SampledPairs<'p> {
-        let [of_rough, near_norms] = [OnceLock::new(), OnceLock::new()];
+        let [of_rough, near_norms, without_norms] = [OnceLock::new(), OnceLock::new(), OnceLock::new()];
         let starts = starts(candidates, sampled);
-        SampledPairs { plant, candidates, sampled, starts, by_norms: OnceLock::new(), of_rough, near_norms }
+        SampledPairs {
+            plant,
+            candidates,
+            sampled,
+            starts,
+            by_norms: OnceLock::new(),
+            of_rough,
+            near_norms,
+            without_norms,
+        }
     }
 
     fn by_norms(&self) -> Result<&ByNorms, PlantRefusal> {
@@ -117,15 +127,17 @@ impl<'p> SampledPairs<'p> {
         let found = self.of_rough.get_or_init(|| {
             let (p, rough) = self.starts.as_ref().ok()?;
             let starts = with_search(self.sampled, Some(Path::Straight), |search| Ok(search.for_matrix(rough))).ok()?;
-            straight_by_matrix(p, &starts, self.sampled)
+            straight_by_matrix(p, &starts, self.sampled, true)
         });
         found.as_ref()
     }
 
-    fn near_norms(&self) -> Option<&(Along, Chosen)> {
-        let found = self.near_norms.get_or_init(|| {
+    /// Also where it is worth no proof in continuous time, if norms prove nothing.
+    fn near_norms(&self, beside_norms: bool) -> Option<&(Along, Chosen)> {
+        let found = if beside_norms { &self.near_norms } else { &self.without_norms };
+        let found = found.get_or_init(|| {
             let ByNorms { along, chosen, .. } = self.by_norms().ok()?;
-            straight_by_matrix(&along.coordinates.p, &[Start::from(chosen)], self.sampled)
+            straight_by_matrix(&along.coordinates.p, &[Start::from(chosen)], self.sampled, beside_norms)
         });
         found.as_ref()
     }
@@ -194,7 +206,8 @@ impl<'p> SampledPairs<'p> {
         if norms_alone {
             return of_norms;
         }
-        let straight = self.of_rough().or_else(|| self.near_norms());
+        let straight = self.of_rough().or_else(|| self.near_norms(true));
+        let straight = straight.or_else(|| if of_norms.is_err() { self.near_norms(false) } else { None });
         let known = of_norms.as_ref().ok().filter(|_| gain.is_none()).map(|found| found.proposal.sigma);
         match (straight.and_then(|straight| by_matrix(straight, known)), of_norms) {
             (None, of_norms) => of_norms,

@@ -3,7 +3,7 @@
 //! there until both hold with some room, and they are proved at it.
 
 use super::choice::with_constant;
-use super::coordinates::{Chosen, Start};
+use super::coordinates::{Chosen, CoordinateSearch, Start};
 use super::entries::needed;
 use super::grid::Grid;
 use super::proofs::{Along, PRECISION, Proofs};
@@ -36,6 +36,12 @@ const PARTS: u32 = 3;
 
 /// The radii that are aimed at, in turn: what is left below 1 is for what the samples have missed, and for few boxes.
 const TARGETS: [f64; 3] = [0.985, 0.95, 0.85];
+
+/// Where nothing is found from the shape in continuous time: sets, over the ordinary one, and shapes, over that one, from which it is sought at
+/// once; and by how much larger the next gain is then.
+const SIZES: [f64; 3] = [1.0, 30.0, 1000.0];
+const SHAPES: [[f64; 2]; 5] = [[1.0, 1.0], [1.0, 0.3], [1.0, 0.1], [0.3, 1.0], [0.3, 0.1]];
+const NEXT_ANEW: f64 = 1.2;
 
 /// How far beyond the arguments of a proposal the bounds are proved, in turn.
 const ENLARGED: [f64; 2] = [2e-2, 1e-1];
@@ -76,18 +82,21 @@ const DIGITS_OF_GAIN: u32 = 6;
 /// What a matrix inequality must take from the gain of norms.
 const WORTH: f64 = 0.99;
 
-/// The coordinates of the inequality in continuous time, on the straight path near one of these starts; none where it is not worth its proof,
-/// and where P moves.
+/// The coordinates of the inequality in continuous time, on the straight path near one of these starts; none where it is not worth its proof
+/// beside norms that prove a gain, and where P moves.
 pub(super) fn straight_by_matrix(
     p: &PeriodicMatrix,
     starts: &[Start],
     sampling: &Sampling<'_>,
+    beside_norms: bool,
 ) -> Option<(Along, Chosen)> {
     if !p.harmonics.is_empty() {
         return None;
     }
     let path = Some(Path::Straight);
-    let near = |start| with_constant(p, sampling, path, |search| search.choose_near(start, f64::INFINITY)).ok();
+    let by_norms = |start: &Start| if beside_norms { start.proposal.sigma } else { f64::INFINITY };
+    let choose = |search: &CoordinateSearch<'_>, start| search.choose_near(start, by_norms(start), f64::INFINITY);
+    let near = |start| with_constant(p, sampling, path, |search| choose(search, start)).ok();
     let found = starts.iter().filter_map(near);
     found.min_by(|(_, a), (_, b)| a.proposal.sigma.total_cmp(&b.proposal.sigma))
 }
@@ -157,13 +166,34 @@ impl<'a> MatrixAtSamples<'a> {
             return at_once.or_else(|| self.from_below(gain));
         }
         let largest = by_norms.map_or(f64::INFINITY, |sigma| sigma * WORTH).min(self.law.step.recip());
-        let start = self.start(self.chosen.proposal.sigma);
-        TARGETS.into_iter().find_map(|target| {
-            let found = self.least(&start, target, largest)?;
-            let sigma = round_f64(found.sigma, DIGITS_OF_GAIN, Direction::Up)?;
-            let found = self.at(&At { sigma: sigma.to_f64(), ..self.again(&found) })?;
-            self.proved(&found, &sigma)
-        })
+        let from = |start: &At| {
+            TARGETS.into_iter().find_map(|target| {
+                let found = self.least(start, target, largest)?;
+                let sigma = round_f64(found.sigma, DIGITS_OF_GAIN, Direction::Up)?;
+                let found = self.at(&At { sigma: sigma.to_f64(), ..self.again(&found) })?;
+                self.proved(&found, &sigma)
+            })
+        };
+        from(&self.start(self.chosen.proposal.sigma)).or_else(|| from(&self.anew(largest)?))
+    }
+
+    /// From what is found at the first of few gains from some set and shape.
+    fn anew(&self, largest: f64) -> Option<At> {
+        let gains = std::iter::successors(Some(self.chosen.proposal.sigma), |sigma| Some(sigma * NEXT_ANEW));
+        let gains = gains.take(GAINS).take_while(|sigma| *sigma <= largest);
+        gains.filter_map(|sigma| self.anywhere(sigma)).map(|found| self.again(&found)).next()
+    }
+
+    /// What is found at a gain from the first set and shape that lead to something.
+    fn anywhere(&self, sigma: f64) -> Option<Found> {
+        let known = self.start(sigma);
+        let (rho, eta) = known.shape;
+        let starts = SIZES.iter().flat_map(|size| SHAPES.iter().map(move |shape| (size, shape)));
+        let found = starts.filter_map(|(size, [of_rho, of_eta])| {
+            let shape = (1.0 + (rho - 1.0) * of_rho, eta * of_eta);
+            self.at(&At { size: self.units.map(|unit| unit * size), shape, ..known.clone() })
+        });
+        found.filter(|found| found.at.threshold < 1.0).next()
     }
 
     /// The smallest gain for samples of the derivatives; nothing is proved.
@@ -209,7 +239,8 @@ impl<'a> MatrixAtSamples<'a> {
                 }
                 None => {
                     below = Some(from.sigma);
-                    from.sigma = next;
+                    // The set that was found before may be what is too large.
+                    from = At { sigma: next, size: self.units, ..from };
                 }
             }
         }
@@ -238,26 +269,30 @@ impl<'a> MatrixAtSamples<'a> {
 
     /// At a gain that is given from what is found at the smallest one, which the inequalities may be followed from.
     fn from_below(&self, gain: &Rational) -> Option<ReducedSampled> {
-        let (start, sigma) = (self.start(self.chosen.proposal.sigma), gain.to_f64());
-        TARGETS.into_iter().find_map(|target| {
-            let mut found = self.least(&start, target, self.law.step.recip())?;
-            // As far above it as it is rounded.
-            let short = round_f64(found.sigma, DIGITS_OF_GAIN, Direction::Up)?.to_f64();
-            if sigma < short {
-                return None;
-            }
-            for part in (1..=PARTS).rev() {
-                let next = found.sigma * ((sigma / found.sigma).portable_ln() / f64::from(part)).portable_exp();
-                found = self.at(&At { sigma: if part == 1 { sigma } else { next }, ..self.again(&found) })?;
-            }
-            self.proved(&found, gain)
-        })
+        let (sigma, largest) = (gain.to_f64(), self.law.step.recip());
+        let from = |start: &At| {
+            TARGETS.into_iter().find_map(|target| {
+                let mut found = self.least(start, target, largest)?;
+                // As far above it as it is rounded.
+                if sigma < round_f64(found.sigma, DIGITS_OF_GAIN, Direction::Up)?.to_f64() {
+                    return None;
+                }
+                for part in (1..=PARTS).rev() {
+                    let next = (sigma / found.sigma).portable_ln() / f64::from(part);
+                    let next = if part == 1 { sigma } else { found.sigma * next.portable_exp() };
+                    found = self.at(&At { sigma: next, ..self.again(&found) })?;
+                }
+                self.proved(&found, gain)
+            })
+        };
+        from(&self.start(self.chosen.proposal.sigma)).or_else(|| from(&self.anew(largest)?))
     }
 
     /// What is found at a gain that is given.
     fn scan_at(&self, sigma: f64) -> Option<Found> {
-        let first = self.at(&self.start(sigma))?;
-        self.at(&self.again(&first)).filter(|found| found.at.threshold < 1.0)
+        let again = |first: Found| self.at(&self.again(&first)).filter(|found| found.at.threshold < 1.0);
+        let first = self.at(&self.start(sigma));
+        first.and_then(again).or_else(|| self.anywhere(sigma).and_then(again))
     }
 
     fn numbers(&self, sigma: f64) -> LoopNumbers<f64> {

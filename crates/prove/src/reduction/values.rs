@@ -145,7 +145,7 @@ impl Proofs<'_> {
 /// Where the values of a plant have none, they are not proved so far.
 pub(super) fn beyond_the_bounds(obstacle: Obstacle) -> Obstacle {
     match obstacle.failing {
-        Failing::NotFinite(Some(bound)) => Obstacle { failing: Failing::Unproved(bound), ..obstacle },
+        Failing::Beyond { bound, .. } => Obstacle { failing: Failing::Unproved(bound), ..obstacle },
         _ => obstacle,
     }
 }

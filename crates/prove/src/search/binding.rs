@@ -34,10 +34,13 @@ impl Binding {
         }
     }
 
-    /// What lowers it: data of a specification, or of a plant what its file states.
+    /// What lowers it: data of a specification, or of a plant what its file states; another start, where it is not `aligned` already.
     #[must_use]
-    pub fn advice(self, of_plant: bool) -> &'static str {
-        if of_plant { self.of_plant() } else { self.of_specification() }
+    pub fn advice(self, of_plant: bool, aligned: bool) -> String {
+        let told = if of_plant { self.of_plant() } else { self.of_specification() };
+        let rest =
+            ["An aligned start or a ", "An aligned start, a "].into_iter().find_map(|start| told.strip_prefix(start));
+        rest.filter(|_| aligned).map_or_else(|| told.to_owned(), |rest| format!("A {rest}"))
     }
 
     fn of_plant(self) -> &'static str {
@@ -85,5 +88,23 @@ impl Binding {
             // Only a plant's formulas have one.
             Binding::MatrixInequality | Binding::JointMetrics => self.of_plant(),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Binding;
+
+    /// An aligned start is named where the start is another one, and never where it is aligned.
+    #[test]
+    fn an_aligned_start_is_not_advised_to_itself() {
+        for binding in [Binding::InternalModel, Binding::MatrixInequality, Binding::JointMetrics] {
+            for of_plant in [true, false] {
+                let [other, aligned] = [false, true].map(|aligned| binding.advice(of_plant, aligned));
+                assert!(other.starts_with("An aligned start"), "{other}");
+                assert!(aligned.starts_with("A smaller initial set") && !aligned.contains("ligned start"), "{aligned}");
+            }
+        }
+        assert_eq!(Binding::Existence.advice(true, false), Binding::Existence.advice(true, true));
     }
 }

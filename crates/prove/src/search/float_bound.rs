@@ -1,5 +1,6 @@
 //! A bounding function in doubles, for searches only.
 
+use super::obstacle::Known;
 use sigmastar_lang::expr::FloatExpr;
 use sigmastar_lang::spec::{Bound, Specification};
 use std::sync::Arc;
@@ -17,7 +18,12 @@ pub enum FloatBound {
         from_below: bool,
     },
     /// Any function of (X, E).
-    Function(Arc<dyn Fn(f64, f64) -> f64 + Send + Sync>),
+    Function {
+        /// NaN where it has no value, and from `ends` on.
+        of: Arc<dyn Fn(f64, f64) -> f64 + Send + Sync>,
+        /// The first X and the first E at which nothing is known of it.
+        ends: [f64; 2],
+    },
 }
 
 /// Proved values end where they end: a search stays so far inside that rounding does not lead beyond.
@@ -50,7 +56,7 @@ impl FloatBound {
                 let best = if *from_below { reaching.reduce(f64::max) } else { reaching.reduce(f64::min) };
                 best.unwrap_or(f64::NAN)
             }
-            FloatBound::Function(function) => function(x, e),
+            FloatBound::Function { of, .. } => of(x, e),
         }
     }
 
@@ -60,7 +66,17 @@ impl FloatBound {
         match self {
             FloatBound::Expression(expr) => expr.operations(),
             FloatBound::Values { entries, .. } => entries.len(),
-            FloatBound::Function(_) => 1,
+            FloatBound::Function { .. } => 1,
+        }
+    }
+
+    /// How far it is known, where (X, E) is beyond: there the function of the plant may well have a value.
+    #[must_use]
+    pub(super) fn ends_before(&self, x: f64, e: f64) -> Option<Known> {
+        match self {
+            FloatBound::Expression(_) => None,
+            FloatBound::Values { .. } => self.at(x, e).is_nan().then_some(Known::Proofs),
+            FloatBound::Function { ends, .. } => (x >= ends[0] || e >= ends[1]).then_some(Known::Samples),
         }
     }
 }

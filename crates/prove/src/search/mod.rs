@@ -42,7 +42,7 @@ pub use float_bound::FloatBound;
 pub use goal::Goal;
 pub use minimise::{Descent, minimise};
 pub use model::{Datum, FloatModel, OptionalDatum};
-pub use obstacle::{Closest, Extreme, Failing, Limited, Obstacle};
+pub use obstacle::{Closest, Extreme, Failing, Known, Limited, Obstacle};
 pub use periodic::{ExistenceForm, Floors, PeriodicSet};
 pub use printed::{PrintedProposal, search_printed};
 pub use reach::{Largest, start_distances};

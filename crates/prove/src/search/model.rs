@@ -310,7 +310,7 @@ impl FloatModel {
     }
 
     /// That a number which is made of the bounding functions at (X, E) is not finite: with the first of them that is not, and is at
-    /// X = E = 0, where there is one.
+    /// X = E = 0, where there is one; of a plant perhaps because nothing is known of it there.
     #[must_use]
     pub(super) fn not_finite(&self, x: f64, e: f64) -> Obstacle {
         let ends = |which: &Bound| {
@@ -318,7 +318,9 @@ impl FloatModel {
                 && self.bound(*which, &0.0, &0.0).is_finite()
                 && !self.bound(*which, &x, &e).is_finite()
         };
-        Failing::NotFinite(Bound::ALL.into_iter().find(ends)).at(x, e)
+        let Some(bound) = Bound::ALL.into_iter().find(ends) else { return Failing::NotFinite(None).at(x, e) };
+        let known = self.bounds[bound as usize].function.as_ref().and_then(|function| function.ends_before(x, e));
+        known.map_or(Failing::NotFinite(Some(bound)), |known| Failing::Beyond { known, bound }).at(x, e)
     }
 
     /// The same model with one datum improved by the relative amount `by` (alpha, a rate and the domain up, everything else

@@ -11,6 +11,13 @@ pub enum Failing {
     Magnitude(Extreme),
     /// A bounding function has no finite value; none of them is named where a number that is made of them has none.
     NotFinite(Option<Bound>),
+    /// The arguments are beyond those up to which the bounds of a plant are known, this one first.
+    Beyond {
+        /// How they are known.
+        known: Known,
+        /// The first of them.
+        bound: Bound,
+    },
     /// S1 or S2 fails (C1 or C3 in the repaired derivation).
     Existence,
     /// X_b leaves the domain.
@@ -59,10 +66,12 @@ pub enum Failing {
         which: Limited,
         /// What it is to be.
         asked: f64,
-        /// About the least that would do.
+        /// The least that is found to do.
         least: f64,
         /// The gain for which that does.
         sigma: f64,
+        /// Whether a claim is proved that keeps to it; else it is of the search in floating point.
+        proved: bool,
     },
     /// Every condition is proved, and the independent checker does not come to the same.
     NotDecidedAgain {
@@ -119,6 +128,15 @@ impl Limited {
     }
 }
 
+/// How far the bounds of a plant are known.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Known {
+    /// As far as its derivatives are sampled.
+    Samples,
+    /// As far as they are proved.
+    Proofs,
+}
+
 /// A number that is too large or too small.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Extreme {
@@ -154,7 +172,7 @@ impl Failing {
     fn rank(self) -> u8 {
         match self {
             Failing::Magnitude(_) | Failing::InputGain { .. } => 0,
-            Failing::NotFinite(_) => 1,
+            Failing::NotFinite(_) | Failing::Beyond { .. } => 1,
             Failing::Existence => 2,
             Failing::DomainX => 3,
             Failing::DomainE => 4,
@@ -208,6 +226,13 @@ impl Obstacle {
             Failing::NotFinite(None) => format!(
                 "a number of the proof is beyond the range of double precision for every candidate that was tried{place}"
             ),
+            Failing::Beyond { known: Known::Samples, .. } => format!(
+                "every error box that was tried reaches a million times as far as the orbit and the initial set are large, or further: \
+                 nobody looks at the plant there; the smallest was{place}"
+            ),
+            Failing::Beyond { known: Known::Proofs, .. } => format!(
+                "every error box that was tried reaches further than the bounds of the plant are proved; the smallest was{place}"
+            ),
             Failing::Existence => {
                 format!("existence: no set was found that the map of the proof takes into itself{place}")
             }
@@ -231,7 +256,7 @@ impl Obstacle {
                 format!("h sigma > 1: the gain is {}, and 1/h is {}", short(sigma), short(largest))
             }
             Failing::Hold { sigma, largest, given: false } => format!(
-                "h sigma > 1 for every gain that may do: even in continuous time the smallest one that is found is about \
+                "h sigma > 1 for every gain that norms may prove: even in continuous time the smallest one that they are found to prove is about \
                  {}, and 1/h is {}",
                 short(sigma),
                 short(largest)
@@ -249,10 +274,11 @@ impl Obstacle {
             Failing::Sampling => {
                 format!("C5h: the decay from sample to sample is not positive for any error box that was tried{place}")
             }
-            Failing::Limit { which, asked, least, sigma } => format!(
-                "{} {}: the least for which a proof is found is about {}, at the gain {}",
+            Failing::Limit { which, asked, least, sigma, proved } => format!(
+                "{} {}: {} {}, at the gain {}",
                 which.describe(),
                 short(asked),
+                if proved { "the least for which a proof is found is" } else { "the least that floating point finds is about" },
                 short(least),
                 short(sigma)
             ),
@@ -284,9 +310,9 @@ impl Obstacle {
                 "the zero dynamics are not proved to contract as far from the orbit as the arguments of the proof that was found{place}; \
                  farther away, as between two wells, they need not"
             ),
-            Failing::Unproved(bound) => format!(
-                "the bound {} is not proved up to the arguments of the proof that was found{place}",
-                bound.field()
+            Failing::Unproved(_) => format!(
+                "an error box was found over samples of the plant's derivatives, and with the bounds that are proved there it has to be larger{place} \
+                 than they are proved for"
             ),
             Failing::Bounds => {
                 format!("the bounding functions are not proved up to the arguments of the proof that was found{place}")

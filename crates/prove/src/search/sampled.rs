@@ -272,10 +272,10 @@ impl<'m> SampledSearch<'m> {
     /// What stands in the way of the gain that came closest.
     pub fn smallest(&self) -> Result<SampledProposal, Obstacle> {
         let below = if self.model.input_gain.is_some() { BELOW_UNCERTAIN } else { BELOW };
-        let start = search_sharp(self.model)?.sigma * below;
-        let end = self.law.step.recip();
+        let continuous = search_sharp(self.model)?.sigma;
+        let (start, end) = (continuous * below, self.law.step.recip());
         if start >= end {
-            return Err(Failing::Hold { sigma: start, largest: end, given: false }.into());
+            return Err(Failing::Hold { sigma: continuous, largest: end, given: false }.into());
         }
         let points = self.scan(start, end);
         let feasible = |point: &ScanPoint| point.outcome.is_ok_and(|radius| radius <= LARGEST);

@@ -60,10 +60,12 @@ impl SampledLimit {
                 "h sigma in Q_h: e is held over a sample; a shorter sampling period or a smaller gain helps"
             }
             SampledLimit::Motion => {
-                "h dq/de and h dq/dx in Q_h: what moves within a sample; a shorter sampling period or a smaller initial set helps"
+                "h dq/de and h dq/dx in Q_h: what moves within a sample; a shorter sampling period helps, and where q is steeper further out a smaller \
+                 initial set"
             }
             SampledLimit::Matrix => {
-                "the matrix inequality over the derivatives: a larger gain, a shorter sampling period or a smaller initial set helps"
+                "the matrix inequality over the derivatives: a larger gain or a shorter sampling period helps, and where the derivatives vary a \
+                 smaller initial set"
             }
         }
     }

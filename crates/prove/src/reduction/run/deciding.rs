@@ -257,6 +257,7 @@ impl Prepared {
             let subject = (&self.spec, self.plant.as_deref().map(|plant| (plant, near)));
             run.interval_costs = costs_at_samples(subject, (sampling, sigma), options.ladder, watch);
         }
+        run.norms_from = self.norms_from;
         if options.compare {
             run.set_gains(start.map(|sought| &sought.proposal), options.ladder);
         }

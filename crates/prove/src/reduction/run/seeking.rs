@@ -57,7 +57,11 @@ impl Prepared {
         let rows = options.compare || !limits.is_empty() || subject.actuator().is_some();
         let search = Search { subject, limits, counts, options: Options { compare: false, ..options }, rows, watch };
         match (&limits.rate, gain) {
-            (_, Some(gain)) => Ok(search.at(Some(gain))?.within(limits.clone(), watch)),
+            (_, Some(gain)) => {
+                let prepared = search.at(Some(gain))?;
+                let norms_from = search.norms_from(&prepared);
+                Ok(Prepared { norms_from, ..prepared.within(limits.clone(), watch) })
+            }
             (None, None) => search.within_limits(),
             (Some(least), None) => search.with_rate(least),
         }
@@ -83,6 +87,16 @@ impl Search<'_> {
     fn asks_for_norms(&self) -> bool {
         let Subject::Plant(plant) = self.subject else { return false };
         !self.counts.is_empty() && (self.subject.sampling().is_some() || plant.disturbances.any())
+    }
+
+    /// About the gain at which norms prove a claim at samples, where rates are asked for and this one rests on a matrix inequality.
+    fn norms_from(&self, prepared: &Prepared) -> Option<f64> {
+        let by_matrix = prepared.spec.bounds.proved_values().at_samples.stability.is_some();
+        let other = (by_matrix && self.asks_for_norms()).then(|| self.by_norms(None).ok()).flatten()?;
+        match &other.start {
+            Start::Sampled(_, Some(sought)) => Some(sought.proposal.sigma),
+            _ => None,
+        }
     }
 
     fn at(&self, gain: Option<Rational>) -> Result<Prepared, Vec<SpecErrors>> {
