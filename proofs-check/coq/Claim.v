@@ -395,7 +395,7 @@ Definition transfer_bound : Prop :=
   then w c * period c = 2 * PI /\ forall N k, T (n c) (nu_lo c) N (IZR k) <= k_0 c + k_1 c * IZR k ^ 2
   else forall N x, T (n c) (nu_lo c) N x <= k_0 c + k_1 c * x ^ 2.
 
-(** Theorem 10 of section 10.3, with an input gain G1 of 13.1, with (E) Theorem 13.5 or 13.8, of this plant. Not proved in Coq: Schauder's
+(** Theorem 10 of section 10.3, with an input gain G1 of 13.1, with (E) Theorem 13.7.5 or 13.7.8, of this plant. Not proved in Coq: Schauder's
     theorem is behind it. It takes of the plant what [about] does not say: that f and q are C2 and periodic, f(t,0,0) = 0, the bounds b_f, b_q,
     b_qt, their mean squares and those of the harmonics, and the second triple; of the formulas of a plant the orbit, the forcing and the
     values at (X_p, E_p) of section 11, and the matrix inequalities of (E). *)

@@ -409,7 +409,7 @@ End Square.
 
 (** ** By joint metrics *)
 
-(** Proposition 13.6: at the gain s = tau/l, -U' of the metric between the two is the form between F and G, and something nonnegative more. *)
+(** Proposition 13.7.6: at the gain s = tau/l, -U' of the metric between the two is the form between F and G, and something nonnegative more. *)
 Theorem joint_between j s t x a u d y z : known c = by_metrics j -> 0 < s -> y = u + mu c * z ->
   - (W' s t x d a (y - s * d) + of_zeta s 1 * (- 2 * z * y))
   = share s * near_form m j t x a u d y + (1 - share s) * far_form m j t x a u d y

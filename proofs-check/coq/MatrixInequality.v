@@ -131,7 +131,7 @@ Proof.
   rewrite sum_plus, sum_one by exact Hj. ring.
 Qed.
 
-(** Proposition 13.2: what is asked for at tau and with J + de I gives it with a margin for J at every gain sigma. *)
+(** Proposition 13.7.2: what is asked for at tau and with J + de I gives it with a margin for J at every gain sigma. *)
 Theorem F_margin P Pd D de tau sigma x e y :
   F P Pd D sigma 1 x e y = F P Pd (shifted de D) tau 1 x e y + 2 * w_x * de * bilinear P x x + 2 * (sigma - tau) * e ^ 2.
 Proof. unfold F. rewrite bilinear_shifted. simpl gv; simpl rv; simpl dv. ring. Qed.
@@ -152,7 +152,7 @@ Let Pt' (t : R) (i j : nat) := P' i j t.
 (** y = q + (1-b) sigma e + b mu s, where q = r x + d e. *)
 Definition y_m (t : R) : R := dot (rv (D t)) (xt t) + dv (D t) * e t + (1 - b) * sigma * e t + b * mu * s t.
 
-(** The differences to the periodic solution at the time t: x' = Jx + ge by (13.1), and the loop. *)
+(** The differences to the periodic solution at the time t: x' = Jx + ge by (13.7a), and the loop. *)
 Record differences_at (t : R) : Prop := {
   P_symmetric : forall i j, P i j t = P j i t;
   P_derive : forall i j, is_derive (P i j) t (P' i j t);
@@ -220,7 +220,7 @@ Qed.
 
 (** ** Joint metrics *)
 
-(** F and, of (13.5), G as quadratic forms in (x, e, y). *)
+(** F and, of (13.7e), G as quadratic forms in (x, e, y). *)
 Definition F_joint (A : nat -> nat -> R) (p : nat -> R) (w k : R) (G : slopes) (s : R) (u : nat -> R) (v y : R) : R :=
   - 2 * bilinear A u (apply (J G) u) - 2 * (bilinear A u (gv G) - s * dot p u) * v - 2 * dot p (apply (J G) u) * v
   - (2 * dot p u + k * dot (rv G) u) * y + (2 * s * w - 2 * dot p (gv G)) * v ^ 2 - (2 * w + k * dv G) * v * y + k * y ^ 2.
@@ -237,7 +237,7 @@ Proof.
   rewrite <- !sum_scal, <- sum_plus. apply sum_ext. intros j _. ring.
 Qed.
 
-(** Proposition 13.6. *)
+(** Proposition 13.7.6. *)
 Theorem F_joint_between l tau A B p w_1 w_2 k_1 k_2 G u v y : l <> 0 ->
   F_joint (fun i j => l * A i j + (1 - l) * B i j) (fun i => l * p i) (l * w_1 + (1 - l) * w_2) (l * k_1 + (1 - l) * k_2) G (tau / l) u v y
   = l * F_joint A p w_1 k_1 G tau u v y + (1 - l) * G_joint B w_2 k_2 p w_1 tau G u v y + 2 * tau * w_2 * (1 - l) ^ 2 / l * v ^ 2.

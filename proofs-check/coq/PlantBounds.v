@@ -12,7 +12,7 @@ Variable c : numbers.
 
 (** ** What is taken for granted of a plant
 
-    The states are in any normed space. The bounds of derivatives are stated as what they say of differences (13.1): a bound of
+    The states are in any normed space. The bounds of derivatives are stated as what they say of differences (13.7a): a bound of
     a derivative on the convex set |x| <= X, |e| <= E is one of the difference quotients there, and an inequality that is affine in the
     derivatives holds of their averages. *)
 
@@ -88,7 +88,7 @@ Definition bounded_decline (d : decline) : Prop :=
                (q t v e - q t xp ep) (e - ep) y
   end.
 
-(** (Jm): the forms F of the near metric at the threshold, and G of (13.5), are not below the diagonal ones, likewise. u is the
+(** (Jm): the forms F of the near metric at the threshold, and G of (13.7e), are not below the diagonal ones, likewise. u is the
     difference of q, d that of e. *)
 Definition near_form (j : joint) (t : R) (x a : X) (u d y : R) : R :=
   - (P' t x a + 2 * (y - tau_j j * d) * p_1 m x + 2 * d * p_1 m a + 2 * weight (near_x j) * d * (y - tau_j j * d))

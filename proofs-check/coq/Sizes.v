@@ -237,7 +237,7 @@ Definition R_1 (r : R * R * R) : R :=
 Definition sup_of (q q' : R) : R := min2 (bt / b_lo * q) (tau / b_lo * q').
 Definition rms_of (q q' : R) : R := min2 (q / (b_lo * sg)) (q' / (Om * (b_lo * sg))).
 
-(** (13.4): Q_m, and what (E) says of a solution, by the worse of two metrics. *)
+(** (13.7d): Q_m, and what (E) says of a solution, by the worse of two metrics. *)
 Definition rms_m (f : harmonics) : R := sqrt (of_harmonics f (fun _ a => a ^ 2)) + r_0 f.
 Definition Q_m : R := match forcing c with None => 0 | Some f => rms_m f end.
 Definition worst (i : inequality) (of : metric -> R) : R :=

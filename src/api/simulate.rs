@@ -10,7 +10,7 @@ use sigmastar_lab::simulate::{
     SimulationSettings, csv, sampled_csv, simulate_sampled,
 };
 use sigmastar_lang::plant::Plant;
-use sigmastar_lang::spec::Constant;
+use sigmastar_lang::spec::{Actuator, Constant};
 use sigmastar_regulator::{Design, Regulator, WrongDimension};
 
 /// The most oscillators of a simulation.
@@ -203,7 +203,7 @@ fn at_samples(
 ) -> Result<Simulation, Error> {
     let (regulator, discrete) = (design.regulator(), design.discretise(step).ok_or_else(beyond)?);
     // What is cut off by the actuator the law is told, as its export is.
-    let limit = plant.actuator.as_ref().map(|actuator| actuator.max.to_f64()).or(discrete.saturation);
+    let limit = plant.actuator.as_ref().map(Actuator::limit).or(discrete.saturation);
     let sampled = SampledLoop::new(plant, regulator, discrete.saturated(limit));
     let sampled = gain.into_iter().fold(sampled, SampledLoop::with_input_gain);
     if !sampled.regulator.is_representable() || !sampled.discrete.is_representable() {

@@ -8,7 +8,7 @@ use super::input;
 use super::output::{self, shown};
 use super::subject::Asked;
 use sigmastar_document::clean;
-use sigmastar_lang::spec::Constant;
+use sigmastar_lang::spec::{Actuator, Constant};
 use sigmastar_prove::reduction::Subject;
 use sigmastar_regulator::export::{self, CNames, CSources, Export, Prefix, Provenance, Scope};
 use sigmastar_regulator::{Convergence, Design, Discrete, Regulator};
@@ -57,8 +57,8 @@ pub fn run(args: &ControllerArgs) -> Result<u8, Failure> {
         )
     };
     // What the actuator takes, unless another limit is asked for.
-    let actuator = subject.actuator().filter(|_| saturation.is_none()).map(|actuator| actuator.max.to_f64());
-    let limit = saturation.map(|limit| limit.to_f64()).or(actuator);
+    let actuator = subject.actuator().filter(|_| saturation.is_none());
+    let limit = saturation.map(|limit| limit.to_f64()).or(actuator.map(Actuator::limit));
     let discrete = step.as_ref().map(|step| design.discretise(step).ok_or_else(beyond)).transpose()?;
     let discrete = discrete.map(|discrete| discrete.saturated(limit));
     if !regulator.is_representable() || !discrete.as_ref().is_none_or(Discrete::is_representable) {

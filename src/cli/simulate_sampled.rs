@@ -13,7 +13,7 @@ use sigmastar_lab::simulate::{
     simulate_sampled,
 };
 use sigmastar_lang::plant::Plant;
-use sigmastar_lang::spec::Constant;
+use sigmastar_lang::spec::{Actuator, Constant};
 use sigmastar_prove::certify::Verdict;
 use sigmastar_regulator::{Design, Discrete, Regulator, WrongDimension, read_discrete, read_regulator};
 
@@ -51,8 +51,7 @@ pub fn run(args: &SimulateArgs, plant: Plant, sigma: Option<&Constant>, step: &C
         ));
     }
     // What is cut off by the actuator the law is told, as its export is.
-    let limit = limit.or_else(|| plant.actuator.as_ref().map(|actuator| actuator.max.clone()));
-    let limit = limit.map(|limit| limit.to_f64()).or(discrete.saturation);
+    let limit = limit.map(|limit| limit.to_f64()).or(plant.actuator.as_ref().map(Actuator::limit)).or(discrete.saturation);
     let discrete = discrete.saturated(limit);
     if !args.quiet {
         gain_remarks(&plant, gain.as_ref(), &regulator);

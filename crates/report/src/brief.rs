@@ -13,7 +13,7 @@ use sigmastar_lang::spec::Specification;
 use sigmastar_prove::certify::{Certification, SampledCertification, claimed_ball};
 use sigmastar_prove::rate::bound::RateBound;
 use sigmastar_prove::rate::found::ForCount;
-use sigmastar_prove::rate::noise::NoNoiseBound;
+use sigmastar_prove::rate::noise::{NoNoiseBound, NoiseBound};
 use sigmastar_theory::derivation::consequences::ErrorBounds;
 use sigmastar_theory::derivation::control::Control;
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
@@ -59,7 +59,7 @@ pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences
         (None, None) => format!("sigma* = {sigma} in 1/time, or any larger; the same for every n_o"),
     };
     let mut facts =
-        vec![("gain", gain), ("from", from(run.spec, set, "any time")), ("next", next(run.spec, origin, false))];
+        vec![("gain", gain), ("from", from(run.spec, set, &periodic, "any time")), ("next", next(run.spec, origin, false))];
     facts.extend(orbit(run.spec).map(|said| ("orbit", said)));
     facts.extend(set_by(run).map(|said| ("set by", said)));
     facts.extend(
@@ -96,7 +96,8 @@ fn rates<P, Q>(spec: &Specification, found: &[ForCount<P, Q>]) -> Vec<String> {
     let one = |ForCount { n_o, bound, noise }: &ForCount<P, Q>| match bound {
         None => format!("n_o = {n_o}: not proved"),
         Some(RateBound { rate, factor, .. }) => {
-            let disturbed = disturbed(spec, noise.as_ref().map(|noise| noise.as_ref().map(|noise| &noise.limit)));
+            let bounds = |noise: &NoiseBound<Q>| [noise.peak.clone(), noise.limit.clone()];
+            let disturbed = disturbed(spec, noise.as_ref().map(|noise| noise.as_ref().map(bounds)));
             let [factor, rate] = [exact(factor, Direction::Up), exact(rate, Direction::Down)];
             format!("n_o = {n_o}: {factor} exp(-{rate} (t - t_0)){disturbed}")
         }
@@ -104,12 +105,21 @@ fn rates<P, Q>(spec: &Specification, found: &[ForCount<P, Q>]) -> Vec<String> {
     found.iter().map(one).collect()
 }
 
-/// What noise and a disturbance, or rounding alone, add, where there are some and it is proved.
-fn disturbed(spec: &Specification, noise: Option<Result<&Rational, &NoNoiseBound>>) -> String {
-    let word = if spec.disturbances.any() { "disturbed" } else { "rounded" };
+/// What noise and a disturbance, or rounding alone, make of it, where there are some and it is proved: the peak and the limit, which adds to the way
+/// where that is so.
+fn disturbed(spec: &Specification, noise: Option<Result<[Rational; 2], &NoNoiseBound>>) -> String {
+    let (word, without) =
+        if spec.disturbances.any() { ("disturbed", "noise") } else { ("rounded", "rounding") };
     match noise {
         None => String::new(),
-        Some(Ok(limit)) => format!(", {word} + {}", exact(limit, Direction::Up)),
+        Some(Ok(bounds)) => {
+            let [peak, limit] = bounds.map(|bound| exact(&bound, Direction::Up));
+            if words::limit_adds_to_the_way(spec) {
+                format!(", {word} + {limit}")
+            } else {
+                format!(" without {without}, {word} at most {peak} at all times and {limit} in the limit")
+            }
+        }
         Some(Err(reason)) => format!(" ({word}: {})", reason.message()),
     }
 }
@@ -140,7 +150,7 @@ pub(super) fn of_samples(
         },
     );
     let mut facts =
-        vec![("gain", gain), ("from", from(run.spec, &witness.set, &when)), ("next", next(run.spec, origin, true))];
+        vec![("gain", gain), ("from", from(run.spec, &witness.set, &periodic, &when)), ("next", next(run.spec, origin, true))];
     facts.extend(orbit(run.spec).map(|said| ("orbit", said)));
     facts.extend(run.found.map(|(_, limit)| ("set by", format!("{} (an estimate)", limit.describe()))));
     facts.extend(consequences.and_then(|all| error(&all.by_n_o)).map(|said| ("steady error", said)));
@@ -209,18 +219,13 @@ fn norms(spec: &Specification, what: &str) -> String {
     }
 }
 
-/// The initial set, and of a plant the ball in it.
-fn from(spec: &Specification, set: &ClaimedSet, when: &str) -> String {
+/// The initial set, of a plant the ball in it, and where its sizes are from.
+fn from(spec: &Specification, set: &ClaimedSet, [x, e, ..]: &[Enclosure; 4], when: &str) -> String {
     let ball = spec.plant().and_then(|plant| claimed_ball(plant, &set.x0));
     let ball =
         ball.map_or_else(String::new, |ball| format!("; so from |x - x_0| <= {}", exact(&ball, Direction::Down)));
-    // Without sizes of its own the set is twice the periodic solution, which shrinks with the gain.
-    let own = if spec.initial_set.given()[0].is_none() && spec.plant().is_none_or(|plant| plant.ball.is_none()) {
-        "; twice the periodic solution"
-    } else {
-        ""
-    };
-    format!("{}, at {when}{ball}{own}", words::set(spec, set))
+    let own = words::origin_of_sizes(spec, set, [x, e]);
+    format!("{}, at {when}{ball}; {own}", words::set(spec, set))
 }
 
 /// The periodic solution, how far from it solutions go, and how large the control gets.

@@ -1,5 +1,6 @@
 //! What a claim says besides for given numbers of oscillators: how fast the error decays.
 
+use super::words;
 use rug::Rational;
 use serde_json::{Value, json};
 use sigmastar_document::number::{estimate, exact};
@@ -19,11 +20,12 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
     }
     let mut blocks = vec![
         Block::heading("For given numbers of oscillators"),
-        Block::says(
-            "For every start in the set |e(t) - e_per(t)| <= factor exp(-rate (t - t_0)): a part of the claim, for this n_o and this gain \
+        Block::says(format!(
+            "For every start in the set |e(t) - e_per(t)| <= factor exp(-rate (t - t_0)){}: a part of the claim, for this n_o and this gain \
              alone, proved from the bounds on the error box, or from the derivatives there. The factor is for the whole set at once, and far above what most \
              starts need. What limits the rate is an estimate. `not proved` says nothing either way.",
-        ),
+            undisturbed(run.spec.disturbances.any())
+        )),
         Block::Table(rates(&run.for_n_o)),
     ];
     blocks.extend(not_proved(&run.for_n_o, &run.why_no_rate()));
@@ -40,6 +42,11 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
 /// Why some of the rates are not proved.
 fn not_proved<P, Q>(found: &[ForCount<P, Q>], why: &str) -> Option<Block> {
     found.iter().any(|found| found.bound.is_none()).then(|| Block::says(format!("Not proved: {why}.")))
+}
+
+/// Of which loop rates and factors are, where the document has something that disturbs it.
+fn undisturbed(any: bool) -> &'static str {
+    if any { ", in the loop without noise, disturbance and rounding" } else { "" }
 }
 
 /// The rates, one a line.
@@ -157,10 +164,9 @@ fn disturbed(spec: &Specification, asked: Vec<(u32, Result<Shown, NoNoiseBound>)
         Block::says(format!(
             "{words} |e(t) - e_per(t)| is at most this in the limit and at all times from the start on, for every \
              start in the set: a part of the claim, for this n_o and this gain alone. e_per is of the periodic solution without {without}{}.",
-            // The factor is of a start without noise.
-            match spec.initial_set.is_aligned() {
-                true => "; the start is z = M e of the measured e".to_owned(),
-                false => format!("; on the way |e(t) - e_per(t)| <= factor exp(-rate (t - t_0)) + the limit{place}"),
+            match words::limit_adds_to_the_way(spec) {
+                true => format!("; on the way |e(t) - e_per(t)| <= factor exp(-rate (t - t_0)) + the limit{place}"),
+                false => "; the start is z = M e of the measured e".to_owned(),
             },
         )),
         Block::Table(table),
@@ -215,12 +221,13 @@ pub(super) fn sampled_section(run: &SampledCertification<'_>) -> Vec<Block> {
     }
     vec![
         Block::heading("For given numbers of oscillators"),
-        Block::says(
+        Block::says(format!(
             "For every start in the set at a sampling instant t_0, |e(t) - e_per(t)| <= factor exp(-rate (t - t_0)) at every sampling instant \
-             t from there on: a part of the claim, for this n_o, this gain and this sampling period alone, proved from the bounds on the \
+             t from there on{}: a part of the claim, for this n_o, this gain and this sampling period alone, proved from the bounds on the \
              error box. The factor is for the whole set at once, and far above what most starts need. What limits the rate is an \
              estimate. `not proved` says nothing either way.",
-        ),
+            undisturbed(run.spec.disturbances.any_at_samples())
+        )),
         Block::Table(rates(&run.for_n_o)),
     ]
     .into_iter()

@@ -14,7 +14,7 @@ const WORTH: f64 = 0.5;
 pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
     let steady = SHOWN_N_O.map(|n_o| format!("steady |e|, {n_o}"));
     let says = "Steady is along the periodic solution, of the error with 0 and with 10 oscillators; largest is on the way from |e| <= E0 and the rest \
-                of the initial set: where the file states no sizes of the set they are twice those of the periodic solution at that gain. \
+                of the initial set, of which a size that the file does not state goes with the gain: it is at least twice the bound of the periodic solution there. \
                 Each row is proved, for every n_o but where one is named, with a witness of its own that no independent program checks: \
                 `certify --sigma V -o FILE` writes a certificate, and `sampling` lists the longest sampling periods of such gains.";
     table(&run.gains, &steady, says)
@@ -22,8 +22,8 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
 
 /// The same at samples.
 pub(super) fn sampled_section(run: &SampledCertification<'_>) -> Vec<Block> {
-    let says = "At the same samples; steady is along the periodic solution, largest on the way from |e| <= E0 and the rest of the initial set: where the \
-                file states no sizes of the set they are twice those of the periodic solution at that gain. Each row is proved, for every n_o below half of \
+    let says = "At the same samples; steady is along the periodic solution, largest on the way from |e| <= E0 and the rest of the initial set, of which a \
+                size that the file does not state goes with the gain: it is at least twice the bound of the periodic solution there. Each row is proved, for every n_o below half of \
                 the samples but where one is named, and for that gain alone; no independent program checks it: `certify --sigma V -o FILE` writes a certificate.";
     table(&run.gains, &["steady |e|".to_owned()], says)
 }

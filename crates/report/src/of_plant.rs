@@ -39,10 +39,11 @@ pub(super) fn section(spec: &Specification, set: Option<&ClaimedSet>) -> Vec<Blo
         ));
     }
     if parameters.iter().any(|parameter| parameter.interval.is_some()) {
-        blocks.push(Block::says(
+        blocks.push(Block::says(format!(
             "Everything below is proved for every value of the parameters in these intervals, each of them constant in time; x_0(t) is that of \
-             the member, and xb(t) follows it as an affine function of the parameters.",
-        ));
+             the member, and xb(t) follows it{} as an affine function of the parameters.",
+            if is_cut(plant) { ", in each of the cells below," } else { "" }
+        )));
     }
     blocks.extend(cut(plant));
     if plant.states() > 0 {
@@ -120,12 +121,18 @@ pub(super) fn section(spec: &Specification, set: Option<&ClaimedSet>) -> Vec<Blo
     blocks
 }
 
-/// That the box of the parameters is cut, and why.
+/// Whether the box of the parameters is cut.
+fn is_cut(plant: &OfPlant) -> bool {
+    plant.cells.len() > 1
+}
+
+/// That it is, and why.
 fn cut(plant: &OfPlant) -> Option<Block> {
-    plant.undivided().is_none().then(|| {
+    is_cut(plant).then(|| {
         let why = plant.why_cut.as_ref().map_or_else(|| ".".to_owned(), |why| format!(": {why}."));
         Block::says(format!(
-            "Their box is cut into {} cells, each with an xb(t) and a tube of its own; every number below is true in all of them{why}",
+            "Their box is cut into {} cells, which may overlap, each with an xb(t) and a tube of its own; every number below is true in all \
+             of them{why}",
             plant.cells.len()
         ))
     })
@@ -182,15 +189,17 @@ pub(super) fn orbit(spec: &Specification) -> Option<String> {
 fn facts(plant: &OfPlant, set: Option<&ClaimedSet>) -> Vec<(&'static str, String)> {
     let up = |value: &Rational| exact(value, Direction::Up);
     let harmonics = plant.cells.iter().map(|cell| cell.orbit.approximation.harmonics()).max().unwrap_or(0);
-    let most = if plant.cells.len() > 1 { " at most" } else { "" };
+    let most = if is_cut(plant) { " at most" } else { "" };
+    // Within the tube x_0 is the only one: of cells that is so of all of them up to the smallest.
+    let least = if is_cut(plant) { " at least" } else { "" };
     let mut facts = vec![
         (
             "orbit",
             format!(
-                "a trigonometric polynomial with{most} {harmonics} harmonics; |L^-1 (x_0 - xb)| <= {} (defect {}, tube {})",
+                "a trigonometric polynomial with{most} {harmonics} harmonics; |L^-1 (x_0 - xb)| <= {} (defect{most} {}, tube{least} {})",
                 up(&plant.largest(|cell| &cell.orbit.radius)),
                 up(&plant.largest(|cell| &cell.orbit.defect)),
-                up(&plant.largest(|cell| &cell.orbit.tube))
+                exact(&plant.smallest(|cell| &cell.orbit.tube), Direction::Down)
             ),
         ),
         ("rate along it", format!("alpha = {}", number(&plant.triple.alpha, Direction::Down))),
@@ -215,7 +224,8 @@ fn facts(plant: &OfPlant, set: Option<&ClaimedSet>) -> Vec<(&'static str, String
     facts.push((
         "q(t, x_0, 0)",
         format!(
-            "{} harmonics; the rest is at most {}, its derivative {}",
+            "{}{} harmonics; the rest is at most {}, its derivative {}",
+            if is_cut(plant) { "at most " } else { "" },
             plant.cells.iter().map(|cell| cell.forcing.harmonics.len()).max().unwrap_or(0),
             up(&plant.largest(|cell| &cell.forcing.rest)),
             up(&plant.largest(|cell| &cell.forcing.rest_t))
@@ -226,8 +236,9 @@ fn facts(plant: &OfPlant, set: Option<&ClaimedSet>) -> Vec<(&'static str, String
     }
     if let Some(ball) = set.and_then(|set| nominal_ball(plant, &set.x0)) {
         let said = format!(
-            "|x - xb(t)| <= {} about the xb of the nominal member, for every member",
-            exact(&ball, Direction::Down)
+            "|x - xb(t)| <= {} about the xb of the nominal member{}, for every member",
+            exact(&ball, Direction::Down),
+            if is_cut(plant) { " in the first cell that has it" } else { "" }
         );
         facts.push(("and of all of them", said));
     }
@@ -267,7 +278,7 @@ pub(super) fn plant_json(spec: &Specification, set: Option<&ClaimedSet>) -> Valu
         "coordinates": rows(&plant.coordinates),
         "orbit": {
             "harmonics": harmonics, "defect": write_exact(&plant.largest(|cell| &cell.orbit.defect)),
-            "tube": write_exact(&plant.largest(|cell| &cell.orbit.tube)),
+            "tube": write_exact(&plant.smallest(|cell| &cell.orbit.tube)),
             "radius": write_exact(&plant.largest(|cell| &cell.orbit.radius)),
         },
         "cells": plant.cells.len(), "cells_because": plant.why_cut,

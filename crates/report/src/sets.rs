@@ -48,10 +48,14 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
         Block::Table(sizes.table),
     ];
     blocks.extend(boxes.figure().map(Block::Drawing));
-    blocks.push(Block::says(
+    blocks.push(Block::says(format!(
         "Solutions from the initial set stay in the error box around the periodic solution. The rate of convergence \
-         depends on n_o and is not part of the claim; sigma* and the sets do not depend on n_o. sigma is in 1/time.",
-    ));
+         depends on n_o and {}; sigma* and the sets do not depend on n_o. sigma is in 1/time.",
+        match run.rates().any(|(_, rate)| rate.is_some()) {
+            true => "is part of the claim for the numbers below alone",
+            false => "is not part of the claim",
+        }
+    )));
     blocks
 }
 

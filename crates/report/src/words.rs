@@ -1,10 +1,12 @@
 //! How a report names the state of the zero dynamics: x, its coordinates y of a plant's formulas, or nothing where a plant
 //! has none.
 
+use rug::Rational;
 use sigmastar_document::clean;
-use sigmastar_document::number::exact;
+use sigmastar_document::number::{estimate, exact};
+use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::Direction;
-use sigmastar_lang::spec::{InputGain, Specification, StartSizes};
+use sigmastar_lang::spec::{Constant, InputGain, Specification, StartSizes};
 use sigmastar_prove::certificate::members;
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
 
@@ -14,6 +16,42 @@ pub(super) fn set(spec: &Specification, set: &ClaimedSet) -> String {
     let of_state = spec.state_name().map_or_else(String::new, |name| format!("|{name}| <= {x0}, "));
     let of_regulator = z0.map_or_else(|| "z = M e".to_owned(), |z0| format!("|z|_N <= {z0}"));
     format!("{of_state}|e| <= {e0}, {of_regulator}")
+}
+
+/// Where the sizes of the initial set are from: those that are stated, and those that are not, by the bounds of the periodic solution of which they
+/// are a multiple: "E0 as stated, X0 about twice the bound of the periodic solution".
+pub(super) fn origin_of_sizes(spec: &Specification, set: &ClaimedSet, periodic: [&Enclosure; 2]) -> String {
+    let ball = spec.plant().and_then(|plant| plant.ball.as_ref());
+    let [x0, e0] = spec.initial_set.given();
+    let of = |stated: Option<&Constant>, claimed: &Rational, bound: &Enclosure| match stated {
+        // What is stated irrationally is rounded up, and a given witness may cover more.
+        Some(stated) if stated.as_rational() == Some(claimed) => "as stated".to_owned(),
+        Some(_) => "at least as stated".to_owned(),
+        None => multiple(claimed, bound),
+    };
+    let of_x = match ball {
+        Some(_) => "for the ball that is stated".to_owned(),
+        None => of(x0, &set.x0, periodic[0]),
+    };
+    let of_e = of(e0, &set.e0, periodic[1]);
+    match spec.state_name() {
+        None => of_e,
+        Some(_) if of_x == of_e => of_x,
+        Some(_) => format!("X0 {of_x}, E0 {of_e}"),
+    }
+}
+
+/// How large a size that is not stated is against the bound of the periodic solution, of which the search takes twice what its existence is proved
+/// within: the bound may be far below that.
+fn multiple(size: &Rational, bound: &Enclosure) -> String {
+    let share = size.to_f64() / bound.upper_f64();
+    if !share.is_finite() {
+        "chosen".to_owned()
+    } else if (share - 2.0).abs() < 0.01 {
+        "about twice the bound of the periodic solution".to_owned()
+    } else {
+        format!("about {} times the bound of the periodic solution", estimate(share))
+    }
 }
 
 /// "0.8 to 1.25": the interval of the input gain, where the document has one.
@@ -64,4 +102,10 @@ pub(super) fn limit(spec: &Specification) -> &'static str {
 /// The cells of a table of sizes, whose first one is that of the state: left out where there is none.
 pub(super) fn with_state<T, const N: usize>(spec: &Specification, cells: [T; N]) -> impl Iterator<Item = T> {
     cells.into_iter().skip(usize::from(spec.state_name().is_none()))
+}
+
+/// Whether `factor exp(-rate (t - t_0))` and the limit together bound the way under noise, a disturbance or rounding. Not from an aligned start: it sets
+/// z = M e of the measured e, and the factor is of a start without noise (derivation, 13.6).
+pub(super) fn limit_adds_to_the_way(spec: &Specification) -> bool {
+    !spec.initial_set.is_aligned()
 }

@@ -110,8 +110,8 @@ pub(super) fn actuator() -> Field {
     may(
         "actuator",
         "Actuator",
-        "An actuator that saturates: what is put out acts as it is up to `max` in size. A claim then is about one gain, and from its set \
-         the actuator never saturates.",
+        "An actuator that saturates: what is put out acts as it is up to `max` in size. A claim then is about one gain, and from its set, \
+         without noise, the actuator never saturates.",
         Shape::Object(fields),
     )
 }

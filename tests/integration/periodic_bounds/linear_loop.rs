@@ -59,7 +59,7 @@ fn triangle(n: usize) -> Vec<(usize, usize)> {
     (0..n).flat_map(|j| (0..=j).map(move |i| (i, j))).collect()
 }
 
-/// F for P, k_p, the weight w of e^2 and the threshold, as it is by (13.3), but for c_x and c_y.
+/// F for P, k_p, the weight w of e^2 and the threshold, as it is by (13.7c), but for c_x and c_y.
 fn form(vertex: &DMatrix<f64>, p: &DMatrix<f64>, [k_p, w, value]: [f64; 3]) -> DMatrix<f64> {
     let n = p.nrows();
     let (j, g) = (vertex.view((0, 0), (n, n)), vertex.view((0, n), (n, 1)));

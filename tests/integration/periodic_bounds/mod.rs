@@ -30,7 +30,7 @@ const ROUNDING: f64 = 1e-9;
 /// Random forces beside the worst ones.
 const RANDOM_FORCES: usize = 2;
 
-/// What is compared with a bound of (13.4), and the share of the bound that some loop reaches.
+/// What is compared with a bound of (13.7d), and the share of the bound that some loop reaches.
 const COMPARED: [(&str, f64); 6] = [
     ("rms(v) / r_y", 0.98),
     ("rms(e) / (k_p Q_m/(2 sqrt(c_e c_y)))", 0.98),

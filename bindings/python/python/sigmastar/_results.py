@@ -77,7 +77,8 @@ class ErrorBound(Shown):
 
 @dataclass(frozen=True, repr=False)
 class ClaimedRate(Shown):
-    """What the claim says of one number of oscillators, at its gain alone: `|e - e_per| <= factor exp(-rate (t - t_0))`."""
+    """What the claim says of one number of oscillators, at its gain alone: `|e - e_per| <= factor exp(-rate (t - t_0))`
+    in the loop without noise; at samples at the sampling instants."""
 
     _sides = {"rate": "down", "factor": "up"}
 

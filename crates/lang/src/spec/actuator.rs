@@ -22,7 +22,17 @@ impl Actuator {
         Quantity::constant(&self.max).equals(&Quantity::constant(&other.max)).is_true()
             || self.max.text == other.max.text
     }
+
+    /// The least double that is certainly not below `max`, where code clips: a control that is proved to stay within `max` it leaves as it is.
+    /// Infinite where `max` is above all doubles.
+    #[must_use]
+    pub fn limit(&self) -> f64 {
+        self.max.enclose(PRECISION).upper_f64()
+    }
 }
+
+/// Bits of [`Actuator::limit`]: far more than a double has, so that the upper end lies above a double only where `max` does.
+const PRECISION: u32 = 256;
 
 /// Reads `actuator`: one positive constant, in which the names of a plant's constants may stand.
 ///

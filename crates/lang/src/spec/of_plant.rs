@@ -108,4 +108,10 @@ impl OfPlant {
     pub fn largest(&self, of: impl Fn(&ProvedCell) -> &Rational) -> Rational {
         self.cells.iter().map(of).max().cloned().unwrap_or_default()
     }
+
+    /// The smallest of a number of the cells; 0 without any.
+    #[must_use]
+    pub fn smallest(&self, of: impl Fn(&ProvedCell) -> &Rational) -> Rational {
+        self.cells.iter().map(of).min().cloned().unwrap_or_default()
+    }
 }

@@ -198,7 +198,7 @@ fn help_of_set(plant: &Plant, obstacle: &Obstacle) -> &'static str {
                     "a larger `domain`: the initial set is the smallest of its kind already"
                 }
                 _ => {
-                    "the initial set is the smallest of its kind already, twice the periodic solution: the kind `aligned` asks for less than \
+                    "the initial set is the smallest of its kind already, since its sizes are left open: the kind `aligned` asks for less than \
                  `at-rest`, and so do a smaller load, a larger rate of the zero dynamics and less coupling between e and x"
                 }
             }

@@ -66,8 +66,8 @@ pub fn json(export: &Export<'_>) -> Value {
     if let Some(nominal) = regulator.nominal {
         file["input_gain"] = object!({ "nominal": nominal });
     }
-    if let Some(max) = export.actuator {
-        file["actuator"] = object!({ "max": max });
+    if let Some(actuator) = export.actuator {
+        file["actuator"] = object!({ "max": actuator.limit() });
     }
     file
 }

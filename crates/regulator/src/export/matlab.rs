@@ -22,8 +22,8 @@ pub fn matlab(export: &Export<'_>) -> String {
     if let Some(nominal) = regulator.nominal {
         script.push_str(&format!("nominal = {};\n", decimal(nominal)));
     }
-    if let Some(max) = export.actuator {
-        script.push_str(&format!("actuator_max = {};\n", decimal(max)));
+    if let Some(actuator) = export.actuator {
+        script.push_str(&format!("actuator_max = {};\n", decimal(actuator.limit())));
     }
     script.push_str(&format!("frequencies = [{}];\n", row(&regulator.frequencies)));
     script.push_str(&format!("weights = [{}];\n", row(&regulator.weights)));

@@ -13,6 +13,7 @@ pub use notice::{DELAYED_LAW, Provenance, SAMPLED_LAW, Scope, notice};
 pub use npz::npz;
 
 use super::{Convergence, Discrete, Regulator};
+use sigmastar_lang::spec::Actuator;
 
 /// What is written out.
 #[derive(Clone, Copy, Debug)]
@@ -25,8 +26,8 @@ pub struct Export<'r> {
     pub discrete: Option<(&'r Discrete, Convergence)>,
     /// Whether it sets z = M e at its first instant (section 13.7); else it starts with z = 0.
     pub aligned: bool,
-    /// The largest |u| that the actuator takes, where the document states it and nothing else was asked for.
-    pub actuator: Option<f64>,
+    /// What the actuator takes, where the document states it and no other limit was asked for.
+    pub actuator: Option<&'r Actuator>,
     /// The certificate, where one was given for this plant.
     pub certificate: Option<&'r Provenance>,
 }

@@ -133,24 +133,35 @@ pub fn notice(export: &Export<'_>) -> Vec<String> {
              exported\", and in no other bound. No claim covers {late}, {saturates}."
         ),
     });
-    let never = match claimed {
-        (Some(Scope::Samples), Some(_)) => "; from the set of the certificate it never is",
+    lines.extend(clipped(export, claimed.0));
+    lines
+}
+
+/// Where u is clipped, or is to be; with an actuator, what the certificate says of that.
+fn clipped(export: &Export<'_>, scope: Option<Scope>) -> Option<String> {
+    let of_max = export.actuator.map_or_else(String::new, |actuator| {
+        format!(", the least double that is not below the {} that the actuator takes", plain(&actuator.max.text))
+    });
+    let proved = match (export.actuator.and(scope), export.discrete) {
+        (Some(Scope::Samples), Some(_)) | (Some(Scope::Continuous), None) => {
+            " From the set of the certificate what this law puts out, computed exactly and without noise, stays within that."
+        }
         (Some(Scope::Continuous), Some(_)) => {
-            "; from the set of the certificate that of the law in continuous time never is"
+            " That from the set of the certificate u stays within that is proved of the law in continuous time, without noise, and not at \
+             samples."
         }
         _ => "",
     };
-    if let Some(limit) = export.discrete.and_then(|(discrete, _)| discrete.saturation) {
-        let (limit, no_claim) = (super::decimal(limit), "No claim covers a run in which that happens.");
-        let (told, by) = if delayed { ("s", "h") } else { ("z", "h M") };
-        lines.push(format!(
-            "u is clipped to |u| <= {limit}{never}. Against windup {told} is told the control applied: where u is clipped, {by} (applied - \
-             wanted) is added to {told}_next. {no_claim}"
-        ));
-    } else if let Some(max) = export.actuator {
-        lines.push(format!("The actuator takes |u| <= {}: clip u there{never}.", super::decimal(max)));
-    }
-    lines
+    let Some((discrete, _)) = export.discrete else {
+        let limit = super::decimal(export.actuator?.limit());
+        return Some(format!("Clip u to |u| <= {limit}{of_max}.{proved}"));
+    };
+    let limit = super::decimal(discrete.saturation?);
+    let (told, by) = if discrete.prediction.is_some() { ("s", "h") } else { ("z", "h M") };
+    Some(format!(
+        "u is clipped to |u| <= {limit}{of_max}.{proved} Against windup {told} is told the control applied: where u is clipped, {by} \
+         (applied - wanted) is added to {told}_next. No claim covers a run in which that happens."
+    ))
 }
 
 /// Text of a stranger as it may stand in source code: printable ASCII on one line.
