@@ -3,7 +3,9 @@
 
 use crate::support::{count, document, every, json, number, options, program, specification_text, tried, utf8};
 use proofs_check::verdict::Verdict as Answer;
+use rug::Rational;
 use serde_json::{Value, json as object};
+use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_lab::falsify::Finding;
 use sigmastar_lang::spec::{Document, Specification};
 use sigmastar_prove::certificate::{certificate_json, certificate_of, read_witness};
@@ -298,6 +300,30 @@ fn rows_have_the_rates_that_are_asked_for() {
     assert!(plain["gains"][0].get("rates").is_none());
 }
 
+/// Code clips at the least double that is not below `max`: what is proved to stay within `max` never is clipped, whichever side the nearest double is on.
+#[test]
+fn code_clips_at_no_double_below_max() {
+    let mut nearest_is_below = 0;
+    for max in ["30", "26.5", "0.3", "30.1", "30.7", "1/3", "2/3", "1e-7", "123456789.123456789", "3*sqrt(2)", "10*pi"] {
+        let actuator = with_max(max).actuator.unwrap();
+        let (limit, exact) = (actuator.limit(), actuator.max.enclose(400));
+        let of = |double: f64| Enclosure::from_rational(&Rational::from_f64(double).unwrap(), 400);
+        assert!(of(limit).ge(&exact).is_true(), "{max}: {limit:?}");
+        assert!(of(limit.next_down()).lt(&exact).is_true(), "{max}: {limit:?}");
+        nearest_is_below += u32::from(of(exact.midpoint_f64()).lt(&exact).is_true());
+    }
+    assert!(nearest_is_below >= 3, "{nearest_is_below}");
+    // In the exports, and in the code: 30.7 is between two doubles, of which the nearer one is below.
+    let folder = tempfile::tempdir().unwrap();
+    let file = written(folder.path(), "spec.json", &text(NAME, &[actuator("30.7")]));
+    let call = ["controller", &file, "--sigma", "20", "--n-o", "1", "--discretise", "1/1000"];
+    let made = json(&program().args(call).assert().success().get_output().stdout);
+    let above = 30.7_f64.next_up();
+    assert_eq!((&made["actuator"]["max"], &made["discrete"]["saturation"]), (&object!(above), &object!(above)));
+    let notice = made["notice"].to_string();
+    assert!(notice.contains("|u| <= 30.700000000000003, the least double that is not below the 30.7 that the actuator takes. Ag"), "{notice}");
+}
+
 /// Exports clip, and say what the certificate says of that; another gain is refused.
 #[test]
 fn exports_clip_where_the_actuator_saturates() {
@@ -317,12 +343,11 @@ fn exports_clip_where_the_actuator_saturates() {
         assert_eq!((&made["actuator"]["max"], &made["discrete"]["saturation"]), (&object!(30.0), &object!(30.0)));
         assert!(made["certificate"].get("sigma").is_some() && made["certificate"].get("sigma_star").is_none());
         let notice = made["notice"].to_string();
-        let said = if at_samples {
-            "from the set of the certificate it never is"
-        } else {
-            "that of the law in continuous time never is"
-        };
-        assert!(notice.contains(said), "{notice}");
+        let exactly = "From the set of the certificate what this law puts out, computed exactly and without noise, stays within that.";
+        let elsewhere = "is proved of the law in continuous time, without noise, and not at samples.";
+        let clipped = "u is clipped to |u| <= 30, the least double that is not below the 30 that the actuator takes. ";
+        assert!(notice.contains(clipped), "{notice}");
+        assert_eq!([exactly, elsewhere].map(|said| notice.contains(said)), [at_samples, !at_samples], "{notice}");
         // The saturation is in the claim about this law alone: one about the law in continuous time says nothing of its samples.
         assert_eq!(notice.contains("quantisation, or saturation"), !at_samples, "{notice}");
         let script =
@@ -332,12 +357,18 @@ fn exports_clip_where_the_actuator_saturates() {
         let call = [&step[..], &["--format", "c", "--force", "-o", c.to_str().unwrap()]].concat();
         export(&call).assert().success();
         assert!(std::fs::read_to_string(&c).unwrap().contains("if (u > limit)"));
+        // The law in continuous time is the one of the claim.
+        if !at_samples {
+            let notice = json_of(&[])["notice"].to_string();
+            assert!(notice.contains("Clip u to |u| <= 30, ") && notice.contains(exactly) && !notice.contains(elsewhere), "{notice}");
+        }
         // Another limit is outside of the claim, and another gain is not the one that is claimed.
         let other = json_of(&["--discretise", "1/1000", "--saturation", "20"]);
         assert!(other["certificate"].get("sigma").is_some());
         assert!(other.get("actuator").is_none() && other["discrete"]["saturation"] == 20.0);
         let notice = other["notice"].to_string();
-        assert!(!notice.contains("never is") && notice.contains("quantisation, or saturation"), "{notice}");
+        assert!(notice.contains("u is clipped to |u| <= 20. Against"), "{notice}");
+        assert!(!notice.contains("stays within that") && notice.contains("quantisation, or saturation"), "{notice}");
         let refused = export(&[&step[..], &["--sigma", "300"]].concat()).assert().code(2);
         let told = utf8(refused.get_output().stderr.clone());
         assert!(told.contains(if at_samples { "another one" } else { "alone, and this is another gain" }), "{told}");

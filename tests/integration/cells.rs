@@ -1,6 +1,6 @@
 //! Families whose box of parameters is cut into cells: certified where one tube is too wide, checked, tried, and decided again.
 
-use super::support::{certified_by, checked, decided_again, every, plant, program, read, stored};
+use super::support::{certified_by, checked, decided_again, every, in_one_line, number, plant, program, read, stored, told};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
@@ -16,6 +16,14 @@ fn certified(folder: &Path, plant: &Value, threads: &str) -> (PathBuf, Value) {
     let mut program = program();
     program.env("RAYON_NUM_THREADS", threads);
     certified_by(program, folder, plant, &["--no-compare"])
+}
+
+/// The whole report on a plant by its certificate, in one line.
+fn in_words(folder: &Path, plant: &Value, certificate: &Path) -> String {
+    let plant = stored(folder, "in-words.json", plant);
+    let mut call = program();
+    call.args(["certify", "--no-compare", "--full", "--witness"]).arg(certificate).arg(plant);
+    in_one_line(&told(&mut call).1)
 }
 
 /// The box is cut, the same on any number of threads; every number counts in every cell, for both programs.
@@ -36,6 +44,17 @@ fn a_wide_family_is_certified_in_cells() {
     assert_eq!(report["plant"]["cells"], cells.len());
     assert!(report["plant"]["cells_because"].as_str().is_some_and(|why| why.contains("affine in the parameters")));
     assert!(certificate["witness"]["orbit"].is_null() && certificate["witness"]["forcing"].is_null());
+    // What is said of all of them is true of each: within the smallest tube there is one orbit, the largest radius and defect bound.
+    let ends = |size: &str| {
+        let sizes = cells.iter().map(|cell| number(&cell["orbit"][size]));
+        [sizes.clone().fold(f64::INFINITY, f64::min), sizes.fold(0.0, f64::max)]
+    };
+    let said = |size: &str| number(&report["plant"]["orbit"][size]);
+    assert_eq!([said("tube"), said("radius"), said("defect")], [ends("tube")[0], ends("radius")[1], ends("defect")[1]]);
+    let text = in_words(folder, &plant, &file);
+    for words in ["follows it, in each of the cells below, as an affine function", "defect at most ", ", tube at least ", "in the first cell that has it"] {
+        assert!(text.contains(words), "{words}: {text}");
+    }
     assert_eq!(checked(&file)["verdict"], "valid");
     let again = |plant: &Value, certificate: &Path| decided_again(folder, plant, certificate).1["verdict"].clone();
     assert_eq!(again(&plant, &file), "certified");
@@ -86,6 +105,9 @@ fn cells_only_where_they_help() {
     assert_eq!(report["plant"]["cells"], 1);
     assert_eq!(report["plant"]["cells_because"], Value::Null);
     assert!(read(&file)["witness"]["cells"].is_null());
+    let text = in_words(folder, &family(["1.95", "2.05"]), &file);
+    assert!(text.contains("follows it as an affine function") && text.contains(", tube "), "{text}");
+    assert!(!text.contains("cell") && !text.contains("tube at least"), "{text}");
     let mut unstable = family(["-1", "3"]);
     unstable["f"][0] = "-a*x + e/5 + 2 + sin(2*pi*t)".into();
     let unstable = stored(folder, "unstable.json", &unstable);

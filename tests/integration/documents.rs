@@ -212,3 +212,77 @@ fn the_build_without_m4_is_set_up() {
     );
     assert!(std::fs::read_to_string(folder.join("config.site")).unwrap().contains("gmp_cv_prog_m4"));
 }
+
+/// The numbers of section 13 of the mathematics: its subsections, its formulas and its results.
+fn numbers_of_13(mathematics: &str) -> [BTreeSet<String>; 3] {
+    let after = |before: &'static str, end: char| -> BTreeSet<String> {
+        let found = mathematics.split(before).skip(1);
+        found.filter_map(|rest| rest.split_once(end)).map(|(number, _)| format!("13.{number}")).collect()
+    };
+    let results = ["**Theorem 13.", "**Proposition 13."].into_iter();
+    let results = results.flat_map(|before| after(before, '*')).map(|name| name.trim_end_matches('.').to_owned());
+    [after("\n### 13.", ' '), after("\\tag{13.", '}'), results.collect()]
+}
+
+/// The references to section 13 of a text that name nothing, or a result like a subsection.
+fn wrong_references(text: &str, [subsections, formulas, results]: &[BTreeSet<String>; 3]) -> Vec<String> {
+    let mut wrong = Vec::new();
+    for (at, _) in text.match_indices("13.") {
+        let (before, rest) = text.split_at(at);
+        let end = rest.find(|c: char| !(c.is_ascii_alphanumeric() || c == '.')).unwrap_or(rest.len());
+        let number = rest[..end].trim_end_matches('.');
+        let line = before.rsplit('\n').next().unwrap_or_default();
+        let of_result = ["Theorem ", "Proposition ", "Propositions "].iter().any(|name| before.ends_with(name));
+        let in_parentheses = before.ends_with('(') && rest[end..].starts_with(')');
+        let known = match (of_result, in_parentheses) {
+            (true, _) => results.contains(number),
+            // A formula, or "see there".
+            (false, true) => formulas.contains(number) || subsections.contains(number),
+            (false, false) => true,
+        };
+        if !known {
+            wrong.push(format!("{line}{number}"));
+        }
+    }
+    wrong
+}
+
+/// 13.4 is a subsection and nothing else: formulas and results have numbers of their own, in the documents, the code and the Coq files.
+#[test]
+fn numbers_of_section_13_name_one_thing() {
+    let texts = shipped();
+    let numbers = numbers_of_13(&texts["docs/mathematics.md"]);
+    let [subsections, formulas, results] = &numbers;
+    assert_eq!(subsections.iter().map(String::as_str).collect::<Vec<_>>(), ["13.1", "13.2", "13.3", "13.4", "13.5", "13.6", "13.7"]);
+    assert!(formulas.len() == 13 && results.len() == 11, "{numbers:?}");
+    assert!(formulas.is_disjoint(subsections) && results.is_disjoint(subsections) && results.is_disjoint(formulas));
+    let mut all: Vec<(String, String)> = texts.into_iter().filter(|(path, _)| path != "CHANGELOG.md").collect();
+    for (folder, endings) in [("proofs-check", &[".rs", ".v", ".md"][..]), ("crates", &[".rs"]), ("src", &[".rs"])] {
+        let mut folders = vec![Path::new(ROOT).join(folder)];
+        while let Some(folder) = folders.pop() {
+            for entry in std::fs::read_dir(&folder).expect("a folder") {
+                let path = entry.expect("an entry").path();
+                let name = path.to_str().expect("plain names").to_owned();
+                if path.is_dir() {
+                    folders.push(path);
+                } else if endings.iter().any(|ending| name.ends_with(ending)) {
+                    all.push((name, std::fs::read_to_string(&path).expect("a text")));
+                }
+            }
+        }
+    }
+    assert!(all.len() > 300, "{}", all.len());
+    for (path, text) in &all {
+        assert_eq!(wrong_references(text, &numbers), Vec::<String>::new(), "{path}");
+    }
+    // What it finds.
+    for (text, count) in [
+        ("by (13.7c), (13.4) and Theorem 13.7.5; 13.4", 0),
+        ("by (13.14)", 1),
+        ("Proposition 13.4 and Theorem 13.5", 2),
+        ("Theorem 13.7.12", 1),
+        ("13.7 of 10.3", 0),
+    ] {
+        assert_eq!(wrong_references(text, &numbers).len(), count, "{text}");
+    }
+}

@@ -254,13 +254,23 @@ fn the_smallest_gain_beside_a_limit_is_that_of_the_plant() {
     }
 }
 
+/// Of each size of the set it is said where it is from: stated, of the ball that is stated, or a multiple of the bound of the periodic solution.
 #[test]
-fn a_set_without_sizes_is_said_to_shrink_with_the_solution() {
-    let said = "at any time; so from |x - x_0| <= 3.509e-4; twice the periodic solution";
-    for (set, expected) in [("{ kind = \"aligned\" }", true), ("{ kind = \"aligned\", ball = 0.001, E0 = 0.1 }", false)]
-    {
+fn where_the_sizes_of_the_set_are_from_is_said() {
+    const ROW: &str = "at any time; so from |x - x_0| <= ";
+    for (set, expected) in [
+        ("{ kind = \"aligned\" }", "about twice the bound of the periodic solution"),
+        ("{ kind = \"aligned\", ball = 0.001, E0 = 0.1 }", "X0 for the ball that is stated, E0 as stated"),
+        ("{ kind = \"aligned\", E0 = 0.1 }", "X0 about twice the bound of the periodic solution, E0 as stated"),
+        ("{ kind = \"aligned\", X0 = 0.001 }", "X0 as stated, E0 about twice the bound of the periodic solution"),
+        ("{ kind = \"aligned\", X0 = 0.001, E0 = 0.1 }", "as stated"),
+        ("{ kind = \"aligned\", X0 = 0.001, E0 = \"sqrt(1/100)\" }", "as stated"),
+        ("{ kind = \"aligned\", X0 = 0.001, E0 = \"sqrt(2)/10\" }", "X0 as stated, E0 at least as stated"),
+    ] {
         let (code, text) = of_text(&CERTIFY, "pump.toml", &PUMP.replace("{ kind = \"aligned\" }", set));
-        assert!(code == 0 && text.contains(said) == expected, "{text}");
+        let row = text.split_once(ROW).and_then(|(_, row)| row.split_once("; "));
+        let said = row.is_some_and(|(_, rest)| rest.starts_with(&format!("{expected} - next: ")));
+        assert!(code == 0 && said, "{set}: {text}");
         assert!(text.contains("orbit: x_0(t): Q about 0.5"), "{text}");
     }
 }

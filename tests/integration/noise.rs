@@ -1,7 +1,7 @@
 //! Noise of the measurement and disturbances in claims for given n_o (docs/mathematics.md, 13.6, Proposition N): what a certificate says, that the
 //! checker decides it, and that trials hold it and break a forged one.
 
-use crate::support::{document, json, number, program, specification_text, tried, utf8};
+use crate::support::{document, json, number, program, specification_text, told, tried, utf8};
 use serde_json::{Value, json as object};
 use sigmastar_lab::falsify::Finding;
 use std::path::Path;
@@ -132,6 +132,50 @@ fn where_there_is_none_the_reason_is_told() {
     let none = [("measurement", object!({ "noise": "0" })), ("disturbance", object!("0"))];
     let (report, _) = certify(folder.path(), &with("paper-example-at-rest", &none), &AT);
     assert!(report["for_n_o"][0].get("noise").is_none() && !report["remarks"].to_string().contains("--n-o"));
+}
+
+/// The factor is of a start without noise: from an aligned start, which measures with noise, factor and limit do not add up to a bound of the way.
+#[test]
+fn the_way_from_an_aligned_start_is_bounded_by_the_peak() {
+    let folder = tempfile::tempdir().unwrap();
+    let set = |kind: &str| ("initial_set", object!({ "kind": kind }));
+    let [noise, disturbance] = inputs();
+    // aligned, disturbed, the members
+    for (aligned, disturbed, members) in [
+        (true, true, vec![set("aligned"), noise.clone(), disturbance.clone()]),
+        (true, false, vec![set("aligned")]),
+        (false, true, vec![set("at-rest"), noise, disturbance]),
+        (false, false, vec![set("at-rest")]),
+    ] {
+        let text = with("paper-example", &members);
+        let (report, certificate) = certify(folder.path(), &text, &["--sigma", "60", "--n-o", "1"]);
+        assert!(certificate.is_some());
+        let found = &report["for_n_o"][0];
+        let [peak, limit] = ["peak", "limit"].map(|name| &found["noise"][name]);
+        let file = folder.path().join("spec.json");
+        let mut call = program();
+        call.args(["certify", "--no-compare", "--full", "--sigma", "60", "--n-o", "1"]).arg(file);
+        let (_, said) = told(&mut call);
+        let words = [
+            " (t - t_0)) without noise, disturbed at most ",
+            " (t - t_0)), disturbed + ",
+            "exp(-rate (t - t_0)), in the loop without noise, disturbance and rounding: a part of the claim",
+            "exp(-rate (t - t_0)): a part of the claim",
+            "the start is z = M e of the measured e",
+            "exp(-rate (t - t_0)) + the limit",
+        ];
+        let expected = [aligned && disturbed, !aligned && disturbed, disturbed, !disturbed, aligned && disturbed, !aligned && disturbed];
+        assert_eq!(words.map(|words| said.contains(words)), expected, "{said}");
+        if aligned && disturbed {
+            let (_, rest) = said.split_once("disturbed at most ").unwrap();
+            let (told_peak, rest) = rest.split_once(" at all times and ").unwrap();
+            let (told_limit, _) = rest.split_once(" in the limit").unwrap();
+            for (told, bound) in [(told_peak, peak), (told_limit, limit)] {
+                let (told, bound): (f64, f64) = (told.parse().unwrap(), number(bound));
+                assert!(bound <= told && told < 1.002 * bound, "{told} {bound}");
+            }
+        }
+    }
 }
 
 #[test]

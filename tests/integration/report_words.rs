@@ -137,3 +137,18 @@ fn a_report_has_four_digits_and_the_exact_gain_once() {
         assert_eq!(in_one_line(&text).contains(shown), above, "{shown}");
     }
 }
+
+/// A rate is part of a claim for the numbers of oscillators of which one is proved, and only there.
+#[test]
+fn what_is_said_of_the_rate_is_what_was_asked_for() {
+    let said = "The rate of convergence depends on n_o and is ";
+    for (flags, expected) in [
+        (&["--n-o", "1"][..], "part of the claim for the numbers below alone; sigma*"),
+        (&[], "not part of the claim; sigma*"),
+    ] {
+        let flags = [&["specs/paper-example.json", "--full", "--no-compare", "--sigma", "60"], flags].concat();
+        let text = in_one_line(&certify(&flags));
+        let (_, rest) = text.split_once(said).unwrap_or_else(|| panic!("{text}"));
+        assert!(rest.starts_with(expected), "{rest}");
+    }
+}

@@ -2,7 +2,7 @@
 //! what claims for given n_o say of it.
 
 use crate::controller::constant;
-use crate::support::{Shipped, certified, certified_in, document, every, json, number, program, read};
+use crate::support::{Shipped, certified, certified_in, document, every, json, number, program, read, stored, told};
 use rug::Rational;
 use serde_json::{Value, json as object};
 use sigmastar_exact::enclosure::Enclosure;
@@ -290,6 +290,23 @@ fn a_certificate_in_doubles_says_so() {
     assert_eq!((&plain["claim"], &plain["witness"]), (&named["claim"], &named["witness"]));
     let without = |name: &&str| plain["witness"]["for_n_o"][0]["noise"][*name].is_null();
     assert!(OF_ROUNDING.iter().all(without));
+}
+
+/// From an aligned start, which measures with rounding, factor and limit do not add up to a bound of the way.
+#[test]
+fn the_way_from_an_aligned_start_is_bounded_by_the_peak() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for (kind, expected) in [("aligned", [true, false]), ("at-rest", [false, true])] {
+        let mut document = document("paper-example");
+        document["arithmetic"] = object!("double");
+        document["initial_set"] = object!({ "kind": kind });
+        let file = stored(folder.path(), "spec.json", &document);
+        let mut call = program();
+        call.args(["certify", "--no-compare", "--sigma", "60"]).args(AT).arg(file);
+        let (code, text) = told(&mut call);
+        let words = [" (t - t_0)) without rounding, rounded at most ", " (t - t_0)), rounded + "];
+        assert_eq!((code, words.map(|words| text.contains(words))), (0, expected), "{text}");
+    }
 }
 
 #[test]

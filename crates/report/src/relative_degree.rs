@@ -20,8 +20,10 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
             ];
             if let Some([sup, rms]) = run.regulated_output(gains) {
                 items.push(format!(
-                    "so, for every n_o and every sigma from sigma* on, sup|xi_1| <= {} and rms(xi_1) <= {} along the \
+                    "so, for every n_o{}, sup|xi_1| <= {} and rms(xi_1) <= {} along the \
                      periodic solution; the bounds of e for a given n_o carry over by the factors k_inf and sqrt(k_2) = {}",
+                    // With an actuator nothing is said of another gain.
+                    if run.spec.actuator.is_some() { "" } else { " and every sigma from sigma* on" },
                     upper(&sup),
                     upper(&rms),
                     upper(&gains.k_2.sqrt())

@@ -99,7 +99,7 @@ class Certificate(Reported):
 
     sigma_star: Exact
     """The gain. The claim holds for it and every larger one; the double is rounded up, so that it holds for the double too.
-    Where `samples` is given the claim is about exactly `sigma_star.exact`, and the double is the nearest one."""
+    Where `samples` is given, and with an `actuator`, the claim is about exactly `sigma_star.exact`, and the double is the nearest one."""
     samples: Optional[Samples]
     """The samples of the regulator that the claim is about; None where it is about the one in continuous time."""
     statement: str
@@ -134,8 +134,8 @@ class Certificate(Reported):
 
     @property
     def error_bounds(self) -> List[ErrorBound]:
-        """Bounds of the error by the number of oscillators, at the gain and at every larger one that is certified; of the regulator at samples at
-        its gain alone."""
+        """Bounds of the error by the number of oscillators, at the gain and at every larger one that is certified; of the regulator at samples, and
+        with an `actuator`, at its gain alone."""
         rows = (self.data.get("consequences") or {}).get("error_bounds", [])
         return [ErrorBound(row["n_o"], stated(row["sup"], "up"), stated(row["rms"], "up")) for row in rows]
 
