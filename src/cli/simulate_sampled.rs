@@ -51,7 +51,8 @@ pub fn run(args: &SimulateArgs, plant: Plant, sigma: Option<&Constant>, step: &C
         ));
     }
     // What is cut off by the actuator the law is told, as its export is.
-    let limit = limit.map(|limit| limit.to_f64()).or(plant.actuator.as_ref().map(Actuator::limit)).or(discrete.saturation);
+    let limit =
+        limit.map(|limit| limit.to_f64()).or(plant.actuator.as_ref().map(Actuator::limit)).or(discrete.saturation);
     let discrete = discrete.saturated(limit);
     if !args.quiet {
         gain_remarks(&plant, gain.as_ref(), &regulator);

@@ -304,7 +304,8 @@ fn rows_have_the_rates_that_are_asked_for() {
 #[test]
 fn code_clips_at_no_double_below_max() {
     let mut nearest_is_below = 0;
-    for max in ["30", "26.5", "0.3", "30.1", "30.7", "1/3", "2/3", "1e-7", "123456789.123456789", "3*sqrt(2)", "10*pi"] {
+    for max in ["30", "26.5", "0.3", "30.1", "30.7", "1/3", "2/3", "1e-7", "123456789.123456789", "3*sqrt(2)", "10*pi"]
+    {
         let actuator = with_max(max).actuator.unwrap();
         let (limit, exact) = (actuator.limit(), actuator.max.enclose(400));
         let of = |double: f64| Enclosure::from_rational(&Rational::from_f64(double).unwrap(), 400);
@@ -321,7 +322,12 @@ fn code_clips_at_no_double_below_max() {
     let above = 30.7_f64.next_up();
     assert_eq!((&made["actuator"]["max"], &made["discrete"]["saturation"]), (&object!(above), &object!(above)));
     let notice = made["notice"].to_string();
-    assert!(notice.contains("|u| <= 30.700000000000003, the least double that is not below the 30.7 that the actuator takes. Ag"), "{notice}");
+    assert!(
+        notice.contains(
+            "|u| <= 30.700000000000003, the least double that is not below the 30.7 that the actuator takes. Ag"
+        ),
+        "{notice}"
+    );
 }
 
 /// Exports clip, and say what the certificate says of that; another gain is refused.
@@ -360,7 +366,10 @@ fn exports_clip_where_the_actuator_saturates() {
         // The law in continuous time is the one of the claim.
         if !at_samples {
             let notice = json_of(&[])["notice"].to_string();
-            assert!(notice.contains("Clip u to |u| <= 30, ") && notice.contains(exactly) && !notice.contains(elsewhere), "{notice}");
+            assert!(
+                notice.contains("Clip u to |u| <= 30, ") && notice.contains(exactly) && !notice.contains(elsewhere),
+                "{notice}"
+            );
         }
         // Another limit is outside of the claim, and another gain is not the one that is claimed.
         let other = json_of(&["--discretise", "1/1000", "--saturation", "20"]);

@@ -1,6 +1,8 @@
 //! Families whose box of parameters is cut into cells: certified where one tube is too wide, checked, tried, and decided again.
 
-use super::support::{certified_by, checked, decided_again, every, in_one_line, number, plant, program, read, stored, told};
+use super::support::{
+    certified_by, checked, decided_again, every, in_one_line, number, plant, program, read, stored, told,
+};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
@@ -52,7 +54,12 @@ fn a_wide_family_is_certified_in_cells() {
     let said = |size: &str| number(&report["plant"]["orbit"][size]);
     assert_eq!([said("tube"), said("radius"), said("defect")], [ends("tube")[0], ends("radius")[1], ends("defect")[1]]);
     let text = in_words(folder, &plant, &file);
-    for words in ["follows it, in each of the cells below, as an affine function", "defect at most ", ", tube at least ", "in the first cell that has it"] {
+    for words in [
+        "follows it, in each of the cells below, as an affine function",
+        "defect at most ",
+        ", tube at least ",
+        "in the first cell that has it",
+    ] {
         assert!(text.contains(words), "{words}: {text}");
     }
     assert_eq!(checked(&file)["verdict"], "valid");

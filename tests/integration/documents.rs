@@ -253,7 +253,10 @@ fn numbers_of_section_13_name_one_thing() {
     let texts = shipped();
     let numbers = numbers_of_13(&texts["docs/mathematics.md"]);
     let [subsections, formulas, results] = &numbers;
-    assert_eq!(subsections.iter().map(String::as_str).collect::<Vec<_>>(), ["13.1", "13.2", "13.3", "13.4", "13.5", "13.6", "13.7"]);
+    assert_eq!(
+        subsections.iter().map(String::as_str).collect::<Vec<_>>(),
+        ["13.1", "13.2", "13.3", "13.4", "13.5", "13.6", "13.7"]
+    );
     assert!(formulas.len() == 13 && results.len() == 11, "{numbers:?}");
     assert!(formulas.is_disjoint(subsections) && results.is_disjoint(subsections) && results.is_disjoint(formulas));
     let mut all: Vec<(String, String)> = texts.into_iter().filter(|(path, _)| path != "CHANGELOG.md").collect();

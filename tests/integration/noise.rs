@@ -164,7 +164,14 @@ fn the_way_from_an_aligned_start_is_bounded_by_the_peak() {
             "the start is z = M e of the measured e",
             "exp(-rate (t - t_0)) + the limit",
         ];
-        let expected = [aligned && disturbed, !aligned && disturbed, disturbed, !disturbed, aligned && disturbed, !aligned && disturbed];
+        let expected = [
+            aligned && disturbed,
+            !aligned && disturbed,
+            disturbed,
+            !disturbed,
+            aligned && disturbed,
+            !aligned && disturbed,
+        ];
         assert_eq!(words.map(|words| said.contains(words)), expected, "{said}");
         if aligned && disturbed {
             let (_, rest) = said.split_once("disturbed at most ").unwrap();

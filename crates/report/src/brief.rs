@@ -58,8 +58,11 @@ pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences
         }
         (None, None) => format!("sigma* = {sigma} in 1/time, or any larger; the same for every n_o"),
     };
-    let mut facts =
-        vec![("gain", gain), ("from", from(run.spec, set, &periodic, "any time")), ("next", next(run.spec, origin, false))];
+    let mut facts = vec![
+        ("gain", gain),
+        ("from", from(run.spec, set, &periodic, "any time")),
+        ("next", next(run.spec, origin, false)),
+    ];
     facts.extend(orbit(run.spec).map(|said| ("orbit", said)));
     facts.extend(set_by(run).map(|said| ("set by", said)));
     facts.extend(
@@ -108,8 +111,7 @@ fn rates<P, Q>(spec: &Specification, found: &[ForCount<P, Q>]) -> Vec<String> {
 /// What noise and a disturbance, or rounding alone, make of it, where there are some and it is proved: the peak and the limit, which adds to the way
 /// where that is so.
 fn disturbed(spec: &Specification, noise: Option<Result<[Rational; 2], &NoNoiseBound>>) -> String {
-    let (word, without) =
-        if spec.disturbances.any() { ("disturbed", "noise") } else { ("rounded", "rounding") };
+    let (word, without) = if spec.disturbances.any() { ("disturbed", "noise") } else { ("rounded", "rounding") };
     match noise {
         None => String::new(),
         Some(Ok(bounds)) => {
@@ -149,8 +151,11 @@ pub(super) fn of_samples(
             format!("a sampling instant, with a prediction of e there that is off by at most h Y_0, Y_0 = {y_0}")
         },
     );
-    let mut facts =
-        vec![("gain", gain), ("from", from(run.spec, &witness.set, &periodic, &when)), ("next", next(run.spec, origin, true))];
+    let mut facts = vec![
+        ("gain", gain),
+        ("from", from(run.spec, &witness.set, &periodic, &when)),
+        ("next", next(run.spec, origin, true)),
+    ];
     facts.extend(orbit(run.spec).map(|said| ("orbit", said)));
     facts.extend(run.found.map(|(_, limit)| ("set by", format!("{} (an estimate)", limit.describe()))));
     facts.extend(consequences.and_then(|all| error(&all.by_n_o)).map(|said| ("steady error", said)));

@@ -163,8 +163,12 @@ fn claim(sampled: bool, of_plant: bool) -> Vec<Field> {
         must("statement", "Statement", "The claim in words.", Shape::Text),
     ]);
     let text = match sampled {
-        false => "For each of these n_o, at the gain of the claim alone: |e - e_per| <= factor exp(-rate (t - t_0)), in the loop without noise.",
-        true => "For each of these n_o: |e - e_per| <= factor exp(-rate (t - t_0)) at the sampling instants t, in the loop without noise.",
+        false => {
+            "For each of these n_o, at the gain of the claim alone: |e - e_per| <= factor exp(-rate (t - t_0)), in the loop without noise."
+        }
+        true => {
+            "For each of these n_o: |e - e_per| <= factor exp(-rate (t - t_0)) at the sampling instants t, in the loop without noise."
+        }
     };
     let mut rate = vec![count()];
     rate.push(must("rate", "Rate", "In 1/time.", rational()));
