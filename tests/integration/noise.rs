@@ -157,7 +157,7 @@ fn the_way_from_an_aligned_start_is_bounded_by_the_peak() {
         call.args(["certify", "--no-compare", "--full", "--sigma", "60", "--n-o", "1"]).arg(file);
         let (_, said) = told(&mut call);
         let words = [
-            " (t - t_0)) without noise, disturbed at most ",
+            " (t - t_0)) undisturbed, disturbed at most ",
             " (t - t_0)), disturbed + ",
             "exp(-rate (t - t_0)), in the loop without noise, disturbance and rounding: a part of the claim",
             "exp(-rate (t - t_0)): a part of the claim",

@@ -304,7 +304,7 @@ fn the_way_from_an_aligned_start_is_bounded_by_the_peak() {
         let mut call = program();
         call.args(["certify", "--no-compare", "--sigma", "60"]).args(AT).arg(file);
         let (code, text) = told(&mut call);
-        let words = [" (t - t_0)) without rounding, rounded at most ", " (t - t_0)), rounded + "];
+        let words = [" (t - t_0)) computed exactly, rounded at most ", " (t - t_0)), rounded + "];
         assert_eq!((code, words.map(|words| text.contains(words))), (0, expected), "{text}");
     }
 }

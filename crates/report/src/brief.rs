@@ -111,7 +111,7 @@ fn rates<P, Q>(spec: &Specification, found: &[ForCount<P, Q>]) -> Vec<String> {
 /// What noise and a disturbance, or rounding alone, make of it, where there are some and it is proved: the peak and the limit, which adds to the way
 /// where that is so.
 fn disturbed(spec: &Specification, noise: Option<Result<[Rational; 2], &NoNoiseBound>>) -> String {
-    let (word, without) = if spec.disturbances.any() { ("disturbed", "noise") } else { ("rounded", "rounding") };
+    let (word, without) = if spec.disturbances.any() { ("disturbed", "undisturbed") } else { ("rounded", "computed exactly") };
     match noise {
         None => String::new(),
         Some(Ok(bounds)) => {
@@ -119,7 +119,7 @@ fn disturbed(spec: &Specification, noise: Option<Result<[Rational; 2], &NoNoiseB
             if words::limit_adds_to_the_way(spec) {
                 format!(", {word} + {limit}")
             } else {
-                format!(" without {without}, {word} at most {peak} at all times and {limit} in the limit")
+                format!(" {without}, {word} at most {peak} at all times and {limit} in the limit")
             }
         }
         Some(Err(reason)) => format!(" ({word}: {})", reason.message()),

@@ -164,10 +164,10 @@ fn claim(sampled: bool, of_plant: bool) -> Vec<Field> {
     ]);
     let text = match sampled {
         false => {
-            "For each of these n_o, at the gain of the claim alone: |e - e_per| <= factor exp(-rate (t - t_0)), in the loop without noise."
+            "For each of these n_o, at the gain of the claim alone: |e - e_per| <= factor exp(-rate (t - t_0)), in the loop without noise and disturbance."
         }
         true => {
-            "For each of these n_o: |e - e_per| <= factor exp(-rate (t - t_0)) at the sampling instants t, in the loop without noise."
+            "For each of these n_o: |e - e_per| <= factor exp(-rate (t - t_0)) at the sampling instants t, in the loop without noise and disturbance."
         }
     };
     let mut rate = vec![count()];

@@ -173,7 +173,7 @@ pub enum Command {
     Check(CheckArgs),
     /// Write the regulator of a specification, plant or certificate: matrices, the law for a computer, C code
     ///
-    /// Every number is the exact one rounded once to double precision. Of a certificate the gain is its sigma* unless --sigma
+    /// Every number is the exact one rounded once to double precision, what an actuator takes upwards. Of a certificate the gain is its sigma* unless --sigma
     /// says otherwise. What is known to be bad is refused: sampling that cannot tell the oscillators apart, DT sigma > 1, a gain
     /// below sigma* of the certificate. Only a certificate with a sampling period covers the sampling.
     #[command(after_help = CONTROLLER_EXAMPLES)]

@@ -78,7 +78,7 @@ class ErrorBound(Shown):
 @dataclass(frozen=True, repr=False)
 class ClaimedRate(Shown):
     """What the claim says of one number of oscillators, at its gain alone: `|e - e_per| <= factor exp(-rate (t - t_0))`
-    in the loop without noise; at samples at the sampling instants."""
+    in the undisturbed loop; at samples at the sampling instants."""
 
     _sides = {"rate": "down", "factor": "up"}
 
