@@ -111,7 +111,8 @@ fn rates<P, Q>(spec: &Specification, found: &[ForCount<P, Q>]) -> Vec<String> {
 /// What noise and a disturbance, or rounding alone, make of it, where there are some and it is proved: the peak and the limit, which adds to the way
 /// where that is so.
 fn disturbed(spec: &Specification, noise: Option<Result<[Rational; 2], &NoNoiseBound>>) -> String {
-    let (word, without) = if spec.disturbances.any() { ("disturbed", "undisturbed") } else { ("rounded", "computed exactly") };
+    let (word, without) =
+        if spec.disturbances.any() { ("disturbed", "undisturbed") } else { ("rounded", "computed exactly") };
     match noise {
         None => String::new(),
         Some(Ok(bounds)) => {
