@@ -8,3 +8,4 @@ pub mod enclosure;
 pub mod number;
 pub mod parallel;
 pub mod real;
+pub mod removable;

@@ -19,6 +19,8 @@ pub(super) fn unary(operation: Unary, a: &Enclosure) -> Enclosure {
         Unary::Atan => a.atan(),
         Unary::Tanh => a.tanh(),
         Unary::Abs => a.abs(),
+        Unary::Exprelr(order) => a.exprelr(order),
+        Unary::Sinc(order) => a.sinc(order),
     }
 }
 

@@ -81,7 +81,7 @@ mod tests {
     use super::*;
     use crate::expr::{Formula, Formulas, Memory, PlantExpr, PlantNames, VariableSet};
 
-    const EXPRESSIONS: [&str; 12] = [
+    const EXPRESSIONS: [&str; 14] = [
         "x*y - e/x + t",
         "sin(x*t) + cos(y)^3 - 2*x^-2",
         "exp(-x^2) + log(1 + y^2)",
@@ -94,6 +94,8 @@ mod tests {
         "-(x - y)*-e^4",
         "cos(2*pi*t)*x + cos(2*pi*t)^4",
         "sqrt(3)*x^5 + x^0",
+        "exprelr(10*x - 7 + t*e)*y + exprelr(y^3)",
+        "sinc(10*x - 7 + t*e)*y + sinc(y*x)^2",
     ];
     const VARIABLES: [PlantVariable; 4] =
         [PlantVariable::Time, PlantVariable::State(0), PlantVariable::State(1), PlantVariable::Error];

@@ -60,6 +60,7 @@ impl<V, L: Lookup<V>> Algebra<V> for L {
                 _ => Some(a),
             },
             Unary::Exp | Unary::Log | Unary::Sin | Unary::Cos | Unary::Tan | Unary::Atan | Unary::Tanh => None,
+            Unary::Exprelr(_) | Unary::Sinc(_) => None,
         }
     }
 

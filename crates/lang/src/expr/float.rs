@@ -5,6 +5,7 @@ use super::syntax::{Algebra, Argument, Binary, Unary, evaluate};
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::Portable;
+use sigmastar_exact::removable;
 
 /// Precision at which constants are enclosed before they are rounded to doubles.
 const CONSTANT_PRECISION: u32 = 64;
@@ -48,6 +49,8 @@ pub(super) fn unary(operation: Unary, a: f64) -> f64 {
         Unary::Atan => libm::atan(a),
         Unary::Tanh => libm::tanh(a),
         Unary::Abs => a.abs(),
+        Unary::Exprelr(order) => removable::exprelr(a, order),
+        Unary::Sinc(order) => removable::sinc(a, order),
     }
 }
 

@@ -266,6 +266,8 @@ impl Formulas {
                 let square = self.raise(value, 2);
                 self.combine(Binary::Sub, one, square)
             }
+            Unary::Exprelr(order) => self.apply(Unary::Exprelr(order + 1), a),
+            Unary::Sinc(order) => self.apply(Unary::Sinc(order + 1), a),
             Unary::Abs => {
                 let (step, two) = (self.term(Term::Step(a)), self.integer(2));
                 let doubled = self.combine(Binary::Mul, two, step);

@@ -35,7 +35,11 @@ pub(super) fn unary(operation: Unary, growth: &Enclosure) -> Enclosure {
         // Concave, nondecreasing and 0 at 0: f(m t) lies between f(t) and m f(t) for every m > 0.
         Unary::Atan | Unary::Tanh => growth.hull(&Enclosure::zero(growth.precision())),
         Unary::Exp | Unary::Log => monotone(growth),
-        Unary::Neg | Unary::Sin | Unary::Cos | Unary::Tan => Enclosure::undefined(growth.precision()),
+        // It decreases.
+        Unary::Exprelr(0) => monotone(&growth.negate()),
+        Unary::Neg | Unary::Sin | Unary::Cos | Unary::Tan | Unary::Exprelr(_) | Unary::Sinc(_) => {
+            Enclosure::undefined(growth.precision())
+        }
     }
 }
 
@@ -104,6 +108,8 @@ mod tests {
         assert_eq!(unary(Unary::Log, &a), Enclosure::entire(64));
         let rising = unary(Unary::Exp, &b);
         assert!(rising.lower() == 0 && rising.upper().is_infinite());
+        let falling = unary(Unary::Exprelr(0), &b);
+        assert!(falling.upper() == 0 && falling.lower().is_infinite());
     }
 
     #[test]
@@ -111,7 +117,7 @@ mod tests {
         let b = interval(1, 3);
         assert!(!binary(Binary::Sub, &b, &b).is_defined());
         assert!(!binary(Binary::Add, &b, &Enclosure::undefined(64)).is_defined());
-        for operation in [Unary::Neg, Unary::Sin, Unary::Cos, Unary::Tan] {
+        for operation in [Unary::Neg, Unary::Sin, Unary::Cos, Unary::Tan, Unary::Sinc(0), Unary::Exprelr(1)] {
             assert!(!unary(operation, &b).is_defined());
         }
     }

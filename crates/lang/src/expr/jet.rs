@@ -99,6 +99,8 @@ fn second_derivative(operation: Unary, range: &Enclosure, value: &Enclosure, onc
         Unary::Tan => value * once * 2,
         Unary::Atan => range * once.sqr() * -2,
         Unary::Tanh => value * once * -2,
+        Unary::Exprelr(order) => range.exprelr(order + 2),
+        Unary::Sinc(order) => range.sinc(order + 2),
     }
 }
 
@@ -230,6 +232,10 @@ mod tests {
             "tan(X/2 - E/3)",
             "atan(X*E)",
             "tanh(X - E^2)",
+            "exprelr(X - E^2)",
+            "exprelr(8*X - 9)*E",
+            "sinc(8*X - 9)*E",
+            "sinc(3*X*E)",
             "abs(E - X)*X",
             "min(X^2, 9)*E",
             "max(X*E, X - 9)",

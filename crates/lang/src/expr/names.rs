@@ -4,7 +4,7 @@ use super::Variables;
 use super::syntax::{Argument, Binary, Node, NodeKind, Unary};
 
 /// The functions of one argument.
-pub(super) const UNARY: [(&str, Unary); 9] = [
+pub(super) const UNARY: [(&str, Unary); 11] = [
     ("sqrt", Unary::Sqrt),
     ("exp", Unary::Exp),
     ("log", Unary::Log),
@@ -14,6 +14,8 @@ pub(super) const UNARY: [(&str, Unary); 9] = [
     ("atan", Unary::Atan),
     ("tanh", Unary::Tanh),
     ("abs", Unary::Abs),
+    ("exprelr", Unary::Exprelr(0)),
+    ("sinc", Unary::Sinc(0)),
 ];
 
 /// The functions of two or more arguments.
@@ -172,6 +174,11 @@ pub(super) fn suggest<S: Scope>(name: &str, scope: &S) -> Option<String> {
             let sign = if lower == "sinh" { '-' } else { '+' };
             return Some(format!("write (exp(u) {sign} exp(-u))/2"));
         }
+        // Of Hodgkin and Huxley's rates, of the Scharfetter-Gummel scheme.
+        "vtrap" => return Some("write v*exprelr(u/v) for u/(exp(u/v) - 1)".to_owned()),
+        "bernoulli" => return Some("write exprelr(u) for u/(exp(u) - 1), which is 1 at 0".to_owned()),
+        "exprel" => return Some("write 1/exprelr(u) for (exp(u) - 1)/u, which is 1 at 0".to_owned()),
+        "expm1" => return Some("write exp(u) - 1, and exprelr(u) for u/(exp(u) - 1)".to_owned()),
         "pow" => return Some("write a power as u^v".to_owned()),
         "log10" => return Some("write log(u)/log(10)".to_owned()),
         "log2" => return Some("write log(u)/log(2)".to_owned()),
@@ -219,6 +226,11 @@ mod tests {
             ("tahn", "did you mean tanh?"),
             ("pow", "write a power as u^v"),
             ("two", "write 2"),
+            ("sync", "did you mean sinc?"),
+            ("exprlr", "did you mean exprelr?"),
+            ("vtrap", "write v*exprelr(u/v) for u/(exp(u/v) - 1)"),
+            ("exprel", "write 1/exprelr(u) for (exp(u) - 1)/u, which is 1 at 0"),
+            ("Bernoulli", "write exprelr(u) for u/(exp(u) - 1), which is 1 at 0"),
             ("X\u{b2}", "write X^2"),
             ("Ten", "write 10"),
         ] {

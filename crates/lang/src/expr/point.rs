@@ -50,7 +50,7 @@ impl PointValue {
 fn at_special(operation: Unary, argument: &Monomial) -> Option<Monomial> {
     let argument = argument.as_rational()?;
     let value = match operation {
-        Unary::Exp | Unary::Cos if *argument == 0 => 1,
+        Unary::Exp | Unary::Cos | Unary::Exprelr(0) | Unary::Sinc(0) if *argument == 0 => 1,
         Unary::Sin | Unary::Tan | Unary::Atan | Unary::Tanh if *argument == 0 => 0,
         Unary::Log if *argument == 1 => 0,
         _ => return None,

@@ -310,7 +310,7 @@ mod tests {
         outputs
     }
 
-    const EXPRESSIONS: [&str; 13] = [
+    const EXPRESSIONS: [&str; 15] = [
         "x*y - e/x + t",
         "sin(x*t) + cos(y)^3 - 2*x^-2",
         "exp(-x^2) + log(1 + y^2)",
@@ -324,6 +324,8 @@ mod tests {
         "cos(2*pi*t) + cos(2*pi*t)^4",
         "0*x + t",
         "pi",
+        "exprelr(x - 0.7) + y*exprelr(3*x + e)",
+        "sinc(x - 0.7) + y*sinc(3*x + e)",
     ];
 
     #[test]
@@ -343,6 +345,8 @@ mod tests {
             (std::f64::consts::TAU * t).cos() + (std::f64::consts::TAU * t).cos().powi(4),
             t,
             std::f64::consts::PI,
+            1.0 + y * (3.0 * x + e) / (3.0 * x + e).exp_m1(),
+            1.0 + y * (3.0 * x + e).sin() / (3.0 * x + e),
         ];
         let parsed: Vec<PlantExpr> = EXPRESSIONS.iter().map(|text| expr(text)).collect();
         let parsed: Vec<&PlantExpr> = parsed.iter().collect();

@@ -97,6 +97,8 @@ pub(super) fn quotients(operation: Unary, range: &Enclosure, value: &Enclosure) 
         Unary::Tan => value.sqr() + 1,
         Unary::Atan => (range.sqr() + 1).recip(),
         Unary::Tanh => 1 - value.sqr(),
+        Unary::Exprelr(order) => range.exprelr(order + 1),
+        Unary::Sinc(order) => range.sinc(order + 1),
         // abs u = max(u, -u): see `extreme`.
         Unary::Abs => {
             if range.is_nonnegative().is_true() {

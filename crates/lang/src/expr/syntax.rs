@@ -65,6 +65,10 @@ pub enum Unary {
     Tanh,
     /// The absolute value.
     Abs,
+    /// The derivative of this order of `x/(e^x - 1)`, which is 1 at 0. Texts have the order 0; derivatives of formulas have others.
+    Exprelr(u32),
+    /// The derivative of this order of `sin(x)/x`, which is 1 at 0; orders as for the other one.
+    Sinc(u32),
 }
 
 /// Operations on two values.

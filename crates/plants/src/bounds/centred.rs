@@ -193,6 +193,10 @@ impl Frame {
                 let factor = one() - values.sqr();
                 self.chain(centre.tanh(), values, &factor, a)
             }
+            Unary::Exprelr(order) => {
+                self.chain(centre.exprelr(order), range.exprelr(order), &range.exprelr(order + 1), a)
+            }
+            Unary::Sinc(order) => self.chain(centre.sinc(order), range.sinc(order), &range.sinc(order + 1), a),
             Unary::Abs => {
                 // The triangle inequality, where 0 may lie in the range.
                 let factor = if range.is_nonnegative().is_true() {

@@ -148,6 +148,52 @@ pub(super) fn atan(u: &[Enclosure], order: usize) -> Series {
     over(u, &w, u[0].atan(), order)
 }
 
+/// A function of u by its Taylor coefficients c at u_0: the powers of `u - u_0` begin with as many zeros.
+fn composed(c: &[Enclosure], u: &[Enclosure], order: usize) -> Series {
+    let Some((last, others)) = c.split_last() else { return vec![Enclosure::undefined(precision(u))] };
+    let change = &u[1..];
+    others.iter().rev().enumerate().fold(vec![last.clone()], |inner, (i, c)| {
+        // Of the inner factor no more is needed than leaves room for the powers that it is yet to be multiplied with.
+        let length = (inner.len() + change.len() - 1).min(i + 1).min(order);
+        let shifted = (0..length).map(|k| product(&inner, change, k, precision(u)));
+        std::iter::once(c.clone()).chain(shifted).collect()
+    })
+}
+
+/// The derivative of order m of `x/(e^x - 1) = 1/E_0(x)`: the reciprocal of the series of E_0 at u_0, which has no singularity.
+pub(super) fn exprelr(u: &[Enclosure], m: u32, order: usize) -> Series {
+    let value = u[0].exprelr(m);
+    if is_constant(u) {
+        return vec![value];
+    }
+    let last = m as usize + order;
+    let mut factorials = vec![Enclosure::one(precision(u))];
+    for k in 1..=last {
+        factorials.push(&factorials[k - 1] * k as i64);
+    }
+    let series: Series = u[0].exprel_derivatives(last).iter().zip(&factorials).map(|(e, k)| e / k).collect();
+    let reciprocal = div(&factorials[..1], &series, last);
+    let mut c: Series =
+        (0..=order).map(|j| &reciprocal[m as usize + j] * &factorials[m as usize + j] / &factorials[j]).collect();
+    c[0] = value;
+    composed(&c, u, order)
+}
+
+/// The derivative of order m of `sin(x)/x`.
+pub(super) fn sinc(u: &[Enclosure], m: u32, order: usize) -> Series {
+    if is_constant(u) {
+        return vec![u[0].sinc(m)];
+    }
+    let derivatives = u[0].sinc_derivatives(m as usize + order);
+    let mut factorial = Enclosure::one(precision(u));
+    let mut c = Series::with_capacity(order + 1);
+    for (j, derivative) in derivatives[m as usize..].iter().enumerate() {
+        factorial = factorial * (j as i64).max(1);
+        c.push(derivative / &factorial);
+    }
+    composed(&c, u, order)
+}
+
 /// The power with an integer exponent, by repeated squaring; `u^0 = 1` where u is defined.
 pub(super) fn power(u: &[Enclosure], exponent: i32, order: usize) -> Series {
     let precision = precision(u);

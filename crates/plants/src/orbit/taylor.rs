@@ -66,6 +66,8 @@ impl Operations for TaylorAlgebra<'_> {
             Unary::Tan => series::tangent(a, order, 1),
             Unary::Tanh => series::tangent(a, order, -1),
             Unary::Atan => series::atan(a, order),
+            Unary::Exprelr(order_of) => series::exprelr(a, order_of, order),
+            Unary::Sinc(order_of) => series::sinc(a, order_of, order),
             Unary::Abs => {
                 if a[0].is_positive().is_true() {
                     a.clone()
@@ -182,7 +184,7 @@ mod tests {
         values.remove(0)
     }
 
-    const SMOOTH: [&str; 14] = [
+    const SMOOTH: [&str; 18] = [
         "x*t - t/x + 3",
         "sin(x*t) + cos(x)^3",
         "exp(-t^2) + log(1 + x)",
@@ -197,6 +199,10 @@ mod tests {
         "0*t + x^0",
         "(3 - x)^3 - (-x)^-1",
         "exp(sin(exp(cos(t))))",
+        "exprelr(t)*exprelr(t - 0.31)",
+        "exprelr(x*t) + exprelr(0)*x",
+        "sinc(t)*sinc(t - 0.31) - sinc(0)",
+        "sinc(5*x*(t - 0.29)) + sinc(t - 20)",
     ];
 
     /// At another point of the cell the polynomial with its rest is the value, and the coefficients over the cell contain
