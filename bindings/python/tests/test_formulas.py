@@ -30,6 +30,7 @@ def test_the_text_is_the_expression():
         (x ** sympy.Rational(1, 3), "x^(1/3)"),
         (sympy.Abs(x), "abs(x)"),
         (sympy.atan(e * x), "atan(e*x)"),
+        (sympy.sinc(2 * x), "sinc(2*x)"),
         (sympy.exp(-x), "exp(-x)"),
         (sympy.log(2) * sympy.E, "exp(1)*log(2)"),
         (sympy.sin(2 * sympy.pi * t), "sin(2*pi*t)"),

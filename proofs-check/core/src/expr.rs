@@ -28,6 +28,8 @@ pub enum Op {
     /// A variable, by its place among those of the expression.
     Variable(usize),
     Neg, Sqrt, Exp, Log, Sin, Cos, Tan, Atan, Tanh, Abs,
+    /// The derivative of some order of x/(e^x - 1), and of sin(x)/x, each 1 at 0. In a text the order is 0.
+    Exprelr(u32), Sinc(u32),
     /// An integer power; the exponent is at most `MAX_EXPONENT` in magnitude.
     Power(i32),
     Add, Sub, Mul, Div, Pow, Min, Max,
@@ -45,9 +47,10 @@ impl Op {
 }
 
 #[rustfmt::skip]
-const FUNCTIONS: [(&str, Op); 11] = [
+const FUNCTIONS: [(&str, Op); 13] = [
     ("sqrt", Op::Sqrt), ("exp", Op::Exp), ("log", Op::Log), ("sin", Op::Sin), ("cos", Op::Cos), ("tan", Op::Tan),
     ("atan", Op::Atan), ("tanh", Op::Tanh), ("abs", Op::Abs), ("min", Op::Min), ("max", Op::Max),
+    ("exprelr", Op::Exprelr(0)), ("sinc", Op::Sinc(0)),
 ];
 
 /// The variables of a constant, of a bounding function, and of a function of time.
@@ -263,7 +266,7 @@ pub fn exact_op(op: &Op, a: Option<Option<Exact>>, b: Option<Option<Exact>>) -> 
             Some(if first { a } else { b })
         }
         Op::Variable(_) | Op::Exp | Op::Log | Op::Pow => None,
-        Op::Sin | Op::Cos | Op::Tan | Op::Atan | Op::Tanh => None,
+        Op::Sin | Op::Cos | Op::Tan | Op::Atan | Op::Tanh | Op::Exprelr(_) | Op::Sinc(_) => None,
     }
 }
 
@@ -280,6 +283,8 @@ pub fn interval_op(op: &Op, a: &Interval, b: &Interval) -> Interval {
         Op::Atan => a.atan(),
         Op::Tanh => a.tanh(),
         Op::Abs => a.abs(),
+        Op::Exprelr(order) => a.exprelr(*order),
+        Op::Sinc(order) => a.sinc(*order),
         Op::Power(n) => a.powi(*n),
         Op::Add => a + b,
         Op::Sub => a - b,
@@ -306,6 +311,8 @@ pub fn slope_op(op: &Op, u: &Interval, value: &Interval) -> Option<Interval> {
         Op::Tan => 1 + value.sqr(),
         Op::Atan => (1 + u.sqr()).recip(),
         Op::Tanh => 1 - value.sqr(),
+        Op::Exprelr(order) => u.exprelr(order + 1),
+        Op::Sinc(order) => u.sinc(order + 1),
         Op::Power(0) => Interval::int(0, u.precision()),
         Op::Power(n) => u.powi(n - 1) * i64::from(*n),
         _ => return None,

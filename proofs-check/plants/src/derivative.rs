@@ -52,6 +52,8 @@ impl Formulas {
             Op::Tan => (one + id * id) * da,
             Op::Tanh => (one - id * id) * da,
             Op::Atan => da / (one + a * a),
+            Op::Exprelr(order) => Term::of(Op::Exprelr(order + 1), a) * da,
+            Op::Sinc(order) => Term::of(Op::Sinc(order + 1), a) * da,
             Op::Abs => self.sign(a) * da,
             Op::Power(n) => self.int(i64::from(n)) * Term::of(Op::Power(n - 1), a) * da,
             Op::Pow => {
@@ -138,6 +140,8 @@ mod tests {
             "sin(t)^3*exp(-cos(t))*x*e",
             "min(x*e, 1, x)",
             "pi*x - x/pi + 0*e",
+            "exprelr(10*x - 7)*e + exprelr(e*x)",
+            "sinc(10*x - 7)*e + sinc(3*e*x)",
         ] {
             let mut formulas = Formulas::default();
             let variables = [Leaf::Time, Leaf::Output, Leaf::State(0)].map(|leaf| formulas.leaf(leaf));

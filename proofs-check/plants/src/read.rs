@@ -29,8 +29,9 @@ const MAX_PARAMETERS: usize = 12;
 pub const MAX_INTERVALS: usize = 4;
 /// What a state may not be called.
 #[rustfmt::skip]
-const TAKEN: [&str; 15] = [
+const TAKEN: [&str; 17] = [
     "t", "phase", "e", "pi", "sqrt", "exp", "log", "sin", "cos", "tan", "atan", "tanh", "abs", "min", "max",
+    "exprelr", "sinc",
 ];
 
 /// A formula with its place in the file.

@@ -8,6 +8,7 @@
 use super::formula::{Formulas, Id, Kind, Leaf};
 use proofs_core::expr::{Op, interval_op};
 use proofs_core::interval::Interval;
+use proofs_core::interval::removable::derivatives;
 
 /// Coefficients from the first on.
 pub type Series = Vec<Interval>;
@@ -102,6 +103,8 @@ pub fn apply(op: &Op, a: &[Interval], b: &[Interval], length: usize) -> Series {
                 _ => (at(a, k, &zero) - weighted(c, &w, k, k - 1, &zero) / k as i64) / &w[0],
             })
         }
+        Op::Exprelr(order) => exprelr(a, *order, length),
+        Op::Sinc(order) => composed(a, |k| u.sinc(order + k), length),
         Op::Abs => scaled(a, &u.sign()),
         Op::Min | Op::Max => {
             let first_is_larger = (&u - &v).sign();
@@ -196,6 +199,50 @@ fn by_square(a: &[Interval], value: Interval, factor: i64, length: usize) -> Ser
     y
 }
 
+/// A function of a, of which the derivative of each order at its value is given: the powers of `a - a_0` begin with as many zeros.
+fn composed(a: &[Interval], derivative: impl Fn(u32) -> Interval, length: usize) -> Series {
+    let zero = Interval::int(0, first(a).precision());
+    let change: Series = std::iter::once(zero.clone()).chain(a.iter().skip(1).cloned()).collect();
+    let (mut power, mut factorial) = (vec![Interval::int(1, zero.precision())], Interval::int(1, zero.precision()));
+    let mut series = vec![zero; length];
+    for k in 0..length {
+        if k > 0 {
+            factorial = factorial * k as i64;
+            power = product(&power, &change, length);
+        }
+        let factor = derivative(k as u32) / &factorial;
+        for (entry, part) in series.iter_mut().zip(&power) {
+            *entry = &*entry + &factor * part;
+        }
+    }
+    series
+}
+
+/// A derivative of `x/(e^x - 1)`: away from 0 by the quotient, from which the derivatives follow by division by x.
+fn exprelr(a: &[Interval], order: u32, length: usize) -> Series {
+    let u = first(a);
+    if u.abs().floor().lt(&Interval::int(1, u.precision())) != Some(false) {
+        return composed(a, |k| u.exprelr(order + k), length);
+    }
+    let one = vec![Interval::int(1, u.precision())];
+    let two = |op: &Op, a: &[Interval], b: &[Interval]| apply(op, a, b, length);
+    let less = two(&Op::Sub, &apply(&Op::Exp, a, &[], length), &one);
+    let step = |whole: i64, top: &Series, rest: Series| {
+        let factor = two(&Op::Sub, &[Interval::int(whole, u.precision())], a);
+        two(&Op::Div, &two(&Op::Sub, &two(&Op::Mul, &factor, top), &rest), a)
+    };
+    let times = |factor: i64| vec![Interval::int(factor, u.precision())];
+    let sum = |all: Series, one: Series, factor: i64| two(&Op::Add, &all, &two(&Op::Mul, &one, &times(factor)));
+    let product = |a: &Series, b: &Series| two(&Op::Mul, a, b);
+    let all = derivatives(two(&Op::Div, a, &less), order as usize, product, sum, step);
+    let mut last = all.last().cloned().unwrap_or_default();
+    // The value itself, at which nothing is divided.
+    if let Some(value) = last.first_mut() {
+        *value = u.exprelr(order);
+    }
+    last
+}
+
 /// A whole power, by squares.
 fn power(a: &[Interval], n: i32, length: usize) -> Series {
     let one = vec![Interval::int(1, first(a).precision())];
@@ -264,6 +311,10 @@ mod tests {
             "1/(t - 2) + 1/cos(t)",
             "exp(-4*sin(t)^2)",
             "-t/3",
+            "exprelr(t)*exprelr(t - 0.31)",
+            "exprelr(5*t) + exprelr(2 + t) + exprelr(t - 9)",
+            "sinc(t)*sinc(t - 0.31)",
+            "sinc(9*t - 2) + sinc(20*t)",
         ] {
             let expr = Expr::parse(text, TIME).unwrap();
             let mut formulas = Formulas::default();

@@ -105,6 +105,8 @@ fn operation(op: &Op, a: &str, b: &str) -> Result<String, &'static str> {
         Op::Div => format!("({a} / {b})"),
         Op::Min => format!("(min2 {a} {b})"),
         Op::Max => format!("(max2 {a} {b})"),
+        Op::Exprelr(_) => return Err("the function exprelr, which the Coq development does not have"),
+        Op::Sinc(_) => return Err("the function sinc, which the Coq development does not have"),
         // Coq's Rpower is exp(b ln a) with ln 0 = 0: at 0 it is another function.
         Op::Pow => return Err("a power with an exponent that is no integer: write it with sqrt, or with exp and log"),
         Op::Variable(_) => return Err("a variable other than X and E"),

@@ -10,9 +10,9 @@ if TYPE_CHECKING:
 
 _FUNCTIONS = {
     "sin": "sin", "cos": "cos", "tan": "tan", "atan": "atan", "tanh": "tanh", "exp": "exp", "log": "log", "Abs": "abs", "Min": "min",
-    "Max": "max",
+    "Max": "max", "sinc": "sinc",
 }
-"""Of SymPy, and of documents."""
+"""Of SymPy, and of documents. SymPy's sinc is sin(x)/x as well; x/(exp(x) - 1) has no name there, and is written as text."""
 
 _SUM, _PRODUCT, _POWER, _ATOM = range(4)
 """How tightly an expression binds."""

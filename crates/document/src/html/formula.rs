@@ -29,8 +29,8 @@ const GREEK: [(&str, &str); 18] = [
 ];
 
 /// Functions, which are upright.
-const FUNCTIONS: [&str; 13] =
-    ["sqrt", "min", "max", "exp", "sup", "rms", "Nbar", "sin", "cos", "tan", "atan", "tanh", "log"];
+const FUNCTIONS: [&str; 15] =
+    ["sqrt", "min", "max", "exp", "sup", "rms", "Nbar", "sin", "cos", "tan", "atan", "tanh", "log", "exprelr", "sinc"];
 
 /// Names that are one symbol although they have more than one letter.
 const NAMES: [&str; 21] = [

@@ -108,7 +108,7 @@ impl Enclosure {
 
     /// The derivative of an order of `b(x) = x/(e^x - 1)` with `b(0) = 1`: `exprelr` of the expressions.
     ///
-    /// Formula: derivation, 11.8. b is positive and decreases, b' increases from -1 to 0, b'' is even and decreases with |x|; these
+    /// Formula: derivation, 11.7. b is positive and decreases, b' increases from -1 to 0, b'' is even and decreases with |x|; these
     /// three are enclosed by their values at ends. A higher one is that in the middle, give or take the half-width times the most
     /// that the next one is. Guarantee: as of every operation; defined wherever the interval is.
     #[must_use]
@@ -151,7 +151,7 @@ impl Enclosure {
 
     /// The derivative of an order of `sin(x)/x`, 1 at 0: `sinc` of the expressions, which is the unnormalised one.
     ///
-    /// Formula: derivation, 11.8. `|S_k| <= 1/(k + 1)`, and `|S_k(x)| <= 2/|x|`. sinc decreases with |x| up to pi; any S_k is monotone
+    /// Formula: derivation, 11.7. `|S_k| <= 1/(k + 1)`, and `|S_k(x)| <= 2/|x|`. sinc decreases with |x| up to pi; any S_k is monotone
     /// where S_(k+1) has a sign, and otherwise within the half-width times S_(k+1) of its value in the middle. Guarantee: as of every
     /// operation; defined wherever the interval is.
     #[must_use]

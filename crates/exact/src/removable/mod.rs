@@ -1,7 +1,7 @@
 //! Functions whose formulas are 0/0 at 0, with their derivatives: `(e^x - 1)/x`, its reciprocal `x/(e^x - 1)`, `sin(x)/x`.
 //!
 //! Written as quotients they are undefined at 0, and near it every digit of theirs cancels. Here they are families of integrals
-//! without a singularity (derivation, 11.8):
+//! without a singularity (derivation, 11.7):
 //!
 //! ```text
 //! E_k(x) = (d/dx)^k (e^x - 1)/x = int_0^1 s^k e^(s x) ds,

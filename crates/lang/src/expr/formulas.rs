@@ -61,6 +61,8 @@ pub struct Demand {
     pub span: Range<usize>,
     /// What is demanded, in words.
     pub what: &'static str,
+    /// The dividend of a quotient: where it vanishes with the divisor, the quotient is 0/0.
+    pub dividend: Option<Formula>,
     /// The formula of which it is demanded ...
     pub of: Formula,
     /// ... to be positive, or else not to vanish.
@@ -461,7 +463,9 @@ impl Algebra<PlantVariable> for Insertion<'_> {
         let constant = self.formulas.value(of);
         let met = constant.is_some_and(|value| if positive { *value > 0 } else { !value.is_zero() });
         if !met {
-            self.demands.push(Demand { span: node.span.clone(), what, of, positive });
+            let is_quotient = matches!(node.kind, NodeKind::Binary(Binary::Div));
+            let dividend = if is_quotient { operand(0) } else { None };
+            self.demands.push(Demand { span: node.span.clone(), what, dividend, of, positive });
         }
     }
 }

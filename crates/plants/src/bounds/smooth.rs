@@ -7,6 +7,7 @@ use super::definite::{Verdict, nonnegative};
 use super::engine::Engine;
 use super::requirement::Requirement;
 use super::side::Side;
+use crate::orbit::{instead, otherwise};
 use rug::Rational;
 use sigmastar_exact::enclosure::Truth;
 use sigmastar_lang::expr::{Memory, VariableSet};
@@ -34,11 +35,8 @@ pub struct SmoothnessFailure {
 
 /// What becomes of a demand, straight: what happens where it fails, or what is not decided.
 fn told(what: &str, fails: bool) -> String {
-    const OTHERWISE: [(&str, &str); 3] =
-        [(" does not vanish", " vanishes"), (" is positive", " is not positive"), (" differ", " are equal")];
-    let otherwise = OTHERWISE.iter().find_map(|(wanted, other)| Some(format!("{}{other}", what.strip_suffix(wanted)?)));
     let where_ = "within X and E of the orbit, where the operation is not smooth";
-    match otherwise {
+    match otherwise(what) {
         Some(otherwise) if fails => format!("{otherwise} at some state and error {where_}"),
         Some(otherwise) => format!("it is not decided whether {otherwise} somewhere {where_}"),
         None => format!(
@@ -52,16 +50,7 @@ impl SmoothnessFailure {
     /// What helps: a smooth function in the place of the operation, or arguments that keep away from there.
     #[must_use]
     pub fn advice(&self) -> String {
-        const INSTEAD: [(&str, &str); 6] = [
-            ("the argument of abs", "write sqrt(u^2 + 1/100) for abs(u)"),
-            ("the two arguments", "write (a + b - sqrt((a - b)^2 + 1/100))/2 for min(a, b), with + for max(a, b)"),
-            ("the argument of sqrt", "write sqrt(u + 1/100) for sqrt(u), if u is not negative"),
-            ("the argument of log", "write log(u + 1/100) for log(u), if u is not negative"),
-            ("the divisor", "write u/(v^2 + 1/100)*v for u/v"),
-            ("the argument of tan", "write a function without poles"),
-        ];
-        let instead = INSTEAD.iter().find(|(start, _)| self.what.starts_with(start));
-        let instead = instead.map_or("write a smooth function in its place", |(_, instead)| instead);
+        let instead = instead(self.what, &self.part);
         format!("{instead}; or take a smaller initial set, where it is that set which reaches so far")
     }
 }

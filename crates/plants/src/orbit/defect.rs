@@ -108,7 +108,7 @@ fn derivatives_in_parameters(
 /// The largest of the bounds of all cells; the first cell that has none is told.
 pub(super) fn largest(bounds: &[Enclosure], count: usize) -> Result<Enclosure, OrbitNotProved> {
     if let Some(cell) = bounds.iter().position(|bound| !bound.is_bounded()) {
-        return Err(OrbitNotProved::NotSmooth { s: (cell as f64 + 0.5) / count as f64 });
+        return Err(OrbitNotProved::NotSmooth { s: (cell as f64 + 0.5) / count as f64, cause: None });
     }
     Ok(bounds.iter().fold(Enclosure::zero(PRECISION), |largest, bound| largest.max(bound)))
 }

@@ -1,6 +1,7 @@
 //! Why there is no proved orbit, and what to try.
 
-use sigmastar_exact::number::{Direction, round_f64, write_exact};
+use super::undefined::Undefined;
+use super::words::short;
 use thiserror::Error;
 
 /// The most states of a plant whose orbit is sought, as for a Jacobian of a specification: semidefinite programs and proofs of
@@ -53,12 +54,22 @@ pub enum OrbitFailure {
         /// How many there are.
         states: usize,
     },
+    /// An operation of f has no value at an instant, whatever the states are: no solution goes through it.
+    #[error("no T-periodic solution of x' = f(t,x,0) was found, and none is there as f is written: {0}")]
+    Undefined(Box<Undefined>),
     /// The right sides have no values where the search starts.
     #[error(
         "no T-periodic solution of x' = f(t,x,0) was found: the right sides, or their derivatives, are not finite at x = 0, \
-         where the search starts, and from other states it comes to none"
+         where the search starts, and from other states{} it comes to none{}",
+        if *stated { ", those of `initial` among them," } else { "" },
+        cause.as_ref().map_or_else(String::new, |cause| format!("; {cause}"))
     )]
-    Singular,
+    Singular {
+        /// Whether the file has an `initial`.
+        stated: bool,
+        /// What has no value at the state of `initial`, where that is known.
+        cause: Option<Box<Undefined>>,
+    },
     /// Numbers out of range.
     #[error("the right sides, or their derivatives, are not finite along x_0(t) in floating point")]
     NotFinite,
@@ -67,8 +78,15 @@ pub enum OrbitFailure {
 impl OrbitFailure {
     /// What to try, where that is known.
     #[must_use]
-    pub fn way_out(&self) -> Option<&'static str> {
-        match self {
+    pub fn way_out(&self) -> Option<String> {
+        let known = match self {
+            OrbitFailure::Undefined(cause) => return Some(cause.advice()),
+            OrbitFailure::Singular { stated: true, cause: Some(cause) } => {
+                return Some(format!(
+                    "state another `initial`, nearer to the periodic solution; or {}",
+                    cause.advice()
+                ));
+            }
             OrbitFailure::NotFound { .. } => Some(
                 "look with `simulate` whether x' = f(t,x,0) has a T-periodic response, and state the period of all right \
                  sides together",
@@ -86,10 +104,16 @@ impl OrbitFailure {
                 "a load that acts where u does stands in q, where the regulator takes up its mean; else give what adds up a term that pulls it \
                  back, or leave out a state that neither q nor another state needs",
             ),
-            OrbitFailure::Singular => Some("state an `initial` of the plant file that is near the periodic solution"),
+            OrbitFailure::Singular { stated: true, .. } => {
+                Some("state another `initial`, nearer to the periodic solution")
+            }
+            OrbitFailure::Singular { .. } => {
+                Some("state an `initial` of the plant file that is near the periodic solution")
+            }
             OrbitFailure::TooLarge { .. } => None,
             OrbitFailure::NotFinite => Some("write the plant in units in which its numbers are of ordinary size"),
-        }
+        };
+        known.map(str::to_owned)
     }
 }
 
@@ -101,11 +125,14 @@ pub enum OrbitNotProved {
     Shape(&'static str),
     /// The defect could not be enclosed.
     #[error(
-        "f(t,xb,0) or q(t,xb,0) cannot be expanded in t near t/T = {s}: an operation there may be undefined or have a corner"
+        "f(t,xb,0) or q(t,xb,0) cannot be expanded in t near t/T = {s}: {}",
+        cause.as_ref().map_or_else(|| "an operation there may be undefined or have a corner".to_owned(), ToString::to_string)
     )]
     NotSmooth {
         /// Where, in periods.
         s: f64,
+        /// An operation that has no value there, where doubles find one.
+        cause: Option<Box<Undefined>>,
     },
     /// The defect is small at sampled times, and between them f changes too fast for what is proved of it.
     #[error(
@@ -167,8 +194,9 @@ pub enum OrbitNotProved {
 impl OrbitNotProved {
     /// What to try.
     #[must_use]
-    pub fn way_out(&self) -> &'static str {
-        match self {
+    pub fn way_out(&self) -> String {
+        let advice = match self {
+            OrbitNotProved::NotSmooth { cause: Some(cause), .. } => return cause.advice(),
             OrbitNotProved::NotResolved { .. } => {
                 "the periodic solution may well exist; other units change nothing. A corner of a right side that is hardly rounded, or a switch, has \
                  to be wider for this proof (and is another model then)"
@@ -177,7 +205,8 @@ impl OrbitNotProved {
                 "right sides that are smoother in t along the orbit, or a larger rate of the zero dynamics: the radius is the defect over that rate"
             }
             _ => "write the plant in units in which its numbers are of ordinary size",
-        }
+        };
+        advice.to_owned()
     }
 }
 

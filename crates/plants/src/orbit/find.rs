@@ -6,6 +6,7 @@ use super::failure::{MAX_STATES, OrbitFailure};
 use super::field::Field;
 use super::floquet::{floquet_exponents, is_neutral, is_stable};
 use super::series::{FloatSeries, Turn};
+use super::undefined::undefined_along;
 use nalgebra::DVector;
 use rug::Rational;
 use sigmastar_lang::plant::Plant;
@@ -112,8 +113,12 @@ fn find_one(plant: &Plant) -> Result<FloatOrbit, OrbitFailure> {
             Err(failure) => first = first.or(Some(failure)),
         }
     }
+    if let None | Some(OrbitFailure::NotFinite | OrbitFailure::NotFound { .. }) = first
+        && let Some(failure) = without_values(plant, singular)
+    {
+        return Err(failure);
+    }
     match first {
-        Some(OrbitFailure::NotFinite | OrbitFailure::NotFound { .. }) | None if singular => Err(OrbitFailure::Singular),
         // What the exponents are of, or why there is no solution.
         Some(OrbitFailure::NotStable { floquet }) if is_neutral(&floquet, field.period) => {
             let named = drift(&mut field, plant.names.states(), false);
@@ -123,6 +128,15 @@ fn find_one(plant: &Plant) -> Result<FloatOrbit, OrbitFailure> {
             Err(drift(&mut field, plant.names.states(), true).unwrap_or(failure))
         }
         first => Err(first.unwrap_or(OrbitFailure::NotFinite)),
+    }
+}
+
+/// Why no orbit was found where the right sides have no values: at an instant, whatever the state, or where the search starts.
+fn without_values(plant: &Plant, singular: bool) -> Option<OrbitFailure> {
+    let cause = undefined_along(plant, |_| plant.initial.x.clone()).map(Box::new);
+    match cause {
+        Some(cause) if cause.states.is_none() && cause.index < plant.states() => Some(OrbitFailure::Undefined(cause)),
+        cause => singular.then(|| OrbitFailure::Singular { stated: plant.document.get("initial").is_some(), cause }),
     }
 }
 

@@ -7,7 +7,7 @@ use super::defect::{CELLS, CLOSE, ORDER, first_exponent, largest};
 use super::failure::OrbitNotProved;
 use super::field::Field;
 use super::linear::norm;
-use super::prove::{Around, OrbitProof};
+use super::prove::{Around, OrbitProof, with_cause};
 use super::recurrences::{combine, mul};
 use super::round::to_grain;
 use super::sampled::doubles;
@@ -124,7 +124,8 @@ pub fn prove_forcing(
     let (Wave { mean, harmonics }, sensitivities) = propose(plant, &proved.orbit).ok_or_else(|| none.clone())?;
     let mut forcing = ProvedForcing { mean, harmonics, sensitivities, rest: Rational::new(), rest_t: Rational::new() };
     let sizes = sampled_rests(plant, &proved.orbit, &forcing);
-    let [rest, rest_t] = rests(&around, &forcing, proved, sizes.map(|size| CLOSE * size))?;
+    let found = rests(&around, &forcing, proved, sizes.map(|size| CLOSE * size));
+    let [rest, rest_t] = found.map_err(|failure| with_cause(failure, plant, &proved.orbit))?;
     let up = |bound: &Enclosure| round_f64(bound.upper_f64(), DIGITS, Direction::Up).ok_or_else(|| none.clone());
     forcing.rest = up(&rest)?;
     forcing.rest_t = up(&rest_t)?;
@@ -207,7 +208,7 @@ fn rests(
     }
     let formulas = Rows::new(around.plant);
     let harmonics = around.harmonics().max(of_forcing);
-    let mut best: Result<[Enclosure; 2], OrbitNotProved> = Err(OrbitNotProved::NotSmooth { s: 0.0 });
+    let mut best: Result<[Enclosure; 2], OrbitNotProved> = Err(OrbitNotProved::NotSmooth { s: 0.0, cause: None });
     for exponent in first_exponent(harmonics)..=*CELLS.end() {
         let (found, of_radius) = match rests_on(around, &formulas, forcing, proved, exponent) {
             Ok(found) => found,

@@ -3,6 +3,7 @@
 //!
 //! - `balance`, `modes`: units and axes that do not depend on how a plant is written;
 //! - `field`, `series`, `collocation`, `floquet`, `drift`, `find`: the orbit in doubles;
+//! - `undefined`, `failure`, `words`: what has no value along it, and how it is told;
 //! - `round`, `shape`, `least_gain`, `coordinates`, `sampled`: short rationals for it, L and P(t), and what to ask of the proofs;
 //! - `recurrences`, `taylor`, `cells`, `curve`: Taylor series of formulas along a curve, over enclosures;
 //! - `members`: the members of a family of plants along it;
@@ -35,6 +36,8 @@ mod shape;
 mod taylor;
 #[cfg(test)]
 mod tests;
+mod undefined;
+mod words;
 
 pub use coordinates::lower_triangular;
 pub use coordinates::{Coordinates, propose_coordinates};
@@ -46,3 +49,5 @@ pub use prove::{OrbitProof, decide_orbit, decide_second, prove_orbit, prove_orbi
 pub use round::round_orbit;
 pub use sampled::defects_by_parameter;
 pub use series::FloatSeries;
+pub use undefined::Undefined;
+pub(crate) use undefined::{instead, otherwise};

@@ -8,7 +8,8 @@ use super::failure::OrbitNotProved;
 use super::linear::enclosed;
 use super::members::Members;
 use super::rate::Contraction;
-use super::sampled::Sampled;
+use super::sampled::{Sampled, doubles};
+use super::undefined::undefined_along;
 use crate::lyapunov::{ProvedTriple, prove_bounds};
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
@@ -136,7 +137,7 @@ impl<'a> Around<'a> {
     /// A bound of the defect, with more cells while it is above `enough`: that of the first number of cells that gives at most
     /// this, or the least.
     fn defect(&self, enough: f64) -> Result<Enclosure, OrbitNotProved> {
-        let mut best: Result<Enclosure, OrbitNotProved> = Err(OrbitNotProved::NotSmooth { s: 0.0 });
+        let mut best: Result<Enclosure, OrbitNotProved> = Err(OrbitNotProved::NotSmooth { s: 0.0, cause: None });
         for exponent in first_exponent(self.harmonics())..=*CELLS.end() {
             let found = bound(&self.curve(exponent, std::iter::empty()), &self.f, &self.slopes, &self.inverse);
             let done = found.as_ref().is_ok_and(|bound| bound.upper_f64() <= enough);
@@ -220,6 +221,14 @@ impl<'a> Around<'a> {
     }
 }
 
+/// The same failure with the operation that has no value along the curve, where doubles find one.
+pub(super) fn with_cause(failure: OrbitNotProved, plant: &Plant, orbit: &OrbitCurve) -> OrbitNotProved {
+    let OrbitNotProved::NotSmooth { s, .. } = failure else { return failure };
+    let curve = doubles(&orbit.centre);
+    let cause = undefined_along(plant, |s| curve.at(s).0);
+    OrbitNotProved::NotSmooth { s: cause.as_ref().map_or(s, |cause| cause.s), cause: cause.map(Box::new) }
+}
+
 /// The proof of an orbit near the curve `orbit`, in these coordinates and with their P.
 ///
 /// # Errors
@@ -254,8 +263,12 @@ pub fn prove_orbit_at(
         });
     }
     let sampled = Sampled::new(plant, orbit, coordinates).ok_or(OrbitNotProved::Shape("a number is beyond doubles"))?;
-    let proved = around.defect(CLOSE * sampled.defect)?.upper_f64().max(LEAST_DEFECT);
-    let defect = round_f64(proved, DIGITS, Direction::Up).ok_or(OrbitNotProved::NotSmooth { s: 0.0 })?;
+    let proved = around
+        .defect(CLOSE * sampled.defect)
+        .map_err(|failure| with_cause(failure, plant, orbit))?
+        .upper_f64()
+        .max(LEAST_DEFECT);
+    let defect = round_f64(proved, DIGITS, Direction::Up).ok_or(OrbitNotProved::NotSmooth { s: 0.0, cause: None })?;
     let [p_low, p_up] = around.bounds(&sampled)?;
     let size = if sampled.size > 0.0 { sampled.size } else { 1.0 };
     let mut failure = None;

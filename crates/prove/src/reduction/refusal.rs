@@ -84,6 +84,9 @@ impl PlantRefusal {
         let undecided = |place: &str, message: String, help: Option<&str>| {
             vec![plant.errors_at(place, &(0..0), ErrorKind::Undecided, message, help.map(str::to_owned))]
         };
+        let at = |place: &str, span: &Range<usize>, message: String, help: Option<String>| {
+            vec![plant.errors_at(place, span, ErrorKind::Undecided, message, help)]
+        };
         match self {
             PlantRefusal::NotPeriodic(failure) => {
                 let help = "write the disturbance with sin(2*pi*k*t/period), cos(...) and the like, k whole";
@@ -97,8 +100,7 @@ impl PlantRefusal {
                 )]
             }
             PlantRefusal::NotSmooth { index, span, message, help } => {
-                let kind = ErrorKind::Undecided;
-                vec![plant.errors_at(&field(*index), span, kind, message.clone(), Some(help.clone()))]
+                at(&field(*index), span, message.clone(), Some(help.clone()))
             }
             PlantRefusal::TooManyStates { states } => {
                 let message = format!("{states} states; a plant of at most {MAX_STATES} is certified");
@@ -106,9 +108,15 @@ impl PlantRefusal {
                 vec![plant.errors_at("/states", &(0..0), ErrorKind::Range, message, Some(help.into()))]
             }
             PlantRefusal::NoOrbit(failure @ OrbitFailure::AddsUp { largest, .. }) => {
-                undecided(&field(*largest), failure.to_string(), failure.way_out())
+                undecided(&field(*largest), failure.to_string(), failure.way_out().as_deref())
             }
-            PlantRefusal::NoOrbit(failure) => undecided("/f", failure.to_string(), failure.way_out()),
+            PlantRefusal::NoOrbit(failure @ OrbitFailure::Undefined(cause)) => {
+                at(&field(cause.index), &cause.span, failure.to_string(), failure.way_out())
+            }
+            PlantRefusal::NoOrbit(failure) => undecided("/f", failure.to_string(), failure.way_out().as_deref()),
+            PlantRefusal::OrbitNotProved(failure @ OrbitNotProved::NotSmooth { cause: Some(cause), .. }) => {
+                at(&field(cause.index), &cause.span, failure.to_string(), Some(failure.way_out()))
+            }
             PlantRefusal::OrbitNotProved(failure) if plant.is_family() => undecided(
                 "/parameters",
                 format!("x_0(t) is not proved for every value of the parameters: {failure}"),
@@ -117,7 +125,7 @@ impl PlantRefusal {
                      of them",
                 ),
             ),
-            PlantRefusal::OrbitNotProved(failure) => undecided("/f", failure.to_string(), Some(failure.way_out())),
+            PlantRefusal::OrbitNotProved(failure) => undecided("/f", failure.to_string(), Some(&failure.way_out())),
             PlantRefusal::NoContraction => undecided(
                 "/f",
                 "no matrix P was found in which the zero dynamics x' = f(t,x,0) contract along their periodic solution"

@@ -6,6 +6,7 @@
 mod arithmetic;
 mod doubles;
 mod functions;
+pub mod removable;
 
 use crate::effort;
 use rug::float::{Constant, Round, Special};

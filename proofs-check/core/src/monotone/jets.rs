@@ -87,6 +87,8 @@ fn derivatives(op: &Op, u: &Interval, value: &Interval) -> Option<[Interval; 2]>
         Op::Tan => value * &once * 2,
         Op::Atan => -(u * once.sqr() * 2),
         Op::Tanh => -(value * &once * 2),
+        Op::Exprelr(order) => u.exprelr(order + 2),
+        Op::Sinc(order) => u.sinc(order + 2),
         Op::Power(0 | 1) => zero(),
         Op::Power(n) => u.powi(n - 2) * (i64::from(*n) * i64::from(n - 1)),
         _ => zero(),
@@ -194,8 +196,28 @@ mod tests {
     fn derivatives_are_the_limits_of_difference_quotients() {
         let step = Rational::from((1, 1 << 30));
         for text in [
-            "-X", "sqrt(X)", "exp(X)", "log(X)", "sin(X)", "cos(X)", "tan(X)", "atan(X)", "tanh(X)", "abs(X)",
-            "abs(-X)", "X^0", "X^1", "X^2", "X^5", "X^(-3)", "X^1.5", "1/X",
+            "-X",
+            "sqrt(X)",
+            "exp(X)",
+            "log(X)",
+            "sin(X)",
+            "cos(X)",
+            "tan(X)",
+            "atan(X)",
+            "tanh(X)",
+            "abs(X)",
+            "abs(-X)",
+            "exprelr(X)",
+            "exprelr(X - 0.3)",
+            "sinc(X)",
+            "sinc(X - 1.1)",
+            "X^0",
+            "X^1",
+            "X^2",
+            "X^5",
+            "X^(-3)",
+            "X^1.5",
+            "1/X",
         ] {
             for x in [(3, 10), (11, 10)].map(Rational::from) {
                 let found = at(text, &x);
