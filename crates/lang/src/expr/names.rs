@@ -203,7 +203,8 @@ pub(super) fn suggest<S: Scope>(name: &str, scope: &S) -> Option<String> {
         .filter(|(edits, known)| *edits <= MAX_EDITS && *edits < known.len() && *edits < name.chars().count())
         // Of two or three letters, two others are another word.
         .filter(|(edits, _)| *edits == 1 || name.chars().count() > 3)
-        .min_by_key(|(edits, known)| (*edits, known.len().abs_diff(lower.len())))
+        // A letter too many is likelier than another one: `sinn` is sin, not sinc.
+        .min_by_key(|(edits, known)| (*edits, !lower.starts_with(known), known.len().abs_diff(lower.len())))
         .map(|(_, known)| format!("did you mean {known}?"))
 }
 
