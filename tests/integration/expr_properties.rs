@@ -27,7 +27,9 @@ fn expression() -> impl Strategy<Value = String> {
     ];
     leaf.prop_recursive(5, 24, 3, |inner| {
         let binary = prop::sample::select(vec!["+", "-", "*", "/"]);
-        let unary = prop::sample::select(vec!["sqrt", "exp", "log", "sin", "cos", "tan", "atan", "tanh", "abs", "-"]);
+        let unary = prop::sample::select(vec![
+            "sqrt", "exp", "log", "sin", "cos", "tan", "atan", "tanh", "abs", "exprelr", "sinc", "-",
+        ]);
         let exponent = prop::sample::select(vec!["2", "3", "-1", "-2", "0", "1", "(1/2)", "(3/2)", "(-1/2)", "(5/2)"]);
         let extreme = prop::sample::select(vec!["min", "max"]);
         prop_oneof![

@@ -64,6 +64,7 @@ mod rate;
 mod rates_by_matrices;
 mod rates_of_claims;
 mod rejected;
+mod removable;
 mod report_words;
 mod rounding;
 mod sampled;

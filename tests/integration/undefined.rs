@@ -67,6 +67,9 @@ const TERMS: [&str; 56] = [
     "exp(0/0)*0",
     "atan(0/0) + tanh(1/0)",
     "cos(0*(1/0)) - 1",
+    "0*exprelr(0/0)",
+    "sinc(1/0)*0 + exprelr(log(0))",
+    "sin(V-V)/(V-V) - sinc(V-V)",
     "-(0/0)*0",
     "0*(V/0)",
     "(V-V)/(V-V)",
@@ -111,6 +114,7 @@ fn certify_text(text: &str) -> Result<sigmastar::Certificate, sigmastar::Error> 
 fn the_plant_and_the_specification_are_certified_without() {
     certify_text(&plant("", "")).unwrap();
     certify_text(&plant(" + 0*(x*0)", " + 0^2*e + (e-e)*0 + e^0 - 1")).unwrap();
+    certify_text(&plant(" + exprelr(x-x) - 1", " + sinc(0) - exprelr(0) + 0*sinc(e)")).unwrap();
     certify_text(EXAMPLE_TEXT).unwrap();
 }
 

@@ -80,6 +80,11 @@ fn no_free_text_is_written_and_nothing_is_decided() {
     assert!(!text.contains("Axiom") && text.contains("  sigma := (1 / 3);"));
     made["specification"]["bounds"]["f"] = json!("X^(1/2)");
     assert_refused_at(&made.to_string(), Verdict::Undecided, "/specification/bounds/f");
+    for name in ["exprelr", "sinc"] {
+        made["specification"]["bounds"]["f"] = json!(format!("X + {name}(X)"));
+        let finding = theorem(made.to_string().as_bytes()).expect_err("Coq has no such function");
+        assert!(finding.verdict == Verdict::Undecided && finding.message.contains(name), "{}", finding.message);
+    }
     made["specification"]["bounds"]["f"] = json!("min(X^2, tanh(E))/exp(-X) + abs(X)^-2");
     assert!(written(&made).contains("fun X E => (((min2 (X ^ 2) (tanh_exp E)) / (exp (- X))) + (/ (Rabs X) ^ 2));"));
 }

@@ -77,7 +77,8 @@ fn same(a: &Value, b: &Value) -> bool {
 fn random_expressions() {
     let words = [
         "X", "E", "pi", "1", "0", "2.5", "1e3", "1e-9", "+", "-", "*", "/", "^", "(", ")", ",", "sqrt(", "exp(",
-        "log(", "sin(", "cos(", "tan(", "atan(", "tanh(", "abs(", "min(", "max(", " ", "e", ".", "\u{e9}",
+        "log(", "sin(", "cos(", "tan(", "atan(", "tanh(", "abs(", "exprelr(", "sinc(", "min(", "max(", " ", "e", ".",
+        "\u{e9}",
     ];
     let mut random = Random(0xbad_5eed);
     let side = Interval::int(0, 64).hull(&Interval::int(3, 64));

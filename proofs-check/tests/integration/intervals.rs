@@ -8,7 +8,7 @@ type Unary = fn(&Interval) -> Interval;
 
 #[test]
 fn coarse_intervals_contain_fine_ones() {
-    let functions: [(&str, Unary); 14] = [
+    let functions: [(&str, Unary); 20] = [
         ("sqr", Interval::sqr),
         ("sqrt", Interval::sqrt),
         ("exp", Interval::exp),
@@ -23,6 +23,12 @@ fn coarse_intervals_contain_fine_ones() {
         ("abs", Interval::abs),
         ("zeta", Interval::zeta),
         ("powi", |x| x.powi(-3)),
+        ("exprelr", |x| x.exprelr(0)),
+        ("exprelr, differentiated", |x| x.exprelr(1)),
+        ("exprelr, five times", |x| x.exprelr(5)),
+        ("sinc", |x| x.sinc(0)),
+        ("sinc, differentiated", |x| x.sinc(1)),
+        ("sinc, five times", |x| x.sinc(5)),
     ];
     for (name, f) in functions {
         let mut defined = 0;
@@ -59,6 +65,8 @@ fn undefined_is_contagious_and_decides_nothing() {
         zero.pow(&zero),
         one.zeta(),
         none.cos(),
+        none.exprelr(0),
+        none.sinc(1),
     ] {
         assert!(!value.is_defined());
         assert_eq!((value.lt(&one), value.le(&one), one.lt(&value)), (None, None, None));

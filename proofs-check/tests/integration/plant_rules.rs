@@ -270,6 +270,9 @@ fn what_is_written_is_defined_whatever_it_is_multiplied_with() {
         "0*sin(0/0)",
         "0*atan(0/0)",
         "0*tanh(0/0)",
+        "0*exprelr(0/0)",
+        "0*sinc(0/0)",
+        "sin(x-x)/(x-x) - 1",
         "0*abs(0/0)",
         "0*tan(0/0)",
         "min(0, 0/0)",
@@ -287,7 +290,18 @@ fn what_is_written_is_defined_whatever_it_is_multiplied_with() {
         let (verdict, rule) = linear().with("/plant/f/0", json!(f)).verdict();
         assert!(rule == "smoothness" && verdict != Verdict::Valid, "f with {part}: {verdict} by {rule}");
     }
-    for part in ["0/(1-2)", "0/pi", "0/sin(1)", "(x-x)/(x-x+1)", "0*(1/3)^x", "0^0 - 1", "0*sqrt(0)", "0/exp(x)"] {
+    for part in [
+        "0/(1-2)",
+        "0/pi",
+        "0/sin(1)",
+        "(x-x)/(x-x+1)",
+        "0*(1/3)^x",
+        "0^0 - 1",
+        "0*sqrt(0)",
+        "0/exp(x)",
+        "sinc(x-x) - 1",
+        "exprelr(0)-1",
+    ] {
         linear().with("/plant/q", json!(format!("sin(2*pi*t) + x + {part}"))).accepted();
     }
 }
@@ -308,6 +322,9 @@ fn functions_of_every_kind_have_bounds() {
         ("tan(x)", 1.5_f64.tan()),
         ("2^x", 1.5_f64.exp2()),
         ("atan(x)^3", 1.5_f64.atan().powi(3)),
+        ("exprelr(x)", 1.5 / (1.0 - (-1.5_f64).exp())),
+        ("sinc(x)", 1.0),
+        ("exprelr(-x) + x/4", 1.5 / (1.0 - (-1.5_f64).exp()) + 1.5 / 4.0),
         ("x^-2 - x^-2 + x", 0.0),
         ("(x + 3)^-2", 1.5_f64.powi(-2)),
     ] {

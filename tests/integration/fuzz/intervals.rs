@@ -54,7 +54,7 @@ where
 }
 
 /// Functions of one argument in the order of [`Operations::one`]; `None` outside of the domain.
-const ONE: [(&str, One); 14] = [
+const ONE: [(&str, One); 22] = [
     ("neg", |x, r| rounded(-x, r)),
     ("abs", |x, r| rounded(x.abs_ref(), r)),
     ("recip", |x, r| within(!x.is_zero(), x.recip_ref(), r)),
@@ -69,7 +69,58 @@ const ONE: [(&str, One); 14] = [
     ("tanh", |x, r| rounded(x.tanh_ref(), r)),
     ("coth", |x, r| within(!x.is_zero(), x.coth_ref(), r)),
     ("to itself", |x, r| rounded(x, r)),
+    ("exprelr, order 0", |x, r| rounded(exprelr(x, 0, r), r)),
+    ("exprelr, order 1", |x, r| rounded(exprelr(x, 1, r), r)),
+    ("exprelr, order 2", |x, r| rounded(exprelr(x, 2, r), r)),
+    ("exprelr, order 3", |x, r| rounded(exprelr(x, 3, r), r)),
+    ("sinc, order 0", |x, r| rounded(sinc(x, 0), r)),
+    ("sinc, order 1", |x, r| rounded(sinc(x, 1), r)),
+    ("sinc, order 2", |x, r| rounded(sinc(x, 2), r)),
+    ("sinc, order 3", |x, r| rounded(sinc(x, 3), r)),
 ];
+
+/// Bits at which the formulas with a division by x, to some power, keep far more than [`REFERENCE`] of them for the smallest x here.
+const DIVIDED: u32 = 9000;
+
+/// A derivative of x/(e^x - 1), from `(e^x - 1) b^(k) = x^(k) - sum over j of C(k, j) e^x b^(k-j)`; beyond the exponents of MPFR its limit,
+/// moved to the side of the rounding.
+fn exprelr(x: &Float, order: usize, round: Round) -> Float {
+    if x.is_zero() {
+        return Float::with_val(DIVIDED, [12, -6, 2, 0][order]) / 12u32;
+    }
+    if x.clone().abs() > 1e8 {
+        let limit = match order {
+            0 if *x < 0 => Float::with_val(DIVIDED, -x),
+            1 if *x < 0 => Float::with_val(DIVIDED, -1),
+            _ => Float::new(DIVIDED),
+        };
+        let tiny = Float::with_val(DIVIDED, 1) >> 100_000_000u32;
+        return if round == Round::Down { limit - tiny } else { limit + tiny };
+    }
+    let x = Float::with_val(DIVIDED, x);
+    let (exp, less) = (x.clone().exp(), x.clone().exp_m1());
+    let mut all: Vec<Float> = Vec::new();
+    for k in 0..=order {
+        let own = [x.clone(), Float::with_val(DIVIDED, 1)].into_iter().nth(k).unwrap_or_else(|| Float::new(DIVIDED));
+        let mut binomial = 1;
+        let rest = (1..=k).fold(own, |rest, j| {
+            binomial = binomial * (k - j + 1) / j;
+            rest - exp.clone() * &all[k - j] * binomial as u32
+        });
+        all.push(rest / &less);
+    }
+    all.swap_remove(order)
+}
+
+/// A derivative of sin(x)/x, from `x s^(k) = (sin x)^(k) - k s^(k-1)`.
+fn sinc(x: &Float, order: usize) -> Float {
+    if x.is_zero() {
+        return Float::with_val(DIVIDED, [3, 0, -1, 0][order]) / 3u32;
+    }
+    let (sin, cos) = Float::with_val(DIVIDED, x).sin_cos(Float::new(DIVIDED));
+    let waves = [sin.clone(), cos.clone(), -sin, -cos];
+    (1..=order).fold(waves[0].clone() / x, |before, k| (waves[k].clone() - before * k as u32) / x)
+}
 
 /// Operations on two in the order of [`Operations::two`].
 const TWO: [(&str, Two); 9] = [
@@ -106,6 +157,14 @@ macro_rules! operations {
                     "atan" => self.atan(),
                     "tanh" => self.tanh(),
                     "coth" => self.coth(),
+                    "exprelr, order 0" => self.exprelr(0),
+                    "exprelr, order 1" => self.exprelr(1),
+                    "exprelr, order 2" => self.exprelr(2),
+                    "exprelr, order 3" => self.exprelr(3),
+                    "sinc, order 0" => self.sinc(0),
+                    "sinc, order 1" => self.sinc(1),
+                    "sinc, order 2" => self.sinc(2),
+                    "sinc, order 3" => self.sinc(3),
                     _ => self.hull(self).intersect(self),
                 }
             }

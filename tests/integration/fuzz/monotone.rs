@@ -60,7 +60,7 @@ fn expression(random: &mut StdRng, depth: u32) -> String {
         10 => format!("min({a}, {b})"),
         11 => format!("({a})/(1 + ({b}))"),
         12 => format!("({a}) - ({b})/10"),
-        13 => format!("{}({a})", any(random, &["sqrt", "exp", "log", "atan", "tanh", "abs", "tan"])),
+        13 => format!("{}({a})", any(random, &["sqrt", "exp", "log", "atan", "tanh", "abs", "tan", "exprelr", "sinc"])),
         14 => format!("({a})^{}", any(random, &["2", "3", "0.5", "(3/2)", "0", "-1", "(1 + E)"])),
         _ => format!("({a})*({b} - {})", decimal(random, 1, 0.0, 2.0)),
     }

@@ -168,9 +168,14 @@ fn quotient(x: &Float, p: u32) -> Interval {
     point(x) / Interval::new(less(Round::Down), less(Round::Up))
 }
 
-/// Bits that are needed inside for a result of p bits.
+/// Bits that are needed inside for a result of p bits: b itself is a quotient of two numbers that are met to rounding, and what b' loses
+/// beyond that is a few bits, in one word with a result of doubles.
 fn inside(p: u32, k: usize) -> u32 {
-    p + 32 + 8 * k as u32
+    match k {
+        0 => p,
+        1 => p + 10,
+        _ => p + 24 + 8 * k as u32,
+    }
 }
 
 /// b^(k) at a point: `b(-x) = b(x) + x`.
@@ -193,7 +198,7 @@ fn exprelr_at(x: &Float, k: usize, p: u32) -> Interval {
 
 /// s^(k) at a point: `x s^(k) = (d/dx)^k sin x - k s^(k-1)`.
 fn sinc_at(x: &Float, k: usize, p: u32) -> Interval {
-    let w = inside(p, k).max(x.prec());
+    let w = inside(p, k + 1).max(x.prec());
     let at = Interval::point(&Float::with_val(w, x));
     if x.clone().abs() < 1 {
         return power_series(Function::Sinc, k, &at);
