@@ -258,6 +258,27 @@ fn what_is_not_smooth_on_the_orbit_is_told() {
     assert!(matches!(failure, OrbitNotProved::NotSmooth { .. }), "{failure}");
 }
 
+/// A quotient that is 0/0 at an instant: at one that the search looks at, and at another, where doubles see nothing.
+#[test]
+fn a_quotient_without_a_value_is_the_cause() {
+    let of = |shift: &str| {
+        let u = format!("cos(2*pi*t - {shift})");
+        plant("1", &["x"], &[&format!("-x + {u}/(exp({u}) - 1)")], "x")
+    };
+    let failure = find_orbit(&of("0")).unwrap_err();
+    let OrbitFailure::Undefined(cause) = &failure else { panic!("{failure}") };
+    assert!(cause.zero_over_zero && cause.index == 0 && (cause.s - 0.25).abs() < 1e-9, "{failure}");
+    assert!(failure.way_out().is_some_and(|help| help.contains("exprelr(u)") && !help.contains("initial")));
+    let plant = of("1");
+    let found = find_orbit(&plant).unwrap();
+    let orbit = round_orbit(&plant, &found).unwrap();
+    let coordinates = propose_coordinates(&plant, &found, 0.0, 0.0).unwrap().remove(0);
+    let failure = prove_orbit(&plant, &orbit, &coordinates).unwrap_err();
+    let OrbitNotProved::NotSmooth { s, cause: Some(cause) } = &failure else { panic!("{failure}") };
+    assert!(cause.zero_over_zero && (s - 0.409_154_943).abs() < 1e-6, "{failure}");
+    assert!(failure.way_out().contains("exprelr(u)") && !failure.way_out().contains("units"));
+}
+
 #[test]
 fn what_is_too_large_is_refused() {
     let states: Vec<String> = (0..=MAX_STATES).map(|i| format!("x{i}")).collect();
