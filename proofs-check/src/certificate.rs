@@ -89,7 +89,7 @@ pub fn check(json: &Json, other: Option<&Json>, figures_limit: u64, lines: &mut 
 
     let mut precision = FIRST_PRECISION;
     let last = LAST_PRECISION.max(written_at);
-    let arguments = loop {
+    let (arguments, statement) = loop {
         let mut attempt = lines.clone();
         let result = prove(&Data::new(&spec, precision), &claim, (&derivation, &rates), &mut attempt);
         // More bits do not help where the cutting of a box came to its end.
@@ -114,7 +114,8 @@ pub fn check(json: &Json, other: Option<&Json>, figures_limit: u64, lines: &mut 
                 .push(format!("Lyapunov triple: {}", proofs_plants::jacobian::prove(jacobian, &spec.period, witness)?));
         }
     }
-    let subject = Subject::new(&embedded, &spec, &claim, &derivation, &digest, [tool_name, tool_version], shown);
+    let of = (&spec, &claim, &derivation);
+    let subject = Subject::new(&embedded, of, statement, &digest, [tool_name, tool_version], shown);
     if let Some(other) = other {
         same_data(about, embedded.json, other)?;
     }
@@ -123,13 +124,13 @@ pub fn check(json: &Json, other: Option<&Json>, figures_limit: u64, lines: &mut 
     Ok(Proved { subject, figures })
 }
 
-/// The claim at one precision; the largest X and E at which bounding functions are used.
+/// The claim at one precision: the largest X and E at which bounding functions are used, and what is proved in words.
 fn prove(
     d: &Data<'_>,
     claim: &Claim<'_>,
     (derivation, rates): (&Derivation, &[Witness]),
     lines: &mut Vec<String>,
-) -> Outcome<[Float; 2]> {
+) -> Outcome<([Float; 2], String)> {
     lines.push(format!("working precision: {} bits", d.precision));
     if let Some([x, e]) = &d.spec.domain {
         let (x, e) = (x.enclose(d.precision), e.enclose(d.precision));
@@ -137,7 +138,7 @@ fn prove(
     }
     let proved = derivation.prove(d, lines)?;
     let free = derivation.free();
-    claim.check(d, &proved, [&free.x_p, &free.e_p], derivation.prediction())?;
+    let statement = claim.check(d, &proved, [&free.x_p, &free.e_p], derivation.prediction())?;
     if !rates.is_empty() {
         if !derivation.rests_on_norms() && derivation.regions().is_none() {
             return bad(
@@ -149,7 +150,7 @@ fn prove(
         rates::prove(d, about, (&claim.rates, rates), lines)?;
     }
     lines.push(
-        "claim: verdict, n_o, mu, set, periodic solution, control and statement follow from what is proved".to_owned(),
+        "claim: verdict, n_o, mu, set, periodic solution and control follow from what is proved".to_owned(),
     );
     let mut largest = proved.arguments.each_ref().map(|argument| argument.hi().into_owned());
     if let Some(plant) = &d.spec.plant {
@@ -161,5 +162,5 @@ fn prove(
         }
         plant.lies_within(largest.each_ref(), "/witness")?;
     }
-    Ok(largest)
+    Ok((largest, statement))
 }

@@ -2,6 +2,7 @@
 //! 3 undecided. `proofs-check --coq CERT.json`: the certificate as a Coq theorem; 0 written, 1 invalid data, 2 bad-input,
 //! 3 no theorem of its kind.
 
+use proofs_check::verdict::escaped;
 use std::ffi::OsString;
 use std::fs::File;
 use std::io::{Read, Write};
@@ -86,7 +87,8 @@ fn write_theorem(certificate: &mut dyn Read) -> ExitCode {
             ExitCode::SUCCESS
         }
         Ok(Err(finding)) => {
-            eprintln!("proofs-check: {}: {}: {}", finding.verdict, finding.pointer, finding.message);
+            let [pointer, message] = [&finding.pointer, &finding.message].map(|text| escaped(text));
+            eprintln!("proofs-check: {}: {pointer}: {message}", finding.verdict);
             ExitCode::from(finding.verdict.exit_code())
         }
     }

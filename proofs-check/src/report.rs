@@ -1,7 +1,7 @@
 //! The answer about a file, as text and as JSON. Nothing is decided here.
 
 use crate::certificate::Proved;
-use proofs_core::verdict::{Finding, Verdict};
+use proofs_core::verdict::{Finding, Verdict, escaped};
 
 /// The answer about a file.
 pub struct Report {
@@ -84,17 +84,19 @@ fn subject_text(Proved { subject, figures }: &Proved) -> String {
 }
 
 fn finding_text(finding: &Finding) -> String {
-    let mut text = format!("  rule:  {}\n  field: {}\n  {}\n", finding.rule, finding.pointer, finding.message);
-    if let Some([lhs, rhs, gap]) = &finding.sides {
+    // Keys and figures of a file stand in them.
+    let [pointer, message] = [&finding.pointer, &finding.message].map(|text| escaped(text));
+    let mut text = format!("  rule:  {}\n  field: {pointer}\n  {message}\n", finding.rule);
+    if let Some([lhs, rhs, gap]) = finding.sides.as_ref().map(|sides| sides.each_ref().map(|side| escaped(side))) {
         text += &format!("  left:  {lhs}\n  right: {rhs}\n  gap:   {gap}\n");
     }
     text
 }
 
 fn finding_json(finding: &Finding) -> serde_json::Value {
-    let side = |i: usize| finding.sides.as_ref().map(|sides| sides[i].clone());
+    let side = |i: usize| finding.sides.as_ref().map(|sides| escaped(&sides[i]));
     serde_json::json!({
-        "verdict": finding.verdict.to_string(), "rule": finding.rule, "field": finding.pointer,
-        "message": finding.message, "left": side(0), "right": side(1), "gap": side(2),
+        "verdict": finding.verdict.to_string(), "rule": finding.rule, "field": escaped(&finding.pointer),
+        "message": escaped(&finding.message), "left": side(0), "right": side(1), "gap": side(2),
     })
 }

@@ -4,11 +4,12 @@
 use proofs_core::bound::{BOUND_NAMES, Bound};
 use proofs_core::json::{Field, Json, join, rational};
 use proofs_core::plant::OfPlant;
+use proofs_core::plant::parameters::Parameter;
 use proofs_core::range::Range;
 use proofs_core::rules::claim::Claim;
 use proofs_core::rules::derivation::Derivation;
 use proofs_core::spec::Specification;
-use proofs_core::verdict::{Outcome, invalid};
+use proofs_core::verdict::{Outcome, escaped, invalid};
 
 const RULE: &str = "the specification that was asked for";
 
@@ -33,12 +34,12 @@ pub struct Subject {
 }
 
 impl Subject {
-    /// From a certificate that is proved; `arguments` are the largest X and E at which its bounding functions are used.
+    /// From a certificate that is proved, and what is proved in words; `arguments` are the largest X and E at which its bounding functions
+    /// are used.
     pub fn new(
         embedded: &Field<'_>,
-        spec: &Specification,
-        claim: &Claim<'_>,
-        derivation: &Derivation,
+        (spec, claim, derivation): (&Specification, &Claim<'_>, &Derivation),
+        statement: String,
         digest: &str,
         [tool, version]: [&str; 2],
         arguments: [f64; 2],
@@ -60,7 +61,7 @@ impl Subject {
         });
         let rounded = claim.says_of_noise() && spec.noise.is_rounded(claim.sampled.is_some());
         Subject {
-            statement: printable_whole(claim.statement.text().unwrap_or_default()),
+            statement,
             also,
             digest: digest.to_owned(),
             about: if spec.plant.is_some() { "plant" } else { "specification" },
@@ -105,7 +106,7 @@ fn assumed(spec: &Specification, [x, e]: [f64; 2]) -> Vec<String> {
     let given = |bound: Bound| spec.bounds[bound as usize].is_some();
     let names: Vec<&str> = BOUND_NAMES.iter().zip(&spec.bounds).filter(|(_, b)| b.is_some()).map(|(n, _)| *n).collect();
     let where_ = match &spec.domain {
-        Some([x, e]) => format!("on the domain |x| <= {}, |e| <= {}", printable(&x.text), printable(&e.text)),
+        Some([x, e]) => format!("on the domain |x| <= {}, |e| <= {}", x.words, e.words),
         None => format!(
             "for all X and E (no domain is stated; the main claim uses them up to X = {}, E = {})",
             rounded_up(x),
@@ -157,7 +158,7 @@ fn rounded_up(value: f64) -> String {
 
 /// What is assumed of a period that is an interval.
 fn period(range: &Range) -> String {
-    let [low, high] = [&range.low, &range.high].map(|end| printable(&end.text));
+    let [low, high] = [&range.low, &range.high].map(|end| &end.words);
     format!(
         "the period T is one constant in [{low}, {high}], and time enters the plant through the phase 2 pi t/T alone"
     )
@@ -170,9 +171,9 @@ fn input(spec: &Specification) -> &'static str {
 
 /// What is put out where that is not u, and what becomes of it.
 fn output(gain: &Range) -> String {
-    let [low, high, nominal] = [&gain.low, &gain.high, &gain.nominal].map(|constant| printable(&constant.text));
+    let [low, high, nominal] = [&gain.low, &gain.high, &gain.nominal].map(|constant| &constant.words);
     // Another quotient or product is one number.
-    let nominal = if gain.nominal.text.parse::<f64>().is_ok() { nominal } else { format!("({nominal})") };
+    let nominal = if nominal.parse::<f64>().is_ok() { nominal.clone() } else { format!("({nominal})") };
     format!(" puts out v = u/{nominal}; g is one constant in [{low}, {high}]")
 }
 
@@ -202,24 +203,20 @@ fn assumed_of_plant(plant: &OfPlant, spec: &Specification) -> Vec<String> {
     let stateless = plant.states == 0;
     let where_ = match &plant.domain {
         None => String::new(),
-        Some([_, e]) if stateless => format!(" for |e| <= {}", printable(&e.text)),
-        Some([x, e]) => format!(" for |x - x_0| <= {}, |e| <= {}", printable(&x.text), printable(&e.text)),
+        Some([_, e]) if stateless => format!(" for |e| <= {}", e.words),
+        Some([x, e]) => format!(" for |x - x_0| <= {}, |e| <= {}", x.words, e.words),
     };
     let (equations, input) = (if stateless { "e' = q(t,e)" } else { "x' = f(t,x,e), e' = q(t,x,e)" }, input(spec));
-    let family: Vec<String> = plant.parameters.iter().map(|parameter| printable(&parameter.in_words())).collect();
+    let family: Vec<String> = plant.parameters.iter().map(Parameter::in_words).collect();
     let family = if family.is_empty() { String::new() } else { format!(", with {}", family.join(" and ")) };
     vec![format!("the machine is {equations} + {input} with exactly these formulas{family}{where_}")]
 }
 
-/// A free text on one line: control characters are escaped, and what is long is cut.
+/// A free text on one line: what is not shown, or moves what is, is escaped, and what is long is cut.
 fn printable(text: &str) -> String {
     let shown: String = text.chars().take(MAX_SHOWN).collect();
     let cut = if text.chars().nth(MAX_SHOWN).is_some() { "..." } else { "" };
-    format!("{}{cut}", printable_whole(&shown))
-}
-
-fn printable_whole(text: &str) -> String {
-    text.chars().flat_map(|c| if c.is_control() { c.escape_debug().collect() } else { vec![c] }).collect()
+    format!("{}{cut}", escaped(&shown))
 }
 
 /// Demands that two specifications hold the same data. Free texts and the order of fields do not matter, and a number may

@@ -34,7 +34,7 @@ pub fn agrees(asked: Option<&Actuator>, claimed: Option<&Field<'_>>, claim: &str
 /// What a claim is about besides, where there is one.
 pub fn in_words(actuator: Option<&Actuator>) -> String {
     actuator.map_or_else(String::new, |actuator| {
-        let max = &actuator.max.text;
+        let max = &actuator.max.words;
         let beyond = "and cuts off what is beyond (which nothing is from the set below)";
         format!(", with an actuator that takes what is put out up to {max} in size {beyond}")
     })

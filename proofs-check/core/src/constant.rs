@@ -1,7 +1,7 @@
 //! Real constants of a file: exact where they have an exact form, and enclosed at any precision.
 
 use crate::exact::Exact;
-use crate::expr::{Expr, NONE, Named};
+use crate::expr::{Expr, NONE, Named, Written};
 use crate::interval::Interval;
 use crate::json::{Field, Fields};
 use crate::verdict::{Outcome, bad, demand};
@@ -18,6 +18,8 @@ pub const PRECISIONS: [u32; 4] = [128, 256, 512, 1024];
 pub struct Constant {
     /// As written, with constants in the places of their names.
     pub text: String,
+    /// The same as it may stand in a sentence.
+    pub words: String,
     expr: Expr,
     /// Its exact form, if it has one.
     pub exact: Option<Exact>,
@@ -31,8 +33,8 @@ impl Constant {
 
     /// The same where names of other constants may stand.
     pub fn read_with(field: &Field<'_>, constants: &[Named]) -> Outcome<Constant> {
-        let (expr, text) = expression_with(field, NONE, constants)?;
-        let constant = Constant { text, exact: expr.exact(), expr };
+        let (expr, Written { text, words }) = expression_with(field, NONE, constants)?;
+        let constant = Constant { text, words, exact: expr.exact(), expr };
         if PRECISIONS.iter().any(|p| constant.enclose(*p).is_bounded()) {
             return Ok(constant);
         }
@@ -40,8 +42,8 @@ impl Constant {
     }
 
     /// A rational number that stands for what is written: a bound of it.
-    pub fn standing_for(text: String, value: Rational) -> Constant {
-        Constant { text, exact: Exact::rational(&value), expr: Expr::number(value) }
+    pub fn standing_for(Written { text, words }: Written, value: Rational) -> Constant {
+        Constant { text, words, exact: Exact::rational(&value), expr: Expr::number(value) }
     }
 
     /// What is written, as an expression without variables.
@@ -119,8 +121,8 @@ pub fn expression(field: &Field<'_>, variables: &[&str]) -> Outcome<Expr> {
     expression_with(field, variables, &[]).map(|(expr, _)| expr)
 }
 
-/// The same where names of constants may stand besides, and the text with these written out.
-pub fn expression_with(field: &Field<'_>, variables: &[&str], constants: &[Named]) -> Outcome<(Expr, String)> {
+/// The same where names of constants may stand besides, and how it is written.
+pub fn expression_with(field: &Field<'_>, variables: &[&str], constants: &[Named]) -> Outcome<(Expr, Written)> {
     Expr::parse_with(field.numeral()?, variables, constants)
         .or_else(|error| bad(&field.pointer, format!("not an expression: {error}")))
 }

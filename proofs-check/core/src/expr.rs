@@ -73,8 +73,8 @@ struct Parser<'a> {
     exact: Vec<Option<Exact>>,
     variables: &'a [&'a str],
     constants: &'a [Named],
-    /// Where the name of a constant stands, and the text of that constant.
-    named: Vec<(usize, usize, &'a str)>,
+    /// Where the name of a constant stands, and the constant; where that of a variable stands, and none.
+    named: Vec<(usize, usize, Option<&'a Named>)>,
 }
 
 /// A constant under its name: an expression without variables, and its text.
@@ -83,6 +83,15 @@ pub struct Named {
     pub name: String,
     pub text: String,
     pub value: Expr,
+}
+
+/// How an expression is written, with the texts of constants in the places of their names.
+#[derive(Clone, Debug)]
+pub struct Written {
+    /// But for that as in the file.
+    pub text: String,
+    /// As it may stand in a sentence, whose letters are others: without white space, and each name of a variable in quotes.
+    pub words: String,
 }
 
 type Parsed = Result<(), String>;
@@ -203,11 +212,12 @@ impl Parser<'_> {
             return self.push(Op::Pi);
         }
         if let Some(index) = self.variables.iter().position(|variable| *variable == name) {
+            self.named.push((start, self.at, None));
             return self.push(Op::Variable(index));
         }
         let constants = self.constants;
         if let Some(constant) = constants.iter().find(|constant| constant.name == name) {
-            self.named.push((start, self.at, &constant.text));
+            self.named.push((start, self.at, Some(constant)));
             // As if it stood there in parentheses.
             return constant.value.ops.iter().try_for_each(|op| self.push(op.clone()));
         }
@@ -319,17 +329,30 @@ pub fn slope_op(op: &Op, u: &Interval, value: &Interval) -> Option<Interval> {
     })
 }
 
-/// A text with others in the given places of it, in parentheses but for digits and a point.
-fn spelled_out(text: &str, named: &[(usize, usize, &str)]) -> String {
+/// A name of a file within a sentence: apart from the letters that the sentence has of its own.
+pub fn quoted(name: &str) -> String {
+    format!("'{name}'")
+}
+
+/// A text with those of constants in the given places of it, in parentheses but for digits and a point, and the names of variables by `variable`.
+fn spelled_out(text: &str, named: &[(usize, usize, Option<&Named>)], variable: fn(&str) -> String) -> String {
     let (mut whole, mut from) = (String::new(), 0);
-    for (start, end, value) in named {
+    for (start, end, constant) in named {
         whole.push_str(text.get(from..*start).unwrap_or(""));
-        let is_numeral = value.bytes().all(|b| b.is_ascii_digit() || b == b'.');
-        whole.push_str(&if is_numeral { (*value).to_owned() } else { format!("({value})") });
+        whole.push_str(&match constant.map(|constant| constant.text.as_str()) {
+            None => variable(text.get(*start..*end).unwrap_or("")),
+            Some(value) if value.bytes().all(|b| b.is_ascii_digit() || b == b'.') => value.to_owned(),
+            Some(value) => format!("({value})"),
+        });
         from = *end;
     }
     whole.push_str(text.get(from..).unwrap_or(""));
     whole
+}
+
+/// No two words of an expression stand side by side, so that white space only spreads it.
+fn without_space(text: &str) -> String {
+    text.split_ascii_whitespace().collect()
 }
 
 impl Expr {
@@ -341,11 +364,11 @@ impl Expr {
         Expr::parse_with(text, variables, &[]).map(|(expr, _)| expr)
     }
 
-    /// The same where names of constants may stand besides, and the text with the constants in the places of their names.
+    /// The same where names of constants may stand besides, and how it is written.
     ///
     /// # Errors
     /// The same.
-    pub fn parse_with(text: &str, variables: &[&str], constants: &[Named]) -> Result<(Expr, String), String> {
+    pub fn parse_with(text: &str, variables: &[&str], constants: &[Named]) -> Result<(Expr, Written), String> {
         if text.len() > MAX_TEXT {
             return Err(format!("an expression of more than {MAX_TEXT} bytes"));
         }
@@ -357,8 +380,10 @@ impl Expr {
             0 if parser.at == bytes.len() => {
                 let whole = text.trim();
                 let alone = constants.iter().find(|constant| constant.name == whole);
-                let spelled_out = alone.map_or_else(|| spelled_out(text, &parser.named), |one| one.text.clone());
-                Ok((Expr { ops: parser.ops }, spelled_out))
+                let spelled =
+                    |of| alone.map_or_else(|| spelled_out(text, &parser.named, of), |constant| constant.text.clone());
+                let written = Written { text: spelled(str::to_owned), words: without_space(&spelled(quoted)) };
+                Ok((Expr { ops: parser.ops }, written))
             }
             _ => Err(format!("an operator or the end was expected at byte {}", parser.at)),
         }

@@ -38,11 +38,11 @@ pub fn read(file: &mut Fields<'_>, constants: &[Named], intervals: &[Parameter])
         if !names.iter().any(|name| occurs(name, text)) {
             return positive_with(&field, name, constants);
         }
-        let (expr, text) = expression_with(&field, &names, constants)?;
+        let (expr, written) = expression_with(&field, &names, constants)?;
         let Some([low, high]) = ends(&expr, &family).filter(|[low, _]| *low > 0) else {
             return bad(&field.pointer, "this need not be positive for all values of its parameters");
         };
-        Ok(Constant::standing_for(text, if name == "low" { low } else { high }))
+        Ok(Constant::standing_for(written, if name == "low" { low } else { high }))
     };
     file.part("input_gain", |field| Range::read(field, RULE, positive))
 }
@@ -72,6 +72,6 @@ pub fn in_words(gain: Option<&Range>) -> String {
     let Some(Range { nominal, low, high }) = gain else { return String::new() };
     format!(
         " and every input gain in [{}, {}] (one constant; the regulator divides by the nominal {})",
-        low.text, high.text, nominal.text
+        low.words, high.words, nominal.words
     )
 }

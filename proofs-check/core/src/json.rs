@@ -14,6 +14,8 @@ const MAX_NESTING: usize = 16;
 const MAX_KEY: usize = 100;
 /// The most values that are read.
 const MAX_VALUES: usize = 200_000;
+/// The longest text for people, in bytes: the constants of a claim have up to 10,000 each.
+const MAX_WORDS: usize = 500_000;
 /// The longest numeral in characters, and the largest decimal exponent, from which a rational is formed.
 const MAX_NUMERAL: usize = 1000;
 const MAX_EXPONENT: u32 = 4000;
@@ -224,6 +226,14 @@ impl<'a> Field<'a> {
         }
     }
 
+    /// A string of bounded length that is for people: nothing depends on it.
+    pub fn words(&self) -> Outcome<()> {
+        match self.text()?.len() {
+            0..=MAX_WORDS => Ok(()),
+            _ => bad(&self.pointer, format!("a text of more than {MAX_WORDS} bytes")),
+        }
+    }
+
     /// A whole number of up to nine digits.
     pub fn whole(&self) -> Outcome<u32> {
         match self.json {
@@ -244,7 +254,7 @@ impl<'a> Field<'a> {
 
     /// An exact rational: `p/q` or a decimal, in a string or as a JSON number.
     pub fn rational(&self) -> Outcome<Rational> {
-        let message = "expected an exact rational, as \"3/7\" or \"0.25\", of moderate size";
+        let message = "expected an exact rational of moderate size, as \"3/7\", \"0.25\" or \"1e-3\", with a sign in front at most";
         rational(self.numeral()?).map_or_else(|| bad(&self.pointer, message), Ok)
     }
 }
@@ -323,14 +333,33 @@ impl<'a> Fields<'a> {
     }
 }
 
-/// `p/q` or a decimal exactly; `None` if it is none, or too large to be formed.
+/// A number as JSON writes one (`-12`, `0.5`, `1.5e-3`), or a fraction `p/q` of whole numbers, of which p alone may have a sign, exactly;
+/// `None` if it is neither, or too large to be formed. A claim repeats these texts, so that none is taken which may be read in two ways.
 pub fn rational(text: &str) -> Option<Rational> {
-    let (numerator, denominator) = text.split_once('/').unwrap_or((text, "1"));
-    let denominator = decimal(denominator).filter(|denominator| *denominator != 0)?;
+    let Some((numerator, denominator)) = text.split_once('/') else {
+        return decimal(text).filter(|_| is_number(text));
+    };
+    let written = is_whole(numerator.strip_prefix('-').unwrap_or(numerator)) && is_whole(denominator);
+    let denominator = decimal(denominator).filter(|denominator| written && *denominator != 0)?;
     decimal(numerator).map(|numerator| numerator / denominator)
 }
 
-/// A decimal numeral (`-12`, `0.5`, `1.5e-3`) exactly; `None` if it is none, or too large to be formed.
+/// Digits, the first of which is not 0 where there are more.
+fn is_whole(text: &str) -> bool {
+    !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit()) && (text == "0" || !text.starts_with('0'))
+}
+
+/// Whether a numeral that [`decimal`] reads is one of JSON: digits before a point, and after it.
+fn is_number(text: &str) -> bool {
+    let mantissa = text.split(['e', 'E']).next().unwrap_or(text);
+    let unsigned = mantissa.strip_prefix('-').unwrap_or(mantissa);
+    match unsigned.split_once('.') {
+        None => is_whole(unsigned),
+        Some((whole, fraction)) => is_whole(whole) && !fraction.is_empty(),
+    }
+}
+
+/// A decimal numeral (`-12`, `0.5`, `.5`, `1.5e-3`) exactly; `None` if it is none, or too large to be formed.
 pub fn decimal(text: &str) -> Option<Rational> {
     if text.len() > MAX_NUMERAL {
         return None;

@@ -139,9 +139,9 @@ pub fn agrees(asked: &Period, claimed: Option<&Field<'_>>, claim: &str) -> Outco
 /// What a claim says of it, after `with`.
 pub fn in_words(period: &Period) -> String {
     match period.range() {
-        None => format!("period T = {}", period.nominal.text),
+        None => format!("period T = {}", period.nominal.words),
         Some(Range { nominal, low, high }) => {
-            format!("every period in [{}, {}] (one constant T; nominal {})", low.text, high.text, nominal.text)
+            format!("every period in [{}, {}] (one constant T; nominal {})", low.words, high.words, nominal.words)
         }
     }
 }

@@ -224,8 +224,8 @@ impl Specification {
             input_gain::in_words(self.input_gain.as_ref()),
             actuator::in_words(self.actuator.as_ref()),
             period::in_words(&self.period),
-            self.regulator.mu.text,
-            self.regulator.base_frequency.text,
+            self.regulator.mu.words,
+            self.regulator.base_frequency.words,
         )
     }
 }

@@ -50,6 +50,30 @@ pub struct Finding {
     pub sides: Option<[String; 3]>,
 }
 
+/// A text of a file as it may stand in an answer: on its line, with every character that is not shown, or moves what is shown, as its number.
+pub fn escaped(text: &str) -> String {
+    let shown = |c: char| match c {
+        c if !is_hidden(c) => c.to_string(),
+        '\n' | '\r' | '\t' => c.escape_default().to_string(),
+        c => c.escape_unicode().to_string(),
+    };
+    text.chars().map(shown).collect()
+}
+
+/// Ends of lines and paragraphs and other white space than a blank, control characters, marks of direction, and what has no width: the
+/// categories Cc, Cf, Zl, Zp and Zs of Unicode, and what it calls ignorable by default.
+#[rustfmt::skip]
+fn is_hidden(c: char) -> bool {
+    c.is_control() || (c.is_whitespace() && c != ' ') || matches!(
+        c,
+        '\u{ad}' | '\u{34f}' | '\u{600}'..='\u{605}' | '\u{61c}' | '\u{6dd}' | '\u{70f}' | '\u{890}' | '\u{891}' | '\u{8e2}'
+        | '\u{115f}' | '\u{1160}' | '\u{17b4}' | '\u{17b5}' | '\u{180b}'..='\u{180f}' | '\u{200b}'..='\u{200f}'
+        | '\u{202a}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{2800}' | '\u{3164}' | '\u{fe00}'..='\u{fe0f}' | '\u{feff}'
+        | '\u{ffa0}' | '\u{fff0}'..='\u{fffb}' | '\u{110bd}' | '\u{110cd}' | '\u{13430}'..='\u{1343f}' | '\u{1bca0}'..='\u{1bca3}'
+        | '\u{1d173}'..='\u{1d17a}' | '\u{e0000}'..='\u{e0fff}'
+    )
+}
+
 /// The result of a rule.
 pub type Outcome<T> = Result<T, Box<Finding>>;
 

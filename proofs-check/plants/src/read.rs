@@ -119,6 +119,7 @@ pub fn read(field: &Field<'_>, witness: &mut Fields<'_>) -> Outcome<(Specificati
     let family: Vec<Span> = intervals.iter().map(|parameter| parameter.span.clone()).chain(clock).collect();
     let order = names.len();
     let coordinates = Coordinates::read_part(&witness.required("coordinates")?, order)?;
+    let in_cells = witness.has("cells");
     let cells = cells::read(witness, order, family, intervals.len())?;
     let (first, [p_low, p_up, alpha]) = jacobian::Witness::read(&witness.required("lyapunov")?, order)?;
     let existence = witness.part("lyapunov_existence", |field| jacobian::Witness::read(field, order))?;
@@ -129,7 +130,8 @@ pub fn read(field: &Field<'_>, witness: &mut Fields<'_>) -> Outcome<(Specificati
     }
     let entries = Entries::read(&witness.required("bounds")?, order > 0, lyapunov.len() > 1)?;
     let two_matrices = lyapunov.len() > 1;
-    let known = OfPlant { states: order, domain, ball, coordinates, entries, parameters: intervals, two_matrices };
+    let parameters = intervals;
+    let known = OfPlant { states: order, domain, ball, coordinates, entries, parameters, in_cells, two_matrices };
     let specification = Specification {
         period,
         p_low,

@@ -90,6 +90,28 @@ pub fn parse_decimal(text: &str) -> Result<Rational, DecimalError> {
     Ok(if negative { -value } else { value })
 }
 
+/// Reads a number as JSON writes one (`-12`, `0.5`, `1.5e-3`), or a fraction `p/q` of whole numbers, of which p alone may have a sign: as
+/// certificates have their numbers, which words repeat. `None` for any other text, also one that [`parse_decimal`] takes, as `.5`, `5.` or `+1`.
+#[must_use]
+pub fn parse_rational(text: &str) -> Option<Rational> {
+    let whole = |text: &str| {
+        !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit()) && (text == "0" || !text.starts_with('0'))
+    };
+    let unsigned = text.strip_prefix('-').unwrap_or(text);
+    if let Some((numerator, denominator)) = unsigned.split_once('/') {
+        let written = whole(numerator) && whole(denominator);
+        let (p, q) = (parse_decimal(numerator).ok()?, parse_decimal(denominator).ok()?);
+        let quotient = (written && q != 0).then(|| p / q)?;
+        return Some(if text.starts_with('-') { -quotient } else { quotient });
+    }
+    let mantissa = unsigned.split(['e', 'E']).next().unwrap_or(unsigned);
+    let (before, after) = mantissa.split_once('.').map_or((mantissa, None), |(before, after)| (before, Some(after)));
+    if !whole(before) || after.is_some_and(str::is_empty) {
+        return None;
+    }
+    parse_decimal(text).ok()
+}
+
 /// Writes a rational exactly: as a terminating decimal where the denominator allows a short one, as `p/q` otherwise.
 /// The result is read back to the same rational by [`parse_decimal`] or as a constant expression.
 #[must_use]
@@ -170,6 +192,28 @@ mod tests {
             assert!(matches!(parse_decimal(text), Err(DecimalError::Exponent { .. })), "{text}");
         }
         assert!(matches!(parse_decimal(&"9".repeat(1001)), Err(DecimalError::TooLong { length: 1001 })));
+    }
+
+    #[test]
+    fn rationals_are_written_in_one_way() {
+        for (text, value) in [
+            ("12", (12, 1)),
+            ("-0.5", (-1, 2)),
+            ("1.5e-3", (3, 2000)),
+            ("2E+2", (200, 1)),
+            ("0", (0, 1)),
+            ("3/7", (3, 7)),
+            ("-30/70", (-3, 7)),
+            ("0/7", (0, 1)),
+        ] {
+            assert_eq!(parse_rational(text), Some(Rational::from(value)), "{text}");
+        }
+        for text in [
+            "", "-", ".", ".5", "5.", "-.5", "+1", "007", "00.5", "1e", "1 ", " 1", "1/0", "1/-2", "-1/-2", "1/+2", "--1", "1/2/3", "1/3e2",
+            "1e2/3", "0.5/3", "1/", "/2", "01/2", "1/02", "2*3", "pi", "1 / 2", "٣",
+        ] {
+            assert_eq!(parse_rational(text), None, "{text}");
+        }
     }
 
     #[test]

@@ -28,6 +28,8 @@ pub struct OfPlant {
     pub entries: Entries,
     /// Those of which intervals are given, in the order of the file.
     pub parameters: Vec<Parameter>,
+    /// Whether the box of these is cut into cells, each with an orbit of its own.
+    pub in_cells: bool,
     /// Whether existence has a P of its own.
     pub two_matrices: bool,
 }

@@ -3,6 +3,7 @@
 //! Guarantee: a claim names exactly these, with the numbers of the file. An interval of one point is that number, and none of them.
 
 use crate::constant::Constant;
+use crate::expr::quoted;
 use crate::json::Field;
 use crate::range::{Range, Span, both};
 use crate::verdict::{Outcome, bad};
@@ -38,12 +39,12 @@ impl Parameter {
 
     /// Its interval, for a reader.
     pub fn in_words(&self) -> String {
-        words(&self.name, [&self.range.low.text, &self.range.high.text])
+        words(&self.name, [&self.range.low.words, &self.range.high.words])
     }
 }
 
 fn words(name: &str, [low, high]: [&str; 2]) -> String {
-    format!("a constant {name} in [{low}, {high}]")
+    format!("a constant {} of the file in [{low}, {high}]", quoted(name))
 }
 
 /// That a claim names the parameters of the file, and none where the file has none; which they are in words, with the texts of the

@@ -12,6 +12,7 @@ use crate::data::Data;
 use crate::input_gain;
 use crate::interval::Interval;
 use crate::json::{Field, Fields};
+use crate::noise::apart;
 use crate::period;
 use crate::plant::OfPlant;
 use crate::plant::{coordinates, parameters};
@@ -39,8 +40,6 @@ pub struct Claim<'a> {
     pub control: Option<Field<'a>>,
     /// What it says besides of given numbers of oscillators.
     pub rates: Vec<Rate<'a>>,
-    /// The claim in words.
-    pub statement: Field<'a>,
     /// The radius of the ball that the set of a plant contains, with its place and as it is written.
     ball: Option<(Rational, Field<'a>)>,
     /// The actuator that it keeps to, if it names one: then it is about `sigma` alone.
@@ -136,8 +135,9 @@ impl<'a> Claim<'a> {
             kind,
             periodic: fields.required("periodic_solution")?,
             control: fields.optional("control"),
-            statement: fields.required("statement")?,
         };
+        // What the file says of it in words is for people: the words of an answer are those of `check`.
+        fields.required("statement")?.words()?;
         fields.finish()?;
         Ok(claim)
     }
@@ -150,14 +150,15 @@ impl<'a> Claim<'a> {
     /// Compares every field with the specification, and demands that the stored sizes of the periodic solution bound those
     /// that are proved; `exact` are rational bounds of |x| and |e|.
     ///
-    /// `start` is Y_0 as the witness of a law with a delay writes it.
+    /// `start` is Y_0 as the witness of a law with a delay writes it. What is then proved, in words: each number of it is one of the
+    /// claim or of the specification that was compared, and no text of the file stands in it.
     pub fn check(
         &self,
         d: &Data<'_>,
         evaluated: &Evaluated,
         exact: [&Rational; 2],
         start: Option<&str>,
-    ) -> Outcome<()> {
+    ) -> Outcome<String> {
         reads(RULE, &self.verdict, "certified")?;
         let spec = d.spec;
         match &self.sampled {
@@ -168,7 +169,7 @@ impl<'a> Claim<'a> {
             }
         }
         if !is_same(&Constant::read(&self.mu)?, &spec.regulator.mu) {
-            return reads(RULE, &self.mu, &spec.regulator.mu.text);
+            reads(RULE, &self.mu, &spec.regulator.mu.text)?;
         }
         input_gain::agrees(spec.input_gain.as_ref(), self.input_gain.as_ref(), &self.pointer)?;
         actuator::agrees(spec.actuator.as_ref(), self.actuator.as_ref(), &self.pointer)?;
@@ -210,7 +211,7 @@ impl<'a> Claim<'a> {
         let sigma = self.sampled.as_ref().map_or(self.sigma_text, Regulator::sigma_text);
         let kind = [self.sampled.is_some(), self.set.z0.is_none()];
         let besides: String = self.rates.iter().map(|rate| rate.in_words(sigma, kind, &spec.noise)).collect();
-        reads(RULE, &self.statement, &(statement + &besides))
+        Ok(statement + &besides)
     }
 
     /// The set contains the ball (docs/mathematics.md, section 11.5), and the ball is no smaller than the one that is asked for.
@@ -234,8 +235,8 @@ impl<'a> Claim<'a> {
             |parameters| format!("every plant of these formulas with {parameters}"),
         );
         let domain = plant.domain.as_ref().map_or_else(String::new, |[x, e]| {
-            let of_x = if plant.states > 0 { format!("|x - x_0| <= {}, ", x.text) } else { String::new() };
-            format!(" (a model that holds for {of_x}|e| <= {})", e.text)
+            let of_x = if plant.states > 0 { format!("|x - x_0| <= {}, ", x.words) } else { String::new() };
+            format!(" (a model that holds for {of_x}|e| <= {})", e.words)
         });
         let (x0, start) = &self.set_text;
         let (states, orbit) = match &self.ball {
@@ -243,8 +244,9 @@ impl<'a> Claim<'a> {
             Some((_, field)) => (
                 format!("|L^-1 (x - x_0)| <= {x0}, "),
                 format!(
-                    "; x_0(t) is the T-periodic solution of x' = f(t,x,0), proved within `radius` of `orbit`; the set \
-                     contains |x - x_0| <= {}",
+                    "; x is the vector of the states, L the matrix `coordinates` of this certificate, and x_0(t) {}, in the \
+                     norm of L^-1 x; the set contains |x - x_0| <= {}",
+                    solution(plant),
                     field.numeral()?
                 ),
             ),
@@ -259,7 +261,7 @@ impl<'a> Claim<'a> {
     /// The beginning of the claim in words, and where its solutions start.
     fn regulator(&self, spec: &Specification, y_0: Option<&str>) -> (String, String) {
         if let Some(regulator) = &self.sampled {
-            let off = |y_0| format!(", with a prediction of e there within h*{y_0} of it");
+            let off = |y_0| format!(", with a prediction of e there within h*{} of it", apart(y_0));
             return (regulator.in_words(spec), format!("sampling instant{}", y_0.map_or_else(String::new, off)));
         }
         let reach = if spec.regulator.matched { "" } else { " (which need not match the period)" };
@@ -274,11 +276,11 @@ impl<'a> Claim<'a> {
         let domain = spec
             .domain
             .as_ref()
-            .map_or_else(String::new, |[x, e]| format!(" (for |x| <= {}, |e| <= {})", x.text, e.text));
+            .map_or_else(String::new, |[x, e]| format!(" (for |x| <= {}, |e| <= {})", x.words, e.words));
         let triple = if spec.jacobian.is_some() {
             "whose df/dx(t,0,0) is in the family of the Jacobian (its Lyapunov triple is proved)".to_owned()
         } else {
-            let [p_low, p_up, alpha] = [&spec.p_low, &spec.p_up, &spec.alpha].map(|constant| &constant.text);
+            let [p_low, p_up, alpha] = [&spec.p_low, &spec.p_up, &spec.alpha].map(|constant| &constant.words);
             format!("with the Lyapunov triple p_low = {p_low}, p_up = {p_up}, alpha = {alpha} (given, not proved)")
         };
         let rate = if spec.rate.is_some() { " and the contraction `rate` (given, not proved)" } else { "" };
@@ -291,6 +293,17 @@ impl<'a> Claim<'a> {
              has a T-periodic solution of the closed loop to which every solution from |x| <= {x0}, {start}, at \
              any {when}, converges exponentially.",
         )
+    }
+}
+
+/// What x_0(t) is: of a plant in several cells there is one solution for each, and the claim is about any of them.
+fn solution(plant: &OfPlant) -> &'static str {
+    match plant.in_cells {
+        false => "the T-periodic solution of x' = f(t,x,0) that is proved within `radius` of `orbit`",
+        true => {
+            "for any of the `cells` that contains the parameters of the plant the T-periodic solution of x' = f(t,x,0) that is proved \
+             within `radius` of `orbit` of that cell"
+        }
     }
 }
 

@@ -70,7 +70,7 @@ impl<'a> Regulator<'a> {
             "For the digital regulator {}with the gain sigma = {sigma}, the sampling period h = {} ({samples} samples a period) and \
              K = {gain}, for every number of oscillators n_o < {samples}/2 and every phase of the sampling grid{}",
             if self.delayed { "whose control is computed in the sample before it acts, " } else { "" },
-            self.sampling.text,
+            self.sampling.words,
             spec.in_words(),
         )
     }
