@@ -149,9 +149,7 @@ fn prove(
         let about = (free, &proved.sizes, &claim.sigma, derivation.law());
         rates::prove(d, about, (&claim.rates, rates), lines)?;
     }
-    lines.push(
-        "claim: verdict, n_o, mu, set, periodic solution and control follow from what is proved".to_owned(),
-    );
+    lines.push("claim: verdict, n_o, mu, set, periodic solution and control follow from what is proved".to_owned());
     let mut largest = proved.arguments.each_ref().map(|argument| argument.hi().into_owned());
     if let Some(plant) = &d.spec.plant {
         // Those of exact regulation, which has no figures of them, count as well, and one that is not known most of all.

@@ -104,7 +104,7 @@ fn provenance(
 ) -> Result<Option<Provenance>, Failure> {
     let Some(given) = given else { return Ok(None) };
     if given.is_about(subject.sha256()) {
-        return Ok(Some(given.provenance(asked)));
+        return given.provenance(asked).map(Some);
     }
     let message =
         format!("the certificate was made for another {}: it says nothing about this regulator", subject.kind());

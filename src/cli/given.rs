@@ -6,7 +6,7 @@ use sigmastar_exact::enclosure::{DEFAULT_PRECISION, Enclosure};
 use sigmastar_exact::number::write_exact;
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{Constant, Document, Errors, InternalModel, SampledGain, Sampling, any_constant};
-use sigmastar_prove::certificate::{read_for, read_numbers};
+use sigmastar_prove::certificate::{claim_in_words, read_for, read_numbers};
 use sigmastar_prove::certify::FarStart;
 use sigmastar_prove::rate::bound::MAX_COUNTS;
 use sigmastar_prove::reduction::{FreeNumbers, Subject, WitnessData};
@@ -19,7 +19,6 @@ pub struct Given {
     sampled: Option<(Sampling, SampledGain)>,
     /// Whether it is about its gain alone because of an actuator.
     with_actuator: bool,
-    statement: String,
     /// The numbers of oscillators of which it says something that counts rounding.
     rounding: Vec<u64>,
     /// The digests that it states, of a specification and of a plant.
@@ -29,7 +28,7 @@ pub struct Given {
 }
 
 impl Given {
-    /// Reads sigma*, the statement and the digests.
+    /// Reads sigma* and the digests.
     ///
     /// # Errors
     /// What cannot be read, in its place.
@@ -39,9 +38,6 @@ impl Given {
             FreeNumbers::Continuous(witness) => (witness.witness.sigma.clone(), None),
         };
         let text = |pointer: &str| document.at(pointer).and_then(|value| value.text().map(str::to_owned));
-        let statement = text("/claim/statement").ok_or_else(|| {
-            Failure::call("the certificate has no `claim.statement`", "take a certificate that `certify -o` wrote")
-        })?;
         let made_for = ["/specification_sha256", "/plant_sha256"].map(text);
         let with_actuator = document.at("/claim/actuator").is_some();
         let in_doubles = ["/specification/arithmetic", "/plant/arithmetic"]
@@ -52,7 +48,7 @@ impl Given {
         };
         let counts = (0..MAX_COUNTS).filter(|_| in_doubles).filter_map(stated);
         let rounding = counts.filter_map(|n_o| n_o.integer(&mut Errors::new()).ok()).collect();
-        Ok(Given { sigma_star, sampled, with_actuator, statement, rounding, made_for, document: document.clone() })
+        Ok(Given { sigma_star, sampled, with_actuator, rounding, made_for, document: document.clone() })
     }
 
     /// sigma*, rounded up to a double: the gain that is exported is certified too. Of the regulator at samples, and with an actuator,
@@ -109,8 +105,11 @@ impl Given {
         self.made_for.iter().flatten().any(|digest| digest == sha256)
     }
 
-    /// Its part in the export of a regulator.
-    pub fn provenance(&self, regulator: &Regulated<'_>) -> Provenance {
+    /// Its part in the export of a regulator: its claim in words that are made of its numbers, whatever the words are that it holds.
+    ///
+    /// # Errors
+    /// What cannot be read of the claim, in its place.
+    pub fn provenance(&self, regulator: &Regulated<'_>) -> Result<Provenance, Failure> {
         let sigma = regulator.sigma;
         let covers_sigma = || match sigma.as_rational() {
             Some(sigma) => *sigma >= self.sigma_star,
@@ -119,11 +118,11 @@ impl Given {
                 sigma.enclose(DEFAULT_PRECISION).ge(&sigma_star).is_true()
             }
         };
-        Provenance {
+        Ok(Provenance {
             sha256: self.document.root().sha256(),
             sigma_star: write_exact(&self.sigma_star),
             one_gain: self.sampled.is_some() || self.with_actuator,
-            statement: self.statement.clone(),
+            statement: claim_in_words(&self.document)?,
             rounding: self.rounding.contains(&u64::from(regulator.n_o)).then_some(regulator.n_o),
             scope: match self.covers_samples(regulator) {
                 Some(true) => Scope::Samples,
@@ -135,7 +134,7 @@ impl Given {
                 None if covers_sigma() => Scope::Continuous,
                 None => Scope::BelowSigmaStar,
             },
-        }
+        })
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::colour;
 use super::format::Format;
-use sigmastar_document::{Extent, Made, Readable};
+use sigmastar_document::{Extent, Made, Readable, is_hidden};
 use sigmastar_lang::spec::SpecErrors;
 use sigmastar_prove::certify::Verdict;
 use std::io::{self, ErrorKind, Write};
@@ -114,7 +114,7 @@ pub fn reason(error: &io::Error) -> String {
     }
 }
 
-/// A path as messages show it: control characters would move the cursor.
+/// A path as messages show it: what is not shown, or moves the cursor, is marked.
 pub fn shown(path: &Path) -> String {
-    path.display().to_string().chars().map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect()
+    path.display().to_string().chars().map(|c| if is_hidden(c) { '\u{fffd}' } else { c }).collect()
 }

@@ -165,19 +165,30 @@ impl Extent {
     }
 }
 
-/// Text of a stranger as it may stand in a report: on one line, without control characters or changes of the writing
-/// direction or backticks, and of bounded length.
+/// Whether a character is not shown, or moves what is shown: ends of lines and paragraphs and other white space than a blank, control
+/// characters, marks of direction, and what has no width.
+#[rustfmt::skip]
+#[must_use]
+pub fn is_hidden(c: char) -> bool {
+    c.is_control() || (c.is_whitespace() && c != ' ') || matches!(
+        c,
+        '\u{ad}' | '\u{34f}' | '\u{600}'..='\u{605}' | '\u{61c}' | '\u{6dd}' | '\u{70f}' | '\u{890}' | '\u{891}' | '\u{8e2}'
+        | '\u{115f}' | '\u{1160}' | '\u{17b4}' | '\u{17b5}' | '\u{180b}'..='\u{180f}' | '\u{200b}'..='\u{200f}'
+        | '\u{202a}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{2800}' | '\u{3164}' | '\u{fe00}'..='\u{fe0f}' | '\u{feff}'
+        | '\u{ffa0}' | '\u{fff0}'..='\u{fffb}' | '\u{110bd}' | '\u{110cd}' | '\u{13430}'..='\u{1343f}' | '\u{1bca0}'..='\u{1bca3}'
+        | '\u{1d173}'..='\u{1d17a}' | '\u{e0000}'..='\u{e0fff}'
+    )
+}
+
+/// Text of a stranger as it may stand in a report: on one line, without characters that are [hidden](is_hidden) or backticks, and of bounded
+/// length.
 #[must_use]
 pub fn clean(text: &str) -> String {
     const LONGEST: usize = 80;
-    let visible = |c: char| {
-        let moves =
-            matches!(c, '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{feff}');
-        match c {
-            '`' => '\'',
-            c if c.is_control() || moves => ' ',
-            c => c,
-        }
+    let visible = |c: char| match c {
+        '`' => '\'',
+        c if is_hidden(c) => ' ',
+        c => c,
     };
     let line: String = text.chars().map(visible).collect();
     let words: Vec<&str> = line.split_whitespace().collect();
@@ -196,6 +207,23 @@ mod tests {
     fn strangers_text_stays_on_its_line() {
         assert_eq!(clean("a\tb\n\u{1b}[31mc"), "a b [31mc");
         assert_eq!(clean("x\u{202e}y`"), "x y'");
+        for hidden in [
+            '\u{2028}',
+            '\u{2029}',
+            '\u{2066}',
+            '\u{2069}',
+            '\u{200b}',
+            '\u{85}',
+            '\u{a0}',
+            '\u{ad}',
+            '\u{61c}',
+            '\u{feff}',
+            '\u{fe0f}',
+            '\u{e0041}',
+        ] {
+            assert_eq!(clean(&format!("a{hidden}b")), "a b", "{hidden:?}");
+        }
+        assert_eq!(clean("H\u{fc}tte \u{5e9} \u{2026} \u{3b1}'"), "H\u{fc}tte \u{5e9} \u{2026} \u{3b1}'");
         assert_eq!(clean(&"long ".repeat(100)).chars().count(), 80);
         assert_eq!(clean(""), "");
     }

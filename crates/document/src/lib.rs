@@ -17,7 +17,7 @@ pub mod plot;
 pub mod progress;
 mod text;
 
-pub use block::{Align, Block, Column, Extent, Table, clean};
+pub use block::{Align, Block, Column, Extent, Table, clean, is_hidden};
 pub use made::Made;
 
 /// A report that can be written in every format, with the same content in each.

@@ -72,7 +72,7 @@ pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences
             .map(|sigma| ("aligned start", sensitivity::aligned(sigma))),
     );
     facts.extend(input_gain(run).map(|said| ("input gain", said)));
-    facts.extend(interval_costs(&run.interval_costs, "sigma*").map(|said| ("intervals", said)));
+    facts.extend(interval_costs(run.spec, &run.interval_costs, "sigma*").map(|said| ("intervals", said)));
     facts.extend(consequences.and_then(|all| error(&all.by_n_o)).map(|said| ("steady error", said)));
     facts.extend(
         for_n_o(run, consequences.is_some_and(|all| !all.targets.is_empty())).map(|said| ("convergence", said)),
@@ -164,7 +164,7 @@ pub(super) fn of_samples(
     let radii = [&witness.d_x, &witness.d_e].map(|radius| exact(radius, Direction::Up));
     facts.push(("to", to(run.spec, &periodic, radii, run.control().map(|bounds| (bounds, "")))));
     facts.extend(uncertain_gain(run.spec).map(|said| ("input gain", said)));
-    facts.extend(interval_costs(&run.interval_costs, "the gain").map(|said| ("intervals", said)));
+    facts.extend(interval_costs(run.spec, &run.interval_costs, "the gain").map(|said| ("intervals", said)));
     let late = if run.sampling.delayed { "every control put out at the next sample, no" } else { "no delay," };
     let of_the_computer = match run.spec.actuator {
         Some(_) => format!("{late} rounding or quantisation"),
@@ -282,10 +282,11 @@ fn uncertain_gain(spec: &Specification) -> Option<String> {
 }
 
 /// What the intervals of parameters cost.
-fn interval_costs(all: &[(String, Option<f64>)], gain: &str) -> Option<String> {
+fn interval_costs(spec: &Specification, all: &[(String, Option<f64>)], gain: &str) -> Option<String> {
     let found = all.iter().filter_map(|(name, sigma)| Some((name, (*sigma)?)));
-    let costs: Vec<String> =
-        found.map(|(name, sigma)| format!("{} with {name} known exactly", estimate(sigma))).collect();
+    let costs: Vec<String> = found
+        .map(|(name, sigma)| format!("{} with {} known exactly", estimate(sigma), words::of_interval(spec, name)))
+        .collect();
     (!costs.is_empty()).then(|| format!("{gain} would be about {} (estimates)", costs.join(", ")))
 }
 

@@ -6,6 +6,7 @@ use serde_json::{Value, json};
 use sigmastar_document::number::{estimate, exact};
 use sigmastar_document::{Block, Table, clean};
 use sigmastar_exact::number::{Direction, write_exact};
+use sigmastar_lang::expr::quoted;
 use sigmastar_lang::spec::model::{Constant, Lyapunov};
 use sigmastar_lang::spec::{
     ExistenceInequality, Interval, JointStability, MatrixInequality, OfPlant, Parameter, ProvedValue, SampledExistence,
@@ -22,16 +23,17 @@ pub(super) fn section(spec: &Specification, set: Option<&ClaimedSet>) -> Vec<Blo
     let parameters = plant.parameters.list();
     if !parameters.is_empty() {
         let written = parameters.iter().map(|Parameter { name, value, interval }| match interval {
-            None => format!("{name} = {}", value.text),
+            None => format!("{} = {}", quoted(name), value.words()),
             Some(Interval { low, high, .. }) => {
-                format!("{name} in [{}, {}] (nominal {})", write_exact(low), write_exact(high), value.text)
+                let name = quoted(name);
+                format!("{name} in [{}, {}] (nominal {})", write_exact(low), write_exact(high), value.words())
             }
         });
         blocks.push(Block::facts([("parameters", written.collect::<Vec<_>>().join(", "))]));
     }
     if let Some([low, high]) = spec.period.interval() {
-        let nominal = &spec.period.nominal().text;
-        let written = format!("T in [{}, {}] (nominal {nominal})", low.text, high.text);
+        let nominal = spec.period.nominal().words();
+        let written = format!("T in [{}, {}] (nominal {nominal})", low.words(), high.words());
         blocks.push(Block::facts([("period", clean(&written))]));
         blocks.push(Block::says(
             "Everything below is proved for every constant period in this interval, of which the clock v = T_nominal/T is one more \
@@ -179,7 +181,7 @@ pub(super) fn orbit(spec: &Specification) -> Option<String> {
         };
         let swing: f64 = harmonics.iter().map(amplitude).sum();
         let swing = if swing == 0.0 { String::new() } else { format!(" +- {}", estimate(swing)) };
-        Some(format!("{} about {}{swing}", clean(name.as_str()?), estimate(mean[state].to_f64())))
+        Some(format!("{} about {}{swing}", quoted(name.as_str()?), estimate(mean[state].to_f64())))
     };
     let states: Vec<String> = names.iter().enumerate().map(of_state).collect::<Option<_>>()?;
     let members = if nominal.is_empty() { "" } else { ", of the nominal member: each has its own" };

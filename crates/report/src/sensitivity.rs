@@ -1,5 +1,6 @@
 //! What binds sigma*, and which datum would lower it most.
 
+use super::words::of_interval;
 use rug::Rational;
 use sigmastar_document::number::{estimate, exact};
 use sigmastar_document::{Block, Table};
@@ -41,7 +42,7 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
         blocks.push(Block::says(
             "What each interval costs: sigma* with it closed to its nominal value, sought the whole way again and not decided.",
         ));
-        let costs = run.interval_costs.iter().map(|(name, sigma)| [name.clone(), found(*sigma)]);
+        let costs = run.interval_costs.iter().map(|(name, sigma)| [of_interval(run.spec, name), found(*sigma)]);
         blocks.push(Block::Table(Table::of(&["<exactly known", "sigma*"], costs)));
     }
     blocks.extend(ingredients(run).map(Block::Table));

@@ -6,6 +6,7 @@ use sigmastar_document::clean;
 use sigmastar_document::number::{estimate, exact};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::Direction;
+use sigmastar_lang::expr::quoted;
 use sigmastar_lang::spec::{Constant, InputGain, Specification, StartSizes};
 use sigmastar_prove::certificate::members;
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
@@ -58,7 +59,7 @@ fn multiple(size: &Rational, bound: &Enclosure) -> String {
 pub(super) fn input_gain(spec: &Specification) -> Option<String> {
     spec.input_gain.as_ref().map(|gain| {
         let InputGain { low, high, .. } = gain;
-        let ends = format!("{} to {}", clean(&low.text), clean(&high.text));
+        let ends = format!("{} to {}", clean(&low.words()), clean(&high.words()));
         match (gain.of_parameters(), low.as_rational(), high.as_rational()) {
             (true, Some(low), Some(high)) => {
                 format!("{ends} (within {} to {})", exact(low, Direction::Down), exact(high, Direction::Up))
@@ -66,6 +67,13 @@ pub(super) fn input_gain(spec: &Specification) -> Option<String> {
             _ => ends,
         }
     })
+}
+
+/// What an interval is of, a parameter or a field of the document.
+pub(super) fn of_interval(spec: &Specification, name: &str) -> String {
+    let parameters = spec.plant().map(|plant| &plant.parameters);
+    let is_parameter = parameters.is_some_and(|parameters| parameters.named_intervals().any(|(own, _)| own == name));
+    if is_parameter { quoted(name) } else { name.to_owned() }
 }
 
 /// " and every constant input gain from 0.8 to 1.25 and every plant with ...": all that a claim is about beside every number of
@@ -80,7 +88,7 @@ pub(super) fn of_all(spec: &Specification) -> String {
 
 /// "1/50.2 to 1/49.8": the interval of the period, where only that is known.
 pub(super) fn period(spec: &Specification) -> Option<String> {
-    spec.period.interval().map(|[low, high]| format!("{} to {}", clean(&low.text), clean(&high.text)))
+    spec.period.interval().map(|[low, high]| format!("{} to {}", clean(&low.words()), clean(&high.words())))
 }
 
 /// The arguments up to which bounding functions are used: `X = 1, E = 2`.

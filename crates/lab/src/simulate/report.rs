@@ -5,6 +5,7 @@ use super::run::{Integrator, LongRun, NoisyRun, PeriodFigures, Simulation, Stead
 use super::{ClosedLoop, IntegrationFailure, SteadyState};
 use serde_json::{Value, json};
 use sigmastar_document::{Block, Readable, Table, clean};
+use sigmastar_lang::expr::quoted;
 use sigmastar_lang::plant::{Initial, InitialRegulator, Plant};
 
 /// The report on a simulation.
@@ -141,7 +142,7 @@ fn ended_early(error: &IntegrationFailure, flag: &str) -> Block {
 /// The initial condition of a plant file.
 fn initial_words(plant: &Plant) -> String {
     let Initial { x, e, z } = &plant.initial;
-    let states = plant.names.states().iter().zip(x).map(|(name, value)| format!("{name} = {value}"));
+    let states = plant.names.states().iter().zip(x).map(|(name, value)| format!("{} = {value}", quoted(name)));
     let mut words: Vec<String> = states.chain([format!("e = {e}")]).collect();
     let of_regulator = match z {
         InitialRegulator::AtRest => "with the regulator at rest",
@@ -182,7 +183,7 @@ fn steady_blocks(plant: &Plant, steady: &SteadyState, figures: &SteadyFigures) -
 pub(super) fn period_words(plant: &Plant, figures: &PeriodFigures) -> String {
     let mut words = format!("largest |u| = {}, integral of u^2 = {}", number(figures.sup_u), number(figures.energy));
     for (name, sup) in plant.names.states().iter().zip(&figures.sup_x) {
-        words.push_str(&format!(", largest |{name}| = {}", number(*sup)));
+        words.push_str(&format!(", largest |{}| = {}", quoted(name), number(*sup)));
     }
     words
 }

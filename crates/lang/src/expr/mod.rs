@@ -45,6 +45,7 @@ mod slope;
 mod syntax;
 mod trigonometric;
 mod walk;
+mod words;
 
 pub use definitions::{DefinitionError, Definitions, MAX_INTERVALS, MAX_VARIED, occurs};
 pub use enclosing::{Enclosing, enclosed_step};
@@ -64,6 +65,7 @@ pub use slope::Slopes;
 pub use syntax::{Binary, Unary};
 pub use trigonometric::{MAX_HARMONIC, NotTrigonometric, TrigonometricPolynomial};
 pub use walk::{Memory, VariableSet, Walk};
+pub use words::{in_words, quoted};
 
 use std::fmt;
 use std::sync::{Arc, OnceLock};

@@ -7,7 +7,7 @@ use super::error::{ErrorKind, Errors, Reported};
 use super::object::{Object, choose};
 use super::parts::Constant;
 use rug::Rational;
-use sigmastar_exact::number::parse_decimal;
+use sigmastar_exact::number::parse_rational;
 
 /// `measurement` and `disturbance`: any measurable signals within these bounds. A bound that is absent is 0. And `arithmetic`.
 ///
@@ -145,13 +145,11 @@ fn read_measurement(value: &Value<'_>, errors: &mut Errors) -> Result<(Option<Co
 /// A rational number that is not negative, as it is written: the words of a claim repeat it.
 fn bound(value: &Value<'_>, errors: &mut Errors) -> Result<Constant, Reported> {
     let constant = nonnegative_constant(value, errors)?;
-    let mut parts = constant.text.splitn(2, '/');
-    // A sign in front is no part of a number that is not negative.
-    if parts.all(|part| !part.starts_with('+') && parse_decimal(part).is_ok()) && constant.as_rational().is_some() {
+    if parse_rational(&constant.text).is_some() {
         return Ok(constant);
     }
     let error = whole(value, ErrorKind::Range, format!("{} is not written as a rational number", value.name()));
-    Err(errors.report(error.expected("expected a decimal or a fraction, as in 0.01 or \"1/300\"")))
+    Err(errors.report(error.expected("expected a decimal or a fraction of whole numbers, as in 0.01 or \"1/300\"")))
 }
 
 #[cfg(test)]
@@ -217,6 +215,9 @@ mod tests {
             (r#"{ "disturbance": "2*3" }"#, ErrorKind::Range, "/disturbance"),
             (r#"{ "disturbance": "+1" }"#, ErrorKind::Range, "/disturbance"),
             (r#"{ "disturbance": "1/2/3" }"#, ErrorKind::Range, "/disturbance"),
+            (r#"{ "disturbance": "-1/-2" }"#, ErrorKind::Range, "/disturbance"),
+            (r#"{ "disturbance": ".5" }"#, ErrorKind::Range, "/disturbance"),
+            (r#"{ "disturbance": "1/3e2" }"#, ErrorKind::Range, "/disturbance"),
             (r#"{ "disturbance": "pi" }"#, ErrorKind::Range, "/disturbance"),
             (r#"{ "disturbance": "x" }"#, ErrorKind::Expression, "/disturbance"),
             (r#"{ "disturbance": null }"#, ErrorKind::Type, "/disturbance"),

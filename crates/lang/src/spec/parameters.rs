@@ -6,7 +6,7 @@ use super::error::{ErrorKind, Errors, Reported};
 use super::interval::no_list;
 use super::object::{OF_FILE, belongs_above};
 use super::parts::Constant;
-use crate::expr::{DefinitionError, Definitions, MAX_INTERVALS, occurs};
+use crate::expr::{DefinitionError, Definitions, MAX_INTERVALS, occurs, quoted};
 use rug::Rational;
 
 /// The most parameters that are read.
@@ -183,7 +183,8 @@ impl Parameters {
             [_] => ("parameter", "is"),
             _ => ("parameters", "are"),
         };
-        Some(format!("the {noun} {} {verb} used nowhere in the plant", self.unused().join(", ")))
+        let names: Vec<String> = self.unused().iter().map(|name| quoted(name)).collect();
+        Some(format!("the {noun} {} {verb} used nowhere in the plant", names.join(", ")))
     }
 
     /// The same with those marked that occur in none of the texts of these members of the plant.

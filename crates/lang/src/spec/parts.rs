@@ -1,6 +1,6 @@
 //! The parts of a specification, with every number exact.
 
-use crate::expr::{Expr, Fourier, Monomial, Variables};
+use crate::expr::{Expr, Fourier, Monomial, Variables, in_words};
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::write_exact;
@@ -55,6 +55,12 @@ impl Constant {
         let expr = Expr::parse(&text, Variables::None).ok()?;
         let exact = expr.exact();
         Some(Constant { text, expr, exact })
+    }
+
+    /// Its text within a sentence.
+    #[must_use]
+    pub fn words(&self) -> String {
+        in_words(&self.text)
     }
 
     /// The exact rational value, if the constant is known to be rational.

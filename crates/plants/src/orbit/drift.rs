@@ -4,6 +4,7 @@ use super::failure::OrbitFailure;
 use super::field::Field;
 use nalgebra::{DMatrix, DVector};
 use sigmastar_exact::number::{Direction, round_f64, write_exact};
+use sigmastar_lang::expr::quoted;
 
 /// Times of a period at which f is looked at, a prime, so that hardly a harmonic has a mean over them; and which of them serve for the
 /// derivatives, at states of such sizes in the units of the field.
@@ -63,7 +64,7 @@ pub(super) fn drift(field: &mut Field, names: &[String], wanted: bool) -> Option
     Some(OrbitFailure::AddsUp { sum: in_words(&weights, names), largest, mean: wanted.then_some(mean) })
 }
 
-/// `x`, or `x + 0.5*v`.
+/// `'x'`, or `'x' + 0.5*'v'`.
 fn in_words(weights: &DVector<f64>, names: &[String]) -> String {
     let mut words = String::new();
     for (weight, name) in weights.iter().zip(names).filter(|(weight, _)| weight.abs() > NOTHING) {
@@ -74,7 +75,8 @@ fn in_words(weights: &DVector<f64>, names: &[String]) -> String {
             (false, false) => " + ",
             (false, true) => " - ",
         };
-        words += &if size == "1" { name.clone() } else { format!("{size}*{name}") };
+        let name = quoted(name);
+        words += &if size == "1" { name } else { format!("{size}*{name}") };
     }
     words
 }

@@ -4,11 +4,11 @@
 //! missing, is a list of its own; it is read and written as `exact_regulation` is.
 
 use rug::Rational;
-use sigmastar_exact::number::write_exact;
+use sigmastar_exact::number::{parse_rational, write_exact};
 use sigmastar_lang::spec::{
     Bound, ErrorKind, Errors, ExistenceInequality, JointInequality, Level, MatrixInequality, Metric, Object,
     ProvedValue, Reported, SampledExistence, SampledGain, SampledInequality, SampledLoop, Sampling, Splitting, Value,
-    any_constant, choose,
+    choose,
 };
 use sigmastar_theory::derivation::exact_regulation::ExactWitness;
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
@@ -195,12 +195,14 @@ pub(super) fn rational(object: &mut Object<'_>, name: &'static str, errors: &mut
     exact_rational(&value, &format!("`{name}`"), errors)
 }
 
-/// A value that is an exact rational number.
+/// A value that is an exact rational number, and is written as one: a certificate has no expressions in their place.
 pub(super) fn exact_rational(value: &Value<'_>, what: &str, errors: &mut Errors) -> Result<Rational, Reported> {
-    let constant = any_constant(value, errors)?;
-    constant.as_rational().cloned().ok_or_else(|| {
-        let message = format!("{what} is not a rational number");
-        let expected = "expected an exact rational, as \"487/10\" or \"48.7\"";
+    let Some(text) = value.numeral().or_else(|| value.text()) else {
+        return Err(value.wrong_type("a number, or a string with a rational number", errors));
+    };
+    parse_rational(text).ok_or_else(|| {
+        let message = format!("{what} is not written as a rational number");
+        let expected = "expected a decimal or a fraction of whole numbers, as \"48.7\", \"1e-3\" or \"487/10\"";
         errors.report(value.error(ErrorKind::Range, message).expected(expected))
     })
 }

@@ -11,7 +11,9 @@ mod read_sampled;
 mod run;
 mod sampled;
 mod stated;
+mod stated_words;
 mod triple;
+mod words;
 mod write;
 
 pub use fields::{NumberFields, RefinedSquares, set_fields};
@@ -21,9 +23,9 @@ pub use read::{embedded, read_lyapunov, read_witness};
 pub use read_plant::read_plant_witness;
 pub use read_sampled::{is_sampled, read_sampled_witness};
 pub use run::{certificate_of, is_stated, read_for, read_numbers, stated_counts};
-pub use sampled::{sampled_certificate_json, sampled_statement};
+pub use sampled::sampled_certificate_json;
 pub use stated::{StatedClaim, StatedNoise, read_claim};
+pub use stated_words::claim_in_words;
 pub use triple::{lyapunov_parts, matrix_json};
-pub use write::{
-    FORMAT, VERSION, certificate_json, conditions_json, constants_json, members, no_plant_json, statement,
-};
+pub use words::{members, sampled_statement, statement};
+pub use write::{FORMAT, VERSION, certificate_json, conditions_json, constants_json, no_plant_json};

@@ -5,15 +5,13 @@ use super::json::{exact, object, text};
 use super::of_plant::plant_parts;
 use super::rates::{claimed_rates, sampled_rate_witnesses};
 use super::triple::lyapunov_parts;
+use super::words::sampled_statement;
 use super::write::{
-    actuator_json, conclusion, conditions_json, control_json, every_input_gain, file, input_gain_json, parameters_json,
-    periodic_json, set_json, within_actuator,
+    actuator_json, conditions_json, control_json, file, input_gain_json, parameters_json, periodic_json, set_json,
 };
 use crate::certify::SampledCertification;
 use serde_json::Value;
 use sigmastar_exact::number::write_exact;
-use sigmastar_lang::spec::Specification;
-use sigmastar_theory::derivation::sampled::{DelayWitness, SampledWitness};
 
 /// The word for the regulator of these claims.
 pub(super) const REGULATOR: &str = "digital";
@@ -66,32 +64,4 @@ pub fn sampled_certificate_json(run: &SampledCertification<'_>) -> Option<Value>
         object(witness.json().into_iter().chain(of_delay).chain(parts).chain(sampled_rate_witnesses(&run.for_n_o)));
     let conditions = ("conditions", conditions_json(&proof.evaluation.conditions));
     Some(object(file(spec, proof.precision, claim, witness).into_iter().chain([conditions])))
-}
-
-/// The claim in words.
-#[must_use]
-pub fn sampled_statement(spec: &Specification, witness: &SampledWitness) -> String {
-    let model = &spec.internal_model;
-    let samples = witness.sampling.samples;
-    let start = match &witness.delay {
-        None => "at any sampling instant".to_owned(),
-        Some(DelayWitness { y_0, .. }) => {
-            format!("at any sampling instant, with a prediction of e there within h*{} of it", write_exact(y_0))
-        }
-    };
-    format!(
-        "For the digital regulator {}with the gain sigma = {}, the sampling period h = {} ({samples} samples a period) and \
-         K = {}, for every number of oscillators n_o < {samples}/2 and every phase of the sampling grid{}{}, with period T = {}, \
-         mu = {} and base frequency {}, {}",
-        if witness.sampling.delayed { "whose control is computed in the sample before it acts, " } else { "" },
-        write_exact(&witness.sigma),
-        witness.sampling.text(),
-        write_exact(&witness.law.gain),
-        every_input_gain(spec),
-        within_actuator(spec),
-        spec.period.nominal().text,
-        model.mu.text,
-        model.base_frequency.text,
-        conclusion(spec, &witness.set, &start),
-    )
 }

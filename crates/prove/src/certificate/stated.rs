@@ -1,5 +1,6 @@
 //! What a certificate states: its specification, its witness, and its bounds of the periodic solution.
 
+use super::fields::exact_rational;
 use super::read::read_lyapunov;
 use super::read_plant::read_plant_witness;
 use super::run::read_numbers;
@@ -7,9 +8,7 @@ use crate::certify::resolve_with;
 use crate::rate::bound::{MAX_COUNTS, MAX_OSCILLATORS};
 use crate::reduction::{FreeNumbers, PlantRefusal, specification};
 use sigmastar_lang::plant::Plant;
-use sigmastar_lang::spec::{
-    Constant, Document, ErrorKind, Errors, Reported, SpecErrors, Specification, Value, any_constant,
-};
+use sigmastar_lang::spec::{Constant, Document, ErrorKind, Errors, Reported, SpecErrors, Specification, Value};
 
 /// The statement of a certificate, for whoever holds it against something else.
 #[derive(Clone, Debug)]
@@ -128,5 +127,5 @@ fn bound(value: &Value<'_>, errors: &mut Errors) -> Result<f64, Reported> {
     if value.text() == Some("inf") {
         return Ok(f64::INFINITY);
     }
-    any_constant(value, errors).as_ref().map(Constant::to_f64).map_err(|reported| *reported)
+    exact_rational(value, "this bound", errors).map(|bound| Constant::rational(&bound).to_f64())
 }

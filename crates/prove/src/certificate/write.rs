@@ -5,13 +5,13 @@ use super::json::{exact, object, rows, text};
 use super::of_plant::plant_parts;
 use super::rates::{claimed_rates, rate_witnesses};
 use super::triple::lyapunov_parts;
+use super::words::statement;
 use crate::certify::{Certification, Decided, ExceededBy, NoPlant, Outcome, Proof, Witness, claimed_ball};
 use rug::{Integer, Rational};
 use serde_json::{Map, Value};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, round_rational, write_exact};
-use sigmastar_lang::spec::model::LyapunovSource;
-use sigmastar_lang::spec::{Actuator, Bound, Constant, InputGain, Interval, OfPlant, Parameters, Specification};
+use sigmastar_lang::spec::{Actuator, Constant, Interval, Specification};
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::condition::Condition;
 use sigmastar_theory::derivation::control::Control;
@@ -78,7 +78,7 @@ pub fn certificate_json(run: &Certification<'_>) -> Option<Value> {
         ("periodic_solution", periodic_json(&run.periodic_solution()?)),
         ("control", control_json(run.control()?)),
     ];
-    let said = ("statement", text(statement(run, sigma, set) + &run.rates_in_words()));
+    let said = ("statement", text(statement(spec, sigma, set) + &run.rates_in_words()));
     let of_actuator = input_gain_json(spec).into_iter().chain(actuator_json(spec));
     let names = of_actuator.chain(period).chain(parameters_json(spec)).chain(rest);
     let claim = object(heading.into_iter().chain(names).chain(claimed_rates(&run.for_n_o)).chain([said]));
@@ -209,129 +209,6 @@ fn checkable(rows: &[Row]) -> Vec<Row> {
     };
     let some = |row: &Row| row.printed.is_some() || row.repaired.is_some() || row.sharp.is_some();
     rows.iter().map(keep).filter(some).collect()
-}
-
-/// The claim in words: with what it speaks of (period, regulator, data) and what of that is given and not proved.
-#[must_use]
-pub fn statement(run: &Certification<'_>, sigma: &Rational, set: &ClaimedSet) -> String {
-    let spec = run.spec;
-    let model = &spec.internal_model;
-    let reach = if model.matched { "" } else { " (which need not match the period)" };
-    let input_gain = every_input_gain(spec);
-    let nominal = &spec.period.nominal().text;
-    let period = match spec.period.interval() {
-        None => format!("period T = {nominal}"),
-        Some([low, high]) => {
-            format!("every period in [{}, {}] (one constant T; nominal {nominal})", low.text, high.text)
-        }
-    };
-    format!(
-        "For every number of oscillators n_o >= 0 and {} {}{input_gain}{}, with {period}, mu = {} and base frequency {}{reach}, {}",
-        if spec.actuator.is_some() { "the gain sigma =" } else { "every gain sigma >=" },
-        write_exact(sigma),
-        within_actuator(spec),
-        model.mu.text,
-        model.base_frequency.text,
-        conclusion(spec, set, "at any initial time"),
-    )
-}
-
-/// " and every input gain in [9, 11] (...)"; nothing where there is none.
-pub(super) fn every_input_gain(spec: &Specification) -> String {
-    spec.input_gain.as_ref().map_or_else(String::new, |InputGain { nominal, low, high, .. }| {
-        format!(
-            " and every input gain in [{}, {}] (one constant; the regulator divides by the nominal {})",
-            low.text, high.text, nominal.text
-        )
-    })
-}
-
-/// ", with an actuator that takes ..."; nothing where there is none.
-pub(super) fn within_actuator(spec: &Specification) -> String {
-    spec.actuator.as_ref().map_or_else(String::new, |Actuator { max }| {
-        format!(
-            ", with an actuator that takes what is put out up to {} in size and cuts off what is beyond (which nothing is from the set below)",
-            max.text
-        )
-    })
-}
-
-/// What converges to what: of all plants of the data, or of the plant whose formulas are in the certificate; `start` says when
-/// a solution may start.
-pub(super) fn conclusion(spec: &Specification, set: &ClaimedSet, start: &str) -> String {
-    if let Some(plant) = spec.plant() {
-        return conclusion_of_plant(plant, set, start);
-    }
-    let domain = spec
-        .domain
-        .as_ref()
-        .map_or_else(String::new, |domain| format!(" (for |x| <= {}, |e| <= {})", domain.x.text, domain.e.text));
-    let triple = match &spec.lyapunov {
-        LyapunovSource::Given(triple) => format!(
-            "with the Lyapunov triple p_low = {}, p_up = {}, alpha = {} (given, not proved)",
-            triple.p_low.text, triple.p_up.text, triple.alpha.text
-        ),
-        LyapunovSource::Wanted(_) | LyapunovSource::Proved { .. } | LyapunovSource::Plant(_) => {
-            "whose df/dx(t,0,0) is in the family of the Jacobian (its Lyapunov triple is proved)".to_owned()
-        }
-    };
-    let rate =
-        if spec.bounds.own(Bound::Rate).is_some() { " and the contraction `rate` (given, not proved)" } else { "" };
-    let harmonics = if spec.q_0.is_some() { " and harmonics of q(t,0,0) within `q_0` (given, not proved)" } else { "" };
-    format!(
-        "every plant within the bounding functions{domain} and {triple}{rate}{harmonics} has a T-periodic solution of the \
-         closed loop to which every solution from |x| <= {}, {}, {start}, converges exponentially.",
-        write_exact(&set.x0),
-        of_regulator(set),
-    )
-}
-
-/// The same about one plant: nothing of it is assumed.
-fn conclusion_of_plant(plant: &OfPlant, set: &ClaimedSet, start: &str) -> String {
-    let domain = plant.domain.as_ref().map_or_else(String::new, |domain| {
-        let of_x = if plant.states() > 0 { format!("|x - x_0| <= {}, ", domain.x.text) } else { String::new() };
-        format!(" (a model that holds for {of_x}|e| <= {})", domain.e.text)
-    });
-    let x0 = write_exact(&set.x0);
-    let (state, orbit) = match claimed_ball(plant, &set.x0) {
-        None => (String::new(), String::new()),
-        Some(ball) => (
-            format!("|L^-1 (x - x_0)| <= {x0}, "),
-            format!(
-                "; x_0(t) is the T-periodic solution of x' = f(t,x,0), proved within `radius` of `orbit`; the set contains \
-                 |x - x_0| <= {}",
-                write_exact(&ball)
-            ),
-        ),
-    };
-    let which = match members(&plant.parameters) {
-        None => "the plant of these formulas".to_owned(),
-        Some(members) => format!("every plant of these formulas with {members}"),
-    };
-    format!(
-        "{which}{domain} has a T-periodic solution of the closed loop to which every solution from \
-         {state}{}, {start}, converges exponentially{orbit}.",
-        of_regulator(set)
-    )
-}
-
-/// "a constant k in [0.18, 0.22] and a constant c in [0, 0.2]"; none of a single plant.
-#[must_use]
-pub fn members(parameters: &Parameters) -> Option<String> {
-    let one = |(name, Interval { low, high, .. }): (&str, &Interval)| {
-        format!("a constant {name} in [{}, {}]", write_exact(low), write_exact(high))
-    };
-    let all: Vec<String> = parameters.named_intervals().map(one).collect();
-    (!all.is_empty()).then(|| all.join(" and "))
-}
-
-/// How e and the regulator may start.
-fn of_regulator(set: &ClaimedSet) -> String {
-    let e0 = write_exact(&set.e0);
-    match &set.z0 {
-        Some(z0) => format!("|e| <= {e0}, sqrt(z'Nz) <= {}", write_exact(z0)),
-        None => format!("|e| <= {e0}, z = M e"),
-    }
 }
 
 /// Upper bounds of the control.

@@ -48,7 +48,7 @@ pub use options::{Ladder, Limits, Options, TransferChoice};
 pub use pool::{Member, Wanted};
 pub use produce::{certify, certify_for, certify_member, recheck};
 pub use proof::{Decidable, Decided, GivenWitness, Outcome, Proof, RepairedProof, SampledProof, SharpProof, Witness};
-pub use rates::{NoRatesOfClaim, rate_counts};
+pub use rates::{NoRatesOfClaim, SaidOfCount, apart, rate_counts, rates_in_words};
 pub use refusal::{Refusal, WITHOUT_INPUT_GAIN, not_available_with_input_gain};
 pub use row_noise::RowNoise;
 pub use sampled::{SampledCertification, certify_sampled, certify_sampled_within, recheck_sampled, sampled_model};

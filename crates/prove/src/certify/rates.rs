@@ -230,49 +230,66 @@ impl Certification<'_> {
     #[must_use]
     pub fn rates_in_words(&self) -> String {
         let Some(sigma) = self.sigma_star() else { return String::new() };
-        in_words(&self.for_n_o, (self.spec, sigma), "", &self.spec.disturbances.in_words())
+        rates_in_words(self.spec, sigma, false, self.for_n_o.iter().filter_map(said_of))
     }
 }
 
-/// The sentences about what was found at a gain, at these instants alone where there are some, with inputs in these words; each with a space before
-/// it.
-fn in_words<P, Q>(
-    found: &[ForCount<P, Q>],
-    (spec, sigma): (&Specification, &Rational),
-    instants: &str,
-    inputs: &str,
+/// What a claim says of one number of oscillators.
+pub struct SaidOfCount<'a> {
+    /// n_o.
+    pub n_o: u32,
+    /// The rate, in 1/time.
+    pub rate: &'a Rational,
+    /// The factor, in the unit of e.
+    pub factor: &'a Rational,
+    /// The peak and the limit under noise, where they are proved.
+    pub noise: Option<[&'a Rational; 2]>,
+}
+
+fn said_of<P, Q>(found: &ForCount<P, Q>) -> Option<SaidOfCount<'_>> {
+    let RateBound { n_o, rate, factor, .. } = found.bound.as_ref()?;
+    let noise = found.proved_noise().map(|NoiseBound { limit, peak, .. }| [peak, limit]);
+    Some(SaidOfCount { n_o: *n_o, rate, factor, noise })
+}
+
+/// The sentences of a claim about numbers of oscillators at its gain, each with a space before it.
+pub fn rates_in_words<'a>(
+    spec: &Specification,
+    sigma: &Rational,
+    at_samples: bool,
+    said: impl Iterator<Item = SaidOfCount<'a>>,
 ) -> String {
     let sigma = write_exact(sigma);
-    let sentences = |found: &ForCount<P, Q>| {
-        let RateBound { n_o, rate, factor, .. } = found.bound.as_ref()?;
+    let (instants, inputs) = match at_samples {
+        true => (" at the sampling instants t", spec.disturbances.in_words_at_samples()),
+        false => ("", spec.disturbances.in_words()),
+    };
+    let start = if spec.initial_set.is_aligned() { " (z = M e of the measured e)" } else { "" };
+    let sentences = |SaidOfCount { n_o, rate, factor, noise }: SaidOfCount<'_>| {
         let of_rate = format!(
             " With n_o = {n_o} and sigma = {sigma} exactly also |e(t) - e_per(t)| <= {} exp(-{} (t - t_0)){instants} for these solutions, e_per \
              that of the periodic solution and t_0 the initial time.",
-            write_exact(factor),
-            write_exact(rate),
+            apart(factor),
+            apart(rate),
         );
-        let of_noise = found
-            .proved_noise()
-            .map(|NoiseBound { limit, peak, .. }| noise_in_words(spec, inputs, (*n_o, &sigma), [peak, limit]));
-        Some(of_rate + &of_noise.unwrap_or_default())
+        // Noise, a disturbance and rounding, of which there are these inputs.
+        let of_noise = noise.map(|[peak, limit]| {
+            format!(
+                " With n_o = {n_o} and sigma = {sigma} exactly, {inputs}, also |e(t) - e_per(t)| <= {} for these starts{start} and all t >= \
+                 t_0, and its limit superior is at most {}.",
+                apart(peak),
+                apart(limit),
+            )
+        });
+        of_rate + &of_noise.unwrap_or_default()
     };
-    found.iter().filter_map(sentences).collect()
+    said.map(sentences).collect()
 }
 
-/// The sentence about noise, a disturbance and rounding, of which there are these parts, with a space before it.
-fn noise_in_words(
-    spec: &Specification,
-    parts: &str,
-    (n_o, sigma): (u32, &str),
-    [peak, limit]: [&Rational; 2],
-) -> String {
-    format!(
-        " With n_o = {n_o} and sigma = {sigma} exactly, {parts}, also |e(t) - e_per(t)| <= {} for these starts{} and all t >= t_0, and \
-         its limit superior is at most {}.",
-        write_exact(peak),
-        if spec.initial_set.is_aligned() { " (z = M e of the measured e)" } else { "" },
-        write_exact(limit),
-    )
+/// A number within a sentence or in front of a product: a fraction stands in parentheses.
+pub fn apart(value: &Rational) -> String {
+    let text = write_exact(value);
+    if text.contains('/') { format!("({text})") } else { text }
 }
 
 /// Rates, and bounds under noise and disturbances where the document has them, of a claim by norms at samples.
@@ -372,8 +389,7 @@ impl SampledCertification<'_> {
     #[must_use]
     pub fn rates_in_words(&self) -> String {
         let Some(proof) = self.claim() else { return String::new() };
-        let inputs = self.spec.disturbances.in_words_at_samples();
-        in_words(&self.for_n_o, (self.spec, &proof.witness.sigma), " at the sampling instants t", &inputs)
+        rates_in_words(self.spec, &proof.witness.sigma, true, self.for_n_o.iter().filter_map(said_of))
     }
 }
 

@@ -22,7 +22,7 @@ pub struct Provenance {
     pub sigma_star: String,
     /// Whether it is about that gain alone: at samples, or with an actuator.
     pub one_gain: bool,
-    /// Its claim, in its own words.
+    /// Its claim in words.
     pub statement: String,
     /// What it says about this regulator.
     pub scope: Scope,

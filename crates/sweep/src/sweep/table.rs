@@ -5,6 +5,7 @@ use super::results::Results;
 use super::row::Row;
 use super::values::number;
 use rug::Rational;
+use sigmastar_document::is_hidden;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::parse_decimal;
 use sigmastar_lang::spec::StartSizes;
@@ -79,7 +80,7 @@ fn exact(text: &str) -> Option<Rational> {
 #[must_use]
 pub fn summary(results: &Results, with_best: bool) -> String {
     let Header { name, cases, .. } = &results.header;
-    let name: String = name.chars().filter(|character| !character.is_control()).collect();
+    let name: String = name.chars().filter(|character| !is_hidden(*character)).collect();
     let count = |verdict| results.rows.values().filter(|row| row.verdict == verdict).count();
     let counts: Vec<String> = [Verdict::Certified, Verdict::Undecided, Verdict::Refuted, Verdict::BadInput]
         .into_iter()
@@ -95,7 +96,7 @@ pub fn summary(results: &Results, with_best: bool) -> String {
     if let Some(claim) = &row.claim {
         text += &format!("smallest sigma_star: {} (case {})\n", claim.sigma_star, row.index);
         for ((_, name), value) in results.header.parameters.iter().zip(&row.values) {
-            let shown = |text: &str| text.chars().filter(|character| !character.is_control()).collect::<String>();
+            let shown = |text: &str| text.chars().filter(|character| !is_hidden(*character)).collect::<String>();
             text += &format!("  {} = {}\n", shown(name), shown(value));
         }
         if let Some(step) = &claim.sampling_period {

@@ -1,0 +1,63 @@
+//! The claim of a certificate in words of this program: what it holds as its statement is for people, and anybody may have written it.
+
+use super::fields::rational;
+use super::read::{each, small_integer};
+use super::stated::{StatedClaim, read_claim};
+use super::words::{sampled_statement, statement};
+use crate::certify::{SaidOfCount, rates_in_words};
+use crate::reduction::FreeNumbers;
+use rug::Rational;
+use sigmastar_lang::spec::{Document, Object, Reported, SpecErrors};
+
+/// The claim of a certificate in words, from its numbers: the sentence that it holds is for people, and not looked at.
+///
+/// # Errors
+/// Those of [`read_claim`]; rates of given numbers of oscillators that cannot be read.
+pub fn claim_in_words(certificate: &Document) -> Result<String, SpecErrors> {
+    let StatedClaim { spec, witness, .. } = read_claim(certificate)?;
+    let rates = stated_rates(certificate)?;
+    let said = rates.iter().map(|StatedRate { n_o, numbers: [rate, factor], noise }| SaidOfCount {
+        n_o: *n_o,
+        rate,
+        factor,
+        noise: noise.as_ref().map(|[peak, limit]| [peak, limit]),
+    });
+    let (sigma, at_samples, words) = match &witness {
+        FreeNumbers::Sampled(witness) => (&witness.sigma, true, sampled_statement(&spec, witness)),
+        FreeNumbers::Continuous(given) => {
+            let witness = &given.witness;
+            (&witness.sigma, false, statement(&spec, &witness.sigma, &witness.set))
+        }
+    };
+    Ok(words + &rates_in_words(&spec, sigma, at_samples, said))
+}
+
+/// What a certificate states of one number of oscillators.
+struct StatedRate {
+    n_o: u32,
+    /// The rate and the factor.
+    numbers: [Rational; 2],
+    /// The peak and the limit under noise.
+    noise: Option<[Rational; 2]>,
+}
+
+fn stated_rates(certificate: &Document) -> Result<Vec<StatedRate>, SpecErrors> {
+    certificate.root().read(|root, errors| {
+        let two = |fields: &mut Object<'_>, names: [&'static str; 2], errors: &mut _| -> Result<_, Reported> {
+            let [a, b] = names.map(|name| rational(fields, name, errors));
+            Ok([a?, b?])
+        };
+        let rates = root.member("claim").and_then(|claim| claim.member("for_n_o"));
+        let one = |fields: &mut Object<'_>, errors: &mut _| {
+            let noise = fields.optional("noise").map(|value| {
+                let mut fields = value.object(errors)?;
+                let numbers = two(&mut fields, ["peak", "limit"], errors);
+                fields.finish(errors);
+                numbers
+            });
+            let n_o = small_integer(fields, "n_o", errors);
+            Ok(StatedRate { n_o: n_o?, numbers: two(fields, ["rate", "factor"], errors)?, noise: noise.transpose()? })
+        };
+        rates.map_or_else(|| Ok(Vec::new()), |rates| each(&rates, errors, one))
+    })
+}

@@ -1,0 +1,179 @@
+//! A claim in words: with what it speaks of (period, regulator, data), and what of that is given and not proved.
+//!
+//! The letters of a sentence are those of the claim: T its period, L the coordinates of the certificate, and so on. Names of the document
+//! stand in quotes.
+
+use crate::certify::{apart, claimed_ball};
+use rug::Rational;
+use sigmastar_exact::number::write_exact;
+use sigmastar_lang::expr::{in_words, quoted};
+use sigmastar_lang::spec::model::LyapunovSource;
+use sigmastar_lang::spec::{Actuator, Bound, InputGain, Interval, OfPlant, Parameters, Specification};
+use sigmastar_theory::derivation::initial_set::ClaimedSet;
+use sigmastar_theory::derivation::sampled::{DelayWitness, SampledWitness};
+
+/// The claim of the regulator in continuous time in words.
+#[must_use]
+pub fn statement(spec: &Specification, sigma: &Rational, set: &ClaimedSet) -> String {
+    let model = &spec.internal_model;
+    let reach = if model.matched { "" } else { " (which need not match the period)" };
+    let input_gain = every_input_gain(spec);
+    let nominal = spec.period.nominal().words();
+    let period = match spec.period.interval() {
+        None => format!("period T = {nominal}"),
+        Some([low, high]) => {
+            format!("every period in [{}, {}] (one constant T; nominal {nominal})", low.words(), high.words())
+        }
+    };
+    format!(
+        "For every number of oscillators n_o >= 0 and {} {}{input_gain}{}, with {period}, mu = {} and base frequency {}{reach}, {}",
+        if spec.actuator.is_some() { "the gain sigma =" } else { "every gain sigma >=" },
+        write_exact(sigma),
+        within_actuator(spec),
+        model.mu.words(),
+        model.base_frequency.words(),
+        conclusion(spec, set, "at any initial time"),
+    )
+}
+
+/// The claim of the regulator at samples in words.
+#[must_use]
+pub fn sampled_statement(spec: &Specification, witness: &SampledWitness) -> String {
+    let model = &spec.internal_model;
+    let samples = witness.sampling.samples;
+    let start = match &witness.delay {
+        None => "at any sampling instant".to_owned(),
+        Some(DelayWitness { y_0, .. }) => {
+            format!("at any sampling instant, with a prediction of e there within h*{} of it", apart(y_0))
+        }
+    };
+    format!(
+        "For the digital regulator {}with the gain sigma = {}, the sampling period h = {} ({samples} samples a period) and \
+         K = {}, for every number of oscillators n_o < {samples}/2 and every phase of the sampling grid{}{}, with period T = {}, \
+         mu = {} and base frequency {}, {}",
+        if witness.sampling.delayed { "whose control is computed in the sample before it acts, " } else { "" },
+        write_exact(&witness.sigma),
+        in_words(&witness.sampling.text()),
+        write_exact(&witness.law.gain),
+        every_input_gain(spec),
+        within_actuator(spec),
+        spec.period.nominal().words(),
+        model.mu.words(),
+        model.base_frequency.words(),
+        conclusion(spec, &witness.set, &start),
+    )
+}
+
+/// " and every input gain in [9, 11] (...)"; nothing where there is none.
+fn every_input_gain(spec: &Specification) -> String {
+    spec.input_gain.as_ref().map_or_else(String::new, |InputGain { nominal, low, high, .. }| {
+        format!(
+            " and every input gain in [{}, {}] (one constant; the regulator divides by the nominal {})",
+            low.words(),
+            high.words(),
+            nominal.words()
+        )
+    })
+}
+
+/// ", with an actuator that takes ..."; nothing where there is none.
+fn within_actuator(spec: &Specification) -> String {
+    spec.actuator.as_ref().map_or_else(String::new, |Actuator { max }| {
+        format!(
+            ", with an actuator that takes what is put out up to {} in size and cuts off what is beyond (which nothing is from the set below)",
+            max.words()
+        )
+    })
+}
+
+/// What converges to what: of all plants of the data, or of the plant whose formulas are in the certificate; `start` says when
+/// a solution may start.
+fn conclusion(spec: &Specification, set: &ClaimedSet, start: &str) -> String {
+    if let Some(plant) = spec.plant() {
+        return conclusion_of_plant(plant, set, start);
+    }
+    let domain = spec
+        .domain
+        .as_ref()
+        .map_or_else(String::new, |domain| format!(" (for |x| <= {}, |e| <= {})", domain.x.words(), domain.e.words()));
+    let triple = match &spec.lyapunov {
+        LyapunovSource::Given(triple) => format!(
+            "with the Lyapunov triple p_low = {}, p_up = {}, alpha = {} (given, not proved)",
+            triple.p_low.words(),
+            triple.p_up.words(),
+            triple.alpha.words()
+        ),
+        LyapunovSource::Wanted(_) | LyapunovSource::Proved { .. } | LyapunovSource::Plant(_) => {
+            "whose df/dx(t,0,0) is in the family of the Jacobian (its Lyapunov triple is proved)".to_owned()
+        }
+    };
+    let rate =
+        if spec.bounds.own(Bound::Rate).is_some() { " and the contraction `rate` (given, not proved)" } else { "" };
+    let harmonics = if spec.q_0.is_some() { " and harmonics of q(t,0,0) within `q_0` (given, not proved)" } else { "" };
+    format!(
+        "every plant within the bounding functions{domain} and {triple}{rate}{harmonics} has a T-periodic solution of the \
+         closed loop to which every solution from |x| <= {}, {}, {start}, converges exponentially.",
+        write_exact(&set.x0),
+        of_regulator(set),
+    )
+}
+
+/// The same about one plant: nothing of it is assumed.
+fn conclusion_of_plant(plant: &OfPlant, set: &ClaimedSet, start: &str) -> String {
+    let domain = plant.domain.as_ref().map_or_else(String::new, |domain| {
+        let of_x = if plant.states() > 0 { format!("|x - x_0| <= {}, ", domain.x.words()) } else { String::new() };
+        format!(" (a model that holds for {of_x}|e| <= {})", domain.e.words())
+    });
+    let x0 = write_exact(&set.x0);
+    let (state, orbit) = match claimed_ball(plant, &set.x0) {
+        None => (String::new(), String::new()),
+        Some(ball) => (
+            format!("|L^-1 (x - x_0)| <= {x0}, "),
+            format!(
+                "; x is the vector of the states, L the matrix `coordinates` of this certificate, and x_0(t) {}, in the norm of L^-1 x; the \
+                 set contains |x - x_0| <= {}",
+                solution(plant),
+                write_exact(&ball)
+            ),
+        ),
+    };
+    let which = match members(&plant.parameters) {
+        None => "the plant of these formulas".to_owned(),
+        Some(members) => format!("every plant of these formulas with {members}"),
+    };
+    format!(
+        "{which}{domain} has a T-periodic solution of the closed loop to which every solution from \
+         {state}{}, {start}, converges exponentially{orbit}.",
+        of_regulator(set)
+    )
+}
+
+/// What x_0(t) is: of a plant in several cells there is one solution for each, and the claim is about any of them.
+fn solution(plant: &OfPlant) -> &'static str {
+    match plant.undivided() {
+        Some(_) => "the T-periodic solution of x' = f(t,x,0) that is proved within `radius` of `orbit`",
+        None => {
+            "for any of the `cells` that contains the parameters of the plant the T-periodic solution of x' = f(t,x,0) that is proved \
+             within `radius` of `orbit` of that cell"
+        }
+    }
+}
+
+/// "a constant 'k' of the file in [0.18, 0.22] and a constant 'c' of the file in [0, 0.2]"; none of a single plant.
+#[must_use]
+pub fn members(parameters: &Parameters) -> Option<String> {
+    let one = |(name, Interval { low, high, .. }): (&str, &Interval)| {
+        format!("a constant {} of the file in [{}, {}]", quoted(name), write_exact(low), write_exact(high))
+    };
+    let all: Vec<String> = parameters.named_intervals().map(one).collect();
+    (!all.is_empty()).then(|| all.join(" and "))
+}
+
+/// How e and the regulator may start.
+fn of_regulator(set: &ClaimedSet) -> String {
+    let e0 = write_exact(&set.e0);
+    match &set.z0 {
+        Some(z0) => format!("|e| <= {e0}, sqrt(z'Nz) <= {}", write_exact(z0)),
+        None => format!("|e| <= {e0}, z = M e"),
+    }
+}
