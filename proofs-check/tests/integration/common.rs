@@ -133,6 +133,23 @@ pub fn assert_figures_differ(report: &Report, places: &[&str]) {
     assert!(figures.word() == "differ" && found == places, "{found:?}, not {places:?}");
 }
 
+/// The sentence that is printed of a claim that is proved.
+#[track_caller]
+pub fn said(report: &Report) -> &str {
+    let proved = report.proved.as_ref().unwrap_or_else(|| panic!("it is not valid: {}", report.text(false)));
+    &proved.subject.statement
+}
+
+/// Words of the file in the place of its own change nothing: neither the verdict nor the sentence, in no form of the answer.
+#[track_caller]
+pub fn assert_words_are_ignored(certificate: &Value, words: &str) {
+    assert_ne!(certificate["claim"]["statement"].as_str(), Some(words));
+    let forged = edited(certificate.clone(), &[("/claim/statement", words.into())]);
+    let [own, forged] = [certificate, &forged].map(judged);
+    assert_eq!((own.verdict, said(&forged)), (Verdict::Valid, said(&own)));
+    assert_eq!((forged.text(true), forged.json()), (own.text(true), own.json()));
+}
+
 /// The certificate is refused with this verdict and rule, at this place.
 #[track_caller]
 pub fn assert_refused(report: &Report, verdict: Verdict, rule: &str, pointer: &str) {

@@ -15,7 +15,7 @@ enum Change {
 
 use Change::{Times, To};
 
-/// The answer after the changes, with the digest and the numbers in the statement made right.
+/// The answer after the changes, with the digest made right.
 fn forged(base: &str, changes: &[(&str, Change)]) -> Report {
     let mut made = certificate(base);
     for (pointer, change) in changes {
@@ -28,10 +28,6 @@ fn forged(base: &str, changes: &[(&str, Change)]) -> Report {
                 json!(exact.to_string())
             }
         };
-        if let (Some(before), Some(after)) = (before.as_str(), place.as_str().map(str::to_owned)) {
-            let statement = made["claim"]["statement"].as_str().unwrap();
-            made["claim"]["statement"] = json!(statement.replace(&format!("<= {before}"), &format!("<= {after}")));
-        }
     }
     rehash(&mut made);
     check(made.to_string().as_bytes())

@@ -62,3 +62,4 @@ mod slopes_formulas;
 mod specification;
 mod splitting;
 mod transfer;
+mod words;

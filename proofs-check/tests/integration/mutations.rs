@@ -4,9 +4,9 @@
 //! A mutant may be accepted only in one of the classes of `harmless`, each of which leaves a true claim, or with figures that
 //! are said to differ, in one of the classes of `told`.
 
-use crate::common::{BOXES, PAPER, certificate, deleted, every, names, rehash, text};
-use proofs_check::check;
+use crate::common::{BOXES, PAPER, certificate, deleted, every, names, rehash, said, text};
 use proofs_check::verdict::Verdict;
+use proofs_check::{Report, check};
 use rug::Rational;
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
@@ -70,6 +70,18 @@ fn told(pointer: &str, kind: &str) -> Option<&'static str> {
         }
         _ => None,
     }
+}
+
+/// Why a mutant of the claim is harmless: nothing depends on the words that it has, and another number of it is another claim, which the
+/// sentence that is printed names and for which every condition is proved.
+pub fn of_claim(pointer: &str, mutant: &Value, report: &Report) -> Option<&'static str> {
+    if pointer == "/claim/statement" {
+        return Some("words for people, on which nothing depends");
+    }
+    let numbers = ["/claim/sigma", "/claim/gain", "/claim/initial_set/", "/claim/for_n_o/"];
+    let number = mutant.pointer(pointer).and_then(Value::as_str)?;
+    let is_named = numbers.iter().any(|at| pointer.starts_with(at)) && said(report).contains(number);
+    is_named.then_some("another claim, which the sentence names, and for which every condition is proved")
 }
 
 /// All pointers of a value, parents first.
@@ -148,6 +160,7 @@ impl Tally {
             return;
         }
         let class = if report.is_flawless() { harmless(&self.name, pointer, kind) } else { told(pointer, kind) };
+        let class = class.or_else(|| of_claim(pointer, &serde_json::from_str(text).ok()?, &report));
         match class {
             Some(class) => *self.accepted.entry(class).or_default() += 1,
             None => self.holes.push(format!("{pointer}: {kind}")),

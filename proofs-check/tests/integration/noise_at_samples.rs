@@ -2,7 +2,7 @@
 
 use crate::common::{accepted, assert_refused, edited, judged, names, parsed, without};
 use crate::noise::stored;
-use crate::rates::{each_refused, refused, reworded, signs_are_demanded_at};
+use crate::rates::{each_refused, refused, signs_are_demanded_at};
 use proofs_check::verdict::Verdict::{BadInput, Invalid};
 use serde_json::{Value, json};
 
@@ -78,7 +78,7 @@ fn there_are_samples_enough() {
         made[part]["for_n_o"][1]["n_o"] = json!(20);
     }
     made["witness"]["for_n_o"][1]["Pi"] = json!(pi);
-    let report = judged(&reworded(made));
+    let report = judged(&made);
     assert_refused(&report, Invalid, "rates", "/witness/for_n_o/1");
     assert!(report.finding.unwrap().message.ends_with("n_o < samples/2"));
 }
@@ -87,12 +87,9 @@ fn there_are_samples_enough() {
 #[test]
 fn the_law_is_that_of_the_claim() {
     let certificate = stored("sampled");
-    let statement = certificate["claim"]["statement"].as_str().unwrap();
     for (sigma, verdict) in [("60.001", None), ("75", Some(Invalid))] {
-        let statement = json!(statement.replace("sigma = 60,", &format!("sigma = {sigma},")));
-        let changes =
-            [("/claim/sigma", json!(sigma)), ("/claim/statement", statement), ("/claim/control", Value::Null)];
-        let made = reworded(edited(certificate.clone(), &changes));
+        let changes = [("/claim/sigma", json!(sigma)), ("/claim/control", Value::Null)];
+        let made = edited(certificate.clone(), &changes);
         match verdict {
             None => drop(accepted(&made)),
             Some(verdict) => assert_refused(&judged(&made), verdict, "rates", "/witness/for_n_o/0"),
@@ -118,7 +115,7 @@ fn other_claims_have_no_rates() {
                 .for_each(|entry| drop(entry.as_object_mut().unwrap().remove("noise")));
             (format!("/{part}/for_n_o"), list)
         });
-        let report = judged(&reworded(edited(other, &changes)));
+        let report = judged(&edited(other, &changes));
         match place {
             Some(place) => assert_refused(&report, BadInput, "format", place),
             // By norms: it is not their proof.

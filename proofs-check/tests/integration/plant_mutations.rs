@@ -4,7 +4,7 @@
 //! of it is true. What may never pass: another claim for the same witness, a number that is certainly too good, and anything that
 //! is not read.
 
-use super::mutations::{pointers, replacements};
+use super::mutations::{of_claim, pointers, replacements};
 use crate::common::{deleted, every, folder, rehash};
 use proofs_check::check;
 use proofs_check::verdict::Verdict;
@@ -89,10 +89,11 @@ pub fn alter(name: &str, stride: usize) {
     let mut accepted: BTreeMap<&str, usize> = BTreeMap::new();
     let mut judge = |pointer: &str, kind: &str, mutant: &Value| {
         made += 1;
-        if check(mutant.to_string().as_bytes()).verdict != Verdict::Valid {
+        let report = check(mutant.to_string().as_bytes());
+        if report.verdict != Verdict::Valid {
             return;
         }
-        match harmless(&original, pointer, kind) {
+        match harmless(&original, pointer, kind).or_else(|| of_claim(pointer, mutant, &report)) {
             Some(class) => *accepted.entry(class).or_default() += 1,
             None => holes.push(format!("{pointer}: {kind}")),
         }
