@@ -51,6 +51,7 @@ mod noise;
 mod notations;
 mod notations_random;
 mod obstacles;
+mod one_pool;
 mod packages;
 mod parameters;
 mod periodic_bounds;

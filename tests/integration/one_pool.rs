@@ -36,7 +36,11 @@ fn assert_one_answer(path: &str, report: &Value) {
     let mut proved = peak(report);
     // Sizes of the set that are open are those of the periodic solution at each gain, which shrinks.
     for multiple in MULTIPLES {
-        let exact = if multiple == 1.0 { gain.as_str().unwrap().to_owned() } else { format!("{:.6e}", multiple * number(gain)) };
+        let exact = if multiple == 1.0 {
+            gain.as_str().unwrap().to_owned()
+        } else {
+            format!("{:.6e}", multiple * number(gain))
+        };
         let asked = row(report, multiple * number(gain)).map_or(exact, |row| row["sigma"].as_str().unwrap().to_owned());
         let found = certified(path, &["--sigma", &asked]).unwrap_or_else(|| panic!("{path}: {asked} is refused"));
         let own = peak(&found);
@@ -57,7 +61,8 @@ fn a_certified_gain_is_certified_when_it_is_given() {
     for path in all.iter().step_by(every(9)) {
         let path = path.strip_prefix(support::ROOT).unwrap_or(path).to_str().unwrap();
         let report = json(&answer(&["certify", path, "--quiet", "--format", "json"]).stdout);
-        let is_smallest = report["verdict"] == "certified" && report.get("gains").is_some() && report.get("sigma_star").is_some();
+        let is_smallest =
+            report["verdict"] == "certified" && report.get("gains").is_some() && report.get("sigma_star").is_some();
         if is_smallest && report["gains"].as_array().is_some_and(|rows| rows.len() > 1) {
             assert_one_answer(path, &report);
             tried += 1;
@@ -90,7 +95,8 @@ fn a_gain_at_samples_is_one_in_every_answer() {
     for (path, step) in [("specs/plants/paper-example.json", "1/200"), ("specs/plants/duffing.json", "1/100")] {
         let found = certified(path, &["--sampling-period", step]).unwrap();
         let gain = found["sigma"].as_str().unwrap();
-        let given = certified(path, &["--sampling-period", step, "--sigma", gain]).unwrap_or_else(|| panic!("{path}: {gain} is refused"));
+        let given = certified(path, &["--sampling-period", step, "--sigma", gain])
+            .unwrap_or_else(|| panic!("{path}: {gain} is refused"));
         assert!(peak(&given) <= peak(&found) * (1.0 + PRINTED), "{path}");
         let study = program()
             .args(["sampling", path, "--quiet", "--format", "json", "--sampling-period", step, "--sigma", gain])

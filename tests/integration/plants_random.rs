@@ -89,7 +89,7 @@ const PERIODS: [(&str, &str, f64); 5] = [
 ];
 
 /// A plant with none to three states, a period out of five, bounded, cubic and bilinear terms, and e^2 times a state.
-fn saturating_plant(seed: u64) -> serde_json::Value {
+pub fn saturating_plant(seed: u64) -> serde_json::Value {
     let random = &mut StdRng::seed_from_u64(seed);
     let (period, omega, speed) = PERIODS[random.random_range(0..PERIODS.len())];
     let states: Vec<String> = (0..random.random_range(0..=3)).map(|i| format!("s{i}")).collect();

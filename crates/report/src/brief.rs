@@ -24,8 +24,8 @@ const SHOWN: [u64; 3] = [0, 10, 100];
 
 /// Of a claim about the regulator in continuous time; nothing without one.
 pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences>, origin: Origin) -> Vec<Block> {
-    let (Some(sigma), Some(set), Some(periodic), Some(error_box)) =
-        (run.sigma_star(), run.claimed_set(), run.periodic_solution(), run.error_box())
+    let (Some(sigma), Some(set), Some(periodic), Some(error_box), Some((_, peak, _))) =
+        (run.sigma_star(), run.claimed_set(), run.periodic_solution(), run.error_box(), run.bounds())
     else {
         return Vec::new();
     };
@@ -79,7 +79,7 @@ pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences
     );
     // It grows with the gain, of which the claim says "or any larger".
     let control = run.control().map(|bounds| (bounds, " (both at this gain)"));
-    facts.push(("to", to(run.spec, &periodic, error_box.each_ref().map(upper), control)));
+    facts.push(("to", to(run.spec, &periodic, (upper(&error_box[0]), peak), control)));
     facts.push(("assumed", assumed(run.spec, run.largest_arguments(), None)));
     vec![Block::facts(facts), Block::says(norms(run.spec, "sigma"))]
 }
@@ -161,8 +161,8 @@ pub(super) fn of_samples(
     facts.extend(run.found.map(|(_, limit)| ("set by", format!("{} (an estimate)", limit.describe()))));
     facts.extend(consequences.and_then(|all| error(&all.by_n_o)).map(|said| ("steady error", said)));
     facts.extend(for_n_o_at_samples(run).map(|said| ("convergence", said)));
-    let radii = [&witness.d_x, &witness.d_e].map(|radius| exact(radius, Direction::Up));
-    facts.push(("to", to(run.spec, &periodic, radii, run.control().map(|bounds| (bounds, "")))));
+    let on_the_way = (exact(&witness.d_x, Direction::Up), &proof.evaluation.peak);
+    facts.push(("to", to(run.spec, &periodic, on_the_way, run.control().map(|bounds| (bounds, "")))));
     facts.extend(uncertain_gain(run.spec).map(|said| ("input gain", said)));
     facts.extend(interval_costs(run.spec, &run.interval_costs, "the gain").map(|said| ("intervals", said)));
     let late = if run.sampling.delayed { "every control put out at the next sample, no" } else { "no delay," };
@@ -238,15 +238,15 @@ fn from(spec: &Specification, set: &ClaimedSet, [x, e, ..]: &[Enclosure; 4], whe
 fn to(
     spec: &Specification,
     periodic: &[Enclosure; 4],
-    [d_x, d_e]: [String; 2],
+    (d_x, peak): (String, &Enclosure),
     control: Option<(&Control<Enclosure>, &str)>,
 ) -> String {
-    let [x, e, _, _] = periodic.each_ref().map(upper);
+    let ([x, e, _, _], peak) = (periodic.each_ref().map(upper), upper(peak));
     let (along, on_the_way) = match spec.state_name() {
         Some(state) => {
-            (format!("|{state}| <= {x}, |e| <= {e}"), format!("{state} stays within {d_x} of it, e within {d_e}"))
+            (format!("|{state}| <= {x}, |e| <= {e}"), format!("{state} stays within {d_x} of it, |e| <= {peak}"))
         }
-        None => (format!("|e| <= {e}"), format!("e stays within {d_e} of it")),
+        None => (format!("|e| <= {e}"), format!("|e| <= {peak}")),
     };
     let of_u = |bound: &Enclosure| format!(", |u| <= {}", upper(bound));
     let [steady, largest] = match control {

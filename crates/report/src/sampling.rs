@@ -35,8 +35,8 @@ impl Readable for SamplingReport<'_> {
         ];
         if let Some(sigma) = continuous {
             blocks.push(Block::says(format!(
-                "In continuous time, by norms as here, about sigma = {} is needed (floating point); `certify` without a sampling \
-                 period may prove a smaller gain.",
+                "In continuous time norms ask for about sigma = {} (an estimate); a matrix inequality may ask for less. The longest sampling periods \
+                 are sought with norms first: there may be longer ones.",
                 estimate(*sigma)
             )));
         }

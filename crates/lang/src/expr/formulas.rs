@@ -14,6 +14,10 @@ use std::ops::Range;
 /// Bits of a rational beyond which constants are not folded any more; they then stand as operations.
 const MAX_FOLDED_BITS: u32 = 4096;
 
+/// The most roots, and the largest power of a root, in the place of a power.
+const MAX_ROOTS: u32 = 4;
+const MAX_OF_ROOT: u32 = 64;
+
 /// The number of a formula; larger numbers depend on smaller ones only.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Formula(pub(super) usize);
@@ -163,7 +167,21 @@ impl Formulas {
         }
     }
 
+    /// `a^(k/2^m)` as `sqrt(... sqrt(a))^k`, which is the same function: undefined below 0 and, for negative k, at 0. Roots are correctly rounded
+    /// and cheap, and other powers are neither. `None` of other exponents.
+    fn by_roots(&mut self, a: Formula, b: Formula) -> Option<Formula> {
+        let exponent = self.value(b)?;
+        let roots = exponent.denom().find_one(0)?;
+        let is_root = (1..=MAX_ROOTS).contains(&roots) && exponent.denom().is_power_of_two();
+        let numerator = exponent.numer().to_i32().filter(|k| is_root && k.unsigned_abs() <= MAX_OF_ROOT)?;
+        let root = (0..roots).fold(a, |root, _| self.apply(Unary::Sqrt, root));
+        Some(self.raise(root, numerator))
+    }
+
     fn combine(&mut self, operation: Binary, a: Formula, b: Formula) -> Formula {
+        if let (Binary::Pow, Some(power)) = (operation, self.by_roots(a, b)) {
+            return power;
+        }
         let folded = self.value(a).zip(self.value(b)).and_then(|(a, b)| {
             (bits(a).saturating_add(bits(b)) <= MAX_FOLDED_BITS).then(|| fold(operation, a, b)).flatten()
         });

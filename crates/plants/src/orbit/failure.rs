@@ -209,12 +209,6 @@ impl OrbitNotProved {
         advice.to_owned()
     }
 }
-
-/// A number of a message, in few digits.
-pub(super) fn short(value: f64) -> String {
-    round_f64(value, 4, Direction::Nearest).map_or_else(|| "unknown".to_owned(), |value| write_exact(&value))
-}
-
 fn listed(exponents: &[[f64; 2]]) -> String {
     let one = |[real, imaginary]: &[f64; 2]| {
         let sign = if *imaginary < 0.0 { '-' } else { '+' };

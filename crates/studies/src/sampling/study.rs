@@ -25,6 +25,9 @@ const ROUND: usize = 4;
 /// How far beyond the samples that h sigma <= 1 and theta <= 1 ask for they are doubled.
 const FAR: f64 = 256.0;
 
+/// The samples that are tried where norms promise nothing, over those that h sigma <= 1 asks for.
+const BEYOND: [f64; 3] = [4.0, 16.0, 64.0];
+
 /// More samples than are taken.
 const MANY: Obstacle = Obstacle { failing: Failing::Samples, at: None };
 
@@ -147,7 +150,9 @@ fn longest(certifier: &impl Certifier, period: &Constant, gain: &Rational) -> Re
     let mut low = high - 1;
     while let Err(obstacle) = promise(high) {
         if high >= most {
-            return Err(obstacle);
+            // Where the search that is cheap promises nothing, a matrix inequality may still serve.
+            let others = BEYOND.into_iter().filter_map(|times| samples(certifier, period, (times * least) as u32));
+            return others.filter_map(|at| certifier.pair(&at, Some(gain)).ok()).next().ok_or(obstacle);
         }
         low = high;
         high = high.saturating_mul(2).min(most);
