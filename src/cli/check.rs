@@ -54,7 +54,7 @@ fn page(args: &CheckArgs, bytes: &[u8], report: &proofs_check::Report) -> Option
     let page = certificate.and_then(|certificate| stored::page(&args.certificate, certificate, words)).ok().flatten();
     if page.is_none() {
         output::remark(
-            "the page has the words of the checker alone: this version does not prove the same claim, in the same words, from the \
+            "the page has the words of the checker alone: this version does not prove the same claim from the \
              certificate; `certify FILE --witness FILE` says what it proves",
         );
     }

@@ -82,7 +82,12 @@ fn names_of_parameters_are_written_out() {
         (&written["period"], &model["base_frequency"], &model["mu"]),
         (&"2".into(), &"2*(pi)/2".into(), &"2/2".into())
     );
-    assert!(written["description"].as_str().unwrap().ends_with("for every plant with a constant d in [1.9, 2.1]."));
+    assert!(
+        written["description"]
+            .as_str()
+            .unwrap()
+            .ends_with("for every plant with a constant 'd' of the file in [1.9, 2.1].")
+    );
     gain(&written);
 }
 

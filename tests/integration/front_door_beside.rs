@@ -61,13 +61,18 @@ fn a_stored_certificate_that_was_altered_is_refused() {
     for (pointer, value) in [
         ("/claim/sigma_star", "50"),
         ("/claim/periodic_solution/e", "1/10"),
-        ("/claim/statement", "Everything is certified."),
         ("/specification_sha256", "0"),
         // Other data, for which the same witness proves less.
         ("/specification/bounds/q_t", "1"),
     ] {
         assert_eq!(altered(pointer, value), ErrorKind::Claim, "{pointer}");
     }
+    // What it says in words is for people, and the claim is what its numbers say.
+    let mut worded: Value = serde_json::from_str(certificate.to_json()).unwrap();
+    worded["claim"]["statement"] = "Everything is certified.".into();
+    let worded = worded.to_string();
+    assert_eq!(check(&worded).statement(), check(certificate.to_json()).statement());
+    assert_eq!(reread("certificate", worded.as_bytes()).unwrap().claim().statement(), certificate.claim().statement());
     assert_eq!(altered("/claim/sigma_star", "39"), ErrorKind::NotCertified);
     assert_eq!(altered("/claim/initial_set/X0", "1"), ErrorKind::NotCertified);
     assert_eq!(altered("/witness/D_e", "1/1000"), ErrorKind::NotCertified);

@@ -46,6 +46,7 @@ mod machines;
 mod messages;
 mod mutants;
 mod mutated_specifications;
+mod names;
 mod no_plant;
 mod noise;
 mod notations;

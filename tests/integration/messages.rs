@@ -285,7 +285,7 @@ fn what_stands_in_a_field_of_an_object_is_put_there() {
         assert!(code == 2 && text.contains(said), "{name}: {text}");
     }
     let (code, text) = changed("parameters", serde_json::json!({ "k": "3 - 1" }));
-    assert!(code == 0 && text.contains("k is used nowhere"), "{text}");
+    assert!(code == 0 && text.contains("'k' is used nowhere"), "{text}");
     let (code, text) = changed("q", "min(1, 2)*sin(2*pi*t)".into());
     assert!(code == 0, "{text}");
 }
@@ -329,7 +329,7 @@ fn what_is_used_nowhere_is_told_before_the_search() {
     let (_folder, path) = file("plant.json", &plant.to_string());
     let output = program().args(["certify", "--progress", "--no-compare"]).arg(&path).output().unwrap();
     let text = utf8(output.stderr);
-    let [remark, stage] = ["the parameter c is used nowhere", "stage 1 of"].map(|part| text.find(part).unwrap());
+    let [remark, stage] = ["the parameter 'c' is used nowhere", "stage 1 of"].map(|part| text.find(part).unwrap());
     assert!(remark < stage, "{text}");
     plant["q"] = "k*sin(2*pi*t)/c".into();
     let (_folder, path) = file("plant.json", &plant.to_string());

@@ -82,11 +82,7 @@ fn the_checker_decides_it() {
     for (name, share) in [("limit", 0.99), ("peak", 0.9)] {
         let mut forged = certificate.clone();
         let value = &mut forged["claim"]["for_n_o"][1]["noise"][name];
-        let written = value.as_str().unwrap().to_owned();
-        let smaller = format!("{:.9}", share * number(value));
-        *value = smaller.as_str().into();
-        let statement = certificate["claim"]["statement"].as_str().unwrap().replace(&written, &smaller);
-        forged["claim"]["statement"] = statement.into();
+        *value = format!("{:.9}", share * number(value)).into();
         assert_ne!(check(&forged).verdict, proofs_check::verdict::Verdict::Valid, "{name}");
     }
     for (kind, gain) in [("aligned", "60"), ("paper", "80")] {

@@ -82,7 +82,7 @@ fn another_number_is_another_plant() {
         program().arg("certify").arg(folder.path().join("input.json")).args(["--quiet", "--full"]).output().unwrap();
     let text = String::from_utf8_lossy(&text.stdout).into_owned();
     let flat = in_one_line(&text);
-    assert!(flat.contains("the parameters spare, more are used nowhere"), "{remarks} {text}");
+    assert!(flat.contains("the parameters 'spare', 'more' are used nowhere"), "{remarks} {text}");
     assert!(flat.contains("parameters: k = 150, spare = 7, more = 1"), "{text}");
 
     let mut forged = read(&file);
@@ -196,7 +196,7 @@ fn a_family_is_certified_and_decided_again() {
     let statement = certificate["claim"]["statement"].as_str().unwrap();
     assert!(
         statement
-            .contains("every plant of these formulas with a constant k in [0.18, 0.22] and a constant c in [0, 0.2]")
+            .contains("every plant of these formulas with a constant 'k' of the file in [0.18, 0.22] and a constant 'c' of the file in [0, 0.2]")
     );
     for part in ["orbit", "forcing"] {
         assert_eq!(certificate["witness"][part]["sensitivities"].as_array().map(Vec::len), Some(2), "{part}");

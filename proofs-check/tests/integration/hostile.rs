@@ -1,6 +1,6 @@
 //! Hostile input: an answer at once, in words, and never a panic.
 
-use crate::common::{BOXES, PAPER, assert_refused, certificate, changed, text, with};
+use crate::common::{BOXES, PAPER, assert_refused, certificate, changed, said, text, with};
 use proofs_check::check;
 use proofs_check::verdict::Verdict::{BadInput, Invalid, Undecided};
 

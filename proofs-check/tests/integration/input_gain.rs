@@ -5,6 +5,7 @@ use super::coq_support::written;
 use super::matrix_inequality::{stored, times};
 use crate::common::{
     PAPER, assert_refused, assert_valid, assert_words_are_ignored, certificate, edited, judged, open, parsed, rehash,
+    said,
 };
 use proofs_check::verdict::Verdict::{self, BadInput, Invalid, Undecided};
 use proofs_check::{Report, check_against};
@@ -140,7 +141,7 @@ fn the_gain_of_the_claim_is_that_of_the_file() {
         assert_eq!(unknown.verdict, BadInput, "{}", unknown.text(false));
     }
     // The words are those of the gain, whatever the file says.
-    let statement = made()["claim"]["statement"].as_str().unwrap().replace("[1.6, 2.5]", "[1.5, 2.5]");
+    let statement = said(&judged(&made())).replace("[1.6, 2.5]", "[1.5, 2.5]");
     assert_words_are_ignored(&made(), &statement);
 }
 

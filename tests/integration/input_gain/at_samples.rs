@@ -209,7 +209,7 @@ fn families_are_certified_at_samples() {
     let statement = written["claim"]["statement"].as_str().unwrap();
     assert!(
         statement
-            .contains("every plant of these formulas with a constant c in [145, 155] and a constant d in [55, 65]")
+            .contains("every plant of these formulas with a constant 'c' of the file in [145, 155] and a constant 'd' of the file in [55, 65]")
             && statement.contains("sampling grid and every input gain in [1.9, 2.1]"),
         "{statement}"
     );

@@ -37,7 +37,7 @@ fn one_gain_serves_every_motor_and_every_drive() {
     assert!((92.9..93.1).contains(&sigma), "{sigma}");
     assert_eq!(claim["input_gain"], object!({ "nominal": "1", "low": "0.9/J", "high": "1.1/J" }));
     let statement = claim["statement"].as_str().unwrap();
-    assert!(statement.contains("every input gain in [0.9/J, 1.1/J]"), "{statement}");
+    assert!(statement.contains("every input gain in [0.9/'J', 1.1/'J']"), "{statement}");
     let answer = checked(folder.path(), &certificate);
     assert_eq!((&answer["verdict"], &answer["figures"]["verdict"]), (&object!("valid"), &object!("agree")));
     // The ball about the nominal orbit is within the ball about the member's own.

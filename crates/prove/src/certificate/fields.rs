@@ -8,7 +8,7 @@ use sigmastar_exact::number::{parse_rational, write_exact};
 use sigmastar_lang::spec::{
     Bound, ErrorKind, Errors, ExistenceInequality, JointInequality, Level, MatrixInequality, Metric, Object,
     ProvedValue, Reported, SampledExistence, SampledGain, SampledInequality, SampledLoop, Sampling, Splitting, Value,
-    choose,
+    any_constant, choose,
 };
 use sigmastar_theory::derivation::exact_regulation::ExactWitness;
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
@@ -197,12 +197,12 @@ pub(super) fn rational(object: &mut Object<'_>, name: &'static str, errors: &mut
 
 /// A value that is an exact rational number, and is written as one: a certificate has no expressions in their place.
 pub(super) fn exact_rational(value: &Value<'_>, what: &str, errors: &mut Errors) -> Result<Rational, Reported> {
-    let Some(text) = value.numeral().or_else(|| value.text()) else {
-        return Err(value.wrong_type("a number, or a string with a rational number", errors));
-    };
-    parse_rational(text).ok_or_else(|| {
-        let message = format!("{what} is not written as a rational number");
-        let expected = "expected a decimal or a fraction of whole numbers, as \"48.7\", \"1e-3\" or \"487/10\"";
-        errors.report(value.error(ErrorKind::Range, message).expected(expected))
-    })
+    if let Some(rational) = value.numeral().or_else(|| value.text()).and_then(parse_rational) {
+        return Ok(rational);
+    }
+    // What is no constant at all is told as that.
+    any_constant(value, errors)?;
+    let message = format!("{what} is not written as a rational number");
+    let expected = "expected a decimal or a fraction of whole numbers, as \"48.7\", \"1e-3\" or \"487/10\"";
+    Err(errors.report(value.error(ErrorKind::Range, message).expected(expected)))
 }

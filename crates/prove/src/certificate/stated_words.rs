@@ -1,9 +1,9 @@
 //! The claim of a certificate in words of this program: what it holds as its statement is for people, and anybody may have written it.
 
-use super::fields::rational;
+use super::fields::{exact_rational, rational};
 use super::read::{each, small_integer};
 use super::stated::{StatedClaim, read_claim};
-use super::words::{sampled_statement, statement};
+use super::words::{at_samples, in_continuous_time};
 use crate::certify::{SaidOfCount, rates_in_words};
 use crate::reduction::FreeNumbers;
 use rug::Rational;
@@ -22,14 +22,15 @@ pub fn claim_in_words(certificate: &Document) -> Result<String, SpecErrors> {
         factor,
         noise: noise.as_ref().map(|[peak, limit]| [peak, limit]),
     });
-    let (sigma, at_samples, words) = match &witness {
-        FreeNumbers::Sampled(witness) => (&witness.sigma, true, sampled_statement(&spec, witness)),
+    let ball = stated_ball(certificate)?;
+    let (sigma, is_sampled, words) = match &witness {
+        FreeNumbers::Sampled(witness) => (&witness.sigma, true, at_samples(&spec, witness, ball.as_ref())),
         FreeNumbers::Continuous(given) => {
             let witness = &given.witness;
-            (&witness.sigma, false, statement(&spec, &witness.sigma, &witness.set))
+            (&witness.sigma, false, in_continuous_time(&spec, &witness.sigma, &witness.set, ball.as_ref()))
         }
     };
-    Ok(words + &rates_in_words(&spec, sigma, at_samples, said))
+    Ok(words + &rates_in_words(&spec, sigma, is_sampled, said))
 }
 
 /// What a certificate states of one number of oscillators.
@@ -39,6 +40,12 @@ struct StatedRate {
     numbers: [Rational; 2],
     /// The peak and the limit under noise.
     noise: Option<[Rational; 2]>,
+}
+
+/// The ball that the set contains, of a plant with states.
+fn stated_ball(certificate: &Document) -> Result<Option<Rational>, SpecErrors> {
+    let value = certificate.at("/claim/initial_set/ball");
+    certificate.root().read(|_, errors| value.map(|value| exact_rational(&value, "`ball`", errors)).transpose())
 }
 
 fn stated_rates(certificate: &Document) -> Result<Vec<StatedRate>, SpecErrors> {

@@ -15,6 +15,21 @@ use sigmastar_theory::derivation::sampled::{DelayWitness, SampledWitness};
 /// The claim of the regulator in continuous time in words.
 #[must_use]
 pub fn statement(spec: &Specification, sigma: &Rational, set: &ClaimedSet) -> String {
+    in_continuous_time(spec, sigma, set, ball(spec, set).as_ref())
+}
+
+/// The ball that a claimed set of a plant with states contains.
+fn ball(spec: &Specification, set: &ClaimedSet) -> Option<Rational> {
+    spec.plant().and_then(|plant| claimed_ball(plant, &set.x0))
+}
+
+/// The same of a set that contains this ball.
+pub(super) fn in_continuous_time(
+    spec: &Specification,
+    sigma: &Rational,
+    set: &ClaimedSet,
+    ball: Option<&Rational>,
+) -> String {
     let model = &spec.internal_model;
     let reach = if model.matched { "" } else { " (which need not match the period)" };
     let input_gain = every_input_gain(spec);
@@ -32,13 +47,18 @@ pub fn statement(spec: &Specification, sigma: &Rational, set: &ClaimedSet) -> St
         within_actuator(spec),
         model.mu.words(),
         model.base_frequency.words(),
-        conclusion(spec, set, "at any initial time"),
+        conclusion(spec, (set, ball), "at any initial time"),
     )
 }
 
 /// The claim of the regulator at samples in words.
 #[must_use]
 pub fn sampled_statement(spec: &Specification, witness: &SampledWitness) -> String {
+    at_samples(spec, witness, ball(spec, &witness.set).as_ref())
+}
+
+/// The same of a set that contains this ball.
+pub(super) fn at_samples(spec: &Specification, witness: &SampledWitness, ball: Option<&Rational>) -> String {
     let model = &spec.internal_model;
     let samples = witness.sampling.samples;
     let start = match &witness.delay {
@@ -60,7 +80,7 @@ pub fn sampled_statement(spec: &Specification, witness: &SampledWitness) -> Stri
         spec.period.nominal().words(),
         model.mu.words(),
         model.base_frequency.words(),
-        conclusion(spec, &witness.set, &start),
+        conclusion(spec, (&witness.set, ball), &start),
     )
 }
 
@@ -88,9 +108,9 @@ fn within_actuator(spec: &Specification) -> String {
 
 /// What converges to what: of all plants of the data, or of the plant whose formulas are in the certificate; `start` says when
 /// a solution may start.
-fn conclusion(spec: &Specification, set: &ClaimedSet, start: &str) -> String {
+fn conclusion(spec: &Specification, (set, ball): (&ClaimedSet, Option<&Rational>), start: &str) -> String {
     if let Some(plant) = spec.plant() {
-        return conclusion_of_plant(plant, set, start);
+        return conclusion_of_plant(plant, (set, ball), start);
     }
     let domain = spec
         .domain
@@ -119,13 +139,13 @@ fn conclusion(spec: &Specification, set: &ClaimedSet, start: &str) -> String {
 }
 
 /// The same about one plant: nothing of it is assumed.
-fn conclusion_of_plant(plant: &OfPlant, set: &ClaimedSet, start: &str) -> String {
+fn conclusion_of_plant(plant: &OfPlant, (set, ball): (&ClaimedSet, Option<&Rational>), start: &str) -> String {
     let domain = plant.domain.as_ref().map_or_else(String::new, |domain| {
         let of_x = if plant.states() > 0 { format!("|x - x_0| <= {}, ", domain.x.words()) } else { String::new() };
         format!(" (a model that holds for {of_x}|e| <= {})", domain.e.words())
     });
     let x0 = write_exact(&set.x0);
-    let (state, orbit) = match claimed_ball(plant, &set.x0) {
+    let (state, orbit) = match ball {
         None => (String::new(), String::new()),
         Some(ball) => (
             format!("|L^-1 (x - x_0)| <= {x0}, "),
@@ -133,7 +153,7 @@ fn conclusion_of_plant(plant: &OfPlant, set: &ClaimedSet, start: &str) -> String
                 "; x is the vector of the states, L the matrix `coordinates` of this certificate, and x_0(t) {}, in the norm of L^-1 x; the \
                  set contains |x - x_0| <= {}",
                 solution(plant),
-                write_exact(&ball)
+                write_exact(ball)
             ),
         ),
     };

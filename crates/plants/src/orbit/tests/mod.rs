@@ -68,11 +68,11 @@ fn what_only_adds_up_is_told_as_that() {
         other => panic!("{f:?} {other:?}"),
     };
     let one = |sum: &str, largest: usize| (sum.to_owned(), largest, None);
-    assert_eq!(adds_up(&["x"], &["cos(2*pi*t)"]), one("x", 0));
-    assert_eq!(adds_up(&["x", "y"], &["sin(2*pi*t)", "-y"]), one("x", 0));
-    assert_eq!(adds_up(&["x", "y"], &["x*y - x", "x - x*y"]).0, "x + y");
+    assert_eq!(adds_up(&["x"], &["cos(2*pi*t)"]), one("'x'", 0));
+    assert_eq!(adds_up(&["x", "y"], &["sin(2*pi*t)", "-y"]), one("'x'", 0));
+    assert_eq!(adds_up(&["x", "y"], &["x*y - x", "x - x*y"]).0, "'x' + 'y'");
     let (sum, _, mean) = adds_up(&["x", "y", "z"], &["0", "2 - z", "z - 1"]);
-    assert_eq!(sum, "y + z");
+    assert_eq!(sum, "'y' + 'z'");
     assert!((mean.unwrap() - 1.0).abs() < 1e-12, "{mean:?}");
     // Beside what is very fast a slow state is none of these: there is no orbit because y has none.
     let fast = ["-x/20 + 100", "10^10*y^2 + 1000"];
