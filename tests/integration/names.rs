@@ -43,7 +43,7 @@ fn words(text: &str) -> Vec<String> {
 }
 
 const LETTERS: [&str; 24] = [
-    "T", "L", "K", "M", "N", "P", "J", "X", "E", "x", "y", "z", "g", "v", "h", "mu", "sigma", "n_o", "x_0", "xb",
+    "T", "L", "K", "M", "N", "P", "J", "H", "R", "x", "y", "z", "g", "v", "h", "mu", "sigma", "n_o", "x_0", "xb",
     "e_per", "f", "q", "Z",
 ];
 
@@ -63,13 +63,16 @@ fn no_name_of_a_plant_is_taken_for_a_letter_of_the_claim() {
     assert!(named("p_1") && named("p_2") && named("p_3"));
     let bare = |word: &&String| ["p_1", "p_2", "p_3", "p_4"].contains(&word.as_str());
     assert_eq!(report.iter().filter(bare).collect::<Vec<_>>(), Vec::<&String>::new());
-    let taken =
-        ["t", "phase", "e", "u", "pi", "sqrt", "exp", "log", "sin", "cos", "tan", "atan", "tanh", "abs", "min", "max"];
+    // X and E are the arguments of bounding functions, and no constant of an `input_gain`.
+    let taken = [
+        "X", "E", "t", "phase", "e", "u", "pi", "sqrt", "exp", "log", "sin", "cos", "tan", "atan", "tanh", "abs",
+        "min", "max",
+    ];
     let is_name = |word: &str| {
         word.starts_with(|c: char| c.is_ascii_alphabetic()) && !word.contains('\'') && !taken.contains(&word)
     };
     let own: BTreeSet<&str> = report.iter().map(String::as_str).filter(|word| is_name(word)).collect();
-    assert!(["T", "L", "M", "N", "X", "E", "x", "z", "sigma"].iter().all(|letter| own.contains(letter)), "{own:?}");
+    assert!(["T", "L", "M", "N", "x", "z", "sigma"].iter().all(|letter| own.contains(letter)), "{own:?}");
     let others = own.into_iter().filter(|word| !LETTERS.contains(word));
     let names: Vec<&str> = LETTERS.into_iter().chain(others.step_by(every(16))).collect();
     for place in 0..names.len() {
