@@ -187,7 +187,8 @@ pub(super) fn initial_set(ball: bool) -> Shape {
         Shape::Object(vec![kind("paper")]),
         Shape::Object(vec![kind("at-rest"), optional(x0()), optional(e0())]),
         Shape::Object(vec![kind("aligned"), optional(x0()), optional(e0())]),
-        Shape::Object(vec![kind("box"), required(x0()), required(e0()), z0()]),
+        // Of a plant without states it may be left out, which is read with the states alone.
+        Shape::Object(vec![kind("box"), if ball { optional(x0()) } else { required(x0()) }, required(e0()), z0()]),
     ];
     if ball {
         kinds.push(Shape::Object(vec![kind("at-rest"), required(round()), optional(e0())]));

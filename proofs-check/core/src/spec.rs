@@ -189,7 +189,7 @@ impl Specification {
         let ends = |fields: &mut Fields<'_>| Ok([positive(fields, "X")?, positive(fields, "E")?]);
         let domain = file.part("domain", |field| field.object(ends))?;
         let regulator = InternalModel::read(&file.required("internal_model")?, &period, &[])?;
-        let (initial_set, _) = read_set(&file.required("initial_set")?, false, &[])?;
+        let (initial_set, _) = read_set(&file.required("initial_set")?, (false, false), &[])?;
         let input_gain = input_gain::read(&mut file, &[], &[])?;
         let actuator = actuator::read(&mut file, &[])?;
         let noise = Noise::read(&mut file)?;
@@ -310,8 +310,12 @@ fn read_forcing(field: &Field<'_>) -> Outcome<Forcing> {
 }
 
 /// Reads the set that is asked for; that of a plant may have `ball` in the place of `X0`: then it is returned too. Names of the
-/// plant's constants may stand in its numbers.
-pub fn read_set(field: &Field<'_>, of_plant: bool, constants: &[Named]) -> Outcome<(AskedSet, Option<Constant>)> {
+/// plant's constants may stand in its numbers. Without states a box needs no `X0`: it is 0.
+pub fn read_set(
+    field: &Field<'_>,
+    (of_plant, stateless): (bool, bool),
+    constants: &[Named],
+) -> Outcome<(AskedSet, Option<Constant>)> {
     let nonnegative = |field: &Field<'_>| nonnegative(field, constants);
     let mut fields = field.fields()?;
     let kind = fields.required("kind")?;
@@ -327,8 +331,15 @@ pub fn read_set(field: &Field<'_>, of_plant: bool, constants: &[Named]) -> Outco
             if name == "aligned" { AskedSet::Aligned(sizes) } else { AskedSet::AtRest(sizes) }
         }
         "box" => {
+            let x0 = match &ball {
+                Some(ball) => ball.clone(),
+                None if stateless => {
+                    let stated = fields.part("X0", nonnegative)?;
+                    stated.unwrap_or_else(|| Constant::standing_for("0".to_owned(), Rational::new()))
+                }
+                None => nonnegative(&fields.required("X0")?)?,
+            };
             let mut end = |name| nonnegative(&fields.required(name)?);
-            let x0 = ball.clone().map_or_else(|| end("X0"), Ok)?;
             AskedSet::Box([x0, end("E0")?, end("Z0")?])
         }
         _ => return bad(&kind.pointer, "expected `paper`, `at-rest`, `aligned` or `box`"),

@@ -101,7 +101,7 @@ pub fn read(field: &Field<'_>, witness: &mut Fields<'_>) -> Outcome<(Specificati
     let q = formula(&file.required("q")?)?;
     file.part("initial", |field| initial(field, names.len(), &constants))?;
     let (initial_set, ball) = match file.optional("initial_set") {
-        Some(field) => spec::read_set(&field, true, &constants)?,
+        Some(field) => spec::read_set(&field, (true, names.is_empty()), &constants)?,
         None => (AskedSet::AtRest([None, None]), None),
     };
     let ends = |fields: &mut Fields<'_>| {

@@ -54,7 +54,9 @@ fn read(value: &Value<'_>, errors: &mut Errors) -> Result<Plant, Reported> {
     let f = object.required("f", errors);
     let q = object.required("q", errors);
     let initial = object.optional("initial");
-    let initial_set = object.optional("initial_set").map(|value| read_with_ball(&value, constants, errors)).transpose();
+    let stateless = names.as_ref().is_ok_and(|names| names.states().is_empty());
+    let initial_set = object.optional("initial_set");
+    let initial_set = initial_set.map(|value| read_with_ball(&value, constants, stateless, errors)).transpose();
     let domain = object.optional("domain").map(|value| read_domain(&value, constants, errors)).transpose();
     let internal_model = object.required("internal_model", errors);
     let input_gain =

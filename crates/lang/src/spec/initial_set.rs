@@ -6,31 +6,34 @@ use super::error::{ErrorKind, Errors, Reported, shown};
 use super::object::{Object, choose};
 use super::parts::{Constant, InitialSet};
 use crate::expr::Definitions;
+use rug::Rational;
 
 /// Reads `initial_set`: `paper` has no other field, `at-rest` and `aligned` may have X0 and E0, `box` has X0, E0 and Z0.
 ///
 /// # Errors
 /// Reports an unknown kind, fields that are missing or do not belong to the kind, and numbers that are negative.
 pub(super) fn read(value: &Value<'_>, errors: &mut Errors) -> Result<InitialSet, Reported> {
-    read_kinds(value, false, Definitions::none(), errors).map(|(set, _)| set)
+    read_kinds(value, (false, false), Definitions::none(), errors).map(|(set, _)| set)
 }
 
 /// Reads `initial_set` of a plant, where `ball` may stand for X0: the radius of a ball that the set contains. Then X0 of the
-/// set is that radius until the norm in which X0 is meant is known. Names of the plant's constants may stand in its numbers.
+/// set is that radius until the norm in which X0 is meant is known. Names of the plant's constants may stand in its numbers. Without states
+/// a box needs no X0: it is 0.
 ///
 /// # Errors
 /// Those of a specification's; and both of `X0` and `ball`.
 pub fn read_with_ball(
     value: &Value<'_>,
     names: &Definitions,
+    stateless: bool,
     errors: &mut Errors,
 ) -> Result<(InitialSet, Option<Constant>), Reported> {
-    read_kinds(value, true, names, errors)
+    read_kinds(value, (true, stateless), names, errors)
 }
 
 fn read_kinds(
     value: &Value<'_>,
-    balls: bool,
+    (balls, stateless): (bool, bool),
     names: &Definitions,
     errors: &mut Errors,
 ) -> Result<(InitialSet, Option<Constant>), Reported> {
@@ -69,10 +72,13 @@ fn read_kinds(
             if kind == "aligned" { InitialSet::Aligned { x0, e0 } } else { InitialSet::AtRest { x0, e0 } }
         }
         _ => {
+            // Without states there is no x to bound.
+            let none = if stateless && ball.is_none() { optional(&mut object, "X0", names, errors) } else { Ok(None) };
             let mut number =
                 |name| object.required(name, errors).and_then(|value| nonnegative_constant_in(&value, names, errors));
             let x0 = match &ball {
                 Some(ball) => Ok(ball.clone()),
+                None if stateless => none.map(|x0| x0.unwrap_or_else(|| Constant::rational(&Rational::new()))),
                 None => number("X0"),
             };
             let (e0, z0) = (number("E0"), number("Z0"));
