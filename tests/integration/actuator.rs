@@ -219,7 +219,7 @@ fn a_gain_that_keeps_to_limits() {
         let below = format!("{:.6}", 0.98 * gain);
         let (code, missed) = report(&[&file, flag, asked, "--sigma", &below]);
         assert_eq!((code, missed["verdict"].as_str().unwrap()), (3, "undecided"), "{flag}");
-        assert!(missed["statement"].as_str().unwrap().contains("the least for which a proof is found is about"));
+        assert!(missed["statement"].as_str().unwrap().contains("the least for which a proof is found is "));
         let (code, given) = report(&[&file, flag, asked, "--sigma", &format!("{:.6}", gain * 1.001)]);
         assert_eq!((code, &given["given_gain"]), (0, &object!(true)), "{flag}");
     }

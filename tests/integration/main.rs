@@ -7,6 +7,7 @@ mod actuator;
 mod aligned;
 mod architecture;
 mod bound;
+mod causes;
 mod cells;
 mod certify_random;
 mod check;

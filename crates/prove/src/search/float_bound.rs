@@ -80,3 +80,19 @@ impl FloatBound {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Beyond its last arguments nothing is known; within them a function without a value has none.
+    #[test]
+    fn where_it_ends_and_where_it_has_no_value() {
+        let function = FloatBound::Function { of: Arc::new(|_, _| f64::NAN), ends: [2.0, 3.0] };
+        let values = FloatBound::Values { entries: vec![[2.0, 3.0, 1.0]], from_below: false };
+        for (at, beyond) in [([1.0, 1.0], false), ([2.0, 1.0], true), ([1.0, 3.0], true)] {
+            assert_eq!(function.ends_before(at[0], at[1]), beyond.then_some(Known::Samples), "{at:?}");
+            assert_eq!(values.ends_before(at[0], at[1]), beyond.then_some(Known::Proofs), "{at:?}");
+        }
+    }
+}

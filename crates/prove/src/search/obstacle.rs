@@ -383,4 +383,17 @@ mod tests {
         let told = closest.or(None::<()>).unwrap_err().describe();
         assert!(told.contains("a_2 <= 0") && told.contains("X = 7, E = 8"), "{told}");
     }
+
+    /// Of a bound that is known up to some arguments it is not said that it is the one in the way, nor that it has no value beyond.
+    #[test]
+    fn what_is_not_known_further_is_not_called_infinite() {
+        let bound = Bound::Qx;
+        for known in [Known::Samples, Known::Proofs] {
+            let told = Failing::Beyond { known, bound }.at(1.0, 2.0).describe();
+            assert!(!told.contains("q_x") && !told.contains("finite") && told.contains("X = 1, E = 2"), "{told}");
+        }
+        let told = Failing::Unproved(bound).at(1.0, 2.0).describe();
+        assert!(!told.contains("q_x") && told.contains("X = 1, E = 2"), "{told}");
+        assert!(Failing::NotFinite(Some(bound)).at(1.0, 2.0).describe().contains("q_x has no finite value"));
+    }
 }
