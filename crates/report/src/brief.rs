@@ -86,7 +86,7 @@ pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences
 
 /// How fast the error decays for the numbers of oscillators that were asked about; without any, how to ask, where nothing else was `asked`.
 fn for_n_o(run: &Certification<'_>, asked: bool) -> Option<String> {
-    let all = rates(run.spec, &run.for_n_o);
+    let all = rates(run.spec, &run.for_n_o, &run.why_no_rate());
     if all.is_empty() {
         let how = "`--n-o N` proves a rate at this gain, `--rate V --n-o N` finds a gain for one";
         return (!asked).then(|| how.to_owned());
@@ -95,9 +95,9 @@ fn for_n_o(run: &Certification<'_>, asked: bool) -> Option<String> {
 }
 
 /// A clause for each number of oscillators.
-fn rates<P, Q>(spec: &Specification, found: &[ForCount<P, Q>]) -> Vec<String> {
+fn rates<P, Q>(spec: &Specification, found: &[ForCount<P, Q>], why_not: &str) -> Vec<String> {
     let one = |ForCount { n_o, bound, noise }: &ForCount<P, Q>| match bound {
-        None => format!("n_o = {n_o}: not proved"),
+        None => format!("n_o = {n_o}: not proved ({why_not})"),
         Some(RateBound { rate, factor, .. }) => {
             let bounds = |noise: &NoiseBound<Q>| [noise.peak.clone(), noise.limit.clone()];
             let disturbed = disturbed(spec, noise.as_ref().map(|noise| noise.as_ref().map(bounds)));
@@ -129,7 +129,7 @@ fn disturbed(spec: &Specification, noise: Option<Result<[Rational; 2], &NoNoiseB
 
 /// The same at the sampling instants.
 fn for_n_o_at_samples(run: &SampledCertification<'_>) -> Option<String> {
-    let all = rates(run.spec, &run.for_n_o);
+    let all = rates(run.spec, &run.for_n_o, &run.why_no_rate());
     (!all.is_empty()).then(|| format!("|e - e_per| at the sampling instants, {}", all.join("; ")))
 }
 
