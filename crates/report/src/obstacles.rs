@@ -201,7 +201,9 @@ fn obstacle_advice(run: &Certification<'_>, obstacle: Obstacle, add: &mut dyn Fn
                 add(gain);
             }
             add(wider(which));
-            run.divisor_that_keeps().iter().for_each(|divisor| add(&smaller_by(*divisor)));
+            if let Some(divisor) = run.divisor_that_keeps() {
+                add(&smaller_by(divisor));
+            }
         }
         Failing::NotDecidedAgain { refused } => add(again(refused)),
         Failing::Start { .. } => add(SMALLER_START),

@@ -157,7 +157,9 @@ fn obstacle_advice(run: &SampledCertification<'_>, failing: Failing, add: &mut d
                 add(other_gain(which));
             }
             add(&format!("{}, or a shorter sampling period", wider(which)));
-            run.divisor_that_keeps().iter().for_each(|divisor| add(&smaller_by(*divisor)));
+            if let Some(divisor) = run.divisor_that_keeps() {
+                add(&smaller_by(divisor));
+            }
         }
         Failing::NotDecidedAgain { refused } => add(again(refused)),
         Failing::Start { .. } => add(SMALLER_START),

@@ -180,8 +180,8 @@ impl<'a> MatrixAtSamples<'a> {
     /// From what is found at the first of few gains from some set and shape.
     fn anew(&self, largest: f64) -> Option<At> {
         let gains = std::iter::successors(Some(self.chosen.proposal.sigma), |sigma| Some(sigma * NEXT_ANEW));
-        let gains = gains.take(GAINS).take_while(|sigma| *sigma <= largest);
-        gains.filter_map(|sigma| self.anywhere(sigma)).map(|found| self.again(&found)).next()
+        let mut gains = gains.take(GAINS).take_while(|sigma| *sigma <= largest);
+        gains.find_map(|sigma| self.anywhere(sigma)).map(|found| self.again(&found))
     }
 
     /// What is found at a gain from the first set and shape that lead to something.
@@ -189,11 +189,11 @@ impl<'a> MatrixAtSamples<'a> {
         let known = self.start(sigma);
         let (rho, eta) = known.shape;
         let starts = SIZES.iter().flat_map(|size| SHAPES.iter().map(move |shape| (size, shape)));
-        let found = starts.filter_map(|(size, [of_rho, of_eta])| {
+        let mut found = starts.filter_map(|(size, [of_rho, of_eta])| {
             let shape = (1.0 + (rho - 1.0) * of_rho, eta * of_eta);
             self.at(&At { size: self.units.map(|unit| unit * size), shape, ..known.clone() })
         });
-        found.filter(|found| found.at.threshold < 1.0).next()
+        found.find(|found| found.at.threshold < 1.0)
     }
 
     /// The smallest gain for samples of the derivatives; nothing is proved.
