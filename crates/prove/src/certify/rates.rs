@@ -379,10 +379,11 @@ impl SampledCertification<'_> {
             return NO_DECAY.to_owned();
         }
         let from = match self.norms_from {
-            Some(sigma) => format!("they prove a claim at the gain {}", shown(sigma)),
-            None => "they prove no claim at this gain".to_owned(),
+            Some(sigma) => format!(": they prove a claim at the gain {}", shown(sigma)),
+            // None was found, or none was looked for.
+            None => String::new(),
         };
-        format!("the claim rests on (Ms), and rates at samples are proved from norms: {from}")
+        format!("the claim rests on (Ms), and rates at samples are proved from norms{from}")
     }
 
     /// The sentences of the claim about them, each with a space before it.
