@@ -8,7 +8,7 @@ use crate::actuator::{self, Actuator};
 use crate::bound::{BOUND_NAMES, BOUNDS, REQUIRED};
 use crate::constant::{Constant, Number, PRECISIONS, RULE, expression, positive, positive_with};
 use crate::exact::Exact;
-use crate::expr::{ARGUMENTS, Expr, Named};
+use crate::expr::{ARGUMENTS, Expr, Named, Written};
 use crate::input_gain;
 use crate::interval::Interval;
 use crate::jacobian::{self, Jacobian};
@@ -334,8 +334,9 @@ pub fn read_set(
             let x0 = match &ball {
                 Some(ball) => ball.clone(),
                 None if stateless => {
+                    let zero = || Written { text: "0".to_owned(), words: "0".to_owned() };
                     let stated = fields.part("X0", nonnegative)?;
-                    stated.unwrap_or_else(|| Constant::standing_for("0".to_owned(), Rational::new()))
+                    stated.unwrap_or_else(|| Constant::standing_for(zero(), Rational::new()))
                 }
                 None => nonnegative(&fields.required("X0")?)?,
             };
