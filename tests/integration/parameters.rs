@@ -83,7 +83,7 @@ fn another_number_is_another_plant() {
     let text = String::from_utf8_lossy(&text.stdout).into_owned();
     let flat = in_one_line(&text);
     assert!(flat.contains("the parameters 'spare', 'more' are used nowhere"), "{remarks} {text}");
-    assert!(flat.contains("parameters: k = 150, spare = 7, more = 1"), "{text}");
+    assert!(flat.contains("parameters: 'k' = 150, 'spare' = 7, 'more' = 1"), "{text}");
 
     let mut forged = read(&file);
     forged["plant"]["parameters"]["k"] = "1500".into();
