@@ -16,7 +16,7 @@ use sigmastar_plants::bounds::{Engine, Region};
 /// powers with exponents 0 and 1 and of bases 0 and 1, differences of equals, quotients of equals and of 0, extremes of which one
 /// operand is chosen, constants that are folded, exponents that are read as whole numbers, functions that are constant, and
 /// derivatives that are 0.
-const TERMS: [&str; 56] = [
+const TERMS: [&str; 59] = [
     "0/0",
     "0/(1-1)",
     "(1-1)/(1-1)",

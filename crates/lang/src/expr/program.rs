@@ -310,6 +310,25 @@ mod tests {
         outputs
     }
 
+    /// With exponents k/2^m a power is made of roots: its value and its derivative are those of the power, below 0 and at 0 too.
+    #[test]
+    fn powers_by_roots_are_powers() {
+        for (exponent, value) in
+            [("1/4", 0.25_f64), ("-3/2", -1.5), ("5/8", 0.625), ("-1/16", -0.0625), ("1/32", 0.03125)]
+        {
+            let power = expr(&format!("x^({exponent})"));
+            let at = |x: f64| all(Program::with_derivatives(&[&power], 2), 0.0, [x, 0.0], 0.0);
+            for x in [1e-12, 0.3, 1.0, 7.0, 1e9] {
+                let [found, slope, ..] = at(x)[..] else { panic!("{exponent}") };
+                let [power, derivative] = [x.powf(value), value * x.powf(value - 1.0)];
+                assert!((found / power - 1.0).abs() < 1e-14, "{x}^({exponent}): {found} {power}");
+                assert!((slope / derivative - 1.0).abs() < 1e-13, "{x}^({exponent}): {slope} {derivative}");
+            }
+            assert!(at(-1.0)[0].is_nan());
+            assert_eq!(at(0.0)[0].is_finite(), value > 0.0, "{exponent}");
+        }
+    }
+
     const EXPRESSIONS: [&str; 15] = [
         "x*y - e/x + t",
         "sin(x*t) + cos(y)^3 - 2*x^-2",

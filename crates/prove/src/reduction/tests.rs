@@ -4,7 +4,9 @@
 mod random_points;
 
 use super::closer::closer;
-use super::{PlantRefusal, Prepared, Reduced, Stage, Subject, Unwatched, Watch, bounds_around, reduce};
+use super::{
+    Beside, Checked, PlantRefusal, Prepared, Reduced, Stage, Subject, Unwatched, Watch, bounds_around, reduce,
+};
 use crate::certify::{Limits, Options, Wanted, certify_for};
 use crate::search::{Failing, SharpProposal};
 use random_points::random_points;
@@ -147,10 +149,11 @@ fn gain_and_peak(data: &(Specification, SharpProposal), gain: Option<&Rational>,
     Some([run.sigma_star()?.to_f64(), peak.upper().to_f64()])
 }
 
-/// The data without joint metrics, which are those of the least gain.
+/// The data for a gain that is given, or those without joint metrics, which are those of the least gain.
 fn data_for(plant: &Plant, gain: Option<&Rational>) -> (Specification, SharpProposal) {
-    let Reduced { spec, proposal, without_joint, .. } = reduce(plant, gain, &Unwatched).unwrap();
-    without_joint.map_or((spec, proposal), |without| *without)
+    let beside = gain.map_or(Beside::Nothing, Beside::Gain);
+    let Reduced { spec, proposal, others, .. } = reduce(plant, beside, &Unwatched).unwrap();
+    others.into_iter().last().unwrap_or((spec, proposal))
 }
 
 /// The values for the least gain say of a larger one less than those for its own sets.
@@ -164,10 +167,11 @@ fn a_given_gain_is_proved_with_values_for_its_own_sets() {
         peak
     });
     assert!(own < 0.6 * least, "{own} {least}");
-    // A gain that is too small has no sets: the data are those of the least one.
+    // A gain that is too small has no sets: there are no data beside those of the table.
     let small = Rational::from((1, 2));
-    let [of_small, of_least] = [Some(&small), None].map(|asked| data_for(&plant, asked).1.sigma);
-    assert_eq!(of_small, of_least);
+    let [of_small, of_rows] = [Beside::Gain(&small), Beside::Rows]
+        .map(|beside| reduce(&plant, beside, &Unwatched).unwrap().others.into_iter().map(|(_, found)| found.sigma));
+    assert!(of_small.eq(of_rows));
 }
 
 /// A limit of |e| is kept with a smaller gain by values for the sets of that gain; nothing is found between gains that are the same.
