@@ -165,8 +165,8 @@ fn the_stages_of_a_call_are_told() {
     for (arguments, of, told) in [
         (
             &["specs/plants/linear.json", "--n-o", "1"][..],
-            5,
-            &["orbit", "coordinates", "bounds", "conditions", "rates"][..],
+            6,
+            &["orbit", "coordinates", "bounds", "conditions", "rates", "checker"][..],
         ),
         (&["specs/linear.json"], 1, &["conditions"]),
         (&["specs/paper-example-jacobian.json", "--no-compare"], 2, &["triple of the Jacobian", "conditions"]),

@@ -34,8 +34,9 @@ fn states_that_only_add_up_are_named() {
         (&["v", "x"], &["-2*v + e", "v"], "0.5*v + x", None),
         (&["v", "x"], &["e", "v"], "v", None),
     ] {
+        let quoted = |sum: &str| sum.replace('v', "'v'").replace('x', "'x'");
         let (code, text) = with(names, f);
-        assert!(code == 3 && text.contains(&format!("no state acts on {sum}, which only adds up")), "{f:?}: {text}");
+        assert!(code == 3 && text.contains(&format!("no state acts on {}, which only adds up", quoted(sum))), "{f:?}: {text}");
         let said = mean.map(|mean| format!("the mean of that over a period is {mean}, not 0"));
         assert_eq!(text.contains("the mean of that"), said.is_some(), "{f:?}: {text}");
         assert!(said.is_none_or(|said| text.contains(&said) && text.contains("stands in q")), "{f:?}: {text}");
@@ -48,6 +49,7 @@ fn states_that_only_add_up_are_named() {
         (&["x"], &["x^2 + e + 1"], 3),
         (&["v", "x"], &["-x + e", "v"], 3),
     ] {
+        let quoted = |sum: &str| sum.replace('v', "'v'").replace('x', "'x'");
         let (code, text) = with(names, f);
         assert!(code == expected && !text.contains("adds up"), "{f:?}: {text}");
     }
@@ -271,7 +273,7 @@ fn where_the_sizes_of_the_set_are_from_is_said() {
         let row = text.split_once(ROW).and_then(|(_, row)| row.split_once("; "));
         let said = row.is_some_and(|(_, rest)| rest.starts_with(&format!("{expected} - next: ")));
         assert!(code == 0 && said, "{set}: {text}");
-        assert!(text.contains("orbit: x_0(t): Q about 0.5"), "{text}");
+        assert!(text.contains("orbit: x_0(t): 'Q' about 0.5"), "{text}");
     }
 }
 

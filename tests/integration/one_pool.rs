@@ -24,7 +24,7 @@ fn peak(report: &Value) -> f64 {
 }
 
 /// The row of a report at a gain.
-fn row<'r>(report: &'r Value, gain: f64) -> Option<&'r Value> {
+fn row(report: &Value, gain: f64) -> Option<&Value> {
     let rows = report["gains"].as_array()?;
     rows.iter().find(|row| (number(&row["sigma"]) / gain - 1.0).abs() < 1e-5)
 }

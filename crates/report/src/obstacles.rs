@@ -205,7 +205,7 @@ fn obstacle_advice(run: &Certification<'_>, obstacle: Obstacle, add: &mut dyn Fn
                 add(&smaller_by(divisor));
             }
         }
-        Failing::NotDecidedAgain { refused } => add(again(refused)),
+        Failing::NotDecidedAgain { refused, .. } => add(again(refused)),
         Failing::Start { .. } => add(SMALLER_START),
         Failing::Rate { .. } => add(SLOWER),
         Failing::InputGain { .. } => add("a narrower interval `input_gain`"),
@@ -222,7 +222,9 @@ fn obstacle_advice(run: &Certification<'_>, obstacle: Obstacle, add: &mut dyn Fn
 /// What a certificate asks for that the checker does not decide.
 pub(super) fn again(refused: bool) -> &'static str {
     match refused {
-        false => "narrower intervals or a smaller initial set, of which fewer boxes are to be decided",
+        false => {
+            "a smaller initial set, or narrower intervals where there are some, of which fewer boxes are to be decided; or a larger gain, by `--sigma`"
+        }
         true => "please report the file: a certificate that is refused is a defect",
     }
 }

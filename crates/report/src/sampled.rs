@@ -161,7 +161,7 @@ fn obstacle_advice(run: &SampledCertification<'_>, failing: Failing, add: &mut d
                 add(&smaller_by(divisor));
             }
         }
-        Failing::NotDecidedAgain { refused } => add(again(refused)),
+        Failing::NotDecidedAgain { refused, .. } => add(again(refused)),
         Failing::Start { .. } => add(SMALLER_START),
         Failing::Rate { .. } => add(&format!("{SLOWER}, or a shorter sampling period")),
         _ => add("the continuous-time claim first, without a sampling period: its report says more"),

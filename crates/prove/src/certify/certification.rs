@@ -1,13 +1,11 @@
 //! What a run found out.
 
 use super::bounding::BoundingProblem;
-use super::gain_row::GainRow;
+use super::gain_row::{GainRow, RowNoise};
 use super::matrix_checks::MatrixChecks;
 use super::no_plant::NoPlant;
 use super::options::{Limits, Options};
-use super::pool::is_better;
-use super::proof::{Decided, Outcome, Proof, RepairedProof, SharpProof};
-use super::row_noise::RowNoise;
+use super::proof::{Decided, Outcome, Proof, RepairedProof, SharpProof, is_better};
 use super::verdict::Verdict;
 use crate::rate::found::RateForCount;
 use crate::search::{Binding, Datum, Failing, Obstacle, OptionalDatum};
@@ -83,6 +81,8 @@ pub struct Certification<'s> {
     pub verdict: Verdict,
     /// The derivation of the claim.
     pub sharp: Outcome<SharpProof>,
+    /// At a gain that is given, of a document with noise or a disturbance: a proof whose error box has more room than that of the claim.
+    pub(crate) roomy: Option<Box<SharpProof>>,
     /// The repaired derivation, where it was worked out for comparison.
     pub repaired: Option<Outcome<RepairedProof>>,
     /// The printed one, for comparison.

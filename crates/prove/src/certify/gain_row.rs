@@ -1,6 +1,7 @@
 //! Bounds at one gain, as reports have them for the gain of a claim and for larger ones (derivation, 13.5).
 
 use super::proof::{SampledProof, SharpProof};
+use crate::rate::found::ForCount;
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_lang::spec::Specification;
@@ -49,5 +50,27 @@ impl GainRow {
     pub fn goes_far(&self) -> bool {
         let start = self.e0.to_f64().max(self.steady[0].upper_f64());
         self.peak.upper_f64() > FAR * start
+    }
+}
+
+/// What is proved of noise at one gain of the rows.
+#[derive(Clone, Debug)]
+pub struct RowNoise {
+    /// n_o.
+    pub n_o: u32,
+    /// The gain.
+    pub sigma: Rational,
+    /// What the deviation of e is at most in the limit.
+    pub limit: Rational,
+}
+
+impl RowNoise {
+    /// Of the numbers of oscillators for which something is proved.
+    pub(super) fn of<P, Q>(sigma: &Rational, found: Vec<ForCount<P, Q>>) -> Vec<RowNoise> {
+        let one = |found: &ForCount<P, Q>| {
+            let limit = found.proved_noise()?.limit.clone();
+            Some(RowNoise { n_o: found.n_o, sigma: sigma.clone(), limit })
+        };
+        found.iter().filter_map(one).collect()
     }
 }

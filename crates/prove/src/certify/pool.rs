@@ -5,17 +5,19 @@
 use super::decide::decide;
 use super::limits::{FloatLimits, NEAR, ROOMS};
 use super::options::{Limits, Options, TransferChoice};
-use super::proof::{Outcome, SharpProof};
+use super::proof::{Outcome, SharpProof, has_smaller_peak, is_better};
 use super::round::{TransferKind, round_sharp};
 use crate::search::{
     Failing, FloatModel, Goal, Obstacle, SharpProposal, largest_at, search_sharp, search_sharp_at, search_sharp_near,
 };
 use rug::Rational;
-use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_lang::spec::Specification;
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::sharp::{SharpEvaluation, SharpWitness};
 use sigmastar_theory::transfer::TradeOff;
+
+/// The gains over the least one at which the shape of the error box is sought on the way to a larger one.
+const STEPS: [f64; 10] = [1.02, 1.1, 1.3, 1.6, 2.2, 3.0, 5.0, 10.0, 30.0, 100.0];
 
 /// What is asked of a search.
 #[derive(Clone, Copy, Default)]
@@ -52,6 +54,8 @@ pub(super) struct BestSharp {
     pub(super) model: FloatModel,
     pub(super) proposal: Option<SharpProposal>,
     pub(super) outcome: Outcome<SharpProof>,
+    /// At a gain that is given, with noise or a disturbance, a proof whose error box has more room.
+    pub(super) roomy: Option<Box<SharpProof>>,
     /// About the smallest gain, where another one was sought.
     pub(super) smallest_gain: Option<f64>,
 }
@@ -126,7 +130,7 @@ impl Least {
             Err(obstacle) => Outcome::NotFound(*obstacle),
             Ok(_) => self.attempt.clone().into(),
         };
-        BestSharp { model: self.model.clone(), proposal: self.proposal.ok(), outcome, smallest_gain: None }
+        BestSharp { model: self.model.clone(), proposal: self.proposal.ok(), outcome, roomy: None, smallest_gain: None }
     }
 
     /// At a gain that is given: the witness with the smallest bound of |e|, of a new one and of the one of the smallest gain, whose claim is
@@ -147,24 +151,45 @@ impl Least {
             let smallest = Some((least.sigma, least.binding));
             return refused(Failing::Gain { given: gain.to_f64(), smallest }.into());
         }
-        let with = |goal: Goal| {
-            let model = model.with_goal(goal);
-            let found = search_sharp_at(&model, gain.to_f64(), Some(least)).ok()?;
+        let is_proved = |found: &(FloatModel, SharpProposal, SharpProof)| found.2.truth().is_true();
+        let peaks = self.along(gain.to_f64(), least).into_iter().chain([*least]).filter_map(|start| {
+            let model = model.with_goal(Goal::Peak);
+            let found = search_sharp_at(&model, gain.to_f64(), Some(&start)).ok()?;
             let proof = round_sharp(data, &model, &found, (*kind, Some(gain)), options.ladder)?;
             Some((model, found, proof))
+        });
+        let mut found: Vec<_> = peaks.chain(known).filter(is_proved).collect();
+        let threshold = || {
+            let found = search_sharp_at(model, gain.to_f64(), Some(least)).ok()?;
+            let proof = round_sharp(data, model, &found, (*kind, Some(gain)), options.ladder)?;
+            Some((model.clone(), found, proof))
         };
-        let is_proved = |found: &(FloatModel, SharpProposal, SharpProof)| found.2.truth().is_true();
-        let mut found: Vec<_> = with(Goal::Peak).into_iter().chain(known).filter(is_proved).collect();
+        // The box with which e goes the least far has no room for what noise and a disturbance add.
+        let roomy = if data.spec.disturbances.any() { threshold().filter(is_proved) } else { None };
+        let roomy = roomy.map(|(.., proof)| Box::new(proof));
         if found.is_empty() {
-            found.extend(with(Goal::Threshold));
+            found.extend(threshold());
         }
         let best = found.into_iter().reduce(|a, b| if has_smaller_peak(&b.2, &a.2) { b } else { a });
         match best {
-            Some((model, proposal, proof)) => {
-                BestSharp { model, proposal: Some(proposal), outcome: Some(proof).into(), smallest_gain: None }
-            }
+            Some((model, proposal, proof)) => BestSharp {
+                roomy,
+                proposal: Some(proposal),
+                outcome: Some(proof).into(),
+                ..BestSharp::refused(model, Failing::NotFinite(None).into())
+            },
             None => refused(Failing::NotFinite(None).into()),
         }
+    }
+
+    /// The proposal with the smallest bound of |e| that is reached from the least gain in steps: the shape of the error box changes with the gain,
+    /// and the search for it is local.
+    fn along(&self, gain: f64, least: &SharpProposal) -> Option<SharpProposal> {
+        let model = self.model.with_goal(Goal::Peak);
+        let gains = STEPS.iter().map(|step| step * least.sigma).take_while(|step| *step < gain);
+        gains.fold(None, |known, step| {
+            search_sharp_at(&model, step, Some(known.as_ref().unwrap_or(least))).ok().or(known)
+        })
     }
 
     /// At the smallest gain with which the limits are kept, or at the one that is given.
@@ -198,7 +223,7 @@ impl Least {
         let is_it = |proof: &SharpProof| proof.witness.sigma <= least.sigma * NEAR;
         if let Some(proof) = self.proved().filter(|proof| gain.is_none() && is_it(proof) && kept(proof)) {
             let outcome = Some(proof.clone()).into();
-            return BestSharp { model: model.clone(), proposal: Some(least), outcome, smallest_gain };
+            return BestSharp { model: model.clone(), proposal: Some(least), outcome, roomy: None, smallest_gain };
         }
         let at = |goal: Goal, sigma: f64| {
             let model = model.with_goal(goal);
@@ -220,7 +245,8 @@ impl Least {
                 proof => proof.into(),
             };
             let proved = outcome.proved().is_some();
-            attempt = Some(BestSharp { model: with, proposal: Some(found.proposal), outcome, smallest_gain });
+            attempt =
+                Some(BestSharp { model: with, proposal: Some(found.proposal), outcome, roomy: None, smallest_gain });
             if proved {
                 break;
             }
@@ -231,7 +257,7 @@ impl Least {
 
 impl BestSharp {
     fn refused(model: FloatModel, obstacle: Obstacle) -> BestSharp {
-        BestSharp { model, proposal: None, outcome: Outcome::NotFound(obstacle), smallest_gain: None }
+        BestSharp { model, proposal: None, outcome: Outcome::NotFound(obstacle), roomy: None, smallest_gain: None }
     }
 
     /// Whether it has a proof where the other has none, or one with a smaller gain, or at the same gain with a smaller bound of |e|.
@@ -241,22 +267,6 @@ impl BestSharp {
             (one, other) => one.is_some() && other.is_none(),
         }
     }
-}
-
-/// Whether a proof has a smaller gain, or at the same gain a smaller bound of |e|.
-pub(super) fn is_better(one: &SharpProof, other: &SharpProof) -> bool {
-    let [first, second] = [one, other].map(|proof| &proof.witness.sigma);
-    first < second || (first == second && has_smaller_peak(one, other))
-}
-
-fn has_smaller_peak(one: &SharpProof, other: &SharpProof) -> bool {
-    smaller([one, other].map(|proof| &proof.evaluation.peak))
-}
-
-/// Whether the first of two bounds is smaller; what is no number is larger than all.
-pub(super) fn smaller(bounds: [&Enclosure; 2]) -> bool {
-    let [first, second] = bounds.map(|bound| Some(bound.upper_f64()).filter(|upper| !upper.is_nan()));
-    first.unwrap_or(f64::INFINITY) < second.unwrap_or(f64::INFINITY)
 }
 
 pub(super) fn model(data: &Data<'_>, kind: TransferKind) -> FloatModel {

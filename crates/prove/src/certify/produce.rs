@@ -87,7 +87,7 @@ pub fn certify_member<'s>(
         Err(obstacle) => Outcome::NotFound(obstacle),
         Ok(proposal) => round_repaired(data, &paper_model, &proposal, options.ladder).into(),
     });
-    let BestSharp { model: sharp_model, proposal, outcome: sharp, smallest_gain } = member.best(asked);
+    let BestSharp { model: sharp_model, proposal, outcome: sharp, roomy, smallest_gain } = member.best(asked);
     let sharp = match sharp {
         Outcome::NotFound(Obstacle { failing, at }) if options.compare => {
             let none = Limits::default();
@@ -121,7 +121,7 @@ pub fn certify_member<'s>(
     let parts = Parts { sharp, repaired, printed, exact, exact_failing: Vec::new(), unproved, proposal };
     let run = assemble(spec, options, data, parts, &sharp_model)?;
     let limits = asked.limits.cloned().unwrap_or_default();
-    Ok(Certification { given_gain: asked.gain.cloned(), limits, smallest_gain, ..run })
+    Ok(Certification { given_gain: asked.gain.cloned(), limits, roomy, smallest_gain, ..run })
 }
 
 /// Decides the witness of a certificate again, without any search.
@@ -213,6 +213,7 @@ fn assemble<'s>(
         binding: proposal.map(|proposal| proposal.binding),
         precision: constants.precision,
         sharp,
+        roomy: None,
         repaired,
         printed,
         relative_degree,

@@ -212,3 +212,20 @@ impl<W: Decidable> From<Option<Proof<W>>> for Outcome<Proof<W>> {
 pub(super) fn failing(conditions: &[Condition]) -> Vec<Condition> {
     conditions.iter().filter(|condition| !condition.truth().is_true()).cloned().collect()
 }
+
+/// Whether a proof has a smaller gain, or at the same gain a smaller bound of |e|.
+pub(super) fn is_better(one: &SharpProof, other: &SharpProof) -> bool {
+    let [first, second] = [one, other].map(|proof| &proof.witness.sigma);
+    first < second || (first == second && has_smaller_peak(one, other))
+}
+
+/// Whether a proof has the smaller bound of |e| on the way.
+pub(super) fn has_smaller_peak(one: &SharpProof, other: &SharpProof) -> bool {
+    smaller([one, other].map(|proof| &proof.evaluation.peak))
+}
+
+/// Whether the first of two bounds is smaller; what is no number is larger than all.
+pub(super) fn smaller(bounds: [&Enclosure; 2]) -> bool {
+    let [first, second] = bounds.map(|bound| Some(bound.upper_f64()).filter(|upper| !upper.is_nan()));
+    first.unwrap_or(f64::INFINITY) < second.unwrap_or(f64::INFINITY)
+}

@@ -10,7 +10,7 @@ use super::decide::decide;
 use super::matrix_checks::MatrixChecks;
 use super::no_plant::no_plant;
 use super::options::Ladder;
-use super::proof::{Outcome, SharpProof};
+use super::proof::{Outcome, SampledProof, SharpProof};
 use super::rates::{for_n_o, for_n_o_at_samples};
 use super::round::LONG_DIGITS;
 use super::sampled::{SampledCertification, recheck_sampled};
@@ -36,15 +36,24 @@ impl Certification<'_> {
     /// under noise are proved with it.
     pub(super) fn make_room(&mut self, counts: &[u32]) {
         let bounds = |proof: &SharpProof| for_n_o(self.spec, proof, counts);
-        if let Some((proof, found)) = more_proved(&self.for_n_o, |factor| self.with_room(factor), bounds) {
+        let Some(own) = self.sharp.proved() else { return };
+        let mut best = more_proved(&self.for_n_o, |factor| self.with_room(own, factor), bounds);
+        let roomy = self.roomy.as_ref().and_then(|proof| self.proved_with(proof.witness.clone()));
+        if let Some(roomy) = roomy {
+            let first = bounds(&roomy);
+            let other = more_proved(&first, |factor| self.with_room(&roomy, factor), bounds).unwrap_or((roomy, first));
+            if count(&other.1) > best.as_ref().map_or_else(|| count(&self.for_n_o), |(_, known)| count(known)) {
+                best = Some(other);
+            }
+        }
+        if let Some((proof, found)) = best {
             self.rest_on(proof);
             self.for_n_o = found;
         }
     }
 
-    /// The claim with a box that is so many times as large against its level as the least one; `None` where it is not proved.
-    fn with_room(&self, factor: f64) -> Option<SharpProof> {
-        let SharpProof { witness, evaluation, precision } = self.sharp.proved()?;
+    /// The claim with a box that is so many times as large against its level as that of a proof; `None` where it is not proved.
+    fn with_room(&self, SharpProof { witness, evaluation, precision }: &SharpProof, factor: f64) -> Option<SharpProof> {
         let data = Data::new(self.spec, *precision);
         let periodic = [&evaluation.periodic.x_per, &evaluation.periodic.e_per, &evaluation.z];
         let distances = claimed_distances(&data, &witness.set, periodic);
@@ -99,14 +108,22 @@ impl SampledCertification<'_> {
         let bounds = |run: &SampledCertification<'_>| {
             run.claim().map_or_else(Vec::new, |proof| for_n_o_at_samples(self.spec, proof, counts))
         };
-        if let Some((run, found)) = more_proved(&self.for_n_o, |factor| self.widened(factor), bounds) {
+        let Some(own) = self.claim() else { return };
+        let mut best = more_proved(&self.for_n_o, |factor| self.widened(own, factor), bounds);
+        if let Some((roomy, run)) = self.roomy.as_ref().and_then(|roomy| Some((roomy, self.widened(roomy, 1.0)?))) {
+            let first = bounds(&run);
+            let other = more_proved(&first, |factor| self.widened(roomy, factor), bounds).unwrap_or((run, first));
+            if count(&other.1) > best.as_ref().map_or_else(|| count(&self.for_n_o), |(_, known)| count(known)) {
+                best = Some(other);
+            }
+        }
+        if let Some((run, found)) = best {
             (self.outcome, self.no_plant, self.for_n_o) = (run.outcome, run.no_plant, found);
         }
     }
 
-    /// The claim with an error box so many times as large, where it is proved and keeps to what was asked for.
-    fn widened(&self, factor: f64) -> Option<SampledCertification<'_>> {
-        let proof = self.claim()?;
+    /// The claim with the error box of a proof, so many times as large, where it is proved and keeps to what was asked for.
+    fn widened(&self, proof: &SampledProof, factor: f64) -> Option<SampledCertification<'_>> {
         let wider = |radius: &Rational| round_f64(radius.to_f64() * factor, LONG_DIGITS, Direction::Up);
         let [d_x, d_e] = [&proof.witness.d_x, &proof.witness.d_e].map(wider);
         let witness = SampledWitness { d_x: d_x?, d_e: d_e?, ..proof.witness.clone() };
@@ -115,6 +132,11 @@ impl SampledCertification<'_> {
         let SampledEvaluation { size, peak, control, .. } = &run.claim()?.evaluation;
         self.limits.kept([&size.e_per, peak], control).then_some(run)
     }
+}
+
+/// For how many numbers of oscillators something is proved of noise.
+fn count<P, Q>(found: &[ForCount<P, Q>]) -> usize {
+    found.iter().filter_map(ForCount::proved_noise).count()
 }
 
 /// A proof with more room with which more bounds under noise are proved than are in `first`, and what is proved with it.
@@ -133,7 +155,6 @@ fn more_proved<C, P, Q>(
         all.sort_by(f64::total_cmp);
         all
     };
-    let proved = |found: &[ForCount<P, Q>]| found.iter().filter_map(ForCount::proved_noise).count();
     let (mut factor, mut missing) = (1.0, needed(first));
     let mut best: Option<(C, Vec<ForCount<P, Q>>)> = None;
     for _ in 0..TRIES {
@@ -147,7 +168,7 @@ fn more_proved<C, P, Q>(
         let Some((larger, claim)) = found else { break };
         let found = bounds(&claim);
         (factor, missing) = (larger, needed(&found));
-        if proved(&found) > best.as_ref().map_or_else(|| proved(first), |(_, known)| proved(known)) {
+        if count(&found) > best.as_ref().map_or_else(|| count(first), |(_, known)| count(known)) {
             best = Some((claim, found));
         }
     }

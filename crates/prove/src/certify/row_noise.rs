@@ -2,33 +2,10 @@
 //! gain, as more of the noise goes through and less of the disturbance.
 
 use super::certification::Certification;
-use super::gain_row::{GainRow, RowProof};
+use super::gain_row::{GainRow, RowNoise, RowProof};
 use super::rates::{by_sampled_matrix, for_n_o, for_n_o_at_samples, matrix_arguments};
 use super::sampled::SampledCertification;
-use crate::rate::found::ForCount;
-use rug::Rational;
 use sigmastar_exact::parallel;
-
-/// What is proved of noise at one gain of the rows.
-#[derive(Clone, Debug)]
-pub struct RowNoise {
-    /// n_o.
-    pub n_o: u32,
-    /// The gain.
-    pub sigma: Rational,
-    /// What the deviation of e is at most in the limit.
-    pub limit: Rational,
-}
-
-impl RowNoise {
-    fn of<P, Q>(sigma: &Rational, found: Vec<ForCount<P, Q>>) -> Vec<RowNoise> {
-        let one = |found: &ForCount<P, Q>| {
-            let limit = found.proved_noise()?.limit.clone();
-            Some(RowNoise { n_o: found.n_o, sigma: sigma.clone(), limit })
-        };
-        found.iter().filter_map(one).collect()
-    }
-}
 
 impl Certification<'_> {
     /// Proves what noise does at the gain of every row that rests on norms, for these numbers of oscillators.

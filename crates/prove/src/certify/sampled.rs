@@ -2,20 +2,18 @@
 
 use super::bounding::{BoundingProblem, prove_on_domain, prove_up_to};
 use super::decide::decide;
-use super::gain_row::GainRow;
+use super::gain_row::{GainRow, RowNoise};
 use super::least_limit::with_least_kept;
 use super::limits::{FloatLimits, NEAR, ROOMS};
 use super::no_plant::{NoPlant, no_plant};
 use super::options::{Ladder, Limits};
-use super::pool::smaller;
 use super::produce::undecided_or_error;
-use super::proof::{Outcome, SampledProof};
+use super::proof::{Outcome, SampledProof, smaller};
 use super::refusal::Refusal;
 use super::round::{
     LONG_DIGITS, RoundedBox, SHORT_DIGITS, box_with, claimed_set, first_proved, nearest, room, rounded_box,
     rounded_sigma,
 };
-use super::row_noise::RowNoise;
 use super::verdict::Verdict;
 use crate::rate::found::SampledRateForCount;
 use crate::search::{
@@ -51,6 +49,8 @@ pub struct SampledCertification<'s> {
     pub verdict: Verdict,
     /// The proof, or what came of it.
     pub outcome: Outcome<SampledProof>,
+    /// At a gain that is given, of a document with noise or a disturbance: a proof whose error box has more room than that of the claim.
+    pub(super) roomy: Option<Box<SampledProof>>,
     /// What was found in floating point, and what limits it.
     pub found: Option<(SampledProposal, SampledLimit)>,
     /// Bounding functions that were neither proved nor refuted.
@@ -186,10 +186,13 @@ pub fn certify_sampled_within<'s>(
     let law = (SampledLaw::new(&data, sampling, &law).to_f64(), law);
     let search = SampledSearch::new(&model, law.0.clone());
     let proposal = proposed(&search, start, gain);
+    let mut roomy = None;
     let (outcome, found) = match (proposal, FloatLimits::new(spec, limits)) {
         (Err(obstacle), _) => (Outcome::NotFound(obstacle), None),
         (Ok(proposal), None) => {
             let proof = round(&data, (sampling, &law.1), (&model, &search), (&proposal, gain), ladder);
+            let is_asked = gain.is_some() && spec.disturbances.any_at_samples();
+            roomy = proof.clone().filter(|proof| is_asked && proof.truth().is_true()).map(Box::new);
             // At a gain that is given the one with which e goes the least far.
             let model = model.with_goal(Goal::Peak);
             let search_peak = SampledSearch::new(&model, law.0.clone());
@@ -219,7 +222,7 @@ pub fn certify_sampled_within<'s>(
         }
     };
     let run = assemble(spec, sampling, gain, (outcome, found), unproved)?;
-    Ok(SampledCertification { limits: limits.clone(), ..run })
+    Ok(SampledCertification { limits: limits.clone(), roomy, ..run })
 }
 
 /// The best proposal at the gain that is given, or at the smallest one; near a known one where there is one.
@@ -351,6 +354,7 @@ fn assemble<'s>(
         verdict: if proved { Verdict::Certified } else { Verdict::Undecided },
         no_plant: no_plant(&data, reach.as_ref().filter(|_| spec.domain.is_none())),
         outcome,
+        roomy: None,
         found,
         unproved_bounds: unproved,
         interval_costs: Vec::new(),

@@ -245,7 +245,7 @@ fn help(obstacle: &Obstacle) -> &'static str {
         Failing::Gain { .. } => "a larger gain, or none: the smallest one is then sought",
         Failing::Limit { .. } => "a larger limit",
         Failing::NotDecidedAgain { .. } => {
-            "narrower intervals or a smaller initial set, of which fewer boxes are to be decided"
+            "a smaller initial set, or narrower intervals where there are some, of which fewer boxes are to be decided"
         }
         Failing::Start { .. } => "a smaller `E0`, or a limit above it",
         Failing::Rate { .. } => "a smaller rate, or fewer oscillators",

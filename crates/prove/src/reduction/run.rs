@@ -225,11 +225,11 @@ impl Run<'_> {
 
     /// Takes the claim back where the independent checker does not come to it.
     pub fn answered(&mut self, checked: Checked) {
-        let reason = match checked {
-            Checked::Decided => return,
-            Checked::GivenUp => Failing::NotDecidedAgain { refused: false },
-            Checked::Refused => Failing::NotDecidedAgain { refused: true },
-        };
+        if checked == Checked::Decided {
+            return;
+        }
+        let sigma = self.certified().map_or(f64::NAN, |claim| claim.sigma.to_f64());
+        let reason = Failing::NotDecidedAgain { refused: checked == Checked::Refused, sigma };
         match self {
             Run::Continuous(run) => run.take_back(reason),
             Run::Sampled(run) => run.take_back(reason),

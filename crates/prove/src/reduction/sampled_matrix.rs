@@ -163,7 +163,7 @@ impl<'a> MatrixAtSamples<'a> {
     pub(super) fn reduce(&self, gain: Option<&Rational>, by_norms: Option<f64>) -> Option<ReducedSampled> {
         if let Some(gain) = gain {
             let at_once = self.scan_at(gain.to_f64()).and_then(|found| self.proved(&found, gain));
-            return at_once.or_else(|| self.from_below(gain));
+            return at_once.or_else(|| self.above_the_least(gain));
         }
         let largest = by_norms.map_or(f64::INFINITY, |sigma| sigma * WORTH).min(self.law.step.recip());
         let from = |start: &At| {
@@ -268,7 +268,7 @@ impl<'a> MatrixAtSamples<'a> {
     }
 
     /// At a gain that is given from what is found at the smallest one, which the inequalities may be followed from.
-    fn from_below(&self, gain: &Rational) -> Option<ReducedSampled> {
+    fn above_the_least(&self, gain: &Rational) -> Option<ReducedSampled> {
         let (sigma, largest) = (gain.to_f64(), self.law.step.recip());
         let from = |start: &At| {
             TARGETS.into_iter().find_map(|target| {

@@ -1,8 +1,7 @@
 //! How much smaller the initial set of a plant may have to be, where no gain is found for the one that is asked for.
 
-use super::run::Ask;
 use super::watch::{Stage, Unwatched, Watch};
-use super::{Prepared, RestsOn, Subject};
+use super::{Ask, Prepared, RestsOn, Subject};
 use crate::certify::{Limits, Options};
 use rug::Rational;
 use sigmastar_lang::spec::{Constant, Document, InitialSet, SIZES};

@@ -77,6 +77,8 @@ pub enum Failing {
     NotDecidedAgain {
         /// Whether it refuses the certificate; else it gives up.
         refused: bool,
+        /// The gain.
+        sigma: f64,
     },
     /// |e| is to stay below less than what it is at the start.
     Start {
@@ -278,19 +280,24 @@ impl Obstacle {
                 "{} {}: {} {}, at the gain {}",
                 which.describe(),
                 short(asked),
-                if proved { "the least for which a proof is found is" } else { "the least that floating point finds is about" },
+                if proved {
+                    "the least for which a proof is found is"
+                } else {
+                    "the least that floating point finds is about"
+                },
                 short(least),
                 short(sigma)
             ),
-            Failing::NotDecidedAgain { refused: false } => {
-                "every condition is proved here, but the independent checker does not decide the certificate within the work that it allows \
-                 itself"
-                    .to_owned()
-            }
-            Failing::NotDecidedAgain { refused: true } => {
-                "every condition is proved here, but the independent checker refuses the certificate: one of the two programs is wrong"
-                    .to_owned()
-            }
+            Failing::NotDecidedAgain { refused: false, sigma } => format!(
+                "every condition is proved here with the gain {}, but the independent checker does not decide the certificate within the work that \
+                 it allows itself",
+                short(sigma)
+            ),
+            Failing::NotDecidedAgain { refused: true, sigma } => format!(
+                "every condition is proved here with the gain {}, but the independent checker refuses the certificate: one of the two programs is \
+                 wrong",
+                short(sigma)
+            ),
             Failing::Start { asked, e0 } => format!(
                 "|e| on the way is to be at most {}, and the initial set has |e| up to E0 = {} at the start: no gain can do that",
                 short(asked),

@@ -34,11 +34,14 @@ const MAX_TERMS: usize = 200;
 /// e^x is neither 0 nor infinite for x up to this.
 const FAR: i64 = 1 << 20;
 
+/// The power series of a function, its derivative of some order, at some precision.
+type Tables = HashMap<(Function, usize, u32), Rc<[Interval]>>;
+
 thread_local! {
     /// B_0, B_1, ..., as far as they have been asked for.
     static BERNOULLI: RefCell<Vec<Rational>> = const { RefCell::new(Vec::new()) };
     /// The power series that have been asked for.
-    static TABLES: RefCell<HashMap<(Function, usize, u32), Rc<[Interval]>>> = RefCell::new(HashMap::new());
+    static TABLES: RefCell<Tables> = RefCell::new(HashMap::new());
 }
 
 /// B_n, from `sum over j <= n of C(n + 1, j) B_j = 0`.
@@ -91,7 +94,7 @@ fn table(function: Function, k: usize, w: u32) -> Rc<[Interval]> {
                 all.push(Interval::rational(&rest, w));
                 break;
             }
-            all.push(Interval::rational(&Rational::from(own / &factorial), w));
+            all.push(Interval::rational(&(own / &factorial), w));
             if function == Function::Exprelr {
                 reach >>= 1;
             }
