@@ -49,7 +49,6 @@ fn states_that_only_add_up_are_named() {
         (&["x"], &["x^2 + e + 1"], 3),
         (&["v", "x"], &["-x + e", "v"], 3),
     ] {
-        let quoted = |sum: &str| sum.replace('v', "'v'").replace('x', "'x'");
         let (code, text) = with(names, f);
         assert!(code == expected && !text.contains("adds up"), "{f:?}: {text}");
     }
