@@ -79,29 +79,33 @@ const ONE: [(&str, One); 22] = [
     ("sinc, order 3", |x, r| rounded(sinc(x, 3), r)),
 ];
 
-/// Bits at which the formulas with a division by x, to some power, keep far more than [`REFERENCE`] of them for the smallest x here.
-const DIVIDED: u32 = 9000;
+/// Bits at which the formulas with a division by x, to some power, keep far more than [`REFERENCE`] of them.
+fn divided(x: &Float, order: usize) -> u32 {
+    let zeros = x.get_exp().map_or(0, |exponent| (-exponent).max(0).unsigned_abs());
+    2 * REFERENCE + 2 * zeros * (order as u32 + 1)
+}
 
 /// A derivative of x/(e^x - 1), from `(e^x - 1) b^(k) = x^(k) - sum over j of C(k, j) e^x b^(k-j)`; beyond the exponents of MPFR its limit,
 /// moved to the side of the rounding.
 fn exprelr(x: &Float, order: usize, round: Round) -> Float {
+    let bits = divided(x, order);
     if x.is_zero() {
-        return Float::with_val(DIVIDED, [12, -6, 2, 0][order]) / 12u32;
+        return Float::with_val(bits, [12, -6, 2, 0][order]) / 12u32;
     }
     if x.clone().abs() > 1e8 {
         let limit = match order {
-            0 if *x < 0 => Float::with_val(DIVIDED, -x),
-            1 if *x < 0 => Float::with_val(DIVIDED, -1),
-            _ => Float::new(DIVIDED),
+            0 if *x < 0 => Float::with_val(bits, -x),
+            1 if *x < 0 => Float::with_val(bits, -1),
+            _ => Float::new(bits),
         };
-        let tiny = Float::with_val(DIVIDED, 1) >> 100_000_000u32;
+        let tiny = Float::with_val(bits, 1) >> 100_000_000u32;
         return if round == Round::Down { limit - tiny } else { limit + tiny };
     }
-    let x = Float::with_val(DIVIDED, x);
+    let x = Float::with_val(bits, x);
     let (exp, less) = (x.clone().exp(), x.clone().exp_m1());
     let mut all: Vec<Float> = Vec::new();
     for k in 0..=order {
-        let own = [x.clone(), Float::with_val(DIVIDED, 1)].into_iter().nth(k).unwrap_or_else(|| Float::new(DIVIDED));
+        let own = [x.clone(), Float::with_val(bits, 1)].into_iter().nth(k).unwrap_or_else(|| Float::new(bits));
         let mut binomial = 1;
         let rest = (1..=k).fold(own, |rest, j| {
             binomial = binomial * (k - j + 1) / j;
@@ -114,10 +118,11 @@ fn exprelr(x: &Float, order: usize, round: Round) -> Float {
 
 /// A derivative of sin(x)/x, from `x s^(k) = (sin x)^(k) - k s^(k-1)`.
 fn sinc(x: &Float, order: usize) -> Float {
+    let bits = divided(x, order);
     if x.is_zero() {
-        return Float::with_val(DIVIDED, [3, 0, -1, 0][order]) / 3u32;
+        return Float::with_val(bits, [3, 0, -1, 0][order]) / 3u32;
     }
-    let (sin, cos) = Float::with_val(DIVIDED, x).sin_cos(Float::new(DIVIDED));
+    let (sin, cos) = Float::with_val(bits, x).sin_cos(Float::new(bits));
     let waves = [sin.clone(), cos.clone(), -sin, -cos];
     (1..=order).fold(waves[0].clone() / x, |before, k| (waves[k].clone() - before * k as u32) / x)
 }

@@ -125,8 +125,15 @@ pub enum OrbitNotProved {
     Shape(&'static str),
     /// The defect could not be enclosed.
     #[error(
-        "f(t,xb,0) or q(t,xb,0) cannot be expanded in t near t/T = {s}: {}",
-        cause.as_ref().map_or_else(|| "an operation there may be undefined or have a corner".to_owned(), ToString::to_string)
+        "{}",
+        cause.as_ref().map_or_else(
+            || {
+                format!(
+                    "f(t,xb,0) or q(t,xb,0) cannot be expanded in t near t/T = {s}: an operation there may be undefined or have a corner"
+                )
+            },
+            |cause| format!("f or q has no value along the orbit x_0(t) that was found: {cause}")
+        )
     )]
     NotSmooth {
         /// Where, in periods.

@@ -49,5 +49,5 @@ pub use prove::{OrbitProof, decide_orbit, decide_second, prove_orbit, prove_orbi
 pub use round::round_orbit;
 pub use sampled::defects_by_parameter;
 pub use series::FloatSeries;
-pub use undefined::Undefined;
+pub use undefined::{Undefined, without_value};
 pub(crate) use undefined::{instead, otherwise};

@@ -8,8 +8,8 @@ use super::failure::OrbitNotProved;
 use super::linear::enclosed;
 use super::members::Members;
 use super::rate::Contraction;
-use super::sampled::{Sampled, doubles};
-use super::undefined::undefined_along;
+use super::sampled::Sampled;
+use super::undefined::without_value;
 use crate::lyapunov::{ProvedTriple, prove_bounds};
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
@@ -224,9 +224,8 @@ impl<'a> Around<'a> {
 /// The same failure with the operation that has no value along the curve, where doubles find one.
 pub(super) fn with_cause(failure: OrbitNotProved, plant: &Plant, orbit: &OrbitCurve) -> OrbitNotProved {
     let OrbitNotProved::NotSmooth { s, .. } = failure else { return failure };
-    let curve = doubles(&orbit.centre);
-    let cause = undefined_along(plant, |s| curve.at(s).0);
-    OrbitNotProved::NotSmooth { s: cause.as_ref().map_or(s, |cause| cause.s), cause: cause.map(Box::new) }
+    let cause = without_value(plant, orbit);
+    OrbitNotProved::NotSmooth { s: cause.as_ref().map_or(s, |cause| cause.s), cause }
 }
 
 /// The proof of an orbit near the curve `orbit`, in these coordinates and with their P.

@@ -1,12 +1,17 @@
 //! Where along a curve an operation of a right side has no value, or is not smooth: the cause to name where a search or a proof meets
 //! it. Doubles look for it, and nothing is claimed by it.
 
+use super::sampled::doubles;
 use super::words::short;
 use sigmastar_lang::expr::{Demand, Evaluator, Formulas, PlantVariable, Program};
 use sigmastar_lang::plant::Plant;
+use sigmastar_lang::spec::OrbitCurve;
 use std::ops::Range;
 use std::sync::Arc;
 use thiserror::Error;
+
+/// What demands that something does not vanish because there is a corner.
+const CORNERS: [&str; 2] = ["the argument of abs", "the two arguments"];
 
 /// Times of a period at which the operations are looked at.
 const TIMES: u32 = 512;
@@ -108,7 +113,9 @@ fn asked(plant: &Plant) -> Vec<Asked> {
     for (index, side) in plant.f.iter().chain([&plant.q]).enumerate() {
         let mut formulas = Formulas::new();
         let (_, demands) = formulas.insert_with_demands(side);
-        for demand in demands {
+        // At a corner there is a value.
+        let corner = |demand: &Demand| CORNERS.iter().any(|start| demand.what.starts_with(start));
+        for demand in demands.into_iter().filter(|demand| !corner(demand)) {
             let variables = formulas.walk(&[demand.of]).all_variables();
             let of_state = (0..plant.states()).any(|j| variables.has(PlantVariable::State(j)));
             let outputs = [demand.of, demand.dividend.unwrap_or(demand.of)];
@@ -117,6 +124,13 @@ fn asked(plant: &Plant) -> Vec<Asked> {
         }
     }
     all
+}
+
+/// The first operation that has no value along a curve, the nominal one of a family.
+#[must_use]
+pub fn without_value(plant: &Plant, curve: &OrbitCurve) -> Option<Box<Undefined>> {
+    let curve = doubles(&curve.centre);
+    undefined_along(plant, |s| curve.at(s).0).map(Box::new)
 }
 
 /// The first operation that has no value at a time of the period and at e = 0, the states being those of a curve of t/T: first among those
@@ -130,7 +144,14 @@ pub(super) fn undefined_along(plant: &Plant, curve: impl Fn(f64) -> Vec<f64>) ->
         let values: Vec<(f64, [f64; 2])> = times.map(|s| (s, asked.at(s, period, &curve(s)))).collect();
         let largest = |which: usize| values.iter().map(|(_, v)| v[which].abs()).fold(0.0, f64::max);
         let nothing = [0, 1].map(|which| NOTHING * largest(which));
-        let fails = |v: f64| v.is_nan() || if asked.demand.positive { v <= 0.0 } else { v.abs() <= nothing[0] };
+        let is_logarithm = asked.demand.what.starts_with("the argument of log");
+        let fails = |v: f64| match asked.demand.positive {
+            _ if v.is_nan() => true,
+            true if is_logarithm => v <= 0.0,
+            // At its edge a root or a power has the value 0.
+            true => v < -nothing[0],
+            false => v.abs() <= nothing[0],
+        };
         let at_time = values.iter().find(|(_, v)| fails(v[0])).map(|(s, _)| *s);
         let crossed = || {
             let pair = values.windows(2).find(|pair| !asked.demand.positive && pair[0].1[0] * pair[1].1[0] < 0.0)?;
@@ -176,6 +197,7 @@ mod tests {
                 true,
             ),
             ("-x + log(cos(phase))", "log(cos(phase))", 0.25, false),
+            ("-x + sqrt(cos(phase))", "sqrt(cos(phase))", 0.25, false),
             ("-x/x", "-x/x", 0.0, true),
         ] {
             let undefined = found(f, 0.0).unwrap_or_else(|| panic!("{f}"));
@@ -184,7 +206,12 @@ mod tests {
             assert_eq!(undefined.states.is_some(), f == "-x/x");
         }
         // Nearly: what does not vanish, and what has it built in.
-        for f in ["-x + 1/(cos(phase) - 1.01)", "-x + exprelr(cos(phase))*sinc(cos(phase))", "-x/(x + 1)"] {
+        for f in [
+            "-x + 1/(cos(phase) - 1.01)",
+            "-x + exprelr(cos(phase))*sinc(cos(phase))",
+            "-x/(x + 1)",
+            "-x + abs(cos(phase)) + sqrt(x)",
+        ] {
             assert_eq!(found(f, 0.0), None, "{f}");
         }
     }

@@ -10,7 +10,8 @@ use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{Bound, OrbitCurve, Parameters, ProvedForcing};
 use sigmastar_plants::bounds::{Engine, FloatCurve, FloatSuprema, Region};
 use sigmastar_plants::orbit::{
-    Coordinates, OrbitFailure, OrbitProof, defects_by_parameter, find_orbit, prove_forcing, prove_orbit_at, round_orbit,
+    Coordinates, OrbitFailure, OrbitNotProved, OrbitProof, defects_by_parameter, find_orbit, prove_forcing,
+    prove_orbit_at, round_orbit, without_value,
 };
 use std::f64::consts::{SQRT_2, TAU};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -69,7 +70,11 @@ impl Cell {
         let region = Region::new(unit.collect(), self.curve.clone(), Rational::new());
         let engine = region.and_then(|region| Engine::new(&self.plant, region, None, None));
         let zero = Rational::new();
-        Ok(engine.map_err(|_| PlantRefusal::Coordinates)?.smooth(&zero, &zero)?)
+        let smooth = engine.map_err(|_| PlantRefusal::Coordinates)?.smooth(&zero, &zero);
+        smooth.map_err(|failure| match without_value(&self.plant, &self.curve) {
+            Some(cause) => PlantRefusal::OrbitNotProved(OrbitNotProved::NotSmooth { s: cause.s, cause: Some(cause) }),
+            None => failure.into(),
+        })
     }
 
     /// How wide the tube is: the largest share of r and of the rests of q of what they are added to, roughly; and the rate in it, which is at
