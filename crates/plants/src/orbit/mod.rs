@@ -45,9 +45,11 @@ pub use curve::MAX_HARMONICS;
 pub use failure::{MAX_STATES, OrbitFailure, OrbitNotProved};
 pub use find::{FloatOrbit, find_orbit};
 pub use forcing::{decide_forcing, prove_forcing};
-pub use prove::{OrbitProof, decide_orbit, decide_second, prove_orbit, prove_orbit_at, prove_orbits, prove_second};
+pub use prove::{
+    OrbitProof, decide_orbit, decide_second, prove_orbit, prove_orbit_at, prove_orbits, prove_second, without_value,
+};
 pub use round::round_orbit;
 pub use sampled::defects_by_parameter;
 pub use series::FloatSeries;
-pub use undefined::{Undefined, without_value};
+pub use undefined::Undefined;
 pub(crate) use undefined::{instead, otherwise};

@@ -8,8 +8,8 @@ use super::failure::OrbitNotProved;
 use super::linear::enclosed;
 use super::members::Members;
 use super::rate::Contraction;
-use super::sampled::Sampled;
-use super::undefined::without_value;
+use super::sampled::{Sampled, doubles};
+use super::undefined::{Undefined, undefined_along};
 use crate::lyapunov::{ProvedTriple, prove_bounds};
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
@@ -219,6 +219,13 @@ impl<'a> Around<'a> {
         }
         Err(last.err().unwrap_or(OrbitNotProved::Shape("P has no finite eigenvalues")))
     }
+}
+
+/// The first operation that has no value along a curve, the nominal one of a family.
+#[must_use]
+pub fn without_value(plant: &Plant, curve: &OrbitCurve) -> Option<Box<Undefined>> {
+    let curve = doubles(&curve.centre);
+    undefined_along(plant, |s| curve.at(s).0).map(Box::new)
 }
 
 /// The same failure with the operation that has no value along the curve, where doubles find one.

@@ -1,11 +1,9 @@
 //! Where along a curve an operation of a right side has no value, or is not smooth: the cause to name where a search or a proof meets
 //! it. Doubles look for it, and nothing is claimed by it.
 
-use super::sampled::doubles;
 use super::words::short;
 use sigmastar_lang::expr::{Demand, Evaluator, Formulas, PlantVariable, Program};
 use sigmastar_lang::plant::Plant;
-use sigmastar_lang::spec::OrbitCurve;
 use std::ops::Range;
 use std::sync::Arc;
 use thiserror::Error;
@@ -124,13 +122,6 @@ fn asked(plant: &Plant) -> Vec<Asked> {
         }
     }
     all
-}
-
-/// The first operation that has no value along a curve, the nominal one of a family.
-#[must_use]
-pub fn without_value(plant: &Plant, curve: &OrbitCurve) -> Option<Box<Undefined>> {
-    let curve = doubles(&curve.centre);
-    undefined_along(plant, |s| curve.at(s).0).map(Box::new)
 }
 
 /// The first operation that has no value at a time of the period and at e = 0, the states being those of a curve of t/T: first among those
