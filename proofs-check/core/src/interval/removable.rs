@@ -28,6 +28,9 @@ enum Function {
     Sinc,
 }
 
+/// By function, order of the derivative, and precision.
+type Tables = HashMap<(Function, usize, u32), Rc<[Interval]>>;
+
 /// The most terms of a power series.
 const MAX_TERMS: usize = 200;
 
