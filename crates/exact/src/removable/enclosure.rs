@@ -28,20 +28,23 @@ fn is_near(x: &Float) -> bool {
     x.get_exp().is_none_or(|exponent| exponent <= 0)
 }
 
-/// `I_last` at a point with |x| < 1. With J terms the rest is `I_(last+J)(xi) x^J/J!`, and `|I_m| <= bound/(m + 1)`.
+/// `I_last` at a point with |x| < 1, by so many terms that nothing is left of the rest.
 fn top(family: Family, x: &Enclosure, last: usize, bound: i64) -> Enclosure {
     let precision = x.precision();
-    let one = Enclosure::one(precision);
     let size = x.abs();
-    // x^J/J!, until nothing is left of it.
     let small = Float::with_val(precision, 1) >> (precision + 8);
     let (mut power, mut terms) = (size.clone(), 1);
     while power.upper() > small && terms < MAX_TERMS {
         terms += 1;
         power = power * &size / terms as i64;
     }
+    with_rest(family, x, last, bound, (terms, power))
+}
+
+/// The same by J terms, with `|x|^J/J!`: the rest is `I_(last+J)(xi) x^J/J!`, and `|I_m| <= bound/(m + 1)`.
+fn with_rest(family: Family, x: &Enclosure, last: usize, bound: i64, (terms, power): (usize, Enclosure)) -> Enclosure {
     let rest = power * bound / (last + terms + 1) as i64;
-    polynomial(family, x, &one, last, terms) + around_zero(&rest)
+    polynomial(family, x, &Enclosure::one(x.precision()), last, terms) + around_zero(&rest)
 }
 
 /// `S_0, ..., S_last` at a point.
@@ -350,6 +353,25 @@ mod tests {
                 assert!(!x.sinc(order).abs().gt(&ratio(1, order as usize + 1, 96)).is_true(), "{step} {order}");
             }
             before = Some(b);
+        }
+    }
+
+    /// Few terms leave a rest that is seen: it is not too small, and not much too large.
+    #[test]
+    fn the_rest_is_what_is_left_out() {
+        for (numerator, last, terms) in (-15..=15).flat_map(|n| (0..20).map(move |i| (n, i % 4, 1 + i / 4))) {
+            let x = ratio(numerator, 16, 200);
+            let power = (1..=terms).fold(Enclosure::one(200), |power, j| power * x.abs() / j as i64);
+            for (family, bound) in [(Family::Exponential, 3), (Family::Wave, 1)] {
+                let found = with_rest(family, &x, last, bound, (terms, power.clone()));
+                let value = top(family, &x, last, bound);
+                assert!(
+                    found.lower() <= value.lower() && value.upper() <= found.upper(),
+                    "{family:?} {numerator} {last} {terms}"
+                );
+                let most = 6.0 * power.upper_f64() + 1e-30;
+                assert!(found.upper_f64() - found.lower_f64() <= most, "{family:?} {numerator} {last} {terms}");
+            }
         }
     }
 
