@@ -366,7 +366,7 @@ mod tests {
                 let found = with_rest(family, &x, last, bound, (terms, power.clone()));
                 let value = top(family, &x, last, bound);
                 assert!(
-                    found.lower() <= value.lower() && value.upper() <= found.upper(),
+                    found.lower() <= value.upper() && value.lower() <= found.upper(),
                     "{family:?} {numerator} {last} {terms}"
                 );
                 let most = 6.0 * power.upper_f64() + 1e-30;
