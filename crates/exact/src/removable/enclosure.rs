@@ -370,7 +370,7 @@ mod tests {
                     "{family:?} {numerator} {last} {terms}"
                 );
                 let most = 6.0 * power.upper_f64() + 1e-30;
-                assert!(found.upper_f64() - found.lower_f64() <= most, "{family:?} {numerator} {last} {terms}");
+                assert!((found.upper() - found.lower()).to_f64() <= most, "{family:?} {numerator} {last} {terms}");
             }
         }
     }
