@@ -36,7 +36,10 @@ fn states_that_only_add_up_are_named() {
     ] {
         let quoted = |sum: &str| sum.replace('v', "'v'").replace('x', "'x'");
         let (code, text) = with(names, f);
-        assert!(code == 3 && text.contains(&format!("no state acts on {}, which only adds up", quoted(sum))), "{f:?}: {text}");
+        assert!(
+            code == 3 && text.contains(&format!("no state acts on {}, which only adds up", quoted(sum))),
+            "{f:?}: {text}"
+        );
         let said = mean.map(|mean| format!("the mean of that over a period is {mean}, not 0"));
         assert_eq!(text.contains("the mean of that"), said.is_some(), "{f:?}: {text}");
         assert!(said.is_none_or(|said| text.contains(&said) && text.contains("stands in q")), "{f:?}: {text}");

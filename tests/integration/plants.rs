@@ -32,7 +32,7 @@ const REFUSED: [(&str, i32, &str); 6] = [
     ("corner", 3, "corner"),
     ("marginal", 3, "Floquet exponents"),
     ("not-periodic", 2, "`sin(t)`: the coefficient of t times the period is not a whole multiple of 2 pi"),
-    ("root", 3, "the argument of sqrt is not positive somewhere"),
+    ("root", 3, "has no value: the argument of sqrt is not positive"),
     ("time-outside", 2, "t stands outside of sin, cos, tan"),
     ("unstable", 3, "no certificate of this kind"),
 ];

@@ -247,7 +247,7 @@ fn other_words_and_fields_in_a_certificate_are_errors() {
 }
 
 #[test]
-fn a_given_gain_is_certified_with_its_margin_or_not_at_all() {
+fn a_given_gain_is_certified_or_not_at_all() {
     let spec = Specification::from_json("plain", AT_REST_TEXT).unwrap();
     let options = Options { compare: false, ..Options::default() };
     let at = |gain: &str| {
@@ -257,7 +257,8 @@ fn a_given_gain_is_certified_with_its_margin_or_not_at_all() {
     let run = at("25");
     assert_eq!(run.sigma_star().unwrap(), &Rational::from(25));
     let margin = run.conditions().iter().find(|condition| condition.id == "C5b").unwrap().relative_margin();
-    assert!(margin > 0.2 && margin < 0.9, "{margin}");
+    // The box with which e goes the least far takes what the gain leaves.
+    assert!(margin > 0.0 && margin < 0.9, "{margin}");
     assert!(run.given_gain.is_some() && run.sensitivities.is_empty() && run.binding.is_none());
     assert_eq!(at("69/5").verdict, Verdict::Undecided);
     assert_eq!(at("1000000").verdict, Verdict::Certified);

@@ -79,7 +79,7 @@ fn its_controller_compiles_and_its_header_says_all_of_it() {
     let header = std::fs::read_to_string(source.with_extension("h")).unwrap();
     let header = header.split_whitespace().filter(|word| *word != "*").collect::<Vec<_>>().join(" ");
     for words in [
-        "a constant load in [1350, 1650]",
+        "a constant 'load' of the file in [1350, 1650]",
         "noise of at most (40/4096) on the measurement of e",
         "counts in what the certificate says of e with n_o = 4",
         "quantisation that it does not name there",

@@ -16,6 +16,9 @@ use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::sharp::{SharpEvaluation, SharpWitness};
 use sigmastar_theory::transfer::TradeOff;
 
+/// How many of the last steps on the way to a gain are starts, in turn, until one leads to a proof.
+const STARTS: usize = 3;
+
 /// The gains over the least one at which the shape of the error box is sought on the way to a larger one.
 const STEPS: [f64; 10] = [1.02, 1.1, 1.3, 1.6, 2.2, 3.0, 5.0, 10.0, 30.0, 100.0];
 
@@ -152,13 +155,14 @@ impl Least {
             return refused(Failing::Gain { given: gain.to_f64(), smallest }.into());
         }
         let is_proved = |found: &(FloatModel, SharpProposal, SharpProof)| found.2.truth().is_true();
-        let peaks = self.along(gain.to_f64(), least).into_iter().chain([*least]).filter_map(|start| {
+        let starts = self.along(gain.to_f64(), least);
+        let mut peaks = starts.into_iter().rev().take(STARTS).chain([*least]).filter_map(|start| {
             let model = model.with_goal(Goal::Peak);
             let found = search_sharp_at(&model, gain.to_f64(), Some(&start)).ok()?;
             let proof = round_sharp(data, &model, &found, (*kind, Some(gain)), options.ladder)?;
             Some((model, found, proof))
         });
-        let mut found: Vec<_> = peaks.chain(known).filter(is_proved).collect();
+        let mut found: Vec<_> = peaks.find(is_proved).into_iter().chain(known).filter(is_proved).collect();
         let threshold = || {
             let found = search_sharp_at(model, gain.to_f64(), Some(least)).ok()?;
             let proof = round_sharp(data, model, &found, (*kind, Some(gain)), options.ladder)?;
@@ -182,14 +186,15 @@ impl Least {
         }
     }
 
-    /// The proposal with the smallest bound of |e| that is reached from the least gain in steps: the shape of the error box changes with the gain,
-    /// and the search for it is local.
-    fn along(&self, gain: f64, least: &SharpProposal) -> Option<SharpProposal> {
+    /// The proposals with the smallest bounds of |e| that are reached from the least gain in steps: the shape of the error box changes with the
+    /// gain, and the search for it is local.
+    fn along(&self, gain: f64, least: &SharpProposal) -> Vec<SharpProposal> {
         let model = self.model.with_goal(Goal::Peak);
-        let gains = STEPS.iter().map(|step| step * least.sigma).take_while(|step| *step < gain);
-        gains.fold(None, |known, step| {
-            search_sharp_at(&model, step, Some(known.as_ref().unwrap_or(least))).ok().or(known)
-        })
+        let mut found: Vec<SharpProposal> = Vec::new();
+        for step in STEPS.iter().map(|step| step * least.sigma).take_while(|step| *step < gain) {
+            found.extend(search_sharp_at(&model, step, Some(found.last().unwrap_or(least))));
+        }
+        found
     }
 
     /// At the smallest gain with which the limits are kept, or at the one that is given.

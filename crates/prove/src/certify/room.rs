@@ -4,9 +4,9 @@
 //! box, and with the same weights C4 holds in every larger box; of either C5 asks for a larger gain.
 
 use super::bounding::prove_up_to;
-use super::certification::Certification;
+use super::certification::{Certification, ExactClaim};
 use super::constants::Columns;
-use super::decide::decide;
+use super::decide::{decide, decide_exact};
 use super::matrix_checks::MatrixChecks;
 use super::no_plant::no_plant;
 use super::options::Ladder;
@@ -91,6 +91,12 @@ impl Certification<'_> {
     /// Puts another proof of the same claim in the place of its own, with the figures that depend on it.
     fn rest_on(&mut self, proof: SharpProof) {
         let reach = proof.decided().reach();
+        // That claim is about the set, which may be another one now.
+        let again = |claim: ExactClaim| {
+            let evaluation = decide_exact(self.spec, &proof.witness.set, &claim.witness, self.options.ladder);
+            evaluation.truth().is_true().then_some(ExactClaim { evaluation, ..claim })
+        };
+        self.exact = self.exact.take().and_then(again);
         let (sharp, repaired) = (Outcome::Proved(Box::new(proof)), self.repaired.take());
         self.checks = MatrixChecks::new(self.spec, sharp.proved(), repaired.as_ref().and_then(Outcome::proved));
         let columns = Columns { sharp, repaired, printed: &self.printed, exact: self.exact.as_ref() };

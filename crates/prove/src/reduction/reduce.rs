@@ -53,7 +53,7 @@ pub enum Beside<'g> {
 }
 
 /// A gain that is given has data of its own where it is not within this share of one of the table.
-const OWN: f64 = 1e-3;
+const OWN: f64 = 1e-2;
 
 impl Beside<'_> {
     /// The gains, where the smallest one is this.

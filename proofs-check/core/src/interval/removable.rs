@@ -37,9 +37,6 @@ const MAX_TERMS: usize = 200;
 /// e^x is neither 0 nor infinite for x up to this.
 const FAR: i64 = 1 << 20;
 
-/// The power series of a function, its derivative of some order, at some precision.
-type Tables = HashMap<(Function, usize, u32), Rc<[Interval]>>;
-
 thread_local! {
     /// B_0, B_1, ..., as far as they have been asked for.
     static BERNOULLI: RefCell<Vec<Rational>> = const { RefCell::new(Vec::new()) };
