@@ -156,13 +156,22 @@ impl Least {
         }
         let is_proved = |found: &(FloatModel, SharpProposal, SharpProof)| found.2.truth().is_true();
         let starts = self.along(gain.to_f64(), least);
-        let mut peaks = starts.into_iter().rev().take(STARTS).chain([*least]).filter_map(|start| {
+        // The claim of a step on the way is about every larger gain, too.
+        let of_a_step = |start: &SharpProposal| {
+            let (model, step) = (model.with_goal(Goal::Peak), Rational::from_f64(start.sigma)?);
+            let proof = round_sharp(data, &model, start, (*kind, Some(&step)), options.ladder)?;
+            let witness = SharpWitness { sigma: gain.clone(), ..proof.witness };
+            let there = SharpProposal { sigma: gain.to_f64(), ..*start };
+            Some((model, there, decide(data.spec, witness, options.ladder)))
+        };
+        let mut peaks = starts.iter().copied().rev().take(STARTS).chain([*least]).filter_map(|start| {
             let model = model.with_goal(Goal::Peak);
             let found = search_sharp_at(&model, gain.to_f64(), Some(&start)).ok()?;
             let proof = round_sharp(data, &model, &found, (*kind, Some(gain)), options.ladder)?;
             Some((model, found, proof))
         });
-        let mut found: Vec<_> = peaks.find(is_proved).into_iter().chain(known).filter(is_proved).collect();
+        let peak = peaks.find(is_proved).or_else(|| starts.iter().rev().filter_map(of_a_step).find(is_proved));
+        let mut found: Vec<_> = peak.into_iter().chain(known).filter(is_proved).collect();
         let threshold = || {
             let found = search_sharp_at(model, gain.to_f64(), Some(least)).ok()?;
             let proof = round_sharp(data, model, &found, (*kind, Some(gain)), options.ladder)?;
