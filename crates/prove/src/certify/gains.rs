@@ -43,8 +43,8 @@ fn row_of(spec: &Specification, proof: SharpProof, other: Option<Arc<Specificati
     }
 }
 
-/// The rows of larger gains than that of a claim: the best that the members of a pool have there, which is what is certified where that gain is
-/// given. One at which nothing is proved has none.
+/// The rows of larger gains than that of a claim: the best that the members of a pool have there; where that gain is given the
+/// pool may have data of its own for it. One at which nothing is proved has none.
 fn larger_rows(own: &Specification, proof: &SharpProof, pool: &[Member<'_>]) -> Vec<GainRow> {
     let reach = proof.decided().reach();
     let row = |tenths: &u32| {
