@@ -160,20 +160,25 @@ fn in_cells(
         };
         let by_matrix = best_by_matrix(&along.coordinates.p, &[Start::from(&chosen)], sampling);
         let by_matrix = by_matrix.and_then(|found| found.proved(sampling, Some(chosen.proposal.sigma)).ok());
-        let smaller = |a: &Proved, b: &Proved| a.reduced.proposal.sigma.total_cmp(&b.reduced.proposal.sigma);
-        let by_matrix = by_matrix.into_iter().chain(far_better).min_by(smaller);
+        let mut by_matrix: Vec<Proved> = by_matrix.into_iter().chain(far_better).collect();
+        by_matrix.sort_by(|a, b| a.gain().total_cmp(&b.gain()));
+        let mut by_matrix = by_matrix.into_iter();
         // What norms prove is above the samples.
         let least = chosen.proposal.sigma;
         let by_norms = || Found { along, chosen, path: None }.proved(sampling, None);
-        let best = match by_matrix {
-            Some(found) if found.reduced.proposal.sigma < least => found,
+        let best = match by_matrix.next() {
+            Some(found) if found.gain() < least => found,
             Some(found) => match by_norms() {
-                Ok(other) if other.reduced.proposal.sigma < found.reduced.proposal.sigma => other,
+                Ok(other) if other.gain() < found.gain() => other,
                 _ => found,
             },
             None => by_norms()?,
         };
-        best.finished(sampling, last)
+        // What is proved at last may do more for the one that is a little behind.
+        let behind = by_matrix.next().filter(|other| other.gain() < NEAR_SAMPLES * best.gain());
+        let best = best.finished(sampling, last)?;
+        let behind = behind.and_then(|other| other.finished(sampling, last).ok());
+        Ok(behind.filter(|other| other.proposal.sigma < best.proposal.sigma).unwrap_or(best))
     })
 }
 
@@ -308,9 +313,13 @@ impl Found {
 }
 
 impl Proved {
+    fn gain(&self) -> f64 {
+        self.reduced.proposal.sigma
+    }
+
     /// Whether the proved gain is near the one that samples promise.
     fn is_near(&self) -> bool {
-        self.reduced.proposal.sigma < NEAR_SAMPLES * self.found.chosen.proposal.sigma
+        self.gain() < NEAR_SAMPLES * self.found.chosen.proposal.sigma
     }
 
     /// With what is proved at last, and what norms and an aligned start would give beside.
