@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 use rug::Rational;
 use rug::ops::Pow;
-use sigmastar_matrix::semidefinite::SolverFailure;
+use sigmastar_propose::semidefinite::SolverFailure;
 use sigmastar_prove::lmi::{
     DecayData, DecayProposal, propose_multipliers, propose_sigma, two_sided_threshold, verify_decay,
 };

@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use sigmastar_lang::expr::{Expr, Variables};
 use sigmastar_lang::spec::Period;
 use sigmastar_lang::spec::model::{Constant, Jacobian, JacobianEntry};
-use sigmastar_plants::lyapunov::{Candidates, LyapunovFailure, candidates, floquet_exponents};
+use sigmastar_propose::lyapunov::{Candidates, LyapunovFailure, candidates, floquet_exponents};
 
 fn constant(text: &str) -> Constant {
     let expr = Expr::parse(text, Variables::None).expect("a constant");
@@ -65,7 +65,7 @@ fn largest_rate(rows: &[Vec<String>]) -> f64 {
     for pair in found.found.windows(2) {
         assert!(pair[0].alpha >= pair[1].alpha && pair[0].ratio > pair[1].ratio);
     }
-    found.prove(&found.found[0]).expect("proved").alpha.to_f64()
+    prove_candidate(&found, &found.found[0]).expect("proved").alpha.to_f64()
 }
 
 proptest! {
@@ -98,7 +98,7 @@ fn jacobians_of_any_size_have_an_answer() {
         let rows = |off: &str| vec![vec![entry.to_owned(), off.to_owned()], vec!["0".to_owned(), entry.to_owned()]];
         for rows in [vec![vec![entry.to_owned()]], rows("0"), rows("1e200")] {
             if let Ok(found) = find(&rows)
-                && let Some(proved) = found.prove(&found.found[0])
+                && let Some(proved) = prove_candidate(&found, &found.found[0])
             {
                 assert!(proved.alpha > 0 && proved.alpha.to_f64() <= -found.floquet[0][0], "{rows:?}");
             }
@@ -106,5 +106,5 @@ fn jacobians_of_any_size_have_an_answer() {
     }
     // The largest that a norm in doubles allows: the rate of a diagonal matrix.
     let found = find(&[vec!["-1e200".to_owned()]]).expect("a candidate");
-    assert!(found.prove(&found.found[0]).is_some_and(|proved| proved.alpha.to_f64() > 0.99e200));
+    assert!(prove_candidate(&found, &found.found[0]).is_some_and(|proved| proved.alpha.to_f64() > 0.99e200));
 }

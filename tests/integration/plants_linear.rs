@@ -9,7 +9,7 @@ use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 use serde_json::{Value, json as value};
 use sigmastar_matrix::AffineMatrix;
-use sigmastar_matrix::semidefinite::propose;
+use sigmastar_propose::semidefinite::propose;
 use std::path::Path;
 use tempfile::TempDir;
 

@@ -7,10 +7,10 @@ use proofs_check::verdict::Verdict;
 use rug::Rational;
 use serde_json::Value;
 use sigmastar::{CertifyOptions, ErrorKind, Subject, certify};
+use sigmastar_decide::bounds::{Engine, Region};
 use sigmastar_lang::expr::{Expr, ProofSettings, Variables, prove_bounding};
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{self, TrigonometricVector};
-use sigmastar_plants::bounds::{Engine, Region};
 
 /// Terms that are defined nowhere; `V` is a variable. One for each way in which an operand may be left out: products with 0,
 /// powers with exponents 0 and 1 and of bases 0 and 1, differences of equals, quotients of equals and of 0, extremes of which one

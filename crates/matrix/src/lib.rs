@@ -5,17 +5,17 @@
 //! - [`affine`]: matrices that are affine in decision variables, exact or in floating point;
 //! - [`ldl`]: exact definiteness of small matrices, and their leading minors;
 //! - [`residual`]: definiteness of larger ones, exactly or within errors;
-//! - [`semidefinite`]: the one call of the solver of semidefinite programs, which proposes.
+//! - [`doubles`]: eigenvalues and products of small matrices in floating point, which propose.
 
 #![deny(missing_docs)]
 // What tests compare with need not be the same on every machine.
 #![cfg_attr(test, allow(clippy::disallowed_methods))]
 
 pub mod affine;
+pub mod doubles;
 mod inverse;
 pub mod ldl;
 pub mod residual;
-pub mod semidefinite;
 pub mod symmetric;
 
 pub use affine::AffineMatrix;

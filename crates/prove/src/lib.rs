@@ -4,6 +4,7 @@
 // What tests compare with need not be the same on every machine.
 #![cfg_attr(test, allow(clippy::disallowed_methods))]
 
+pub mod attempt;
 pub mod certificate;
 pub mod certify;
 pub mod lmi;

@@ -50,8 +50,8 @@ impl Readable for OrbitReport<'_> {
         blocks.push(Block::Detail);
         blocks.push(Block::heading("Candidates (floating point)"));
         let tried = candidates.iter().map(|candidate| {
-            let degree = candidate.p.harmonics.len().to_string();
-            [estimate(candidate.rate), degree, rows_text(&candidate.l).join(" ")]
+            let degree = candidate.coordinates.p.harmonics.len().to_string();
+            [estimate(candidate.rate), degree, rows_text(&candidate.coordinates.l).join(" ")]
         });
         blocks.push(Block::Table(Table::of(&["rate", "degree of P", "<L"], tried)));
         blocks.extend(floquet_section("Along the orbit", floquet));
@@ -69,8 +69,8 @@ impl Readable for OrbitReport<'_> {
         });
         let tried = candidates.iter().map(|candidate| {
             json!({
-                "alpha": estimate(candidate.rate), "degree": candidate.p.harmonics.len(),
-                "coordinates": rows(&candidate.l),
+                "alpha": estimate(candidate.rate), "degree": candidate.coordinates.p.harmonics.len(),
+                "coordinates": rows(&candidate.coordinates.l),
             })
         });
         report["candidates_estimates"] = tried.collect();

@@ -4,8 +4,10 @@
 //! With y := q + (1-b) sigma e + b mu s it is e' = y - sigma e, zeta' = Phi zeta - M y: the plant with gain b is the plant with
 //! gain 1, b mu in the place of mu and q + (1-b) sigma e in that of q.
 
+use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::real::{Operand, Real};
+use sigmastar_lang::plant::Plant;
 
 /// The interval `[b_lo, b_hi]` of an input gain that is not known exactly.
 ///
@@ -96,6 +98,19 @@ where
         let [worst, room] = self.damping(h_over_mu, sigma);
         (room - worst).is_certainly_positive()
     }
+}
+
+/// The 1 - b at both ends of the input gain of a plant, outwards; none where it is 1.
+#[must_use]
+pub fn moves(plant: &Plant, precision: u32) -> Option<[Rational; 2]> {
+    let gain = plant.input_gain.as_ref()?;
+    let one = Rational::from(1);
+    if let (Some([low, high]), false) = (gain.exact_factors(), gain.is_nominal()) {
+        return Some([&one - low, one - high]);
+    }
+    let [low, high] = gain.factors(precision)?;
+    // What is enclosed has bounds.
+    Some([&one - low.lower_rational()?, one - high.upper_rational()?])
 }
 
 #[cfg(test)]

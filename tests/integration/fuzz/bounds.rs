@@ -7,7 +7,8 @@ use rand::RngExt;
 use rand::rngs::StdRng;
 use rug::Rational;
 use sigmastar_lang::spec::Bound;
-use sigmastar_plants::bounds::{Entry, FloatSuprema, TABLE};
+use sigmastar_propose::bounds::FloatSuprema;
+use sigmastar_theory::evidence::{Entry, TABLE};
 
 /// Below a value that is met, and well above what is sampled.
 const BELOW: f64 = -0.001;

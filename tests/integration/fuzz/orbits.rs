@@ -6,11 +6,12 @@ use super::random;
 use crate::support::cases;
 use rand::RngExt;
 use rug::Rational;
+use sigmastar_decide::orbit::{decide_forcing, decide_orbit};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_lang::expr::{Enclosing, Formulas, PlantExpr};
 use sigmastar_lang::spec::{ProvedForcing, TrigonometricVector};
 use sigmastar_matrix::inverse;
-use sigmastar_plants::orbit::{OrbitProof, decide_forcing, decide_orbit};
+use sigmastar_theory::evidence::OrbitProof;
 
 const PRECISION: u32 = 128;
 

@@ -14,11 +14,12 @@ use rand::RngExt;
 use rand::rngs::StdRng;
 use rug::{Float, Rational};
 use serde_json::{Value, json};
+use sigmastar_decide::bounds::{Engine, Region};
 use sigmastar_exact::number::{parse_decimal, write_exact};
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{Bound, PeriodicMatrix, TrigonometricVector};
-use sigmastar_plants::bounds::{Engine, FloatCurve, FloatSuprema, Region};
-use sigmastar_plants::orbit::{Coordinates, OrbitProof};
+use sigmastar_propose::bounds::{FloatCurve, FloatSuprema};
+use sigmastar_theory::evidence::{Coordinates, OrbitProof};
 
 /// Bounds of the P(t) that are drawn, and the sizes of their parts.
 const BETWEEN: [&str; 2] = ["0.65", "1.35"];

@@ -5,11 +5,11 @@ use rand::RngExt;
 use rand::rngs::StdRng;
 use rug::Rational;
 use serde_json::{Value, json};
+use sigmastar_decide::bounds::{Engine, Region};
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{ExistenceInequality, Specification, TrigonometricVector};
 use sigmastar_matrix::AffineMatrix;
-use sigmastar_matrix::semidefinite::propose;
-use sigmastar_plants::bounds::{Engine, Region};
+use sigmastar_propose::semidefinite::propose;
 use std::f64::consts::TAU;
 
 /// Boxes of a decision.

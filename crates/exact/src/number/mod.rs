@@ -15,4 +15,4 @@ pub use bernoulli::bernoulli_over_factorial;
 pub use decimal::positional;
 pub use decimal::{DecimalError, MAX_EXPONENT, MAX_LENGTH, parse_decimal, parse_rational, write_exact};
 pub use portable::Portable;
-pub use short::{Direction, round_f64, round_rational};
+pub use short::{Direction, in_digits, round_f64, round_rational};

@@ -1,5 +1,6 @@
 //! Rounding to short rationals: from floating-point proposals to numbers a certificate can carry.
 
+use super::decimal::write_exact;
 use rug::ops::{DivRounding, Pow};
 use rug::{Integer, Rational};
 
@@ -59,6 +60,12 @@ fn magnitude(value: &Rational) -> i64 {
         }
         m += 1;
     }
+}
+
+/// A number of a message, in so many digits.
+#[must_use]
+pub fn in_digits(value: f64, digits: u32) -> String {
+    round_f64(value, digits, Direction::Nearest).map_or_else(|| value.to_string(), |value| write_exact(&value))
 }
 
 #[cfg(test)]

@@ -6,10 +6,12 @@ use super::random::Random;
 use super::shape::{Factor, Number};
 use nalgebra::DMatrix;
 use rug::Rational;
+use sigmastar_decide::lyapunov::prove;
 use sigmastar_exact::enclosure::{DEFAULT_PRECISION, Enclosure};
 use sigmastar_lang::expr::{Expr, TrigonometricPolynomial, Variables};
 use sigmastar_lang::spec::model::{Constant, Jacobian, JacobianEntry, Lyapunov, LyapunovSource, PeriodicMatrix};
-use sigmastar_plants::lyapunov::{Family, ProvedTriple, prove};
+use sigmastar_theory::evidence::ProvedTriple;
+use sigmastar_theory::jacobian::Family;
 use std::f64::consts::TAU;
 
 /// A drawn Jacobian.

@@ -11,7 +11,7 @@ use crate::rate::sampled::rounding::RoundingWitness;
 use rug::Rational;
 use serde_json::{Value, json};
 use sigmastar_exact::number::write_exact;
-use sigmastar_plants::bounds::{Part, Slopes};
+use sigmastar_theory::evidence::{Part, Slopes};
 
 /// The name of both parts.
 const FOR_N_O: &str = "for_n_o";

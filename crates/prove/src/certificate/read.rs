@@ -10,9 +10,9 @@ use sigmastar_lang::spec::{
     Actuator, Document, ErrorKind, Errors, InputGain, Object, Parameters, Reported, SpecErrors, Value, read_actuator,
     read_input_gain, read_parameters,
 };
-use sigmastar_plants::lyapunov::{ProvedTriple, ProvedTriples};
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
 use sigmastar_theory::derivation::sharp::SharpWitness;
+use sigmastar_theory::evidence::{ProvedTriple, ProvedTriples};
 use sigmastar_theory::transfer::{BoxProof, TransferProof};
 
 /// Reads the claim's numbers and the witness of a certificate file. Everything else in it (the embedded

@@ -2,14 +2,16 @@
 //! proved, or given and decided again.
 
 use super::refusal::Refusal;
+use crate::attempt::first_proved;
 use crate::search::{FloatModel, SharpProposal, search_sharp, search_sharp_near};
 use rug::Rational;
+use sigmastar_decide::lyapunov::{NotProved, prove};
 use sigmastar_exact::enclosure::MAX_PRECISION;
 use sigmastar_lang::spec::model::{Jacobian, LyapunovSource, Specification};
-use sigmastar_plants::lyapunov::{
-    Candidate, Candidates, Family, LyapunovFailure, NotProved, ProvedTriple, ProvedTriples, candidates, prove,
-};
+use sigmastar_propose::lyapunov::{Candidate, Candidates, LyapunovFailure, candidates};
 use sigmastar_theory::data::Data;
+use sigmastar_theory::evidence::{ProvedTriple, ProvedTriples};
+use sigmastar_theory::jacobian::Family;
 use sigmastar_theory::transfer::TradeOff;
 use std::borrow::Cow;
 
@@ -105,7 +107,7 @@ pub fn resolve(spec: &Specification) -> Option<Result<Resolution, LyapunovFailur
         let mut order: Vec<usize> = (0..sigmas.len()).collect();
         // Stable: where no sigma* is found, the largest rate comes first.
         order.sort_by(|a, b| rank(a).total_cmp(&rank(b)));
-        let stability = candidates.first_proved(order.iter().map(|at| &candidates.found[*at]))?;
+        let stability = first_proved(&candidates, order.iter().map(|at| &candidates.found[*at]))?;
         let existence = start.and_then(|known| for_existence(&model, &candidates, &stability, &known));
         let triples = ProvedTriples { stability, existence };
         Ok(Resolution { spec: carrying(spec, &triples), candidates, sigmas, searches })
@@ -134,7 +136,7 @@ fn for_existence(
         candidates.found.iter().map(|candidate| (sigma(&candidate), candidate)).collect();
     better.retain(|(sigma, _)| *sigma < alone.sigma * (1.0 - WORTH));
     better.sort_by(|a, b| a.0.total_cmp(&b.0));
-    candidates.first_proved(better.into_iter().map(|(_, candidate)| candidate)).ok()
+    first_proved(&candidates, better.into_iter().map(|(_, candidate)| candidate)).ok()
 }
 
 /// A specification with a Lyapunov triple: as it is, or with those of its Jacobian, which are `given` or found, and proved.

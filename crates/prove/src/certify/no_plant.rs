@@ -18,8 +18,8 @@ use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, Portable, round_f64, round_rational, write_exact};
 use sigmastar_lang::expr::Expr;
 use sigmastar_lang::spec::model::{Jacobian, JacobianEntry};
-use sigmastar_plants::lyapunov::Family;
 use sigmastar_theory::data::{Bound, Data, Problem};
+use sigmastar_theory::jacobian::Family;
 use std::fmt;
 
 /// Digits of the X that is named.

@@ -11,9 +11,9 @@ use crate::rate::sampled::bound as at_samples;
 use rug::Rational;
 use sigmastar_exact::parallel;
 use sigmastar_lang::spec::Specification;
-use sigmastar_plants::bounds::Slopes;
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::sampled::matrix_inequality;
+use sigmastar_theory::evidence::Slopes;
 
 type Rates = Vec<(u32, Option<Rational>)>;
 

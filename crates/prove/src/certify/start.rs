@@ -1,7 +1,7 @@
 //! Whether a simulation of a plant starts far outside of a certified set. Floating point: no claim rests on it.
 
 use rug::Rational;
-use sigmastar_exact::number::{Direction, round_f64, write_exact};
+use sigmastar_exact::number::in_digits;
 use sigmastar_lang::plant::Initial;
 use sigmastar_lang::spec::OfPlant;
 use sigmastar_matrix::inverse;
@@ -81,7 +81,7 @@ impl FarStart {
 
 /// Four digits.
 fn short(value: f64) -> String {
-    round_f64(value, 4, Direction::Nearest).map_or_else(|| value.to_string(), |value| write_exact(&value))
+    in_digits(value, 4)
 }
 
 #[cfg(test)]

@@ -2,8 +2,8 @@
 
 use rug::Rational;
 use sigmastar_exact::number::{Direction, round_f64};
-use sigmastar_matrix::semidefinite::{SolverFailure, margin, propose};
 use sigmastar_matrix::{AffineMatrix, is_positive_definite};
+use sigmastar_propose::semidefinite::{SolverFailure, margin, propose};
 
 /// Digits of proposed weights.
 const DIGITS: u32 = 12;

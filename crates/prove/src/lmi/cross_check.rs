@@ -6,7 +6,7 @@ use super::propose::{propose_multipliers, propose_sigma, two_sided_threshold};
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, round_f64};
-use sigmastar_matrix::semidefinite::SolverFailure;
+use sigmastar_propose::semidefinite::SolverFailure;
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::initial_set::claimed_distances;
 use sigmastar_theory::derivation::sharp::{SharpEvaluation, SharpWitness};

@@ -4,7 +4,7 @@ use super::decay::DecayData;
 use super::propose::{MARGIN, Scale};
 use rug::Rational;
 use sigmastar_matrix::AffineMatrix;
-use sigmastar_matrix::semidefinite::{SolverFailure, propose};
+use sigmastar_propose::semidefinite::{SolverFailure, propose};
 
 /// The numbers of C4, `w_x P_up dX^2 + dE^2 + h dZ^2 < min{w_x P_low D_x^2, D_e^2}`, in doubles.
 #[derive(Clone, Copy, Debug, PartialEq)]

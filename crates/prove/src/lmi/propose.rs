@@ -2,7 +2,7 @@
 
 use super::decay::DecayData;
 use rug::Rational;
-use sigmastar_matrix::semidefinite::{SolverFailure, propose};
+use sigmastar_propose::semidefinite::{SolverFailure, propose};
 use sigmastar_theory::derivation::stability::{DecayTerms, Sector};
 
 /// What the solver proposes for C5.

@@ -14,9 +14,9 @@ use faer::{Mat, Side};
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, Portable, round_f64, round_rational};
-use sigmastar_plants::bounds::Slopes;
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::stability::ErrorBox;
+use sigmastar_theory::evidence::Slopes;
 
 /// The largest number of oscillators of which a certificate has a rate.
 pub const MAX_OSCILLATORS: u32 = 50;

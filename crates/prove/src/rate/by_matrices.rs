@@ -11,13 +11,16 @@ use super::matrix_loop::{KnownSlopes, MatrixLoop, Multipliers};
 use super::riccati::in_digits;
 use super::slopes_program::SampledSlopes;
 use super::small_gain::Limit;
+use crate::attempt::prove_slopes;
 use faer::linalg::solvers::DenseSolveCore;
 use faer::{Mat, Side};
 use rug::Rational;
+use sigmastar_decide::bounds::Engine;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, Portable, round_f64};
-use sigmastar_plants::bounds::{Engine, FloatSlopes, FloatSuprema, Part, Slopes};
+use sigmastar_propose::bounds::{FloatSlopes, FloatSuprema};
 use sigmastar_theory::data::Data;
+use sigmastar_theory::evidence::{Part, Slopes};
 
 /// By what share the diagonal bounds of Pi may differ from the best ones.
 const ROOM: f64 = 1e-3;
@@ -112,7 +115,7 @@ impl<'a> Kind<'a> {
     }
 
     fn prove(&self, tube: &Tube<'_>, balls: &[FloatSlopes]) -> Option<Vec<Slopes>> {
-        balls.iter().zip(&self.parts).map(|(ball, (_, at))| tube.engine.prove_slopes(ball, *at)).collect()
+        balls.iter().zip(&self.parts).map(|(ball, (_, at))| prove_slopes(&tube.engine, ball, *at)).collect()
     }
 }
 

@@ -5,9 +5,10 @@ use super::matrix_loop::{KnownSlopes, MatrixLoop, Multipliers};
 use faer::linalg::solvers::{DenseSolveCore, Llt};
 use faer::{Mat, Side};
 use sigmastar_exact::enclosure::Enclosure;
-use sigmastar_matrix::semidefinite::propose;
 use sigmastar_matrix::{AffineMatrix, Symmetric};
-use sigmastar_plants::bounds::{FloatSlopes, FloatSuprema, Part};
+use sigmastar_propose::bounds::{FloatSlopes, FloatSuprema};
+use sigmastar_propose::semidefinite::propose;
+use sigmastar_theory::evidence::Part;
 use std::ops::Range;
 
 /// Points that are added where what was found does not hold, and how often.

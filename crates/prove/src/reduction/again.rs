@@ -6,12 +6,13 @@ use super::entries::decide_all;
 use super::proofs::{Along, ProvenCell};
 use super::refusal::{MAX_STATES, PlantRefusal};
 use rug::Rational;
+use sigmastar_decide::orbit::{decide_forcing, decide_orbit, decide_second};
 use sigmastar_exact::parallel;
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::model::Constant;
 use sigmastar_lang::spec::{OfPlant, Parameters, ProvedCell, ProvedOrbit, ProvedValues, Specification};
-use sigmastar_plants::lyapunov::ProvedTriple;
-use sigmastar_plants::orbit::{Coordinates, OrbitProof, decide_forcing, decide_orbit, decide_second};
+use sigmastar_theory::evidence::ProvedTriple;
+use sigmastar_theory::evidence::{Coordinates, OrbitProof};
 
 /// Proves again what a certificate says of a plant, without any search.
 ///
@@ -33,7 +34,7 @@ pub fn decide_again(plant: &Plant, of_plant: OfPlant, values: ProvedValues) -> R
     if !covers(&boxes, &plant.parameters) {
         return Err(PlantRefusal::Uncovered { cells: boxes.len() });
     }
-    let coordinates = Coordinates { l: of_plant.coordinates.clone(), p: of_plant.matrix.clone(), rate: f64::NAN };
+    let coordinates = Coordinates { l: of_plant.coordinates.clone(), p: of_plant.matrix.clone() };
     let rational = |constant: &Constant| constant.as_rational().cloned().unwrap_or_default();
     let [alpha, p_low, p_up] = [&of_plant.triple.alpha, &of_plant.triple.p_low, &of_plant.triple.p_up].map(rational);
     let second = of_plant.existence.as_deref().map(|(triple, matrix)| {

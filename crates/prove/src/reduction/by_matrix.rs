@@ -10,7 +10,8 @@ use nalgebra::DMatrix;
 use sigmastar_exact::number::Portable;
 use sigmastar_exact::parallel;
 use sigmastar_lang::spec::Bound;
-use sigmastar_plants::bounds::{Asked, FloatWeights, MatrixArguments, TABLE};
+use sigmastar_propose::bounds::{Asked, FloatWeights, MatrixArguments};
+use sigmastar_theory::evidence::TABLE;
 
 /// How many descents there are at most, and by what share one has to lower the gain for another one.
 const MOST_TURNS: usize = 10;

@@ -3,16 +3,17 @@
 
 use super::refusal::PlantRefusal;
 use super::watch::Watch;
+use crate::attempt::{prove_forcing, prove_orbit_at, without_value};
 use rug::Rational;
+use sigmastar_decide::bounds::{Engine, Region};
+use sigmastar_decide::orbit::OrbitNotProved;
 use sigmastar_exact::number::{Direction, Portable, round_f64, write_exact};
 use sigmastar_exact::parallel;
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{Bound, OrbitCurve, Parameters, ProvedForcing};
-use sigmastar_plants::bounds::{Engine, FloatCurve, FloatSuprema, Region};
-use sigmastar_plants::orbit::{
-    Coordinates, OrbitFailure, OrbitNotProved, OrbitProof, defects_by_parameter, find_orbit, prove_forcing,
-    prove_orbit_at, round_orbit, without_value,
-};
+use sigmastar_propose::bounds::{FloatCurve, FloatSuprema};
+use sigmastar_propose::orbit::{OrbitFailure, defects_by_parameter, find_orbit, round_orbit};
+use sigmastar_theory::evidence::{Coordinates, OrbitProof};
 use std::f64::consts::{SQRT_2, TAU};
 use std::sync::atomic::{AtomicUsize, Ordering};
 

@@ -7,15 +7,16 @@ use super::proofs::{Along, Near, ProvenCell, along};
 use super::refusal::PlantRefusal;
 use super::sampling::{Sampling, float_matrix, rational_matrix, rational_symmetric};
 use super::watch::Stage;
+use crate::attempt::{prove_orbits, prove_second};
 use crate::search::Obstacle;
 use nalgebra::DMatrix;
 use rug::Rational;
 use sigmastar_exact::parallel;
 use sigmastar_lang::spec::PeriodicMatrix;
-use sigmastar_plants::bounds::Asked;
-use sigmastar_plants::lyapunov::ProvedTriple;
-use sigmastar_plants::orbit::{Coordinates, prove_orbits, prove_second};
+use sigmastar_propose::bounds::Asked;
 use sigmastar_theory::derivation::paths::Path;
+use sigmastar_theory::evidence::Coordinates;
+use sigmastar_theory::evidence::ProvedTriple;
 
 /// What those candidates with a constant P promise by norms, and that P.
 pub(super) fn starts(
@@ -65,7 +66,7 @@ pub(super) fn with_constant(
     let chosen = with_search(sampling, by_matrix, choose).map_err(PlantRefusal::NoGain)?;
     let at_origin = |l: &DMatrix<f64>| sampling.estimates(l, [None; 2], &Density::Rough).bounds(0.0, 0.0, Asked::ALL);
     let l = rational_matrix(&sampling.turned(&chosen.l), at_origin).ok_or(PlantRefusal::NoContraction)?;
-    let coordinates = Coordinates { l, p: p.clone(), rate: f64::NAN };
+    let coordinates = Coordinates { l, p: p.clone() };
     let mut base = along_cells(sampling.cells, &coordinates)?;
     // The rounded L, which is L times a rotation, is the one that counts.
     let rounded = float_matrix(&coordinates.l);
@@ -75,7 +76,7 @@ pub(super) fn with_constant(
         rational_symmetric(&(rotation.transpose() * second * rotation))
     };
     if let Some(p) = chosen.second.as_ref().and_then(turned) {
-        let with_second = Coordinates { l: coordinates.l.clone(), p, rate: f64::NAN };
+        let with_second = Coordinates { l: coordinates.l.clone(), p };
         // Without a proof the P of stability serves.
         let of_one = |(cell, proven): (&Cell, &ProvenCell)| prove_second(&cell.plant, &proven.orbit, &with_second).ok();
         let cells: Vec<_> = sampling.cells.list.iter().zip(&base.cells).collect();

@@ -14,7 +14,7 @@ use nalgebra::{DMatrix, SymmetricEigen};
 use sigmastar_exact::number::Portable;
 use sigmastar_exact::parallel;
 use sigmastar_lang::spec::PeriodicMatrix;
-use sigmastar_plants::bounds::{Asked, EnergyAt, EnergyWeights, FloatWeights, Focus};
+use sigmastar_propose::bounds::{Asked, EnergyAt, EnergyWeights, FloatWeights, Focus};
 use sigmastar_theory::derivation::harmonics::AtOrigin;
 use sigmastar_theory::derivation::paths::Path;
 use std::sync::{Arc, Mutex, PoisonError};

@@ -2,8 +2,10 @@
 
 use super::refusal::PlantRefusal;
 use super::watch::{Stage, Watch};
+use crate::attempt::{prove_existence, prove_inequality, prove_sampled_existence, prove_value};
 use crate::search::{AtSigma, ByEnergy, ByMatrix, FloatModel, PeriodicSet, SHARE, active_level, weight_h};
 use rug::Rational;
+use sigmastar_decide::bounds::Engine;
 use sigmastar_exact::enclosure::Truth;
 use sigmastar_exact::number::{Direction, Portable, round_f64};
 use sigmastar_exact::parallel;
@@ -11,8 +13,9 @@ use sigmastar_lang::spec::{
     Bound, Constant, ExistenceInequality, JointInequality, MatrixInequality, ProvedValue, ProvedValues,
     SampledExistence, SampledInequalities, SampledInequality, Splitting,
 };
-use sigmastar_plants::bounds::{EnergyWeights, Engine, Entry, FloatSuprema, TABLE};
+use sigmastar_propose::bounds::{EnergyWeights, FloatSuprema};
 use sigmastar_theory::derivation::paths::{Path, Paths};
+use sigmastar_theory::evidence::{Entry, TABLE};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Significant digits of an argument.
@@ -220,7 +223,7 @@ pub(super) fn prove_all(
         None => Ok(None),
         Some(wanted) => {
             let mut failed = tried.load(Ordering::Relaxed);
-            let proved = engine.prove_inequality(suprema, wanted, mu, &mut failed);
+            let proved = prove_inequality(&engine, suprema, wanted, mu, &mut failed);
             tried.store(failed, Ordering::Relaxed);
             proved.map(Some).ok_or_else(|| not_proved("stability", [&wanted.x, &wanted.e]))
         }
@@ -228,7 +231,7 @@ pub(super) fn prove_all(
     let existence = || match &needed.existence {
         None => Ok(None),
         Some(wanted) => {
-            let proved = engine.prove_existence(suprema, wanted);
+            let proved = prove_existence(&engine, suprema, wanted);
             proved.map(Some).ok_or_else(|| not_proved("existence", [&wanted.x, &wanted.e]))
         }
     };
@@ -264,7 +267,7 @@ fn prove_at_samples(
     let existence = match existence {
         None => None,
         Some(wanted) => {
-            let proved = engine.prove_sampled_existence(suprema, wanted);
+            let proved = prove_sampled_existence(&engine, suprema, wanted);
             Some(proved.ok_or_else(|| not_proved("existence", [&wanted.x, &wanted.e]))?)
         }
     };
@@ -280,7 +283,7 @@ fn value_of(
 ) -> Result<ProvedValue, PlantRefusal> {
     let stateless = engine.states() == 0;
     let refusal = || PlantRefusal::NotProved { bound: bound.field(), at: [x.to_f64(), e.to_f64()] };
-    let (value, sampled) = match engine.prove_value(suprema, bound, &x, &e) {
+    let (value, sampled) = match prove_value(&engine, suprema, bound, &x, &e) {
         Some(proved) => (proved.value, Rational::from_f64(proved.sampled)),
         // Without states every rate is as good as any other, and the checker asks for none.
         None if bound.is_rate() && stateless => (Rational::from(1), None),

@@ -1,7 +1,7 @@
 //! Sampled estimates in given coordinates.
 
 use super::grid::{RATE, Values};
-use sigmastar_plants::bounds::{
+use sigmastar_propose::bounds::{
     Asked, Corners, EnergyAt, EnergyWeights, FloatSuprema, FloatWeights, Focus, MatrixArguments,
 };
 

@@ -4,7 +4,8 @@
 use crate::search::FloatBound;
 use sigmastar_exact::number::Portable;
 use sigmastar_lang::spec::Bound;
-use sigmastar_plants::bounds::{Asked, TABLE};
+use sigmastar_propose::bounds::Asked;
+use sigmastar_theory::evidence::TABLE;
 use std::sync::{Arc, OnceLock};
 
 /// The place of the rate in [`TABLE`].

@@ -11,7 +11,7 @@ use crate::search::{
 use rug::Rational;
 use sigmastar_exact::number::{Direction, Portable, round_f64};
 use sigmastar_lang::spec::{JointInequality, JointStability, Level, Metric, ProvedValues};
-use sigmastar_plants::bounds::{FloatLevel, FloatMetric, LevelAsked, LookedAt, Place};
+use sigmastar_propose::bounds::{FloatLevel, FloatMetric, LevelAsked, LookedAt, Place};
 use sigmastar_theory::derivation::harmonics::AtOrigin;
 use std::cell::RefCell;
 use std::sync::Arc;

@@ -8,9 +8,11 @@ use super::sampling::{Sampling, float_matrix};
 use super::specification::specification;
 use super::tube::TubeOfFamily;
 use super::watch::Watch;
+use crate::attempt::{prove_forcing, prove_orbits};
 use crate::certify::Alternatives;
 use crate::search::{FloatModel, SharpProposal};
 use rug::Rational;
+use sigmastar_decide::bounds::{Engine, Region};
 use sigmastar_exact::parallel;
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::model::{Constant, Lyapunov};
@@ -18,11 +20,11 @@ use sigmastar_lang::spec::{
     OfPlant, OrbitCurve, Parameters, PeriodicMatrix, ProvedCell, ProvedForcing, ProvedOrbit, ProvedValues,
     Specification,
 };
-use sigmastar_plants::bounds::{Engine, FloatCurve, FloatSuprema, Region};
-use sigmastar_plants::lyapunov::ProvedTriple;
-use sigmastar_plants::orbit::{Coordinates, OrbitProof, prove_forcing, prove_orbits};
+use sigmastar_propose::bounds::{FloatCurve, FloatSuprema};
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::paths::Path;
+use sigmastar_theory::evidence::ProvedTriple;
+use sigmastar_theory::evidence::{Coordinates, OrbitProof};
 use sigmastar_theory::transfer::TradeOff;
 use std::sync::atomic::AtomicUsize;
 
@@ -165,7 +167,7 @@ fn engine_around<'c>(
 pub fn bounds_around(plant: &Plant, of_plant: &OfPlant) -> Result<(Engine, FloatSuprema), PlantRefusal> {
     let OfPlant { coordinates, cells, matrix, existence, .. } = of_plant;
     let second = existence.as_ref().map(|second| &second.1);
-    let coordinates = Coordinates { l: coordinates.clone(), p: matrix.clone(), rate: f64::NAN };
+    let coordinates = Coordinates { l: coordinates.clone(), p: matrix.clone() };
     let around = cells.iter().map(|cell| (&cell.parameters, &cell.orbit.approximation, &cell.orbit.radius));
     let engine = engine_around(plant, &coordinates, around, second.cloned())?;
     let rows = coordinates.l.iter().map(|row| row.iter().map(Rational::to_f64).collect()).collect();

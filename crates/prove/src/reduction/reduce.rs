@@ -15,9 +15,11 @@ use rug::Rational;
 use sigmastar_exact::parallel;
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{PeriodicMatrix, ProvedValues};
-use sigmastar_plants::orbit::{self, Coordinates, FloatOrbit, find_orbit, propose_coordinates, round_orbit};
+use sigmastar_propose::orbit;
+use sigmastar_propose::orbit::{FloatOrbit, find_orbit, propose_coordinates, round_orbit};
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::paths::Path;
+use sigmastar_theory::evidence::Coordinates;
 
 /// A gain that in a period does no more than this needs not be smaller.
 const AS_GOOD_AS_NONE: f64 = 1e-6;
@@ -243,6 +245,7 @@ pub(super) fn with_candidates<T>(
 fn with_whole(plant: &Plant, watch: &dyn Watch) -> Result<(Cell, Vec<Coordinates>), PlantRefusal> {
     let (whole, found) = whole(plant, watch)?;
     let candidates = propose_coordinates(plant, &found, 0.0, 0.0).map_err(PlantRefusal::NoOrbit)?;
+    let candidates: Vec<Coordinates> = candidates.into_iter().map(|rated| rated.coordinates).collect();
     if candidates.is_empty() { Err(PlantRefusal::NoContraction) } else { Ok((whole, candidates)) }
 }
 

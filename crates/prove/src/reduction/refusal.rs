@@ -2,10 +2,11 @@
 
 use super::shrunk::INITIAL_SET;
 use crate::search::{Failing, Obstacle};
+use sigmastar_decide::bounds::SmoothnessFailure;
+use sigmastar_decide::orbit::OrbitNotProved;
 use sigmastar_lang::plant::{PeriodicityFailure, Plant};
 use sigmastar_lang::spec::{ErrorKind, InitialSet, SpecErrors};
-use sigmastar_plants::bounds::SmoothnessFailure;
-use sigmastar_plants::orbit::{OrbitFailure, OrbitNotProved};
+use sigmastar_propose::orbit::OrbitFailure;
 use sigmastar_theory::data::Bound;
 use std::ops::Range;
 

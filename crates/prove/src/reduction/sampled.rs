@@ -15,10 +15,10 @@ use crate::search::{Failing, SampledSearch};
 use rug::Rational;
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{self, PeriodicMatrix, ProvedValues, Specification};
-use sigmastar_plants::orbit::Coordinates;
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::paths::Path;
 use sigmastar_theory::derivation::sampled::{SampledLaw, sampled_trade_off};
+use sigmastar_theory::evidence::Coordinates;
 use std::sync::OnceLock;
 
 /// How much further the bounds are proved where these arguments were too small for a gain that is given: it cannot become larger

@@ -20,10 +20,11 @@ use sigmastar_lang::spec::{
     self, PeriodicMatrix, ProvedValues, SampledExistence, SampledGain, SampledInequalities, SampledInequality,
     SampledLoop,
 };
-use sigmastar_plants::bounds::{FloatSuprema, LoopNumbers, Places, SampledEnergy, SampledWeights};
+use sigmastar_propose::bounds::{FloatSuprema, Places, SampledEnergy, SampledWeights};
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::paths::Path;
 use sigmastar_theory::derivation::sampled::{SampledEnergyNumbers, SampledLaw, sampled_trade_off};
+use sigmastar_theory::derivation::sampled_form::LoopNumbers;
 use std::sync::Arc;
 
 /// How much larger the next gain of the scan is, how many there are at most, and the steps of the bisection after it.

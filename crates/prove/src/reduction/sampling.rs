@@ -12,8 +12,9 @@ use sigmastar_exact::number::{Direction, round_f64};
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::model::Constant;
 use sigmastar_lang::spec::{Bound, PeriodicMatrix};
-use sigmastar_plants::bounds::{Asked, FloatSuprema, Focus, Places, TABLE};
-use sigmastar_plants::orbit::lower_triangular;
+use sigmastar_propose::bounds::{Asked, FloatSuprema, Focus, Places};
+use sigmastar_propose::orbit::lower_triangular;
+use sigmastar_theory::evidence::TABLE;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Significant digits of a P of existence.

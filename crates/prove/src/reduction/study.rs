@@ -1,10 +1,10 @@
 //! The zero dynamics of a plant by themselves: the orbit, and in which coordinates they contract along it.
 
 use super::refusal::{MAX_STATES, PlantRefusal};
+use crate::attempt::prove_orbit;
 use sigmastar_lang::plant::Plant;
-use sigmastar_plants::orbit::{
-    Coordinates, OrbitFailure, OrbitProof, find_orbit, propose_coordinates, prove_orbit, round_orbit,
-};
+use sigmastar_propose::orbit::{OrbitFailure, Rated, find_orbit, propose_coordinates, round_orbit};
+use sigmastar_theory::evidence::{Coordinates, OrbitProof};
 
 /// What was found and proved of the zero dynamics `x' = f(t,x,0)`.
 #[derive(Clone, Debug)]
@@ -14,7 +14,7 @@ pub struct OrbitStudy {
     /// The orbit, with the rate along it.
     pub orbit: OrbitProof,
     /// What was tried, the largest rate first; floating point.
-    pub candidates: Vec<Coordinates>,
+    pub candidates: Vec<Rated>,
     /// Floquet exponents along the orbit (real and imaginary part, in 1/time); floating point.
     pub floquet: Vec<[f64; 2]>,
 }
@@ -36,7 +36,7 @@ pub fn study(plant: &Plant) -> Result<OrbitStudy, PlantRefusal> {
     let mut candidates = propose_coordinates(plant, &found, 0.0, 0.0).map_err(PlantRefusal::NoOrbit)?;
     candidates.sort_by(|a, b| b.rate.total_cmp(&a.rate));
     let mut refusal = PlantRefusal::NoContraction;
-    for coordinates in &candidates {
+    for Rated { coordinates, .. } in &candidates {
         match prove_orbit(plant, &curve, coordinates) {
             Ok(orbit) => {
                 let coordinates = coordinates.clone();

@@ -1,6 +1,6 @@
 //! The values in certificates of the shipped plants, against random points.
 
-#[path = "../../../plants/src/bounds/tests/random_points.rs"]
+#[path = "../attempt/bound_tests/random_points.rs"]
 mod random_points;
 
 use super::closer::closer;

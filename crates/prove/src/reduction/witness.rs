@@ -3,8 +3,8 @@
 use super::{PlantRefusal, Subject, decide_again};
 use crate::certify::{GivenWitness, with_triple};
 use sigmastar_lang::spec::{ErrorKind, OfPlant, ProvedValues, Sampling, SpecErrors, Specification};
-use sigmastar_plants::lyapunov::ProvedTriples;
 use sigmastar_theory::derivation::sampled::SampledWitness;
+use sigmastar_theory::evidence::ProvedTriples;
 
 /// The witness of a certificate.
 #[derive(Clone, Debug)]

@@ -3,7 +3,7 @@
 use super::obstacle::Failing;
 use rug::Rational;
 use sigmastar_lang::spec::{ExistenceInequality, JointInequality};
-use sigmastar_plants::bounds::EnergyWeights;
+use sigmastar_propose::bounds::EnergyWeights;
 use sigmastar_theory::derivation::energy::{EnergyBounds, EnergyNumbers, MetricNumbers};
 use sigmastar_theory::derivation::harmonics::AtOrigin;
 use std::sync::Arc;

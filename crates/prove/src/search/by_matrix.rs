@@ -6,7 +6,7 @@ use super::obstacle::{Failing, Obstacle};
 use super::threshold::{ByMatrix, EDGE};
 use rug::Rational;
 use sigmastar_lang::spec::JointStability;
-use sigmastar_plants::bounds::FloatWeights;
+use sigmastar_propose::bounds::FloatWeights;
 use sigmastar_theory::derivation::joint;
 use sigmastar_theory::derivation::paths::{Path, Paths};
 

@@ -1,7 +1,7 @@
 //! What stands in the way of a candidate: what failed, and where.
 
 use super::binding::Binding;
-use sigmastar_exact::number::{Direction, round_f64, write_exact};
+use sigmastar_exact::number::in_digits;
 use sigmastar_theory::data::Bound;
 
 /// What failed.
@@ -330,7 +330,7 @@ impl Obstacle {
 
 /// Four digits.
 fn short(value: f64) -> String {
-    round_f64(value, 4, Direction::Nearest).map_or_else(|| value.to_string(), |value| write_exact(&value))
+    in_digits(value, 4)
 }
 
 /// The obstacle of the candidate that came closest: only what was recorded can be told.

@@ -2,7 +2,7 @@
 
 use rug::Rational;
 use sigmastar_lang::spec::{JointStability, MatrixInequality};
-use sigmastar_plants::bounds::{FloatWeights, MatrixArguments};
+use sigmastar_propose::bounds::{FloatWeights, MatrixArguments};
 use sigmastar_theory::derivation::paths::Path;
 use std::sync::Arc;
 

@@ -3,11 +3,11 @@
 use super::prove::{DIGITS, PlantBounds};
 use rug::Rational;
 use serde_json::Value;
+use sigmastar_decide::bounds::Majorant;
 use sigmastar_exact::number::{Direction, round_rational, write_exact};
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::model::{Constant, InitialSet, KnownForcing, SIZES};
 use sigmastar_lang::spec::{InputGain, OfPlant, Specification};
-use sigmastar_plants::bounds::Majorant;
 use sigmastar_prove::certificate::{exact, members, object};
 use sigmastar_prove::reduction::{PlantRefusal, bounds_around};
 

@@ -2,7 +2,7 @@
 
 use sigmastar_exact::number::Portable;
 use sigmastar_matrix::AffineMatrix;
-use sigmastar_matrix::semidefinite;
+use sigmastar_propose::semidefinite;
 
 /// The largest degree of a polynomial.
 const DEGREE: u32 = 3;

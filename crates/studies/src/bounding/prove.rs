@@ -2,11 +2,14 @@
 
 use super::fit::Samples;
 use rug::Rational;
+use sigmastar_decide::bounds::{Engine, Majorant, Term};
 use sigmastar_exact::number::{Direction, Portable, round_f64, round_rational};
 use sigmastar_exact::parallel;
 use sigmastar_lang::spec::Bound;
-use sigmastar_plants::bounds::{Engine, Entry, FloatSuprema, Majorant, Term};
+use sigmastar_propose::bounds::FloatSuprema;
+use sigmastar_prove::attempt::prove_value;
 use sigmastar_prove::reduction::PlantRefusal;
+use sigmastar_theory::evidence::Entry;
 
 /// Where suprema are sampled, as parts of the largest X and E.
 const GRID: [f64; 6] = [0.0, 0.1, 0.25, 0.5, 0.75, 1.0];
@@ -95,7 +98,7 @@ impl PlantBounds {
 /// A polynomial that is proved, near the least that the samples allow; the constant at the far corner where none is.
 fn majorant(engine: &Engine, samples: &FloatSuprema, kind: Bound, domain: [&Rational; 2]) -> Option<Majorant> {
     let corner = || {
-        let proved = engine.prove_value(samples, kind, domain[0], domain[1])?;
+        let proved = prove_value(&engine, samples, kind, domain[0], domain[1])?;
         let direction = if kind.is_rate() { Direction::Down } else { Direction::Up };
         Some(round_rational(&proved.value, DIGITS, direction))
     };

@@ -1,6 +1,6 @@
 //! The written specification against the plant, by values and differences of its formulas.
 
-#[path = "../../../plants/src/bounds/tests/random_points.rs"]
+#[path = "../../../prove/src/attempt/bound_tests/random_points.rs"]
 mod random_points;
 
 use super::bounding_specification;

@@ -23,6 +23,7 @@ pub mod printed;
 pub mod relative_degree;
 pub mod repaired;
 pub mod sampled;
+pub mod sampled_form;
 pub mod sharp;
 pub mod stability;
 pub mod table;

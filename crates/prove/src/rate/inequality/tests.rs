@@ -3,7 +3,7 @@ use super::super::small_gain::SmallGain;
 use super::*;
 use sigmastar_lang::spec::Specification;
 use sigmastar_matrix::AffineMatrix;
-use sigmastar_matrix::semidefinite::propose;
+use sigmastar_propose::semidefinite::propose;
 use sigmastar_theory::derivation::paths::Paths;
 
 fn specification(text: &str) -> Specification {

@@ -1,0 +1,43 @@
+//! Bounds of a plant's formulas on a tube around an orbit (derivation, 11.1 and 11.3), decided with enclosures by subdivision.
+//!
+//! - [`Region`]: the coordinates L, the orbit xb(t), the radius r;
+//! - [`Engine`]: decides an entry of a table of bounds, and smoothness;
+//! - [`Engine::decide_majorant`]: the same of a [`Majorant`], a polynomial in X and E;
+//! - [`Engine::decide_inequality`]: the matrix inequality of stability;
+//! - [`Engine::decide_slopes`]: what rates for given n_o know of all derivatives together;
+//! - [`Engine::decide_sampled`], [`Engine::decide_sampled_existence`]: those of the regulator at samples;
+//! - [`Engine::explore`]: where a bound is large, for the next attempt.
+//!
+//! Within: `chart` (coordinates of boxes), `time_cell` (what depends on t alone), `centred` (values with slopes about the
+//! middle of a box), `quantity` (the formulas of each bound), `definite` (semidefiniteness on a box).
+
+mod centred;
+mod chart;
+mod decide;
+mod definite;
+mod engine;
+mod existence;
+mod explore;
+mod extent;
+mod inequality;
+mod joint;
+mod majorant;
+mod metric_form;
+mod quantity;
+mod region;
+mod requirement;
+mod sampled_inequality;
+mod side;
+mod slopes;
+mod smooth;
+mod time_cell;
+
+pub use decide::Decision;
+pub use engine::Engine;
+pub use explore::Explored;
+pub use majorant::{Majorant, Term};
+pub use region::{Region, RegionError};
+pub use smooth::SmoothnessFailure;
+
+/// The precision of the enclosures on boxes, in bits: a bound is wanted to a few digits, and boxes are many.
+pub const PRECISION: u32 = 53;

@@ -1,9 +1,0 @@
-//! Of a plant's formulas: its periodic orbit, its Lyapunov function, bounds on a tube, each proved.
-
-#![deny(missing_docs)]
-// What tests compare with need not be the same on every machine.
-#![cfg_attr(test, allow(clippy::disallowed_methods))]
-
-pub mod bounds;
-pub mod lyapunov;
-pub mod orbit;

@@ -1,0 +1,38 @@
+//! Bounds of a plant's formulas by sampling, and programs over samples (derivation, 11.3, 13.6, 13.7): for searches.
+//!
+//! - [`FloatSuprema`]: the bounds of the table on samples of a tube;
+//! - [`FloatWeights`], [`EnergyWeights`], [`SampledEnergy`]: the free numbers of (M), (E) and their forms at samples;
+//! - [`FloatMetric`], [`FloatLevel`]: joint metrics by semidefinite programs;
+//! - [`FloatSlopes`]: the matrix ball of all derivatives together.
+//!
+//! Within: `pointwise` (the quantities at a point), `place` and `points` (where they are looked at), `climb` (local searches).
+
+mod climb;
+mod directions;
+mod energy_program;
+mod float_waves;
+mod joint_program;
+mod narrow;
+mod place;
+mod points;
+mod pointwise;
+mod sampled_pairs;
+mod sampled_point;
+mod sampled_program;
+mod sampled_threshold;
+mod slopes;
+mod splitting;
+mod suprema;
+mod weights;
+
+pub use directions::Directions;
+pub use float_waves::FloatCurve;
+pub use joint_program::{FloatLevel, FloatMetric, LevelAsked, LookedAt};
+pub use place::{Place, Places};
+pub use pointwise::Asked;
+pub use sampled_pairs::{Corners, MatrixArguments};
+pub use sampled_point::{SampledEnergy, SampledRadius, SampledWeights};
+pub use sampled_threshold::Focus;
+pub use slopes::FloatSlopes;
+pub use suprema::FloatSuprema;
+pub use weights::{EnergyAt, EnergyWeights, FloatWeights};
