@@ -14,13 +14,16 @@ mod sampled;
 mod slopes;
 mod splitting;
 
-use super::*;
+use super::{prove_existence, prove_inequality, prove_sampled_existence, prove_slopes, prove_value};
 use random_points::random_points;
 use rug::Rational;
+use sigmastar_decide::bounds::*;
 use sigmastar_exact::number::{Direction, round_f64};
 use sigmastar_lang::expr::Evaluator;
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{Bound, PeriodicMatrix, TrigonometricVector};
+use sigmastar_propose::bounds::*;
+use sigmastar_theory::evidence::{Entry, Part, Slopes, TABLE};
 use std::sync::Arc;
 use std::time::Instant;
 

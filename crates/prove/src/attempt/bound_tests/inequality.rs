@@ -1,8 +1,8 @@
 //! The matrix inequality of stability: what is proved holds at random points, and what does not hold is not proved.
 
 use super::*;
-use crate::bounds::sampled_threshold::thresholds;
 use sigmastar_lang::spec::{Constant, MatrixInequality};
+use sigmastar_propose::bounds::thresholds;
 
 fn inequality(x: &str, e: &str, [w_x, h]: [&str; 2], value: f64) -> MatrixInequality {
     let [x, e, w_x, h, rate] = [x, e, w_x, h, "0.001"].map(rational);

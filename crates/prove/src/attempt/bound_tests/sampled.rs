@@ -1,10 +1,9 @@
 //! The matrix inequalities of the regulator at samples: F against loops that are simulated, by hand, and with numbers that are none.
 
 use super::*;
-use crate::bounds::pointwise::Slopes;
-use crate::bounds::sampled_form::{Doubles, End, FormNumbers, Less, LoopNumbers, form};
-use crate::bounds::sampled_point::{SampledEnergy, SampledWeights};
 use sigmastar_lang::spec::{SampledExistence, SampledGain, SampledInequality, SampledLoop};
+use sigmastar_propose::bounds::PointSlopes;
+use sigmastar_theory::derivation::sampled_form::{Doubles, End, FormNumbers, Less, LoopNumbers, form};
 
 /// Boxes that a decision may take.
 const EFFORT: usize = 20_000;

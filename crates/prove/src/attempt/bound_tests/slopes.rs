@@ -1,8 +1,8 @@
 //! The ball in which all first derivatives lie together: what is proved holds at random points, and what does not hold is not proved.
 
 use super::*;
-use crate::bounds::slopes::matrix_of;
 use sigmastar_exact::enclosure::Truth;
+use sigmastar_propose::bounds::matrix_of;
 
 /// The least eigenvalue of `Q - G D - D'G' - D'H D`, D a part with some of the columns.
 fn least(slopes: &Slopes, d: &[Vec<f64>]) -> f64 {

@@ -1,8 +1,8 @@
 //! A splitting matrix: what is proved with one holds at random pairs of points, and what does not hold is not proved.
 
-use super::super::weights::Root;
 use super::*;
 use sigmastar_lang::spec::{Constant, MatrixInequality, Splitting};
+use sigmastar_propose::bounds::Root;
 
 /// With (J, r) on (X, other E), and (g, d) on (other X, E).
 fn split(at: [&str; 2], other: [&str; 2], s: Vec<Vec<Rational>>, value: f64) -> MatrixInequality {

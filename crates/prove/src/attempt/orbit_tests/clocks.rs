@@ -3,8 +3,11 @@
 use super::super::*;
 use super::families::{is_followed, proved};
 use rug::Rational;
+use sigmastar_decide::orbit::*;
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{OrbitCurve, PeriodicMatrix, ProvedForcing, TrigonometricVector};
+use sigmastar_propose::orbit::*;
+use sigmastar_theory::evidence::*;
 
 const PAPER: &str = include_str!("../../../../../specs/plants/paper-example.json");
 
@@ -83,7 +86,7 @@ fn a_matrix_that_varies_moves_with_the_clock() {
     };
     let [one, zero] = [1, 0].map(|value| vec![vec![Rational::from(value)]]);
     let p = PeriodicMatrix { mean: vec![vec![Rational::from(2)]], harmonics: vec![[one.clone(), zero]] };
-    let coordinates = Coordinates { l: one, p, rate: 1.0 };
+    let coordinates = Coordinates { l: one, p };
     let still = || TrigonometricVector { mean: vec![Rational::new()], harmonics: Vec::new() };
     let decide = |ends: [&str; 2], alpha: (u32, u32)| {
         let plant = Plant::from_json("moving", &text(ends[0], ends[1])).unwrap();

@@ -3,8 +3,11 @@
 use super::super::*;
 use super::paper;
 use rug::Rational;
+use sigmastar_decide::orbit::*;
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{Interval, ProvedForcing};
+use sigmastar_propose::orbit::*;
+use sigmastar_theory::evidence::*;
 
 const PAPER: &str = include_str!("../../../../../specs/plants/paper-example.json");
 

@@ -6,9 +6,12 @@ mod precise;
 
 use super::*;
 use rug::Rational;
+use sigmastar_decide::orbit::*;
 use sigmastar_exact::number::Direction;
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{PeriodicMatrix, ProvedForcing};
+use sigmastar_propose::orbit::*;
+use sigmastar_theory::evidence::*;
 
 /// A plant of some states; everything that the orbit does not need is the same.
 pub(super) fn plant(period: &str, states: &[&str], f: &[&str], q: &str) -> Plant {
