@@ -6,6 +6,7 @@ use sigmastar_lang::expr::{Expr, Variables};
 use sigmastar_lang::spec::Period;
 use sigmastar_lang::spec::model::{Constant, Jacobian, JacobianEntry};
 use sigmastar_propose::lyapunov::{Candidates, LyapunovFailure, candidates, floquet_exponents};
+use sigmastar_prove::attempt::prove_candidate;
 
 fn constant(text: &str) -> Constant {
     let expr = Expr::parse(text, Variables::None).expect("a constant");

@@ -172,10 +172,14 @@ pub fn undefined_along(plant: &Plant, curve: impl Fn(f64) -> Vec<f64>) -> Option
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::orbit::tests::plant;
 
     fn found(f: &str, x: f64) -> Option<Undefined> {
-        undefined_along(&plant("50", &["x"], &[f], "x"), |_| vec![x])
+        let text = format!(
+            r#"{{ "format": "sigmastar/plant", "version": 1, "name": "test", "period": "50", "states": ["x"], "f": ["{f}"], "q": "x",
+            "internal_model": {{ "mu": "1", "base_frequency": "2*pi/50", "matched": true,
+            "weights": {{ "family": "power", "n0": "2", "epsilon": "1/2" }} }} }}"#
+        );
+        undefined_along(&Plant::from_json("test", &text).unwrap(), |_| vec![x])
     }
 
     #[test]

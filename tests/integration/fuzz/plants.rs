@@ -196,7 +196,7 @@ impl Drawn {
     }
 
     pub fn coordinates(&self) -> Coordinates {
-        Coordinates { l: self.l.clone(), p: self.p[0].clone(), rate: f64::NAN }
+        Coordinates { l: self.l.clone(), p: self.p[0].clone() }
     }
 
     /// What is known of the orbit.

@@ -180,7 +180,8 @@ impl Engine {
     }
 
     /// A region with the coordinates, which all cells have in common.
-    pub(super) fn region(&self) -> &Region {
+    #[must_use]
+    pub fn region(&self) -> &Region {
         &self.first.region
     }
 

@@ -16,9 +16,6 @@ pub(super) const ORDER: usize = 10;
 /// Powers of two that the number of cells runs through.
 pub(super) const CELLS: std::ops::RangeInclusive<u32> = 4..=9;
 
-/// A bound at most this many times a sampled maximum is good enough.
-pub const CLOSE: f64 = 6.0;
-
 /// The power of two from which the number of cells starts: twice the number of harmonics.
 pub(super) fn first_exponent(harmonics: usize) -> u32 {
     (2 * harmonics).next_power_of_two().trailing_zeros().clamp(*CELLS.start(), *CELLS.end())

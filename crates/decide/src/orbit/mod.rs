@@ -21,6 +21,5 @@ mod taylor;
 
 pub use around::Around;
 pub use decide::{decide_orbit, decide_second, least_radius};
-pub use defect::CLOSE;
 pub use forcing::{decide_forcing, rests};
 pub use not_proved::OrbitNotProved;

@@ -45,9 +45,9 @@ impl Asked {
     /// Everything.
     pub const ALL: Asked = Asked(31);
     /// Nothing.
-    pub(super) const NOTHING: Asked = Asked(0);
+    pub const NOTHING: Asked = Asked(0);
     /// What takes all first derivatives.
-    pub(super) const FIRST: Asked = Asked(Asked::NORM.0 | Asked::SLOPES.0 | Asked::RATE.0);
+    pub const FIRST: Asked = Asked(Asked::NORM.0 | Asked::SLOPES.0 | Asked::RATE.0);
     /// What a set with a periodic solution asks for at the same (X, E) is of one group.
     pub const GROUPS: [Asked; 3] =
         [Asked(Asked::NORM.0 | Asked::RATE.0), Asked(Asked::SLOPES.0 | Asked::IN_TIME.0), Asked::RATE_EXISTENCE];
@@ -79,12 +79,12 @@ impl Asked {
     }
 
     /// Both.
-    pub(super) fn and(self, other: Asked) -> Asked {
+    pub fn and(self, other: Asked) -> Asked {
         Asked(self.0 | other.0)
     }
 
     /// The number of the first outputs that it takes, with n states.
-    pub(super) fn outputs(self, n: usize) -> usize {
+    pub fn outputs(self, n: usize) -> usize {
         let blocks = Blocks::new(n);
         match self {
             _ if self.has(Asked::IN_TIME) => blocks.q_xe + n,
@@ -96,7 +96,7 @@ impl Asked {
 
 /// P at one time, as it is used.
 #[derive(Clone, Debug)]
-pub(super) enum MatrixAt {
+pub enum MatrixAt {
     /// There is none.
     Missing,
     /// The identity.
@@ -108,20 +108,28 @@ pub(super) enum MatrixAt {
 }
 
 /// J by rows, g, r and d at a point, in the coordinates y.
-pub(super) struct Derivatives<'a> {
-    pub(super) j: &'a [f64],
-    pub(super) g: &'a [f64],
-    pub(super) r: &'a [f64],
-    pub(super) d: f64,
+pub struct Derivatives<'a> {
+    /// f_x by rows.
+    pub j: &'a [f64],
+    /// f_e.
+    pub g: &'a [f64],
+    /// q_x.
+    pub r: &'a [f64],
+    /// q_e.
+    pub d: f64,
 }
 
 /// The same, to keep.
 #[derive(Clone, Debug)]
-pub(super) struct Slopes {
-    pub(super) j: Vec<f64>,
-    pub(super) g: Vec<f64>,
-    pub(super) r: Vec<f64>,
-    pub(super) d: f64,
+pub struct Slopes {
+    /// f_x by rows.
+    pub j: Vec<f64>,
+    /// f_e.
+    pub g: Vec<f64>,
+    /// q_x.
+    pub r: Vec<f64>,
+    /// q_e.
+    pub d: f64,
 }
 
 impl From<&Derivatives<'_>> for Slopes {
@@ -132,14 +140,14 @@ impl From<&Derivatives<'_>> for Slopes {
 
 impl Slopes {
     /// The largest norms of g and of r.
-    pub(super) fn largest(points: &[Slopes]) -> [f64; 2] {
+    pub fn largest(points: &[Slopes]) -> [f64; 2] {
         let norm = |vector: &[f64]| vector.iter().map(|value| value * value).sum::<f64>().sqrt();
         let largest = |of: fn(&Slopes) -> &[f64]| points.iter().map(|point| norm(of(point))).fold(0.0, f64::max);
         [largest(|point| &point.g), largest(|point| &point.r)]
     }
 
     /// The unit of x, where e has 1 and time 1/value, in which those are of one size.
-    pub(super) fn unit(points: &[Slopes], value: f64) -> f64 {
+    pub fn unit(points: &[Slopes], value: f64) -> f64 {
         let [g, r] = Slopes::largest(points);
         match (g > 0.0, r > 0.0) {
             (true, true) => (g / r).sqrt(),
@@ -152,7 +160,7 @@ impl Slopes {
 
 /// The coordinates, with the memory that an evaluation works in.
 #[derive(Clone, Debug)]
-pub(super) struct Pointwise {
+pub struct Pointwise {
     order: usize,
     /// How far x_0' may be from the velocity that it is given, in each component of the coordinates y.
     drift: f64,
@@ -169,7 +177,7 @@ pub(super) struct Pointwise {
 }
 
 impl Pointwise {
-    pub(super) fn new(matrix: &[Vec<f64>], inverse: &[Vec<f64>], drift: f64) -> Pointwise {
+    pub fn new(matrix: &[Vec<f64>], inverse: &[Vec<f64>], drift: f64) -> Pointwise {
         let n = matrix.len();
         let room = vec![0.0; n * n];
         Pointwise {
@@ -188,7 +196,7 @@ impl Pointwise {
 
     /// What is to be bounded from above, in the order of [`TABLE`]: norms, q_e, the negatives of the local rates; NaN where
     /// there is no P, and for what is not asked for.
-    pub(super) fn at(
+    pub fn at(
         &mut self,
         outputs: &[f64],
         velocity: &[f64],
@@ -232,7 +240,7 @@ impl Pointwise {
     }
 
     /// J, g, r and d.
-    pub(super) fn derivatives(&mut self, outputs: &[f64]) -> Derivatives<'_> {
+    pub fn derivatives(&mut self, outputs: &[f64]) -> Derivatives<'_> {
         let (n, blocks) = (self.order, self.blocks);
         self.transform(outputs);
         for i in 0..n {
@@ -328,7 +336,7 @@ impl Pointwise {
     }
 }
 
-pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
+pub fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 

@@ -64,7 +64,8 @@ impl From<&SampledExistence> for SampledEnergy {
 
 impl Slopes {
     /// With a constant P, given by its entries: the block of x is `-(P J + J'P) - c_x I`.
-    pub(super) fn with(&self, p: impl Fn(usize, usize) -> f64, c_x: f64) -> Parts<f64> {
+    #[must_use]
+    pub fn with(&self, p: impl Fn(usize, usize) -> f64, c_x: f64) -> Parts<f64> {
         let n = self.r.len();
         let moved = |i: usize, k: usize| -> f64 { (0..n).map(|m| p(i, m) * self.j[m * n + k]).sum() };
         let upper = (0..n).flat_map(|i| (i..n).map(move |k| (i, k)));

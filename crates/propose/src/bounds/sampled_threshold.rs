@@ -88,7 +88,7 @@ impl FloatSuprema {
 }
 
 /// Those of one point.
-pub(super) fn thresholds(
+pub fn thresholds(
     at: &Derivatives<'_>,
     matrix: &MatrixAt,
     weights: FloatWeights,

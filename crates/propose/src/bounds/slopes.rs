@@ -109,7 +109,7 @@ impl FloatSuprema {
 }
 
 /// A part of D by rows.
-pub(super) fn matrix_of(Derivatives { j, g, r, d }: &Derivatives<'_>, part: Part) -> Vec<Vec<f64>> {
+pub fn matrix_of(Derivatives { j, g, r, d }: &Derivatives<'_>, part: Part) -> Vec<Vec<f64>> {
     let n = g.len();
     let columns = part.columns(n);
     let row =

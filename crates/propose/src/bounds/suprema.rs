@@ -72,7 +72,7 @@ pub struct FloatSuprema {
     narrow: Option<Arc<Vec<[f64; 2]>>>,
     velocity: Arc<Program>,
     /// The 1 - b at both ends of an input gain.
-    pub(super) moves: Option<[f64; 2]>,
+    pub moves: Option<[f64; 2]>,
     /// See [`FloatSuprema::with_tube`].
     drift: f64,
 }
@@ -332,7 +332,7 @@ impl FloatSuprema {
     }
 
     /// The largest value of the first derivatives and P at these points of the nominal member.
-    pub(super) fn largest_of_derivatives_at(
+    pub fn largest_of_derivatives_at(
         &self,
         at: [f64; 2],
         points: &[(f64, Vec<f64>, f64)],

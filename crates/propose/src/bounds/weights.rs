@@ -17,7 +17,7 @@ pub struct FloatWeights {
 
 impl FloatWeights {
     /// G: the lower triangle by rows, of x and y. Not a number where P is not the identity.
-    pub(super) fn of_states(self, at: &Derivatives<'_>, matrix: &MatrixAt) -> Vec<f64> {
+    pub fn of_states(self, at: &Derivatives<'_>, matrix: &MatrixAt) -> Vec<f64> {
         let FloatWeights { w_x, k_p, rate } = self;
         let n = at.r.len();
         let mut rows = Vec::with_capacity((n + 1) * (n + 2) / 2);
@@ -34,7 +34,7 @@ impl FloatWeights {
     }
 
     /// v: the column of e, in x and y, with P = 1; `moves` are the 1 - b of an input gain.
-    pub(super) fn of_error(self, at: &Derivatives<'_>, moves: Option<[f64; 2]>) -> Column {
+    pub fn of_error(self, at: &Derivatives<'_>, moves: Option<[f64; 2]>) -> Column {
         let of_states = at.g.iter().map(|slope| -self.w_x * slope);
         let half = 0.5 * self.k_p;
         Column {
@@ -48,7 +48,7 @@ impl FloatWeights {
 }
 
 /// The column of e beside its diagonal. With an input gain its entry with y changes with sigma, at either end of b (derivation, 13.1).
-pub(super) struct Column {
+pub struct Column {
     fixed: Vec<f64>,
     /// What sigma adds to the last entry, at both ends.
     moved: Option<[f64; 2]>,
@@ -65,7 +65,7 @@ fn for_any_larger(h_over_mu: f64, b: f64) -> Thresholds {
 
 impl Column {
     /// The column at a sigma: at both ends where they differ.
-    pub(super) fn at(&self, sigma: f64) -> Vec<Vec<f64>> {
+    pub fn at(&self, sigma: f64) -> Vec<Vec<f64>> {
         let Some(moved) = self.moved else { return vec![self.fixed.clone()] };
         let end = |by: f64| {
             let mut column = self.fixed.clone();
@@ -78,29 +78,31 @@ impl Column {
 
 /// The sigma at which F is positive semidefinite, with an input gain an interval: of one point, or of many together.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Thresholds {
+pub struct Thresholds {
     /// The least; infinite where there is none, not a number where a value is undefined.
-    pub(super) least: f64,
+    pub least: f64,
     largest: f64,
 }
 
 impl Thresholds {
     /// Where nothing is asked for.
-    pub(super) const ALL: Thresholds = Thresholds { least: f64::NEG_INFINITY, largest: f64::INFINITY };
+    pub const ALL: Thresholds = Thresholds { least: f64::NEG_INFINITY, largest: f64::INFINITY };
 
-    pub(super) fn from(least: f64) -> Thresholds {
+    /// Those from the least one on.
+    #[must_use]
+    pub fn from(least: f64) -> Thresholds {
         Thresholds { least, largest: f64::INFINITY }
     }
 
     /// Those that are in both.
-    pub(super) fn and(self, other: Thresholds) -> Thresholds {
+    pub fn and(self, other: Thresholds) -> Thresholds {
         let undefined = self.least.is_nan() || other.least.is_nan();
         let least = if undefined { f64::NAN } else { self.least.max(other.least) };
         Thresholds { least, largest: self.largest.min(other.largest) }
     }
 
     /// The least of them; infinite where there are none.
-    pub(super) fn value(self) -> f64 {
+    pub fn value(self) -> f64 {
         if self.least > self.largest { f64::INFINITY } else { self.least }
     }
 }
@@ -127,12 +129,12 @@ impl From<&ExistenceInequality> for EnergyWeights {
 
 impl EnergyWeights {
     /// The largest c_y at one point; `moves` are the 1 - b of an input gain.
-    pub(super) fn margin(&self, at: &Derivatives<'_>, moves: Option<[f64; 2]>) -> f64 {
+    pub fn margin(&self, at: &Derivatives<'_>, moves: Option<[f64; 2]>) -> f64 {
         self.at(at, moves).margin(self.k_p, self.value)
     }
 
     /// c_y at one point as a function of the threshold.
-    pub(super) fn at(&self, at: &Derivatives<'_>, moves: Option<[f64; 2]>) -> EnergyAt {
+    pub fn at(&self, at: &Derivatives<'_>, moves: Option<[f64; 2]>) -> EnergyAt {
         let EnergyWeights { p, k_p, c_x, .. } = self;
         let n = at.r.len();
         let moved = |i: usize, k: usize| -> f64 { (0..n).map(|m| p[i][m] * at.j[m * n + k]).sum() };
@@ -228,14 +230,14 @@ fn behind(all: &[EnergyAt], sizes: impl Fn(&EnergyAt) -> [f64; 3]) -> Vec<bool> 
 }
 
 /// A positive definite matrix by its Cholesky factor, the lower triangle by rows.
-pub(super) struct Root(Vec<f64>);
+pub struct Root(Vec<f64>);
 
 impl Root {
     /// Of the lower triangle of a matrix.
     ///
     /// # Errors
     /// What stands for the threshold of a matrix that is not positive definite: infinity, or what is not a number.
-    pub(super) fn new(lower: Vec<f64>) -> Result<Root, f64> {
+    pub fn new(lower: Vec<f64>) -> Result<Root, f64> {
         let mut rows = lower;
         let at = |i: usize, k: usize| i * (i + 1) / 2 + k;
         let mut i = 0;
@@ -272,14 +274,14 @@ impl Root {
     }
 
     /// Half of `v' G^-1 v` of a column that does not change with sigma.
-    pub(super) fn half_square(&self, column: &[f64]) -> f64 {
+    pub fn half_square(&self, column: &[f64]) -> f64 {
         let solved = self.solved(column.iter().copied());
         0.5 * dot(&solved, &solved)
     }
 
     /// Half of `v' G^-1 v`; with an input gain the sigma with `v(sigma)' G^-1 v(sigma) <= 2 sigma` at both ends. A search looks
     /// some million times: `solved` is room for what is solved, and holds nothing.
-    pub(super) fn thresholds(&self, column: &Column, solved: &mut Vec<f64>) -> Thresholds {
+    pub fn thresholds(&self, column: &Column, solved: &mut Vec<f64>) -> Thresholds {
         self.solve(column.fixed.iter().copied(), solved);
         let square = dot(solved, solved);
         let Some(moved) = column.moved else { return Thresholds::from(0.5 * square) };
@@ -301,7 +303,7 @@ impl Root {
     }
 
     /// The least of them.
-    pub(super) fn threshold(&self, column: &Column, solved: &mut Vec<f64>) -> f64 {
+    pub fn threshold(&self, column: &Column, solved: &mut Vec<f64>) -> f64 {
         self.thresholds(column, solved).value()
     }
 }

@@ -123,7 +123,8 @@ impl FloatSeries {
     }
 
     /// Values at `count` points that are spread evenly.
-    pub(super) fn samples(&self, count: usize) -> Vec<Vec<f64>> {
+    #[must_use]
+    pub fn samples(&self, count: usize) -> Vec<Vec<f64>> {
         let turn = Turn::new(count);
         (0..count).map(|j| self.at_part(&turn, j).0).collect()
     }

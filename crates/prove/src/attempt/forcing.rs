@@ -1,8 +1,8 @@
 //! The harmonics of q(t, x_0, 0) with their rest proved (derivation, 11.4).
 
-use super::orbit::with_cause;
+use super::orbit::{CLOSE, with_cause};
 use rug::Rational;
-use sigmastar_decide::orbit::{Around, CLOSE, OrbitNotProved, rests};
+use sigmastar_decide::orbit::{Around, OrbitNotProved, rests};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, round_f64};
 use sigmastar_lang::plant::Plant;

@@ -1,7 +1,7 @@
 //! The orbit with numbers that are proved (derivation, 11.2).
 
 use rug::Rational;
-use sigmastar_decide::orbit::{Around, CLOSE, OrbitNotProved, least_radius};
+use sigmastar_decide::orbit::{Around, OrbitNotProved, least_radius};
 use sigmastar_exact::number::{Direction, round_f64};
 use sigmastar_exact::parallel;
 use sigmastar_lang::plant::Plant;
@@ -9,6 +9,9 @@ use sigmastar_lang::spec::OrbitCurve;
 use sigmastar_propose::orbit::{Sampled, doubles};
 use sigmastar_theory::evidence::{Coordinates, OrbitProof, ProvedTriple};
 use sigmastar_theory::{Undefined, undefined_along};
+
+/// A bound at most this many times a sampled maximum is good enough.
+pub(super) const CLOSE: f64 = 6.0;
 
 /// Significant digits of the numbers of the proof.
 const DIGITS: u32 = 6;

@@ -57,7 +57,7 @@ struct Sample {
     within: Vec<[f64; 4]>,
 }
 
-fn sample((of, b): (&LoopNumbers<f64>, f64), slopes: &Slopes, at: State, q0: &dyn Fn(f64) -> f64) -> Sample {
+fn sample((of, b): (&LoopNumbers<f64>, f64), slopes: &PointSlopes, at: State, q0: &dyn Fn(f64) -> f64) -> Sample {
     let State { x, e, zeta } = at;
     let angle = std::f64::consts::TAU * of.step;
     let turned =
@@ -105,7 +105,8 @@ fn the_fall_in_a_sample_is_the_mean_of_f() {
     for trial in 0..400 {
         let b = if trial % 2 == 0 { 1.0 } else { 1.0 + 0.9 * next() };
         let of = with_gains((1.0 + next()) * 10.0, 20, 3.0 * (1.1 + next()), (trial % 2 == 1).then_some([b, b]));
-        let slopes = Slopes { j: vec![5.0 * next()], g: vec![9.0 * next()], r: vec![9.0 * next()], d: 9.0 * next() };
+        let slopes =
+            PointSlopes { j: vec![5.0 * next()], g: vec![9.0 * next()], r: vec![9.0 * next()], d: 9.0 * next() };
         let (p, k_p, lambda) = (next(), 0.2 + 0.1 * next(), 30.0 + 20.0 * next());
         let eta = k_p * b * of.gain / 2.0;
         let at = State { x: next(), e: next(), zeta: [next(), next(), next()] };
@@ -278,7 +279,7 @@ fn periodic_solutions_stay_within_the_bounds() {
     ] {
         let (f, q) = (format!("{j}*x + {g}*e"), format!("{r}*x + {d}*e + cos(2*pi*t)"));
         let Case { engine, samples } = of_plant(&with_input_gain(&["x"], &[&f], &q, ["1", low, high]));
-        let slopes = Slopes { j: vec![j], g: vec![g], r: vec![r], d };
+        let slopes = PointSlopes { j: vec![j], g: vec![g], r: vec![r], d };
         let of = numbers(sigma, SAMPLES, 2.0);
         for share in [0.1, 1.0] {
             // Some loops have no inequality with so large a c_e.

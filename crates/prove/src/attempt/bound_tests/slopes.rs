@@ -2,6 +2,7 @@
 
 use super::*;
 use sigmastar_exact::enclosure::Truth;
+use sigmastar_matrix::doubles::largest;
 use sigmastar_propose::bounds::matrix_of;
 
 /// The least eigenvalue of `Q - G D - D'G' - D'H D`, D a part with some of the columns.
@@ -12,7 +13,7 @@ fn least(slopes: &Slopes, d: &[Vec<f64>]) -> f64 {
     let square = |i: usize, j: usize| (0..order).map(|k| d[k][i] * times(&slopes.h, k, j)).sum::<f64>();
     let entry =
         |i: usize, j: usize| times(&slopes.g, i, j) + times(&slopes.g, j, i) + square(i, j) - double(&slopes.q, i, j);
-    -eigen::largest((0..columns).map(|i| (0..columns).map(|j| entry(i, j)).collect()).collect())
+    -largest((0..columns).map(|i| (0..columns).map(|j| entry(i, j)).collect()).collect())
 }
 
 /// H is not diagonal, and the ball is about the middle of the derivatives on the orbit.

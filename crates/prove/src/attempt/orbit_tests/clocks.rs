@@ -1,12 +1,10 @@
 //! The period known to an interval (derivation, 13.3): the clock is one more parameter.
 
-use super::super::*;
 use super::families::{is_followed, proved};
 use rug::Rational;
 use sigmastar_decide::orbit::*;
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{OrbitCurve, PeriodicMatrix, ProvedForcing, TrigonometricVector};
-use sigmastar_propose::orbit::*;
 use sigmastar_theory::evidence::*;
 
 const PAPER: &str = include_str!("../../../../../specs/plants/paper-example.json");

@@ -24,7 +24,7 @@ pub(super) fn proved(plant: &Plant) -> (Coordinates, OrbitProof, ProvedForcing) 
     let found = find_orbit(plant).unwrap();
     let orbit = round_orbit(plant, &found).unwrap();
     let mut last = None;
-    for coordinates in propose_coordinates(plant, &found, 0.0, 0.0).unwrap() {
+    for Rated { coordinates, .. } in propose_coordinates(plant, &found, 0.0, 0.0).unwrap() {
         match prove_orbit(plant, &orbit, &coordinates) {
             Ok(proof) => {
                 let forcing = prove_forcing(plant, &coordinates, &proof).unwrap();
@@ -58,7 +58,7 @@ pub(super) fn is_followed(
 ) {
     for values in plant.parameters.looked_at().into_iter().chain(inside) {
         let own = find_orbit(&plant.member(&values)).unwrap().series;
-        let curve = sampled::doubles(&proof.orbit.at(&plant.parameters.deviations(&values)));
+        let curve = doubles(&proof.orbit.at(&plant.parameters.deviations(&values)));
         for s in [0.0, 0.2, 0.45, 0.7, 0.9] {
             let (own, near) = (own.at(s).0, curve.at(s).0);
             let difference: Vec<f64> = own.iter().zip(&near).map(|(a, b)| a - b).collect();
@@ -193,7 +193,7 @@ fn a_family_of_one_point_is_the_plant() {
 fn halves_have_one_rate() {
     let plant = family(["0.1", "0.3"], ["0", "0.2"]);
     let found = find_orbit(&plant).unwrap();
-    let coordinates = propose_coordinates(&plant, &found, 0.0, 0.0).unwrap().swap_remove(0);
+    let coordinates = propose_coordinates(&plant, &found, 0.0, 0.0).unwrap().swap_remove(0).coordinates;
     let [low, middle, high] = [(1, 10), (1, 5), (3, 10)].map(Rational::from);
     let c = [Rational::new(), Rational::from((1, 5))];
     let halves = [[low, middle.clone()], [middle, high]].map(|k| {

@@ -113,7 +113,7 @@ fn plants_without_a_stable_orbit_are_answered_with_exponents() {
 fn proved(plant: &Plant) -> (Coordinates, OrbitProof) {
     let found = find_orbit(plant).unwrap();
     let orbit = round_orbit(plant, &found).unwrap();
-    let coordinates = propose_coordinates(plant, &found, 0.0, 0.0).unwrap().remove(0);
+    let coordinates = propose_coordinates(plant, &found, 0.0, 0.0).unwrap().remove(0).coordinates;
     let proof = prove_orbit(plant, &orbit, &coordinates).unwrap_or_else(|failure| panic!("{failure}"));
     (coordinates, proof)
 }
@@ -149,7 +149,7 @@ fn the_orbit_of_the_paper_is_proved_and_decided_again() {
 fn forged_orbits_are_refused() {
     let plant = paper();
     let (coordinates, proof) = proved(&plant);
-    let sampled = sampled::Sampled::new(&plant, &proof.orbit, &coordinates).unwrap();
+    let sampled = Sampled::new(&plant, &proof.orbit, &coordinates).unwrap();
     let refused = |moved: &OrbitProof| decide_orbit(&plant, &coordinates, moved).unwrap_err();
     // Below the largest value that was seen: no proof can reach it.
     let exact = |value: f64| sigmastar_exact::number::round_f64(value, 9, Direction::Down).unwrap();
@@ -243,6 +243,7 @@ fn a_periodic_matrix_stands_by() {
     let found = find_orbit(&plant).unwrap();
     let orbit = round_orbit(&plant, &found).unwrap();
     let candidates = propose_coordinates(&plant, &found, 0.0, 0.0).unwrap();
+    let candidates: Vec<Coordinates> = candidates.into_iter().map(|rated| rated.coordinates).collect();
     assert!(!candidates.is_empty() && candidates.iter().all(|candidate| !candidate.p.harmonics.is_empty()));
     let proof = candidates.iter().find_map(|candidate| prove_orbit(&plant, &orbit, candidate).ok()).unwrap();
     assert!(proof.p_low < proof.p_up && proof.alpha.to_f64() > 0.5, "{}", proof.alpha.to_f64());
@@ -256,7 +257,7 @@ fn what_is_not_smooth_on_the_orbit_is_told() {
     let plant = plant("1", &["x"], &["-x + abs(sin(2*pi*t))"], "x");
     let found = find_orbit(&plant).unwrap();
     let orbit = round_orbit(&plant, &found).unwrap();
-    let coordinates = propose_coordinates(&plant, &found, 0.0, 0.0).unwrap().remove(0);
+    let coordinates = propose_coordinates(&plant, &found, 0.0, 0.0).unwrap().remove(0).coordinates;
     let failure = prove_orbit(&plant, &orbit, &coordinates).unwrap_err();
     assert!(matches!(failure, OrbitNotProved::NotSmooth { .. }), "{failure}");
 }
@@ -275,7 +276,7 @@ fn a_quotient_without_a_value_is_the_cause() {
     let plant = of("1");
     let found = find_orbit(&plant).unwrap();
     let orbit = round_orbit(&plant, &found).unwrap();
-    let coordinates = propose_coordinates(&plant, &found, 0.0, 0.0).unwrap().remove(0);
+    let coordinates = propose_coordinates(&plant, &found, 0.0, 0.0).unwrap().remove(0).coordinates;
     let failure = prove_orbit(&plant, &orbit, &coordinates).unwrap_err();
     let OrbitNotProved::NotSmooth { s, cause: Some(cause) } = &failure else { panic!("{failure}") };
     assert!(cause.zero_over_zero && (s - 0.409_154_943).abs() < 1e-6, "{failure}");
