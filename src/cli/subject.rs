@@ -7,9 +7,9 @@ use super::output::{json_text, shown};
 use super::progress::{Later, working};
 use sigmastar_lang::plant::{FORMAT as PLANT, Plant};
 use sigmastar_lang::spec::{Document, Specification};
+use sigmastar_propose::search::SharpProposal;
 use sigmastar_prove::certificate::{FORMAT as CERTIFICATE, embedded};
 use sigmastar_prove::reduction::{SAMPLING_PERIOD, at_samples};
-use sigmastar_prove::search::SharpProposal;
 use std::path::Path;
 
 pub use sigmastar_prove::reduction::Subject;

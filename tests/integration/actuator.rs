@@ -8,10 +8,10 @@ use serde_json::{Value, json as object};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_lab::falsify::Finding;
 use sigmastar_lang::spec::{Document, Specification};
+use sigmastar_propose::search::{Failing, Limited, Obstacle};
 use sigmastar_prove::certificate::{certificate_json, certificate_of, read_witness};
 use sigmastar_prove::certify::{Certification, Options, Outcome, Verdict, certify, recheck};
 use sigmastar_prove::reduction::{Prepared, Subject};
-use sigmastar_prove::search::{Failing, Limited, Obstacle};
 use std::path::Path;
 
 const NAME: &str = "paper-example-rms-at-rest";

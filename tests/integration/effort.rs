@@ -12,8 +12,8 @@ use sigmastar_lang::expr::{BoundingFailure, Expr, ProofSettings, Reason, Variabl
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{Document, MAX_UNKNOWN, Specification, any_constant};
 use sigmastar_propose::lyapunov::MAX_PROGRAM_COST;
+use sigmastar_propose::search::{Failing, Obstacle};
 use sigmastar_prove::certify::{MAX_SEARCHES, Outcome, certify, prove_up_to, resolve};
-use sigmastar_prove::search::{Failing, Obstacle};
 use sigmastar_regulator::Design;
 
 fn with(pointer: &str, value: Value) -> Value {

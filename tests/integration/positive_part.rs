@@ -2,8 +2,8 @@
 
 use sigmastar_lang::expr::{BoundingFailure, Property};
 use sigmastar_lang::spec::Specification;
+use sigmastar_propose::search::FloatModel;
 use sigmastar_prove::certify::{Options, Refusal, Verdict, certify};
-use sigmastar_prove::search::FloatModel;
 use sigmastar_theory::data::{Bound, Data, Problem};
 use sigmastar_theory::transfer::TradeOff;
 

@@ -8,4 +8,5 @@
 pub mod bounds;
 pub mod lyapunov;
 pub mod orbit;
+pub mod search;
 pub mod semidefinite;

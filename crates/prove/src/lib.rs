@@ -10,4 +10,3 @@ pub mod certify;
 pub mod lmi;
 pub mod rate;
 pub mod reduction;
-pub mod search;

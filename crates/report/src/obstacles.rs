@@ -7,8 +7,8 @@ use sigmastar_exact::enclosure::Truth;
 use sigmastar_exact::number::write_exact;
 use sigmastar_lang::expr::BoundingFailure;
 use sigmastar_lang::spec::{InitialSet, SIZES};
+use sigmastar_propose::search::{Failing, Limited, Obstacle};
 use sigmastar_prove::certify::{BoundingProblem, Certification, Outcome, SmallerChoice, Verdict};
-use sigmastar_prove::search::{Failing, Limited, Obstacle};
 use sigmastar_theory::derivation::condition::Condition;
 
 /// So many items of a list are in the short form.

@@ -20,9 +20,9 @@ use sigmastar_document::number::{estimate, exact, full, upper};
 use sigmastar_document::{Block, Readable, clean};
 use sigmastar_exact::enclosure::{Enclosure, Truth};
 use sigmastar_exact::number::{Direction, write_exact};
+use sigmastar_propose::search::Failing;
 use sigmastar_prove::certificate::{no_plant_json, set_fields};
 use sigmastar_prove::certify::{Outcome, SampledCertification, SampledProof, Verdict};
-use sigmastar_prove::search::Failing;
 use sigmastar_theory::derivation::targets::{SampledConsequences, Target};
 
 /// Everything that the report is made from.

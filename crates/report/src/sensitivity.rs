@@ -7,8 +7,8 @@ use sigmastar_document::{Block, Table};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::Direction;
 use sigmastar_lang::spec::Specification;
+use sigmastar_propose::search::Datum;
 use sigmastar_prove::certify::{Certification, Verdict};
-use sigmastar_prove::search::Datum;
 use sigmastar_theory::transfer::TransferProof;
 
 /// The binding condition and the sensitivities of the sharp derivation.

@@ -3,12 +3,12 @@
 
 use super::refusal::Refusal;
 use crate::attempt::first_proved;
-use crate::search::{FloatModel, SharpProposal, search_sharp, search_sharp_near};
 use rug::Rational;
 use sigmastar_decide::lyapunov::{NotProved, prove};
 use sigmastar_exact::enclosure::MAX_PRECISION;
 use sigmastar_lang::spec::model::{Jacobian, LyapunovSource, Specification};
 use sigmastar_propose::lyapunov::{Candidate, Candidates, LyapunovFailure, candidates};
+use sigmastar_propose::search::{FloatModel, SharpProposal, search_sharp, search_sharp_near};
 use sigmastar_theory::data::Data;
 use sigmastar_theory::evidence::{ProvedTriple, ProvedTriples};
 use sigmastar_theory::jacobian::Family;

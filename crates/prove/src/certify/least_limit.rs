@@ -2,10 +2,10 @@
 
 use super::limits::{FloatLimits, with_limit};
 use super::options::Limits;
-use crate::search::Failing;
 use rug::Rational;
 use sigmastar_exact::number::{Direction, Portable, round_f64};
 use sigmastar_lang::spec::Specification;
+use sigmastar_propose::search::Failing;
 
 /// By how much more than the least of a search in floating point a limit is asked for, in turn, until a claim keeps to it.
 const MORE: [f64; 5] = [2e-4, 2e-3, 2e-2, 0.2, 1.0];

@@ -2,10 +2,10 @@
 
 use super::options::Limits;
 use super::round::rounded_sigma;
-use crate::search::{Failing, Goal, Largest, Limited, Obstacle};
 use rug::Rational;
 use sigmastar_exact::number::Portable;
 use sigmastar_lang::spec::{Actuator, Constant, Specification};
+use sigmastar_propose::search::{Failing, Goal, Largest, Limited, Obstacle};
 
 /// What a claim is to keep to in floating point, with what the actuator takes.
 #[derive(Clone, Copy, Debug)]

@@ -1,8 +1,8 @@
 //! What a run is asked for.
 
-use crate::search::Limited;
 use rug::Rational;
 use sigmastar_exact::enclosure::{DEFAULT_PRECISION, Enclosure, MAX_PRECISION};
+use sigmastar_propose::search::Limited;
 use sigmastar_theory::derivation::control::Control;
 
 /// Which proof of the transfer bound a claim uses. The repaired derivation always has the closed form.

@@ -7,11 +7,11 @@ use super::limits::{FloatLimits, NEAR, ROOMS};
 use super::options::{Limits, Options, TransferChoice};
 use super::proof::{Outcome, SharpProof, has_smaller_peak, is_better};
 use super::round::{TransferKind, round_sharp};
-use crate::search::{
-    Failing, FloatModel, Goal, Obstacle, SharpProposal, largest_at, search_sharp, search_sharp_at, search_sharp_near,
-};
 use rug::Rational;
 use sigmastar_lang::spec::Specification;
+use sigmastar_propose::search::{
+    Failing, FloatModel, Goal, Obstacle, SharpProposal, largest_at, search_sharp, search_sharp_at, search_sharp_near,
+};
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::sharp::{SharpEvaluation, SharpWitness};
 use sigmastar_theory::transfer::TradeOff;

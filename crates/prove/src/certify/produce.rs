@@ -14,14 +14,14 @@ use super::refusal::Refusal;
 use super::round::{TransferKind, exact_claim, round_repaired};
 use super::sensitivity::{aligned, ranked, with_nominal_gain};
 use super::verdict::Verdict;
-use crate::search::{
-    Failing, FloatModel, Goal, Obstacle, SharpProposal, search_printed, search_repaired, without_optional_data,
-};
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, round_f64};
 use sigmastar_lang::expr::BoundingFailure;
 use sigmastar_lang::spec::model::Specification;
+use sigmastar_propose::search::{
+    Failing, FloatModel, Goal, Obstacle, SharpProposal, search_printed, search_repaired, without_optional_data,
+};
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::condition::Condition;
 use sigmastar_theory::derivation::exact_regulation::ExactWitness;

@@ -1,8 +1,8 @@
 //! A witness with what was decided about it, in either derivation, and one view of both.
 
-use crate::search::{Failing, Obstacle};
 use rug::Rational;
 use sigmastar_exact::enclosure::{Enclosure, Truth};
+use sigmastar_propose::search::{Failing, Obstacle};
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::condition::{self, Condition};
 use sigmastar_theory::derivation::exact_regulation::ExactWitness;

@@ -7,14 +7,14 @@ use super::certification::ExactClaim;
 use super::decide::{decide, decide_exact};
 use super::options::Ladder;
 use super::proof::{Decidable, Proof, RepairedProof, SharpProof};
-use crate::search::{
-    ByMatrix, FloatModel, RepairedProposal, SharpProposal, active_level, at_sigma, largest_e_repaired, perron_repaired,
-    search_exact, weight_h,
-};
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, round_f64, round_rational};
 use sigmastar_lang::spec::model::{InitialSet, StartSizes};
+use sigmastar_propose::search::{
+    ByMatrix, FloatModel, RepairedProposal, SharpProposal, active_level, at_sigma, largest_e_repaired, perron_repaired,
+    search_exact, weight_h,
+};
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::energy;
 use sigmastar_theory::derivation::exact_regulation::{ExactWitness, steady_state_norm};

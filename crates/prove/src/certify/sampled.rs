@@ -16,14 +16,14 @@ use super::round::{
 };
 use super::verdict::Verdict;
 use crate::rate::found::SampledRateForCount;
-use crate::search::{
-    Extreme, Failing, FloatModel, Goal, Obstacle, PastShare, SampledLimit, SampledProposal, SampledSearch, weight_h,
-};
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, round_f64, round_rational};
 use sigmastar_lang::spec::model::Specification;
 use sigmastar_lang::spec::{SampledGain, Sampling};
+use sigmastar_propose::search::{
+    Extreme, Failing, FloatModel, Goal, Obstacle, PastShare, SampledLimit, SampledProposal, SampledSearch, weight_h,
+};
 use sigmastar_theory::data::{Bound, Data, Problem};
 use sigmastar_theory::derivation::condition::{Condition, all};
 use sigmastar_theory::derivation::control::Control;

@@ -3,10 +3,10 @@
 use super::pool::model as model_of;
 use super::proof::SharpProof;
 use super::round::TransferKind;
-use crate::search::{Datum, FloatModel, SharpProposal, search_sharp_near, sensitivities};
 use sigmastar_exact::number::{Direction, round_f64};
 use sigmastar_lang::spec::Specification;
 use sigmastar_lang::spec::model::Constant;
+use sigmastar_propose::search::{Datum, FloatModel, SharpProposal, search_sharp_near, sensitivities};
 use sigmastar_theory::data::Data;
 
 /// The relative change of each datum.

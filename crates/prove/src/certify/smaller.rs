@@ -5,10 +5,10 @@ use super::options::{Ladder, Options, TransferChoice};
 use super::pool::Wanted;
 use super::produce::{certify, certify_for};
 use super::sampled::{SampledCertification, certify_sampled_within};
-use crate::search::{FloatModel, smaller_set};
 use rug::Rational;
 use sigmastar_exact::number::{Direction, round_f64, round_rational};
 use sigmastar_lang::spec::model::{Constant, InitialSet, Specification};
+use sigmastar_propose::search::{FloatModel, smaller_set};
 use sigmastar_theory::data::Data;
 use sigmastar_theory::transfer::TradeOff;
 

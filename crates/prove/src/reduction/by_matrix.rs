@@ -5,12 +5,12 @@ use super::coordinates::{Chosen, CoordinateSearch, MOST_STATES, Rough, SHAPE_STE
 use super::energy::{FIRST_THRESHOLDS, THRESHOLDS};
 use super::estimates::Density;
 use super::grid::RATE;
-use crate::search::{Binding, Descent, Failing, Obstacle, minimise};
 use nalgebra::DMatrix;
 use sigmastar_exact::number::Portable;
 use sigmastar_exact::parallel;
 use sigmastar_lang::spec::Bound;
 use sigmastar_propose::bounds::{Asked, FloatWeights, MatrixArguments};
+use sigmastar_propose::search::{Binding, Descent, Failing, Obstacle, minimise};
 use sigmastar_theory::evidence::TABLE;
 
 /// How many descents there are at most, and by what share one has to lower the gain for another one.

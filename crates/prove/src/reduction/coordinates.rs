@@ -6,15 +6,15 @@
 use super::estimates::{Density, Estimates};
 use super::grid::{Grid, RATE, RATE_EXISTENCE, functions};
 use super::sampling::{Sampling, rational_symmetric};
-use crate::search::{
-    ByEnergy, ByMatrix, Closest, Descent, EnergyMargin, FloatModel, Obstacle, PeriodicSet, ROOMY, SharpParameters,
-    SharpProposal, Threshold, active_level, at_sigma, minimise, search_sharp, search_sharp_near, weight_h,
-};
 use nalgebra::{DMatrix, SymmetricEigen};
 use sigmastar_exact::number::Portable;
 use sigmastar_exact::parallel;
 use sigmastar_lang::spec::PeriodicMatrix;
 use sigmastar_propose::bounds::{Asked, EnergyAt, EnergyWeights, FloatWeights, Focus};
+use sigmastar_propose::search::{
+    ByEnergy, ByMatrix, Closest, Descent, EnergyMargin, FloatModel, Obstacle, PeriodicSet, ROOMY, SharpParameters,
+    SharpProposal, Threshold, active_level, at_sigma, minimise, search_sharp, search_sharp_near, weight_h,
+};
 use sigmastar_theory::derivation::harmonics::AtOrigin;
 use sigmastar_theory::derivation::paths::Path;
 use std::sync::{Arc, Mutex, PoisonError};

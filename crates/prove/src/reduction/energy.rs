@@ -2,9 +2,9 @@
 
 use super::coordinates::{CoordinateSearch, NEAR, Shape, Start, Varied};
 use super::estimates::Density;
-use crate::search::{FloatModel, Obstacle, PeriodicSet, SharpParameters, SharpProposal};
 use sigmastar_exact::parallel;
 use sigmastar_propose::bounds::EnergyWeights;
+use sigmastar_propose::search::{FloatModel, Obstacle, PeriodicSet, SharpParameters, SharpProposal};
 use sigmastar_theory::derivation::harmonics::AtOrigin;
 
 /// The shares of a gain at which the threshold of an inequality of existence is tried, first and later.

@@ -3,7 +3,6 @@
 use super::refusal::PlantRefusal;
 use super::watch::{Stage, Watch};
 use crate::attempt::{prove_existence, prove_inequality, prove_sampled_existence, prove_value};
-use crate::search::{AtSigma, ByEnergy, ByMatrix, FloatModel, PeriodicSet, SHARE, active_level, weight_h};
 use rug::Rational;
 use sigmastar_decide::bounds::Engine;
 use sigmastar_exact::enclosure::Truth;
@@ -14,6 +13,7 @@ use sigmastar_lang::spec::{
     SampledExistence, SampledInequalities, SampledInequality, Splitting,
 };
 use sigmastar_propose::bounds::{EnergyWeights, FloatSuprema};
+use sigmastar_propose::search::{AtSigma, ByEnergy, ByMatrix, FloatModel, PeriodicSet, SHARE, active_level, weight_h};
 use sigmastar_theory::derivation::paths::{Path, Paths};
 use sigmastar_theory::evidence::{Entry, TABLE};
 use std::sync::atomic::{AtomicUsize, Ordering};

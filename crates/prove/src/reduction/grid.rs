@@ -1,10 +1,10 @@
 //! Bounding functions in doubles between the nodes of a grid, for searches: smooth enough to minimise over, and evaluated
 //! only where a search looks.
 
-use crate::search::FloatBound;
 use sigmastar_exact::number::Portable;
 use sigmastar_lang::spec::Bound;
 use sigmastar_propose::bounds::Asked;
+use sigmastar_propose::search::FloatBound;
 use sigmastar_theory::evidence::TABLE;
 use std::sync::{Arc, OnceLock};
 

@@ -10,10 +10,10 @@ use super::sampled_matrix::MatrixAtSamples;
 use super::sampling::Sampling as Samples;
 use super::watch::{Searches, Watch};
 use crate::certify::{Ladder, certify_sampled};
-use crate::search::SampledProposal;
 use sigmastar_exact::parallel;
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{Sampling, Specification};
+use sigmastar_propose::search::SampledProposal;
 
 /// The gains of the families in which one of the intervals is closed to its nominal value, under the names of the parameters in the order
 /// of the plant, and last of the `period`: estimates. Never above `sigma`, the gain of all of them, which serves each. None where there is

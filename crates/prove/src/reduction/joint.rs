@@ -4,14 +4,14 @@
 use super::entries::needed;
 use super::proofs::{Proofs, Reduced};
 use crate::certify::Alternatives;
-use crate::search::{
-    AtSigma, ByEnergy, ByMatrix, Descent, FloatModel, PeriodicSet, SharpProposal, active_level, at_sigma, minimise,
-    search_sharp_near, start_distances,
-};
 use rug::Rational;
 use sigmastar_exact::number::{Direction, Portable, round_f64};
 use sigmastar_lang::spec::{JointInequality, JointStability, Level, Metric, ProvedValues};
 use sigmastar_propose::bounds::{FloatLevel, FloatMetric, LevelAsked, LookedAt, Place};
+use sigmastar_propose::search::{
+    AtSigma, ByEnergy, ByMatrix, Descent, FloatModel, PeriodicSet, SharpProposal, active_level, at_sigma, minimise,
+    search_sharp_near, start_distances,
+};
 use sigmastar_theory::derivation::harmonics::AtOrigin;
 use std::cell::RefCell;
 use std::sync::Arc;

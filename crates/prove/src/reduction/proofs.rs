@@ -10,7 +10,6 @@ use super::tube::TubeOfFamily;
 use super::watch::Watch;
 use crate::attempt::{prove_forcing, prove_orbits};
 use crate::certify::Alternatives;
-use crate::search::{FloatModel, SharpProposal};
 use rug::Rational;
 use sigmastar_decide::bounds::{Engine, Region};
 use sigmastar_exact::parallel;
@@ -21,6 +20,7 @@ use sigmastar_lang::spec::{
     Specification,
 };
 use sigmastar_propose::bounds::{FloatCurve, FloatSuprema};
+use sigmastar_propose::search::{FloatModel, SharpProposal};
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::paths::Path;
 use sigmastar_theory::evidence::ProvedTriple;

@@ -2,8 +2,8 @@
 
 use super::proofs::{Near, PRECISION};
 use crate::certify::sampled_model;
-use crate::search::{Extreme, Failing, Obstacle, SampledProposal, SampledSearch};
 use sigmastar_lang::spec::{self, Specification};
+use sigmastar_propose::search::{Extreme, Failing, Obstacle, SampledProposal, SampledSearch};
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::sampled::SampledLaw;
 

@@ -1,12 +1,12 @@
 //! What keeps a plant from being certified, as errors at their places in its file.
 
 use super::shrunk::INITIAL_SET;
-use crate::search::{Failing, Obstacle};
 use sigmastar_decide::bounds::SmoothnessFailure;
 use sigmastar_decide::orbit::OrbitNotProved;
 use sigmastar_lang::plant::{PeriodicityFailure, Plant};
 use sigmastar_lang::spec::{ErrorKind, InitialSet, SpecErrors};
 use sigmastar_propose::orbit::OrbitFailure;
+use sigmastar_propose::search::{Failing, Obstacle};
 use sigmastar_theory::data::Bound;
 use std::ops::Range;
 

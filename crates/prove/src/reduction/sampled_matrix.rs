@@ -9,10 +9,6 @@ use super::grid::Grid;
 use super::proofs::{Along, PRECISION, Proofs};
 use super::proved_at_samples::{ReducedSampled, found_again};
 use super::sampling::{Sampling, float_matrix};
-use crate::search::{
-    AtSamples, AtSigma, BySampledEnergy, BySampledMatrix, FloatModel, Floors, PeriodicSet, SampledProposal,
-    SampledSearch, active_level, weight_h,
-};
 use rug::Rational;
 use sigmastar_exact::number::{Direction, Portable, round_f64};
 use sigmastar_exact::parallel;
@@ -21,6 +17,10 @@ use sigmastar_lang::spec::{
     SampledLoop,
 };
 use sigmastar_propose::bounds::{FloatSuprema, Places, SampledEnergy, SampledWeights};
+use sigmastar_propose::search::{
+    AtSamples, AtSigma, BySampledEnergy, BySampledMatrix, FloatModel, Floors, PeriodicSet, SampledProposal,
+    SampledSearch, active_level, weight_h,
+};
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::paths::Path;
 use sigmastar_theory::derivation::sampled::{SampledEnergyNumbers, SampledLaw, sampled_trade_off};

@@ -5,7 +5,6 @@ use super::estimates::{Density, Estimates};
 use super::grid::Values;
 use super::tube::TubeOfFamily;
 use super::watch::Watch;
-use crate::search::FloatModel;
 use nalgebra::DMatrix;
 use rug::Rational;
 use sigmastar_exact::number::{Direction, round_f64};
@@ -14,6 +13,7 @@ use sigmastar_lang::spec::model::Constant;
 use sigmastar_lang::spec::{Bound, PeriodicMatrix};
 use sigmastar_propose::bounds::{Asked, FloatSuprema, Focus, Places};
 use sigmastar_propose::orbit::lower_triangular;
+use sigmastar_propose::search::FloatModel;
 use sigmastar_theory::evidence::TABLE;
 use std::sync::atomic::{AtomicUsize, Ordering};
 

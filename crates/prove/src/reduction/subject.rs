@@ -5,13 +5,13 @@ use super::reduce::{Beside, reduce_by_norms_watched, reduce_without_joint};
 use super::watch::{Stage, Unwatched, Watch};
 use super::{ReducedSampled, RestsOn, reduce, reduce_sampled};
 use crate::certify::{Alternatives, WITHOUT_INPUT_GAIN, not_available_with_input_gain, with_triple};
-use crate::search::{SampledProposal, SharpProposal};
 use rug::Rational;
 use sigmastar_lang::plant::{self, Plant};
 use sigmastar_lang::spec::{
     self, Actuator, Constant, Document, ErrorKind, InputGain, InternalModel, Period, Sampling, SpecErrors,
     Specification, Value,
 };
+use sigmastar_propose::search::{SampledProposal, SharpProposal};
 
 /// Where the search for a gain may start, and what it saw beside.
 pub(super) struct Sought {

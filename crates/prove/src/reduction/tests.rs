@@ -8,12 +8,12 @@ use super::{
     Beside, Checked, PlantRefusal, Prepared, Reduced, Stage, Subject, Unwatched, Watch, bounds_around, reduce,
 };
 use crate::certify::{Limits, Options, Wanted, certify_for};
-use crate::search::{Failing, SharpProposal};
 use random_points::random_points;
 use rayon::prelude::*;
 use rug::Rational;
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{Document, ProvedValue, Specification};
+use sigmastar_propose::search::{Failing, SharpProposal};
 use std::path::Path;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};

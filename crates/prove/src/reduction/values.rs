@@ -5,11 +5,11 @@ use super::entries::{Needed, needed};
 use super::proofs::{PRECISION, Proofs, Reduced, trade_off};
 use super::refusal::PlantRefusal;
 use crate::certify::Alternatives;
-use crate::search::{
+use sigmastar_exact::number::Portable;
+use sigmastar_propose::search::{
     AtSigma, Closest, Descent, Failing, FloatModel, Goal, Obstacle, ROOM, SharpParameters, SharpProposal, at_sigma,
     minimise, search_sharp_near,
 };
-use sigmastar_exact::number::Portable;
 use sigmastar_theory::data::Data;
 
 /// How far beyond the arguments of a proposal the bounds are proved, in turn: with room for what the proved values are larger than

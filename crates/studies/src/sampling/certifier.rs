@@ -3,11 +3,11 @@
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_lang::spec::{InternalModel, Sampling, Specification};
-use sigmastar_prove::certify::{Ladder, Outcome, SampledCertification, certify_sampled, sampled_model};
-use sigmastar_prove::reduction::{PlantRefusal, RestsOn, SampledPairs};
-use sigmastar_prove::search::{
+use sigmastar_propose::search::{
     Closest, Extreme, Failing, FloatModel, Obstacle, SampledLimit, SampledSearch, search_sharp,
 };
+use sigmastar_prove::certify::{Ladder, Outcome, SampledCertification, certify_sampled, sampled_model};
+use sigmastar_prove::reduction::{PlantRefusal, RestsOn, SampledPairs};
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::sampled::SampledLaw;
 use sigmastar_theory::transfer::TradeOff;

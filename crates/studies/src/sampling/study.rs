@@ -5,7 +5,7 @@ use super::round::{RoundForm, round_samplings};
 use rug::Rational;
 use sigmastar_exact::number::{Direction, round_f64};
 use sigmastar_lang::spec::{Constant, MAX_SAMPLES, Sampling};
-use sigmastar_prove::search::{Closest, Failing, Obstacle};
+use sigmastar_propose::search::{Closest, Failing, Obstacle};
 
 /// Shares of 1/sigma* that are listed where no sampling periods are asked for.
 const PRODUCTS: [f64; 6] = [0.5, 0.2, 0.1, 0.05, 0.02, 0.01];

@@ -10,8 +10,8 @@ use rug::Rational;
 use sigmastar_document::progress::Progress;
 use sigmastar_exact::number::{Direction, Portable, round_f64, write_exact};
 use sigmastar_lang::spec::{Document, SpecErrors};
+use sigmastar_propose::search::{Descent, minimise};
 use sigmastar_prove::certify::Verdict;
-use sigmastar_prove::search::{Descent, minimise};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 

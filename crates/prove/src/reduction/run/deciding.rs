@@ -11,10 +11,10 @@ use crate::reduction::proofs::ProvedData;
 use crate::reduction::reduce::{reduce_by_norms_quickly, reduce_by_norms_watched};
 use crate::reduction::subject::{Sought, SoughtAtSamples};
 use crate::reduction::{FreeNumbers, RestsOn, Stage, Unwatched, Watch, reduce_sampled};
-use crate::search::SharpProposal;
 use rug::Rational;
 use sigmastar_exact::parallel;
 use sigmastar_lang::spec::{Sampling, SpecErrors, Specification};
+use sigmastar_propose::search::SharpProposal;
 
 /// What the independent checker says of the certificate of a claim.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

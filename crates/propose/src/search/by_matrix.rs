@@ -4,9 +4,9 @@ use super::candidate::{AtSigma, active_level, shape_of_weights, weight_h};
 use super::model::FloatModel;
 use super::obstacle::{Failing, Obstacle};
 use super::threshold::{ByMatrix, EDGE};
+use crate::bounds::FloatWeights;
 use rug::Rational;
 use sigmastar_lang::spec::JointStability;
-use sigmastar_propose::bounds::FloatWeights;
 use sigmastar_theory::derivation::joint;
 use sigmastar_theory::derivation::paths::{Path, Paths};
 

@@ -1,9 +1,9 @@
 //! What a search knows of a matrix inequality of existence (derivation, 13.7, (E)).
 
 use super::obstacle::Failing;
+use crate::bounds::EnergyWeights;
 use rug::Rational;
 use sigmastar_lang::spec::{ExistenceInequality, JointInequality};
-use sigmastar_propose::bounds::EnergyWeights;
 use sigmastar_theory::derivation::energy::{EnergyBounds, EnergyNumbers, MetricNumbers};
 use sigmastar_theory::derivation::harmonics::AtOrigin;
 use std::sync::Arc;

@@ -1,8 +1,8 @@
 //! Where the threshold of the matrix inequality (M) comes from in a search (derivation, 13.7).
 
+use crate::bounds::{FloatWeights, MatrixArguments};
 use rug::Rational;
 use sigmastar_lang::spec::{JointStability, MatrixInequality};
-use sigmastar_propose::bounds::{FloatWeights, MatrixArguments};
 use sigmastar_theory::derivation::paths::Path;
 use std::sync::Arc;
 
