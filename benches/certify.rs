@@ -6,7 +6,8 @@
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use rug::Rational;
-use sigmastar_prove::certify::{GivenWitness, Ladder, Options, certify, decide, recheck};
+use sigmastar_prove::certify::{Options, certify, recheck};
+use sigmastar_decide::conditions::{GivenWitness, Ladder, decide};
 use sigmastar_theory::data::Data;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_lang::expr::{Expr, ProofSettings, Variables, prove_bounding};

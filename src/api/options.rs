@@ -3,9 +3,10 @@
 use super::error::{Error, ErrorKind};
 use super::{positive, rational};
 use rug::Rational;
+use sigmastar_decide::conditions::Ladder;
 use sigmastar_exact::enclosure::{DEFAULT_PRECISION, MAX_PRECISION};
 use sigmastar_lang::spec::Constant;
-use sigmastar_prove::certify::{Ladder, Limits, Options, TransferChoice, rate_counts};
+use sigmastar_prove::certify::{Limits, Options, TransferChoice, rate_counts};
 
 /// What a run of [`certify`](sigmastar_prove::certify) does. The defaults are those of the command `sigmastar certify`.
 ///

@@ -3,6 +3,7 @@
 use crate::support::{EXAMPLE_TEXT, PLANT_TEXT, every, program};
 use rug::Rational;
 use serde_json::{Value, json};
+use sigmastar_decide::conditions::prove_up_to;
 use sigmastar_document::progress::Silent;
 use sigmastar_exact::enclosure::{Enclosure, MAX_EXACT_EXPONENT};
 use sigmastar_lab::simulate::{
@@ -13,7 +14,7 @@ use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{Document, MAX_UNKNOWN, Specification, any_constant};
 use sigmastar_propose::lyapunov::MAX_PROGRAM_COST;
 use sigmastar_propose::search::{Failing, Obstacle};
-use sigmastar_prove::certify::{MAX_SEARCHES, Outcome, certify, prove_up_to, resolve};
+use sigmastar_prove::certify::{MAX_SEARCHES, Outcome, certify, resolve};
 use sigmastar_regulator::Design;
 
 fn with(pointer: &str, value: Value) -> Value {

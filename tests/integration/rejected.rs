@@ -1,9 +1,9 @@
 //! Each condition refused by itself: a witness with room in every condition, and one number changed.
 
 use rug::Rational;
+use sigmastar_decide::conditions::{Ladder, decide, decide_exact};
 use sigmastar_exact::enclosure::{Enclosure, Truth};
 use sigmastar_lang::spec::Specification;
-use sigmastar_prove::certify::{Ladder, decide, decide_exact};
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::consequences::{Psi, error_bounds, smallest_n_o};
 use sigmastar_theory::derivation::exact_regulation::ExactWitness;

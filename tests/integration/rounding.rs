@@ -5,10 +5,11 @@ use crate::controller::constant;
 use crate::support::{Shipped, certified, certified_in, document, every, json, number, program, read, stored, told};
 use rug::Rational;
 use serde_json::{Value, json as object};
+use sigmastar_decide::conditions::Ladder;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, round_rational};
 use sigmastar_lang::spec::{Constant, Sampling, Specification};
-use sigmastar_prove::certify::{Ladder, SampledCertification, certify_sampled};
+use sigmastar_prove::certify::{SampledCertification, certify_sampled};
 use sigmastar_prove::rate::sampled::rounding::{ComputedLaw, Rounded};
 use sigmastar_regulator::{Design, Stepper};
 

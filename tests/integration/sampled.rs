@@ -3,12 +3,12 @@
 use crate::support::{files, in_one_line, json, number, program, read, stem, utf8};
 use rug::Rational;
 use serde_json::{Value, json as object};
+use sigmastar_decide::conditions::Ladder;
 use sigmastar_exact::number::{Direction, parse_decimal, round_rational, write_exact};
 use sigmastar_lang::spec::{Document, ErrorKind, Sampling, Specification};
 use sigmastar_prove::certificate::{StatedClaim, is_sampled, read_claim, read_witness, sampled_certificate_json};
 use sigmastar_prove::certify::{
-    Ladder, Options, SampledCertification, Verdict, Wanted, certify, certify_for, certify_sampled, recheck_sampled,
-    with_triple,
+    Options, SampledCertification, Verdict, Wanted, certify, certify_for, certify_sampled, recheck_sampled, with_triple,
 };
 use sigmastar_prove::reduction::FreeNumbers;
 use sigmastar_theory::derivation::condition::Condition;

@@ -2,10 +2,11 @@
 
 use crate::support::{EXAMPLE_TEXT, every, json, number, program, read, stored, tried};
 use serde_json::Value;
+use sigmastar_decide::conditions::Ladder;
 use sigmastar_lab::falsify::Finding;
 use sigmastar_lang::spec::Specification;
 use sigmastar_prove::certificate::sampled_certificate_json;
-use sigmastar_prove::certify::{Ladder, certify_sampled};
+use sigmastar_prove::certify::certify_sampled;
 use std::sync::LazyLock;
 
 /// The samples of a period of the certificate, which the paper's example has at this gain.

@@ -1,4 +1,4 @@
-//! What enclosures decide of a plant's formulas: its periodic orbit, its Lyapunov function, bounds on a tube. A verdict follows from its exact
+//! What enclosures decide of a plant's formulas: its periodic orbit, its Lyapunov function, bounds on a tube; the conditions of a claim. A verdict follows from its exact
 //! arguments alone; this crate cannot name the crate that proposes them.
 
 #![deny(missing_docs)]
@@ -6,5 +6,6 @@
 #![cfg_attr(test, allow(clippy::disallowed_methods))]
 
 pub mod bounds;
+pub mod conditions;
 pub mod lyapunov;
 pub mod orbit;

@@ -1,6 +1,7 @@
 //! Why nothing was certified, and what to try.
 
 use rug::Rational;
+use sigmastar_decide::conditions::BoundingProblem;
 use sigmastar_document::number::{pair, upper};
 use sigmastar_document::{Block, clean};
 use sigmastar_exact::enclosure::Truth;
@@ -8,7 +9,7 @@ use sigmastar_exact::number::write_exact;
 use sigmastar_lang::expr::BoundingFailure;
 use sigmastar_lang::spec::{InitialSet, SIZES};
 use sigmastar_propose::search::{Failing, Limited, Obstacle};
-use sigmastar_prove::certify::{BoundingProblem, Certification, Outcome, SmallerChoice, Verdict};
+use sigmastar_prove::certify::{Certification, Outcome, SmallerChoice, Verdict};
 use sigmastar_theory::derivation::condition::Condition;
 
 /// So many items of a list are in the short form.

@@ -2,10 +2,11 @@
 
 use super::gains;
 use rug::Rational;
+use sigmastar_decide::conditions::{ExceededBy, NoPlant};
 use sigmastar_document::number::{estimate, exact, upper};
 use sigmastar_exact::number::Direction;
 use sigmastar_lang::spec::{ProvedValue, Specification};
-use sigmastar_prove::certify::{Certification, ExceededBy, NoPlant, SampledCertification, unusual_mu};
+use sigmastar_prove::certify::{Certification, SampledCertification, unusual_mu};
 
 /// One sentence or two for each.
 pub fn remarks(run: &Certification<'_>) -> Vec<String> {

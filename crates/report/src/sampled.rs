@@ -16,13 +16,14 @@ use super::words;
 use super::{Origin, about, brief, conditions, consequences, gains, of_plant};
 use rug::Rational;
 use serde_json::{Value, json};
+use sigmastar_decide::conditions::SampledProof;
 use sigmastar_document::number::{estimate, exact, full, upper};
 use sigmastar_document::{Block, Readable, clean};
 use sigmastar_exact::enclosure::{Enclosure, Truth};
 use sigmastar_exact::number::{Direction, write_exact};
 use sigmastar_propose::search::Failing;
 use sigmastar_prove::certificate::{no_plant_json, set_fields};
-use sigmastar_prove::certify::{Outcome, SampledCertification, SampledProof, Verdict};
+use sigmastar_prove::certify::{Outcome, SampledCertification, Verdict};
 use sigmastar_theory::derivation::targets::{SampledConsequences, Target};
 
 /// Everything that the report is made from.

@@ -3,8 +3,9 @@
 use super::Replace;
 use crate::cli::format::Format;
 use clap::{Args, ValueEnum, ValueHint};
+use sigmastar_decide::conditions::Ladder;
 use sigmastar_exact::enclosure::{DEFAULT_PRECISION, MAX_PRECISION};
-use sigmastar_prove::certify::{Ladder, Options, TransferChoice};
+use sigmastar_prove::certify::{Options, TransferChoice};
 use std::path::PathBuf;
 
 /// The flags of `certify`.

@@ -8,10 +8,11 @@ use crate::support::{
 };
 use rug::Rational;
 use serde_json::{Value, json as object};
+use sigmastar_decide::conditions::Ladder;
 use sigmastar_lab::falsify::Finding;
 use sigmastar_lang::spec::{Document, Specification};
 use sigmastar_prove::certificate::{read_sampled_witness, sampled_certificate_json};
-use sigmastar_prove::certify::{Ladder, SampledCertification, Verdict, recheck_sampled};
+use sigmastar_prove::certify::{SampledCertification, Verdict, recheck_sampled};
 use sigmastar_theory::derivation::sampled::SampledWitness;
 use std::path::{Path, PathBuf};
 

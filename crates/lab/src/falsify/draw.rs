@@ -8,8 +8,8 @@ use super::jacobian::{self, Clock};
 use super::limits::{Limits, SHARE};
 use super::random::Random;
 use super::shape::{Number, Shape};
+use sigmastar_decide::conditions::has_states;
 use sigmastar_exact::enclosure::DEFAULT_PRECISION;
-use sigmastar_prove::certify::has_states;
 use sigmastar_theory::data::{Bound, Data};
 
 /// Draws a plant: each coefficient is a random share of what the bounding functions allow at small arguments, then what

@@ -13,11 +13,11 @@ use crate::simulate::{
     ClosedLoop, Disturbance, IntegrationFailure, Orbit, SteadyState, SteadyStateError, Tolerance, flow, rms,
     steady_state, sup, trajectory,
 };
+use sigmastar_decide::conditions::no_plant;
 use sigmastar_document::progress::{Progress, Silent};
 use sigmastar_exact::enclosure::DEFAULT_PRECISION;
 use sigmastar_exact::number::Portable;
 use sigmastar_exact::parallel;
-use sigmastar_prove::certify::no_plant;
 use sigmastar_theory::data::Data;
 
 /// The numbers of oscillators that are tried.

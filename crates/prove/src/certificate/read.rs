@@ -3,8 +3,8 @@
 use super::fields::{NumberFields, PLANT_FIELDS, RefinedSquares, exact_rational, rational, read_paths};
 use super::triple::{EXISTENCE, STABILITY};
 use super::write::{FORMAT, VERSION};
-use crate::certify::GivenWitness;
 use rug::Rational;
+use sigmastar_decide::conditions::GivenWitness;
 use sigmastar_lang::spec::model::PeriodicMatrix;
 use sigmastar_lang::spec::{
     Actuator, Document, ErrorKind, Errors, InputGain, Object, Parameters, Reported, SpecErrors, Value, read_actuator,

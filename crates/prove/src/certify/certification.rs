@@ -1,14 +1,15 @@
 //! What a run found out.
 
-use super::bounding::BoundingProblem;
 use super::gain_row::{GainRow, RowNoise};
 use super::matrix_checks::MatrixChecks;
-use super::no_plant::NoPlant;
 use super::options::{Limits, Options};
-use super::proof::{Decided, Outcome, Proof, RepairedProof, SharpProof, is_better};
+use super::outcome::{Outcome, is_better};
 use super::verdict::Verdict;
 use crate::rate::found::RateForCount;
 use rug::Rational;
+use sigmastar_decide::conditions::BoundingProblem;
+use sigmastar_decide::conditions::NoPlant;
+use sigmastar_decide::conditions::{Decided, Proof, RepairedProof, SharpProof};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_lang::spec::model::Specification;
 use sigmastar_propose::search::{Binding, Datum, Failing, Obstacle, OptionalDatum};

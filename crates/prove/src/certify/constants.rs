@@ -1,10 +1,11 @@
 //! What is reported of a proof beside its claim, at a precision at which it is known well.
 
 use super::certification::{ExactClaim, PrintedFigure};
-use super::decide::decide;
-use super::options::Ladder;
-use super::proof::{Decided, Outcome, Proof, RepairedProof, SharpProof, Witness};
+use super::outcome::Outcome;
 use rug::Rational;
+use sigmastar_decide::conditions::Ladder;
+use sigmastar_decide::conditions::decide;
+use sigmastar_decide::conditions::{Decided, Proof, RepairedProof, SharpProof, Witness};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_lang::spec::model::Specification;
 use sigmastar_theory::data::Data;

@@ -1,8 +1,8 @@
 //! Bounds at one gain, as reports have them for the gain of a claim and for larger ones (derivation, 13.5).
 
-use super::proof::{SampledProof, SharpProof};
 use crate::rate::found::ForCount;
 use rug::Rational;
+use sigmastar_decide::conditions::{SampledProof, SharpProof};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_lang::spec::Specification;
 use sigmastar_theory::derivation::control::Control;

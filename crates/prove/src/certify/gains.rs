@@ -1,13 +1,14 @@
 //! What larger gains bring (derivation, 13.5): bounds at multiples of the gain of a claim.
 
-use super::bounding::prove_up_to;
 use super::certification::Certification;
 use super::gain_row::{GainRow, RowProof, SHOWN_N_O};
-use super::options::Ladder;
+use super::outcome::is_better;
 use super::pool::{Member, Wanted};
-use super::proof::{SampledProof, SharpProof, is_better};
 use super::sampled::{SampledCertification, certify_sampled};
 use rug::Rational;
+use sigmastar_decide::conditions::Ladder;
+use sigmastar_decide::conditions::prove_up_to;
+use sigmastar_decide::conditions::{SampledProof, SharpProof};
 use sigmastar_exact::number::{Direction, round_rational};
 use sigmastar_exact::parallel;
 use sigmastar_lang::spec::Specification;

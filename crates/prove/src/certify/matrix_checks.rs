@@ -1,9 +1,9 @@
 //! What the matrix inequalities say about a run: C5 as a semidefinite program beside its closed form, the contraction matrix
 //! with weights and as a Stein inequality, and Sylvester's criterion for R.
 
-use super::proof::{RepairedProof, SharpProof};
 use crate::lmi::{CrossCheck, CrossCheckError, contraction, cross_check};
 use rug::Rational;
+use sigmastar_decide::conditions::{RepairedProof, SharpProof};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, round_f64, round_rational};
 use sigmastar_lang::spec::model::Specification;

@@ -4,23 +4,20 @@
 //! refuses is a [`Refusal`].
 
 mod ball;
-mod bounding;
 mod certification;
 mod consequences;
 mod constants;
-mod decide;
 mod gain_row;
 mod gains;
 mod jacobian;
 mod least_limit;
 mod limits;
 mod matrix_checks;
-mod no_plant;
 mod nominal_ball;
 mod options;
+mod outcome;
 mod pool;
 mod produce;
-mod proof;
 mod rates;
 mod refusal;
 mod room;
@@ -35,19 +32,16 @@ mod start;
 mod verdict;
 
 pub use ball::{claimed_ball, covers_ball, inverse_norm, within_ball};
-pub use bounding::{BoundingProblem, prove_on_domain, prove_up_to};
 pub use certification::{Alternatives, Certification, ExactClaim, PrintedFigure, RelativeDegreeGains};
-pub use decide::{decide, decide_exact};
 pub use gain_row::{GainRow, RowNoise, SHOWN_N_O};
 pub use gains::ROWS;
 pub use jacobian::{MAX_SEARCHES, Resolution, resolve, resolve_with, with_triple};
 pub use matrix_checks::{ContractionCheck, MatrixChecks, SylvesterCheck};
-pub use no_plant::{ExceededBy, NoPlant, has_states, no_plant};
 pub use nominal_ball::nominal_ball;
-pub use options::{Ladder, Limits, Options, TransferChoice};
+pub use options::{Limits, Options, TransferChoice};
+pub use outcome::Outcome;
 pub use pool::{Member, Wanted};
 pub use produce::{certify, certify_for, certify_member, recheck};
-pub use proof::{Decidable, Decided, GivenWitness, Outcome, Proof, RepairedProof, SampledProof, SharpProof, Witness};
 pub use rates::{NoRatesOfClaim, SaidOfCount, apart, rate_counts, rates_in_words};
 pub use refusal::{Refusal, WITHOUT_INPUT_GAIN, not_available_with_input_gain};
 pub use sampled::{SampledCertification, certify_sampled, certify_sampled_within, recheck_sampled, sampled_model};

@@ -1,7 +1,8 @@
 //! What a run is asked for.
 
 use rug::Rational;
-use sigmastar_exact::enclosure::{DEFAULT_PRECISION, Enclosure, MAX_PRECISION};
+use sigmastar_decide::conditions::Ladder;
+use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_propose::search::Limited;
 use sigmastar_theory::derivation::control::Control;
 
@@ -15,21 +16,6 @@ pub enum TransferChoice {
     Boxes,
     /// By the closed form: valid for every base frequency, with a larger gain.
     ClosedForm,
-}
-
-/// The precisions that are tried: from `start`, doubled, up to `limit` bits.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Ladder {
-    /// The first precision in bits.
-    pub start: u32,
-    /// The last precision in bits.
-    pub limit: u32,
-}
-
-impl Default for Ladder {
-    fn default() -> Ladder {
-        Ladder { start: DEFAULT_PRECISION, limit: MAX_PRECISION }
-    }
 }
 
 /// What a run does; every field has a default.

@@ -2,12 +2,13 @@
 //! That witness proves its claim for every larger gain, too, and every search at a larger gain starts from it; so no answer about a larger
 //! gain is worse than what the smallest one proves.
 
-use super::decide::decide;
 use super::limits::{FloatLimits, NEAR, ROOMS};
 use super::options::{Limits, Options, TransferChoice};
-use super::proof::{Outcome, SharpProof, has_smaller_peak, is_better};
+use super::outcome::{Outcome, has_smaller_peak, is_better};
 use super::round::{TransferKind, round_sharp};
 use rug::Rational;
+use sigmastar_decide::conditions::SharpProof;
+use sigmastar_decide::conditions::decide;
 use sigmastar_lang::spec::Specification;
 use sigmastar_propose::search::{
     Failing, FloatModel, Goal, Obstacle, SharpProposal, largest_at, search_sharp, search_sharp_at, search_sharp_near,

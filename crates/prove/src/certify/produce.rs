@@ -1,20 +1,21 @@
 //! The whole run: prove the bounding functions, search, round, decide, in each derivation.
 
-use super::bounding::{BoundingProblem, prove_on_domain, prove_up_to};
 use super::certification::{Alternatives, Certification, ExactClaim, PrintedFigure, RelativeDegreeGains};
 use super::constants::Columns;
-use super::decide::{decide, decide_exact};
 use super::least_limit::with_least_kept;
 use super::matrix_checks::MatrixChecks;
-use super::no_plant::no_plant;
 use super::options::{Limits, Options};
+use super::outcome::{Outcome, failing};
 use super::pool::{BestSharp, Member, Wanted, model};
-use super::proof::{GivenWitness, Outcome, Proof, RepairedProof, SharpProof, Witness, failing};
 use super::refusal::Refusal;
 use super::round::{TransferKind, exact_claim, round_repaired};
 use super::sensitivity::{aligned, ranked, with_nominal_gain};
 use super::verdict::Verdict;
 use rug::Rational;
+use sigmastar_decide::conditions::no_plant;
+use sigmastar_decide::conditions::{BoundingProblem, prove_on_domain, prove_up_to};
+use sigmastar_decide::conditions::{GivenWitness, Proof, RepairedProof, SharpProof, Witness};
+use sigmastar_decide::conditions::{decide, decide_exact};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, round_f64};
 use sigmastar_lang::expr::BoundingFailure;

@@ -2,7 +2,7 @@
 
 use super::certification::Certification;
 use super::options::Limits;
-use super::proof::{Outcome, Proof, SampledProof, SharpProof};
+use super::outcome::Outcome;
 use super::sampled::SampledCertification;
 use super::verdict::Verdict;
 use crate::rate::bound::{MAX_COUNTS, MAX_OSCILLATORS, Place, RateBound, bound};
@@ -14,6 +14,7 @@ use crate::rate::sampled::noise::noise_bound as at_samples_with_noise;
 use crate::rate::sampled::rounding::measured;
 use rug::Rational;
 use sigmastar_decide::bounds::Engine;
+use sigmastar_decide::conditions::{Proof, SampledProof, SharpProof};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, round_f64, write_exact};
 use sigmastar_exact::parallel;

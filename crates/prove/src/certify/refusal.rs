@@ -1,7 +1,6 @@
 //! What keeps a specification from being decided, as errors at their places in it.
 
-use super::bounding::BoundingProblem;
-use sigmastar_lang::expr::BoundingFailure;
+use sigmastar_decide::conditions::BoundingProblem;
 use sigmastar_lang::spec::{ErrorKind, SpecErrors, Specification};
 use sigmastar_theory::derivation::relative_degree::RelativeDegreeError;
 
@@ -57,31 +56,5 @@ impl Refusal {
                  alpha",
             ),
         }
-    }
-}
-
-impl BoundingProblem {
-    /// The problem as an error at its place in the specification, to be rendered in context.
-    #[must_use]
-    pub fn errors(&self, spec: &Specification) -> SpecErrors {
-        let field = format!("/{}/{}", self.which.section(), self.which.field());
-        let text = spec.bounds.own(self.which).map_or("", |expr| expr.text());
-        let whole = 0..text.len();
-        let (span, kind, help) = match &self.failure {
-            BoundingFailure::Refuted { span, .. } => (
-                span,
-                ErrorKind::Range,
-                "correct the expression, or give a `domain` on which it is finite, nonnegative and nondecreasing in X and \
-                 in E",
-            ),
-            BoundingFailure::Undecided { span, .. } => (
-                span,
-                ErrorKind::Undecided,
-                "rewrite it as sums, products and compositions of nondecreasing functions, or give a smaller `domain`",
-            ),
-        };
-        let span = span.clone().unwrap_or(whole);
-        spec.errors_at(&field, &span, kind, self.sentence(), Some(help.to_owned()))
-            .with_sentence_in_full(self.failure.in_full())
     }
 }

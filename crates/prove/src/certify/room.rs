@@ -3,20 +3,21 @@
 //! The box of a search is as small as C4 allows, and its weights are best for C5. With a smaller weight of zeta the level is lower in the same
 //! box, and with the same weights C4 holds in every larger box; of either C5 asks for a larger gain.
 
-use super::bounding::prove_up_to;
 use super::certification::{Certification, ExactClaim};
 use super::constants::Columns;
-use super::decide::{decide, decide_exact};
 use super::matrix_checks::MatrixChecks;
-use super::no_plant::no_plant;
-use super::options::Ladder;
-use super::proof::{Outcome, SampledProof, SharpProof};
+use super::outcome::Outcome;
 use super::rates::{for_n_o, for_n_o_at_samples};
 use super::round::LONG_DIGITS;
 use super::sampled::{SampledCertification, recheck_sampled};
 use crate::rate::found::ForCount;
 use crate::rate::noise::NoNoiseBound;
 use rug::Rational;
+use sigmastar_decide::conditions::Ladder;
+use sigmastar_decide::conditions::no_plant;
+use sigmastar_decide::conditions::prove_up_to;
+use sigmastar_decide::conditions::{SampledProof, SharpProof};
+use sigmastar_decide::conditions::{decide, decide_exact};
 use sigmastar_exact::number::{Direction, round_f64};
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::initial_set::claimed_distances;

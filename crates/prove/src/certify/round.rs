@@ -4,10 +4,10 @@
 //! numbers for it, rounds, and asks for a rigorous decision; the first witness that is proved is returned.
 
 use super::certification::ExactClaim;
-use super::decide::{decide, decide_exact};
-use super::options::Ladder;
-use super::proof::{Decidable, Proof, RepairedProof, SharpProof};
 use rug::Rational;
+use sigmastar_decide::conditions::Ladder;
+use sigmastar_decide::conditions::{Decidable, Proof, RepairedProof, SharpProof};
+use sigmastar_decide::conditions::{decide, decide_exact};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, round_f64, round_rational};
 use sigmastar_lang::spec::model::{InitialSet, StartSizes};

@@ -2,13 +2,13 @@
 
 use super::certification::Certification;
 use super::gain_row::{GainRow, RowProof};
-use super::proof::SharpProof;
 use super::rates::{distances, distances_at_samples, matrix_arguments};
 use super::sampled::SampledCertification;
 use crate::rate::bound::{Place, bound};
 use crate::rate::by_matrices::{Start, again};
 use crate::rate::sampled::bound as at_samples;
 use rug::Rational;
+use sigmastar_decide::conditions::SharpProof;
 use sigmastar_exact::parallel;
 use sigmastar_lang::spec::Specification;
 use sigmastar_theory::data::Data;

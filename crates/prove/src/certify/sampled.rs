@@ -1,14 +1,11 @@
 //! The regulator at samples: search, rounding and decision of a claim about one gain and one sampling period (derivation, 12).
 
-use super::bounding::{BoundingProblem, prove_on_domain, prove_up_to};
-use super::decide::decide;
 use super::gain_row::{GainRow, RowNoise};
 use super::least_limit::with_least_kept;
 use super::limits::{FloatLimits, NEAR, ROOMS};
-use super::no_plant::{NoPlant, no_plant};
-use super::options::{Ladder, Limits};
+use super::options::Limits;
+use super::outcome::{Outcome, smaller};
 use super::produce::undecided_or_error;
-use super::proof::{Outcome, SampledProof, smaller};
 use super::refusal::Refusal;
 use super::round::{
     LONG_DIGITS, RoundedBox, SHORT_DIGITS, box_with, claimed_set, first_proved, nearest, room, rounded_box,
@@ -17,6 +14,11 @@ use super::round::{
 use super::verdict::Verdict;
 use crate::rate::found::SampledRateForCount;
 use rug::Rational;
+use sigmastar_decide::conditions::Ladder;
+use sigmastar_decide::conditions::SampledProof;
+use sigmastar_decide::conditions::decide;
+use sigmastar_decide::conditions::{BoundingProblem, prove_on_domain, prove_up_to};
+use sigmastar_decide::conditions::{NoPlant, no_plant};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, round_f64, round_rational};
 use sigmastar_lang::spec::model::Specification;

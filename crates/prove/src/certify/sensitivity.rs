@@ -1,8 +1,8 @@
 //! Which datum of the file would lower sigma* most. Floating point: an explanation, not a claim.
 
 use super::pool::model as model_of;
-use super::proof::SharpProof;
 use super::round::TransferKind;
+use sigmastar_decide::conditions::SharpProof;
 use sigmastar_exact::number::{Direction, round_f64};
 use sigmastar_lang::spec::Specification;
 use sigmastar_lang::spec::model::Constant;

@@ -1,11 +1,12 @@
 //! A smaller initial set for which a specification is certified that is not certified as it is.
 
 use super::certification::Certification;
-use super::options::{Ladder, Options, TransferChoice};
+use super::options::{Options, TransferChoice};
 use super::pool::Wanted;
 use super::produce::{certify, certify_for};
 use super::sampled::{SampledCertification, certify_sampled_within};
 use rug::Rational;
+use sigmastar_decide::conditions::Ladder;
 use sigmastar_exact::number::{Direction, round_f64, round_rational};
 use sigmastar_lang::spec::model::{Constant, InitialSet, Specification};
 use sigmastar_propose::search::{FloatModel, smaller_set};

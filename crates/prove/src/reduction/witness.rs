@@ -1,7 +1,8 @@
 //! What a certificate says, to be decided again of a subject without any search.
 
 use super::{PlantRefusal, Subject, decide_again};
-use crate::certify::{GivenWitness, with_triple};
+use crate::certify::with_triple;
+use sigmastar_decide::conditions::GivenWitness;
 use sigmastar_lang::spec::{ErrorKind, OfPlant, ProvedValues, Sampling, SpecErrors, Specification};
 use sigmastar_theory::derivation::sampled::SampledWitness;
 use sigmastar_theory::evidence::ProvedTriples;

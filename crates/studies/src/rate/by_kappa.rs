@@ -11,9 +11,9 @@
 //! It uses C5 with the weights of the certificate, which at sigma* leave next to nothing: see `sigmastar_prove::rate::inequality`.
 
 use rug::Rational;
+use sigmastar_decide::conditions::SharpProof;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_matrix::is_positive_definite;
-use sigmastar_prove::certify::SharpProof;
 use sigmastar_prove::lmi::{DecayData, propose_multipliers, verify_decay};
 use sigmastar_prove::rate::oscillators::ProvedLyapunov;
 use sigmastar_theory::data::Data;

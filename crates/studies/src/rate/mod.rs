@@ -7,9 +7,10 @@ pub mod by_kappa;
 
 use by_kappa::RateByKappa;
 use rug::Rational;
+use sigmastar_decide::conditions::{NoPlant, SharpProof};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, round_rational};
-use sigmastar_prove::certify::{Certification, NoPlant, SharpProof, Verdict};
+use sigmastar_prove::certify::{Certification, Verdict};
 use sigmastar_prove::rate::inequality::{ErrorDynamics, LoopBounds};
 use sigmastar_prove::rate::oscillators::{OscillatorMatrix, ProvedLyapunov};
 use sigmastar_prove::rate::riccati;

@@ -1,12 +1,13 @@
 //! Certifying one pair of a gain and a sampling period, of a specification or of a plant.
 
 use rug::Rational;
+use sigmastar_decide::conditions::Ladder;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_lang::spec::{InternalModel, Sampling, Specification};
 use sigmastar_propose::search::{
     Closest, Extreme, Failing, FloatModel, Obstacle, SampledLimit, SampledSearch, search_sharp,
 };
-use sigmastar_prove::certify::{Ladder, Outcome, SampledCertification, certify_sampled, sampled_model};
+use sigmastar_prove::certify::{Outcome, SampledCertification, certify_sampled, sampled_model};
 use sigmastar_prove::reduction::{PlantRefusal, RestsOn, SampledPairs};
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::sampled::SampledLaw;

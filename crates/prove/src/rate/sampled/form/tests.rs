@@ -1,7 +1,8 @@
 use super::super::bound::bound;
 use super::*;
-use crate::certify::{Ladder, certify_sampled};
+use crate::certify::certify_sampled;
 use crate::rate::bound::{Place, RateBound};
+use sigmastar_decide::conditions::Ladder;
 use sigmastar_lang::spec::Specification;
 use sigmastar_theory::derivation::initial_set::claimed_distances;
 

@@ -1,12 +1,27 @@
 //! Deciding a claim from its rational witness, at a precision that rises while the answer is undecided.
 
-use super::options::Ladder;
 use super::proof::{Decidable, Proof};
+use sigmastar_exact::enclosure::{DEFAULT_PRECISION, MAX_PRECISION};
 use sigmastar_lang::spec::model::Specification;
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::condition::{self, Condition};
 use sigmastar_theory::derivation::exact_regulation::{ExactEvaluation, ExactWitness};
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
+
+/// The precisions that are tried: from `start`, doubled, up to `limit` bits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Ladder {
+    /// The first precision in bits.
+    pub start: u32,
+    /// The last precision in bits.
+    pub limit: u32,
+}
+
+impl Default for Ladder {
+    fn default() -> Ladder {
+        Ladder { start: DEFAULT_PRECISION, limit: MAX_PRECISION }
+    }
+}
 
 impl Ladder {
     /// Evaluates at rising precisions until the conditions are decided; returns the last evaluation and its precision.

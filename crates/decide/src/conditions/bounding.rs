@@ -2,8 +2,8 @@
 
 use rug::Rational;
 use sigmastar_lang::expr::{BoundingFailure, Expr, ProofSettings, Reason, prove_bounding};
-use sigmastar_lang::spec::Bound;
 use sigmastar_lang::spec::model::Specification;
+use sigmastar_lang::spec::{Bound, ErrorKind, SpecErrors};
 
 /// A bounding function that could not be proved.
 #[derive(Clone, Debug)]
@@ -15,6 +15,30 @@ pub struct BoundingProblem {
 }
 
 impl BoundingProblem {
+    /// The problem as an error at its place in the specification, to be rendered in context.
+    #[must_use]
+    pub fn errors(&self, spec: &Specification) -> SpecErrors {
+        let field = format!("/{}/{}", self.which.section(), self.which.field());
+        let text = spec.bounds.own(self.which).map_or("", |expr| expr.text());
+        let whole = 0..text.len();
+        let (span, kind, help) = match &self.failure {
+            BoundingFailure::Refuted { span, .. } => (
+                span,
+                ErrorKind::Range,
+                "correct the expression, or give a `domain` on which it is finite, nonnegative and nondecreasing in X and \
+                 in E",
+            ),
+            BoundingFailure::Undecided { span, .. } => (
+                span,
+                ErrorKind::Undecided,
+                "rewrite it as sums, products and compositions of nondecreasing functions, or give a smaller `domain`",
+            ),
+        };
+        let span = span.clone().unwrap_or(whole);
+        spec.errors_at(&field, &span, kind, self.sentence(), Some(help.to_owned()))
+            .with_sentence_in_full(self.failure.in_full())
+    }
+
     /// The sentence of the failure; of a rate that must not increase it speaks of the negative.
     #[must_use]
     pub fn sentence(&self) -> String {
