@@ -28,13 +28,13 @@ pub fn check(bytes: &[u8]) -> Report {
     check_against(bytes, None)
 }
 
-/// The same, and whether the certificate is about the data of `specification`, the bytes of a specification file: if not,
+/// Checks the bytes of a certificate file, and whether it is about the data of `specification`, the bytes of a specification file: if not,
 /// it is `invalid`.
 pub fn check_against(bytes: &[u8], specification: Option<&[u8]>) -> Report {
     check_within(bytes, specification, effort::LIMIT)
 }
 
-/// The same with another limit than [`effort::LIMIT`] on the steps that the claim may take, and again the figures.
+/// Checks a certificate with another limit than [`effort::LIMIT`] on the steps that the claim may take, and again the figures.
 pub fn check_within(bytes: &[u8], specification: Option<&[u8]>, limit: u64) -> Report {
     let mut lines = Vec::new();
     let (result, steps) = effort::limited(limit, || {

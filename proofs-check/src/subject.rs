@@ -274,7 +274,7 @@ fn difference(a: &Json, b: &Json, place: &str, free: &[&str]) -> Option<(String,
     }
 }
 
-/// The same text but for white space, or the same rational number.
+/// Whether two texts are equal but for white space, or are one rational number.
 fn same_numeral(a: &str, b: &str) -> bool {
     let bare = |text: &str| text.split_whitespace().collect::<String>();
     bare(a) == bare(b) || rational(a).zip(rational(b)).is_some_and(|(a, b)| a == b)

@@ -29,7 +29,7 @@ pub fn check(certificate: &str) -> CheckReport {
     CheckReport::new(&proofs_check::check(certificate.as_bytes()))
 }
 
-/// The same; and a certificate about other data than those of the specification or plant is invalid.
+/// Decides the claim of a certificate again as [`check`] does; a certificate about other data than those of the specification or plant is invalid.
 #[must_use]
 pub fn check_against(certificate: &str, subject: impl Into<Subject>) -> CheckReport {
     let asked = subject.into().to_json();

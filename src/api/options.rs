@@ -127,13 +127,15 @@ impl CertifyOptions {
         self.limited(0, limit.into())
     }
 
-    /// The same of |e| on the way from the initial set.
+    /// Certify the smallest gain that is found with which |e| is at all times from the initial set at most this, a positive rational number;
+    /// with [`CertifyOptions::sigma`] refuse a gain with which that is not proved.
     #[must_use]
     pub fn peak_error(self, limit: impl Into<String>) -> CertifyOptions {
         self.limited(1, limit.into())
     }
 
-    /// The same of what is put out on the way from the initial set: a bound that grows with the gain.
+    /// Certify the smallest gain that is found with which what is put out is at all times from the initial set at most this, a positive rational
+    /// number: a bound that grows with the gain. With [`CertifyOptions::sigma`] refuse a gain with which that is not proved.
     #[must_use]
     pub fn max_control(self, limit: impl Into<String>) -> CertifyOptions {
         self.limited(2, limit.into())

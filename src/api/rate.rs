@@ -92,7 +92,7 @@ impl Rate {
         self.closed_loop.as_ref().map(|(exact, ..)| exact.as_str())
     }
 
-    /// The same, rounded down.
+    /// A proved rate at which every solution from the certified initial set approaches the periodic solution, rounded down.
     #[must_use]
     pub fn closed_loop_f64(&self) -> Option<f64> {
         self.closed_loop.as_ref().map(|(_, down, _)| *down)
@@ -110,7 +110,7 @@ impl Rate {
         self.oscillators.as_ref().map(|(exact, _)| exact.as_str())
     }
 
-    /// The same, rounded down.
+    /// A proved decay rate of the oscillators by themselves, rounded down.
     #[must_use]
     pub fn oscillators_f64(&self) -> Option<f64> {
         self.oscillators.as_ref().map(|(_, down)| *down)

@@ -102,7 +102,7 @@ pub fn regulator_matrices(subject: impl Into<Subject>, sigma: &str, n_o: u32) ->
     })
 }
 
-/// The same regulator for a sampling time, an exact positive constant.
+/// The regulator at samples for a sampling time, an exact positive constant.
 ///
 /// # Errors
 /// Those of [`regulator_matrices`]; what is wrong with the sampling time; [`Range`](ErrorKind::Range) for one that works

@@ -45,7 +45,7 @@ impl Subject {
         Subject::new(Document::parse(LABEL, text)?)
     }
 
-    /// The same from the bytes of a file; `name` is what errors call it, usually its path, whose ending says the notation: JSON, or with
+    /// Reads a document from the bytes of a file; `name` is what errors call it, usually its path, whose ending says the notation: JSON, or with
     /// `.jsonc` JSON with comments, with `.toml` TOML.
     ///
     /// # Errors
@@ -58,7 +58,7 @@ impl Subject {
         Ok(Subject { read: Read::read(&source)?, source })
     }
 
-    /// The same document about the regulator at samples this far apart, as `sampling_period` of its internal model: what
+    /// This document about the regulator at samples this far apart, as `sampling_period` of its internal model: what
     /// [`certify`](crate::certify) with [`CertifyOptions::sampling_period`](crate::CertifyOptions::sampling_period) certifies, so that
     /// [`check_against`](crate::check_against) can compare such a certificate with the document that it was made for.
     ///

@@ -62,7 +62,7 @@ impl OutputFile {
         Ok(file)
     }
 
-    /// The same of a file that may exist, unless it is `input`.
+    /// A file that is to be written and may exist, unless it is `input`.
     ///
     /// # Errors
     /// The call is wrong; nothing was touched.
@@ -125,7 +125,7 @@ impl Replace {
         if self.force { OutputFile::replacing(path, input, what) } else { OutputFile::new(path, input, what) }
     }
 
-    /// The same, of a flag that may be absent.
+    /// A file that is to be written, of a flag that may be absent: with `--force` one that exists is replaced.
     ///
     /// # Errors
     /// Those of [`OutputFile::new`].

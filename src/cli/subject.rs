@@ -31,7 +31,7 @@ impl Asked {
         Asked::of(path, input::document(path)?)
     }
 
-    /// The same of a document that was read from the path.
+    /// Reads what a document from this path is about: a specification or plant, or the one that a certificate embeds.
     ///
     /// # Errors
     /// A certificate whose document is not the one that its digest is of.

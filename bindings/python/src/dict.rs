@@ -19,7 +19,7 @@ impl Dict {
         Dict(Vec::new())
     }
 
-    /// The same dictionary with one more entry.
+    /// This dictionary with one more entry.
     pub fn with(mut self, name: &'static str, value: impl Value) -> Dict {
         self.0.push((name, Box::new(move |py| value.into_bound_py_any(py))));
         self

@@ -61,7 +61,7 @@ impl Table {
         self.rows.push(row);
     }
 
-    /// The same with bars of these lengths behind its rows.
+    /// This table with bars of these lengths behind its rows.
     #[must_use]
     pub fn with_bars(self, bars: Vec<f64>) -> Table {
         Table { bars, ..self }

@@ -43,7 +43,7 @@ fn number(word: &str) -> Option<bool> {
     }
 }
 
-/// The same number with one digit before the point and an exponent; 0 stays 0.
+/// A number with one digit before the point and an exponent, of the same value; 0 stays 0.
 pub(super) fn scientific(number: &str) -> String {
     if number.contains('e') {
         return number.to_owned();

@@ -8,7 +8,7 @@ use sigmastar_exact::number::{Direction, Portable, round_f64, round_rational, wr
 /// Significant digits of a number in a report; certificates and JSON have all of them.
 const DIGITS: usize = 4;
 
-/// The same decimal with an exponent, where it starts with many zeros, or ends with so many that they would look like digits.
+/// A decimal, with an exponent where it starts with many zeros, or ends with so many that they would look like digits.
 fn shorter(text: String) -> String {
     let size = text.strip_prefix('-').unwrap_or(&text);
     let is_long = size.len() > DIGITS + 3 && size.bytes().all(|c| c.is_ascii_digit());

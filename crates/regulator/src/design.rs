@@ -36,7 +36,7 @@ impl<'m> Design<'m> {
         Design { model, sigma, n_o, delayed, nominal: None }
     }
 
-    /// The same with or without a delay, whatever the model asks for.
+    /// This regulator with or without a delay, whatever the model asks for.
     #[must_use]
     pub fn with_delay(self, delayed: bool) -> Design<'m> {
         Design { delayed, ..self }
@@ -48,7 +48,7 @@ impl<'m> Design<'m> {
         self.delayed
     }
 
-    /// The same for an actuator with this input gain: the control is divided by its nominal value (derivation, 13.1).
+    /// This regulator for an actuator with this input gain: the control is divided by its nominal value (derivation, 13.1).
     #[must_use]
     pub fn for_actuator(self, gain: Option<&'m InputGain>) -> Design<'m> {
         Design { nominal: gain.map(|gain| &gain.nominal), ..self }
@@ -82,7 +82,7 @@ impl<'m> Design<'m> {
         self.discretise_with(step, &self.model.sampled_gain(step)?)
     }
 
-    /// The same law with another K and Nb2, taken as they are: nothing is proved of them here. `None` where they are beyond
+    /// The law at samples with a K and Nb2 that are given and taken as they are: nothing is proved of them here. `None` where they are beyond
     /// double precision.
     #[must_use]
     pub fn discretise_with(&self, step: &Constant, law: &SampledGain) -> Option<Discrete> {

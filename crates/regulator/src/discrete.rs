@@ -46,7 +46,7 @@ pub struct Discrete {
 }
 
 impl Discrete {
-    /// The same regulator with its control clipped to |u| <= limit; [`Stepper::step`] says what keeps it from winding up.
+    /// This regulator with its control clipped to |u| <= limit; [`Stepper::step`] says what keeps it from winding up.
     #[must_use]
     pub fn saturated(self, limit: Option<f64>) -> Discrete {
         Discrete { saturation: limit, ..self }

@@ -48,7 +48,7 @@ impl Regulator {
         Regulator { sigma, mu: 0.0, frequencies: Vec::new(), weights: Vec::new(), nominal: None }
     }
 
-    /// The same regulator for an actuator of this nominal gain.
+    /// This regulator for an actuator of this nominal gain.
     #[must_use]
     pub fn for_actuator(self, nominal: Option<f64>) -> Regulator {
         Regulator { nominal, ..self }

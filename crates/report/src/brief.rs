@@ -127,7 +127,7 @@ fn disturbed(spec: &Specification, noise: Option<Result<[Rational; 2], &NoNoiseB
     }
 }
 
-/// The same at the sampling instants.
+/// What a claim at samples says of the given n_o, as one line: rates at the sampling instants; nothing where none was asked for.
 fn for_n_o_at_samples(run: &SampledCertification<'_>) -> Option<String> {
     let all = rates(run.spec, &run.for_n_o, &run.why_no_rate());
     (!all.is_empty()).then(|| format!("|e - e_per| at the sampling instants, {}", all.join("; ")))

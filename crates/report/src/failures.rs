@@ -40,7 +40,7 @@ pub fn failure_json<'e>(verdict: Verdict, errors: impl IntoIterator<Item = &'e S
     told(verdict, &errors_json(errors))
 }
 
-/// The same, of a call that is wrong as a whole.
+/// The report object of a call that is wrong as a whole: the verdict and what is wrong.
 #[must_use]
 pub fn call_failure_json(verdict: Verdict, message: &str, help: &str) -> Value {
     told(verdict, &json!([{ "code": "call", "message": message, "help": help }]))

@@ -20,7 +20,7 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
     table(&run.gains, &steady, says)
 }
 
-/// The same at samples.
+/// The table of a claim at samples; nothing where there are no rows but that of the claim.
 pub(super) fn sampled_section(run: &SampledCertification<'_>) -> Vec<Block> {
     let says = "At the same samples; steady is along the periodic solution, largest on the way from |e| <= E0 and the rest of the initial set, of which a \
                 size that the file does not state goes with the gain: it is at least twice the bound of the periodic solution there. Each row is proved, for every n_o below half of \

@@ -43,7 +43,7 @@ pub(super) fn sentence(run: &Certification<'_>) -> String {
     in_words(run.sigma_star(), Bounds::of_run(run).and_then(|bounds| kept(&run.limits, &bounds)))
 }
 
-/// The same of a claim at samples.
+/// What a claim at samples keeps to, as a sentence; empty where nothing was asked for.
 pub(super) fn sampled_sentence(run: &SampledCertification<'_>) -> String {
     let sigma = run.claim().map(|proof| &proof.witness.sigma);
     in_words(sigma, Bounds::of_samples(run).and_then(|bounds| kept(&run.limits, &bounds)))
@@ -85,12 +85,12 @@ fn named(limits: &Limits, bounds: &Bounds<'_>) -> [(&'static str, &'static str, 
     ]
 }
 
-/// The same as JSON: what was asked for, and what is proved; nothing where nothing was asked for.
+/// The limits of a claim in continuous time as JSON: what was asked for, and what is proved; nothing where nothing was asked for.
 pub(super) fn json(run: &Certification<'_>) -> Option<Value> {
     kept_json(&run.limits, &Bounds::of_run(run)?)
 }
 
-/// The same of a claim at samples.
+/// The limits of a claim at samples as JSON: what was asked for, and what is proved; nothing where nothing was asked for.
 pub(super) fn sampled_json(run: &SampledCertification<'_>) -> Option<Value> {
     kept_json(&run.limits, &Bounds::of_samples(run)?)
 }

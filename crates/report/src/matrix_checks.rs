@@ -118,7 +118,7 @@ fn figures_json(figures: &SigmaBothWays) -> Value {
     })
 }
 
-/// The same as JSON.
+/// The checks by matrices as JSON.
 pub(super) fn checks_json(run: &Certification<'_>) -> Value {
     let checks = &run.checks;
     let list = |values: &[Rational]| Value::Array(values.iter().map(|value| json!(write_exact(value))).collect());

@@ -74,7 +74,7 @@ pub(super) fn section(run: &Certification<'_>, rechecked: bool) -> Vec<Block> {
     blocks
 }
 
-/// The same that [`section`] had no room for.
+/// The obstacles that [`section`] had no room for.
 pub(super) fn detail(run: &Certification<'_>) -> Vec<Block> {
     let mut blocks = rest_of("Further bounding functions that were neither proved nor refuted", unproved(run));
     blocks.extend(rest_of("Further conditions that are not proved", failing(run)));

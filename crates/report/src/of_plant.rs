@@ -259,7 +259,7 @@ fn matrix(name: &str, rows: &[Vec<Rational>]) -> Block {
     Block::facts([(name.to_owned(), format!("[{}]", rows.join("; ")))])
 }
 
-/// The same as JSON; null where the data are those of a specification.
+/// What is proved of a plant, as JSON; null where the data are those of a specification.
 pub(super) fn plant_json(spec: &Specification, set: Option<&ClaimedSet>) -> Value {
     let Some(plant) = spec.plant() else { return Value::Null };
     let ball = set.and_then(|set| claimed_ball(plant, &set.x0));

@@ -7,7 +7,7 @@ pub enum Origin {
     Search,
     /// The witness of a certificate, decided again; nothing was searched for.
     Witness,
-    /// The same, of a certificate that the independent checker found valid.
+    /// The witness of a certificate that the independent checker found valid, decided again.
     Checked,
 }
 

@@ -87,7 +87,7 @@ fn far_above_its_samples(entries: &[ProvedValue]) -> Option<String> {
     ))
 }
 
-/// The same of a run about the regulator at samples.
+/// The remarks on a run about the regulator at samples.
 pub fn sampled_remarks(run: &SampledCertification<'_>) -> Vec<String> {
     let mut remarks = of(run.no_plant.as_ref(), run.has_force_at_origin());
     remarks.extend(unused_parameters(run.spec));

@@ -17,7 +17,7 @@ pub(super) enum Shape {
     Text,
     /// A text or a number: an exact constant. What is negative and written as a number can be told.
     Constant(Sign),
-    /// The same of one that is not negative, without operations but a fraction's.
+    /// A text or a number: an exact constant that is not negative, without operations but a fraction's.
     Ratio,
     /// A text or a number: an expression in these variables.
     Expression(&'static str),

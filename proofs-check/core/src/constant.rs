@@ -18,7 +18,7 @@ pub const PRECISIONS: [u32; 4] = [128, 256, 512, 1024];
 pub struct Constant {
     /// As written, with constants in the places of their names.
     pub text: String,
-    /// The same as it may stand in a sentence.
+    /// The constant as it may stand in a sentence.
     pub words: String,
     expr: Expr,
     /// Its exact form, if it has one.
@@ -31,7 +31,7 @@ impl Constant {
         Constant::read_with(field, &[])
     }
 
-    /// The same where names of other constants may stand.
+    /// Reads a number or a constant expression that has a finite value, where names of other constants may stand.
     pub fn read_with(field: &Field<'_>, constants: &[Named]) -> Outcome<Constant> {
         let (expr, Written { text, words }) = expression_with(field, NONE, constants)?;
         let constant = Constant { text, words, exact: expr.exact(), expr };
@@ -62,7 +62,7 @@ impl Constant {
         self.exact.as_ref().and_then(Exact::as_rational)
     }
 
-    /// The same as a number that can be compared.
+    /// This constant as a number that can be compared.
     pub fn number(&self) -> Number<'_> {
         Number { exact: self.exact.clone(), enclose: Box::new(|p| self.enclose(p)) }
     }
@@ -121,7 +121,7 @@ pub fn expression(field: &Field<'_>, variables: &[&str]) -> Outcome<Expr> {
     expression_with(field, variables, &[]).map(|(expr, _)| expr)
 }
 
-/// The same where names of constants may stand besides, and how it is written.
+/// Reads an expression in the given variables, where names of constants may stand besides, and how it is written.
 pub fn expression_with(field: &Field<'_>, variables: &[&str], constants: &[Named]) -> Outcome<(Expr, Written)> {
     Expr::parse_with(field.numeral()?, variables, constants)
         .or_else(|error| bad(&field.pointer, format!("not an expression: {error}")))

@@ -364,10 +364,10 @@ impl Expr {
         Expr::parse_with(text, variables, &[]).map(|(expr, _)| expr)
     }
 
-    /// The same where names of constants may stand besides, and how it is written.
+    /// Reads an expression, where names of constants may stand besides, and how it is written.
     ///
     /// # Errors
-    /// The same.
+    /// Those of [`Expr::parse`].
     pub fn parse_with(text: &str, variables: &[&str], constants: &[Named]) -> Result<(Expr, Written), String> {
         if text.len() > MAX_TEXT {
             return Err(format!("an expression of more than {MAX_TEXT} bytes"));
@@ -431,7 +431,7 @@ impl Expr {
         self.at(|index| [x, e].get(index).copied(), x.precision().max(e.precision()))
     }
 
-    /// The same of any number of variables, undefined of one that has no value.
+    /// Contains the value at every point of a box of any number of variables; undefined if one has no value, or the expression may be undefined.
     pub fn at<'v>(&self, variable: impl Fn(usize) -> Option<&'v Interval>, precision: u32) -> Interval {
         let none = Interval::undefined(precision);
         let value = self.fold(|op, a: Option<Interval>, b: Option<Interval>| match op {

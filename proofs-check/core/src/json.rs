@@ -305,7 +305,7 @@ impl<'a> Fields<'a> {
         Ok(all)
     }
 
-    /// The same, of which all are there or none.
+    /// Numbers of these names, of which all are there or none.
     pub fn together<const N: usize>(&mut self, names: [&str; N]) -> Outcome<Option<[Rational; N]>> {
         match names.iter().filter(|name| self.has(name)).count() {
             0 => Ok(None),

@@ -45,7 +45,7 @@ pub fn positive_definite(rows: Vec<Vec<Interval>>) -> Option<bool> {
     by_pivots(rows, false)
 }
 
-/// The same for positive semidefinite: a pivot that may be 0 is left out where nothing stands beside it.
+/// Whether a symmetric matrix is positive semidefinite, by the pivots of LDL': one that may be 0 is left out where nothing stands beside it.
 ///
 /// `Some(true)`: every symmetric matrix with entries in the intervals is. `Some(false)`: none is. `None`: not decided.
 pub fn semidefinite(rows: Vec<Vec<Interval>>) -> Option<bool> {

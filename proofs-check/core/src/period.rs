@@ -59,7 +59,7 @@ impl Period {
         if self.range.is_some() { None } else { Some(&self.nominal) }
     }
 
-    /// The same for what needs one number.
+    /// The period for what needs one number; bad input where it is an interval.
     pub fn demand_exact(&self, pointer: &str, what: &str) -> Outcome<&Constant> {
         self.exact().map_or_else(|| bad(pointer, format!("{what} needs a period that is one number")), Ok)
     }

@@ -84,7 +84,7 @@ pub fn prove(
     Ok(())
 }
 
-/// The same in one cell.
+/// Proves in one cell what section 11 demands of the formulas, and the inequalities of section 13.7 that a claim rests on.
 fn prove_in(
     spec: &Specification,
     plant: &Plant,

@@ -43,7 +43,7 @@ fn curve<T>(fields: &mut Fields<'_>, read: impl Fn(&Field<'_>) -> Outcome<T>) ->
     Ok((read(&fields.required("mean")?)?, harmonics(fields, MAX_HARMONICS, read)?))
 }
 
-/// The same, and after it that of each of the `sensitivities`, one for each number of the family.
+/// A curve, `mean` and `harmonics` of an object, and after it that of each of the `sensitivities`, one for each number of the family.
 fn curves<T>(
     fields: &mut Fields<'_>,
     members: usize,

@@ -153,7 +153,7 @@ fn size(coefficients: &[Interval], half: &Interval) -> Interval {
     coefficients.iter().rev().fold(zero, |sum, a| a.abs() + half * sum)
 }
 
-/// The same for the derivative.
+/// A bound of the size of the derivative of a polynomial with its remainder, on a cell of this half width.
 pub fn bound_of_derivative(polynomial: &Polynomial, half: &Interval) -> Interval {
     let slopes: Series = polynomial.coefficients.iter().enumerate().skip(1).map(|(k, a)| a * k as i64).collect();
     size(&slopes, half) + polynomial.remainder.abs() * half.powi(ORDER as i32) * (ORDER as i64 + 1)

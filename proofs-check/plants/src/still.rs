@@ -36,7 +36,7 @@ pub struct Still {
     questions: Vec<Option<Said>>,
 }
 
-/// The same with what is needed for deciding.
+/// The questions of [`Still`] with what is needed for deciding them.
 pub struct Prepared<'s> {
     still: &'s Still,
     machine: Machine<'s>,

@@ -69,7 +69,7 @@ fn only_other_kinds_have_a_z0() {
     assert_refused(&report, BadInput, "format", "/specification/initial_set/Z0");
 }
 
-/// The same numbers do not prove the claim at rest: zeta starts at -M e then, and C4 fails, nothing else.
+/// A witness of an aligned start does not prove the claim at rest: zeta starts at -M e then, and C4 fails, nothing else.
 #[test]
 fn at_rest_the_same_witness_proves_nothing() {
     let report = edited(|made| {

@@ -137,7 +137,7 @@ fn parts(numbers: &Numbers, [x, e]: [&str; 2]) -> Value {
     })
 }
 
-/// The same of existence, with its own P.
+/// The parts of a witness of existence, with its own P.
 fn existence_parts(numbers: &Numbers, [x, e]: [&str; 2]) -> Value {
     let ([sigma, gain, sum], [c_x, _, c_e, c_y, gamma]) = (numbers.law, numbers.taken);
     json!({

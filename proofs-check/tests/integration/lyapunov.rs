@@ -28,7 +28,7 @@ fn verdict_of(period: &Value, jacobian: &Value, witness: &Value) -> Result<Strin
     proved().map_err(|finding| finding.verdict)
 }
 
-/// The same of the period 1.
+/// The verdict on a triple for the period 1.
 fn verdict(jacobian: &Value, witness: &Value) -> Result<String, Verdict> {
     verdict_of(&json!("1"), jacobian, witness)
 }
@@ -134,7 +134,7 @@ fn a_periodic_matrix() {
     fails(&f, &w("0.49", "1.49", 0.5), Invalid);
 }
 
-/// The same functions of t written in other ways, and entries that are not of the period or not read.
+/// Functions of t are one function in whatever way they are written; entries that are not of the period or not read are refused.
 #[test]
 fn functions_of_t() {
     let w = scalar("0.99", "1.01", "0.9");

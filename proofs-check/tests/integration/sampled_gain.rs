@@ -73,7 +73,7 @@ fn what_is_claimed() {
     assert!(subject.statement.contains(said) && subject.assumed.len() == 4, "{subject:?}");
 }
 
-/// The same numbers and figures as without one; what is put out is divided all the same.
+/// A gain that is its nominal one leaves numbers and figures as they are; what is put out is divided all the same.
 #[test]
 fn a_gain_that_is_its_nominal_one() {
     for name in ["paper-example", "plant-motor-axis"] {

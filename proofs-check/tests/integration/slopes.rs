@@ -18,7 +18,7 @@ const STORED: [(&str, &str, &str, [f64; 2], usize); 6] = [
     ("periods-motor-axis", "periods", "motor-axis", [1.0, 1.0], 2),
 ];
 
-/// The same with slopes of `[J; r]` and of `[g; d]` apart.
+/// Stored certificates with slopes of `[J; r]` and of `[g; d]` apart.
 const IN_PARTS: [(&str, &str, &str, [f64; 2], usize); 3] = [
     ("splitting.parts", "plants", "splitting.certificate", [1.0, 1.0], 4),
     ("gain-splitting.parts", "gain", "splitting", [0.5, 1.5], 4),

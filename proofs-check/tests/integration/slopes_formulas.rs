@@ -46,7 +46,7 @@ fn of_none(states: usize, slopes: &Value, [x, e]: [&str; 2]) -> Value {
     json!({ "X": x, "E": e, "list": [witness] })
 }
 
-/// The same with `Q + shift I`, G and H of all columns.
+/// The part for n_o = 0 with `Q + shift I`, G and H of all columns.
 fn part(q: &Matrix, shift: f64, g: &Matrix, h: &Matrix, at: [&str; 2]) -> Value {
     of_none(h.len() - 1, &slopes(q, shift, g, h), at)
 }
@@ -263,7 +263,7 @@ fn of_every_member() {
     family("0", "1/2").with("/slopes", nominal).refused(Verdict::Invalid, "rates", PLACE);
 }
 
-/// The same three matrices are asked about once.
+/// Three matrices that are equal are asked about once.
 #[test]
 fn equal_ones_are_proved_once() {
     let (g, h) = (matrix(&[&[0.3, -0.2], &[0.1, 0.4]]), matrix(&[&[0.5], &[0.1, 0.7]]));

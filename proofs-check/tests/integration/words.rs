@@ -30,7 +30,7 @@ fn words(text: &str) -> Vec<(bool, String)> {
     parts
 }
 
-/// The same with other names in the places of some.
+/// A text with other names in the places of some.
 fn renamed(text: &str, names: &[(&str, &str)]) -> String {
     let other =
         |part: &str| names.iter().find(|(from, _)| *from == part).map_or(part.to_owned(), |(_, to)| (*to).to_owned());

@@ -13,7 +13,7 @@ pub const COLOURS: [RGBColor; 6] = [
     RGBColor(120, 30, 225),
 ];
 
-/// The same on a dark ground.
+/// [`COLOURS`] on a dark ground, in the same order.
 const DARK: [RGBColor; COLOURS.len()] = [
     RGBColor(50, 157, 230),
     RGBColor(241, 140, 55),

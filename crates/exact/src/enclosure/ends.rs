@@ -45,7 +45,7 @@ pub(super) trait End: Clone + PartialOrd {
     /// lower end of a nonnegative quotient is 0 and for the upper end infinity.
     fn div(&self, other: &Self, precision: u32, round: Round) -> Self;
 
-    /// The same number at a precision that is at least its own.
+    /// This number, unchanged, at a precision that is at least its own.
     fn at(&self, precision: u32) -> Self;
 
     /// The opposite.

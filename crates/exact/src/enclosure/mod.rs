@@ -152,7 +152,7 @@ impl Enclosure {
         Enclosure::from_integer(1, precision)
     }
 
-    /// The same at another precision, rounded outward.
+    /// This enclosure at another precision, rounded outward: it contains the numbers that it contained.
     #[must_use]
     pub fn at_precision(&self, precision: u32) -> Enclosure {
         Enclosure::new(

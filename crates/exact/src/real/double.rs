@@ -114,7 +114,7 @@ mod tests {
     }
 
     proptest! {
-        /// The same function over both kinds of numbers.
+        /// A function over doubles is near its enclosure.
         #[test]
         fn doubles_are_near_enclosures(exponent in -30.0_f64..30.0) {
             let x = 10f64.powf(exponent);

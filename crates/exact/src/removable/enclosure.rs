@@ -41,7 +41,7 @@ fn top(family: Family, x: &Enclosure, last: usize, bound: i64) -> Enclosure {
     with_rest(family, x, last, bound, (terms, power))
 }
 
-/// The same by J terms, with `|x|^J/J!`: the rest is `I_(last+J)(xi) x^J/J!`, and `|I_m| <= bound/(m + 1)`.
+/// `I_last(x)` by J terms of its series, with `|x|^J/J!` given: the rest is `I_(last+J)(xi) x^J/J!`, and `|I_m| <= bound/(m + 1)`.
 fn with_rest(family: Family, x: &Enclosure, last: usize, bound: i64, (terms, power): (usize, Enclosure)) -> Enclosure {
     let rest = power * bound / (last + terms + 1) as i64;
     polynomial(family, x, &Enclosure::one(x.precision()), last, terms) + around_zero(&rest)

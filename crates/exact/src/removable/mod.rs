@@ -52,7 +52,7 @@ where
     all
 }
 
-/// The same from `I_last`.
+/// `I_0, ..., I_last` by recursion downward from `I_last`.
 fn downward<R: Real>(x: &R, top: R, ends: &[R; 4], last: usize) -> Vec<R>
 where
     for<'a> &'a R: Operand<R>,

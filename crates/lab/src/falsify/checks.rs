@@ -7,7 +7,7 @@ use crate::simulate::{IntegrationFailure, SteadyStateError};
 
 /// What a bound may be exceeded by before it counts: integration and rounding.
 const TOLERANCE: f64 = 1e-6;
-/// The same, absolute, at least.
+/// What a bound may always be exceeded by before it counts, as an absolute size.
 const ROOM: f64 = 1e-9;
 /// The share of a state by which a period of it may be off.
 const ROUNDING: f64 = 1e-12;

@@ -67,7 +67,7 @@ impl OwnPlant {
         self.state(s, &y.iter().map(|part| share * part).collect::<Vec<_>>())
     }
 
-    /// The same for the x that a start begins with.
+    /// Moves the x that a start begins with so that its deviation from x_0 is no larger than it says, wherever within its radius x_0 is.
     pub(super) fn bring_within(&self, s: f64, start: &mut [f64]) {
         let x = &mut start[..self.plant.states()];
         x.copy_from_slice(&self.state_within(s, x));

@@ -62,7 +62,7 @@ impl ParameterError {
 }
 
 impl TriedClaim {
-    /// The same claim, tried with these values of parameters alone.
+    /// This claim, tried with these values of parameters alone.
     ///
     /// # Errors
     /// [`ParameterError`].

@@ -82,13 +82,13 @@ impl ClosedLoop {
         self.limit
     }
 
-    /// The same with an actuator that takes everything: for whoever asks what is put out.
+    /// This loop with an actuator that takes everything: for whoever asks what is put out.
     #[must_use]
     pub fn without_limit(self) -> ClosedLoop {
         ClosedLoop { limit: None, ..self }
     }
 
-    /// The same with an actuator of this gain.
+    /// This loop with an actuator of this gain.
     #[must_use]
     pub fn with_input_gain(self, gain: f64) -> ClosedLoop {
         ClosedLoop { gain, ..self }
@@ -211,7 +211,7 @@ impl ClosedLoop {
         }
     }
 
-    /// The same for an actuator that takes everything.
+    /// Adds u to e' and sets z', for an actuator that takes everything.
     #[inline]
     fn add_unlimited(&self, y: &[f64], noise: Disturbance, de: &mut f64, dz: &mut [f64]) {
         let Regulator { sigma, mu, frequencies, weights, .. } = &self.regulator;

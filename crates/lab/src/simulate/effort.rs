@@ -20,7 +20,7 @@ impl ClosedLoop {
         self.effort.store(0, Ordering::Relaxed);
     }
 
-    /// The same with only so many operations.
+    /// Starts counting anew with only so many operations left.
     pub(crate) fn leave(&self, operations: u64) {
         self.effort.store(MAX_OPERATIONS.saturating_sub(operations), Ordering::Relaxed);
     }

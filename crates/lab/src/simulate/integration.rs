@@ -21,7 +21,7 @@ impl Tolerance {
     /// For long runs.
     pub const ORDINARY: Tolerance = Tolerance { relative: 1e-9, absolute: 1e-11 };
 
-    /// The same for implicit steps of order 13, whose estimates of errors end above rounding.
+    /// A tolerance for implicit steps of order 13, whose estimates of errors end above rounding: this one, but not below what they reach.
     pub(super) fn for_implicit(self) -> Tolerance {
         Tolerance { relative: self.relative.max(1e-11), absolute: self.absolute.max(1e-13) }
     }

@@ -106,13 +106,13 @@ impl PlantNames {
         Ok(PlantNames { states, parameters: Definitions::default(), phase: None })
     }
 
-    /// The same states beside these constants. A name of both is that of the state.
+    /// These states beside constants with names. A name of both is that of the state.
     #[must_use]
     pub fn with_parameters(self, parameters: Definitions) -> PlantNames {
         PlantNames { parameters, ..self }
     }
 
-    /// The same with `phase`, and without `t` where the period is not known exactly.
+    /// These names and `phase`; without `t` where the period is not known exactly.
     #[must_use]
     pub fn with_phase(self, phase: Phase) -> PlantNames {
         PlantNames { phase: Some(phase), ..self }

@@ -168,7 +168,7 @@ impl Program {
         Program { states, slots, time, time_code, code, time_results, outputs, lengths }
     }
 
-    /// The same program with these values of the parameters, at which it is evaluated unless others are set; 0 without.
+    /// This program with these values of the parameters, at which it is evaluated unless others are set; 0 without.
     #[must_use]
     pub fn with_parameters(mut self, values: &[f64]) -> Program {
         let first = self.time + self.states + 2;

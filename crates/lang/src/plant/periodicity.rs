@@ -83,7 +83,7 @@ impl Plant {
     }
 }
 
-/// The same of one right side.
+/// Proves that one right side has the period, or returns the first part that is not seen to have it.
 pub(super) fn decide(expr: &PlantExpr, index: usize, period: &Constant) -> Result<(), PeriodicityFailure> {
     expr.prove_periodic(period.exact.as_ref()).map_err(|NotPeriodic { span, reason }| {
         let part = expr.text().get(span.clone()).unwrap_or_default().to_owned();

@@ -36,7 +36,7 @@ pub enum Bound {
     /// a, a contraction rate from below: `P' + P J + J'P <= -2 a P` for `J = df/dx` and the P of the triple; optional,
     /// nonincreasing, may be negative.
     Rate,
-    /// The same for the P of existence, where a plant has two (derivation, 11.3); no specification gives it.
+    /// A contraction rate from below as [`Bound::Rate`], for the P of existence where a plant has two (derivation, 11.3); no specification gives it.
     RateExistence,
 }
 
@@ -45,7 +45,7 @@ pub enum Bound {
 pub(super) enum Role {
     /// A norm; every specification has it.
     Required,
-    /// The same as another one, more sharply; that one serves where it is absent.
+    /// What another bound bounds too, less sharply; that one serves where this is absent.
     Sharper(Bound),
     /// A derivative from above, whose norm the other one bounds.
     OneSided(Bound),

@@ -53,7 +53,7 @@ impl Bounds {
         Bounds { given, proved: ProvedValues::default() }
     }
 
-    /// The same with the contraction rate of the section `lyapunov`.
+    /// These bounds with the contraction rate of the section `lyapunov`.
     pub(super) fn with_rate(mut self, rate: Option<Expr>) -> Bounds {
         self.given[Bound::Rate as usize] = rate;
         self

@@ -4,7 +4,7 @@ use jsonc_parser::Scanner;
 use jsonc_parser::ScannerOptions;
 use jsonc_parser::tokens::Token;
 
-/// The same text with blanks in the place of comments: every other byte stays where it is, so places are those of the file,
+/// A text with blanks in the place of its comments: every other byte stays where it is, so places are those of the file,
 /// and what is left is read as strict JSON.
 ///
 /// The scanner finds where strings and comments begin and end. From what it cannot read on the text is left as it is: that

@@ -56,7 +56,7 @@ impl Disturbances {
         self.v_bar() + self.d_bar() > 0
     }
 
-    /// The same of the loop at samples, whose arithmetic may round.
+    /// Whether something disturbs the loop at samples, whose arithmetic may round: v_bar + d_bar > 0, or it computes in doubles.
     #[must_use]
     pub fn any_at_samples(&self) -> bool {
         self.any() || self.in_doubles()

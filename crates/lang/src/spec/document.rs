@@ -38,7 +38,7 @@ impl Document {
         Document::parse_as(label, text, Notation::Json)
     }
 
-    /// The same in another notation.
+    /// Reads a document as [`Document::parse`] does, from its text in another notation.
     ///
     /// # Errors
     /// What is wrong with the text in this notation.
@@ -146,7 +146,7 @@ impl Document {
         Some(value)
     }
 
-    /// The same document with a text as the field `name` of the object at a pointer, in the place of its own where it has one; itself where there is no
+    /// This document with a text as the field `name` of the object at a pointer, in the place of its own where it has one; itself where there is no
     /// such object. Its [text](Document::text) stays what was read: an error about the field is told at the field that it replaces, or at the object.
     ///
     /// # Errors

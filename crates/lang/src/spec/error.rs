@@ -118,21 +118,21 @@ impl SpecError {
         SpecError { kind, pointer: pointer.into(), span, message: message.into(), expected: None, help: None }
     }
 
-    /// The same error, saying what was expected.
+    /// This error, saying what was expected.
     #[must_use]
     pub fn expected(mut self, expected: impl Into<String>) -> SpecError {
         self.expected = Some(expected.into());
         self
     }
 
-    /// The same error in another place.
+    /// This error in another place.
     #[must_use]
     pub(super) fn at(mut self, pointer: String, span: Range<usize>) -> SpecError {
         (self.pointer, self.span) = (pointer, span);
         self
     }
 
-    /// The same error, saying what to do.
+    /// This error, saying what to do.
     #[must_use]
     pub fn help(mut self, help: impl Into<String>) -> SpecError {
         self.help = Some(help.into());
@@ -158,13 +158,13 @@ impl SpecErrors {
         SpecErrors { origin, errors: vec![error], omitted: 0, in_full: None }
     }
 
-    /// The same, with the sentence in full of an error that stands alone.
+    /// These errors, with the sentence in full of an error that stands alone.
     #[must_use]
     pub fn with_sentence_in_full(self, in_full: Option<String>) -> SpecErrors {
         SpecErrors { in_full, ..self }
     }
 
-    /// The same, with more to do about an error that stands alone.
+    /// These errors, with more to do about an error that stands alone.
     #[must_use]
     pub fn with_more_help(mut self, more: &str) -> SpecErrors {
         if let [error] = self.errors.as_mut_slice() {

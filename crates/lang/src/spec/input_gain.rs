@@ -88,7 +88,7 @@ impl InputGain {
         [("nominal", number(&self.nominal)), ("low", low), ("high", high)]
     }
 
-    /// The same nominal gain, known exactly.
+    /// The nominal gain of this one, known exactly.
     #[must_use]
     pub fn closed(&self) -> InputGain {
         let [nominal, low, high] = [(); 3].map(|()| self.nominal.clone());
@@ -170,7 +170,7 @@ pub(super) fn read_ordered(
     ordered_by(value, help, errors, |_, value, errors| positive_constant_in(value, names, errors))
 }
 
-/// The same, each read by its name.
+/// Reads `nominal`, `low` and `high` with the reader that is given, proved to be in order: low <= nominal <= high.
 fn ordered_by(
     value: &Value<'_>,
     help: &str,

@@ -229,7 +229,7 @@ impl Node {
         }
     }
 
-    /// The same value for `serde_json`: key order and the text of numbers as in the document.
+    /// This value for `serde_json`: key order and the text of numbers as in the document.
     pub(super) fn to_json(&self) -> serde_json::Value {
         match &self.content {
             Content::Null => serde_json::Value::Null,

@@ -11,7 +11,7 @@ use std::path::Path;
 pub enum Notation {
     /// RFC 8259 and nothing more.
     Json,
-    /// The same with `//` and `/* */` comments.
+    /// JSON (RFC 8259) with `//` and `/* */` comments.
     JsonWithComments,
     /// TOML; its tables are objects.
     Toml,

@@ -144,7 +144,7 @@ impl<'d> Object<'d> {
         self.finish_as("here", errors);
     }
 
-    /// The same, where the known fields depend on something: `place` completes "the fields known ...".
+    /// Refuses the fields that were not asked for, where the known fields depend on something: `place` completes "the fields known ...".
     pub fn finish_as(self, place: &str, errors: &mut Errors) {
         let mut unknown = self.value.members().filter(|(key, _)| !self.known.contains(key));
         // A field that is there already is less likely to be what was meant.

@@ -60,7 +60,7 @@ pub struct Parameters {
 }
 
 impl Parameters {
-    /// The same beside a clock.
+    /// These parameters beside a clock.
     #[must_use]
     pub fn with_clock(self, clock: Option<Interval>) -> Parameters {
         Parameters { clock, ..self }
@@ -94,7 +94,7 @@ impl Parameters {
         self.intervals().map(|interval| interval.nominal.clone()).collect()
     }
 
-    /// The same with these numbers in the places of the intervals, and without a clock.
+    /// These parameters with numbers in the places of the intervals, in their order, and without a clock.
     #[must_use]
     pub fn fixed(&self, values: &[Rational]) -> Parameters {
         let mut values = values.iter();
@@ -107,7 +107,7 @@ impl Parameters {
         fixed
     }
 
-    /// The same with a cell of the box in the place of the named intervals, in their order: about its middle, and with the clock as it is.
+    /// These parameters with a cell of the box in the place of the named intervals, in their order: about its middle, and with the clock as it is.
     #[must_use]
     pub fn in_cell(&self, ends: &[[Rational; 2]]) -> Parameters {
         let mut ends = ends.iter();
@@ -158,7 +158,7 @@ impl Parameters {
         &self.definitions
     }
 
-    /// The same where those with intervals have their nominal values.
+    /// What the names stand for where those with intervals have their nominal values.
     #[must_use]
     pub fn nominal_definitions(&self) -> Definitions {
         let mut all = Definitions::default();
@@ -187,7 +187,7 @@ impl Parameters {
         Some(format!("the {noun} {} {verb} used nowhere in the plant", names.join(", ")))
     }
 
-    /// The same with those marked that occur in none of the texts of these members of the plant.
+    /// These parameters, with those marked that occur in none of the texts of these members of the plant.
     #[must_use]
     pub fn used_in(mut self, members: &[&serde_json::Value]) -> Parameters {
         let used = |name: &str| members.iter().any(|member| mentions(name, member));

@@ -231,13 +231,13 @@ impl<N> StartSizes<N> {
 }
 
 impl<N: Clone> InitialSet<N> {
-    /// The same kind of set over other numbers.
+    /// A set of this kind over other numbers.
     #[must_use]
     pub fn map<M>(&self, number: impl Fn(&N) -> M) -> InitialSet<M> {
         self.map_each(|_, size| number(size))
     }
 
-    /// The same, where it matters which number it is: 0 for X_0, 1 for E_0, 2 for Z_0.
+    /// A set of this kind over other numbers, where it matters which number it is: 0 for X_0, 1 for E_0, 2 for Z_0.
     #[must_use]
     pub fn map_each<M>(&self, mut number: impl FnMut(usize, &N) -> M) -> InitialSet<M> {
         let mut optional = |x0: &Option<N>, e0: &Option<N>| {
@@ -259,7 +259,7 @@ impl<N: Clone> InitialSet<N> {
         }
     }
 
-    /// The same kind of set with another X_0; the paper's set has none to replace.
+    /// A set of this kind with another X_0; the paper's set has none to replace.
     #[must_use]
     pub fn with_x0(self, x0: N) -> InitialSet<N> {
         match self {
@@ -270,7 +270,7 @@ impl<N: Clone> InitialSet<N> {
         }
     }
 
-    /// The same X_0 and E_0 with the controller aligned.
+    /// X_0 and E_0 of this set, where it has them, with the controller aligned.
     #[must_use]
     pub fn aligned(self) -> InitialSet<N> {
         match self {

@@ -162,7 +162,7 @@ impl Sampling {
         samples(period, &step).ok().map(|samples| Sampling { step, samples, delayed: false })
     }
 
-    /// The same samples, with a delay or without one.
+    /// These samples, with a delay or without one.
     #[must_use]
     pub fn with_delay(self, delayed: bool) -> Sampling {
         Sampling { delayed, ..self }

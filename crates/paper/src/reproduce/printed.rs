@@ -25,7 +25,7 @@ pub struct PrintedRow {
     pub ratio: &'static str,
     /// sup|e_p| and the second column, without noise.
     pub quiet: [&'static str; 2],
-    /// The same with noise.
+    /// sup|e_p| and the second column, with noise.
     pub noisy: [&'static str; 2],
 }
 

@@ -5,7 +5,7 @@ use super::Export;
 /// The law at samples, as exports write it: Phi is R there.
 pub const SAMPLED_LAW: &str = "v = M'N Phi (z - M e), u = -sigma e + K v, z_next = Phi (z - M e) + (1 - h sigma) M e";
 
-/// The same with a delay: the state is (z, s).
+/// The law at samples with a delay, as exports write it: the state is (z, s).
 pub const DELAYED_LAW: &str = "e1 = e + s, z_next = R (z - M e) + M e1, v = M'N R (z_next - M e1), u_next = -sigma e1 + K v, \
                                s_next = -h sigma e1";
 

@@ -48,7 +48,7 @@ fn decimal(text: &str) -> String {
     number(text).map_or_else(|| text.to_owned(), |number| number.to_string())
 }
 
-/// The same of a number that is claimed, rounded to a side where it is no decimal.
+/// A number that is claimed, for other programs: as it is where it is a decimal, else rounded to a side.
 fn claimed_number(text: &str, side: fn(&Enclosure) -> f64) -> String {
     let fraction = exact(text).filter(|_| parse_decimal(text).is_err());
     fraction.map_or_else(|| decimal(text), |value| side(&Enclosure::from_rational(&value, 53)).to_string())

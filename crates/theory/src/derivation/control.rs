@@ -151,7 +151,7 @@ where
     Reach { error: level.sqrt(), transient }
 }
 
-/// The same of the metric `lam Pi_1 + (1 - lam) Pi_2`, lam = threshold/sigma (section 13.7, (Jm)): sqrt(V_0/e_low) and
+/// How far |et| and |ut| reach by the metric `lam Pi_1 + (1 - lam) Pi_2`, lam = threshold/sigma (section 13.7, (Jm)): sqrt(V_0/e_low) and
 /// sqrt(V_0 (sigma^2/e_low + 2 mu Nbar^2/k_p)), where V_0 is not above that share of both left sides of C4, and e_low and k_p are that share of both.
 #[must_use]
 pub fn joint_reach<R: Real>(
@@ -230,7 +230,7 @@ mod tests {
         assert!(worst <= factor * (1.0 + 1e-9) && worst > 0.995 * factor, "{worst} {factor}");
     }
 
-    /// The same with an input gain: u = (y - q - sigma e)/b.
+    /// The answer to harmonics with an input gain: u = (y - q - sigma e)/b.
     #[test]
     fn harmonics_with_an_input_gain() {
         let spec = example(2, "1", |file| file["input_gain"] = json!({ "nominal": 1, "low": "0.4", "high": "3" }));
@@ -248,7 +248,7 @@ mod tests {
         assert!((mean.midpoint_f64() - 2.5).abs() < 1e-12);
     }
 
-    /// The same at samples, for every load K h Nb2 and every h sigma: (12.1).
+    /// The answer to harmonics at samples, for every load K h Nb2 and every h sigma: (12.1).
     #[test]
     fn harmonics_at_samples() {
         let (mut random, mut worst) = (Random(7), [0.0_f64; 2]);

@@ -33,7 +33,7 @@ where
     [&set.x0 + x_per, &set.e0 + e_per, of_zeta]
 }
 
-/// The same distances of a claimed set, enclosed.
+/// How far a claimed set is from a periodic solution, as [`distances`], enclosed.
 #[must_use]
 pub fn claimed_distances(data: &Data<'_>, set: &ClaimedSet, periodic: [&Enclosure; 3]) -> [Enclosure; 3] {
     distances(data, &set.map(|size| data.rational(size)), periodic)

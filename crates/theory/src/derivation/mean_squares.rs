@@ -21,7 +21,7 @@ pub struct MeanSquares<R> {
 }
 
 impl<N> MeanSquares<N> {
-    /// The same bounds over other numbers.
+    /// These bounds over other numbers.
     #[must_use]
     pub fn map<M>(&self, number: impl Fn(&N) -> M) -> MeanSquares<M> {
         MeanSquares { x: number(&self.x), e: number(&self.e), e_rate: number(&self.e_rate) }
@@ -85,7 +85,7 @@ where
         }
     }
 
-    /// The same with the bounds of a matrix inequality, which are taken where they are smaller. What bounds a solution with q(t,0,0)
+    /// These gains with the bounds of a matrix inequality, which are taken where they are smaller. What bounds a solution with q(t,0,0)
     /// times a number in [0, 1] then is only strictly below what it shows.
     #[must_use]
     pub fn with_energy(self, energy: Option<EnergyBounds<R>>) -> ErrorGains<R> {
@@ -191,7 +191,7 @@ where
         }
     }
 
-    /// The same without bounds of q as a whole: what is left bounds q(t,0,0) and the change of q from there, each by itself.
+    /// These bounds without those of q as a whole: what is left bounds q(t,0,0) and the change of q from there, each by itself.
     #[must_use]
     pub fn of_changes(self) -> SetBounds<R> {
         SetBounds { q_rms: R::unknown(), q_t_rms: R::unknown(), ..self }

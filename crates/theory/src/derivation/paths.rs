@@ -67,7 +67,7 @@ impl Paths {
     /// Those of a certificate that names none.
     pub const UNNAMED: Paths = Paths { f: Path::StateFirst, q: Path::Straight };
 
-    /// The same for both.
+    /// One path for f and q.
     #[must_use]
     pub const fn both(path: Path) -> Paths {
         Paths { f: path, q: path }

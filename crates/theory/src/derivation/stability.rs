@@ -52,7 +52,7 @@ where
         corner.error_box(&corner.of_f(problem, paths.f), &corner.of_q(problem, paths.q))
     }
 
-    /// The same along every pair of paths that a search chooses from.
+    /// The error boxes along every pair of paths that a search chooses from, each with its paths.
     pub fn on_paths(
         problem: &impl Problem<R>,
         periodic: [&R; 2],

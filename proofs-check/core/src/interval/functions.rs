@@ -31,7 +31,7 @@ impl Interval {
         if effort::elementary(self.precision()) { self.rising(f) } else { Interval::undefined(self.precision()) }
     }
 
-    /// The same for a function that decreases.
+    /// A function that decreases on the interval, by its correctly rounded values at the ends.
     fn decreasing(&self, f: impl Fn(Float, Round) -> Float) -> Interval {
         if !effort::elementary(self.precision()) {
             return Interval::undefined(self.precision());

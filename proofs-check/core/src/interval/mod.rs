@@ -242,7 +242,7 @@ impl Interval {
         (self.ceiling() - &middle).max(&(&middle - self.floor())).ceiling()
     }
 
-    /// The same with ends of fewer bits.
+    /// An interval with ends of fewer bits, rounded outward, that contains this one.
     pub fn round(&self, precision: u32) -> Interval {
         Interval::new(rounded(precision, &*self.lo(), Round::Down), rounded(precision, &*self.hi(), Round::Up))
     }

@@ -52,7 +52,7 @@ impl Derivation {
         Ok(Derivation { witness, regulation })
     }
 
-    /// The same for a sampled regulator.
+    /// Takes the free numbers of a claim about a sampled regulator out of a witness.
     pub fn read_sampled(fields: &mut Fields<'_>, regulator: &Regulator<'_>, set: ClaimedSet) -> Outcome<Derivation> {
         let witness = Witness::Sampled(Box::new(sampled::Witness::read(fields, regulator, set)?));
         Ok(Derivation { witness, regulation: None })

@@ -162,7 +162,7 @@ pub(super) fn of_periodic(relation: Relation, sides: Sides<'_>, what: [String; 4
     })
 }
 
-/// The same strictly, with the bounds that the last four are the least of.
+/// S1b to S2c as strict conditions, with the bounds that the last four are the least of.
 pub(super) fn strictly(sides: Sides<'_>, bounds: [String; 4]) -> impl Iterator<Item = Condition> {
     of_periodic(Relation::Less, sides, bounds.map(|bounds| format!("min{{{bounds}}}")))
 }

@@ -57,7 +57,7 @@ impl Forced {
         self.with_mean(d, self.harmonics[0].sqr())
     }
 
-    /// The same with another square of the mean.
+    /// `sqrt(square + 2 sum C_k^2) + r_0`: the rms of the forcing with another square of its mean.
     pub fn with_mean(&self, d: &Data<'_>, square: Interval) -> Interval {
         (square + twice_sum(d, &self.harmonics, |_, c| c.sqr())).sqrt() + &self.rest[0]
     }

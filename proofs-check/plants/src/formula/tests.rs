@@ -2,7 +2,7 @@
 
 use super::*;
 
-/// The same sum in two orders is one node, with one term for each leaf, whatever was added on the way.
+/// A sum in two orders is one node, with one term for each leaf, whatever was added before.
 #[test]
 fn one_term_for_each_leaf() {
     let mut formulas = Formulas::default();

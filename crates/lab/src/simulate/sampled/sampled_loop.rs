@@ -66,7 +66,7 @@ impl SampledLoop {
         SampledLoop { plant, regulator, discrete, converters: Converters::default(), phase: 0.0, samples }
     }
 
-    /// The same with an actuator of this gain.
+    /// This loop with an actuator of this gain.
     #[must_use]
     pub fn with_input_gain(self, gain: f64) -> SampledLoop {
         SampledLoop { plant: self.plant.with_input_gain(gain), ..self }

@@ -26,7 +26,7 @@ pub struct SampledGains<R> {
     pub rate: R,
     /// 1 + theta: the mean square of the y_k over rms(q); with a delay times 1 + h sigma.
     pub means: R,
-    /// The same without that factor: the bound of the harmonics of y, and of the mean square of the y_k, over those of q.
+    /// 1 + theta, also with a delay: the bound of the harmonics of y, and of the mean square of the y_k, over those of q.
     pub of_y: R,
     /// sqrt(1/sg_S^2 + (h/pi)^2): rms(e') over rms(q').
     pub rate_by_rate: R,
@@ -136,7 +136,7 @@ where
         (&self.sup * q_rms).min_known(&(&self.sup_by_rate * q_rate_rms)) / law.of_delay(sigma)
     }
 
-    /// The same with the bounds of a matrix inequality, which are taken where they are smaller. What bounds a solution with q(t,0,0)
+    /// These gains with the bounds of a matrix inequality, which are taken where they are smaller. What bounds a solution with q(t,0,0)
     /// times a number in [0, 1] then is only strictly below what it shows.
     #[must_use]
     pub fn with_energy(self, energy: Option<EnergyBounds<R>>) -> SampledGains<R> {

@@ -23,7 +23,7 @@ pub struct SampledLaw<R> {
     pub enlarged: R,
     /// mu := K (1 + theta), the mu of every formula of section 12; with an input gain that of b_lo K.
     pub mu: R,
-    /// The same of K itself, which is the mu that is asked for.
+    /// K (1 + theta) of K itself, which is the mu that is asked for.
     pub nominal_mu: R,
     /// Whether a control takes the sample after its measurement to be computed (derivation, 13.4).
     pub delayed: bool,
@@ -50,7 +50,7 @@ impl SampledLaw<Enclosure> {
         SampledLaw::with(samples, [gain, weight_sum], data.input_gain.clone(), (pi, sines))
     }
 
-    /// The same law in doubles, for a search.
+    /// This law in doubles, for a search.
     #[must_use]
     pub fn to_f64(&self) -> SampledLaw<f64> {
         let [step, gain, weight_sum, pi] =

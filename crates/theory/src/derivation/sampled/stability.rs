@@ -120,7 +120,7 @@ where
         DecayForms::without(problem, error_box, numbers, None)
     }
 
-    /// The same as if one part of what the sampling does were not there: for a report, never for a claim.
+    /// Evaluates the forms as if one part of what the sampling does were not there: for a report, never for a claim.
     #[must_use]
     pub fn without(
         problem: &impl Problem<R>,

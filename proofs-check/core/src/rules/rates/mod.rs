@@ -97,7 +97,7 @@ impl Witness {
         list.iter().map(|field| Witness::read(field, kind)).collect()
     }
 
-    /// The same beside the claim.
+    /// Reads the part `for_n_o` of a witness: one for each rate of the claim, or it is refused.
     pub fn read_all(field: Option<&Field<'_>>, claimed: &[Rate<'_>], kind: Kind) -> Outcome<Vec<Witness>> {
         let witnesses = Witness::read_list(field, kind)?;
         if witnesses.len() != claimed.len() {

@@ -36,7 +36,7 @@ impl Stored {
     }
 }
 
-/// The same, enclosed, with `B = (1, -b)` for (e, zs), `b = N^(1/2) M`.
+/// What [`Stored`] has, enclosed, with `B = (1, -b)` for (e, zs), `b = N^(1/2) M`.
 pub struct Norm {
     pointer: String,
     /// The place of e, after the states of the plant.

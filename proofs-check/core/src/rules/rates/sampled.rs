@@ -71,7 +71,7 @@ impl Proof {
 }
 
 impl OfNoise {
-    /// The same for the part `noise`.
+    /// Takes the part `noise` out of a part for this n_o.
     pub fn read(fields: &mut Fields<'_>, n_o: u32) -> Outcome<OfNoise> {
         let proof = Proof::read(fields, n_o)?;
         let [g_d, g_v, g_r] = ["g_d", "g_v", "g_r"].map(|name| fields.part(name, Field::rational));

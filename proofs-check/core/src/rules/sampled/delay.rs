@@ -22,7 +22,7 @@ pub struct Past {
     pub gm: Rational,
     /// Y_0: a solution starts with `|e_0 - et_0| <= h Y_0`.
     pub y_0: Rational,
-    /// The same as it is written.
+    /// Y_0 as it is written.
     pub text: String,
 }
 

@@ -1,4 +1,4 @@
-//! The same gains for a given number of oscillators: harmonics up to it have no y (derivation, 12.1).
+//! The gains of `SampledGains` for a given number of oscillators: harmonics up to it have no y (derivation, 12.1).
 
 use super::{SampledGains, Worst, of_harmonic};
 use crate::derivation::sampled::law::SampledLaw;
