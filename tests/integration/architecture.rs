@@ -184,6 +184,76 @@ fn crates_import_what_the_table_says() {
     assert_eq!(table, Imports::new());
 }
 
+/// All names in the dependencies of a package of `crates`, and of those that it names, in turn.
+fn closure(name: &str) -> BTreeSet<String> {
+    let mut found = BTreeSet::new();
+    let mut open = vec![name.to_owned()];
+    while let Some(name) = open.pop() {
+        let manifest = std::fs::read_to_string(Path::new("crates").join(&name).join("Cargo.toml")).unwrap();
+        let (_, section) = manifest.split_once("\n[dependencies]\n").unwrap();
+        for line in section.split("\n[").next().unwrap().lines() {
+            let Some((other, _)) = line.split_once(" = ") else { continue };
+            if found.insert(other.to_owned())
+                && let Some(own) = other.strip_prefix("sigmastar-")
+            {
+                open.push(own.to_owned());
+            }
+        }
+    }
+    found
+}
+
+#[test]
+fn what_decides_cannot_name_what_proposes() {
+    let decides = closure("decide");
+    assert!(closure("prove").is_superset(&decides) && closure("prove").contains("clarabel"));
+    for proposes in ["sigmastar-propose", "sigmastar-prove", "clarabel", "lapack-faer", "nalgebra", "argmin"] {
+        assert!(!decides.contains(proposes), "decide reaches {proposes}");
+    }
+    // The solver of semidefinite programs is called in one crate.
+    for (name, folder) in packages() {
+        let manifest = std::fs::read_to_string(folder.join("Cargo.toml")).unwrap();
+        let (_, section) = manifest.split_once("\n[dependencies]\n").unwrap();
+        let names_solver = section.split("\n[").next().unwrap().contains("clarabel");
+        assert_eq!(names_solver, name == "propose", "{name}");
+    }
+}
+
+/// The public functions of a source: the arguments and the result of each.
+fn signatures(text: &str) -> Vec<(String, String)> {
+    let starts = text.match_indices("pub fn ").map(|(at, _)| &text[at..]);
+    let signature = |text: &str| {
+        let (arguments, result) = text[..text.find("{\n").unwrap_or(text.len())].rsplit_once("->")?;
+        Some((arguments.to_owned(), result.to_owned()))
+    };
+    starts.filter_map(signature).collect()
+}
+
+/// A verdict is a `Decision`, a proof, or that nothing is in the way.
+fn is_verdict(result: &str) -> bool {
+    ["Decision", "Truth", "Proof<", "ExactEvaluation", "Result<(),", "bool"]
+        .iter()
+        .any(|verdict| result.contains(verdict))
+}
+
+#[test]
+fn no_double_is_an_argument_of_a_verdict() {
+    let mut verdicts = 0;
+    for path in sources(Path::new("crates/decide/src")) {
+        for (arguments, result) in signatures(&code(&path)).into_iter().filter(|(_, result)| is_verdict(result)) {
+            assert!(!arguments.contains("f64"), "{}: {arguments}", path.display());
+            assert!(!result.contains("f64"), "{}: {arguments}", path.display());
+            verdicts += 1;
+        }
+    }
+    assert!(verdicts >= 20, "{verdicts}");
+    // It would be seen.
+    let [(arguments, result)] = &signatures("pub fn decide(value: f64,\n    x: &X,\n) -> Decision {\n")[..] else {
+        panic!()
+    };
+    assert!(arguments.contains("f64") && is_verdict(result));
+}
+
 #[test]
 fn every_way_to_import_is_seen() {
     let text = "use crate::number::{a, b};\nuse crate::{spec::{self, x}, data, real};\nlet y = crate::expr::f(proofs_crate::no);";
