@@ -1,11 +1,6 @@
 //! Splitting a text into numerals, names and symbols.
 
 use std::ops::Range;
-use winnow::Parser;
-use winnow::combinator::{alt, opt, repeat};
-use winnow::error::EmptyError;
-use winnow::stream::LocatingSlice;
-use winnow::token::{any, one_of, take_while};
 
 /// A piece of the text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,38 +20,45 @@ pub(super) struct Token {
     pub(super) span: Range<usize>,
 }
 
-type Input<'a> = LocatingSlice<&'a str>;
-type Result<T> = winnow::Result<T, EmptyError>;
-
-/// The letter of a decimal exponent belongs to the numeral only when digits follow: in `2E` the letter is the
-/// variable, and the parser then says that an operator is missing.
-fn numeral(input: &mut Input<'_>) -> Result<TokenKind> {
-    let digits = || take_while(1.., |c: char| c.is_ascii_digit());
-    let exponent = (one_of(['e', 'E']), opt(one_of(['+', '-'])), digits());
-    (take_while(1.., |c: char| c.is_ascii_digit() || c == '.'), opt(exponent))
-        .value(TokenKind::Numeral)
-        .parse_next(input)
+/// The bytes at the start of `text` of which the characters satisfy `taken`.
+fn run(text: &str, taken: impl Fn(char) -> bool) -> usize {
+    text.find(|c| !taken(c)).unwrap_or(text.len())
 }
 
-fn name(input: &mut Input<'_>) -> Result<TokenKind> {
-    let first = one_of(|c: char| c.is_alphabetic() || c == '_');
-    (first, take_while(0.., |c: char| c.is_alphanumeric() || c == '_')).value(TokenKind::Name).parse_next(input)
+/// The length of the exponent at the start of `text`, 0 if there is none. Its letter belongs to the numeral only when digits
+/// follow: in `2E` the letter is the variable, and the parser then says that an operator is missing.
+fn exponent(text: &str) -> usize {
+    let Some(power) = text.strip_prefix(['e', 'E']) else { return 0 };
+    let digits = power.strip_prefix(['+', '-']).unwrap_or(power);
+    match run(digits, |c| c.is_ascii_digit()) {
+        0 => 0,
+        count => text.len() - digits.len() + count,
+    }
 }
 
-fn token(input: &mut Input<'_>) -> Result<Token> {
-    let space = take_while(0.., |c: char| c.is_ascii_whitespace());
-    let kind = alt((numeral, name, any.map(TokenKind::Symbol)));
-    let (kind, span) = (space, kind.with_span()).map(|(_, token)| token).parse_next(input)?;
-    Ok(Token { kind, span })
-}
-
-/// All tokens of a text; white space at the end, like everywhere else, is dropped. Every text has tokens: characters
-/// without a meaning are symbols for the parser to refuse.
+/// All tokens of a text; white space is dropped. Every text has tokens: characters without a meaning are symbols for the parser
+/// to refuse.
 pub(super) fn tokens(text: &str) -> Vec<Token> {
-    let trimmed = text.trim_end_matches(|c: char| c.is_ascii_whitespace());
-    // `token` succeeds on any input with a character that is not white space left, so the repetition stops only at
-    // the end and cannot fail.
-    repeat(0.., token).parse_next(&mut LocatingSlice::new(trimmed)).unwrap_or_default()
+    let mut tokens = Vec::new();
+    let mut start = 0;
+    while let Some(first) = text[start..].chars().next() {
+        let rest = &text[start..];
+        let (kind, length) = match first {
+            '0'..='9' | '.' => {
+                let mantissa = run(rest, |c| c.is_ascii_digit() || c == '.');
+                (Some(TokenKind::Numeral), mantissa + exponent(&rest[mantissa..]))
+            }
+            c if c.is_alphabetic() || c == '_' => {
+                (Some(TokenKind::Name), run(rest, |c| c.is_alphanumeric() || c == '_'))
+            }
+            c if c.is_ascii_whitespace() => (None, 1),
+            c => (Some(TokenKind::Symbol(c)), c.len_utf8()),
+        };
+        let span = start..start + length;
+        start = span.end;
+        tokens.extend(kind.map(|kind| Token { kind, span }));
+    }
+    tokens
 }
 
 #[cfg(test)]
@@ -77,5 +79,14 @@ mod tests {
         assert_eq!(texts("1.5e-3X"), ["1.5e-3", "X"]);
         assert_eq!(texts(" \t\n "), Vec::<&str>::new());
         assert_eq!(texts("sin(π)\u{0}"), ["sin", "(", "π", ")", "\u{0}"]);
+    }
+
+    #[test]
+    fn every_character_is_in_a_token_or_white_space() {
+        let text = "\u{b}..1..2 e3_x\u{a0}é9²";
+        assert_eq!(texts(text), ["\u{b}", "..1..2", "e3_x", "\u{a0}", "é9²"]);
+        let kinds: Vec<TokenKind> = tokens(text).into_iter().map(|token| token.kind).collect();
+        let symbol = TokenKind::Symbol;
+        assert_eq!(kinds, [symbol('\u{b}'), TokenKind::Numeral, TokenKind::Name, symbol('\u{a0}'), TokenKind::Name]);
     }
 }
