@@ -291,7 +291,7 @@ impl SpecificationBuilder {
     }
 
     /// The rational coefficients a_1, ..., a_(r-1) of `e = xi_r + a_(r-1) xi_(r-1) + ... + a_1 xi_1`, for a plant of
-    /// relative degree r > 1.
+    /// relative degree r = 2, 3, 4.
     #[must_use]
     pub fn relative_degree<'v>(self, coefficients: impl IntoIterator<Item = &'v str>) -> SpecificationBuilder {
         let a = Value::Array(coefficients.into_iter().map(text).collect());

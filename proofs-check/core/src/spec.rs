@@ -354,8 +354,8 @@ pub fn read_set(
 fn filter(field: &Field<'_>) -> Outcome<()> {
     let list = field.object(|fields| fields.required("a"))?;
     let elements = list.elements()?;
-    if elements.is_empty() || elements.len() > 20 {
-        return bad(&list.pointer, "expected 1 to 20 coefficients");
+    if elements.is_empty() || elements.len() > 3 {
+        return bad(&list.pointer, "expected 1 to 3 coefficients (relative degree 2 to 4)");
     }
     let mut coefficients = vec![Rational::from(1)];
     for element in elements.iter().rev() {

@@ -161,6 +161,8 @@ fn the_filter_is_hurwitz() {
         assert_refused(&a(list), Invalid, "specification", "/specification/relative_degree");
     }
     assert_refused(&a(&[]), BadInput, "format", "/specification/relative_degree");
+    // (s + 1)^4: of relative degree 5.
+    assert_refused(&a(&["1", "4", "6", "4"]), BadInput, "format", "/specification/relative_degree");
     assert_refused(&a(&["pi"]), BadInput, "format", "/specification/relative_degree");
 }
 

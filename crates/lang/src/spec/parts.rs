@@ -322,7 +322,7 @@ impl<N: Clone> InitialSet<N> {
     }
 }
 
-/// The coefficients a_1, ..., a_{r-1} of e = xi_r + sum a_i xi_i: 1 to 20 rational numbers. That the polynomial
+/// The coefficients a_1, ..., a_{r-1} of e = xi_r + sum a_i xi_i: 1 to 3 rational numbers. That the polynomial
 /// s^{r-1} + a_{r-1} s^{r-2} + ... + a_1 is Hurwitz is not checked here.
 #[derive(Clone, Debug)]
 pub struct RelativeDegree {

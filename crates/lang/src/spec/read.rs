@@ -31,8 +31,8 @@ pub const FORMAT: &str = "sigmastar/bounding-spec";
 /// The versions of it that are read.
 pub const VERSIONS: [u64; 1] = [1];
 
-/// The most coefficients that `relative_degree` may list.
-pub const MAX_RELATIVE_DEGREE_COEFFICIENTS: usize = 20;
+/// The most coefficients that `relative_degree` may list: up to relative degree 4 the gains from e to xi_1 have formulas.
+pub const MAX_RELATIVE_DEGREE_COEFFICIENTS: usize = 3;
 
 /// The most harmonics that `q_0` may list.
 pub const MAX_HARMONICS: usize = 200;
@@ -292,7 +292,7 @@ fn read_relative_degree(value: &Value<'_>, errors: &mut Errors) -> Result<Relati
         let elements = value.array(errors)?;
         if elements.is_empty() || elements.len() > MAX_RELATIVE_DEGREE_COEFFICIENTS {
             let message = format!("`a` lists {} coefficients", elements.len());
-            let expected = format!("expected 1 to {MAX_RELATIVE_DEGREE_COEFFICIENTS} coefficients a_1, ..., a_(r-1)");
+            let expected = format!("expected 1 to {MAX_RELATIVE_DEGREE_COEFFICIENTS} coefficients a_1, ..., a_(r-1): relative degree 2 to 4");
             return Err(errors.report(value.error(ErrorKind::Range, message).expected(expected)));
         }
         value.each(errors, rational)

@@ -19,38 +19,35 @@
 //! [`printed_polynomial`] tests that one, so that the difference can be shown.
 //!
 //! # Conventions
-//! The slice `a` holds a_1, ..., a_{r-1}, in this order: 1 to [`MAX_COEFFICIENTS`] exact rationals of any size. The
-//! unit of a_i is 1/time^{r-i}; k_inf has the unit of 1/a_1 and k_2 that of 1/a_1^2.
+//! The slice `a` holds a_1, ..., a_{r-1}, in this order: 1 to [`MAX_COEFFICIENTS`] exact rationals of any size (so
+//! r <= 4). The unit of a_i is 1/time^{r-i}; k_inf has the unit of 1/a_1 and k_2 that of 1/a_1^2.
 //!
 //! # Guarantees
 //! Everything is decided by exact rational arithmetic or by enclosures; an enclosure that is returned contains the
 //! constant, whatever its width. Effort is bounded by fixed counts, so results are deterministic.
 
-mod flow;
 mod impulse;
-mod negative_part;
 mod peak;
-mod ranges;
-mod real_roots;
-mod routh;
 #[cfg(test)]
 mod tests;
 
 pub use impulse::k_infinity;
 pub use peak::k_2;
 
-use routh::Routh;
 use rug::Rational;
 use thiserror::Error;
 
-/// The largest number r - 1 of coefficients accepted.
-pub const MAX_COEFFICIENTS: usize = 20;
+/// The largest number r - 1 of coefficients accepted: up to relative degree 4 the impulse response has few enough terms for
+/// formulas.
+pub const MAX_COEFFICIENTS: usize = 3;
 
 /// Why a constant of the relative-degree filter was not computed.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 pub enum RelativeDegreeError {
     /// There are no coefficients, or more than [`MAX_COEFFICIENTS`].
-    #[error("{count} coefficients a_1, ..., a_(r-1); between 1 and {MAX_COEFFICIENTS} are accepted")]
+    #[error(
+        "{count} coefficients a_1, ..., a_(r-1); between 1 and {MAX_COEFFICIENTS} are accepted (relative degree 2 to 4)"
+    )]
     Count {
         /// The number that was given.
         count: usize,
@@ -76,8 +73,8 @@ pub struct NotHurwitz {
 /// What a bounded effort did not reach.
 #[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
 pub enum Undecided {
-    /// The fastest and the slowest time scale are too far apart: no contraction of the flow was proved.
-    #[error("the decay of the impulse response was not proved, its time scales are too far apart")]
+    /// The fastest and the slowest time scale are too far apart: the sum for k_inf has no finite enclosure.
+    #[error("the L1 norm of the impulse response was not enclosed, its time scales are too far apart")]
     TimeScales,
     /// No positive lower bound of |p(i w)|^2 was proved at the highest precision: p has a root extremely close to
     /// the imaginary axis.
@@ -94,15 +91,26 @@ pub fn is_hurwitz(a: &[Rational]) -> bool {
 
 /// Decides exactly whether all roots of `s^{r-1} + a_{r-1} s^{r-2} + ... + a_1` have negative real parts.
 ///
-/// Routh's test in rational arithmetic: the polynomial is Hurwitz if and only if the first column of its Routh array
-/// is positive. A zero in the first column needs no special case: the k-th entry is `D_k/D_{k-1}` with D_k the k-th
-/// leading Hurwitz determinant, and all D_k are positive for a Hurwitz polynomial. So the first entry that is zero or
-/// negative refutes; a zero says that there are roots on the imaginary axis or in the right half-plane.
+/// Routh's test in rational arithmetic: the polynomial is Hurwitz if and only if the first column of its Routh array is positive.
+/// Below the 1 of s^{r-1} it holds a_1 (degree 1); a_2, a_1 (degree 2); a_3, a_2 - a_1/a_3, a_1 (degree 3). The first entry that
+/// is zero or negative refutes.
 ///
 /// # Errors
 /// [`RelativeDegreeError::NotHurwitz`] with the first entry that is not positive; [`RelativeDegreeError::Count`].
 pub fn check_hurwitz(a: &[Rational]) -> Result<(), RelativeDegreeError> {
-    Routh::new(a).map(|_| ())
+    let positive = |row: usize, entry: Rational| {
+        if entry > 0 { Ok(()) } else { Err(RelativeDegreeError::NotHurwitz(NotHurwitz { row, entry })) }
+    };
+    match a {
+        [a_1] => positive(1, a_1.clone()),
+        [a_1, a_2] => positive(1, a_2.clone()).and_then(|()| positive(2, a_1.clone())),
+        [a_1, a_2, a_3] => {
+            positive(1, a_3.clone())?;
+            positive(2, a_2 - Rational::from(a_1 / a_3))?;
+            positive(3, a_1.clone())
+        }
+        _ => Err(RelativeDegreeError::Count { count: a.len() }),
+    }
 }
 
 /// The test of [`check_hurwitz`] for the polynomial as the paper prints it, `s^{r-1} + a_1 s^{r-2} + ... + a_{r-1}`.

@@ -1,7 +1,3 @@
-use super::flow::Flow;
-use super::negative_part::{Perturbed, Tolerance};
-use super::ranges::scale;
-use super::real_roots::all_real;
 use super::*;
 use rug::Float;
 use rug::ops::Pow;
@@ -79,11 +75,28 @@ fn real_roots_give_the_reciprocal_of_a_1() {
     assert_eq!(cubic, integers(&[1, 3, 3]));
     assert_eq!(k_infinity(&cubic, 128).unwrap(), Enclosure::one(128));
     assert_eq!(k_2(&cubic, 128).unwrap(), Enclosure::one(128));
-    let wide: Vec<Rational> = (0..20).map(|k| ratio(10, 1).pow(5 * k - 40)).collect();
-    let wide = from_factors(&[], &wide);
-    let expected = Enclosure::from_rational(&Rational::from(wide[0].recip_ref()), 128);
-    assert_eq!(k_infinity(&wide, 128).unwrap(), expected);
-    assert_eq!(k_2(&wide, 128).unwrap(), Enclosure::from_rational(&Rational::from(wide[0].square_ref()).recip(), 128));
+    // Time scales 10^80 apart, and roots 10^-9 apart.
+    let wide = [ratio(10, 1).pow(-40), ratio(1, 3), ratio(10, 1).pow(40)];
+    let close = [ratio(1, 1), ratio(1_000_000_001, 1_000_000_000), ratio(2, 1)];
+    for roots in [&wide[..], &wide[1..], &close, &close[..2]] {
+        let a = from_factors(&[], roots);
+        let expected = Rational::from(a[0].recip_ref());
+        assert_eq!(k_infinity(&a, 128).unwrap(), Enclosure::from_rational(&expected, 128));
+        assert_eq!(k_2(&a, 128).unwrap(), Enclosure::from_rational(&expected.square(), 128));
+    }
+}
+
+/// g has one sign exactly if the real root is no faster than the pair.
+#[test]
+fn a_slow_real_root_gives_the_reciprocal_of_a_1() {
+    let third = |c: Rational| from_factors(&[(ratio(2, 1), ratio(1, 4))], &[c]);
+    for c in [ratio(1, 2), ratio(1, 3), ratio(10, 1).pow(-30)] {
+        let a = third(c);
+        assert_eq!(k_infinity(&a, 128).unwrap(), Enclosure::from_rational(&Rational::from(a[0].recip_ref()), 128));
+    }
+    let a = third(ratio(6, 10));
+    let relative = k_infinity(&a, 128).unwrap() * rational(&a[0]);
+    assert!(relative.lower() > 1 && width(&relative) < 1e-10, "{relative:?}");
 }
 
 #[test]
@@ -105,42 +118,70 @@ fn second_order_closed_forms() {
     }
 }
 
+/// Against an integration: pairs that are fast and slow beside a real root, weakly and strongly damped.
 #[test]
-fn sixth_order_is_sharp_at_little_cost() {
-    let factors = [(ratio(1, 1), ratio(1, 2)), (ratio(2, 1), ratio(3, 10)), (ratio(3, 1), ratio(7, 10))];
-    let a = from_factors(&factors, &[]);
-    let k = k_infinity(&a, 128).unwrap();
-    let float = l1_norm(&a, 1e-3, 60.0);
-    assert!(width(&k) < 1e-10, "{k:?}");
-    assert!((k.midpoint_f64() / float - 1.0).abs() < 1e-5, "{k:?} {float}");
-    assert!(width(&k_2(&a, 128).unwrap()) < 1e-16);
-    // Multiple complex roots: t^2 enters the response.
-    let a = from_factors(&vec![(ratio(1, 1), ratio(1, 2)); 3], &[]);
-    let (k, float) = (k_infinity(&a, 128).unwrap(), l1_norm(&a, 1e-3, 90.0));
-    assert!(width(&k) < 1e-10 && (k.midpoint_f64() / float - 1.0).abs() < 1e-5, "{k:?} {float}");
-    // |(1 - W + i sqrt W)|^2 = 1 - W + W^2 >= 3/4, so k_2 = (4/3)^3.
-    assert!(k_2(&a, 128).unwrap().contains(&ratio(64, 27)));
+fn third_order_is_sharp_at_little_cost() {
+    for (w, z, c, step, time) in [
+        ((1, 1), (1, 2), (3, 1), 1e-3, 60.0),
+        ((2, 1), (1, 10), (1, 4), 1e-3, 120.0),
+        ((3, 1), (1, 50), (1, 1), 5e-4, 250.0),
+        ((1, 1), (9, 10), (20, 1), 2e-4, 30.0),
+        ((5, 1), (1, 100), (1, 10), 5e-4, 250.0),
+    ] {
+        let a = from_factors(&[(Rational::from(w), Rational::from(z))], &[Rational::from(c)]);
+        let k = k_infinity(&a, 128).unwrap();
+        let float = l1_norm(&a, step, time);
+        assert!(width(&k) < 1e-12, "{a:?} {k:?}");
+        assert!((k.midpoint_f64() / float - 1.0).abs() < 1e-5, "{a:?} {k:?} {float}");
+        assert!(width(&k_2(&a, 128).unwrap()) < 1e-16);
+    }
+}
+
+/// |p(i w)|^2 = W^3 + f_2 W^2 + f_1 W + f_0 with minima by hand.
+#[test]
+fn third_order_peaks() {
+    // (s + 1)(s^2 + s + 1): (1 + W)(1 - W + W^2) = 1 + W^3, least at 0.
+    let a = from_factors(&[(ratio(1, 1), ratio(1, 2))], &[ratio(1, 1)]);
+    assert_eq!(k_2(&a, 128).unwrap(), Enclosure::one(128));
+    // (s + 2)(s^2 + s + 1): 4 - 3 W + 3 W^2 + W^3, least where W^2 + 2 W = 1, at sqrt(2) - 1: 9 - 4 sqrt(2).
+    let a = from_factors(&[(ratio(1, 1), ratio(1, 2))], &[ratio(2, 1)]);
+    let exact = (rational(&ratio(9, 1)) - rational(&ratio(2, 1)).sqrt() * 4).recip();
+    let k = k_2(&a, 128).unwrap();
+    assert!(overlap(&k, &exact) && width(&k) < 1e-35, "{k:?} {exact:?}");
+    // f_1 >= 0 > f_2: a local minimum above 0 that is greater than f(0), and one that is less.
+    for (a, least) in [(&[(3, 10), (1, 1), (9, 10)], false), (&[(1, 4), (1, 1), (3, 10)], true)] {
+        let a: Vec<Rational> = a.iter().map(|x| Rational::from(*x)).collect();
+        let f = peak::squared_modulus(&a);
+        assert!(f[1] >= 0 && f[2] < 0, "{f:?}");
+        let at_zero = Enclosure::from_rational(&Rational::from(f[0].recip_ref()), 128);
+        let k = k_2(&a, 128).unwrap();
+        assert_eq!((k.lower() > at_zero.upper(), overlap(&k, &at_zero)), (least, !least), "{k:?} {at_zero:?}");
+    }
 }
 
 #[test]
 fn stiff_and_lightly_damped() {
-    // A fast pair at 10^6 acts on the slow pair as a gain of 10^-12, up to terms of order 10^-6.
+    // A real root at 10^6 acts on the pair as a gain of 10^-6, up to terms of order 10^-6.
     let z = ratio(1, 2);
-    let a = from_factors(&[(ratio(1, 1), z.clone()), (ratio(1_000_000, 1), z.clone())], &[]);
+    let a = from_factors(&[(ratio(1, 1), z.clone())], &[ratio(1_000_000, 1)]);
     let k = k_infinity(&a, 128).unwrap();
-    let slow = underdamped(&z).midpoint_f64() * 1e-12;
-    assert!(width(&k) < 1e-9 && (k.midpoint_f64() / slow - 1.0).abs() < 1e-5, "{k:?}");
-    // The effort ends before the response has decayed: the enclosure is wide, but finite and right.
+    let slow = underdamped(&z).midpoint_f64() * 1e-6;
+    assert!(width(&k) < 1e-12 && (k.midpoint_f64() / slow - 1.0).abs() < 1e-5, "{k:?}");
+    // A pair that is damped by 10^-3, beside a root that is about as slow.
+    let a = from_factors(&[(ratio(1, 1), ratio(1, 1000))], &[ratio(1, 900)]);
+    assert!(width(&k_infinity(&a, 128).unwrap()) < 1e-11);
+    // So slow that the sum is ended before: the enclosure is wide, but finite.
+    let a = from_factors(&[(ratio(1, 1), ratio(1, 1_000_000))], &[ratio(1, 900_000)]);
+    let k = k_infinity(&a, 128).unwrap() * rational(&a[0]);
+    assert!(k.is_bounded() && width(&k) > 1e-3 && k.upper() > 1, "{k:?}");
+    // Two hardly damped roots.
     let z = ratio(1, 1_000_000);
     let a = from_factors(&[(ratio(1, 1), z.clone())], &[]);
     let k = k_infinity(&a, 128).unwrap();
     let exact = underdamped(&z);
-    assert!(k.lower() <= exact.lower() && k.upper() >= exact.upper() && width(&k) > 1e-3);
-    assert!(k.upper() <= Float::with_val(64, exact.upper() * 2u32), "{k:?}");
+    assert!(k.lower() <= exact.lower() && k.upper() >= exact.upper() && width(&k) < 1e-30);
     assert!(width(&k_2(&a, 128).unwrap()) < 1e-16);
     // Beyond the range: typed refusals, no claim.
-    let a = [ratio(1, 1), ratio(10, 1).pow(-60)];
-    assert_eq!(k_infinity(&a, 128).unwrap_err(), RelativeDegreeError::Undecided(Undecided::TimeScales));
     let a = [ratio(1, 3), ratio(10, 1).pow(-4000)];
     assert_eq!(k_2(&a, 128).unwrap_err(), RelativeDegreeError::Undecided(Undecided::Resonance));
 }
@@ -162,11 +203,17 @@ fn not_hurwitz_is_refused_with_the_entry() {
     // s^3 + s^2 + s + 1 = (s + 1)(s^2 + 1)
     assert_eq!(refused(&[1, 1, 1]), (2, ratio(0, 1)));
     assert_eq!(refused(&[10, 1, 1]), (2, ratio(-9, 1)));
-    // s^4 + 2 s^3 + 3 s^2 + 2 s + 5: array 1 3 5; 2 2; 2 5; -3; 5
-    assert_eq!(refused(&[5, 2, 3, 2]), (3, ratio(-3, 1)));
-    assert_eq!(refused(&[0, 1, 3, 3]), (4, ratio(0, 1)));
+    // s^3 + 3 s^2 + s - 1: array 1 1; 3 -1; 4/3; -1
+    assert_eq!(refused(&[-1, 1, 3]), (3, ratio(-1, 1)));
+    assert_eq!(refused(&[1, 1, 0]), (1, ratio(0, 1)));
     assert_eq!(check_hurwitz(&[]), Err(RelativeDegreeError::Count { count: 0 }));
-    assert!(!is_hurwitz(&[]) && !is_hurwitz(&integers(&[1; 21])));
+    // (s + 1)^4 is Hurwitz, and of relative degree 5.
+    let fourth = integers(&[1, 4, 6, 4]);
+    for answer in [check_hurwitz(&fourth), k_infinity(&fourth, 128).map(drop), k_2(&fourth, 128).map(drop)] {
+        assert_eq!(answer, Err(RelativeDegreeError::Count { count: 4 }));
+    }
+    assert!(!is_hurwitz(&[]) && !is_hurwitz(&fourth));
+    assert!(check_hurwitz(&fourth).unwrap_err().to_string().contains("relative degree 2 to 4"));
     let error = check_hurwitz(&integers(&[10, 1, 1])).unwrap_err().to_string();
     assert!(error.contains("entry 2") && error.contains("-9"), "{error}");
 }
@@ -186,128 +233,11 @@ fn the_printed_order_is_another_polynomial() {
         (&[0, 1], false),
         // (s^2 + 1)(s + 1) has zeros on the axis.
         (&[1, 1, 1], false),
-        // (s+1)^4 and (s+1)^5.
-        (&[4, 6, 4, 1], true),
-        (&[5, 10, 10, 5, 1], true),
-        // (s^2 - s + 1)(s+3)^2, all coefficients nonnegative.
-        (&[5, 4, -3, 9], false),
-        (&[1, 2, 3, 4], false),
+        // (s+1)^3, and (s^2 - s + 4)(s + 1), all coefficients nonnegative.
+        (&[3, 3, 1], true),
+        (&[0, 3, 4], false),
     ] {
         assert_eq!(printed_polynomial(&integers(a)).is_ok(), expected, "{a:?}");
-    }
-}
-
-#[test]
-fn sturm_counts_real_roots() {
-    assert!(all_real(&integers(&[-4])));
-    assert!(all_real(&integers(&[0, 0, 0])));
-    assert!(all_real(&integers(&[1, 2])));
-    assert!(!all_real(&integers(&[2, 2])));
-    assert!(all_real(&from_factors(&[], &integers(&[1, 1, 2, 2, 2, -3, 0]))));
-    let close = [ratio(1, 1), ratio(1_000_000_001, 1_000_000_000)];
-    assert!(all_real(&from_factors(&[], &close)));
-    let nearly = from_factors(&[(ratio(1, 1), ratio(999_999_999, 1_000_000_000))], &integers(&[1, 2]));
-    assert!(!all_real(&nearly));
-    assert!(!all_real(&from_factors(&vec![(ratio(1, 1), ratio(1, 2)); 2], &integers(&[3, 3]))));
-}
-
-#[test]
-fn negative_parts_of_polynomials() {
-    let tolerance =
-        |bits: i32| Tolerance { size: Float::with_val(64, 1) >> bits, area: Float::with_val(64, 1) >> bits };
-    let part = |c: &[(i64, i64)], error: Rational, bits: i32| {
-        let c: Vec<Enclosure> = c.iter().map(|x| Enclosure::from_rational(&Rational::from(*x), 128)).collect();
-        Perturbed::new(&c, &Enclosure::from_rational(&error, 64), 128).integral(&tolerance(bits))
-    };
-    let zero = Rational::new();
-    let near = |x: &Enclosure, exact: Rational, gap: f64| {
-        x.contains(&exact) && Float::with_val(128, x.upper() - x.lower()) < gap
-    };
-    assert!(near(&part(&[(-1, 2), (1, 1)], zero.clone(), 60), ratio(1, 8), 1e-17));
-    assert!(near(&part(&[(1, 2), (-1, 1)], zero.clone(), 60), ratio(1, 8), 1e-17));
-    assert_eq!(part(&[(0, 1), (0, 1), (1, 1)], zero.clone(), 60), Enclosure::zero(128));
-    assert!(near(&part(&[(-1, 3)], zero.clone(), 60), ratio(1, 3), 1e-30));
-    // (s - 1/4)(s - 3/4): integral of the negative part (1/2)^3/6.
-    assert!(near(&part(&[(3, 16), (-1, 1), (1, 1)], zero.clone(), 60), ratio(1, 48), 1e-17));
-    // (s - 1/2)^2 touches zero; (s - 1/2)^3 crosses flatly.
-    assert!(near(&part(&[(1, 4), (-1, 1), (1, 1)], zero.clone(), 60), zero.clone(), 1e-16));
-    assert!(near(&part(&[(-1, 8), (3, 4), (-3, 2), (1, 1)], zero.clone(), 60), ratio(1, 64), 1e-16));
-    // An error of 1/10 can move s - 1/2 to s - 2/5 or s - 3/5; on -1/3 it is a shift.
-    let x = part(&[(-1, 2), (1, 1)], ratio(1, 10), 60);
-    assert!(x.contains(&ratio(2, 25)) && x.contains(&ratio(9, 50)) && x.upper_f64() < 0.3, "{x:?}");
-    let x = part(&[(-1, 3)], ratio(1, 10), 60);
-    assert!(x.contains(&ratio(7, 30)) && x.contains(&ratio(13, 30)));
-    // Giving up is sound.
-    for bits in [0, 2, 5] {
-        assert!(part(&[(3, 16), (-1, 1), (1, 1)], zero.clone(), bits).contains(&ratio(1, 48)));
-    }
-}
-
-#[test]
-fn the_flow_is_the_response() {
-    let a = from_factors(&[(ratio(2, 1), ratio(3, 10)), (ratio(1, 1), ratio(1, 5))], &integers(&[3]));
-    for a in [a.clone(), from_factors(&[(ratio(2, 1), ratio(3, 10)), (ratio(1, 1), ratio(1, 5))], &[])] {
-        let routh = Routh::new(&a).unwrap();
-        let mut flow = Flow::new(&routh, 192).unwrap();
-        for _ in 0..8 {
-            flow.double().unwrap();
-        }
-        let weight = routh.b[1..].iter().fold(Enclosure::one(192), |w, b| w * Enclosure::from_rational(b, 192).sqrt());
-        // -w y(0) is the whole integral: sqrt(P_1)/a_1.
-        let start = flow.start();
-        let whole = -start.project(&flow.inverse_row());
-        assert!(overlap(&whole, &(&weight / rational(&a[0]))) && width(&whole) < 1e-40);
-        // One long step and two short ones agree; so does an integration in floating point.
-        let (long, short) = (&flow.blocks[8], &flow.blocks[7]);
-        let once = flow.advance(&start, long);
-        let twice = flow.advance(&flow.advance(&start, short), short);
-        assert!(once.error.upper_f64() < 1e-40 && long.frobenius().upper_f64() < 3.0);
-        let mut row = vec![Enclosure::zero(192); a.len()];
-        row[0] = weight.recip();
-        let (once, twice) = (once.project(&row), twice.project(&row));
-        assert!(overlap(&once, &twice) && width(&once).abs() < 1e-30);
-        let time = long.length().midpoint_f64();
-        let float = impulse(&a, time / 4096.0, 4096).last().copied().unwrap();
-        assert!((once.midpoint_f64() - float).abs() < 1e-9, "{once:?} {float}");
-        assert!(long.spectral(a.len()).upper_f64() <= 1.1 && long.spectral(a.len()).le(&long.frobenius()).is_true());
-    }
-    assert_eq!(scale(&Enclosure::one(64), -3), rational(&ratio(1, 8)));
-}
-
-/// Rounding errors of a coarse flow stay within the bound that it carries, and the bound is not idle.
-#[test]
-fn error_bounds_cover_a_coarse_flow() {
-    let a = from_factors(&[(ratio(2, 1), ratio(1, 50)), (ratio(1, 1), ratio(1, 30))], &integers(&[3]));
-    let routh = Routh::new(&a).unwrap();
-    let (mut coarse, mut fine) = (Flow::new(&routh, 24).unwrap(), Flow::new(&routh, 256).unwrap());
-    let (mut x, mut y) = (coarse.start(), fine.start());
-    for round in 0..120 {
-        if round < 8 {
-            coarse.double().unwrap();
-            fine.double().unwrap();
-        }
-        x = coarse.advance(&x, coarse.blocks.last().unwrap());
-        y = fine.advance(&y, fine.blocks.last().unwrap());
-        let sum = x.y.iter().zip(&y.y).fold(Float::new(256), |sum, (p, q)| sum + Float::with_val(256, p - q).square());
-        let gap = sum.sqrt();
-        assert!(gap <= x.error.upper(), "{round} {gap} {:?}", x.error);
-        assert!(x.error.upper() < 1e-2 && y.error.upper() < 1e-60 && gap > 0);
-    }
-}
-
-/// Whenever the effort ends, the tail counts once: from time 0 on the bound of k_inf is that of the tail itself.
-#[test]
-fn any_effort_is_sound() {
-    let z = ratio(1, 10);
-    let a = from_factors(&[(ratio(1, 1), z.clone())], &[]);
-    let response = impulse::Response::new(&Routh::new(&a).unwrap(), &a[0], 128).unwrap();
-    let bound = |effort| response.negative_part(effort).unwrap() * 2 + 1;
-    let tail = response.tail(&response.flow.start()).unwrap() / &response.weight;
-    assert!(bound(0).upper_f64() <= tail.upper_f64() * (1.0 + 1e-12), "{:?} {tail:?}", bound(0));
-    let exact = underdamped(&z);
-    for effort in [0, 1, 2_000, 5_000, 10_000, 50_000] {
-        let k = bound(effort);
-        assert!(k.lower() <= exact.lower() && k.upper() >= exact.upper(), "{effort} {k:?}");
     }
 }
 
@@ -318,7 +248,9 @@ fn hostile_sizes_end_quickly() {
         vec![huge.clone(), tiny.clone()],
         vec![tiny.clone(), huge.clone()],
         vec![tiny.clone(), tiny.clone()],
-        vec![huge.clone(), huge.clone(), huge.clone(), huge.clone()],
+        vec![huge.clone(), huge.clone(), huge.clone()],
+        vec![tiny.clone(), tiny.clone(), huge.clone()],
+        vec![tiny.clone(), ratio(1, 1), tiny.clone()],
     ] {
         for k in [k_infinity(&a, 128), k_2(&a, 128)].into_iter().flatten() {
             assert!(k.is_bounded() && k.is_positive().is_true());

@@ -3,12 +3,12 @@
 use super::*;
 use proptest::prelude::*;
 
-/// Frequencies and damping ratios, with real roots.
-fn roots() -> impl Strategy<Value = Vec<Rational>> {
+/// Frequencies and damping ratios, with real roots: the polynomials up to a degree.
+fn roots(degree: usize) -> impl Strategy<Value = Vec<Rational>> {
     let pair = (5i64..40, 15i64..95).prop_map(|(w, z)| (ratio(w, 10), ratio(z, 100)));
     let real = (5i64..40).prop_map(|x| ratio(x, 10));
-    (proptest::collection::vec(pair, 0..4), proptest::collection::vec(real, 0..3))
-        .prop_filter("degree 1 to 8", |(pairs, reals)| !pairs.is_empty() || !reals.is_empty())
+    (proptest::collection::vec(pair, 0..2), proptest::collection::vec(real, 0..4))
+        .prop_filter("a degree", move |(pairs, reals)| (1..=degree).contains(&(2 * pairs.len() + reals.len())))
         .prop_map(|(pairs, reals)| from_factors(&pairs, &reals))
 }
 
@@ -17,7 +17,7 @@ proptest! {
 
     // The floating-point reference: step 2e-3 (roots up to 4), time 200 (decay at least 0.075): about 1e-5.
     #[test]
-    fn k_infinity_agrees_with_integration(a in roots()) {
+    fn k_infinity_agrees_with_integration(a in roots(3)) {
         let k = k_infinity(&a, 128).unwrap();
         prop_assert!(width(&k) < 1e-9);
         prop_assert!(k.lower_rational().unwrap() <= Rational::from(a[0].recip_ref()) * (ratio(1, 1) + k.upper_rational().unwrap() * &a[0]));
@@ -27,7 +27,7 @@ proptest! {
     }
 
     #[test]
-    fn time_scaling(a in roots(), p in 1i64..30, q in 1i64..30) {
+    fn time_scaling(a in roots(3), p in 1i64..30, q in 1i64..30) {
         // t -> lambda t: a_i, the coefficient of s^{i-1}, gets lambda^{n-i+1}; both constants scale.
         let (n, lambda) = (a.len() as u32, ratio(p, q));
         let scaled: Vec<Rational> =
@@ -38,7 +38,7 @@ proptest! {
     }
 
     #[test]
-    fn norms_are_ordered(a in roots(), b in roots()) {
+    fn norms_are_ordered(a in roots(2), b in roots(1)) {
         // |g|_1 >= sup |1/p(i w)|, and both are submultiplicative under cascades.
         let (k, peak) = (k_infinity(&a, 128).unwrap(), k_2(&a, 128).unwrap());
         prop_assert!(k.sqr().upper() >= peak.lower());
@@ -52,7 +52,7 @@ proptest! {
 
 proptest! {
     #[test]
-    fn k_2_agrees_with_a_scan(a in roots()) {
+    fn k_2_agrees_with_a_scan(a in roots(3)) {
         let k = k_2(&a, 128).unwrap();
         prop_assert!(width(&k) < 1e-15);
         let f: Vec<f64> = peak::squared_modulus(&a).iter().map(Rational::to_f64).collect();
@@ -63,7 +63,7 @@ proptest! {
     }
 
     #[test]
-    fn the_squared_modulus_is_one(a in proptest::collection::vec(-50i64..50, 1..9), w in -9i64..9) {
+    fn the_squared_modulus_is_one(a in proptest::collection::vec(-50i64..50, 1..4), w in -9i64..9) {
         // p(i w) by Horner in Gaussian integers.
         let (mut re, mut im) = (1i64, 0i64);
         for c in a.iter().rev() {
@@ -75,7 +75,10 @@ proptest! {
     }
 
     #[test]
-    fn one_unstable_root_is_found(a in roots(), p in 0i64..50, pair in any::<bool>()) {
+    fn one_unstable_root_is_found(
+        (a, pair) in any::<bool>().prop_flat_map(|pair| (roots(if pair { 1 } else { 2 }), Just(pair))),
+        p in 0i64..50,
+    ) {
         prop_assert!(is_hurwitz(&a));
         let mut full = a;
         full.push(ratio(1, 1));
@@ -88,11 +91,11 @@ proptest! {
         };
         let mut unstable = multiply(&full, &factor);
         unstable.pop();
-        prop_assert!(!is_hurwitz(&unstable));
+        prop_assert!(matches!(check_hurwitz(&unstable), Err(RelativeDegreeError::NotHurwitz(_))));
     }
 
     #[test]
-    fn nothing_panics(a in proptest::collection::vec((any::<i64>(), 1i64..i64::MAX), 0..5)) {
+    fn nothing_panics(a in proptest::collection::vec((any::<i64>(), 1i64..i64::MAX), 0..4)) {
         let a: Vec<Rational> = a.into_iter().map(Rational::from).collect();
         prop_assert_eq!(is_hurwitz(&a), check_hurwitz(&a).is_ok());
         if !is_hurwitz(&a) {
