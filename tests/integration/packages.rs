@@ -60,27 +60,6 @@ fn every_package_can_be_published() {
     }
 }
 
-/// What is compiled for the program serves the wheel: the packages of both have the same features in both, but for the front door.
-#[test]
-fn the_wheel_takes_what_is_compiled_for_the_program() {
-    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    let packages = |root: &str| -> BTreeMap<String, String> {
-        let call = ["tree", "--locked", "--edges", "normal,build", "--prefix", "none", "--no-dedupe", "--format"];
-        let output = Command::new(&cargo).current_dir(ROOT).args(call).args(["{p}|{f}", "--package", root]).output();
-        let output = output.expect("cargo runs");
-        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-        let text = String::from_utf8(output.stdout).expect("UTF-8");
-        text.lines().filter_map(|line| line.split_once('|')).map(|(name, all)| (name.into(), all.into())).collect()
-    };
-    let (program, wheel) = (packages("sigmastar"), packages("sigmastar-python"));
-    let shared: Vec<_> = wheel.iter().filter(|(name, _)| program.contains_key(*name)).collect();
-    assert!(shared.len() > 100, "{shared:?}");
-    for (name, features) in shared {
-        let front_door = name.starts_with("sigmastar v");
-        assert!(front_door || program[name] == *features, "{name}: [{}], [{features}] in the wheel", program[name]);
-    }
-}
-
 #[test]
 fn versions_agree() {
     let root = text("Cargo.toml");
