@@ -3,11 +3,11 @@
 use super::error::{Error, ErrorKind};
 use super::json_text;
 use sigmastar_lang::spec::{self, Document, Notation};
-use sigmastar_sweep::sweep::{self, Case, Results, ResultsError, SubjectSource, Sweep, solve};
+use sigmastar_sweep::sweep::{self, Case, Results, ResultsError, SubjectSource, Sweep, csv, solve};
 use std::path::Path;
 
 /// A study with its subject (`docs/formats.md`): what values go where. Its cases can be run in any order and in different
-/// processes; the joined results are the bytes of `sigmastar sweep STUDY -o FILE`.
+/// processes; their table is the bytes of `sigmastar sweep STUDY -o FILE`.
 ///
 /// ```no_run
 /// # fn main() -> Result<(), sigmastar::Error> {
@@ -92,7 +92,7 @@ impl Study {
         })
     }
 
-    /// Certifies one case and returns its line of the results, without a line feed. Nothing is an error here that the line
+    /// Certifies one case and returns it as a line, without a line feed, from which [`Study::results`] makes the table. Nothing is an error here that the line
     /// tells: a case that is refused or not certified has a line that says why.
     ///
     /// # Errors
@@ -101,16 +101,14 @@ impl Study {
         Ok(solve(&self.made(index)?).line())
     }
 
-    /// The file of results from the lines of all cases, in any order: the bytes of `sigmastar sweep STUDY -o FILE`.
+    /// The table of results (CSV) from the lines of all cases, in any order: the bytes of `sigmastar sweep STUDY -o FILE`.
     ///
     /// # Errors
     /// [`Results`](ErrorKind::Results): a line that is not of this study or not as it was written, two that contradict each
     /// other, a case without a line.
     pub fn results<'l>(&self, lines: impl IntoIterator<Item = &'l str>) -> Result<String, Error> {
         let refused = |error: ResultsError| Error::new(ErrorKind::Results, error.to_string(), error.help());
-        let results = Results::of_lines(&self.sweep, "lines", lines).map_err(refused)?;
-        results.complete().map_err(refused)?;
-        Ok(results.text())
+        Results::of_lines(&self.sweep, lines).map_err(refused).map(|results| csv(&results))
     }
 
     fn made(&self, index: u64) -> Result<Case, Error> {

@@ -21,8 +21,6 @@ pub enum Input<'p> {
     Plant(&'p Path),
     /// A study.
     Study(&'p Path),
-    /// A file of results.
-    Results(&'p Path),
 }
 
 impl Input<'_> {
@@ -34,7 +32,6 @@ impl Input<'_> {
             Input::Certificate(path) => Some(("certificate", path)),
             Input::Plant(path) => Some(("plant file", path)),
             Input::Study(path) => Some(("study", path)),
-            Input::Results(path) => Some(("input", path)),
         }
     }
 }

@@ -21,25 +21,37 @@ const FIELDS: [(&str, &str); 9] = [
     ("--disturbance", "`disturbance`"),
 ];
 
-/// A command that there is not, and what there is.
-const COMMAND: (&str, &str) =
-    ("report", "`certify` shows a report; `--full` shows all of it, `--format html` writes a page");
+/// Where a study runs on more machines than one.
+const MACHINES: &str =
+    "a study on several machines is run from Python: `sigmastar.run_case` and `sigmastar.write_results`";
+
+/// Commands that there are not, and what there is.
+const COMMANDS: [(&str, &str); 2] = [
+    ("report", "`certify` shows a report; `--full` shows all of it, `--format html` writes a page"),
+    ("merge", MACHINES),
+];
+
+/// A flag that there is not, and what there is.
+const SHARD: (&str, &str) = ("--shard", MACHINES);
 
 /// The error about a call, with the word that was meant in the place of one that is only spelt like it.
 pub fn with_advice(mut error: clap::Error, arguments: impl IntoIterator<Item = OsString>) -> clap::Error {
     let is = |kind: ContextKind, word: &str| error.get(kind) == Some(&ContextValue::String(word.to_owned()));
     let unknown = error.kind() == ErrorKind::UnknownArgument;
+    let command = COMMANDS.iter().find(|(name, _)| is(ContextKind::InvalidSubcommand, name));
     let field = FIELDS.iter().find(|(flag, _)| unknown && is(ContextKind::InvalidArg, flag));
     if is(ContextKind::InvalidArg, FLAG.0) && has_flag(arguments, FLAG.1) {
         error.remove(ContextKind::Suggested);
         error.insert(ContextKind::SuggestedArg, ContextValue::String(format!("--{}", FLAG.1)));
     } else if let Some((_, field)) = field {
         suggest(&mut error, format!("it is a field of the file: {field}"));
+    } else if unknown && is(ContextKind::InvalidArg, SHARD.0) {
+        suggest(&mut error, SHARD.1.to_owned());
     } else if let Some(commands) = commands_with(&error).filter(|_| unknown) {
         suggest(&mut error, format!("it is a flag of {commands}"));
-    } else if is(ContextKind::InvalidSubcommand, COMMAND.0) {
+    } else if let Some((_, words)) = command {
         error.remove(ContextKind::SuggestedSubcommand);
-        error.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![StyledStr::from(COMMAND.1)]));
+        suggest(&mut error, (*words).to_owned());
     }
     error
 }

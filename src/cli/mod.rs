@@ -16,7 +16,6 @@ mod format;
 mod given;
 mod input;
 mod lyapunov;
-mod merge;
 mod misuse;
 mod output;
 mod pages;
@@ -65,7 +64,6 @@ pub fn run() -> ExitCode {
         Command::Certify(args) => (certify::run(&args), args.format, args.quiet),
         Command::Sampling(args) => (sampling::run(&args), args.format, args.quiet),
         Command::Sweep(args) => (sweep::run(&args), Format::Text, args.quiet),
-        Command::Merge(args) => (merge::run(&args), Format::Text, false),
         Command::Tune(args) => (tune::run(&args), args.format, args.quiet),
         Command::Transfer(args) => (transfer::run(&args), args.format, args.quiet),
         Command::Check(args) => (check::run(&args), args.format, false),

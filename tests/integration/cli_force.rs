@@ -71,11 +71,11 @@ fn a_folder_of_figures_is_written_twice_only_with_force() {
     assert_eq!(fs::read(folder.path().join("report.md")).unwrap(), b"mine");
 }
 
-/// A sweep goes on with its results; its table is a file like any other.
+/// The table of a sweep is a file like any other.
 #[test]
-fn a_sweep_goes_on_without_force() {
+fn a_table_is_not_replaced_without_force() {
     let folder = tempfile::tempdir().unwrap();
-    let [study, results, table] = ["study.json", "results.jsonl", "table.csv"].map(|name| folder.path().join(name));
+    let [study, table] = ["study.json", "table.csv"].map(|name| folder.path().join(name));
     let text = format!(
         r#"{{ "format": "sigmastar/study", "version": 1, "name": "n", "subject": {:?}, "design": "grid",
             "parameters": [{{ "pointer": "/internal_model/mu", "values": ["1", "1/2"] }}] }}"#,
@@ -84,20 +84,12 @@ fn a_sweep_goes_on_without_force() {
     fs::write(&study, text).unwrap();
     let sweep = |force: bool| {
         let mut command = program();
-        command.args(["sweep", "-q"]).arg(&study).arg("-o").arg(&results).arg("--csv").arg(&table);
+        command.args(["sweep", "-q"]).arg(&study).arg("-o").arg(&table);
         command.args(force.then_some("--force")).assert()
     };
-    sweep(false).success().stdout(contains("computed: 2"));
+    sweep(false).success().stdout(contains("2 cases: 2 certified"));
     sweep(false).code(2).stderr(contains("table.csv` exists already"));
-    sweep(true).success().stdout(contains("taken over: 2"));
-    let merge = || {
-        let mut command = program();
-        command.arg("merge").arg(&results).arg("-o").arg(folder.path().join("joined.jsonl"));
-        command
-    };
-    merge().assert().success();
-    merge().assert().code(2).stderr(contains("exists already"));
-    merge().arg("--force").assert().success();
+    sweep(true).success();
 }
 
 #[test]

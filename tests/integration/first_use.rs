@@ -335,6 +335,8 @@ fn flags_of_files_and_of_other_commands_are_told_apart() {
         (&["certify", EXAMPLE, "--mu", "2"][..], "it is a field of the file: `internal_model.mu`"),
         (&["certify", EXAMPLE, "--saturation", "2"], "it is a flag of `controller`, `simulate`"),
         (&["certify", "--sigma", EXAMPLE, "5"], "a number stands where a file is expected"),
+        (&["sweep", "specs/studies/linear.json", "-o", "x.csv", "--shard", "1/2"], "from Python: `sigmastar.run_case`"),
+        (&["merge", "x.jsonl", "-o", "y.jsonl"], "from Python: `sigmastar.run_case`"),
     ] {
         let (code, text) = with(words);
         assert!(code == 2 && text.contains(said), "{words:?}: {text}");

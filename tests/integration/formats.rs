@@ -16,7 +16,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::OnceLock;
 
 /// How many blocks of each kind there are at least.
-const LEAST: [(&str, usize); 19] = [
+const LEAST: [(&str, usize); 18] = [
     ("bounding-spec", 1),
     ("bounding-spec-part", 10),
     ("plant", 2),
@@ -25,8 +25,7 @@ const LEAST: [(&str, usize); 19] = [
     ("report-fragment", 4),
     ("sampling-fragment", 1),
     ("study", 1),
-    ("sweep-fragment", 1),
-    ("sweep-case-fragment", 1),
+    ("case-fragment", 1),
     ("tune-fragment", 1),
     ("transfer-fragment", 2),
     ("check-fragment", 2),
@@ -280,19 +279,17 @@ fn sampled_certificate() -> Value {
     sampled_certificate_json(&sampled::run(&spec, Some("25"))).expect("it certifies")
 }
 
-/// The lines of a sweep at samples with a case that is certified, one that is not and one that is refused.
-fn swept() -> Vec<Value> {
-    let folder = tempfile::tempdir().expect("a folder");
-    let results = folder.path().join("results.jsonl").display().to_string();
+/// The lines of a study at samples with a case that is certified, one that is not and one that is refused.
+fn lines_of_cases() -> Vec<Value> {
     let study = json!({
         "format": "sigmastar/study", "version": 1, "name": "study", "subject": parsed(&file(AT_REST), AT_REST),
         "sampling_period": "1/100", "design": "grid",
         "parameters": [{ "pointer": "/internal_model/mu", "values": ["1", "1000", "-1"] }],
     });
-    let study = stored(folder.path(), "study.json", &study);
-    program().args(["sweep", "-q", "-o", &results]).arg(study).assert().code(0);
-    let text = std::fs::read_to_string(&results).expect("written");
-    let lines: Vec<Value> = text.lines().map(|line| parsed(line, "a line")).collect();
+    let nowhere = |_: &str| Err("it stands in the study".to_owned());
+    let study = sigmastar::Study::from_bytes("study.json", study.to_string().as_bytes(), nowhere).expect("a study");
+    let line = |index: u64| parsed(&study.run_case(index).expect("a line"), "a line");
+    let lines: Vec<Value> = (0..study.cases()).map(line).collect();
     assert!(lines.iter().any(|line| line["reason"].is_string()) && lines.iter().any(|line| line["errors"].is_array()));
     lines
 }
@@ -319,7 +316,6 @@ fn written() -> &'static BTreeMap<&'static str, Vec<Value>> {
             read(format!("{folder}/report.json"))
         };
         let falsify = ["falsify", "-q", "--trials", "2", VALID];
-        let swept = swept();
         BTreeMap::from([
             ("certificate-fragment", certificates()),
             (
@@ -356,8 +352,7 @@ fn written() -> &'static BTreeMap<&'static str, Vec<Value>> {
                     run(1, &["check", refuted_witness(), "--format", "json"]),
                 ],
             ),
-            ("sweep-fragment", swept[..1].to_vec()),
-            ("sweep-case-fragment", swept[1..].to_vec()),
+            ("case-fragment", lines_of_cases()),
             ("tune-fragment", vec![other(&["tune", "-q", EXAMPLE, "--over", "mu", "--tries", "8"])]),
             ("rates-fragment", vec![other(&["rate", EXAMPLE, "--n-o", "0,1"])]),
             ("lyapunov-fragment", vec![other(&["lyapunov", "specs/paper-example-jacobian.json"])]),

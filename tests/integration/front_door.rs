@@ -477,7 +477,7 @@ fn a_study_is_run_case_by_case_to_the_bytes_of_sweep() {
     let study = Study::from_bytes(STUDY, &text, subject).unwrap();
     let lines: Vec<String> = (0..study.cases()).map(|index| study.run_case(index).unwrap()).collect();
     let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("results.jsonl");
+    let file = folder.path().join("results.csv");
     program().args(["sweep", STUDY, "--quiet", "-o"]).arg(&file).assert().success();
     let results = study.results(lines.iter().rev().map(String::as_str)).unwrap();
     assert_eq!(results, std::fs::read_to_string(file).unwrap());

@@ -357,7 +357,7 @@ fn a_start_of_simulations_far_outside_of_the_set_is_told() {
 #[test]
 fn what_is_wrong_with_a_case_is_told_where_it_was_written() {
     let folder = tempfile::tempdir().unwrap();
-    // Results of another study are not overwritten.
+    // A table that is there is not overwritten.
     let table = |name: &str| folder.path().join(name).to_str().expect("a path in UTF-8").to_owned();
     let write = |name: &str, content: &str| {
         let path = folder.path().join(name);

@@ -200,7 +200,6 @@ fn the_schema_is_a_text_that_is_ignored() {
         Sweep::new(Study::read(&study).expect("a study"), Some(&subject)).expect("a sweep")
     };
     let [with, without] = ["\"$schema\": \"x\",", ""].map(sweep);
-    assert_eq!((&with.study_sha256, &with.subject_sha256), (&without.study_sha256, &without.subject_sha256));
     let case = with.case(1).expect("a case");
     assert_eq!(case.sha256, without.case(1).expect("a case").sha256);
     assert_eq!(case.sha256, Specification::from_value(&case.document.root()).expect("read").sha256);
@@ -465,9 +464,9 @@ fn templates_work_as_they_stand() {
         let printed = program().args(["new", kind]).assert().code(0).get_output().stdout.clone();
         assert_eq!(printed, fs::read(&file).expect("written"));
         if kind == "study" {
-            let results = folder.path().join("results.jsonl");
+            let results = folder.path().join(format!("{kind}.csv"));
             let sweep = program().args(["sweep", "-q"]).arg(&file).arg("-o").arg(&results).assert().code(0);
-            sweep.stdout(contains("6 of 6 cases: 6 certified"));
+            sweep.stdout(contains("6 cases: 6 certified"));
         } else {
             program().args(["certify", "-q"]).arg(&file).assert().code(0).stdout(contains("Certified: with sigma ="));
         }

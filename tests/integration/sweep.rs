@@ -1,10 +1,12 @@
-//! Parameter studies: exact cases, rows that are those of `certify`, sweeps that are killed, shards.
+//! Parameter studies: exact cases, rows that are those of `certify`.
 
 use crate::support::{ROOT, plant, program, utf8};
 use predicates::str::contains;
 use serde_json::{Value, json};
+use sigmastar::Study as Front;
 use sigmastar_lang::spec::{Document, ErrorKind};
-use sigmastar_sweep::sweep::{Results, Study, Sweep};
+use sigmastar_sweep::sweep::{Study, Sweep};
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
@@ -66,20 +68,18 @@ impl Run {
         fs::read_to_string(self.path(file)).unwrap()
     }
 
-    fn rows(&self, file: &str) -> Vec<Value> {
-        self.text(file).lines().skip(1).map(|line| serde_json::from_str(line).unwrap()).collect()
+    /// The rows of the table by the names of their columns; the last one, the message, up to its first comma.
+    fn rows(&self, file: &str) -> Vec<BTreeMap<String, String>> {
+        let text = self.text(file);
+        let mut lines = text.lines().map(|line| line.split(',').map(str::to_owned));
+        let names: Vec<String> = lines.next().unwrap().collect();
+        lines.map(|line| names.iter().cloned().zip(line).collect()).collect()
     }
 
     fn refused(&self, file: &str, more: &[&str], words: &str) {
         let mut command = program();
         command.args(["sweep", "-q"]).arg(self.path("study.json")).arg("-o").arg(self.path(file)).args(more);
         command.assert().code(2).stderr(contains(words));
-    }
-
-    fn merge(&self, files: &[&str], output: &str, more: &[&str]) -> assert_cmd::assert::Assert {
-        let mut command = program();
-        command.arg("merge").args(files.iter().map(|file| self.path(file))).arg("-o").arg(self.path(output)).args(more);
-        command.assert()
     }
 }
 
@@ -151,16 +151,22 @@ fn rows_are_what_certify_says() {
     study["parameters"][0]["values"] = json!(["0.58", "-1", "0", "1/1000000", "1 s"]);
     study["parameters"][1] = json!({ "pointer": "/internal_model/matched", "values": [true, false] });
     let run = Run::new(&study);
-    let said = run.sweep("results.jsonl", &["--minimise", "sigma_star"]);
-    let rows = run.rows("results.jsonl");
-    assert_eq!(rows.iter().map(|row| row["index"].as_u64().unwrap()).collect::<Vec<_>>(), (0..10).collect::<Vec<_>>());
-    let verdicts: Vec<&str> = rows.iter().map(|row| row["verdict"].as_str().unwrap()).collect();
+    let said = run.sweep("results.csv", &["--minimise", "sigma_star"]);
+    let rows = run.rows("results.csv");
+    let indices: Vec<u64> = rows.iter().map(|row| row["index"].parse().unwrap()).collect();
+    assert_eq!(indices, (0..10).collect::<Vec<_>>());
+    let verdicts: Vec<&str> = rows.iter().map(|row| row["verdict"].as_str()).collect();
     assert_eq!(verdicts[..6], ["certified", "certified", "bad-input", "bad-input", "bad-input", "bad-input"]);
-    assert!(said.contains("computed: 10") && said.contains("(case 0)"), "{said}");
-    assert_eq!(rows[2]["errors"][0]["pointer"], "/lyapunov/alpha");
-    assert_eq!(rows[2]["errors"][0]["code"], "out-of-range");
-    assert_eq!(rows[8]["errors"][0]["code"], "expression");
-    assert!(rows[2].get("sigma_star").is_none());
+    assert!(said.contains("10 cases: 2 certified") && said.contains("(case 0)"), "{said}");
+    assert!(rows[2]["message"].contains("must be positive") && rows[2]["sigma_star"].is_empty(), "{:?}", rows[2]);
+    // A line, by which a case goes from one process to another, says it with its place.
+    let front = Front::from_bytes("study.json", run.text("study.json").as_bytes(), |_| unreachable!()).unwrap();
+    let line = |index| serde_json::from_str::<Value>(&front.run_case(index).unwrap()).unwrap();
+    let [of_range, of_text] = [2, 8].map(line);
+    assert_eq!(of_range["errors"][0]["pointer"], "/lyapunov/alpha");
+    assert_eq!(of_range["errors"][0]["code"], "out-of-range");
+    assert_eq!(of_text["errors"][0]["code"], "expression");
+    assert!(of_range.get("sigma_star").is_none());
     for (index, row) in rows.iter().take(2).enumerate() {
         let case = program().args(["sweep", "--case", &index.to_string()]).arg(run.path("study.json")).assert().code(0);
         let certified = program()
@@ -170,95 +176,26 @@ fn rows_are_what_certify_says() {
             .code(0);
         let report: Value = serde_json::from_slice(&certified.get_output().stdout).unwrap();
         assert_eq!(row["X0_bounds"], "|x|");
-        for field in ["sigma_star", "initial_set", "periodic_solution"] {
-            assert_eq!(row[field], report[field], "{field}");
+        assert_eq!(row["sigma_star"], report["sigma_star"]);
+        for (field, columns) in
+            [("initial_set", ["X0", "E0", "Z0"].as_slice()), ("periodic_solution", &["x", "e", "zeta", "z"])]
+        {
+            assert!(columns.iter().all(|column| row[*column] == report[field][column]), "{field}: {row:?}");
         }
         assert_eq!(row["sha256"], report["specification"]["sha256"]);
     }
     let mut single = program();
     single.env("RAYON_NUM_THREADS", "1").args(["sweep", "-q"]).arg(run.path("study.json"));
-    single.arg("-o").arg(run.path("single.jsonl")).assert().code(0);
-    assert_eq!(run.text("single.jsonl"), run.text("results.jsonl"));
+    single.arg("-o").arg(run.path("single.csv")).assert().code(0);
+    assert_eq!(run.text("single.csv"), run.text("results.csv"));
 }
 
 #[test]
-fn a_killed_sweep_goes_on() {
+fn no_file_is_written_twice_or_over_the_study() {
     let run = Run::new(&study(json!({})));
-    assert!(run.sweep("whole.jsonl", &[]).contains("taken over: 0, computed: 8"));
-    let whole = run.text("whole.jsonl");
-    let lines: Vec<&str> = whole.split_inclusive('\n').collect();
-    assert_eq!(lines.len(), 9);
-    let go_on = |left: &str, taken: u64| {
-        fs::write(run.path("killed.jsonl"), left).unwrap();
-        let said = run.sweep("killed.jsonl", &[]);
-        assert!(said.contains(&format!("taken over: {taken}, computed: {}", 8 - taken)), "{said}");
-        assert_eq!(run.text("killed.jsonl"), whole);
-    };
-    // Half of the lines, in the order in which they were done; a line cut off; nothing but the first line; all.
-    go_on(&[lines[0], lines[7], lines[2], lines[8], lines[1]].concat(), 4);
-    go_on(&format!("{}{}", lines[..4].concat(), &lines[4][..lines[4].len() / 2]), 3);
-    go_on(lines[0], 0);
-    go_on(&whole, 8);
-    go_on("", 0);
-    // The last line is whole but for its end.
-    go_on(whole.trim_end(), 8);
-    // A row of another document is computed again.
-    // Case 0 is the subject itself, whose digest is in the first line too.
-    let digest = lines[2].split("\"sha256\":\"").nth(1).unwrap()[..64].to_owned();
-    go_on(&whole.replace(&digest, &"0".repeat(64)), 7);
-}
-
-#[test]
-fn a_file_of_another_study_is_kept() {
-    let run = Run::new(&study(json!({})));
-    run.sweep("results.jsonl", &[]);
-    let whole = run.text("results.jsonl");
-    run.refused("results.jsonl", &["--shard", "1/2"], "another study, shard or version");
-    fs::write(run.path("study.json"), study(json!({ "sampling_period": "1/100" })).to_string()).unwrap();
-    run.refused("results.jsonl", &[], "another study, shard or version");
-    assert_eq!(run.text("results.jsonl"), whole);
-    let broken = whole.replacen("{\"index\":3", "{\"index\": 3", 1);
-    fs::write(run.path("study.json"), study(json!({})).to_string()).unwrap();
-    for (text, words) in [
-        (broken, "line 5 of"),
-        ("text\n".to_owned(), "is no file of results"),
-        (whole.replacen("\"index\":3", "\"index\":30", 1), "does not belong to this study"),
-        (whole.replacen("\"index\":3", "\"index\":2", 1), "says of case 2 another thing"),
-    ] {
-        fs::write(run.path("results.jsonl"), &text).unwrap();
-        run.refused("results.jsonl", &[], words);
-        assert_eq!(run.text("results.jsonl"), text);
-    }
-    run.refused("study.json", &[], "it is the study itself");
-    run.refused("results.jsonl", &["--csv", run.path("results.jsonl").to_str().unwrap()], "is to be written twice");
-}
-
-#[test]
-fn shards_are_the_whole() {
-    let run = Run::new(&study(json!({})));
-    run.sweep("whole.jsonl", &[]);
-    for part in 1..4 {
-        let said = run.sweep(&format!("{part}.jsonl"), &["--shard", &format!("{part}/3")]);
-        assert!(said.contains(&format!("computed: {}", if part == 3 { 2 } else { 3 })), "{said}");
-    }
-    run.merge(&["3.jsonl", "1.jsonl", "2.jsonl"], "merged.jsonl", &[]).code(0);
-    assert_eq!(run.text("merged.jsonl"), run.text("whole.jsonl"));
-    run.merge(&["3.jsonl", "1.jsonl"], "two.jsonl", &[]).code(2).stderr(contains("3 of 8 cases are missing"));
-    assert!(!run.path("two.jsonl").exists());
-    run.merge(&["3.jsonl", "1.jsonl"], "two.jsonl", &["--incomplete"]).code(0);
-    assert!(run.sweep("two.jsonl", &[]).contains("taken over: 5, computed: 3"));
-    assert_eq!(run.text("two.jsonl"), run.text("whole.jsonl"));
-    run.merge(&["1.jsonl"], "1.jsonl", &["--incomplete"]).code(2).stderr(contains("it is the input itself"));
-    // Another study, and another thing of the same case.
-    let other = run.text("2.jsonl").replacen("study_sha256\":\"", "study_sha256\":\"0", 1);
-    fs::write(run.path("other.jsonl"), other).unwrap();
-    run.merge(&["1.jsonl", "other.jsonl"], "x.jsonl", &[]).code(2).stderr(contains("is of another study"));
-    let other = run.text("2.jsonl").replacen("\"no_plant\":false", "\"no_plant\":true", 1);
-    fs::write(run.path("other.jsonl"), other).unwrap();
-    run.merge(&["2.jsonl", "other.jsonl"], "x.jsonl", &[]).code(2).stderr(contains("another thing"));
-    for wrong in ["0/3", "4/3", "1", "1/0", "a/b", "1/100001"] {
-        run.refused("y.jsonl", &["--shard", wrong], "is no part of a study");
-    }
+    run.refused("study.json", &["--force"], "it is the study itself");
+    run.refused("x.svg", &["--plot", run.path("x.svg").to_str().unwrap()], "is to be written twice");
+    assert!(!run.path("x.svg").exists());
 }
 
 #[test]
@@ -342,20 +279,17 @@ fn what_is_wrong_with_a_study_is_told_in_its_place() {
 #[test]
 fn the_shipped_study_has_a_table_and_a_plot() {
     let folder = TempDir::new().unwrap();
-    let [results, table, plot] = ["r.jsonl", "t.csv", "p.svg"].map(|name| folder.path().join(name));
+    let [table, plot] = ["t.csv", "p.svg"].map(|name| folder.path().join(name));
     let mut command = program();
-    command.args(["sweep", SHIPPED, "-o"]).arg(&results).arg("--csv").arg(&table).arg("--plot").arg(&plot);
-    command.assert().code(0).stdout(contains("15 of 15 cases: 15 certified"));
-    let read = Results::read("r", &fs::read(&results).unwrap()).unwrap();
-    assert_eq!(read.rows.len(), 15);
-    let table = fs::read_to_string(table).unwrap();
-    assert!(
-        table.starts_with(
-            "index,alpha,p_up,verdict,sigma_star,X0,X0_bounds,E0,Z0,x,e,zeta,z,no_plant,sha256,message\r\n"
-        )
-    );
+    command.args(["sweep", SHIPPED, "-o"]).arg(&table).arg("--plot").arg(&plot);
+    command.assert().code(0).stdout(contains("15 cases: 15 certified"));
+    let table = fs::read_to_string(&table).unwrap();
+    assert_eq!(table.lines().count(), 16);
+    assert!(table.starts_with(
+        "index,alpha,p_up,verdict,sigma_star,sampling_period,X0,X0_bounds,E0,Z0,x,e,zeta,z,no_plant,sha256,message\r\n"
+    ));
     assert!(table.lines().nth(1).unwrap().starts_with("0,0.5,1.1,certified,"), "{table}");
-    assert!(table.lines().skip(1).all(|line| line.split(',').count() == 16));
+    assert!(table.lines().skip(1).all(|line| line.split(',').count() == 17));
     let svg = fs::read_to_string(plot).unwrap();
     for label in ["p_up = 11/10", "p_up = 1.5512", "p_up = 2.5", "alpha", "sigma_star"] {
         assert!(svg.contains(label), "{label}");
@@ -364,10 +298,9 @@ fn the_shipped_study_has_a_table_and_a_plot() {
     let mut embedded: Value =
         serde_json::from_str(&fs::read_to_string(Path::new(ROOT).join(SHIPPED)).unwrap()).unwrap();
     embedded["subject"] = subject();
-    fs::write(folder.path().join("study.json"), embedded.to_string()).unwrap();
-    let mut command = program();
-    command.args(["sweep", "-q"]).arg(folder.path().join("study.json")).arg("-o").arg(&results);
-    command.assert().code(0).stdout(contains("taken over: 15, computed: 0"));
+    let run = Run::new(&embedded);
+    run.sweep("t.csv", &[]);
+    assert_eq!(run.text("t.csv"), table);
     program().args(["sweep", SHIPPED, "--case", "15"]).assert().code(2).stderr(contains("there is no case 15"));
 }
 
@@ -382,13 +315,13 @@ fn a_plot_that_cannot_be_is_refused_before_the_work() {
         ),
     ] {
         let run = Run::new(&study(json!({ "parameters": parameters })));
-        run.refused("r.jsonl", &["--plot", run.path("p.svg").to_str().unwrap()], words);
-        assert!(!run.path("r.jsonl").exists());
+        run.refused("r.csv", &["--plot", run.path("p.svg").to_str().unwrap()], words);
+        assert!(!run.path("r.csv").exists());
     }
     let logarithmic =
         json!([{ "pointer": "/internal_model/mu", "logarithmic": { "from": "1/10", "to": 1, "count": 3 } }]);
     let run = Run::new(&study(json!({ "parameters": logarithmic })));
-    run.sweep("r.jsonl", &["--plot", run.path("p.svg").to_str().unwrap()]);
+    run.sweep("r.csv", &["--plot", run.path("p.svg").to_str().unwrap()]);
     assert!(fs::read_to_string(run.path("p.svg")).unwrap().contains("<polyline"));
 }
 
@@ -401,23 +334,23 @@ fn plants_and_samples_are_swept() {
         "parameters": [{ "pointer": "/internal_model/mu", "values": [1] }],
     });
     let run = Run::new(&study);
-    run.sweep("r.jsonl", &[]);
-    let row = &run.rows("r.jsonl")[0];
-    assert_eq!((&row["verdict"], &row["sampling_period"]), (&json!("certified"), &json!("0.001")));
+    run.sweep("r.csv", &[]);
+    let row = &run.rows("r.csv")[0];
+    assert_eq!([&row["verdict"], &row["sampling_period"]], ["certified", "0.001"]);
     let plant = json!({
         "format": "sigmastar/study", "version": 1, "name": "plant", "design": "grid",
         "subject": Path::new(ROOT).join("specs/plants/linear.json"),
         "parameters": [{ "pointer": "/internal_model/mu", "values": ["1", "-1"] }],
     });
     let run = Run::new(&plant);
-    run.sweep("r.jsonl", &[]);
-    let rows = run.rows("r.jsonl");
-    assert_eq!((&rows[0]["verdict"], &rows[1]["verdict"]), (&json!("certified"), &json!("bad-input")));
+    run.sweep("r.csv", &[]);
+    let rows = run.rows("r.csv");
+    assert_eq!([&rows[0]["verdict"], &rows[1]["verdict"]], ["certified", "bad-input"]);
 }
 
 /// X0 of a plant is in the coordinates of its certificate, but where the set is asked for as a ball: then it is that ball, of x.
 #[test]
-fn a_line_says_what_its_set_bounds() {
+fn a_row_says_what_its_set_bounds() {
     let mut plant = plant(&["a", "b"], &["-a + 4*b", "-4*b + sin(2*pi*t)"], "1 + a/8 + cos(2*pi*t)");
     plant["initial_set"] = json!({ "kind": "aligned", "ball": "1/3", "E0": "1" });
     let sweep = |plant: &Value| {
@@ -425,33 +358,25 @@ fn a_line_says_what_its_set_bounds() {
             "format": "sigmastar/study", "version": 1, "name": "sets", "design": "grid", "subject": plant,
             "parameters": [{ "pointer": "/internal_model/mu", "values": ["1"] }],
         }));
-        run.sweep("r.jsonl", &["--csv", run.path("t.csv").to_str().unwrap()]);
-        let certify = |format: &str| {
-            let mut certify = program();
-            certify.args(["certify", "-", "-q", "--no-compare", "--format", format]).write_stdin(plant.to_string());
-            certify.assert().code(0).get_output().stdout.clone()
-        };
-        let report: Value = serde_json::from_slice(&certify("json")).unwrap();
-        (run.rows("r.jsonl")[0].clone(), run.text("t.csv"), report)
+        run.sweep("r.csv", &[]);
+        let mut certify = program();
+        certify.args(["certify", "-", "-q", "--no-compare", "--format", "json"]).write_stdin(plant.to_string());
+        let report: Value = serde_json::from_slice(&certify.assert().code(0).get_output().stdout).unwrap();
+        (run.rows("r.csv")[0].clone(), report["initial_set"].clone())
     };
-    let (row, table, report) = sweep(&plant);
-    assert_eq!((&row["initial_set"]["X0"], &row["X0_bounds"]), (&json!("1/3"), &json!("|x - x_0|")));
-    assert_ne!(row["initial_set"]["X0"], report["initial_set"]["X0"]);
-    assert_eq!(row["initial_set"]["E0"], report["initial_set"]["E0"]);
-    assert!(table.contains(",0.3333333333333333,|x - x_0|,1,M e,"), "{table}");
+    let (row, set) = sweep(&plant);
+    assert_eq!([&row["X0"], &row["X0_bounds"], &row["Z0"]], ["0.3333333333333333", "|x - x_0|", "M e"]);
+    assert_ne!(row["X0"], set["X0"]);
+    assert_eq!(row["E0"], set["E0"]);
     let mut other = plant;
     other["initial_set"] = json!({ "kind": "aligned" });
-    let (row, table, report) = sweep(&other);
-    assert_eq!((&row["initial_set"], &row["X0_bounds"]), (&report["initial_set"], &json!("|L^-1 (x - x_0)|")));
-    assert!(table.contains(",|L^-1 (x - x_0)|,"), "{table}");
-    // Lines of earlier programs do not say, and are read; another word is refused.
-    let run = Run::new(&study(json!({})));
-    run.sweep("r.jsonl", &[]);
-    let text = run.text("r.jsonl");
-    let read = |text: &str| Results::read("r", text.as_bytes());
-    assert_eq!(
-        read(&text.replace("\"X0_bounds\":\"|x|\",", "")).unwrap().rows[&0].claim.as_ref().unwrap().x0_bounds,
-        None
-    );
-    assert!(read(&text.replace("\"X0_bounds\":\"|x|\"", "\"X0_bounds\":\"x\"")).is_err());
+    let (row, set) = sweep(&other);
+    assert_eq!(row["X0_bounds"], "|L^-1 (x - x_0)|");
+    assert!(row["X0"] == set["X0"] && row["E0"] == set["E0"], "{row:?} {set}");
+    // A line with another word is refused.
+    let study = study(json!({ "parameters": [{ "pointer": "/period", "values": ["1"] }] }));
+    let front = Front::from_bytes("study.json", study.to_string().as_bytes(), |_| unreachable!()).unwrap();
+    let line = front.run_case(0).unwrap();
+    assert!(front.results([line.as_str()]).is_ok());
+    assert!(front.results([line.replace("\"X0_bounds\":\"|x|\"", "\"X0_bounds\":\"x\"").as_str()]).is_err());
 }

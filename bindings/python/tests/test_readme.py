@@ -25,7 +25,7 @@ def test_they_run(tmp_path):
     (tmp_path / "specs").symlink_to(ROOT / "specs")
     environment = {**os.environ, "MPLBACKEND": "Agg"}
     subprocess.run([sys.executable, "-c", lines()], cwd=tmp_path, check=True, env=environment, stdout=subprocess.DEVNULL)
-    assert {"certificate.json", "bounds.json", "results.jsonl", "results.csv"} <= set(os.listdir(tmp_path))
+    assert {"certificate.json", "bounds.json", "results.csv"} <= set(os.listdir(tmp_path))
 
 
 MISUSED = """

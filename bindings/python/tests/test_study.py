@@ -15,7 +15,7 @@ EXAMPLE = Path(__file__).resolve().parents[1] / "examples" / "sweep_dask.py"
 @pytest.fixture(scope="module")
 def swept(program, tmp_path_factory):
     """The file that the program writes."""
-    file = tmp_path_factory.mktemp("sweep") / "results.jsonl"
+    file = tmp_path_factory.mktemp("sweep") / "results.csv"
     assert program("sweep", STUDY, "-o", file, "--quiet")[0] == 0
     return file.read_bytes()
 
@@ -36,7 +36,7 @@ def test_the_cases_are_those_of_the_program(program):
 
 def test_the_results_are_the_bytes_of_the_program(lines, swept, tmp_path):
     assert sigmastar.results(STUDY, reversed(lines)).encode() == swept
-    file = tmp_path / "results.jsonl"
+    file = tmp_path / "results.csv"
     sigmastar.write_results(STUDY, lines, file)
     assert file.read_bytes() == swept
 
@@ -55,7 +55,7 @@ def test_what_is_not_of_the_study_is_refused(lines, tmp_path):
         ([lines[0] + " ", *lines[1:]], "not as it was written"),
     ]:
         with pytest.raises(sigmastar.InputError) as caught:
-            sigmastar.write_results(STUDY, wrong, tmp_path / "results.jsonl")
+            sigmastar.write_results(STUDY, wrong, tmp_path / "results.csv")
         assert caught.value.kind == "results" and words in str(caught.value)
     assert list(tmp_path.iterdir()) == []
 
@@ -93,6 +93,6 @@ def test_a_refused_case_has_a_line_that_says_so():
 
 def test_two_processes_of_dask_give_the_same_bytes(swept, tmp_path):
     pytest.importorskip("distributed")
-    file = tmp_path / "results.jsonl"
+    file = tmp_path / "results.csv"
     runpy.run_path(str(EXAMPLE))["sweep"](str(STUDY), str(file), processes=2)
     assert file.read_bytes() == swept

@@ -9,7 +9,7 @@ mod studies;
 pub use claims::{BoundArgs, CertifyArgs, CheckArgs, ErrataArgs, LyapunovArgs, RateArgs, SamplingArgs, TransferArgs};
 pub use files::{ConvertArgs, NewArg, NewArgs, SchemaArgs};
 pub use regulator::{ControllerArgs, FalsifyArgs, PartArg, RegulatorForm, ReproduceArgs, SimulateArgs};
-pub use studies::{MergeArgs, SweepArgs, TuneArgs, TuneGoal};
+pub use studies::{SweepArgs, TuneArgs, TuneGoal};
 
 use clap::{Args, ColorChoice, CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
@@ -45,9 +45,7 @@ const SAMPLING_EXAMPLES: &str = "Examples:
 
 /// Examples of `sweep`.
 const SWEEP_EXAMPLES: &str = "Examples:
-  sigmastar sweep specs/studies/linear.json -o results.jsonl --minimise sigma_star --plot gains.svg
-  sigmastar sweep study.json -o part3.jsonl --shard 3/8
-  sigmastar merge part*.jsonl -o results.jsonl
+  sigmastar sweep specs/studies/linear.json -o results.csv --minimise sigma_star --plot gains.svg
   sigmastar sweep study.json --case 17 | sigmastar certify - -o case17.certificate.json";
 
 /// Examples of `tune`.
@@ -77,7 +75,7 @@ const NEW_EXAMPLES: &str = "Examples:
   sigmastar new plant -o plant.jsonc
   sigmastar certify plant.jsonc
   sigmastar new study -o study.toml
-  sigmastar sweep study.toml -o results.jsonl --minimise sigma_star";
+  sigmastar sweep study.toml -o results.csv --minimise sigma_star";
 
 /// Examples of `convert`.
 const CONVERT_EXAMPLES: &str = "Examples:
@@ -145,14 +143,10 @@ pub enum Command {
     Sampling(SamplingArgs),
     /// Certify a specification or plant with many values put in: a grid or a Latin hypercube
     ///
-    /// Each case is certified by itself, as `certify` does it; nothing is claimed between the cases, and no certificates are
-    /// written. A sweep that was interrupted goes on where it stopped: run the same command again.
+    /// Each case is certified by itself, as `certify` does it, on all cores of this machine, and is a row of one table. Nothing is
+    /// claimed between the cases, and no certificates are written. For more machines the Python package has a study as calls.
     #[command(after_help = SWEEP_EXAMPLES)]
     Sweep(SweepArgs),
-    /// Join the results of the shards of a sweep
-    ///
-    /// The shards must be of one study, and no case may be missing. The bytes are those of a sweep without shards.
-    Merge(MergeArgs),
     /// Look for values of mu, the weights and other free numbers with a smaller certified gain
     ///
     /// Each proposal is certified by itself, as `certify` does it. Within their ranges the numbers are sought in logarithms, from

@@ -116,7 +116,7 @@ def study_cases(study: StudyLike) -> List[Case]:
 
 
 def run_case(study: StudyLike, index: int) -> str:
-    """Certifies one case and returns its line of the results, JSON without a line feed.
+    """Certifies one case and returns it as a line of JSON, without a line feed, from which `results` makes the table.
 
     A case that is refused or not certified is no exception: its line says why. The same case has the same line in every process.
     """
@@ -128,7 +128,7 @@ def run_case(study: StudyLike, index: int) -> str:
 
 
 def results(study: StudyLike, lines: Iterable[str]) -> str:
-    """The file of results from the lines of all cases, in any order: the bytes of `sigmastar sweep STUDY -o FILE`.
+    """The table of results (CSV) from the lines of all cases, in any order: the bytes of `sigmastar sweep STUDY -o FILE`.
 
     Raises InputError for a line that is not of this study or not as it was written, for two that contradict each other, and for
     a case without a line.
@@ -139,5 +139,5 @@ def results(study: StudyLike, lines: Iterable[str]) -> str:
 
 
 def write_results(study: StudyLike, lines: Iterable[str], path: Union[str, "os.PathLike[str]"]) -> None:
-    """Writes the file of `results`; it appears whole or not at all."""
+    """Writes the table of `results`; it appears whole or not at all."""
     write(path, results(study, lines))

@@ -14,10 +14,6 @@ pub struct Sweep {
     pub study: Study,
     /// The subject, with the sampling period of the study.
     base: Value,
-    /// SHA-256 of the study with the subject in it.
-    pub study_sha256: String,
-    /// SHA-256 of the subject as it was given.
-    pub subject_sha256: String,
 }
 
 /// One case.
@@ -59,16 +55,9 @@ impl Sweep {
                 return Err(study.source.errors_at("/subject", &(0..0), ErrorKind::Unreadable, message, None));
             }
         };
-        let subject_sha256 = Document::parse("the subject", &base.to_string())?.root().sha256();
-        // The same study, whether the subject stands in it or beside it.
-        let mut whole = study.source.root().embedded().0;
-        if let Some(place) = whole.get_mut("subject") {
-            *place = base.clone();
-        }
-        let study_sha256 = Document::parse(study.source.label(), &whole.to_string())?.root().sha256();
         with_sampling_period(&study, &mut base)?;
         fits(&study, &base)?;
-        Ok(Sweep { study, base, study_sha256, subject_sha256 })
+        Ok(Sweep { study, base })
     }
 
     /// How many cases there are.

@@ -1,12 +1,11 @@
 //! Parameter studies: one specification or plant with many values put in, each case certified by itself.
 //!
 //! A [`Study`] says which values go where; [`Sweep`] makes the cases; [`run`](run::run) certifies them in parallel and hands over a
-//! [`Row`] each; [`Results`] is the file of rows, read, continued, and joined from shards. Nothing is claimed between the cases.
+//! [`Row`] each; [`Results`] are the rows of all cases, and [`csv`] is their table. Nothing is claimed between the cases.
 
 mod cases;
 mod design;
 mod figure;
-mod header;
 mod parameter;
 mod places;
 mod results;
@@ -19,9 +18,8 @@ mod values;
 pub use cases::{Case, Sweep};
 pub use design::Design;
 pub use figure::{FigureError, sweep_figure};
-pub use header::{Header, Shard};
 pub use parameter::Parameter;
-pub use results::{Merge, Results, ResultsError};
+pub use results::{Results, ResultsError};
 pub use row::{Row, RowClaim, RowError, X0_BOUNDS};
 pub use run::{run, solve};
 pub use study::{FORMAT, Study, SubjectSource, VERSIONS};

@@ -1,4 +1,5 @@
-//! One line of results: the values of a case, and what is proved of it or why nothing is.
+//! One row of results: the values of a case, and what is proved of it or why nothing is; and the line by which it goes from one process to
+//! another.
 
 use serde_json::json;
 use sigmastar_exact::enclosure::DIGITS;
@@ -25,8 +26,8 @@ pub struct RowClaim {
     pub sampling_period: Option<String>,
     /// The initial set. Where a plant's is asked for as a ball its X0 is the radius of one that it contains.
     pub initial_set: StartSizes<String>,
-    /// What its X0 bounds, one of [`X0_BOUNDS`]; files of earlier programs do not say.
-    pub x0_bounds: Option<&'static str>,
+    /// What its X0 bounds, one of [`X0_BOUNDS`].
+    pub x0_bounds: &'static str,
     /// Upper bounds of |x|, |e|, |zeta|_N and |z|_N along the periodic solution, rounded up.
     pub periodic: [String; 4],
     /// Whether it is proved that no plant with a state has these data, so that the claim says nothing about any.
@@ -50,7 +51,7 @@ impl RowClaim {
             sigma_star: write_exact(certified.sigma),
             sampling_period: certified.sampling.map(Sampling::text),
             initial_set,
-            x0_bounds: Some(x0_bounds),
+            x0_bounds,
             periodic: certified.periodic.each_ref().map(|bound| bound.upper_decimal(DIGITS)),
             no_plant: certified.no_plant,
         }
@@ -68,7 +69,7 @@ pub struct RowError {
     pub message: String,
 }
 
-/// One line.
+/// One row.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Row {
     /// The number of the case.
@@ -101,9 +102,7 @@ impl Row {
                 line["sampling_period"] = json!(step);
             }
             line["initial_set"] = claim.initial_set.named().map(|(name, size)| (name, json!(size))).collect();
-            if let Some(what) = claim.x0_bounds {
-                line["X0_bounds"] = json!(what);
-            }
+            line["X0_bounds"] = json!(claim.x0_bounds);
             line["periodic_solution"] = json!({ "x": x, "e": e, "zeta": zeta, "z": z });
             line["no_plant"] = json!(claim.no_plant);
         }
@@ -128,11 +127,11 @@ impl Row {
     }
 }
 
-pub(super) fn text(value: &Value<'_>, errors: &mut Errors) -> Result<String, Reported> {
+fn text(value: &Value<'_>, errors: &mut Errors) -> Result<String, Reported> {
     value.string(errors).map(str::to_owned)
 }
 
-pub(super) fn texts<const N: usize>(
+fn texts<const N: usize>(
     value: &Value<'_>,
     names: [&'static str; N],
     errors: &mut Errors,
@@ -192,7 +191,7 @@ fn claim(object: &mut Object<'_>, errors: &mut Errors) -> Result<RowClaim, Repor
     let sigma_star = object.required("sigma_star", errors).and_then(|value| text(&value, errors));
     let sampling_period = object.optional("sampling_period").map(|value| text(&value, errors)).transpose();
     let set = object.required("initial_set", errors).and_then(|value| sizes(&value, errors));
-    let x0_bounds = object.optional("X0_bounds").map(|value| choose(&value, "bound", &X0_BOUNDS, errors)).transpose();
+    let x0_bounds = object.required("X0_bounds", errors).and_then(|value| choose(&value, "bound", &X0_BOUNDS, errors));
     let periodic =
         object.required("periodic_solution", errors).and_then(|value| texts(&value, ["x", "e", "zeta", "z"], errors));
     let no_plant = object.required("no_plant", errors).and_then(|value| value.boolean(errors));

@@ -1,6 +1,7 @@
 //! Certifying the cases: each as `certify` does, in parallel over the cases.
 
 use super::cases::{Case, Sweep};
+use super::results::Results;
 use super::row::{Row, RowClaim, RowError};
 use rayon::prelude::*;
 use sigmastar_document::progress::Progress;
@@ -9,27 +10,20 @@ use sigmastar_prove::certify::{Options, Verdict, verdict_of_errors};
 use sigmastar_prove::reduction::{Prepared, Subject};
 use sigmastar_report::run_sentence;
 
-/// Certifies the cases of some indices on all cores and hands over each row as it is done.
-///
-/// A row depends on its case alone, so it is the same in every order.
-///
-/// # Errors
-/// The first error of `done`, after which no further case is begun.
-pub fn run<E: Send>(
-    sweep: &Sweep,
-    indices: &[u64],
-    progress: &impl Progress,
-    done: impl Fn(Row) -> Result<(), E> + Sync,
-) -> Result<(), E> {
+/// Certifies every case, on all cores. A row depends on its case alone, so it is the same in every order.
+#[must_use]
+pub fn run(sweep: &Sweep, progress: &impl Progress) -> Results {
+    let indices: Vec<u64> = (0..sweep.count()).collect();
     // One case at a time for each thread: they differ widely in their work.
-    indices.par_iter().with_max_len(1).try_for_each(|index| {
+    let rows = indices.par_iter().with_max_len(1).map(|index| {
         let row = match sweep.case(*index) {
             Ok(case) => solve(&case),
             Err(errors) => Row { index: *index, values: Vec::new(), sha256: String::new(), ..refused(vec![errors]) },
         };
         progress.advance();
-        done(row)
-    })
+        (*index, row)
+    });
+    Results { rows: rows.collect(), ..Results::new(sweep) }
 }
 
 /// The row of a case.

@@ -1,6 +1,5 @@
 //! Results as a table for other programs, and in a few words.
 
-use super::header::Header;
 use super::results::Results;
 use super::row::Row;
 use super::values::number;
@@ -13,24 +12,39 @@ use sigmastar_prove::certify::Verdict;
 use std::cmp::Ordering;
 
 /// The columns behind the parameters.
-const COLUMNS: [&str; 13] =
-    ["verdict", "sigma_star", "X0", "X0_bounds", "E0", "Z0", "x", "e", "zeta", "z", "no_plant", "sha256", "message"];
+const COLUMNS: [&str; 14] = [
+    "verdict",
+    "sigma_star",
+    "sampling_period",
+    "X0",
+    "X0_bounds",
+    "E0",
+    "Z0",
+    "x",
+    "e",
+    "zeta",
+    "z",
+    "no_plant",
+    "sha256",
+    "message",
+];
 
 /// The table (RFC 4180): a row for each case. Numbers are as in the results, exactly; but a fraction becomes a double, of a
 /// parameter the nearest one, and of a claim the next one at which the claim holds: the gain and the sizes of the periodic
 /// solution are rounded up, the initial set down.
 #[must_use]
 pub fn csv(results: &Results) -> String {
-    let names = results.header.parameters.iter().map(|(_, name)| name.as_str());
+    let names = results.parameters.iter().map(String::as_str);
     let mut text = record(std::iter::once("index").chain(names).chain(COLUMNS).map(str::to_owned));
     for row in results.rows.values() {
-        let none = || std::iter::repeat_n(String::new(), 10).collect::<Vec<_>>();
+        let none = || std::iter::repeat_n(String::new(), 11).collect::<Vec<_>>();
         let claimed = row.claim.as_ref().map_or_else(none, |claim| {
             let up = |text: &String| claimed_number(text, Enclosure::upper_f64);
             let StartSizes { x0, e0, z0 } = claim.initial_set.map(|text| claimed_number(text, Enclosure::lower_f64));
-            let set = [x0, claim.x0_bounds.unwrap_or_default().to_owned(), e0, z0.unwrap_or_else(|| "M e".to_owned())];
+            let set = [x0, claim.x0_bounds.to_owned(), e0, z0.unwrap_or_else(|| "M e".to_owned())];
             let sizes = set.into_iter().chain(claim.periodic.iter().map(up));
-            std::iter::once(up(&claim.sigma_star)).chain(sizes).chain([claim.no_plant.to_string()]).collect()
+            let gain = [up(&claim.sigma_star), claim.sampling_period.clone().unwrap_or_default()];
+            gain.into_iter().chain(sizes).chain([claim.no_plant.to_string()]).collect()
         });
         let message = row.errors.first().map(|error| error.message.clone()).or_else(|| row.reason.clone());
         let start = std::iter::once(row.index.to_string()).chain(row.values.iter().map(|text| decimal(text)));
@@ -79,8 +93,7 @@ fn exact(text: &str) -> Option<Rational> {
 /// How many cases came to which verdict, and the best case where it is asked for.
 #[must_use]
 pub fn summary(results: &Results, with_best: bool) -> String {
-    let Header { name, cases, .. } = &results.header;
-    let name: String = name.chars().filter(|character| !is_hidden(*character)).collect();
+    let name: String = results.name.chars().filter(|character| !is_hidden(*character)).collect();
     let count = |verdict| results.rows.values().filter(|row| row.verdict == verdict).count();
     let counts: Vec<String> = [Verdict::Certified, Verdict::Undecided, Verdict::Refuted, Verdict::BadInput]
         .into_iter()
@@ -88,14 +101,14 @@ pub fn summary(results: &Results, with_best: bool) -> String {
         .filter(|(count, _)| *count > 0)
         .map(|(count, verdict)| format!("{count} {verdict}"))
         .collect();
-    let mut text = format!("{name}: {} of {cases} cases: {}\n", results.rows.len(), counts.join(", "));
+    let mut text = format!("{name}: {} cases: {}\n", results.cases, counts.join(", "));
     if !with_best {
         return text;
     }
     let Some(row) = best(results) else { return text + "smallest sigma_star: nothing is certified\n" };
     if let Some(claim) = &row.claim {
         text += &format!("smallest sigma_star: {} (case {})\n", claim.sigma_star, row.index);
-        for ((_, name), value) in results.header.parameters.iter().zip(&row.values) {
+        for (name, value) in results.parameters.iter().zip(&row.values) {
             let shown = |text: &str| text.chars().filter(|character| !is_hidden(*character)).collect::<String>();
             text += &format!("  {} = {}\n", shown(name), shown(value));
         }
