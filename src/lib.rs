@@ -78,11 +78,11 @@ mod api;
 
 pub use api::{
     BoundedPlant, BoundingFunction, Certificate, CertifyOptions, CheckReport, CheckVerdict, Claim, Condition,
-    Diagnostic, Error, ErrorKind, InitialSet, JacobianEntry, OscillatorShare, PeriodicSolution, Rate, RateMethod,
-    Rates, RegulatorMatrices, Report, ReportFormat, SampledRegulator, Samples, SamplingPairs, Specification,
-    SpecificationBuilder, Study, StudyCase, Subject, TransferBound, TransferChoice, TransferOptions, TransferStudy,
-    TuneGoal, TuneOptions, Tuned, VERSION, Verdict, bounding_specification, certify, check, check_against, lyapunov,
-    rates, regulator_matrices, reread, sampled_regulator, sampling, transfer_bound, transfer_study, tune,
+    Diagnostic, Error, ErrorKind, InitialSet, JacobianEntry, OscillatorShare, PeriodicSolution, RegulatorMatrices,
+    Report, ReportFormat, SampledRegulator, Samples, SamplingPairs, Specification, SpecificationBuilder, Study,
+    StudyCase, Subject, TransferBound, TransferChoice, TransferOptions, TransferStudy, TuneGoal, TuneOptions, Tuned,
+    VERSION, Verdict, bounding_specification, certify, check, check_against, lyapunov, regulator_matrices, reread,
+    sampled_regulator, sampling, transfer_bound, transfer_study, tune,
 };
 #[cfg(feature = "lab")]
 pub use api::{Falsification, FalsificationOutcome, Simulation, SimulationOptions, falsify, simulate};

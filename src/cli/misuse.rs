@@ -26,9 +26,10 @@ const MACHINES: &str =
     "a study on several machines is run from Python: `sigmastar.run_case` and `sigmastar.write_results`";
 
 /// Commands that there are not, and what there is.
-const COMMANDS: [(&str, &str); 2] = [
+const COMMANDS: [(&str, &str); 3] = [
     ("report", "`certify` shows a report; `--full` shows all of it, `--format html` writes a page"),
     ("merge", MACHINES),
+    ("rate", "`certify --n-o LIST` proves rates, with `--sigma V` at a larger gain"),
 ];
 
 /// A flag that there is not, and what there is.

@@ -21,7 +21,6 @@ mod output;
 mod pages;
 mod parameters;
 mod progress;
-mod rate;
 mod reproduce;
 mod sampling;
 mod simulate;
@@ -74,7 +73,6 @@ pub fn run() -> ExitCode {
         Command::Errata(args) => (errata::run(&args), args.format, false),
         Command::Lyapunov(args) => (lyapunov::run(&args), args.format, false),
         Command::Bound(args) => (bound::run(&args), Format::Text, args.quiet),
-        Command::Rate(args) => (rate::run(&args), args.format, args.quiet),
         Command::New(args) => (write_files::new(&args), Format::Text, false),
         Command::Convert(args) => (write_files::convert(&args), Format::Text, false),
         Command::Schema(args) => (Ok(write_files::schema(&args)), Format::Text, false),

@@ -99,12 +99,11 @@ fn pages(folder: &Path) -> Vec<PathBuf> {
     let certificate = certificate.to_str().expect("a plain name");
     let claim = page(folder, "certify", &["certify", EXAMPLE, "-q", "--force", "-o", certificate], 0);
     let jacobian = "specs/paper-example-jacobian.json";
-    let others: [(&str, &[&str], i32); 12] = [
+    let others: [(&str, &[&str], i32); 11] = [
         ("plant", &["certify", PLANT, "-q"], 0),
         ("sampled", &["certify", AT_REST, "-q", "--sampling-period", "1/1000"], 0),
         ("refuted", &["certify", EXAMPLE, "-q", "--witness", refuted_witness()], 1),
         ("transfer", &["transfer", EXAMPLE, "-q", "--n-o", "0,1,2,5,10,inf"], 0),
-        ("rate", &["rate", EXAMPLE, "--n-o", "0..3"], 0),
         ("lyapunov", &["lyapunov", jacobian], 0),
         ("sampling", &["sampling", AT_REST, "-q", "--sampling-period", "1/1000", "--sigma", "1,25"], 0),
         ("simulate", &["simulate", PLANT, "-q", "--sigma", "2", "--n-o", "2", "--periods", "2"], 0),

@@ -30,7 +30,6 @@ fn stdout(arguments: &[&str]) -> String {
 fn a_certificate_stands_for_its_specification() {
     for command in [
         &["certify", "--no-compare", "--full"][..],
-        &["rate", "--n-o", "0,3"],
         &["transfer", "--n-o", "0,1"],
         &["sampling", "--sampling-period", "1/100"],
         &["tune", "--over", "mu", "--tries", "3"],
@@ -90,7 +89,7 @@ fn what_makes_no_sense_of_a_certificate_is_refused() {
     let mut empty = kept;
     empty.as_object_mut().expect("an object").remove("specification");
     for (certificate, said) in [(changed, "is not the one that its digest is of"), (empty, "embeds neither")] {
-        for command in ["certify", "rate", "transfer", "sampling", "tune", "errata", "lyapunov", "bound"] {
+        for command in ["certify", "transfer", "sampling", "tune", "errata", "lyapunov", "bound"] {
             let call = sigmastar(&[command, "-"]).write_stdin(certificate.to_string()).assert().code(2);
             call.stdout(is_empty()).stderr(contains(said));
         }
@@ -115,11 +114,6 @@ fn a_simulation_takes_the_gain_of_a_certificate() {
     sigmastar(&["simulate", &file, "--high-gain", "--periods", "3"]).assert().code(0);
     assert_eq!(stdout(&["bound", &file]), stdout(&["bound", plant]));
     sigmastar(&["errata", &file]).assert().code(2).stderr(contains("needs a bounding specification"));
-    // The gain of the certificate is that of the rates, which may be larger than the smallest one.
-    let (larger, _) = of_plant(&folder, "linear", &["--sigma", "2"]);
-    let rates = |arguments: &[&str]| stdout(&[&["rate", "-q", "--n-o", "2"][..], arguments].concat());
-    assert_eq!(rates(&[&larger]), rates(&[plant, "--sigma", "2"]));
-    assert!(rates(&[&larger]).contains("rates at sigma = 2\n"));
 }
 
 #[test]
@@ -136,5 +130,4 @@ fn a_simulation_takes_the_samples_of_a_certificate() {
         let call = sigmastar(&["simulate", &file]).args(flag).assert().code(2);
         call.stdout(is_empty()).stderr(contains(format!("{} is of continuous time", flag[0])));
     }
-    sigmastar(&["rate", &file]).assert().code(2).stderr(contains("`certify --n-o LIST` proves rates at samples"));
 }

@@ -38,8 +38,8 @@ fn a_negative_number_is_a_wrong_value_and_no_flag() {
         (&["certify", EXAMPLE, "--precision-limit", "-1"], "-1 is not in 128..=4096"),
         (&["controller", EXAMPLE, "--sigma", "1", "--n-o", "0..9"], "call it for each of them"),
         (&["simulate", PLANT, "--sigma", "1", "--n-o", "0,1"], "call it for each of them"),
-        (&["rate", EXAMPLE, "--n-o", "0..9/0"], "`0..100/10` in steps of 10"),
-        (&["rate", EXAMPLE, "--n-o", "-1"], "`-1` in --n-o is no number of oscillators"),
+        (&["certify", EXAMPLE, "--n-o", "0..9/0"], "`0..100/10` in steps of 10"),
+        (&["certify", EXAMPLE, "--n-o", "-1"], "`-1` in --n-o is no number of oscillators"),
         (&["transfer", EXAMPLE, "--n-o", "-1..2"], "`-1..2` in --n-o is no number of oscillators"),
     ] {
         sigmastar(arguments).assert().code(2).stderr(contains(part).and(contains("-- -").not()));

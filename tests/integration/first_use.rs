@@ -111,7 +111,7 @@ fn words_of_other_programs_lead_to_those_of_this_one() {
     };
     for (arguments, meant) in [
         (&["certify", EXAMPLE, "--gain", "3"][..], true),
-        (&["--color", "never", "rate", EXAMPLE, "--gain=3"], true),
+        (&["--color", "never", "certify", EXAMPLE, "--gain=3"], true),
         // `check` has no such flag, and another word is not that one.
         (&["check", EXAMPLE, "--gain", "3"], false),
         (&["certify", EXAMPLE, "--again", "3"], false),
@@ -337,6 +337,7 @@ fn flags_of_files_and_of_other_commands_are_told_apart() {
         (&["certify", "--sigma", EXAMPLE, "5"], "a number stands where a file is expected"),
         (&["sweep", "specs/studies/linear.json", "-o", "x.csv", "--shard", "1/2"], "from Python: `sigmastar.run_case`"),
         (&["merge", "x.jsonl", "-o", "y.jsonl"], "from Python: `sigmastar.run_case`"),
+        (&["rate", EXAMPLE], "`certify --n-o LIST` proves rates"),
     ] {
         let (code, text) = with(words);
         assert!(code == 2 && text.contains(said), "{words:?}: {text}");

@@ -3,7 +3,7 @@
 
 use crate::sampled;
 use crate::schemas::properties_of;
-use crate::support::{EXAMPLE, PLANT, ROOT, forged, options, program, read, refuted_witness, stored};
+use crate::support::{EXAMPLE, PLANT, ROOT, forged, options, program, read, refuted_witness};
 use serde_json::{Value, json};
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{Document, Specification};
@@ -16,7 +16,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::OnceLock;
 
 /// How many blocks of each kind there are at least.
-const LEAST: [(&str, usize); 18] = [
+const LEAST: [(&str, usize); 17] = [
     ("bounding-spec", 1),
     ("bounding-spec-part", 10),
     ("plant", 2),
@@ -29,7 +29,6 @@ const LEAST: [(&str, usize); 18] = [
     ("tune-fragment", 1),
     ("transfer-fragment", 2),
     ("check-fragment", 2),
-    ("rates-fragment", 1),
     ("lyapunov-fragment", 1),
     ("errata-fragment", 1),
     ("simulation-fragment", 1),
@@ -354,7 +353,6 @@ fn written() -> &'static BTreeMap<&'static str, Vec<Value>> {
             ),
             ("case-fragment", lines_of_cases()),
             ("tune-fragment", vec![other(&["tune", "-q", EXAMPLE, "--over", "mu", "--tries", "8"])]),
-            ("rates-fragment", vec![other(&["rate", EXAMPLE, "--n-o", "0,1"])]),
             ("lyapunov-fragment", vec![other(&["lyapunov", "specs/paper-example-jacobian.json"])]),
             ("errata-fragment", vec![other(&["errata"]), other(&["errata", "specs/linear.json"])]),
             ("controller", {

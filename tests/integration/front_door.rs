@@ -3,9 +3,9 @@
 use crate::support::{EXAMPLE, EXAMPLE_TEXT, ROOT, json, program, utf8};
 use sigmastar::{
     BoundingFunction as Bound, Certificate, CertifyOptions, CheckReport, CheckVerdict, Error, ErrorKind, JacobianEntry,
-    RateMethod, RegulatorMatrices, Report, ReportFormat, Specification, SpecificationBuilder, Study, Subject,
-    TransferChoice, TransferOptions, Verdict, certify, check, check_against, rates, regulator_matrices,
-    sampled_regulator, transfer_bound, transfer_study,
+    RegulatorMatrices, Report, ReportFormat, Specification, SpecificationBuilder, Study, Subject, TransferChoice,
+    TransferOptions, Verdict, certify, check, check_against, regulator_matrices, sampled_regulator, transfer_bound,
+    transfer_study,
 };
 
 /// The paper's example without its Lyapunov data.
@@ -426,28 +426,6 @@ fn errors_say_the_verdict_of_the_program() {
             assert_eq!(place, told["line"].as_u64().zip(told["column"].as_u64()), "{name}");
         }
     }
-}
-
-#[test]
-fn rates_are_those_of_the_program() {
-    let found = rates(example(), Some("50"), &[0, 2]).unwrap();
-    let output =
-        program().args(["rate", EXAMPLE, "--n-o", "0,2", "--sigma", "50", "--format", "json"]).output().unwrap();
-    assert_eq!(found.report().render(ReportFormat::Json).as_bytes(), output.stdout);
-    assert_eq!((found.sigma(), found.sigma_star()), ("50", "39.8018"));
-    let [first, second] = found.rates() else { panic!("{found:?}") };
-    assert_eq!((first.n_o(), second.n_o()), (0, 2));
-    let exact: f64 = second.closed_loop().unwrap().parse().unwrap();
-    assert!(second.closed_loop_f64().is_some_and(|down| down <= exact && down > exact * (1.0 - 1e-14)));
-    assert_eq!(second.method(), Some(RateMethod::Riccati));
-    assert!(first.oscillators_f64() > second.oscillators_f64() && second.oscillators_f64() > Some(0.0));
-
-    assert_eq!(kind(rates(example(), Some("39"), &[0])), ErrorKind::Range);
-    assert_eq!(kind(rates(example(), None, &[201])), ErrorKind::Range);
-    let large = builder().domain("1", "1").initial_set_box("1", "4", "0").build().unwrap();
-    assert_eq!(kind(rates(&large, None, &[0])), ErrorKind::NotCertified);
-    let sampled = EXAMPLE_TEXT.replace("\"matched\": true", "\"matched\": true, \"sampling_period\": \"1/500\"");
-    assert_eq!(kind(Subject::from_json(&sampled).and_then(|subject| rates(subject, None, &[0]))), ErrorKind::Range);
 }
 
 #[test]

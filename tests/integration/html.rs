@@ -162,7 +162,6 @@ fn reports_on_claims_are_pages() {
         (vec!["certify", AT_REST, "-q", "--sampling-period", "1/1000"], 0, [3, 0]),
         (vec!["sampling", AT_REST, "-q", "--sampling-period", "1/1000", "--sigma", "1,25"], 0, [1, 0]),
         (vec!["transfer", EXAMPLE, "-q", "--n-o", "0,1,inf"], 0, [1, 1]),
-        (vec!["rate", EXAMPLE, "--n-o", "0,1"], 0, [1, 0]),
         (vec!["lyapunov", JACOBIAN], 0, [0, 0]),
         (vec!["lyapunov", PLANT], 0, [0, 0]),
         (vec!["errata", EXAMPLE], 0, [0, 0]),
@@ -276,7 +275,7 @@ fn a_page_has_the_words_of_the_text() {
         let words = text.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
         words.map(str::to_owned).collect()
     };
-    let arguments = ["rate", EXAMPLE, "--n-o", "0,1"];
+    let arguments = ["sampling", AT_REST, "-q", "--sampling-period", "1/1000", "--sigma", "1,25"];
     let (first, again) = (page(&arguments, 0), page(&arguments, 0));
     assert_eq!(first, again);
     let mut shown = String::new();

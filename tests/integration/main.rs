@@ -63,7 +63,6 @@ mod plants;
 mod plants_linear;
 mod plants_random;
 mod positive_part;
-mod rate;
 mod rates_by_matrices;
 mod rates_of_claims;
 mod rejected;

@@ -144,12 +144,10 @@ fn a_plants_own_simulation_does_not_contradict_its_certificate() {
     assert_eq!(code, Some(1), "sigma = {}", of_claim["sigma_star"]);
 }
 
-/// Rates and the regulator of a plant.
+/// The triple and the regulator of a plant.
 #[test]
 fn other_commands_take_plants() {
     let plant = "specs/plants/motor-axis.json";
-    let output = program().args(["rate", plant, "--n-o", "0,1", "--format", "json"]).output().unwrap();
-    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
     let output = program().args(["lyapunov", plant, "--format", "json"]).output().unwrap();
     let report = json(&output.stdout);
     assert_eq!((output.status.code(), report["verdict"].as_str()), (Some(0), Some("certified")));

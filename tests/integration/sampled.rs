@@ -390,10 +390,6 @@ fn flags_that_make_no_sense_are_refused() {
     ] {
         program().args(["certify", AT_REST, "-q"]).args(wrong).assert().code(2);
     }
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("sampled.json");
-    std::fs::write(&path, document("sampling_period", "1/100".into())).unwrap();
-    program().arg("rate").arg(&path).assert().code(2);
 }
 
 #[test]

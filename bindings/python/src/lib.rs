@@ -174,11 +174,6 @@ fn check(
 }
 
 #[pyfunction]
-fn rates(py: Python<'_>, file: File, sigma: Option<String>, n_o: Vec<u32>) -> PyResult<Dict> {
-    outside(py, move || sigmastar::rates(subject(&file)?, sigma.as_deref(), &n_o).map(told::rates))
-}
-
-#[pyfunction]
 fn transfer(
     py: Python<'_>,
     file: File,
@@ -240,8 +235,8 @@ fn study_results(py: Python<'_>, files: StudyFiles, lines: Vec<String>) -> PyRes
 mod _native {
     #[pymodule_export]
     use super::{
-        bound, certify, check, falsify, lyapunov, rates, regulator, reread, run_case, sampled_regulator, sampling,
-        simulate, study_case, study_count, study_results, study_subject, transfer, tune,
+        bound, certify, check, falsify, lyapunov, regulator, reread, run_case, sampled_regulator, sampling, simulate,
+        study_case, study_count, study_results, study_subject, transfer, tune,
     };
     use sigmastar::{CertifyOptions, Subject};
 

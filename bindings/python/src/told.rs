@@ -3,8 +3,8 @@
 use crate::dict::{Dict, Value};
 use sigmastar::{
     BoundedPlant, Certificate, CheckReport, CheckVerdict, Condition, Diagnostic, Error, ErrorKind, Falsification,
-    FalsificationOutcome, InitialSet, PeriodicSolution, Rate, RateMethod, Rates, RegulatorMatrices, Report,
-    ReportFormat, SampledRegulator, SamplingPairs, Simulation, StudyCase, TransferStudy, Tuned,
+    FalsificationOutcome, InitialSet, PeriodicSolution, RegulatorMatrices, Report, ReportFormat, SampledRegulator,
+    SamplingPairs, Simulation, StudyCase, TransferStudy, Tuned,
 };
 
 /// A result, or why there is none: one of both.
@@ -140,31 +140,6 @@ pub fn transfer(study: TransferStudy) -> Dict {
         .with("excess", bound.excess())
         .with("shares", shares.collect::<Vec<_>>())
         .with("reports", reports(study.report()))
-}
-
-/// Rates.
-pub fn rates(rates: Rates) -> Dict {
-    Dict::new()
-        .with("sigma", rates.sigma().to_owned())
-        .with("sigma_star", rates.sigma_star().to_owned())
-        .with("rates", rates.rates().iter().map(rate).collect::<Vec<_>>())
-        .with("reports", reports(rates.report()))
-}
-
-/// The rates for one number of oscillators.
-fn rate(rate: &Rate) -> Dict {
-    let both = |down: Option<f64>, exact: Option<&str>| down.zip(exact.map(str::to_owned));
-    let method = |method| match method {
-        RateMethod::Riccati => "riccati",
-        RateMethod::Kappa => "kappa",
-        _ => "other",
-    };
-    Dict::new()
-        .with("n_o", rate.n_o())
-        .with("closed_loop", both(rate.closed_loop_f64(), rate.closed_loop()))
-        .with("method", rate.method().map(method))
-        .with("oscillators", both(rate.oscillators_f64(), rate.oscillators()))
-        .with("spectral_estimate", rate.spectral_estimate())
 }
 
 /// The regulator in continuous time.

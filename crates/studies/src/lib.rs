@@ -5,5 +5,4 @@
 #![cfg_attr(test, allow(clippy::disallowed_methods))]
 
 pub mod bounding;
-pub mod rate;
 pub mod sampling;

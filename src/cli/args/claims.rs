@@ -264,30 +264,6 @@ pub struct BoundArgs {
     pub quiet: bool,
 }
 
-/// The flags of `rate`.
-#[derive(Args, Debug)]
-pub struct RateArgs {
-    /// Bounding specification or plant (.json, .jsonc, .toml), or a certificate of one, or `-` for standard input
-    #[arg(value_name = "SPEC", value_hint = ValueHint::FilePath)]
-    pub spec: PathBuf,
-
-    /// Numbers of oscillators, each at most 200: a list of numbers and ranges, such as `0,1,5..10` or `0..200/20`
-    #[arg(long, value_name = "LIST", default_value = "0,1,2,4,8,16", allow_hyphen_values = true)]
-    pub n_o: String,
-
-    /// The gain, an exact constant of at least sigma* [default: that of the certificate, where one is given, else sigma*]
-    #[arg(long, value_name = "V", allow_hyphen_values = true)]
-    pub sigma: Option<String>,
-
-    /// Format of the report
-    #[arg(long, value_enum, value_name = "NAME", default_value_t = Format::Text)]
-    pub format: Format,
-
-    /// No remarks on standard error; errors are still shown
-    #[arg(short, long)]
-    pub quiet: bool,
-}
-
 /// A choice of transfer constants.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub enum TransferArg {

@@ -6,7 +6,7 @@ mod files;
 mod regulator;
 mod studies;
 
-pub use claims::{BoundArgs, CertifyArgs, CheckArgs, ErrataArgs, LyapunovArgs, RateArgs, SamplingArgs, TransferArgs};
+pub use claims::{BoundArgs, CertifyArgs, CheckArgs, ErrataArgs, LyapunovArgs, SamplingArgs, TransferArgs};
 pub use files::{ConvertArgs, NewArg, NewArgs, SchemaArgs};
 pub use regulator::{ControllerArgs, FalsifyArgs, PartArg, RegulatorForm, ReproduceArgs, SimulateArgs};
 pub use studies::{SweepArgs, TuneArgs, TuneGoal};
@@ -89,12 +89,6 @@ pub const SIMULATE_EXAMPLES: &str = "Examples:
   sigmastar simulate plant.json --sigma 2 --n-o 4 --sampled 1/1000 --delay 1/2000 --saturation 20
   sigmastar simulate plant.json --controller controller.json --noise-power 1e-3 --seed 7
   sigmastar simulate plant.certificate.json --n-o 4";
-
-/// Examples of `rate`.
-const RATE_EXAMPLES: &str = "Examples:
-  sigmastar rate plant.json
-  sigmastar rate plant.json --n-o 0..20/4,50 --sigma 60
-  sigmastar rate plant.certificate.json --n-o 4 --format json";
 
 /// Examples of `falsify`.
 const FALSIFY_EXAMPLES: &str = "Examples:
@@ -204,12 +198,6 @@ pub enum Command {
     /// than that of the plant itself.
     #[command(after_help = BOUND_EXAMPLES)]
     Bound(BoundArgs),
-    /// Prove rates of convergence for given numbers of oscillators
-    ///
-    /// They tend to 0 as n_o grows, while sigma* does not move. Printed next to the spectral abscissa of the oscillators.
-    /// Computed with enclosures; there is no file for the independent checker.
-    #[command(after_help = RATE_EXAMPLES)]
-    Rate(RateArgs),
     /// Write a commented template that works as it stands
     ///
     /// A specification or a plant, for `certify`, or a study, for `sweep`, in JSON with comments (.jsonc) or TOML (.toml), each field
@@ -256,7 +244,7 @@ mod tests {
     #[test]
     fn a_negative_number_is_a_value() {
         for line in [
-            "rate s --n-o -1",
+            "certify s --n-o -1",
             "transfer s --n-o -1..2",
             "controller s --sigma 1 --n-o -1",
             "certify s --precision-limit -1",

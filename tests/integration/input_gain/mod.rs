@@ -213,21 +213,3 @@ fn plants_are_certified_for_every_gain_of_the_interval() {
         assert_eq!(checked(&stored(folder.path(), "forged.json", &forged))["verdict"], "invalid", "{name}");
     }
 }
-
-/// What does not honour an input gain says so.
-#[test]
-fn what_is_not_built_is_refused() {
-    let folder = tempfile::tempdir().unwrap();
-    let file = written(folder.path(), "no-x", &gain("1", "0.9", "1.1"));
-    let errors = utf8(program().args(["rate", &file, "--n-o", "1"]).assert().code(2).get_output().stderr.clone());
-    assert!(
-        errors.contains("error[not-available]") && errors.contains("is not available with `input_gain`"),
-        "{errors}"
-    );
-    // Of a gain that is known rates are those of the loop without one.
-    let known = written(folder.path(), "no-x", &gain("2", "2", "2"));
-    program().args(["rate", &known, "--n-o", "1"]).assert().code(0);
-    let builder = sigmastar::Specification::from_json(&text("no-x", &gain("1", "0.9", "1.1"))).unwrap();
-    let error = sigmastar::rates(&builder, None, &[1]).unwrap_err();
-    assert_eq!(error.kind(), sigmastar::ErrorKind::NotAvailable);
-}

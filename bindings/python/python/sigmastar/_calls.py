@@ -14,10 +14,9 @@ from ._laboratory import Falsification, Simulation
 from ._regulator import Regulator, SampledRegulator
 from ._regulator import regulator as _regulator
 from ._regulator import sampled as _sampled
-from ._results import Certificate, Check, Rates, SampledCertificate, TransferBound
+from ._results import Certificate, Check, SampledCertificate, TransferBound
 from ._results import certificate as _certificate
 from ._results import check as _check
-from ._results import rates as _rates
 from ._results import transfer as _transfer
 
 
@@ -145,17 +144,6 @@ def check(
     content = _stored(certificate)[1]
     against = None if specification is None else file(specification, "document")
     return _check(found(_native.check(content, against, _maybe(sampling_period))))
-
-
-def rate(
-    document: Union[Certificate, Document], n_o: Iterable[int] = (0, 1, 2, 4, 8, 16), *, sigma: Optional[Number] = None
-) -> Rates:
-    """Certifies a specification or plant and proves rates of convergence for some numbers of oscillators, at the gain sigma of
-    at least sigma_star, or at sigma_star itself.
-
-    Raises what `certify` raises; InputError for a smaller gain, and for more than 200 oscillators.
-    """
-    return _rates(found(_native.rates(_asked(document), _maybe(sigma), _counts(n_o))))
 
 
 def bound(plant: Union[Certificate, Document], domain: Optional[Tuple[Number, Number]] = None) -> BoundedPlant:

@@ -236,44 +236,6 @@ class TransferBound(Reported):
         return f"<TransferBound: k0={digits(self.k0, 'up')}, k1={digits(self.k1, 'up')}>"
 
 
-@dataclass(frozen=True, repr=False)
-class Rate(Shown):
-    """What is proved for one number of oscillators, in 1/time. None says that nothing was proved, not that there is none."""
-
-    _sides = {"closed_loop": "down", "oscillators": "down", "spectral_estimate": "nearest"}
-
-    n_o: int
-    """The number of oscillators."""
-    closed_loop: Optional[Exact]
-    """A rate at which every solution from the certified initial set approaches the periodic solution, rounded down."""
-    method: Optional[Literal["riccati", "kappa", "other"]]
-    """How that was proved: `riccati` or `kappa`."""
-    oscillators: Optional[Exact]
-    """A decay rate of the oscillators by themselves, rounded down."""
-    spectral_estimate: Optional[float]
-    """Minus the spectral abscissa of the oscillators: floating point, no claim."""
-
-
-@dataclass(frozen=True, repr=False)
-class Rates(Reported):
-    """Rates of convergence at one gain. No certificate carries them, and no independent program checks them."""
-
-    sigma: str
-    """The gain, exactly."""
-    sigma_star: str
-    """The certified gain, exactly."""
-    rates: List[Rate]
-    """One for each number of oscillators that was asked for."""
-    _reports: Dict[str, str] = field(repr=False)
-
-    def __repr__(self) -> str:
-        def shown(rate: Rate) -> str:
-            found = "none" if rate.closed_loop is None else digits(rate.closed_loop, "down")
-            return f"{found} with n_o={rate.n_o}"
-
-        return f"<Rates at sigma={digits(self.sigma)}: {', '.join(map(shown, self.rates))}>"
-
-
 def exact(told: Optional[Tuple[float, str]]) -> Any:
     """A number with its text."""
     return None if told is None else Exact(told[0], told[1])
@@ -322,15 +284,6 @@ def transfer(told: Dict[str, Any]) -> TransferBound:
         shares=[Share(n_o, (low, high)) for n_o, low, high in told["shares"]],
         _reports=told["reports"],
     )
-
-
-def rates(told: Dict[str, Any]) -> Rates:
-    """Rates."""
-
-    def one(rate: Dict[str, Any]) -> Rate:
-        return Rate(**{**rate, "closed_loop": exact(rate["closed_loop"]), "oscillators": exact(rate["oscillators"])})
-
-    return Rates(told["sigma"], told["sigma_star"], [one(rate) for rate in told["rates"]], told["reports"])
 
 
 def write(path: Union[str, "os.PathLike[str]"], content: str) -> None:

@@ -81,9 +81,7 @@ impl NoRatesOfClaim {
                 "leave it out; a bounding specification of the plant (`sigmastar bound`) has a claim by norms"
             }
             NoRatesOfClaim::TooMany(_) => "ask for fewer, or write several certificates",
-            NoRatesOfClaim::Beyond(_) => {
-                "ask for smaller numbers; `sigmastar rate` goes further, without a certificate"
-            }
+            NoRatesOfClaim::Beyond(_) => "ask for smaller numbers",
         }
     }
 }

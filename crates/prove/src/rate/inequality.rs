@@ -39,7 +39,7 @@ use faer::{Mat, Side};
 use rug::Rational;
 use sigmastar_exact::enclosure::{Enclosure, Truth};
 use sigmastar_matrix::ScaledMatrix;
-use sigmastar_theory::data::{Bound, Data, Problem};
+use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::stability::ErrorBox;
 
 /// What bounds the nonlinear terms in the error box, each in the harder direction.
@@ -60,21 +60,10 @@ pub struct LoopBounds {
 }
 
 impl LoopBounds {
-    /// The bounds on an error box, of the whole state (x, e, zeta); `None` if one of them is not bounded.
-    #[must_use]
-    pub fn new(data: &Data<'_>, error_box: &ErrorBox<Enclosure>) -> Option<LoopBounds> {
-        let has_x = data.bound(Bound::F, &error_box.x_b, &error_box.e_b).upper_rational()? != 0;
-        LoopBounds::with(data, error_box, has_x)
-    }
-
-    /// Those of (e, zeta) alone, which x reaches through k_x only; `None` if one of them is not bounded.
+    /// Those of (e, zeta) on an error box, which x reaches through k_x only; `None` if one of them is not bounded.
     #[must_use]
     pub fn of_error(data: &Data<'_>, error_box: &ErrorBox<Enclosure>) -> Option<LoopBounds> {
         let has_x = error_box.k_x.upper_rational()? != 0;
-        LoopBounds::with(data, error_box, has_x)
-    }
-
-    fn with(data: &Data<'_>, error_box: &ErrorBox<Enclosure>, has_x: bool) -> Option<LoopBounds> {
         let of_x = |k: &Enclosure| if has_x { k.upper_rational() } else { Some(Rational::new()) };
         let sector = &error_box.sector;
         Some(LoopBounds {

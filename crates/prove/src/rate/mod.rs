@@ -1,6 +1,6 @@
 //! Rates of convergence for a given number of oscillators: they tend to 0 as n_o grows, while sigma* does not move.
 //!
-//! - [`oscillators`]: P_zeta and the decay rate of `Phi - mu M M'N` (Lemma 1 of the paper, P:lemma:hurwitzPhiM);
+//! - [`oscillators`]: `Phi - mu M M'N`, and P_zeta of Lemma 1 of the paper (P:lemma:hurwitzPhiM);
 //! - [`inequality`]: the matrix inequality that proves a rate of the closed loop, for any quadratic Lyapunov function;
 //! - [`small_gain`]: the largest rate that the inequality can prove, in floating point;
 //! - [`riccati`]: the Lyapunov function for it, by a Riccati equation;

@@ -1,4 +1,4 @@
-//! `Phi - mu M M'N` for a given n_o, and Lyapunov functions of it.
+//! `Phi - mu M M'N` for a given n_o, and its Lyapunov function of Lemma 1 of the paper.
 //!
 //! In the coordinates `N^(1/2) zeta`, in which |zeta|_N is the Euclidean norm, the matrix is `A = Phi - mu b b'` with
 //! `b = N^(1/2) M`: Phi commutes with N. Its order is 2 n_o + 1.
@@ -6,7 +6,7 @@
 use faer::{Mat, Side, c64};
 use rug::Rational;
 use sigmastar_exact::enclosure::{Enclosure, Truth};
-use sigmastar_exact::number::{Direction, round_f64};
+use sigmastar_exact::number::{Direction, round_f64, round_rational};
 use sigmastar_matrix::ScaledMatrix;
 use sigmastar_theory::data::Data;
 
@@ -20,7 +20,7 @@ pub struct OscillatorMatrix {
 }
 
 /// An eigenvalue decomposition of A in floating point.
-pub struct Eigen {
+struct Eigen {
     values: Vec<c64>,
     /// The inverse of the matrix of eigenvectors.
     inverse: Mat<c64>,
@@ -28,29 +28,29 @@ pub struct Eigen {
     gram: Mat<c64>,
 }
 
-impl Eigen {
-    /// The eigenvalues.
-    #[must_use]
-    pub fn values(&self) -> &[c64] {
-        &self.values
-    }
-
-    /// The largest real part.
-    #[must_use]
-    pub fn abscissa(&self) -> f64 {
-        self.values.iter().map(|value| value.re).fold(f64::NEG_INFINITY, f64::max)
-    }
+/// What is proved of P_zeta of Lemma 1 of the paper (P:lemma:hurwitzPhiM) for one n_o.
+///
+/// Every kappa > 0 is admissible in the paper's Lyapunov function `N + kappa P_zeta`, and the rate that it gives the oscillators by
+/// themselves, in `|.|_N`, tends to `1/(2 p)` as kappa grows.
+#[derive(Clone, Debug)]
+pub struct Lemma {
+    /// p: there is a P_zeta with `P_zeta (Phi - mu M M'N) + (.)' <= -N` and `0 < P_zeta <= p N`.
+    pub p: Rational,
+    /// 1/(2 p), rounded down, in 1/time.
+    pub rate: Rational,
+    /// The spectral abscissa of `Phi - mu M M'N`: floating point, and no claim.
+    pub abscissa: f64,
 }
 
-/// A proved P > 0 with `P (A + rate I) + (A + rate I)' P <= -I`.
-#[derive(Clone, Debug)]
-pub struct ProvedLyapunov {
-    /// The rate, in 1/time.
-    pub rate: Rational,
-    /// An upper bound of the largest eigenvalue of P.
-    pub largest: Rational,
-    /// An upper bound of |P b|.
-    pub gain: Enclosure,
+/// Lemma 1 of the data for one n_o; `None` where nothing is proved.
+#[must_use]
+pub fn lemma(data: &Data<'_>, n_o: u32) -> Option<Lemma> {
+    let system = OscillatorMatrix::new(data, n_o);
+    let eigen = system.eigen()?;
+    let p = system.largest(&system.proposed(&eigen)?)?;
+    let rate = round_rational(&(Rational::from(1) / (p.clone() * 2u32)), 6, Direction::Down);
+    let abscissa = eigen.values.iter().map(|value| value.re).fold(f64::NEG_INFINITY, f64::max);
+    Some(Lemma { p, rate, abscissa })
 }
 
 impl OscillatorMatrix {
@@ -88,8 +88,7 @@ impl OscillatorMatrix {
     }
 
     /// The eigenvalues and eigenvectors of A in floating point.
-    #[must_use]
-    pub fn eigen(&self) -> Option<Eigen> {
+    fn eigen(&self) -> Option<Eigen> {
         let n = self.order;
         let b: Vec<f64> = self.b.iter().map(Enclosure::midpoint_f64).collect();
         let mu = self.mu.midpoint_f64();
@@ -112,29 +111,21 @@ impl OscillatorMatrix {
         Some(Eigen { values, inverse, gram })
     }
 
-    /// Proposes P for a rate by the Lyapunov equation `P (A + rate I) + (A + rate I)' P = -2 I` in the basis of eigenvectors, and
-    /// proves it with half of the right side.
-    ///
-    /// `None` if nothing is proved: a rate too near the spectral abscissa, or above it.
-    #[must_use]
-    pub fn prove(&self, eigen: &Eigen, rate: f64) -> Option<ProvedLyapunov> {
+    /// P for A, in doubles: of the Lyapunov equation `P A + A'P = -2 I` in the basis of eigenvectors, twice of what is proved.
+    fn proposed(&self, eigen: &Eigen) -> Option<Mat<f64>> {
         let n = self.order;
-        // Y_ij = -2 (V*V)_ij/(conj(l_i) + l_j + 2 rate), P = V^-* Y V^-1.
+        // Y_ij = -2 (V*V)_ij/(conj(l_i) + l_j), P = V^-* Y V^-1.
         let y = Mat::from_fn(n, n, |i, j| {
-            let sum = eigen.values[i].conj() + eigen.values[j] + c64::new(2.0 * rate, 0.0);
-            eigen.gram[(i, j)] * c64::new(-2.0, 0.0) / sum
+            eigen.gram[(i, j)] * c64::new(-2.0, 0.0) / (eigen.values[i].conj() + eigen.values[j])
         });
         let complex = eigen.inverse.adjoint() * &y * &eigen.inverse;
         let p = Mat::from_fn(n, n, |i, j| (complex[(i, j)].re + complex[(j, i)].re) / 2.0);
-        if !p.as_ref().is_all_finite() {
-            return None;
-        }
-        let rate = if rate == 0.0 { Rational::new() } else { round_f64(rate, 6, Direction::Down)? };
-        self.verify(&p, rate)
+        p.as_ref().is_all_finite().then_some(p)
     }
 
-    /// Proves the inequality for P, taken as the exact rational numbers that its doubles are.
-    fn verify(&self, p: &Mat<f64>, rate: Rational) -> Option<ProvedLyapunov> {
+    /// An upper bound of the largest eigenvalue of P, taken as the exact rational numbers that its doubles are, where `P > 0` and
+    /// `P A + A'P <= -I` are proved of it.
+    fn largest(&self, p: &Mat<f64>) -> Option<Rational> {
         let n = self.order;
         let precision = self.mu.precision();
         let exact: Option<Vec<Enclosure>> = (0..n)
@@ -150,10 +141,9 @@ impl OscillatorMatrix {
                 states.fold(Enclosure::zero(precision), |sum, j| sum + at(i, j) * &self.b[j])
             })
             .collect();
-        let twice = Enclosure::from_rational(&rate, precision) * 2;
         let phi: Vec<Option<(usize, Enclosure)>> = (0..n).map(|column| self.phi(column)).collect();
         let decay = |i: usize, j: usize| {
-            let mut sum = &self.mu * (&image[i] * &self.b[j] + &self.b[i] * &image[j]) - &twice * at(i, j);
+            let mut sum = &self.mu * (&image[i] * &self.b[j] + &self.b[i] * &image[j]);
             for (column, other) in [(j, i), (i, j)] {
                 if let Some((row, entry)) = &phi[column] {
                     sum = sum - at(other, *row) * entry;
@@ -171,10 +161,43 @@ impl OscillatorMatrix {
         let largest = round_f64(*eigenvalues.last()? * 1.0001, 6, Direction::Up)?;
         let bound = Enclosure::from_rational(&largest, precision);
         let below = |i: usize, j: usize| if i == j { &bound - at(i, j) } else { at(i, j).negate() };
-        if !proved(ScaledMatrix::from_enclosures(n, below)) {
-            return None;
+        proved(ScaledMatrix::from_enclosures(n, below)).then_some(largest)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use sigmastar_lang::spec::Specification;
+
+    fn example() -> Specification {
+        Specification::from_json("test", include_str!("../../../../specs/paper-example.json")).expect("a sound one")
+    }
+
+    /// The rate falls with n_o and stays below the spectral abscissa; 200 oscillators are within reach.
+    #[test]
+    fn the_lemma_is_proved() {
+        let spec = example();
+        let data = Data::new(&spec, 128);
+        let mut before = f64::INFINITY;
+        for n_o in [0, 1, 3, 10, 40, 200] {
+            let Lemma { p, rate, abscissa } = lemma(&data, n_o).expect("proved");
+            assert!(p.clone() * &rate * 2u32 <= 1 && p.to_f64() * rate.to_f64() > 0.4999, "{n_o}");
+            assert!(rate.to_f64() < -abscissa && rate.to_f64() < before, "{n_o}");
+            before = rate.to_f64();
         }
-        let gain = image.iter().fold(Enclosure::zero(precision), |sum, entry| sum + entry.sqr()).sqrt().ceiling();
-        Some(ProvedLyapunov { rate, largest, gain })
+        // The matrix of n_o = 0 is -mu n_0 = -2: P = 1/2 is proposed.
+        let Lemma { p, abscissa, .. } = lemma(&data, 0).expect("proved");
+        assert!((abscissa + 2.0).abs() < 1e-12 && (0.5..0.501).contains(&p.to_f64()), "{p} {abscissa}");
+    }
+
+    /// With A = -2 any P above 1/4 serves, and its bound is not below it.
+    #[test]
+    fn a_wrong_p_proves_nothing() {
+        let spec = example();
+        let system = OscillatorMatrix::new(&Data::new(&spec, 128), 0);
+        let of = |p: f64| system.largest(&Mat::from_fn(1, 1, |_, _| p));
+        assert!(of(0.251).is_some_and(|largest| largest >= Rational::from((251, 1000))));
+        assert_eq!([of(0.249), of(0.0), of(-1.0)], [None, None, None]);
     }
 }

@@ -1,6 +1,6 @@
 //! Pi of the closed loop's Lyapunov function, proposed by a Riccati equation in floating point.
 
-use super::inequality::{ErrorDynamics, RateWitness};
+use super::inequality::RateWitness;
 use super::small_gain::{FloatDynamics, SmallGain};
 use faer::linalg::solvers::DenseSolveCore;
 use faer::{Mat, c64};
@@ -9,23 +9,6 @@ use sigmastar_exact::number::{Direction, Portable, round_f64};
 
 /// One of so many parts of what the small-gain condition leaves over goes to each of its two sides.
 const PARTS: f64 = 3.0;
-
-/// Shares of the largest rate that are claimed, in this order.
-const SHARES: [f64; 5] = [0.9999, 0.999, 0.99, 0.9, 0.5];
-
-/// The largest share of the rate that can be proved with Pi from the Riccati equation
-/// `Pi (A_c + rate' I) + (.)' + c e e' + c_v v v' + beta Pi B B'Pi = 0` at a rate' halfway between the claimed and the largest one: the
-/// difference leaves the term 2 (rate' - rate) Pi in the matrix, which makes it definite.
-///
-/// Guarantee: the rate of the witness is proved; `None` if none is.
-#[must_use]
-pub fn propose_and_prove(dynamics: &ErrorDynamics<'_>, condition: &SmallGain) -> Option<RateWitness> {
-    let largest = condition.largest_rate()?;
-    SHARES.iter().find_map(|share| {
-        let witness = propose(condition, largest, *share)?.exact()?;
-        dynamics.proves(&witness).then_some(witness)
-    })
-}
 
 /// The numbers of a proof in doubles, with l = 1.
 #[derive(Clone, Debug)]
@@ -39,13 +22,6 @@ pub struct Proposal {
 }
 
 impl Proposal {
-    /// The witness with each double as the number that it is; `None` if one is not finite.
-    #[must_use]
-    pub fn exact(&self) -> Option<RateWitness> {
-        let row = |i: usize| (0..=i).map(|j| Rational::from_f64(self.pi[(i, j)])).collect();
-        self.witness(Rational::from_f64(self.w), (0..self.pi.nrows()).map(row).collect())
-    }
-
     /// The witness with w and each entry of Pi to so many digits, 0 where it is beyond those of its diagonal; `None` if one is not finite.
     #[must_use]
     pub fn in_digits(&self, digits: u32) -> Option<RateWitness> {
@@ -67,7 +43,9 @@ pub(super) fn in_digits(pi: &Mat<f64>, digits: u32) -> Option<Vec<Vec<Rational>>
     (0..pi.nrows()).map(|i| (0..=i).map(|j| entry(i, j)).collect()).collect()
 }
 
-/// A proposal for a share of the largest rate.
+/// A proposal for a share of the largest rate, with Pi from the Riccati equation
+/// `Pi (A_c + rate' I) + (.)' + c e e' + c_v v v' + beta Pi B B'Pi = 0` at a rate' halfway between the claimed and the largest one: the
+/// difference leaves the term 2 (rate' - rate) Pi in the matrix, which makes it definite.
 #[must_use]
 pub fn propose(condition: &SmallGain, largest: f64, share: f64) -> Option<Proposal> {
     let shifted = largest * (1.0 + share) / 2.0;
