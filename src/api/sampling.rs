@@ -6,8 +6,7 @@ use super::subject::Subject;
 use super::{positive, rational};
 use sigmastar_lang::spec::Sampling;
 use sigmastar_prove::reduction::{Subject as Read, with_sampled_pairs};
-use sigmastar_report::SamplingReport;
-use sigmastar_studies::sampling::{OfPlant, OfSpecification, SamplingStudy, Unfit};
+use sigmastar_studies::sampling::{OfPlant, OfSpecification, SamplingReport, SamplingStudy, Unfit};
 
 /// Certified pairs of a gain and a sampling period.
 #[derive(Clone, Debug)]

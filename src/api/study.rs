@@ -3,7 +3,7 @@
 use super::error::{Error, ErrorKind};
 use super::json_text;
 use sigmastar_lang::spec::{self, Document, Notation};
-use sigmastar_sweep::sweep::{self, Case, Results, ResultsError, SubjectSource, Sweep, csv, solve};
+use sigmastar_studies::sweep::{self, Case, Results, ResultsError, SubjectSource, Sweep, csv, solve};
 use std::path::Path;
 
 /// A study with its subject (`docs/formats.md`): what values go where. Its cases can be run in any order and in different

@@ -6,7 +6,7 @@ use super::subject::Subject;
 use super::{in_range, json_text};
 use sigmastar_document::progress::Silent;
 use sigmastar_regulator::MAX_EXPORTED_OSCILLATORS;
-use sigmastar_sweep::tune::{self, Goal, MAX_TRIES, Settings, TuneError, TuningReport, parameters};
+use sigmastar_studies::tune::{self, Goal, MAX_TRIES, Settings, TuneError, TuningReport, parameters};
 
 /// The number of oscillators for which the error is told where it is not what is minimised.
 const N_O: u32 = 5;

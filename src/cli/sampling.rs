@@ -11,8 +11,7 @@ use rug::Rational;
 use sigmastar_lang::spec::{Constant, Sampling};
 use sigmastar_prove::certify::Verdict;
 use sigmastar_prove::reduction::with_sampled_pairs;
-use sigmastar_report::{SamplingReport, sampling_figure};
-use sigmastar_studies::sampling::{OfPlant, OfSpecification, SamplingStudy, Unfit};
+use sigmastar_studies::sampling::{OfPlant, OfSpecification, SamplingReport, SamplingStudy, Unfit, sampling_figure};
 
 /// Runs the command and returns the exit code.
 pub fn run(args: &SamplingArgs) -> Result<u8, Failure> {

@@ -9,7 +9,7 @@ use super::progress::Bar;
 use super::subject::{Asked, Subject};
 use sigmastar_lang::spec::Notation;
 use sigmastar_prove::certify::Verdict;
-use sigmastar_sweep::tune::{Goal, Settings, TuneError, TuningReport, parameters, tune};
+use sigmastar_studies::tune::{Goal, Settings, TuneError, TuningReport, parameters, tune};
 
 /// The number of oscillators for which the error is told where the call names none.
 const N_O: u32 = 5;

@@ -11,7 +11,7 @@ use sigmastar_prove::certificate::{certificate_json, sampled_certificate_json};
 use sigmastar_prove::certify::{Options, TransferChoice, certify, resolve};
 use sigmastar_regulator::read_regulator;
 use sigmastar_schema::Schema;
-use sigmastar_sweep::sweep::Study;
+use sigmastar_studies::sweep::Study;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::OnceLock;
 

@@ -6,7 +6,7 @@ use predicates::str::{contains, is_empty};
 use serde_json::Value;
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{Document, ErrorKind, MAX_NESTING, MAX_VALUES, Notation, Specification};
-use sigmastar_sweep::sweep::{Study, Sweep};
+use sigmastar_studies::sweep::{Study, Sweep};
 use std::fmt::Write;
 use std::fs;
 use std::path::Path;

@@ -8,7 +8,7 @@ use serde_json::{Map, Value, json};
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{Document, SpecErrors, Specification};
 use sigmastar_schema::Schema;
-use sigmastar_sweep::sweep::Study;
+use sigmastar_studies::sweep::Study;
 use std::collections::BTreeSet;
 use std::path::Path;
 

@@ -5,7 +5,7 @@ use predicates::str::contains;
 use serde_json::{Value, json};
 use sigmastar::Study as Front;
 use sigmastar_lang::spec::{Document, ErrorKind};
-use sigmastar_sweep::sweep::{Study, Sweep};
+use sigmastar_studies::sweep::{Study, Sweep};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -2,7 +2,7 @@
 
 use super::parts::{POSITIVE, header};
 use super::shape::{Field, Shape, Sign, list, may, must};
-use sigmastar_sweep::sweep::{FORMAT, MAX_CASES, MAX_PARAMETERS, VERSIONS};
+use sigmastar_studies::sweep::{FORMAT, MAX_CASES, MAX_PARAMETERS, VERSIONS};
 
 /// A study of either design.
 pub(super) fn shape() -> Shape {

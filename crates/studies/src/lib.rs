@@ -1,4 +1,5 @@
-//! What is asked beside one claim: polynomials above a plant's bounds, rates of convergence, pairs of a gain and a sampling period.
+//! What is asked beside one claim: polynomials above a plant's bounds, pairs of a gain and a sampling period, parameter studies, and values of
+//! the free numbers that are better. Each claim among the results is a certification by itself.
 
 #![deny(missing_docs)]
 // What tests compare with need not be the same on every machine.
@@ -6,3 +7,5 @@
 
 pub mod bounding;
 pub mod sampling;
+pub mod sweep;
+pub mod tune;

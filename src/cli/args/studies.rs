@@ -5,7 +5,7 @@ use crate::cli::counts::one_count;
 use crate::cli::format::Format;
 use clap::{Args, ValueEnum, ValueHint};
 use sigmastar_regulator::MAX_EXPORTED_OSCILLATORS;
-use sigmastar_sweep::tune::MAX_TRIES;
+use sigmastar_studies::tune::MAX_TRIES;
 use std::path::PathBuf;
 
 /// The flags of `sweep`.

@@ -1,11 +1,11 @@
 //! The report on certified pairs of a gain and a sampling period, and their figure.
 
+use super::{Asked, Pair, RoundForm, Row, SamplingStudy};
 use serde_json::{Value, json};
 use sigmastar_document::number::{estimate, full, upper};
 use sigmastar_document::plot::{Curve, Figure, Scale, Style};
 use sigmastar_document::{Block, Readable, Table, clean};
 use sigmastar_exact::number::write_exact;
-use sigmastar_studies::sampling::{Asked, Pair, RoundForm, Row, SamplingStudy};
 
 /// The format of the JSON.
 const FORMAT: &str = "sigmastar/sampling";
