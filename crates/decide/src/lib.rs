@@ -9,3 +9,4 @@ pub mod bounds;
 pub mod conditions;
 pub mod lyapunov;
 pub mod orbit;
+pub mod rates;

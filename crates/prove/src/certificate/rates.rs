@@ -3,13 +3,13 @@
 use super::json::rows;
 use crate::rate::bound::{ByForm, ByMatrices, RateBound};
 use crate::rate::found::{ForCount, RateForCount, SampledRateForCount};
-use crate::rate::inequality::RateWitness;
 use crate::rate::noise::{NoiseBound, NoiseByForm};
-use crate::rate::sampled::form::{Inputs, OfX, SampledRateWitness};
 use crate::rate::sampled::noise::SampledNoise;
 use crate::rate::sampled::rounding::RoundingWitness;
 use rug::Rational;
 use serde_json::{Value, json};
+use sigmastar_decide::rates::at_samples::{Inputs, OfX, SampledRateWitness};
+use sigmastar_decide::rates::inequality::RateWitness;
 use sigmastar_exact::number::write_exact;
 use sigmastar_theory::evidence::{Part, Slopes};
 

@@ -5,13 +5,13 @@
 //! `et(t)^2 <= W(t)/e_low <= exp(-2 rate (t - t_0)) W(t_0)/e_low` and `W(t_0) <= w P_up dX^2 + e_up dE^2 + z_up dZ^2` where
 //! |xt| <= dX, |et| <= dE and |zt|_N <= dZ at t_0: so C^2 is that sum over e_low.
 
-use super::inequality::{ErrorDynamics, LoopBounds, RateWitness, is_definite};
-use super::oscillators::OscillatorMatrix;
 use super::riccati::propose;
 use super::small_gain::{Limit, SmallGain};
 use faer::linalg::solvers::DenseSolveCore;
 use faer::{Mat, Side};
 use rug::Rational;
+use sigmastar_decide::rates::OscillatorMatrix;
+use sigmastar_decide::rates::inequality::{ErrorDynamics, LoopBounds, RateWitness, is_definite};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, Portable, round_f64, round_rational};
 use sigmastar_theory::data::Data;

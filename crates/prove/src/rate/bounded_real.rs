@@ -7,10 +7,11 @@
 //! is one more signal at B_q, `(b_u - b_c) (-sigma e + mu b'zs)`, with a multiplier of its own. Of balls of the columns of x and of e apart S is block
 //! diagonal, and H^-1 the sum of theirs.
 
-use super::matrix_loop::{KnownSlopes, MatrixLoop, Multipliers};
 use super::riccati::Equation;
+use super::slopes_program::{closed, decay, matrices, moved};
 use faer::linalg::solvers::{DenseSolveCore, Llt};
 use faer::{Mat, Side};
+use sigmastar_decide::rates::matrix_loop::{KnownSlopes, MatrixLoop, Multipliers};
 
 /// Steps of the bisection in the rate, and the shares of the fastest one between which it goes.
 const BISECTIONS: u32 = 12;
@@ -57,13 +58,13 @@ impl BoundedReal {
             inverse += own;
         }
         let rows: Vec<Vec<f64>> = (0..signals).map(|i| (0..signals).map(|j| centre[(i, j)]).collect()).collect();
-        let (matrix, fastest) = (of.closed(&rows), of.decay(&rows)?);
-        let [_, b] = of.matrices();
+        let (matrix, fastest) = (closed(&of, &rows), decay(&of, &rows)?);
+        let [_, b] = matrices(&of);
         let eigen = inverse.self_adjoint_eigen(Side::Lower).ok()?;
         let turned = &b * eigen.U();
         let of_value = |(k, value): (usize, &f64)| (*value, (0..order).map(|i| turned[(i, k)]).collect());
         let inputs = eigen.S().column_vector().iter().enumerate().map(of_value).collect();
-        let moved = of.moved();
+        let moved = moved(&of);
         (fastest > 0.0 && fastest.is_finite()).then_some(BoundedReal {
             of,
             matrix,

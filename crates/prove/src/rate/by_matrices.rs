@@ -6,8 +6,6 @@
 
 use super::bound::{ByForm, ByMatrices, DIGITS, RateBound, SHARES, factor, lies_between};
 use super::bounded_real::BoundedReal;
-use super::inequality::{RateWitness, is_definite};
-use super::matrix_loop::{KnownSlopes, MatrixLoop, Multipliers};
 use super::riccati::in_digits;
 use super::slopes_program::SampledSlopes;
 use super::small_gain::Limit;
@@ -16,6 +14,8 @@ use faer::linalg::solvers::DenseSolveCore;
 use faer::{Mat, Side};
 use rug::Rational;
 use sigmastar_decide::bounds::Engine;
+use sigmastar_decide::rates::inequality::{RateWitness, is_definite};
+use sigmastar_decide::rates::matrix_loop::{KnownSlopes, MatrixLoop, Multipliers};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, Portable, round_f64};
 use sigmastar_propose::bounds::{FloatSlopes, FloatSuprema};

@@ -2,9 +2,9 @@
 
 use super::bound::{ByForm, RateBound};
 use super::noise::{NoNoiseBound, NoiseBound, NoiseByForm};
-use super::sampled::form::SampledRateWitness;
 use super::sampled::noise::SampledNoise;
 use rug::Rational;
+use sigmastar_decide::rates::at_samples::SampledRateWitness;
 
 /// What was found for one n_o that was asked about: a rate that is proved by a P, and what noise does by a Q.
 #[derive(Clone, Debug)]

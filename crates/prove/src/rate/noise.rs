@@ -13,10 +13,10 @@
 //! e_low S^2, and xi below kappa S. Their sum is strictly inside of the box, so the solution never leaves it.
 
 use super::bound::{DIGITS, Place};
-use super::inequality::{ErrorDynamics, LoopBounds, RateWitness, is_above};
-use super::noise_search::{Proposal, propose};
-use super::oscillators::OscillatorMatrix;
+use super::noise_search::{Proposal, input_weights, propose};
 use rug::Rational;
+use sigmastar_decide::rates::OscillatorMatrix;
+use sigmastar_decide::rates::inequality::{ErrorDynamics, LoopBounds, RateWitness, is_above};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, round_f64, round_rational, write_exact};
 use sigmastar_theory::data::Data;
@@ -199,7 +199,7 @@ fn proved(
     let rate = round_f64(proposal.rate * share, FIGURES, Direction::Down)?;
     let found = super::riccati::Proposal { rate, w: proposal.w, pi: proposal.pi.clone() };
     let witness = found.in_digits(digits)?;
-    let weights = dynamics.input_weights(&witness, sizes.each_ref().map(Rational::to_f64))?;
+    let weights = input_weights(dynamics, &witness, sizes.each_ref().map(Rational::to_f64))?;
     let inputs = [0, 1].map(|i| {
         let weight = || round_f64(weights[i] * (1.0 + ROOM), FIGURES, Direction::Up);
         (sizes[i] > 0).then(weight)

@@ -9,11 +9,11 @@
 //! noise is worth as a disturbance, and, with both inputs, over their ratio. Nothing here is a claim.
 
 use super::descent::{Point, Thoroughness, descend};
-use super::inequality::ErrorDynamics;
 use super::riccati::Equation;
 use super::small_gain::{Budget, SmallGain};
-use faer::Mat;
-use faer::linalg::solvers::DenseSolveCore;
+use faer::linalg::solvers::{DenseSolveCore, Solve};
+use faer::{Mat, Side};
+use sigmastar_decide::rates::inequality::{ErrorDynamics, Form, RateWitness, Signal};
 use sigmastar_exact::number::Portable;
 
 /// One of so many parts of the room in the small-gain condition is given away: c and beta grow with it, the room for inputs shrinks.
@@ -110,4 +110,41 @@ impl Search {
         let square = q[(0, 0)] * (of(d_bar, gam_d) + of(v_bar, gam_v)) / (2.0 * rate);
         (square.is_finite() && square > 0.0).then_some(Solution { square, q, rate, w: multipliers.w })
     }
+}
+
+/// (g_d, g_v) with which the form of a witness without inputs is positive semidefinite with them, about least in
+/// `g_d d^2 + g_v v^2` for these sizes d, v of the inputs; in doubles, and no claim. `None` where it is not even without them.
+pub(super) fn input_weights(dynamics: &ErrorDynamics<'_>, witness: &RateWitness, sizes: [f64; 2]) -> Option<[f64; 2]> {
+    let form = Form::new(dynamics, witness);
+    let order = form.order();
+    let mut found = [0.0_f64; 2];
+    for corner in form.corners() {
+        let entries = Mat::from_fn(order, order, |i, j| form.entry(&corner, i, j).midpoint_f64());
+        let coupling = |signal: Signal| -> Vec<f64> {
+            let of = |first: &Signal| form.coefficient(&corner, *first, signal).midpoint_f64();
+            form.signals.iter().map(of).collect()
+        };
+        let columns = [coupling(Signal::D), coupling(Signal::V)];
+        let columns = Mat::from_fn(order, 2, |i, j| columns[j][i]);
+        // A NaN would go through.
+        if !entries.as_ref().is_all_finite() {
+            return None;
+        }
+        // Of very different sizes: in units in which the diagonal is 1.
+        let unit = |i: usize| 1.0 / entries[(i, i)].sqrt();
+        let scaled = Mat::from_fn(order, order, |i, j| unit(i) * entries[(i, j)] * unit(j));
+        let scaled_columns = Mat::from_fn(order, 2, |i, j| unit(i) * columns[(i, j)]);
+        let solved = scaled.llt(Side::Lower).ok()?.solve(&scaled_columns);
+        let squares = scaled_columns.transpose() * &solved;
+        // diag(g_d, g_v) is to be at least these squares; of the two directions the larger input pays less for the product.
+        let product = squares[(0, 1)].abs();
+        let shared = match sizes {
+            [d, v] if d > 0.0 && v > 0.0 => [product * v / d, product * d / v],
+            _ => [0.0; 2],
+        };
+        for i in 0..2 {
+            found[i] = found[i].max(squares[(i, i)] + shared[i]);
+        }
+    }
+    found.iter().all(|weight| weight.is_finite()).then_some(found)
 }

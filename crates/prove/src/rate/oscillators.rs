@@ -5,19 +5,11 @@
 
 use faer::{Mat, Side, c64};
 use rug::Rational;
+use sigmastar_decide::rates::OscillatorMatrix;
 use sigmastar_exact::enclosure::{Enclosure, Truth};
 use sigmastar_exact::number::{Direction, round_f64, round_rational};
 use sigmastar_matrix::ScaledMatrix;
 use sigmastar_theory::data::Data;
-
-/// The matrix A of one n_o, enclosed.
-pub struct OscillatorMatrix {
-    order: usize,
-    frequency: Enclosure,
-    pub(super) mu: Enclosure,
-    /// b, one number for each state; 0 for the second state of an oscillator.
-    pub(super) b: Vec<Enclosure>,
-}
 
 /// An eigenvalue decomposition of A in floating point.
 struct Eigen {
@@ -46,123 +38,88 @@ pub struct Lemma {
 #[must_use]
 pub fn lemma(data: &Data<'_>, n_o: u32) -> Option<Lemma> {
     let system = OscillatorMatrix::new(data, n_o);
-    let eigen = system.eigen()?;
-    let p = system.largest(&system.proposed(&eigen)?)?;
+    let found = eigen(&system)?;
+    let p = largest(&system, &proposed(&system, &found)?)?;
     let rate = round_rational(&(Rational::from(1) / (p.clone() * 2u32)), 6, Direction::Down);
-    let abscissa = eigen.values.iter().map(|value| value.re).fold(f64::NEG_INFINITY, f64::max);
+    let abscissa = found.values.iter().map(|value| value.re).fold(f64::NEG_INFINITY, f64::max);
     Some(Lemma { p, rate, abscissa })
 }
 
-impl OscillatorMatrix {
-    /// The matrix of a specification for n_o oscillators.
-    #[must_use]
-    pub fn new(data: &Data<'_>, n_o: u32) -> OscillatorMatrix {
-        let weights = &data.spec.internal_model.weights;
-        let root = |l: u64| weights.weight(l, data.precision).sqrt();
-        let mut b = vec![root(0)];
-        b.extend((1..=u64::from(n_o)).flat_map(|l| [root(l), data.zero()]));
-        OscillatorMatrix { order: b.len(), frequency: data.base_frequency.clone(), mu: data.mu.clone(), b }
-    }
-
-    /// `2 n_o + 1`.
-    #[must_use]
-    pub fn order(&self) -> usize {
-        self.order
-    }
-
-    /// w in floating point.
-    pub(super) fn base_frequency_f64(&self) -> f64 {
-        self.frequency.midpoint_f64()
-    }
-
-    /// `(P Phi)_ij` for column j: where the one entry of that column of Phi stands, and the entry.
-    pub(super) fn phi(&self, column: usize) -> Option<(usize, Enclosure)> {
-        let oscillator = column.div_ceil(2) as i64;
-        let entry = &self.frequency * oscillator;
-        // Phi = l w [[0, 1], [-1, 0]] on the states 2l - 1 and 2l.
-        match column {
-            0 => None,
-            odd if odd % 2 == 1 => Some((column + 1, entry.negate())),
-            _ => Some((column - 1, entry)),
+/// The eigenvalues and eigenvectors of A in floating point.
+fn eigen(of: &OscillatorMatrix) -> Option<Eigen> {
+    let n = of.order();
+    let b: Vec<f64> = of.b.iter().map(Enclosure::midpoint_f64).collect();
+    let mu = of.mu.midpoint_f64();
+    let mut a = Mat::from_fn(n, n, |i, j| -mu * b[i] * b[j]);
+    for column in 0..n {
+        if let Some((row, entry)) = of.phi(column) {
+            a[(row, column)] += entry.midpoint_f64();
         }
     }
+    // A NaN would not stop the iteration.
+    if !a.as_ref().is_all_finite() {
+        return None;
+    }
+    let eigen = a.eigen().ok()?;
+    let vectors = eigen.U().to_owned();
+    let values: Vec<c64> = eigen.S().column_vector().iter().copied().collect();
+    use faer::linalg::solvers::DenseSolveCore;
+    let inverse = vectors.partial_piv_lu().inverse();
+    let gram = vectors.adjoint() * &vectors;
+    Some(Eigen { values, inverse, gram })
+}
 
-    /// The eigenvalues and eigenvectors of A in floating point.
-    fn eigen(&self) -> Option<Eigen> {
-        let n = self.order;
-        let b: Vec<f64> = self.b.iter().map(Enclosure::midpoint_f64).collect();
-        let mu = self.mu.midpoint_f64();
-        let mut a = Mat::from_fn(n, n, |i, j| -mu * b[i] * b[j]);
-        for column in 0..n {
-            if let Some((row, entry)) = self.phi(column) {
-                a[(row, column)] += entry.midpoint_f64();
+/// P for A, in doubles: of the Lyapunov equation `P A + A'P = -2 I` in the basis of eigenvectors, twice of what is proved.
+fn proposed(of: &OscillatorMatrix, eigen: &Eigen) -> Option<Mat<f64>> {
+    let n = of.order();
+    // Y_ij = -2 (V*V)_ij/(conj(l_i) + l_j), P = V^-* Y V^-1.
+    let y = Mat::from_fn(n, n, |i, j| {
+        eigen.gram[(i, j)] * c64::new(-2.0, 0.0) / (eigen.values[i].conj() + eigen.values[j])
+    });
+    let complex = eigen.inverse.adjoint() * &y * &eigen.inverse;
+    let p = Mat::from_fn(n, n, |i, j| (complex[(i, j)].re + complex[(j, i)].re) / 2.0);
+    p.as_ref().is_all_finite().then_some(p)
+}
+
+/// An upper bound of the largest eigenvalue of P, taken as the exact rational numbers that its doubles are, where `P > 0` and
+/// `P A + A'P <= -I` are proved of it.
+fn largest(of: &OscillatorMatrix, p: &Mat<f64>) -> Option<Rational> {
+    let n = of.order();
+    let precision = of.mu.precision();
+    let exact: Option<Vec<Enclosure>> = (0..n)
+        .flat_map(|i| (0..n).map(move |j| (i.max(j), i.min(j))))
+        .map(|at| Some(Enclosure::from_rational(&Rational::from_f64(p[at])?, precision)))
+        .collect();
+    let exact = exact?;
+    let at = |i: usize, j: usize| &exact[i * n + j];
+    // P b, with b zero at every second state.
+    let image: Vec<Enclosure> = (0..n)
+        .map(|i| {
+            let states = (0..n).filter(|j| *j == 0 || j % 2 == 1);
+            states.fold(Enclosure::zero(precision), |sum, j| sum + at(i, j) * &of.b[j])
+        })
+        .collect();
+    let phi: Vec<Option<(usize, Enclosure)>> = (0..n).map(|column| of.phi(column)).collect();
+    let decay = |i: usize, j: usize| {
+        let mut sum = &of.mu * (&image[i] * &of.b[j] + &of.b[i] * &image[j]);
+        for (column, other) in [(j, i), (i, j)] {
+            if let Some((row, entry)) = &phi[column] {
+                sum = sum - at(other, *row) * entry;
             }
         }
-        // A NaN would not stop the iteration.
-        if !a.as_ref().is_all_finite() {
-            return None;
-        }
-        let eigen = a.eigen().ok()?;
-        let vectors = eigen.U().to_owned();
-        let values: Vec<c64> = eigen.S().column_vector().iter().copied().collect();
-        use faer::linalg::solvers::DenseSolveCore;
-        let inverse = vectors.partial_piv_lu().inverse();
-        let gram = vectors.adjoint() * &vectors;
-        Some(Eigen { values, inverse, gram })
+        if i == j { sum - Enclosure::one(precision) } else { sum }
+    };
+    let proved = |matrix: Option<ScaledMatrix>| matrix.is_some_and(|m| m.is_positive_definite() == Truth::True);
+    if !proved(ScaledMatrix::from_enclosures(n, decay))
+        || !proved(ScaledMatrix::from_doubles(n, |i, j| p[(i, j)], &vec![0.0; n]))
+    {
+        return None;
     }
-
-    /// P for A, in doubles: of the Lyapunov equation `P A + A'P = -2 I` in the basis of eigenvectors, twice of what is proved.
-    fn proposed(&self, eigen: &Eigen) -> Option<Mat<f64>> {
-        let n = self.order;
-        // Y_ij = -2 (V*V)_ij/(conj(l_i) + l_j), P = V^-* Y V^-1.
-        let y = Mat::from_fn(n, n, |i, j| {
-            eigen.gram[(i, j)] * c64::new(-2.0, 0.0) / (eigen.values[i].conj() + eigen.values[j])
-        });
-        let complex = eigen.inverse.adjoint() * &y * &eigen.inverse;
-        let p = Mat::from_fn(n, n, |i, j| (complex[(i, j)].re + complex[(j, i)].re) / 2.0);
-        p.as_ref().is_all_finite().then_some(p)
-    }
-
-    /// An upper bound of the largest eigenvalue of P, taken as the exact rational numbers that its doubles are, where `P > 0` and
-    /// `P A + A'P <= -I` are proved of it.
-    fn largest(&self, p: &Mat<f64>) -> Option<Rational> {
-        let n = self.order;
-        let precision = self.mu.precision();
-        let exact: Option<Vec<Enclosure>> = (0..n)
-            .flat_map(|i| (0..n).map(move |j| (i.max(j), i.min(j))))
-            .map(|at| Some(Enclosure::from_rational(&Rational::from_f64(p[at])?, precision)))
-            .collect();
-        let exact = exact?;
-        let at = |i: usize, j: usize| &exact[i * n + j];
-        // P b, with b zero at every second state.
-        let image: Vec<Enclosure> = (0..n)
-            .map(|i| {
-                let states = (0..n).filter(|j| *j == 0 || j % 2 == 1);
-                states.fold(Enclosure::zero(precision), |sum, j| sum + at(i, j) * &self.b[j])
-            })
-            .collect();
-        let phi: Vec<Option<(usize, Enclosure)>> = (0..n).map(|column| self.phi(column)).collect();
-        let decay = |i: usize, j: usize| {
-            let mut sum = &self.mu * (&image[i] * &self.b[j] + &self.b[i] * &image[j]);
-            for (column, other) in [(j, i), (i, j)] {
-                if let Some((row, entry)) = &phi[column] {
-                    sum = sum - at(other, *row) * entry;
-                }
-            }
-            if i == j { sum - Enclosure::one(precision) } else { sum }
-        };
-        let proved = |matrix: Option<ScaledMatrix>| matrix.is_some_and(|m| m.is_positive_definite() == Truth::True);
-        if !proved(ScaledMatrix::from_enclosures(n, decay))
-            || !proved(ScaledMatrix::from_doubles(n, |i, j| p[(i, j)], &vec![0.0; n]))
-        {
-            return None;
-        }
-        let eigenvalues = p.self_adjoint_eigenvalues(Side::Lower).ok()?;
-        let largest = round_f64(*eigenvalues.last()? * 1.0001, 6, Direction::Up)?;
-        let bound = Enclosure::from_rational(&largest, precision);
-        let below = |i: usize, j: usize| if i == j { &bound - at(i, j) } else { at(i, j).negate() };
-        proved(ScaledMatrix::from_enclosures(n, below)).then_some(largest)
-    }
+    let eigenvalues = p.self_adjoint_eigenvalues(Side::Lower).ok()?;
+    let largest = round_f64(*eigenvalues.last()? * 1.0001, 6, Direction::Up)?;
+    let bound = Enclosure::from_rational(&largest, precision);
+    let below = |i: usize, j: usize| if i == j { &bound - at(i, j) } else { at(i, j).negate() };
+    proved(ScaledMatrix::from_enclosures(n, below)).then_some(largest)
 }
 
 #[cfg(test)]
@@ -196,7 +153,7 @@ mod tests {
     fn a_wrong_p_proves_nothing() {
         let spec = example();
         let system = OscillatorMatrix::new(&Data::new(&spec, 128), 0);
-        let of = |p: f64| system.largest(&Mat::from_fn(1, 1, |_, _| p));
+        let of = |p: f64| largest(&system, &Mat::from_fn(1, 1, |_, _| p));
         assert!(of(0.251).is_some_and(|largest| largest >= Rational::from((251, 1000))));
         assert_eq!([of(0.249), of(0.0), of(-1.0)], [None, None, None]);
     }

@@ -1,10 +1,10 @@
 //! Pi of the closed loop's Lyapunov function, proposed by a Riccati equation in floating point.
 
-use super::inequality::RateWitness;
 use super::small_gain::{FloatDynamics, SmallGain};
 use faer::linalg::solvers::DenseSolveCore;
 use faer::{Mat, c64};
 use rug::Rational;
+use sigmastar_decide::rates::inequality::RateWitness;
 use sigmastar_exact::number::{Direction, Portable, round_f64};
 
 /// One of so many parts of what the small-gain condition leaves over goes to each of its two sides.

@@ -1,9 +1,9 @@
 //! What is to be known of the first derivatives together so that the loop decays fast: Q, G and H of (K) and (D) (derivation, 13.6),
 //! proposed by semidefinite programs over sampled derivatives. Nothing rests on them.
 
-use super::matrix_loop::{KnownSlopes, MatrixLoop, Multipliers};
 use faer::linalg::solvers::{DenseSolveCore, Llt};
 use faer::{Mat, Side};
+use sigmastar_decide::rates::matrix_loop::{KnownSlopes, MatrixLoop, Multipliers};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_matrix::{AffineMatrix, Symmetric};
 use sigmastar_propose::bounds::{FloatSlopes, FloatSuprema};
@@ -114,7 +114,7 @@ impl<'s> SampledSlopes<'s> {
             all
         };
         let all = self.parts.iter().fold(vec![vec![Vec::new(); self.states + 1]], whole);
-        all.iter().filter_map(|d| of.decay(d)).fold(f64::INFINITY, f64::min)
+        all.iter().filter_map(|d| decay(of, d)).fold(f64::INFINITY, f64::min)
     }
 
     /// Balls that let this loop decay at a large rate, and at smaller ones; one for each part.
@@ -266,58 +266,56 @@ impl<'s> SampledSlopes<'s> {
     }
 }
 
-impl MatrixLoop<f64> {
-    /// A with the middle of b_u, and B.
-    pub(super) fn matrices(&self) -> [Mat<f64>; 2] {
-        let n = self.order();
-        let ends = self.ends();
-        let middle = ends.iter().sum::<f64>() / ends.len() as f64;
-        let (input, feedback) = (self.input(), self.feedback(&middle));
-        let entry = |of: &[Option<f64>], i: usize| of[i].unwrap_or(0.0);
-        let mut a = Mat::from_fn(n, n, |i, j| entry(&input, i) * entry(&feedback, j));
-        for column in 0..n {
-            if let Some((row, value)) = self.drift(column) {
-                a[(row, column)] += value;
-            }
+/// A with the middle of b_u, and B.
+pub(super) fn matrices(of: &MatrixLoop<f64>) -> [Mat<f64>; 2] {
+    let n = of.order();
+    let ends = of.ends();
+    let middle = ends.iter().sum::<f64>() / ends.len() as f64;
+    let (input, feedback) = (of.input(), of.feedback(&middle));
+    let entry = |list: &[Option<f64>], i: usize| list[i].unwrap_or(0.0);
+    let mut a = Mat::from_fn(n, n, |i, j| entry(&input, i) * entry(&feedback, j));
+    for column in 0..n {
+        if let Some((row, value)) = of.drift(column) {
+            a[(row, column)] += value;
         }
-        let b = Mat::from_fn(n, self.states + 1, |i, k| match k == self.states {
-            true => entry(&input, i),
-            false => f64::from(i == k),
-        });
-        [a, b]
     }
+    let b = Mat::from_fn(n, of.states + 1, |i, k| match k == of.states {
+        true => entry(&input, i),
+        false => f64::from(i == k),
+    });
+    [a, b]
+}
 
-    /// What an input gain moves, `b_d (-sigma e + mu b'zs)` with half the width b_d of its interval, and B_q; none where it is known.
-    pub(super) fn moved(&self) -> Option<[Vec<f64>; 2]> {
-        let [low, high] = self.ends() else { return None };
-        // The feedback is affine in b_u.
-        let [low, high] = [low, high].map(|gain| self.feedback(gain));
-        let plain = |of: &[Option<f64>]| of.iter().map(|entry| entry.unwrap_or(0.0)).collect::<Vec<f64>>();
-        let signal = plain(&low).iter().zip(plain(&high)).map(|(low, high)| (high - low) / 2.0).collect();
-        Some([signal, plain(&self.input())])
-    }
+/// What an input gain moves, `b_d (-sigma e + mu b'zs)` with half the width b_d of its interval, and B_q; none where it is known.
+pub(super) fn moved(of: &MatrixLoop<f64>) -> Option<[Vec<f64>; 2]> {
+    let [low, high] = of.ends() else { return None };
+    // The feedback is affine in b_u.
+    let [low, high] = [low, high].map(|gain| of.feedback(gain));
+    let plain = |list: &[Option<f64>]| list.iter().map(|entry| entry.unwrap_or(0.0)).collect::<Vec<f64>>();
+    let signal = plain(&low).iter().zip(plain(&high)).map(|(low, high)| (high - low) / 2.0).collect();
+    Some([signal, plain(&of.input())])
+}
 
-    /// The loop with constant derivatives.
-    pub(super) fn closed(&self, d: &[Vec<f64>]) -> Mat<f64> {
-        let [mut a, b] = self.matrices();
-        for i in 0..a.nrows() {
-            for j in 0..=self.states {
-                a[(i, j)] += (0..=self.states).map(|k| b[(i, k)] * d[k][j]).sum::<f64>();
-            }
+/// The loop with constant derivatives.
+pub(super) fn closed(of: &MatrixLoop<f64>, d: &[Vec<f64>]) -> Mat<f64> {
+    let [mut a, b] = matrices(of);
+    for i in 0..a.nrows() {
+        for j in 0..=of.states {
+            a[(i, j)] += (0..=of.states).map(|k| b[(i, k)] * d[k][j]).sum::<f64>();
         }
-        a
     }
+    a
+}
 
-    /// The rate of decay with constant derivatives, which may be negative; `None` where it has none in doubles.
-    pub(super) fn decay(&self, d: &[Vec<f64>]) -> Option<f64> {
-        let a = self.closed(d);
-        // A NaN would not stop an iteration for eigenvalues.
-        if !a.as_ref().is_all_finite() {
-            return None;
-        }
-        let values = a.eigenvalues().ok()?;
-        Some(values.iter().map(|value| -value.re).fold(f64::INFINITY, f64::min))
+/// The rate of decay with constant derivatives, which may be negative; `None` where it has none in doubles.
+pub(super) fn decay(of: &MatrixLoop<f64>, d: &[Vec<f64>]) -> Option<f64> {
+    let a = closed(of, d);
+    // A NaN would not stop an iteration for eigenvalues.
+    if !a.as_ref().is_all_finite() {
+        return None;
     }
+    let values = a.eigenvalues().ok()?;
+    Some(values.iter().map(|value| -value.re).fold(f64::INFINITY, f64::min))
 }
 
 /// By how much (D) fails at a point; 0 where it holds with some of the margin.

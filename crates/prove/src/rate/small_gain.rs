@@ -18,9 +18,9 @@
 //! where to look for Pi.
 
 use super::descent::golden;
-use super::inequality::ErrorDynamics;
-use super::oscillators::OscillatorMatrix;
 use faer::{Mat, c64};
+use sigmastar_decide::rates::OscillatorMatrix;
+use sigmastar_decide::rates::inequality::ErrorDynamics;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::Portable;
 
@@ -96,7 +96,7 @@ impl FloatDynamics {
         let weights = first.map(|(_, b)| b.portable_powi(2)).collect();
         let moved = std::iter::once(-sigma).chain(b.iter().map(|b| mu * b));
         let moved = if half_gain > 0.0 { moved.collect() } else { Vec::new() };
-        let (half_slope, frequency) = ((most - least) / 2.0, oscillators.base_frequency_f64());
+        let (half_slope, frequency) = ((most - least) / 2.0, oscillators.frequency.midpoint_f64());
         // A NaN would not stop an iteration for eigenvalues.
         let finite = half_slope.is_finite() && matrix.as_ref().is_all_finite();
         let found =

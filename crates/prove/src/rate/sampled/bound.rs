@@ -2,13 +2,13 @@
 //! start in a set at the sampling instant t_0, at one n_o, one gain and one sampling period (derivation, 13.6).
 
 use super::condition::SampledCondition;
-use super::form::{Inputs, OfX, SampledDynamics, SampledRateWitness};
 use crate::rate::bound::{Place, RateBound, diagonal_bounds, factor, lies_between};
-use crate::rate::inequality::LoopBounds;
-use crate::rate::oscillators::OscillatorMatrix;
 use crate::rate::riccati::in_digits;
 use faer::Mat;
 use rug::Rational;
+use sigmastar_decide::rates::OscillatorMatrix;
+use sigmastar_decide::rates::at_samples::{Inputs, OfX, SampledDynamics, SampledRateWitness};
+use sigmastar_decide::rates::inequality::LoopBounds;
 use sigmastar_exact::enclosure::{Enclosure, Truth};
 use sigmastar_exact::number::{Direction, round_f64};
 use sigmastar_theory::data::Data;

@@ -14,11 +14,11 @@
 //! `H_e = h H_y/(z-a)`, `G(z) = b'R (z - R)^-1 b`. In r it is convex. An input gain b, `|b - b_c| <= b_d`, is an input more at the same place,
 //! of `V = -(sigma h/(z-a) + K h G) H_y`, with one number q more. Nothing here is a claim: it says where to look for Pi.
 
-use super::form::{OfX, SampledDynamics};
 use super::riccati::System;
 use crate::rate::descent::golden;
 use crate::rate::small_gain::{GOLDEN, Limit};
 use faer::{Mat, c64};
+use sigmastar_decide::rates::at_samples::{OfX, SampledDynamics};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::Portable;
 

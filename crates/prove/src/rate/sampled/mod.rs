@@ -1,6 +1,5 @@
 //! Rates of the law at samples for a given number of oscillators (derivation, 13.6, Proposition R_h).
 //!
-//! - [`form`]: the matrix inequality that proves a decay from sample to sample;
 //! - [`condition`]: the largest decay that it can prove, in floating point, and multipliers for it;
 //! - `riccati`: the quadratic function for them, by a discrete Riccati equation;
 //! - [`noise`]: what noise of the measurement and a disturbance do to the error, by the same inequality with inputs;
@@ -9,7 +8,9 @@
 
 pub mod bound;
 pub mod condition;
-pub mod form;
 pub mod noise;
 mod riccati;
 pub mod rounding;
+
+#[cfg(test)]
+mod form_tests;

@@ -15,17 +15,17 @@
 
 use super::bound::{DIGITS, Proposal};
 use super::condition::SampledCondition;
-use super::form::{Inputs, SampledDynamics, SampledRateWitness};
 use super::rounding::{
     Computed, ComputedLaw, Rounded, RoundingWitness, are_zeta_bounds, largest_of_zeta, measured, settled, zeta_bounds,
 };
 use crate::rate::bound::Place;
 use crate::rate::descent::{Point, Thoroughness, descend};
-use crate::rate::inequality::{LoopBounds, is_above};
 use crate::rate::noise::{Confinement, NoNoiseBound, NoiseBound};
-use crate::rate::oscillators::OscillatorMatrix;
 use faer::linalg::solvers::DenseSolveCore;
 use rug::Rational;
+use sigmastar_decide::rates::OscillatorMatrix;
+use sigmastar_decide::rates::at_samples::{Inputs, SampledDynamics, SampledRateWitness};
+use sigmastar_decide::rates::inequality::{LoopBounds, is_above};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, round_f64, round_rational};
 use sigmastar_theory::data::Data;

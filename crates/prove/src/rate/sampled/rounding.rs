@@ -14,12 +14,12 @@
 //! bound how far u, times the nominal gain, and in |.|_N the next z are from the exact ones; tiny is far above all that underflow does. It is
 //! demanded that the constants are ordinary numbers and that nothing overflows.
 
-use super::form::SampledDynamics;
-use crate::rate::inequality::is_definite;
 use crate::rate::noise::NoNoiseBound;
 use faer::linalg::solvers::DenseSolveCore;
 use faer::{Mat, Side};
 use rug::Rational;
+use sigmastar_decide::rates::at_samples::SampledDynamics;
+use sigmastar_decide::rates::inequality::is_definite;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, round_f64};
 use sigmastar_theory::data::Data;

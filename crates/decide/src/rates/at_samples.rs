@@ -22,10 +22,10 @@
 //! `g_d D^2 + g_v v^2 + g_r rho_d^2`. Then `(1+c) W_{k+1} <= W_k + g_d D^2 + g_v v^2 + g_r rho_d^2`.
 //!
 //! Bounds of the plant's data enter as rationals in the harder direction, for which the relations stay true, as in
-//! [`super::super::inequality`]; where k_x is 0, X, p, rho_E and rho_Y are left out.
+//! [`super::inequality`]; where k_x is 0, X, p, rho_E and rho_Y are left out.
 
-use super::super::inequality::{LoopBounds, is_definite};
-use super::super::oscillators::OscillatorMatrix;
+use super::inequality::{LoopBounds, is_definite};
+use super::oscillators::OscillatorMatrix;
 use rug::Rational;
 use sigmastar_exact::enclosure::{Enclosure, Truth};
 use sigmastar_theory::data::Data;
@@ -126,7 +126,7 @@ impl<'a> SampledDynamics<'a> {
     }
 
     /// The ends of the input gain; 1 without one.
-    pub(super) fn gains(&self) -> Vec<Enclosure> {
+    pub fn gains(&self) -> Vec<Enclosure> {
         match &self.law.input_gain {
             None => vec![Enclosure::one(self.law.step.precision())],
             Some(gain) => vec![gain.low.clone(), gain.high.clone()],
@@ -163,8 +163,9 @@ impl<'a> SampledDynamics<'a> {
 type Linear = Vec<(usize, Enclosure)>;
 
 /// A quadratic form, as the lower triangle of its matrix.
-struct Quadratic {
-    order: usize,
+pub struct Quadratic {
+    /// The number of variables.
+    pub order: usize,
     lower: Vec<Enclosure>,
 }
 
@@ -173,7 +174,9 @@ impl Quadratic {
         Quadratic { order, lower: vec![Enclosure::zero(precision); order * (order + 1) / 2] }
     }
 
-    fn at(&self, i: usize, j: usize) -> &Enclosure {
+    /// An entry of the matrix.
+    #[must_use]
+    pub fn at(&self, i: usize, j: usize) -> &Enclosure {
         let (row, column) = (i.max(j), i.min(j));
         &self.lower[row * (row + 1) / 2 + column]
     }
@@ -195,7 +198,7 @@ impl Quadratic {
 }
 
 /// Pi, and what the step of the loop makes of it.
-struct Weighted<'a> {
+pub struct Weighted<'a> {
     dynamics: &'a SampledDynamics<'a>,
     /// Pi, row by row.
     pi: Vec<Enclosure>,
@@ -210,7 +213,9 @@ struct Weighted<'a> {
 }
 
 impl<'a> Weighted<'a> {
-    fn new(dynamics: &'a SampledDynamics<'a>, lower: &[Vec<Rational>]) -> Weighted<'a> {
+    /// Of the rows of the lower triangle of Pi.
+    #[must_use]
+    pub fn new(dynamics: &'a SampledDynamics<'a>, lower: &[Vec<Rational>]) -> Weighted<'a> {
         let (oscillators, law) = (dynamics.oscillators, dynamics.law);
         let precision = law.step.precision();
         let n = lower.len();
@@ -260,7 +265,8 @@ impl<'a> Weighted<'a> {
     }
 
     /// The form at one input gain.
-    fn form(&self, witness: &SampledRateWitness, gain: &Enclosure) -> Quadratic {
+    #[must_use]
+    pub fn form(&self, witness: &SampledRateWitness, gain: &Enclosure) -> Quadratic {
         let Weighted { dynamics, .. } = self;
         let SampledDynamics { bounds, sample, law, .. } = dynamics;
         let precision = law.step.precision();
@@ -384,7 +390,7 @@ impl SampledDynamics<'_> {
     }
 
     /// `sigma + K b'R b`: what noise is in y, over -b_u.
-    pub(super) fn noise_gain(&self) -> Enclosure {
+    pub fn noise_gain(&self) -> Enclosure {
         let precision = self.law.step.precision();
         let seen = self.oscillators.b.iter().enumerate().filter(|(state, _)| *state == 0 || state % 2 == 1);
         let sum = seen.fold(Enclosure::zero(precision), |sum, (state, weight)| {
@@ -410,6 +416,3 @@ impl SampledDynamics<'_> {
         form
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -1,14 +1,20 @@
-use super::super::bound::bound;
-use super::*;
+use super::bound::bound;
 use crate::certify::certify_sampled;
 use crate::rate::bound::{Place, RateBound};
+use rug::Rational;
 use sigmastar_decide::conditions::Ladder;
+use sigmastar_decide::rates::OscillatorMatrix;
+use sigmastar_decide::rates::at_samples::*;
+use sigmastar_decide::rates::inequality::LoopBounds;
+use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_lang::spec::Specification;
+use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::initial_set::claimed_distances;
+use sigmastar_theory::derivation::sampled::SampledLaw;
 
 /// The paper's example at so many samples of a period of 1, with an input gain in an interval.
 fn example(samples: u32, [low, high]: [&str; 2]) -> Specification {
-    let text = include_str!("../../../../../../specs/paper-example.json");
+    let text = include_str!("../../../../../specs/paper-example.json");
     let mut document: serde_json::Value = serde_json::from_str(text).expect("JSON");
     document["internal_model"]["sampling_period"] = format!("1/{samples}").into();
     document["input_gain"] = serde_json::json!({ "nominal": "1", "low": low, "high": high });

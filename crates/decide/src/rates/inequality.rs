@@ -34,8 +34,6 @@
 //!   whole line satisfies unless n = 0. Then xi and u_x are left out, and with them the bound a_2 of the rate.
 
 use super::oscillators::OscillatorMatrix;
-use faer::linalg::solvers::Solve;
-use faer::{Mat, Side};
 use rug::Rational;
 use sigmastar_exact::enclosure::{Enclosure, Truth};
 use sigmastar_matrix::ScaledMatrix;
@@ -106,10 +104,12 @@ pub struct RateWitness {
 
 /// The signals of the quadratic form.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Signal {
+pub enum Signal {
+    /// xi.
     Xi,
     /// An entry of y = (et, zs).
     Y(usize),
+    /// u_x.
     Ux,
     /// The disturbance d of q.
     D,
@@ -118,7 +118,7 @@ enum Signal {
 }
 
 /// A corner (b, delta) of what varies.
-pub(super) struct Corner {
+pub struct Corner {
     /// `(delta, b mu b')`: what comes back to the input B.
     row: Vec<Enclosure>,
     /// Pi B_v.
@@ -141,7 +141,8 @@ impl<'a> ErrorDynamics<'a> {
 
 impl ErrorDynamics<'_> {
     /// The corners (b, delta): what stands before mu, and what is added at u to e.
-    fn corners(&self) -> Vec<[Enclosure; 2]> {
+    #[must_use]
+    pub fn corners(&self) -> Vec<[Enclosure; 2]> {
         let precision = self.oscillators.mu.precision();
         let (one, number) = (Enclosure::one(precision), |value: &Rational| Enclosure::from_rational(value, precision));
         let ends = self.input_gain.as_ref().map_or_else(|| vec![one.clone()], |ends| ends.to_vec());
@@ -168,47 +169,11 @@ impl ErrorDynamics<'_> {
         is_definite(n, |i, j| form.at(i, j))
             && form.corners().iter().all(|corner| is_definite(form.order(), |i, j| form.entry(corner, i, j)))
     }
-
-    /// (g_d, g_v) with which the form of a witness without inputs is positive semidefinite with them, about least in
-    /// `g_d d^2 + g_v v^2` for these sizes d, v of the inputs; in doubles, and no claim. `None` where it is not even without them.
-    pub(super) fn input_weights(&self, witness: &RateWitness, sizes: [f64; 2]) -> Option<[f64; 2]> {
-        let form = Form::new(self, witness);
-        let order = form.order();
-        let mut found = [0.0_f64; 2];
-        for corner in form.corners() {
-            let entries = Mat::from_fn(order, order, |i, j| form.entry(&corner, i, j).midpoint_f64());
-            let coupling = |signal: Signal| -> Vec<f64> {
-                let of = |first: &Signal| form.coefficient(&corner, *first, signal).midpoint_f64();
-                form.signals.iter().map(of).collect()
-            };
-            let columns = [coupling(Signal::D), coupling(Signal::V)];
-            let columns = Mat::from_fn(order, 2, |i, j| columns[j][i]);
-            // A NaN would go through.
-            if !entries.as_ref().is_all_finite() {
-                return None;
-            }
-            // Of very different sizes: in units in which the diagonal is 1.
-            let unit = |i: usize| 1.0 / entries[(i, i)].sqrt();
-            let scaled = Mat::from_fn(order, order, |i, j| unit(i) * entries[(i, j)] * unit(j));
-            let scaled_columns = Mat::from_fn(order, 2, |i, j| unit(i) * columns[(i, j)]);
-            let solved = scaled.llt(Side::Lower).ok()?.solve(&scaled_columns);
-            let squares = scaled_columns.transpose() * &solved;
-            // diag(g_d, g_v) is to be at least these squares; of the two directions the larger input pays less for the product.
-            let product = squares[(0, 1)].abs();
-            let shared = match sizes {
-                [d, v] if d > 0.0 && v > 0.0 => [product * v / d, product * d / v],
-                _ => [0.0; 2],
-            };
-            for i in 0..2 {
-                found[i] = found[i].max(squares[(i, i)] + shared[i]);
-            }
-        }
-        found.iter().all(|weight| weight.is_finite()).then_some(found)
-    }
 }
 
 /// Whether Pi > diag(e_low, 0) is proved; Pi by the rows of its lower triangle.
-pub(super) fn is_above(pi: &[Vec<Rational>], e_low: &Rational, precision: u32) -> bool {
+#[must_use]
+pub fn is_above(pi: &[Vec<Rational>], e_low: &Rational, precision: u32) -> bool {
     let number = |value: &Rational| Enclosure::from_rational(value, precision);
     is_definite(pi.len(), |i, j| {
         let entry = number(&pi[i.max(j)][i.min(j)]);
@@ -217,14 +182,16 @@ pub(super) fn is_above(pi: &[Vec<Rational>], e_low: &Rational, precision: u32) -
 }
 
 /// Whether a symmetric matrix is proved positive definite.
-pub(super) fn is_definite(order: usize, entry: impl Fn(usize, usize) -> Enclosure + Sync) -> bool {
+#[must_use]
+pub fn is_definite(order: usize, entry: impl Fn(usize, usize) -> Enclosure + Sync) -> bool {
     ScaledMatrix::from_enclosures(order, entry).is_some_and(|matrix| matrix.is_positive_definite() == Truth::True)
 }
 
 /// The matrix M, entry by entry.
-struct Form<'a> {
+pub struct Form<'a> {
     dynamics: &'a ErrorDynamics<'a>,
-    signals: Vec<Signal>,
+    /// The signals, in the order of the rows.
+    pub signals: Vec<Signal>,
     /// Pi, row by row.
     pi: Vec<Enclosure>,
     /// Pi B.
@@ -239,7 +206,9 @@ struct Form<'a> {
 }
 
 impl<'a> Form<'a> {
-    fn new(dynamics: &'a ErrorDynamics<'a>, witness: &RateWitness) -> Form<'a> {
+    /// Of a witness.
+    #[must_use]
+    pub fn new(dynamics: &'a ErrorDynamics<'a>, witness: &RateWitness) -> Form<'a> {
         let oscillators = dynamics.oscillators;
         let precision = oscillators.mu.precision();
         let number = |value: &Rational| Enclosure::from_rational(value, precision);
@@ -271,7 +240,9 @@ impl<'a> Form<'a> {
         Form { signals, pi, image, columns, twice_rate, w, l, inputs, dynamics }
     }
 
-    fn order(&self) -> usize {
+    /// The number of signals.
+    #[must_use]
+    pub fn order(&self) -> usize {
         self.signals.len()
     }
 
@@ -279,11 +250,15 @@ impl<'a> Form<'a> {
         self.pi[i * self.image.len() + j].clone()
     }
 
-    fn corners(&self) -> Vec<Corner> {
+    /// All corners.
+    #[must_use]
+    pub fn corners(&self) -> Vec<Corner> {
         self.dynamics.corners().iter().map(|corner| self.corner(corner)).collect()
     }
 
-    fn corner(&self, [gain, slope]: &[Enclosure; 2]) -> Corner {
+    /// At one corner.
+    #[must_use]
+    pub fn corner(&self, [gain, slope]: &[Enclosure; 2]) -> Corner {
         let OscillatorMatrix { mu, b, .. } = self.dynamics.oscillators;
         let (n, precision) = (self.image.len(), mu.precision());
         let through = gain * mu;
@@ -309,12 +284,14 @@ impl<'a> Form<'a> {
     }
 
     /// The entry of two of the signals at a corner.
-    fn entry(&self, corner: &Corner, i: usize, j: usize) -> Enclosure {
+    #[must_use]
+    pub fn entry(&self, corner: &Corner, i: usize, j: usize) -> Enclosure {
         self.coefficient(corner, self.signals[i], self.signals[j])
     }
 
-    /// The same of any two signals, in either order.
-    fn coefficient(&self, corner: &Corner, first: Signal, second: Signal) -> Enclosure {
+    /// The entry of any two signals at a corner, in either order.
+    #[must_use]
+    pub fn coefficient(&self, corner: &Corner, first: Signal, second: Signal) -> Enclosure {
         use Signal::{D, Ux, V, Xi, Y};
         let LoopBounds { x_decay, root_p_up, k_x, k_f, .. } = self.dynamics.bounds;
         let number = |value: &Rational| Enclosure::from_rational(value, self.twice_rate.precision());
@@ -344,6 +321,3 @@ impl<'a> Form<'a> {
         (half(i, j) + half(j, i) + &self.twice_rate * &self.pi[i * n + j]).negate()
     }
 }
-
-#[cfg(test)]
-mod tests;

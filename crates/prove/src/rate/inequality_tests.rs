@@ -1,17 +1,23 @@
-use super::super::riccati::{self, Proposal};
-use super::super::small_gain::SmallGain;
-use super::*;
+use super::riccati::{self, Proposal};
+use super::small_gain::SmallGain;
+use faer::Mat;
+use rug::Rational;
+use sigmastar_decide::rates::OscillatorMatrix;
+use sigmastar_decide::rates::inequality::*;
+use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_lang::spec::Specification;
 use sigmastar_matrix::AffineMatrix;
 use sigmastar_propose::semidefinite::propose;
+use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::paths::Paths;
+use sigmastar_theory::derivation::stability::ErrorBox;
 
 fn specification(text: &str) -> Specification {
     Specification::from_json("test", text).expect("a sound specification")
 }
 
 fn example() -> Specification {
-    specification(include_str!("../../../../../specs/paper-example.json"))
+    specification(include_str!("../../../../specs/paper-example.json"))
 }
 
 fn rational(p: i32, q: i32) -> Rational {
@@ -373,7 +379,7 @@ fn a_plant_without_x_is_recognised() {
         let error_box = ErrorBox::new(&data, Paths::UNNAMED, [&one; 2], [&one; 2]);
         LoopBounds::of_error(&data, &error_box).expect("bounded")
     };
-    let without = bounds_of(&specification(include_str!("../../../../../specs/no-x.json")));
+    let without = bounds_of(&specification(include_str!("../../../../specs/no-x.json")));
     assert!(!without.has_x);
     assert!(without.k_x == 0 && without.k_f == 0 && without.slopes == [-1, 1]);
     let with = bounds_of(&example());
