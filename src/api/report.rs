@@ -33,7 +33,7 @@ impl Report {
     /// That of `sigmastar certify`; `again` where a witness was decided again.
     pub(super) fn of_run(run: &Run<'_>, again: bool) -> Report {
         let origin = if again { Origin::Witness } else { Origin::Search };
-        Report::of(&*run_report(run, &[], origin))
+        Report::of(&*run_report(run, &[], origin, Extent::Full))
     }
 
     pub(super) fn new(made: Made) -> Report {

@@ -119,7 +119,7 @@ pub fn run(args: &CertifyArgs) -> Result<u8, Failure> {
         run.answered(checked(&run));
     }
     let origin = if witness.is_some() { Origin::Witness } else { Origin::Search };
-    let report = run_report(&run, &targets, origin);
+    let report = run_report(&run, &targets, origin, output::extent(args.format, args.full));
     let page = args.format == Format::Html;
     stages.begin(Step::Figures);
     let drawn = (page || args.plots.is_some()).then(|| Drawn::of(&run)).flatten();

@@ -1,6 +1,7 @@
 //! `sigmastar errata`.
 
 use super::args::ErrataArgs;
+use super::constants;
 use super::failure::Failure;
 use super::output;
 use super::subject::Asked;
@@ -12,7 +13,7 @@ pub fn run(args: &ErrataArgs) -> Result<u8, Failure> {
         Some(path) => Some(Asked::read(path)?.specification("`errata`")?),
         None => None,
     };
-    let report = ErrataReport::new(spec.as_ref());
+    let report = ErrataReport::new(spec.as_ref(), spec.as_ref().and_then(constants::beside));
     let text = output::report(&report, args.format);
     Ok(output::data(&text).err().unwrap_or(0))
 }

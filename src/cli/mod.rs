@@ -5,6 +5,7 @@ mod bound;
 mod certify;
 mod check;
 mod colour;
+mod constants;
 mod controller;
 mod counts;
 mod edge;
@@ -71,6 +72,7 @@ pub fn run() -> ExitCode {
         Command::Reproduce(args) => (reproduce::run(&args), Format::Text, args.quiet),
         Command::Falsify(args) => (falsify::run(&args), args.format, args.quiet),
         Command::Errata(args) => (errata::run(&args), args.format, false),
+        Command::Constants(args) => (constants::run(&args), args.format, args.quiet),
         Command::Lyapunov(args) => (lyapunov::run(&args), args.format, false),
         Command::Bound(args) => (bound::run(&args), Format::Text, args.quiet),
         Command::New(args) => (write_files::new(&args), Format::Text, false),

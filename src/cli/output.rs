@@ -39,6 +39,11 @@ fn written(report: &dyn Readable, format: Format, extent: Extent) -> String {
     }
 }
 
+/// How much of a report is written: HTML and JSON are whole in any case.
+pub fn extent(format: Format, full: bool) -> Extent {
+    if full || !matches!(format, Format::Text | Format::Markdown) { Extent::Full } else { Extent::Short }
+}
+
 /// A report in the format that was asked for, short unless it is asked for whole.
 pub struct Shortened {
     text: String,
@@ -46,9 +51,9 @@ pub struct Shortened {
 }
 
 impl Shortened {
-    /// The report as it is written. HTML and JSON are whole in any case.
+    /// The report as it is written.
     pub fn new(report: &dyn Readable, format: Format, full: bool) -> Shortened {
-        if full || !matches!(format, Format::Text | Format::Markdown) {
+        if extent(format, full) == Extent::Full {
             return Shortened { text: written(report, format, Extent::Full), more: false };
         }
         // The blocks are made once: some of what they say is worked out as they are made.

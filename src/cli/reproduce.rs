@@ -1,16 +1,21 @@
 //! `sigmastar reproduce`.
 
 use super::args::{PartArg, ReproduceArgs};
+use super::constants;
 use super::failure::Failure;
 use super::files::Input;
 use super::output;
 use super::progress::Bar;
 use sigmastar_document::{Extent, Readable};
 use sigmastar_lang::plant::Plant;
+use sigmastar_lang::spec::Specification;
 use sigmastar_paper::reproduce::{FIGURE_FILES, Parts, ReproductionReport, ReproductionSettings, figures, reproduce};
 
 /// The plant of the paper's numerical example.
 const PAPER_PLANT: &str = include_str!("../../specs/plants/paper-example.json");
+
+/// The bounding functions that it is said to have.
+const PAPER_BOUNDS: &str = include_str!("../../specs/paper-example.json");
 
 /// Runs the command and returns the exit code.
 pub fn run(args: &ReproduceArgs) -> Result<u8, Failure> {
@@ -31,7 +36,9 @@ pub fn run(args: &ReproduceArgs) -> Result<u8, Failure> {
     bar.finish();
     let figures = if parts.figures { figures(&plant) } else { Vec::new() };
     args.replace.figures(&args.output, &figures, Input::None, "leave the figures out with --only")?;
-    let report = ReproductionReport { reproduction: &reproduction, figures: &figures };
+    let bounds = Specification::from_json("specs/paper-example.json", PAPER_BOUNDS)?;
+    let constants = if has(PartArg::Constants) { constants::beside(&bounds) } else { None };
+    let report = ReproductionReport { reproduction: &reproduction, figures: &figures, constants };
     let markdown = report.markdown(Extent::Full);
     let files = [
         ("report.json", output::json_text(&report.json())),

@@ -4,7 +4,7 @@ use super::edge::Drawn;
 use super::failure::Failure;
 use super::output::shown;
 use super::subject::Asked;
-use sigmastar_document::{Block, Made, Readable};
+use sigmastar_document::{Block, Extent, Made, Readable};
 use sigmastar_lang::spec::Document;
 use sigmastar_prove::certificate::{is_stated, read_for, stated_counts};
 use sigmastar_prove::certify::{NoRatesOfClaim, Options};
@@ -28,7 +28,7 @@ pub fn page(path: &Path, certificate: Document, words: String) -> Result<Option<
     if !is_stated(&run, &certificate) {
         return Ok(None);
     }
-    let report = run_report(&run, &[], Origin::Checked);
+    let report = run_report(&run, &[], Origin::Checked, Extent::Full);
     let drawn = Drawn::of(&run).map_or_else(|| Made::of(&*report), |drawn| drawn.in_front_of_the_rest(&*report));
     let mut blocks = drawn.blocks();
     let place = blocks.iter().position(|block| matches!(block, Block::Verdict(_))).map_or(0, |verdict| verdict + 1);

@@ -59,7 +59,7 @@ fn verdict(text: &str) -> Result<Verdict, TestCaseError> {
         let report = proofs_check::check(certificate.to_string().as_bytes());
         prop_assert_eq!(report.verdict, proofs_check::verdict::Verdict::Valid, "{}\n{}", report.text(false), text);
     }
-    let repaired = run.repaired.as_ref().and_then(Outcome::proved);
+    let repaired = run.constants().repaired.as_ref().and_then(Outcome::proved);
     prop_assert!(repaired.is_some(), "{}", text);
     if let Some(proof) = run.sharp.proved() {
         no_better_weights(proof.witness.sigma.to_f64(), run.checks.decay.as_ref(), text)?;

@@ -34,6 +34,7 @@ fn a_certificate_stands_for_its_specification() {
         &["sampling", "--sampling-period", "1/100"],
         &["tune", "--over", "mu", "--tries", "3"],
         &["errata"],
+        &["constants"],
     ] {
         let of = |file: &str| stdout(&[command, &[file]].concat());
         assert_eq!(of(OF_SPECIFICATION), of(SPECIFICATION), "{command:?}");

@@ -223,7 +223,7 @@ fn the_noise_is_never_within_the_stated_bound() {
 
 #[test]
 fn texts_are_plain() {
-    let (items, blocks) = (errata(None), ErrataReport::new(None).blocks());
+    let (items, blocks) = (errata(None), ErrataReport::new(None, None).blocks());
     // Two blocks for each item, below the title and the sentence at the top.
     assert_eq!(blocks.len(), 2 + 2 * items.len());
     for (item, blocks) in items.iter().zip(blocks[2..].chunks(2)) {

@@ -16,7 +16,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::OnceLock;
 
 /// How many blocks of each kind there are at least.
-const LEAST: [(&str, usize); 17] = [
+const LEAST: [(&str, usize); 18] = [
     ("bounding-spec", 1),
     ("bounding-spec-part", 10),
     ("plant", 2),
@@ -31,6 +31,7 @@ const LEAST: [(&str, usize); 17] = [
     ("check-fragment", 2),
     ("lyapunov-fragment", 1),
     ("errata-fragment", 1),
+    ("constants-fragment", 1),
     ("simulation-fragment", 1),
     ("falsification-fragment", 1),
     ("reproduction-fragment", 1),
@@ -355,6 +356,7 @@ fn written() -> &'static BTreeMap<&'static str, Vec<Value>> {
             ("tune-fragment", vec![other(&["tune", "-q", EXAMPLE, "--over", "mu", "--tries", "8"])]),
             ("lyapunov-fragment", vec![other(&["lyapunov", "specs/paper-example-jacobian.json"])]),
             ("errata-fragment", vec![other(&["errata"]), other(&["errata", "specs/linear.json"])]),
+            ("constants-fragment", vec![other(&["constants", EXAMPLE])]),
             ("controller", {
                 let parameters = ["controller", EXAMPLE, "--sigma", "48", "--n-o", "1"];
                 let certified = ["controller", VALID, "--n-o", "0", "--discretise", "1/1000", "--saturation", "9"];

@@ -165,6 +165,7 @@ fn reports_on_claims_are_pages() {
         (vec!["lyapunov", JACOBIAN], 0, [0, 0]),
         (vec!["lyapunov", PLANT], 0, [0, 0]),
         (vec!["errata", EXAMPLE], 0, [0, 0]),
+        (vec!["constants", EXAMPLE], 0, [0, 2]),
         (vec!["tune", EXAMPLE, "-q", "--over", "mu", "--tries", "8"], 0, [0, 0]),
     ]);
 }

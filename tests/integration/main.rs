@@ -14,6 +14,7 @@ mod check;
 mod chromium;
 mod cli_certificates;
 mod cli_certify;
+mod cli_constants;
 mod cli_force;
 mod cli_reports;
 mod cli_specs;

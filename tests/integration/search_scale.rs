@@ -34,7 +34,7 @@ fn tiny_gains_are_found() {
         let spec = spec(period, mu, "0", None);
         let sharp = sigma(&spec, TransferChoice::Best);
         let run = certify(&spec, Options::default()).unwrap();
-        let repaired = run.repaired.as_ref().unwrap().proved().expect("proved").witness.sigma.clone();
+        let repaired = run.constants().repaired.as_ref().unwrap().proved().expect("proved").witness.sigma.clone();
         assert!(sharp <= repaired, "T = {period}, mu = {mu}: {} {}", sharp.to_f64(), repaired.to_f64());
         // C5 alone sets sigma here, and it contains mu and no time but 1/alpha: about mu Nbar^2 times a number.
         let mu: f64 = mu.parse().unwrap();

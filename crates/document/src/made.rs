@@ -22,6 +22,16 @@ impl Made {
     pub fn of(report: &dyn Readable) -> Made {
         Made { blocks: report.blocks(), json: report.json() }
     }
+
+    /// Its blocks as a section of another report.
+    #[must_use]
+    pub fn as_section(&self) -> Vec<Block> {
+        let one = |block: Block| match block {
+            Block::Title(text) => Block::Heading(text),
+            block => block,
+        };
+        self.blocks().into_iter().map(one).collect()
+    }
 }
 
 impl Readable for Made {

@@ -1,11 +1,10 @@
 //! The report on a certification: what a person, or a script, reads about a run.
 
 use super::{
-    Origin, brief, conditions, consequences, constants, exact_regulation, for_n_o, gains, json, matrix_checks,
-    of_plant, printed, relative_degree, sensitivity, sets, verdict,
+    Origin, brief, conditions, consequences, constants, exact_regulation, for_n_o, gains, json, of_plant,
+    relative_degree, sensitivity, sets, verdict,
 };
-use sigmastar_document::{Block, Readable, clean};
-use sigmastar_lang::spec::InputGain;
+use sigmastar_document::{Block, Extent, Readable, clean};
 use sigmastar_prove::certify::Certification;
 use sigmastar_theory::derivation::consequences::MAX_OSCILLATORS;
 use sigmastar_theory::derivation::targets::{Consequences, Target};
@@ -16,17 +15,18 @@ pub(super) struct Report<'r> {
     consequences: Option<Consequences>,
     origin: Origin,
     unanswered: bool,
+    extent: Extent,
 }
 
 impl<'r> Report<'r> {
-    /// The report of a run, with answers to the targets.
+    /// The report of a run, with answers to the targets. For a short form the paper's constants are not worked out.
     ///
     /// Guarantee: the certified figures in it follow from the conditions that the run proved; without a certified
     /// claim there are none.
-    pub(super) fn new(run: &'r Certification<'r>, targets: &[Target], origin: Origin) -> Report<'r> {
+    pub(super) fn new(run: &'r Certification<'r>, targets: &[Target], origin: Origin, extent: Extent) -> Report<'r> {
         let consequences = run.consequences(targets);
         let unanswered = consequences.is_none() && !targets.is_empty();
-        Report { run, consequences, origin, unanswered }
+        Report { run, consequences, origin, unanswered, extent }
     }
 }
 
@@ -48,12 +48,8 @@ impl Readable for Report<'_> {
         blocks.extend(sets::section(run));
         blocks.extend(of_plant::section(run.spec, run.claimed_set()));
         blocks.extend(conditions::section(run));
-        blocks.extend(matrix_checks::section(run));
-        blocks.extend(constants::section(run));
-        // The printed formulas need data that are not computed from a plant's formulas, and know of no input gain.
-        let known_gain = run.spec.input_gain.as_ref().is_none_or(InputGain::is_nominal);
-        if run.spec.plant().is_none() && known_gain {
-            blocks.extend(printed::section(run, rechecked));
+        if self.extent == Extent::Full {
+            blocks.extend(constants::sections(run));
         }
         blocks.extend(sensitivity::section(run));
         blocks.extend(self.consequences.iter().flat_map(|all| consequences::section(run.spec, all)));

@@ -1,37 +1,104 @@
-//! The constants of the three derivations side by side.
+//! The paper's constants, printed and repaired, beside those of the claim; the matrix inequalities; what the printed formulas say.
 
+use super::failures::VERSION;
+use super::json::conditions_with_truth;
+use super::matrix_checks::{checks_json, section as matrix_inequalities};
+use super::verdict::sentence;
+use rug::Rational;
+use serde_json::{Value as Json, json};
 use sigmastar_document::number::{compact, estimate};
-use sigmastar_document::{Block, Table};
-use sigmastar_prove::certify::Certification;
+use sigmastar_document::{Block, Readable, Table, clean};
+use sigmastar_exact::number::write_exact;
+use sigmastar_lang::spec::InputGain;
+use sigmastar_prove::certificate::constants_json;
+use sigmastar_prove::certify::{Certification, Constants, Outcome, PrintedFigure};
 use sigmastar_theory::derivation::table::{At, Entry, Row, Status, Value};
 
+/// The report of `constants`, of a specification by bounds.
+pub struct ConstantsReport<'r> {
+    /// The run.
+    pub run: &'r Certification<'r>,
+}
+
+impl Readable for ConstantsReport<'_> {
+    fn blocks(&self) -> Vec<Block> {
+        let name = clean(&self.run.spec.name);
+        let name = if name.is_empty() { "(no name)" } else { &name };
+        let mut blocks = vec![Block::Title(format!("{name}: the paper's constants")), Block::says(sentence(self.run))];
+        blocks.extend(sections(self.run));
+        blocks
+    }
+
+    /// As JSON: `{"format": "sigmastar/constants", "version": 1, ...}`.
+    fn json(&self) -> Json {
+        let run = self.run;
+        let mut report = json!({
+            "format": "sigmastar/constants", "version": VERSION, "verdict": run.verdict.to_string(),
+            "specification": { "name": run.spec.name, "sha256": run.spec.sha256 },
+        });
+        for (name, value) in parts_json(run) {
+            report[name] = value;
+        }
+        report
+    }
+}
+
+/// The constants of a run; none of a plant, for they are about bounding functions.
+fn of_bounds<'r>(run: &'r Certification<'_>) -> Option<&'r Constants> {
+    run.spec.plant().is_none().then(|| run.constants())
+}
+
+/// The matrix inequalities, the constants, and what the printed formulas say; of a plant the first alone.
+pub(super) fn sections(run: &Certification<'_>) -> Vec<Block> {
+    let constants = of_bounds(run);
+    let mut blocks = matrix_inequalities(&run.checks, constants.and_then(|known| known.sylvester.as_ref()));
+    if let Some(constants) = constants {
+        blocks.extend(tables(&constants.rows));
+        // They know of no input gain.
+        if run.spec.input_gain.as_ref().is_none_or(InputGain::is_nominal) {
+            blocks.extend(printed(run, &constants.printed));
+        }
+    }
+    blocks
+}
+
+/// The same as JSON, by the names of the fields.
+pub(super) fn parts_json(run: &Certification<'_>) -> [(&'static str, Json); 4] {
+    fn of<P>(outcome: &Outcome<P>, sigma: impl Fn(&P) -> &Rational) -> Json {
+        match outcome {
+            Outcome::Proved(proof) => json!({ "outcome": "proved", "sigma": write_exact(sigma(proof)) }),
+            Outcome::NotProved { failing, .. } => {
+                json!({ "outcome": "not proved", "failing": conditions_with_truth(failing) })
+            }
+            Outcome::NotFound(obstacle) => json!({ "outcome": "not found", "obstacle": obstacle.describe() }),
+        }
+    }
+    let constants = of_bounds(run);
+    let repaired = constants
+        .and_then(|known| known.repaired.as_ref())
+        .map_or_else(|| json!({ "outcome": "skipped" }), |repaired| of(repaired, |proof| &proof.witness.sigma));
+    [
+        ("matrix_inequalities", checks_json(&run.checks, constants.and_then(|known| known.sylvester.as_ref()))),
+        ("derivations", json!({ "sharp": of(&run.sharp, |proof| &proof.witness.sigma), "repaired": repaired })),
+        ("constants", constants_json(constants.map_or(&[], |known| &known.rows))),
+        ("printed", printed_json(constants.map_or(&PrintedFigure::default(), |known| &known.printed))),
+    ]
+}
+
 /// The tables, one for each place of evaluation, with notes and sources.
-pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
-    let has_entry = |row: &&Row| [&row.printed, &row.repaired, &row.sharp].iter().any(|entry| entry.is_some());
-    let rows: Vec<&Row> = run.constants.iter().filter(has_entry).collect();
+fn tables(rows: &[Row]) -> Vec<Block> {
     if rows.is_empty() {
         return Vec::new();
     }
-    // A plant has those of the sharp derivation alone.
-    let alone = rows.iter().all(|row| row.printed.is_none() && row.repaired.is_none());
-    let title = if alone { "Constants" } else { "Constants in the three derivations" };
-    let rounded = "Rounded to the nearest digits shown; [lower, upper] where the enclosure is wider than these. The full enclosures are in the \
-                   certificate and in the JSON report.";
-    let marks = "(!) marks a printed value that is not sound, (none) one whose defining condition has no solution. p/s is printed/sharp and r/s \
-                 is repaired/sharp, both estimates.";
-    let legend = if alone { rounded.to_owned() } else { format!("{rounded} {marks}") };
-    let mut blocks = vec![Block::Aside(title.to_owned()), Block::says(legend)];
+    let legend = "Rounded to the nearest digits shown; [lower, upper] where the enclosure is wider than these. The full enclosures are in the \
+                  certificate and in the JSON report. (!) marks a printed value that is not sound, (none) one whose defining condition has no \
+                  solution. p/s is printed/sharp and r/s is repaired/sharp, both estimates.";
+    let mut blocks = vec![Block::Aside("Constants in the three derivations".to_owned()), Block::says(legend)];
     let mut notes = Vec::new();
     for at in [At::Data, At::Common, At::Own] {
-        let columns = ["<", "printed", "repaired", "sharp", "p/s", "r/s"];
-        let mut table = if alone { Table::new(&["<", "value"]) } else { Table::new(&columns) };
+        let mut table = Table::new(&["<", "printed", "repaired", "sharp", "p/s", "r/s"]);
         for row in rows.iter().filter(|row| row.at == at) {
-            let [name, printed, repaired, sharp, by_printed, by_repaired] = cells(row, &mut notes);
-            if alone {
-                table.push([name, sharp]);
-            } else {
-                table.push([name, printed, repaired, sharp, by_printed, by_repaired]);
-            }
+            table.push(cells(row, &mut notes));
         }
         if !table.rows.is_empty() {
             blocks.push(Block::Subheading(heading(at).to_owned()));
@@ -44,7 +111,7 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
     }
     blocks.push(Block::Subheading("Sources (P: labels of the paper; sections of the derivation)".to_owned()));
     let mut sources = Vec::new();
-    for row in &rows {
+    for row in rows {
         collect(&mut sources, &source(row), row.name.clone());
     }
     blocks.push(listed(sources));
@@ -122,4 +189,50 @@ fn source(row: &Row) -> String {
     let parts: Vec<String> =
         parts.iter().map(|(source, derivations)| format!("{source} ({})", derivations.join(", "))).collect();
     parts.join("; ")
+}
+
+/// Why the printed derivation gives nothing, and the figure that its other conditions would give.
+fn printed(run: &Certification<'_>, printed: &PrintedFigure) -> Vec<Block> {
+    let mut items = Vec::new();
+    match &printed.refutation {
+        Some(reason) => items.push(format!("{reason}.")),
+        None => items.push("P:eq:boundx_bounde_1 was not refuted at this precision.".to_owned()),
+    }
+    if let Some(sigma) = &printed.sigma {
+        let factor = run.sharp.proved().map_or_else(String::new, |proof| {
+            let factor = sigma.midpoint_f64() / proof.witness.sigma.to_f64();
+            format!(", about {} times the sharp one", estimate(factor))
+        });
+        items.push(format!(
+            "Without that condition, the other printed conditions would give sigma* = {}{factor}. This is no theorem: \
+             several of the formulas are unsound.",
+            compact(sigma)
+        ));
+    } else if printed.evaluation.is_some() {
+        let reasons: Vec<String> = named_reasons(printed).map(|(name, reason)| format!("{name}: {reason}")).collect();
+        let reasons = if reasons.is_empty() { "their figures are not finite".to_owned() } else { reasons.join("; ") };
+        items.push(format!("Without that condition, the other printed conditions give no sigma* either ({reasons})."));
+    } else if !run.options.compare {
+        items.push("Its other conditions were not searched.".to_owned());
+    } else {
+        items.push(
+            "Without that condition, no free numbers were found that satisfy the other printed conditions either."
+                .to_owned(),
+        );
+    }
+    vec![Block::Aside("What the printed formulas say".to_owned()), Block::List(items)]
+}
+
+/// Why the printed formulas give no figure, by the names of their two parts.
+fn named_reasons(printed: &PrintedFigure) -> impl Iterator<Item = (&'static str, String)> {
+    let parts = printed.evaluation.iter().flat_map(|of| [("sigma_p*", &of.sigma_p), ("sigma_a*", &of.sigma_a)]);
+    parts.filter_map(|(name, value)| Some((name, value.as_ref().err()?.to_string())))
+}
+
+fn printed_json(printed: &PrintedFigure) -> Json {
+    json!({
+        "refutation": printed.refutation.as_ref().map(ToString::to_string),
+        "sigma_without_it": printed.sigma.as_ref().map(|sigma| sigma.decimals()),
+        "reasons": named_reasons(printed).map(|(_, reason)| reason).collect::<Vec<_>>(),
+    })
 }

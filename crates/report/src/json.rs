@@ -1,25 +1,24 @@
 //! The report on a certification as JSON.
 
+use super::constants::parts_json;
 use super::failures::{FORMAT, VERSION, errors_json};
 use super::for_n_o::rates_json;
 use super::gains::rows_json;
 use super::limits;
-use super::matrix_checks::checks_json;
 use super::obstacles::advice;
 use super::of_plant::plant_json;
 use super::relative_degree::gains_json;
 use super::remarks::remarks;
 use super::sensitivity;
 use super::verdict::{basis, sentence};
-use rug::Rational;
 use serde_json::{Value, json};
 use sigmastar_document::number::{estimate, full};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::write_exact;
 use sigmastar_lang::spec::{InputGain, Specification};
 use sigmastar_propose::search::{Binding, OptionalDatum};
-use sigmastar_prove::certificate::{conditions_json, constants_json, no_plant_json, set_fields};
-use sigmastar_prove::certify::{Certification, Outcome, Verdict};
+use sigmastar_prove::certificate::{conditions_json, no_plant_json, set_fields};
+use sigmastar_prove::certify::{Certification, Verdict};
 use sigmastar_theory::derivation::condition::Condition;
 use sigmastar_theory::derivation::consequences::ErrorBounds;
 use sigmastar_theory::derivation::control::Control;
@@ -60,13 +59,9 @@ pub(super) fn report(run: &Certification<'_>, consequences: Option<&Consequences
     if run.verdict != Verdict::Certified {
         report["advice"] = json!(advice(run, rechecked));
     }
-    for (name, value) in [
-        ("conditions", conditions_with_truth(run.conditions())),
-        ("matrix_inequalities", checks_json(run)),
-        ("derivations", derivations(run)),
-        ("constants", constants_json(&run.constants)),
+    report["conditions"] = conditions_with_truth(run.conditions());
+    for (name, value) in parts_json(run).into_iter().chain([
         ("plant", plant_json(run.spec, run.claimed_set())),
-        ("printed", printed(run)),
         ("binding", json!(run.binding.map(Binding::describe))),
         (
             "binding_advice",
@@ -83,7 +78,7 @@ pub(super) fn report(run: &Certification<'_>, consequences: Option<&Consequences
         ("gains", rows_json(&run.gains)),
         ("exact_regulation", exact_regulation(run)),
         ("relative_degree", gains_json(run)),
-    ] {
+    ]) {
         report[name] = value;
     }
     if let Some(rates) = rates_json(&run.for_n_o, &run.why_no_rate()) {
@@ -128,41 +123,6 @@ pub(super) fn conditions_with_truth(conditions: &[Condition]) -> Value {
         item["truth"] = json!(condition.truth().to_string());
     }
     list
-}
-
-/// What came of each derivation.
-fn derivations(run: &Certification<'_>) -> Value {
-    fn of<P>(outcome: &Outcome<P>, sigma: impl Fn(&P) -> &Rational) -> Value {
-        match outcome {
-            Outcome::Proved(proof) => json!({ "outcome": "proved", "sigma": write_exact(sigma(proof)) }),
-            Outcome::NotProved { failing, .. } => {
-                json!({ "outcome": "not proved", "failing": conditions_with_truth(failing) })
-            }
-            Outcome::NotFound(obstacle) => json!({ "outcome": "not found", "obstacle": obstacle.describe() }),
-        }
-    }
-    json!({
-        "sharp": of(&run.sharp, |proof| &proof.witness.sigma),
-        "repaired": run.repaired.as_ref().map_or_else(
-            || json!({ "outcome": "skipped" }),
-            |repaired| of(repaired, |proof| &proof.witness.sigma),
-        ),
-    })
-}
-
-fn printed(run: &Certification<'_>) -> Value {
-    let printed = &run.printed;
-    let reasons: Vec<String> = printed
-        .evaluation
-        .iter()
-        .flat_map(|evaluation| [&evaluation.sigma_p, &evaluation.sigma_a])
-        .filter_map(|value| value.as_ref().err().map(ToString::to_string))
-        .collect();
-    json!({
-        "refutation": printed.refutation.as_ref().map(ToString::to_string),
-        "sigma_without_it": printed.sigma.as_ref().map(|sigma| sigma.decimals()),
-        "reasons": reasons,
-    })
 }
 
 /// The optional data with the estimate of sigma* without each; null where none is found.

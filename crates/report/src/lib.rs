@@ -26,7 +26,6 @@ mod obstacles;
 mod of_plant;
 mod orbit;
 mod origin;
-mod printed;
 mod relative_degree;
 mod remarks;
 mod run;
@@ -37,6 +36,7 @@ mod transfer;
 mod verdict;
 mod words;
 
+pub use constants::ConstantsReport;
 pub use failures::{call_failure_json, failure_json};
 pub use lyapunov::LyapunovReport;
 pub use orbit::OrbitReport;

@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use sigmastar_document::number::{exact, pair};
 use sigmastar_document::{Block, Table};
 use sigmastar_exact::number::{Direction, Portable, round_f64, write_exact};
-use sigmastar_prove::certify::Certification;
+use sigmastar_prove::certify::{MatrixChecks, SylvesterCheck};
 use sigmastar_prove::lmi::{CrossCheck, SigmaBothWays};
 
 /// The solver's figure in as many digits as it gives on every machine.
@@ -56,9 +56,8 @@ fn compared(figures: &SigmaBothWays, contradiction: bool) -> String {
     format!("{verdict}: the relative difference is below {}", order_of_magnitude(figures.relative_difference))
 }
 
-/// The section.
-pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
-    let checks = &run.checks;
+/// The section, with R of the repaired derivation where that is proved.
+pub(super) fn section(checks: &MatrixChecks, sylvester: Option<&SylvesterCheck>) -> Vec<Block> {
     let mut items = Vec::new();
     match &checks.decay {
         Some(Ok(check)) => items.extend(decay_items(check)),
@@ -86,13 +85,13 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
         )
     }));
     let mut blocks = Vec::new();
-    if !items.is_empty() || checks.sylvester.is_some() {
+    if !items.is_empty() || sylvester.is_some() {
         blocks.push(Block::heading("Matrix inequalities"));
     }
     if !items.is_empty() {
         blocks.push(Block::List(items));
     }
-    if let Some(check) = &checks.sylvester {
+    if let Some(check) = sylvester {
         let verdict = if check.is_positive_definite() { "R is positive definite" } else { "nothing is proved of R" };
         blocks.push(Block::says(format!(
             "Sylvester's criterion for R of the repaired derivation, with entries rounded to its disadvantage; the minors are \
@@ -119,8 +118,7 @@ fn figures_json(figures: &SigmaBothWays) -> Value {
 }
 
 /// The checks by matrices as JSON.
-pub(super) fn checks_json(run: &Certification<'_>) -> Value {
-    let checks = &run.checks;
+pub(super) fn checks_json(checks: &MatrixChecks, sylvester: Option<&SylvesterCheck>) -> Value {
     let list = |values: &[Rational]| Value::Array(values.iter().map(|value| json!(write_exact(value))).collect());
     let decay = checks.decay.as_ref().map(|decay| match decay {
         Ok(check) => {
@@ -142,7 +140,7 @@ pub(super) fn checks_json(run: &Certification<'_>) -> Value {
             "stein_diagonal": check.stein.as_deref().map(list),
         })
     });
-    let sylvester = checks.sylvester.as_ref().map(|check| {
+    let sylvester = sylvester.map(|check| {
         json!({
             "R": Value::Array(check.rows.iter().map(|row| list(row)).collect()),
             "leading_minors": list(&check.minors),

@@ -5,15 +5,15 @@ use super::certification::Report;
 use super::remarks::{remarks, sampled_remarks};
 use super::sampled::{self, SampledReport};
 use super::verdict::sentence;
-use sigmastar_document::Readable;
+use sigmastar_document::{Extent, Readable};
 use sigmastar_prove::reduction::Run;
 use sigmastar_theory::derivation::targets::Target;
 
-/// The report of a run, with answers to the targets.
+/// The report of a run, with answers to the targets; for a short one not all of the whole one is worked out.
 #[must_use]
-pub fn run_report<'r>(run: &'r Run<'r>, targets: &[Target], origin: Origin) -> Box<dyn Readable + 'r> {
+pub fn run_report<'r>(run: &'r Run<'r>, targets: &[Target], origin: Origin, extent: Extent) -> Box<dyn Readable + 'r> {
     match run {
-        Run::Continuous(run) => Box::new(Report::new(run, targets, origin)),
+        Run::Continuous(run) => Box::new(Report::new(run, targets, origin, extent)),
         Run::Sampled(run) => Box::new(SampledReport::new(run, targets, origin)),
     }
 }

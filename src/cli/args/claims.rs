@@ -225,6 +225,22 @@ pub struct ErrataArgs {
     pub format: Format,
 }
 
+/// The flags of `constants`.
+#[derive(Args, Debug)]
+pub struct ConstantsArgs {
+    /// Bounding specification (.json, .jsonc, .toml), or a certificate of one, or `-` for standard input
+    #[arg(value_name = "SPEC", value_hint = ValueHint::FilePath)]
+    pub spec: PathBuf,
+
+    /// Format of the table
+    #[arg(long, value_enum, value_name = "NAME", default_value_t = Format::Text)]
+    pub format: Format,
+
+    /// No remarks on standard error; errors are still shown
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
 /// The flags of `lyapunov`.
 #[derive(Args, Debug)]
 pub struct LyapunovArgs {

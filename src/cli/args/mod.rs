@@ -6,7 +6,9 @@ mod files;
 mod regulator;
 mod studies;
 
-pub use claims::{BoundArgs, CertifyArgs, CheckArgs, ErrataArgs, LyapunovArgs, SamplingArgs, TransferArgs};
+pub use claims::{
+    BoundArgs, CertifyArgs, CheckArgs, ConstantsArgs, ErrataArgs, LyapunovArgs, SamplingArgs, TransferArgs,
+};
 pub use files::{ConvertArgs, NewArg, NewArgs, SchemaArgs};
 pub use regulator::{ControllerArgs, FalsifyArgs, PartArg, RegulatorForm, ReproduceArgs, SimulateArgs};
 pub use studies::{SweepArgs, TuneArgs, TuneGoal};
@@ -186,6 +188,12 @@ pub enum Command {
     ///
     /// With a specification, also says what each item means for it.
     Errata(ErrataArgs),
+    /// The paper's constants for a bounding specification, printed and repaired, beside the proved ones
+    ///
+    /// Every formula of the paper as it is printed, with the smallest sound repair, and as it is in the proof of the claim; Sylvester's
+    /// criterion, the spectral radius and the matrix inequalities beside them. The same table is in `certify --full`.
+    #[command(after_long_help = EXIT_CODES)]
+    Constants(ConstantsArgs),
     /// Find and prove the Lyapunov triple of a Jacobian, or the orbit of a plant
     ///
     /// Prints P, the triple that is proved for every t, and the Floquet exponents (floating point) beside. Of a plant: the

@@ -278,6 +278,8 @@ pub enum PartArg {
     Noise,
     /// The five figures
     Figures,
+    /// The constants for the bounds of the example, printed and repaired, beside the proved ones
+    Constants,
 }
 
 /// A form of the regulator.

@@ -2,20 +2,21 @@
 
 use crate::errata::{Erratum, Side, errata};
 use serde_json::{Value, json};
-use sigmastar_document::{Block, Readable, clean};
+use sigmastar_document::{Block, Made, Readable, clean};
 use sigmastar_lang::spec::Specification;
 
 /// The list of errata, with what each item means for a specification where one is given.
 pub struct ErrataReport {
     name: Option<String>,
     items: Vec<Erratum>,
+    constants: Option<Made>,
 }
 
 impl ErrataReport {
-    /// Works the list out.
+    /// Works the list out; with the report on the paper's constants for the specification behind it, where there is one.
     #[must_use]
-    pub fn new(spec: Option<&Specification>) -> ErrataReport {
-        ErrataReport { name: spec.map(|spec| clean(&spec.name)), items: errata(spec) }
+    pub fn new(spec: Option<&Specification>, constants: Option<Made>) -> ErrataReport {
+        ErrataReport { name: spec.map(|spec| clean(&spec.name)), items: errata(spec), constants }
     }
 }
 
@@ -40,13 +41,17 @@ impl Readable for ErrataReport {
             facts.extend(item.for_data.iter().map(|for_data| ("for this specification", for_data.to_string())));
             blocks.push(Block::facts(facts));
         }
+        blocks.extend(self.constants.iter().flat_map(Made::as_section));
         blocks
     }
 
     /// As JSON: `{"format": "sigmastar/errata", "version": 1, "errata": [...]}`.
     fn json(&self) -> Value {
         let items: Vec<Value> = self.items.iter().map(item_json).collect();
-        json!({ "format": "sigmastar/errata", "version": 1, "specification": self.name, "errata": items })
+        json!({
+            "format": "sigmastar/errata", "version": 1, "specification": self.name, "errata": items,
+            "constants": self.constants.as_ref().map(Readable::json),
+        })
     }
 }
 

@@ -4,7 +4,7 @@ use super::printed::PrintedTable;
 use super::run::{ComputedRow, NoiseRange, Reproduction, units};
 use serde_json::{Value, json};
 use sigmastar_document::plot::Figure;
-use sigmastar_document::{Block, Readable, Table};
+use sigmastar_document::{Block, Made, Readable, Table};
 use sigmastar_lab::simulate::Noise;
 
 /// The report on the reproduction. Deviations are in units of the last printed place, after rounding to it.
@@ -13,11 +13,13 @@ pub struct ReproductionReport<'r> {
     pub reproduction: &'r Reproduction,
     /// Its figures, each with the name of its file.
     pub figures: &'r [(&'static str, Figure)],
+    /// The report on the paper's constants for its example, where it is wanted.
+    pub constants: Option<Made>,
 }
 
 impl Readable for ReproductionReport<'_> {
     fn blocks(&self) -> Vec<Block> {
-        let ReproductionReport { reproduction, figures } = self;
+        let ReproductionReport { reproduction, figures, constants } = self;
         let mut blocks = vec![
             Block::Title("The paper's numerical section, computed again".to_owned()),
             Block::says(
@@ -51,17 +53,19 @@ impl Readable for ReproductionReport<'_> {
             blocks.push(Block::Figures(names(figures)));
             blocks.extend(figures.iter().map(|(_, figure)| Block::Drawing(figure.clone())));
         }
+        blocks.extend(constants.iter().flat_map(Made::as_section));
         blocks
     }
 
     /// As JSON: `{"format": "sigmastar/reproduction", "version": 1, ...}`: every cell as printed, computed, and apart.
     fn json(&self) -> Value {
-        let ReproductionReport { reproduction, figures } = self;
+        let ReproductionReport { reproduction, figures, constants } = self;
         let rows: Vec<Value> = reproduction.rows.iter().map(row_json).collect();
         json!({
             "format": "sigmastar/reproduction", "version": 1,
             "seeds": reproduction.settings.seeds, "noise_steps": reproduction.settings.noise_steps,
             "rows": rows, "largest_noise": reproduction.largest_noise, "figures": names(figures),
+            "constants": constants.as_ref().map(Readable::json),
         })
     }
 }

@@ -6,7 +6,7 @@ use super::of_plant::plant_parts;
 use super::rates::{claimed_rates, rate_witnesses};
 use super::triple::lyapunov_parts;
 use super::words::statement;
-use crate::certify::{Certification, Outcome, claimed_ball};
+use crate::certify::{Certification, Constants, Outcome, claimed_ball};
 use rug::{Integer, Rational};
 use serde_json::{Map, Value};
 use sigmastar_decide::conditions::{Decided, ExceededBy, NoPlant, Proof, Witness};
@@ -59,6 +59,10 @@ static LEAST_WRITTEN: LazyLock<Rational> =
 /// again without any search. No time stamps and no paths.
 #[must_use]
 pub fn certificate_json(run: &Certification<'_>) -> Option<Value> {
+    run.claim()?;
+    // The numbers of the claim are written at the precision of the table of constants.
+    let constants @ Constants { sharp, repaired, .. } = run.constants();
+    let run = &Certification { sharp: sharp.clone(), ..run.clone() };
     let claimed = run.claim()?;
     let (sigma, set) = (claimed.sigma, claimed.set);
     let spec = run.spec;
@@ -94,7 +98,7 @@ pub fn certificate_json(run: &Certification<'_>) -> Option<Value> {
     let parts = refined.into_iter().chain(regulation).chain([paths_json(proof.witness.paths)]).chain(of_data);
     let witness = with_witness(proof, parts.chain(rate_witnesses(&run.for_n_o)));
     // The free numbers of the repaired derivation, without which its column of the constants could not be checked.
-    let comparison = run.repaired.as_ref().and_then(Outcome::proved).map(|proof| {
+    let comparison = repaired.as_ref().and_then(Outcome::proved).map(|proof| {
         let RepairedWitness { sigma, set, .. } = &proof.witness;
         let witness = with_witness(proof, None);
         let part = [("sigma_star", exact(sigma)), ("initial_set", object(set_fields(set))), ("witness", witness)];
@@ -108,7 +112,7 @@ pub fn certificate_json(run: &Certification<'_>) -> Option<Value> {
         .collect();
     let no_plant = run.no_plant.as_ref().map(|reason| ("no_plant", no_plant_json(reason)));
     let decided =
-        [("conditions", conditions_json(&conditions)), ("constants", constants_json(&checkable(&run.constants)))];
+        [("conditions", conditions_json(&conditions)), ("constants", constants_json(&checkable(&constants.rows)))];
     let file = file(spec, claimed.precision, claim, witness).into_iter();
     Some(object(file.chain(no_plant).chain(comparison).chain(decided)))
 }

@@ -1,5 +1,6 @@
 //! What a run found out.
 
+use super::constants::Constants;
 use super::gain_row::{GainRow, RowNoise};
 use super::matrix_checks::MatrixChecks;
 use super::options::{Limits, Options};
@@ -9,7 +10,7 @@ use crate::rate::found::RateForCount;
 use rug::Rational;
 use sigmastar_decide::conditions::BoundingProblem;
 use sigmastar_decide::conditions::NoPlant;
-use sigmastar_decide::conditions::{Decided, Proof, RepairedProof, SharpProof};
+use sigmastar_decide::conditions::{Decided, Proof, SharpProof};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_lang::spec::model::Specification;
 use sigmastar_propose::search::{Binding, Datum, Failing, Obstacle, OptionalDatum};
@@ -21,7 +22,7 @@ use sigmastar_theory::derivation::initial_set::ClaimedSet;
 use sigmastar_theory::derivation::printed::{Infeasible, PrintedEvaluation};
 use sigmastar_theory::derivation::relative_degree::RelativeDegreeError;
 use sigmastar_theory::derivation::sharp::SharpEvaluation;
-use sigmastar_theory::derivation::table::Row;
+use std::sync::OnceLock;
 
 /// What the printed formulas say about the data; nothing where the data are those of a plant's formulas.
 #[derive(Clone, Debug, Default)]
@@ -84,10 +85,6 @@ pub struct Certification<'s> {
     pub sharp: Outcome<SharpProof>,
     /// At a gain that is given, of a document with noise or a disturbance: a proof whose error box has more room than that of the claim.
     pub(crate) roomy: Option<Box<SharpProof>>,
-    /// The repaired derivation, where it was worked out for comparison.
-    pub repaired: Option<Outcome<RepairedProof>>,
-    /// The printed one, for comparison.
-    pub printed: PrintedFigure,
     /// k_inf and k_2, when the specification has a relative degree, or why there are none.
     pub relative_degree: Option<Result<RelativeDegreeGains, RelativeDegreeError>>,
     /// Exact regulation, when the base frequency is matched and a claim was proved.
@@ -115,15 +112,21 @@ pub struct Certification<'s> {
     pub noise_of_rows: Vec<RowNoise>,
     /// Bounding functions that were neither proved nor refuted.
     pub unproved_bounds: Vec<BoundingProblem>,
-    /// Every constant in the three derivations.
-    pub constants: Vec<Row>,
+    /// [`Certification::constants`], once it was asked for.
+    pub(crate) constants: OnceLock<Constants>,
     /// For each number of oscillators that was asked about its rate at the gain of the claim.
     pub for_n_o: Vec<RateForCount>,
-    /// The working precision of the table.
+    /// The precision at which the numbers of the claim are known well.
     pub precision: u32,
 }
 
 impl Certification<'_> {
+    /// The paper's constants beside those of the claim; worked out the first time that they are asked for.
+    #[must_use]
+    pub fn constants(&self) -> &Constants {
+        self.constants.get_or_init(|| Constants::of(self))
+    }
+
     /// What was decided, proved or not; `None` where there was no witness.
     #[must_use]
     pub fn attempt(&self) -> Option<Decided<'_>> {

@@ -1,15 +1,24 @@
-//! What is reported of a proof beside its claim, at a precision at which it is known well.
+//! The paper's constants, printed and repaired, beside those of a claim: one table, worked out where it is asked for, at a precision at
+//! which its numbers are known well.
 
-use super::certification::{ExactClaim, PrintedFigure};
+use super::certification::{Certification, PrintedFigure};
+use super::matrix_checks::SylvesterCheck;
 use super::outcome::Outcome;
+use super::pool::model;
+use super::produce::proved_up_to_arguments;
+use super::round::{TransferKind, round_repaired};
 use rug::Rational;
 use sigmastar_decide::conditions::Ladder;
 use sigmastar_decide::conditions::decide;
 use sigmastar_decide::conditions::{Decided, Proof, RepairedProof, SharpProof, Witness};
 use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_exact::number::{Direction, round_f64};
 use sigmastar_lang::spec::model::Specification;
+use sigmastar_propose::search::{FloatModel, search_printed, search_repaired};
 use sigmastar_theory::data::Data;
+use sigmastar_theory::derivation::printed::{PrintedEvaluation, level_condition};
 use sigmastar_theory::derivation::table::{At, Row, TableInput, Value, table};
+use sigmastar_theory::transfer::printed_transfer;
 
 /// Binary digits that a reported number has, where the precision allows it.
 const DIGITS: u32 = 56;
@@ -17,59 +26,137 @@ const DIGITS: u32 = 56;
 /// The most bits that are spent on that: a number that is 0, and not exactly so, is never known to any digit.
 const FINEST: u32 = 512;
 
-/// What the table of constants is made from.
-pub(super) struct Columns<'a> {
-    pub(super) sharp: Outcome<SharpProof>,
-    pub(super) repaired: Option<Outcome<RepairedProof>>,
-    pub(super) printed: &'a PrintedFigure,
-    pub(super) exact: Option<&'a ExactClaim>,
+/// The paper's constants beside those of a claim.
+#[derive(Clone, Debug)]
+pub struct Constants {
+    /// The derivation of the claim, at the precision of the table.
+    pub sharp: Outcome<SharpProof>,
+    /// The repaired derivation; none where it does not apply, or nothing is compared.
+    pub repaired: Option<Outcome<RepairedProof>>,
+    /// What the printed formulas say.
+    pub printed: PrintedFigure,
+    /// Sylvester's criterion for R of the repaired derivation.
+    pub sylvester: Option<SylvesterCheck>,
+    /// Every constant; of a plant those of the claim alone, and none without a proof.
+    pub rows: Vec<Row>,
 }
 
-/// The table of constants, and the precision at which it was evaluated.
-pub(super) struct Table {
-    pub(super) precision: u32,
-    pub(super) rows: Vec<Row>,
-}
-
-impl Columns<'_> {
-    /// The proofs and the table, evaluated again at a doubled precision up to [`FINEST`] while a number is not known to
-    /// [`DIGITS`]: where a bounding function cancels, fewer bits decide a condition than tell its sides.
+impl Constants {
+    /// Searches and decides what is compared, and evaluates the table; proofs are decided again at a doubled precision up to [`FINEST`]
+    /// while a number is not known to [`DIGITS`]: where a bounding function cancels, fewer bits decide a condition than tell its sides.
     ///
     /// Guarantee: a proof stays one; an evaluation is replaced only by one of more bits that is proved too.
-    pub(super) fn evaluated(mut self, spec: &Specification, start: u32, ladder: Ladder) -> (Self, Table) {
-        let mut precision = start;
-        let finest = FINEST.min(ladder.limit);
-        loop {
-            let rows = constants(&Data::new(spec, precision), &self);
-            if precision >= finest || !self.is_rough(&rows) {
-                return (self, Table { precision, rows });
-            }
-            precision = (2 * precision).min(finest);
-            let ladder = Ladder { start: precision, ..ladder };
-            raise(&mut self.sharp, spec, ladder);
-            self.repaired.iter_mut().for_each(|outcome| raise(outcome, spec, ladder));
-        }
+    pub(super) fn of(run: &Certification<'_>) -> Constants {
+        let (spec, ladder) = (run.spec, run.options.ladder);
+        let data = Data::new(spec, ladder.start.max(53));
+        let (repaired, printed) = compared(run, &data);
+        let sylvester = repaired.as_ref().and_then(Outcome::proved).and_then(|proof| SylvesterCheck::new(spec, proof));
+        let mut all = Constants { sharp: run.sharp.clone(), repaired, printed, sylvester, rows: Vec::new() };
+        let exact = run.exact.as_ref().map(|claim| claim.witness.sigma.clone());
+        known_well(run.precision, ladder, |ladder| {
+            raise(&mut all.sharp, spec, ladder);
+            all.repaired.iter_mut().for_each(|outcome| raise(outcome, spec, ladder));
+            all.rows = all.evaluated(&Data::new(spec, ladder.start), exact.clone());
+            !all.is_rough()
+        });
+        all
     }
 
     fn repaired_proof(&self) -> Option<&RepairedProof> {
         self.repaired.as_ref().and_then(Outcome::proved)
     }
 
-    fn is_rough(&self, rows: &[Row]) -> bool {
+    /// The table, at the witness of the claim; nothing where that is not proved, and with an input gain or an interval of the period, of
+    /// which the formulas that are compared know nothing.
+    fn evaluated(&self, data: &Data<'_>, sigma_exact: Option<Rational>) -> Vec<Row> {
+        let known = data.input_gain.is_none() && data.spec.period.interval().is_none();
+        let Some(sharp) = self.sharp.proved().filter(|_| known) else { return Vec::new() };
+        let rows = table(&TableInput {
+            data,
+            sharp: (&sharp.witness, &sharp.evaluation),
+            repaired: self.repaired_proof().map(|proof| (&proof.witness, &proof.evaluation)),
+            printed: self.printed.evaluation.as_ref(),
+            printed_sigma: self.printed.sigma.clone(),
+            sigma_exact,
+        });
+        if data.spec.plant().is_some() { rows.into_iter().filter_map(of_a_plant).collect() } else { rows }
+    }
+
+    fn is_rough(&self) -> bool {
         // What the printed formulas say at free numbers of their own is evaluated once, and not stored.
         let printed = |row: &Row| row.printed.clone().filter(|_| row.at != At::Own);
-        let cells = rows.iter().flat_map(|row| [printed(row), row.repaired.clone(), row.sharp.clone()]).flatten();
+        let cells = self.rows.iter().flat_map(|row| [printed(row), row.repaired.clone(), row.sharp.clone()]).flatten();
         let mut numbers = cells.filter_map(|cell| match cell.value {
             Value::Number(value) => Some(value),
             Value::Span(_) | Value::Infeasible(_) | Value::Unavailable(_) => None,
         });
         let proofs = [self.sharp.proved().map(Proof::decided), self.repaired_proof().map(Proof::decided)];
-        let unknown = |proof: Decided<'_>| {
-            let [x_per, e_per, _] = proof.periodic;
-            rough(x_per) || rough(e_per) || proof.conditions.iter().any(|c| rough(&c.lhs) || rough(&c.rhs))
-        };
-        numbers.any(|number| rough(&number)) || proofs.into_iter().flatten().any(unknown)
+        numbers.any(|number| rough(&number)) || proofs.iter().flatten().any(is_rough)
     }
+}
+
+/// A proof at a precision at which its sides and its periodic solution are known to [`DIGITS`], and that precision.
+pub(super) fn refined(
+    mut sharp: Outcome<SharpProof>,
+    spec: &Specification,
+    ladder: Ladder,
+) -> (Outcome<SharpProof>, u32) {
+    let precision = known_well(ladder.start.max(53), ladder, |ladder| {
+        raise(&mut sharp, spec, ladder);
+        !sharp.proved().map(Proof::decided).is_some_and(|proof| is_rough(&proof))
+    });
+    (sharp, precision)
+}
+
+/// The first precision from `start` on, doubled up to [`FINEST`], at which things are known well, or the last one.
+fn known_well(start: u32, ladder: Ladder, mut is_known: impl FnMut(Ladder) -> bool) -> u32 {
+    let finest = FINEST.min(ladder.limit);
+    let mut precision = start;
+    while !is_known(Ladder { start: precision, ..ladder }) && precision < finest {
+        precision = (2 * precision).min(finest);
+    }
+    precision
+}
+
+fn is_rough(proof: &Decided<'_>) -> bool {
+    let [x_per, e_per, _] = proof.periodic;
+    rough(x_per) || rough(e_per) || proof.conditions.iter().any(|c| rough(&c.lhs) || rough(&c.rhs))
+}
+
+/// The repaired and the printed derivation. Both know of no input gain, of no actuator, and of no interval of the period (their K_alpha falls
+/// as T grows), and they need data that are not computed from a plant's formulas.
+fn compared(run: &Certification<'_>, data: &Data<'_>) -> (Option<Outcome<RepairedProof>>, PrintedFigure) {
+    let spec = run.spec;
+    let known = spec.plant().is_none() && data.input_gain.is_none() && spec.period.interval().is_none();
+    if !known || spec.actuator.is_some() {
+        return (None, PrintedFigure::default());
+    }
+    let refutation = level_condition(data).err();
+    if !run.options.compare {
+        return (None, PrintedFigure { refutation, ..PrintedFigure::default() });
+    }
+    let model = model(data, TransferKind::ClosedForm);
+    let repaired = match search_repaired(&model) {
+        Err(obstacle) => Outcome::NotFound(obstacle),
+        Ok(proposal) => {
+            proved_up_to_arguments(spec, round_repaired(data, &model, &proposal, run.options.ladder).into())
+        }
+    };
+    let evaluation = printed_evaluation(data, &model);
+    let sigma = evaluation
+        .as_ref()
+        .and_then(|evaluation| Some(evaluation.sigma_p.as_ref().ok()?.max(evaluation.sigma_a.as_ref().ok()?)));
+    (Some(repaired), PrintedFigure { refutation, evaluation, sigma: sigma.filter(Enclosure::is_bounded) })
+}
+
+fn printed_evaluation(data: &Data<'_>, model: &FloatModel) -> Option<PrintedEvaluation<Enclosure>> {
+    let proposal = search_printed(data, model)?;
+    let short = |value: f64, direction| round_f64(value, 8, direction);
+    let (x_a, e_a) = (short(proposal.x_a, Direction::Nearest)?, short(proposal.e_a, Direction::Down)?);
+    let h = data.rational(&short(proposal.h, Direction::Down)?);
+    let printed = printed_transfer(data);
+    let kappas = [&printed.kappa_0, &printed.kappa_1];
+    Some(PrintedEvaluation::new(data, kappas, &data.rational(&x_a), &data.rational(&e_a), |_| h))
 }
 
 /// Decides a proof again where it was decided with fewer bits; it gives way only to one that is proved too.
@@ -92,22 +179,6 @@ fn rough(value: &Enclosure) -> bool {
     let width = Enclosure::point(&value.upper()) - Enclosure::point(&value.lower());
     let unit = Enclosure::from_rational(&(Rational::from(1) >> DIGITS), DIGITS);
     !width.le(&(value.abs().ceiling() * unit)).is_true()
-}
-
-/// The table, at the witness of the claim; nothing where that is not proved, and with an input gain or an interval of the period, of which
-/// the formulas that are compared know nothing.
-fn constants(data: &Data<'_>, columns: &Columns<'_>) -> Vec<Row> {
-    let known = data.input_gain.is_none() && data.spec.period.interval().is_none();
-    let Some(sharp) = columns.sharp.proved().filter(|_| known) else { return Vec::new() };
-    let rows = table(&TableInput {
-        data,
-        sharp: (&sharp.witness, &sharp.evaluation),
-        repaired: columns.repaired_proof().map(|proof| (&proof.witness, &proof.evaluation)),
-        printed: columns.printed.evaluation.as_ref(),
-        printed_sigma: columns.printed.sigma.clone(),
-        sigma_exact: columns.exact.map(|claim| claim.witness.sigma.clone()),
-    });
-    if data.spec.plant().is_some() { rows.into_iter().filter_map(of_a_plant).collect() } else { rows }
 }
 
 /// A row without the figures that rest on data which are not computed from a plant's formulas.

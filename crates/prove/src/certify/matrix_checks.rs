@@ -1,5 +1,5 @@
 //! What the matrix inequalities say about a run: C5 as a semidefinite program beside its closed form, the contraction matrix
-//! with weights and as a Stein inequality, and Sylvester's criterion for R.
+//! with weights and as a Stein inequality; and Sylvester's criterion for R of the repaired derivation.
 
 use crate::lmi::{CrossCheck, CrossCheckError, contraction, cross_check};
 use rug::Rational;
@@ -19,8 +19,6 @@ pub struct MatrixChecks {
     /// The contraction matrix, for a proof of the sharp derivation: where its spectral radius is below 1 the periodic solution is
     /// the only one in its set.
     pub contraction: Option<ContractionCheck>,
-    /// R, for a proof of the repaired derivation.
-    pub sylvester: Option<SylvesterCheck>,
 }
 
 /// The spectral radius at upper ends of the contraction matrix.
@@ -48,12 +46,28 @@ impl SylvesterCheck {
     pub fn is_positive_definite(&self) -> bool {
         self.minors.len() == 3 && self.minors.iter().all(|minor| *minor > 0)
     }
+
+    /// R = [[2(alpha P_low - rho_11), -rho_12, 0], [., 2(sigma - rho_22), -mu], [., ., mu h]]. Its determinants are those of a
+    /// tridiagonal matrix: while it is positive definite they increase with the diagonal and decrease with the magnitudes beside.
+    pub(super) fn new(spec: &Specification, proof: &RepairedProof) -> Option<SylvesterCheck> {
+        let data = Data::new(spec, proof.precision);
+        let (matrix, h) = (&proof.evaluation.lyapunov, &proof.evaluation.point.h);
+        let down = |value: &Enclosure| Some(round_rational(&value.lower_rational()?, 10, Direction::Down));
+        let beside = |value: &Enclosure| Some(-round_rational(&value.abs().upper_rational()?, 10, Direction::Up));
+        let diagonal = [&matrix.curvature * 2, (&proof.evaluation.sigma - &matrix.rho_22) * 2, &data.mu * h];
+        let [first, second, third] = diagonal.each_ref().map(down);
+        let (upper, lower) = (beside(&matrix.rho_12)?, beside(&data.mu)?);
+        let zero = Rational::new;
+        let rows =
+            vec![vec![first?, upper.clone(), zero()], vec![upper, second?, lower.clone()], vec![zero(), lower, third?]];
+        Some(SylvesterCheck { minors: leading_minors(&rows), rows })
+    }
 }
 
 impl MatrixChecks {
-    /// Works them out for the proofs of a run.
+    /// Works them out for the proof of a run.
     #[must_use]
-    pub fn new(spec: &Specification, sharp: Option<&SharpProof>, repaired: Option<&RepairedProof>) -> MatrixChecks {
+    pub fn new(spec: &Specification, sharp: Option<&SharpProof>) -> MatrixChecks {
         MatrixChecks {
             // With a matrix inequality of its own C5 is not asked for. With an input gain it contains sigma in another way than the program.
             decay: sharp
@@ -62,7 +76,6 @@ impl MatrixChecks {
                 .filter(|(_, data)| data.input_gain.is_none())
                 .map(|(proof, data)| cross_check(&proof.evaluation, &proof.witness, &data)),
             contraction: sharp.and_then(contraction),
-            sylvester: repaired.and_then(|proof| sylvester(spec, proof)),
         }
     }
 
@@ -89,20 +102,4 @@ fn contraction(proof: &SharpProof) -> Option<ContractionCheck> {
     let spectral_radius = contraction::spectral_radius(&rows, &weights)?;
     let stein = contraction::propose_stein(&rows).ok().filter(|d| contraction::stein_holds(&rows, d));
     Some(ContractionCheck { spectral_radius, stein })
-}
-
-/// R = [[2(alpha P_low - rho_11), -rho_12, 0], [., 2(sigma - rho_22), -mu], [., ., mu h]]. Its determinants are those of a
-/// tridiagonal matrix: while it is positive definite they increase with the diagonal and decrease with the magnitudes beside.
-fn sylvester(spec: &Specification, proof: &RepairedProof) -> Option<SylvesterCheck> {
-    let data = Data::new(spec, proof.precision);
-    let (matrix, h) = (&proof.evaluation.lyapunov, &proof.evaluation.point.h);
-    let down = |value: &Enclosure| Some(round_rational(&value.lower_rational()?, 10, Direction::Down));
-    let beside = |value: &Enclosure| Some(-round_rational(&value.abs().upper_rational()?, 10, Direction::Up));
-    let diagonal = [&matrix.curvature * 2, (&proof.evaluation.sigma - &matrix.rho_22) * 2, &data.mu * h];
-    let [first, second, third] = diagonal.each_ref().map(down);
-    let (upper, lower) = (beside(&matrix.rho_12)?, beside(&data.mu)?);
-    let zero = Rational::new;
-    let rows =
-        vec![vec![first?, upper.clone(), zero()], vec![upper, second?, lower.clone()], vec![zero(), lower, third?]];
-    Some(SylvesterCheck { minors: leading_minors(&rows), rows })
 }

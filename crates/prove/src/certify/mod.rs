@@ -33,6 +33,7 @@ mod verdict;
 
 pub use ball::{claimed_ball, covers_ball, inverse_norm, within_ball};
 pub use certification::{Alternatives, Certification, ExactClaim, PrintedFigure, RelativeDegreeGains};
+pub use constants::Constants;
 pub use gain_row::{GainRow, RowNoise, SHOWN_N_O};
 pub use gains::ROWS;
 pub use jacobian::{MAX_SEARCHES, Resolution, resolve, resolve_with, with_triple};

@@ -4,7 +4,7 @@
 //! box, and with the same weights C4 holds in every larger box; of either C5 asks for a larger gain.
 
 use super::certification::{Certification, ExactClaim};
-use super::constants::Columns;
+use super::constants::refined;
 use super::matrix_checks::MatrixChecks;
 use super::outcome::Outcome;
 use super::rates::{for_n_o, for_n_o_at_samples};
@@ -24,6 +24,7 @@ use sigmastar_theory::derivation::initial_set::claimed_distances;
 use sigmastar_theory::derivation::sampled::{SampledEvaluation, SampledWitness};
 use sigmastar_theory::derivation::sharp::{SharpEvaluation, SharpWitness};
 use sigmastar_theory::derivation::stability::level_condition;
+use std::sync::OnceLock;
 
 /// Proofs with more room that are tried one after the other.
 const TRIES: usize = 4;
@@ -86,7 +87,7 @@ impl Certification<'_> {
         let [x, e] = proof.decided().reach()?;
         let bounded = self.spec.domain.is_some() || prove_up_to(self.spec, &x, &e).is_ok();
         let kept = self.limits.kept([&periodic.e_per, peak], control);
-        (bounded && kept && !MatrixChecks::new(self.spec, Some(&proof), None).disagree()).then_some(proof)
+        (bounded && kept && !MatrixChecks::new(self.spec, Some(&proof)).disagree()).then_some(proof)
     }
 
     /// Puts another proof of the same claim in the place of its own, with the figures that depend on it.
@@ -98,14 +99,11 @@ impl Certification<'_> {
             evaluation.truth().is_true().then_some(ExactClaim { evaluation, ..claim })
         };
         self.exact = self.exact.take().and_then(again);
-        let (sharp, repaired) = (Outcome::Proved(Box::new(proof)), self.repaired.take());
-        self.checks = MatrixChecks::new(self.spec, sharp.proved(), repaired.as_ref().and_then(Outcome::proved));
-        let columns = Columns { sharp, repaired, printed: &self.printed, exact: self.exact.as_ref() };
+        self.checks = MatrixChecks::new(self.spec, Some(&proof));
+        (self.sharp, self.precision) = refined(Outcome::Proved(Box::new(proof)), self.spec, self.options.ladder);
+        self.constants = OnceLock::new();
         let start = self.options.ladder.start.max(53);
-        let (Columns { sharp, repaired, .. }, constants) = columns.evaluated(self.spec, start, self.options.ladder);
         self.no_plant = no_plant(&Data::new(self.spec, start), reach.as_ref().filter(|_| self.spec.domain.is_none()));
-        (self.sharp, self.repaired) = (sharp, repaired);
-        (self.constants, self.precision) = (constants.rows, constants.precision);
     }
 }
 
