@@ -4,7 +4,7 @@ use super::*;
 use crate::data::{Data, Problem};
 use crate::derivation::sampled::examples::{example, law};
 use crate::derivation::sampled::sampled_trade_off;
-use nalgebra::Complex;
+use num_complex::Complex;
 use serde_json::json;
 use std::f64::consts::{PI, TAU};
 
