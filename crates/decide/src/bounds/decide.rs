@@ -1,4 +1,5 @@
-//! Decision of an entry by subdivision (derivation, 11.3 and 11.6).
+//! Decision of an entry, or of a polynomial in X and E, by subdivision (derivation, 11.3 and 11.6), and the values on a box that every
+//! decision takes.
 
 use super::PRECISION;
 use super::centred::{Centred, Frame, OnBox, negated};

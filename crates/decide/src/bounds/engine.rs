@@ -94,11 +94,11 @@ impl Engine {
         Engine::of_cells(plant, [(&plant.parameters, region)], matrix, existence)
     }
 
-    /// The same of cells of a family: the parameters of each, and the region around its members, all in the same coordinates. What is
-    /// decided is decided in every one. That the cells cover the box of the parameters is for the caller to prove.
+    /// The bounds of a family that is cut into cells. Each cell gives its parameters and the region around its members; all regions have
+    /// the same coordinates. What is decided is decided in every cell. For the caller to prove: the cells cover the box of the parameters.
     ///
     /// # Errors
-    /// Besides, no cell, and other coordinates in one of them.
+    /// Those of [`Engine::new`]; no cell at all; a cell with other coordinates.
     pub fn of_cells<'c>(
         plant: &Plant,
         cells: impl IntoIterator<Item = (&'c Parameters, Region)>,

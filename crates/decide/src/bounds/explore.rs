@@ -1,5 +1,5 @@
 //! Where a bound is large: its values in the middles of boxes, the most promising box first. A feature that samples miss is
-//! found where an enclosure cannot leave it out. Doubles; they propose, and nothing rests on them.
+//! found where an enclosure cannot leave it out. The result is in doubles; it serves the next attempt, and no verdict rests on it.
 
 use super::chart::{Cell, MAX_LEVEL};
 use super::decide::OnBoxes;

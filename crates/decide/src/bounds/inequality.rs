@@ -46,7 +46,8 @@ impl Engine {
         first.and(|| self.decide_ends(&ends, (Part::Error, of_error), effort, beside))
     }
 
-    /// The same of a matrix at each of the moves of d, of which there are two where there is an input gain.
+    /// Decides that `matrix(values, moved)` is positive definite on `G(X, E)` for each move `moved` of d in `ends`. There are two moves
+    /// where there is an input gain, else one.
     pub(super) fn decide_ends(
         &self,
         ends: &[Rational],

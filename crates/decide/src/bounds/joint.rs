@@ -44,7 +44,7 @@ impl Engine {
         decide(&of_near).and(|| decide(&of_far))
     }
 
-    /// The same of one that proves stability.
+    /// Decides a joint inequality that proves stability, with so many boxes for each metric at most.
     ///
     /// Guarantee: as [`Engine::decide_joint`], and for both metrics, of which `Pi` is positive definite, `P <= p_up I`,
     /// `Pi >= diag(x_low I, 0)` and `Pi >= diag(0, e_low)` with p_up, x_low and e_low positive.

@@ -74,7 +74,7 @@ impl Majorant {
         rest.terms.iter().all(|term| term.coefficient >= 0)
     }
 
-    /// The same powers with other coefficients.
+    /// The majorant with these powers whose coefficients are the images of the coefficients of this one.
     #[must_use]
     pub fn map(&self, image: impl Fn(&Rational) -> Rational) -> Majorant {
         let moved = |term: &Term| Term { coefficient: image(&term.coefficient), ..*term };

@@ -2,14 +2,16 @@
 //!
 //! - [`Region`]: the coordinates L, the orbit xb(t), the radius r;
 //! - [`Engine`]: decides an entry of a table of bounds, and smoothness;
-//! - [`Engine::decide_majorant`]: the same of a [`Majorant`], a polynomial in X and E;
-//! - [`Engine::decide_inequality`]: the matrix inequality of stability;
+//! - [`Engine::decide_majorant`]: decides a [`Majorant`], a polynomial in X and E;
+//! - [`Engine::decide_inequality`], [`Engine::decide_existence`]: the matrix inequalities of stability and of existence;
+//! - [`Engine::decide_joint`], [`Engine::decide_joint_stability`]: the joint inequalities of existence and of stability;
 //! - [`Engine::decide_slopes`]: what rates for given n_o know of all derivatives together;
-//! - [`Engine::decide_sampled`], [`Engine::decide_sampled_existence`]: those of the regulator at samples;
-//! - [`Engine::explore`]: where a bound is large, for the next attempt.
+//! - [`Engine::decide_sampled`], [`Engine::decide_sampled_existence`]: the matrix inequalities of the regulator at samples;
+//! - [`Engine::explore`]: where a bound is large, for the next attempt; nothing rests on it.
 //!
-//! Within: `chart` (coordinates of boxes), `time_cell` (what depends on t alone), `centred` (values with slopes about the
-//! middle of a box), `quantity` (the formulas of each bound), `definite` (semidefiniteness on a box).
+//! Within: `chart` (coordinates of boxes), `side` (their sides), `time_cell` (what depends on t alone), `extent` (the interval of a
+//! component of the orbit), `centred` (values with slopes about the middle of a box), `quantity` (the formulas of each bound),
+//! `requirement` (what a right side has to meet to be smooth), `metric_form` (the matrix of a metric), `definite` (definiteness on a box).
 
 mod centred;
 mod chart;

@@ -102,7 +102,8 @@ fn of_existence(values: &Values<'_>, p: &[Vec<Rational>], c_x: &Rational) -> Opt
     Some(Parts { decay, moved: values.product(p, &column, false).concat(), r, d: slope? })
 }
 
-/// The same form in variables whose squares have coefficients of about 1: each is multiplied with a power of two, exactly.
+/// The form of these entries in variables whose squares have coefficients of about 1. Each variable is multiplied with a power of two,
+/// exactly: the form is positive definite in these variables if and only if it is in the given ones.
 fn balanced(frame: &Frame, mut entries: Vec<(usize, usize, Centred)>) -> SymmetricValues {
     let order = entries.iter().map(|(_, j, _)| j + 1).max().unwrap_or(0);
     let mut exponents = vec![0; order];

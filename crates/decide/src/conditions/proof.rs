@@ -1,4 +1,5 @@
-//! A witness with what was decided about it, in either derivation, and one view of both.
+//! A witness with what was decided about it, in the sharp or the repaired derivation or at samples; one view of both derivations in
+//! continuous time.
 
 use rug::Rational;
 use sigmastar_exact::enclosure::{Enclosure, Truth};

@@ -1,4 +1,4 @@
-//! The proof of the orbit (derivation, 11.2).
+//! What is decided around a given curve in given coordinates: the defect, the contraction in a tube, and the bounds of P (derivation, 11.2).
 
 use super::cells::{Wave, enclose};
 use super::curve::{Curve, PRECISION};

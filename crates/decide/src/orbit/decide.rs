@@ -1,4 +1,4 @@
-//! An orbit and its numbers, decided (derivation, 11.2).
+//! An orbit and its numbers, or a second P around it, decided (derivation, 11.2).
 
 use super::around::Around;
 use super::cells::PRECISION;

@@ -37,7 +37,7 @@ pub(super) fn bound(
     largest(&on_cells(curve, walk, slopes, inverse), curve.cells.count)
 }
 
-/// The same of each cell; not bounded where f is not smooth near one.
+/// An upper bound of `|L^-1 (f(t,xb,0;p) - xb')|` on each cell, for all members. It is not bounded on a cell near which f is not smooth.
 fn on_cells(curve: &Curve, walk: &Walk, slopes: &Walk, inverse: &[Vec<Enclosure>]) -> Vec<Enclosure> {
     let cells = &curve.cells;
     let parameters = &curve.members.parameters;

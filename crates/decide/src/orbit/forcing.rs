@@ -1,4 +1,4 @@
-//! The harmonics of q(t, x_0, 0) (derivation, 11.4): proposed in doubles, the rest proved.
+//! The harmonics qb of q(t, x_0, 0) and the bounds r_0, r_1 of their rest, decided over enclosures for given harmonics (derivation, 11.4).
 
 use super::around::Around;
 use super::cells::enclose;

@@ -3,8 +3,10 @@
 //! - `recurrences`, `taylor`, `cells`, `curve`: Taylor series of formulas along a curve, over enclosures;
 //! - `members`: the members of a family of plants along it;
 //! - `defect`, `rate`, `around`: what the orbit and its coordinates have to satisfy;
-//! - `decide`: an orbit and its numbers, decided;
-//! - `forcing`: the harmonics of q, decided.
+//! - `decide`: an orbit and its numbers, or a second P, decided;
+//! - `forcing`: the harmonics of q, decided;
+//! - `linear`: matrices and norms of enclosures;
+//! - `not_proved`: why an orbit is not proved.
 
 mod around;
 mod cells;

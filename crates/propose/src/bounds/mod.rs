@@ -3,9 +3,11 @@
 //! - [`FloatSuprema`]: the bounds of the table on samples of a tube;
 //! - [`FloatWeights`], [`EnergyWeights`], [`SampledEnergy`]: the free numbers of (M), (E) and their forms at samples;
 //! - [`FloatMetric`], [`FloatLevel`]: joint metrics by semidefinite programs;
-//! - [`FloatSlopes`]: the matrix ball of all derivatives together.
+//! - [`FloatSlopes`]: the matrix ball of all derivatives together;
+//! - [`Directions`]: the directions along which the derivatives change.
 //!
-//! Within: `pointwise` (the quantities at a point), `place` and `points` (where they are looked at), `climb` (local searches).
+//! Within: `pointwise` (the quantities at a point), `place`, `points` and `narrow` (where they are looked at), `climb` (local searches),
+//! `energy_program`, `sampled_program` and `splitting` (semidefinite programs for (E), for (E) at samples and for a splitting of (M)).
 
 mod climb;
 mod directions;

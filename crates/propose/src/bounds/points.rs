@@ -96,7 +96,8 @@ impl FloatSuprema {
         merged(pieces, count)
     }
 
-    /// The same for so many values of those of [`TABLE`] that are asked for, one list for each.
+    /// The points where values of the bounds of [`TABLE`] are largest: for each of `lists` values at most `count` points, the largest first;
+    /// of those that are numbers. `value(list, bounds)` is the value with this number; only the bounds in `asked` are computed.
     pub(super) fn largest_of_bounds(
         &self,
         at: [f64; 2],

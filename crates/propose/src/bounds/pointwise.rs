@@ -119,7 +119,7 @@ pub struct Derivatives<'a> {
     pub d: f64,
 }
 
-/// The same, to keep.
+/// J by rows, g, r and d at a point, in the coordinates y: [`Derivatives`] that own their numbers.
 #[derive(Clone, Debug)]
 pub struct Slopes {
     /// f_x by rows.

@@ -203,7 +203,7 @@ impl FloatSuprema {
         self.of_derivatives(at, places, gamma).into_iter().fold(0.0, larger)
     }
 
-    /// The same by a longer search.
+    /// The least gamma of the inequality of existence by a longer search: local ones start from the best points of the grid.
     #[must_use]
     pub fn refined_gamma(&self, at: [f64; 2], energy: &SampledEnergy, of: &LoopNumbers<f64>) -> f64 {
         self.refined_of_derivatives(at, |derivatives, _| energy.gamma(&Slopes::from(derivatives), of))

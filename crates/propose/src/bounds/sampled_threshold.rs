@@ -10,7 +10,7 @@ use sigmastar_theory::evidence::TABLE;
 /// So many times more points are listed for the threshold of the matrix inequality, which all derivatives enter.
 const OF_THRESHOLD: usize = 6;
 
-/// The same of pairs of points, and where they are sought for one set of weights alone.
+/// So many times more pairs of points are listed for the threshold at pairs; and so many where they are sought for one set of weights alone.
 const OF_PAIRS: usize = 2;
 const AT_ONCE: usize = 6;
 
@@ -67,9 +67,8 @@ impl FloatSuprema {
         }
     }
 
-    /// The least sigma at which F of [`Engine::decide_inequality`](super::Engine::decide_inequality) is positive semidefinite at
-    /// points of the grid, with P = 1: half of `v' G^-1 v` for the column v that e has beside its
-    /// diagonal, and G what F is without e. Infinite where G is not positive definite at one of them; not a number where P is not
+    /// The least sigma at which F of `Engine::decide_inequality` of sigmastar-decide is positive semidefinite at points of the grid, with
+    /// P = 1: half of `v' G^-1 v` for the column v that e has beside its diagonal, and G what F is without e. Infinite where G is not positive definite at one of them; not a number where P is not
     /// the identity.
     #[must_use]
     pub fn threshold(&self, at: [f64; 2], places: &Places, weights: FloatWeights) -> f64 {
@@ -78,7 +77,7 @@ impl FloatSuprema {
         at.into_iter().fold(Thresholds::ALL, Thresholds::and).value()
     }
 
-    /// The same by a longer search.
+    /// The least sigma of [`FloatSuprema::threshold`] by a longer search: local ones start from the best points of the grid.
     #[must_use]
     pub fn refined_threshold(&self, at: [f64; 2], weights: FloatWeights) -> f64 {
         self.refined_of_derivatives(at, |derivatives, matrix| {

@@ -1,7 +1,9 @@
-//! What is known of all first derivatives together: (D) of derivation, 13.6, decided with enclosures by subdivision.
+//! What samples say of all first derivatives together: a matrix ball for (D) of derivation, 13.6, in doubles. It proposes, and nothing rests
+//! on it.
 //!
 //! With `D = [[J, g], [r, d]]` at a point, or the columns of x or that of e alone, `Q - G D - D'G' - D'H D >= 0` says that D lies in the matrix
-//! ball `(D - C)'H (D - C) <= S` about `C = -H^-1 G'`, where `S = Q + G H^-1 G'`. Searches know C, S and H, proofs Q, G and H.
+//! ball `(D - C)'H (D - C) <= S` about `C = -H^-1 G'`, where `S = Q + G H^-1 G'`. Here C, S and H are sought; Q, G and H, rounded, are
+//! what is to be decided.
 
 use super::place::{Place, Places};
 use super::pointwise::Derivatives;

@@ -89,7 +89,8 @@ impl FloatSuprema {
         FloatSuprema::of_cells(plant, [(&plant.parameters, orbit)], matrix, lyapunov)
     }
 
-    /// The same of a family in cells: the parameters of each, and the curve that follows its members. They cover the box.
+    /// Prepares sampling of a family that is cut into cells. Each cell gives its parameters and the curve that follows its members; `matrix`
+    /// and `lyapunov` are those of [`FloatSuprema::new`]. Hypothesis: the cells cover the box of the parameters.
     #[must_use]
     pub fn of_cells<'c>(
         plant: &Plant,
@@ -184,8 +185,8 @@ impl FloatSuprema {
         found.map(Arc::new)
     }
 
-    /// The same, where x_0' is as unknown as another program may leave it that knows of the orbit only the defect eps and the radius r of a
-    /// tube: `|L^-1 (x_0' - xb')| <= eps + r |J|` in each component. eps is at most r |J|, for it is r times a rate.
+    /// The suprema where x_0' is as unknown as a program may leave it that knows of the orbit only the defect eps and the radius r of a
+    /// tube: `|L^-1 (x_0' - xb')| <= eps + r |J|` in each component. eps is at most r |J|, for it is r times a rate; so 2 r |J| is taken.
     #[must_use]
     pub fn with_tube(&self, radius: f64) -> FloatSuprema {
         let mut evaluator = Evaluator::new(self.program.clone());
@@ -209,7 +210,7 @@ impl FloatSuprema {
         }
     }
 
-    /// The same in other coordinates, with other P, which are constant: the formulas are not differentiated again.
+    /// The suprema in other coordinates and with other matrices P; the formulas are not differentiated again. Hypothesis: each P is constant.
     #[must_use]
     pub fn in_coordinates(&self, matrix: Vec<Vec<f64>>, lyapunov: [Option<&PeriodicMatrix>; 2]) -> FloatSuprema {
         let matrices = lyapunov.map(|matrix| matrix.map(FloatMatrix::new));

@@ -1,4 +1,5 @@
-//! F of the matrix inequality (M) at one point in doubles: without e, the column of e, and the least sigma of both (derivation, 13.7).
+//! The matrix inequalities at one point in doubles (derivation, 13.7): F of (M) without e, the column of e, and the least sigma of both; the
+//! margin of (E).
 
 use super::pointwise::{Derivatives, MatrixAt, dot};
 use rug::Rational;

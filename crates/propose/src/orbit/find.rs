@@ -55,7 +55,7 @@ pub struct FloatOrbit {
 
 /// The periodic solution of a plant's zero dynamics, in doubles; of a family that of the nominal plant, and its sensitivities.
 ///
-/// Guarantee: none; [`prove_orbit`](super::prove_orbit) proves one.
+/// Guarantee: none; `prove_orbit` of sigmastar-prove proves one.
 ///
 /// # Errors
 /// [`OrbitFailure`]: none was found, or none that attracts its neighbours; nothing is proved by that.

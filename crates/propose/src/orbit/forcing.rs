@@ -1,4 +1,4 @@
-//! The harmonics of q(t, x_0, 0) (derivation, 11.4), in doubles.
+//! The harmonics of q(t, x_0, 0) (derivation, 11.4) and the size of their rest, sampled in doubles: proposals.
 
 use super::field::Field;
 use super::round::to_grain;

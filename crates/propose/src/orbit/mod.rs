@@ -4,7 +4,7 @@
 //! - `balance`, `modes`: units and axes that do not depend on how a plant is written;
 //! - `field`, `series`, `collocation`, `floquet`, `drift`, `find`: the orbit in doubles;
 //! - `failure`: why there is none;
-//! - `round`, `shape`, `least_gain`, `coordinates`, `sampled`: short rationals for it, L and P(t), and what to ask of the proofs;
+//! - `round`, `shape`, `least_gain`, `coordinates`, `sampled`: short rationals for it, L and P(t), and the numbers to be decided for them;
 //! - `forcing`: the harmonics of q.
 
 mod balance;

@@ -1,4 +1,4 @@
-//! What sampled times say of a rational curve and its coordinates, in doubles: what to ask of the proofs.
+//! What sampled times say of a rational curve and its coordinates, in doubles: from where the numbers to be decided are taken.
 
 use super::field::Field;
 use super::series::FloatSeries;

@@ -10,7 +10,7 @@ pub enum Binding {
         /// Whether damping is told apart from the rest by `q_e_max`.
         one_sided: bool,
     },
-    /// The same term where ht is small: what the state of the internal model has to lose at the start keeps h small.
+    /// The term D^2/(4 ht) of C5 where ht is small: what the state of the internal model has to lose at the start keeps h small.
     InternalModel,
     /// The other term of C5: the loop through x, by df/de and dq/dx.
     Coupling,

@@ -1,4 +1,4 @@
-//! The error box where stability at samples is proved by the matrix inequality (Ms), in floating point (derivation, 13.7).
+//! The error box for stability at samples by the matrix inequality (Ms), proposed in floating point (derivation, 13.7).
 
 use super::at_samples::BySampledMatrix;
 use super::candidate::{AtSigma, active_level, shape_of_weights, weight_h};

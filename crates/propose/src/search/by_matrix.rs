@@ -1,4 +1,4 @@
-//! The error box where stability is proved by the matrix inequality (M), in floating point (derivation, 13.7).
+//! The error box for stability by the matrix inequality (M), proposed in floating point (derivation, 13.7).
 
 use super::candidate::{AtSigma, active_level, shape_of_weights, weight_h};
 use super::model::FloatModel;

@@ -9,8 +9,8 @@ const ROUGH: f64 = 1e-6;
 /// The room between both sides of S1 and S2 that a search leaves: well below the digits of sigma*.
 pub const ROOM: f64 = 1e-10;
 
-/// The same where results are compared: the set of the least gain at which there is one may be of any size, and needs values that no proof
-/// gives; with this room there is one of about the same gain that can be used.
+/// The room between both sides of S1 and S2 that a search leaves where results are compared. The set of the least gain at which there is
+/// one may be of any size, and needs values that no proof gives; with this room a set of about the same gain can be used.
 pub const ROOMY: f64 = 5e-2;
 
 /// Operations of all bounding functions together up to which a search is thorough.

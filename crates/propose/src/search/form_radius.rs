@@ -29,7 +29,8 @@ pub(super) fn radius(form: &Form<f64>) -> Option<f64> {
     r.is_finite().then_some(r)
 }
 
-/// The same in four variables. `pairs` are what is off the diagonal, each with the one that shares no variable with it.
+/// The radius of [`radius`] for a form in four variables. `pairs` are the entries off the diagonal, each with the one that shares no
+/// variable with it. `None` where the diagonal is not positive.
 fn radius_of_four(diagonal: [&f64; 4], pairs: [[&f64; 2]; 3]) -> Option<f64> {
     if !diagonal.iter().all(|value| **value > 0.0 && value.is_finite()) {
         return None;

@@ -1,4 +1,4 @@
-//! The search for the free numbers, in floating point. It proposes; `certify` decides.
+//! The search for the free numbers, in floating point. It proposes and claims nothing; what it finds is rounded and decided elsewhere.
 //!
 //! Everything here is deterministic: candidates are generated in a fixed order, evaluated in parallel, and compared in
 //! that order, so that the number of threads does not change the result.

@@ -122,7 +122,7 @@ pub struct FloatModel {
     pub by_matrix: Option<ByMatrix>,
     /// What bounds the periodic solution beside the gains of loops, if anything.
     pub by_energy: Option<ByEnergy>,
-    /// The same of the law at samples.
+    /// Where the matrix inequalities of stability and of existence of the law at samples come from, where norms do not serve.
     pub at_samples: AtSamples,
 }
 
@@ -203,7 +203,7 @@ impl FloatModel {
         }
     }
 
-    /// The same model with other bounding functions: those that are listed, and no others.
+    /// The model with these bounding functions in the place of its own: those that are listed, and no others.
     #[must_use]
     pub fn with_bounds(&self, functions: Vec<(Bound, FloatBound)>) -> FloatModel {
         let mut bounds: Vec<ScaledBound> = Bound::ALL
@@ -218,7 +218,7 @@ impl FloatModel {
         FloatModel { bounds, ..self.clone() }
     }
 
-    /// The same model with other inequalities over the derivatives.
+    /// The model with these inequalities over the derivatives in the place of its own.
     #[must_use]
     pub fn with_inequalities(&self, by_matrix: Option<ByMatrix>, by_energy: Option<ByEnergy>) -> FloatModel {
         FloatModel { by_matrix, by_energy, ..self.clone() }
@@ -248,7 +248,7 @@ impl FloatModel {
         Effort { room: self.room.unwrap_or(effort.room), ..effort }
     }
 
-    /// The same, for a search that leaves so much room between both sides of S1 and S2, relatively.
+    /// The model for a search that leaves so much room between both sides of S1 and S2, relatively.
     #[must_use]
     pub fn with_room(self, room: f64) -> FloatModel {
         FloatModel { room: Some(room), ..self }
@@ -323,7 +323,7 @@ impl FloatModel {
         known.map_or(Failing::NotFinite(Some(bound)), |known| Failing::Beyond { known, bound }).at(x, e)
     }
 
-    /// The same model with one datum improved by the relative amount `by` (alpha, a rate and the domain up, everything else
+    /// The model with one datum improved by the relative amount `by` (alpha, a rate and the domain up, everything else
     /// down). The better value of mu is not known: it is left as it is.
     #[must_use]
     pub fn improved(&self, datum: Datum, by: f64) -> FloatModel {
@@ -394,7 +394,7 @@ impl FloatModel {
         bounds.map(OptionalDatum::Bound).chain(harmonics).collect()
     }
 
-    /// The same model without an optional datum.
+    /// The model without one optional datum. The bound that replaces an absent one serves in its place.
     #[must_use]
     pub fn without(&self, datum: OptionalDatum) -> FloatModel {
         let mut model = self.clone();
@@ -409,7 +409,7 @@ impl FloatModel {
         model
     }
 
-    /// The same model with another Lyapunov triple, P_low = 1.
+    /// The model with another Lyapunov triple, for existence too: p_low = 1, p_up = `ratio` and `alpha`.
     #[must_use]
     pub fn with_triple(&self, ratio: f64, alpha: f64) -> FloatModel {
         let mut model = self.clone();
@@ -419,7 +419,7 @@ impl FloatModel {
         model
     }
 
-    /// The same model with another triple for the existence of the periodic solution.
+    /// The model with another triple for the existence of the periodic solution alone: p_up/p_low = `ratio`, and `alpha`.
     #[must_use]
     pub fn with_existence_triple(&self, ratio: f64, alpha: f64) -> FloatModel {
         let mut model = self.clone();
@@ -427,25 +427,25 @@ impl FloatModel {
         model
     }
 
-    /// The same model with other pairs (k0, k1).
+    /// The model with these admissible pairs (k0, k1).
     #[must_use]
     pub fn with_trade_off(&self, trade_off: TradeOff) -> FloatModel {
         FloatModel { trade_off, ..self.clone() }
     }
 
-    /// The same model for results that are only compared, to six digits.
+    /// The model for results that are only compared, to six digits.
     #[must_use]
     pub fn rough(self) -> FloatModel {
         FloatModel { rough: true, ..self }
     }
 
-    /// The same model with error boxes for something else.
+    /// The model whose error boxes are chosen for this goal.
     #[must_use]
     pub fn with_goal(&self, goal: Goal) -> FloatModel {
         FloatModel { goal, ..self.clone() }
     }
 
-    /// The same model with another initial set.
+    /// The model with this initial set.
     #[must_use]
     pub fn with_set(&self, set: InitialSet<f64>) -> FloatModel {
         FloatModel { set, ..self.clone() }

@@ -100,7 +100,7 @@ pub enum Failing {
     },
     /// A proof was found, but the bounding functions are not proved up to its arguments.
     Bounds,
-    /// The same of a plant, with the first of its bounds that is not.
+    /// A proof was found, but the bounds of the plant are not proved up to its arguments; this is the first of those that are not.
     Unproved(Bound),
 }
 
@@ -199,7 +199,7 @@ impl Obstacle {
         if others > rank || (others == rank && size(&other) < size(&self)) { other } else { self }
     }
 
-    /// The same with what it means: no candidate, or one that is not enough.
+    /// What failed and where, and what that means: no candidate was found, or one that is not enough.
     #[must_use]
     pub fn sentence(&self) -> String {
         match self.failing {

@@ -1,4 +1,4 @@
-//! The smallest set in which a periodic solution is proved to exist, at one sigma (derivation, 10.3 and 10.4).
+//! The smallest set for which S1 and S2 say that it contains a periodic solution, at one sigma, in floating point (derivation, 10.3 and 10.4).
 //!
 //! S1 and S2 say that a map G of (X_p, E_p, r_x, r_e, r_d) has G(w) <= w. G is nondecreasing, so of all such w the least fixed
 //! point is the smallest, in every component at once; and everything that section 5 makes of w grows with it. So nothing is
@@ -412,7 +412,7 @@ impl PeriodicSet {
         }
     }
 
-    /// The same under the law at samples.
+    /// The smallest set at sigma under the law at samples, with so much room (relatively) between both sides of S1 and S2.
     ///
     /// # Errors
     /// The obstacle where there is none.

@@ -120,7 +120,8 @@ impl<'m> SampledSearch<'m> {
         Ok((set, at))
     }
 
-    /// The same near a shape alone; at it alone where it is not `refined`.
+    /// The smallest set at sigma with so much room in S1 and S2, and the best error box near the shape (rho, eta), or at that shape alone
+    /// where it is not `refined`. `None` where there is none; the radius may still be 1 or larger.
     #[must_use]
     pub fn near_shape(
         &self,
@@ -242,8 +243,8 @@ impl<'m> SampledSearch<'m> {
         Ok(largest(self.model, &self.origin, &answer, self.gains(*sigma), (&set, &at)))
     }
 
-    /// The same shape as a known one, where the bounding functions are known near it alone: at the gain that is given, or at
-    /// one that is hardly larger than the known one.
+    /// A proposal near the shape of a known one, at the gain that is given, or at one that is hardly larger than the known one. It serves
+    /// where the bounding functions are known near that shape alone.
     ///
     /// # Errors
     /// What stands in the way.

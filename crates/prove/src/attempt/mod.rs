@@ -1,5 +1,10 @@
-//! From a proposal in floating point to numbers that are decided: each rounds what samples say, gives up as little of it as the proof
-//! needs, and has it decided.
+//! From a proposal in floating point to numbers that are decided. Each attempt rounds what samples say, gives up as little of it as the
+//! proof needs, and has it decided; what it returns has been decided true.
+//!
+//! - `orbit`, `forcing`, `triple`: the orbit, the harmonics of q along it, and P(t) for a Jacobian;
+//! - `value`: a bound of the table;
+//! - `splitting`, `existence`, `sampled_existence`: the matrix inequalities (M), (E), and (E) at samples;
+//! - `slopes`: the ball (D) of all first derivatives.
 
 mod existence;
 mod forcing;

@@ -1,4 +1,4 @@
-//! The orbit with numbers that are proved (derivation, 11.2).
+//! The orbit of a plant, the orbits of the cells of a family, and a second P around one, with numbers that are proved (derivation, 11.2).
 
 use rug::Rational;
 use sigmastar_decide::orbit::{Around, OrbitNotProved, least_radius};
@@ -74,7 +74,7 @@ pub fn without_value(plant: &Plant, curve: &OrbitCurve) -> Option<Box<Undefined>
     undefined_along(plant, |s| curve.at(s).0).map(Box::new)
 }
 
-/// The same failure with the operation that has no value along the curve, where doubles find one.
+/// The failure, with the operation that has no value along the curve as its cause, where f is not smooth and doubles find one.
 pub(super) fn with_cause(failure: OrbitNotProved, plant: &Plant, orbit: &OrbitCurve) -> OrbitNotProved {
     let OrbitNotProved::NotSmooth { s, .. } = failure else { return failure };
     let cause = without_value(plant, orbit);
@@ -89,10 +89,11 @@ pub fn prove_orbit(plant: &Plant, orbit: &OrbitCurve, coordinates: &Coordinates)
     prove_orbit_at(plant, orbit, coordinates, None)
 }
 
-/// The same with a rate that is at most this: a smaller one is proved in wider tubes.
+/// The proof of an orbit near the curve `orbit`, as [`prove_orbit`] gives it, with a rate of at most `most` where that is given. A smaller
+/// rate is proved in wider tubes.
 ///
 /// # Errors
-/// As above.
+/// [`OrbitNotProved`]; nothing is claimed then.
 pub fn prove_orbit_at(
     plant: &Plant,
     orbit: &OrbitCurve,

@@ -1,4 +1,4 @@
-//! (M) with the smallest threshold that is proved (derivation, 13.7).
+//! (M), on one region or with a splitting, with the smallest threshold that is proved (derivation, 13.7).
 
 use rug::Rational;
 use sigmastar_decide::bounds::Engine;
@@ -11,7 +11,8 @@ use sigmastar_propose::bounds::{FloatSuprema, FloatWeights, MatrixArguments};
 const ATTEMPTS: [(f64, usize); 6] =
     [(1e-5, 8), (0.001, 1500), (0.003, 3000), (0.01, 6000), (0.03, 12_000), (0.1, 20_000)];
 
-/// The same from three states on: another program, which may need many times as many boxes, is to decide the inequality again.
+/// The enlargements and boxes of the attempts from three states on: another program, which may need many times as many boxes, is to decide
+/// the inequality again.
 const MODEST_ATTEMPTS: [(f64, usize); 6] =
     [(1e-5, 8), (0.001, 500), (0.003, 1000), (0.01, 2000), (0.03, 4000), (0.1, 8000)];
 

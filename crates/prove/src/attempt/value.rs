@@ -12,11 +12,12 @@ use sigmastar_theory::evidence::Entry;
 const ATTEMPTS: [(f64, usize); 7] =
     [(1e-5, 8), (0.001, 1500), (0.003, 3000), (0.01, 4000), (0.03, 6000), (0.1, 6000), (LAST_SLACK, 20_000)];
 
-/// The same from three states on: another program, which may need some ten times as many boxes, is to decide the value again.
+/// The enlargements and boxes of the attempts from three states on: another program, which may need some ten times as many boxes, is to
+/// decide the value again.
 const MODEST_ATTEMPTS: [(f64, usize); 7] =
     [(1e-5, 8), (0.001, 100), (0.003, 200), (0.01, 400), (0.03, 800), (0.1, 2000), (LAST_SLACK, 20_000)];
 
-/// The same from five states on, where that program may need a hundred times as many.
+/// The enlargements and boxes of the attempts from five states on, where that program may need a hundred times as many boxes.
 const FEWER_ATTEMPTS: [(f64, usize); 7] =
     [(1e-5, 8), (0.001, 10), (0.003, 20), (0.01, 50), (0.03, 150), (0.1, 500), (LAST_SLACK, 20_000)];
 

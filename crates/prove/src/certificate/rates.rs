@@ -93,7 +93,8 @@ fn part<P, Q>(
     (!all.is_empty()).then_some((FOR_N_O, Value::Array(all)))
 }
 
-/// The same part of a witness at samples: Pi and its bounds, c and the multipliers, with w those of x where x counts.
+/// The part of the witness at samples: Pi and its bounds, c and the multipliers, and w with the multipliers of x where x counts; what
+/// proves the bounds of noise besides.
 pub(super) fn sampled_rate_witnesses(found: &[SampledRateForCount]) -> Option<(&'static str, Value)> {
     part(found, |RateBound { n_o, proof: witness, e_low, upper: [e_up, z_up], .. }, noise| {
         let mut value = at_samples(witness, e_low);

@@ -98,7 +98,7 @@ pub(super) fn each<T>(
     Ok(all)
 }
 
-/// The same in a field that is left out where the list is empty.
+/// A list of objects in the field `name`, which is left out where the list is empty.
 pub(super) fn listed<T>(
     fields: &mut Object<'_>,
     name: &'static str,

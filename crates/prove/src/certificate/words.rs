@@ -23,7 +23,7 @@ fn ball(spec: &Specification, set: &ClaimedSet) -> Option<Rational> {
     spec.plant().and_then(|plant| claimed_ball(plant, &set.x0))
 }
 
-/// The same of a set that contains this ball.
+/// The claim of the regulator in continuous time in words, for a set that contains `ball` where one is given.
 pub(super) fn in_continuous_time(
     spec: &Specification,
     sigma: &Rational,
@@ -57,7 +57,7 @@ pub fn sampled_statement(spec: &Specification, witness: &SampledWitness) -> Stri
     at_samples(spec, witness, ball(spec, &witness.set).as_ref())
 }
 
-/// The same of a set that contains this ball.
+/// The claim of the regulator at samples in words, for a set that contains `ball` where one is given.
 pub(super) fn at_samples(spec: &Specification, witness: &SampledWitness, ball: Option<&Rational>) -> String {
     let model = &spec.internal_model;
     let samples = witness.sampling.samples;
@@ -138,7 +138,7 @@ fn conclusion(spec: &Specification, (set, ball): (&ClaimedSet, Option<&Rational>
     )
 }
 
-/// The same about one plant: nothing of it is assumed.
+/// What converges to what, of the plant whose formulas are in the certificate; nothing of it is assumed.
 fn conclusion_of_plant(plant: &OfPlant, (set, ball): (&ClaimedSet, Option<&Rational>), start: &str) -> String {
     let domain = plant.domain.as_ref().map_or_else(String::new, |domain| {
         let of_x = if plant.states() > 0 { format!("|x - x_0| <= {}, ", domain.x.words()) } else { String::new() };

@@ -103,7 +103,7 @@ impl DecayData {
         self.matrix_in_weights(mu).substitute(&[self.w_x.clone(), self.h.clone()])
     }
 
-    /// The same matrix, affine in (w_x, h, sigma, l_x, l_e, l_f): the data's own w_x and h are not used.
+    /// The matrix of [`DecayData::matrix`], affine in (w_x, h, sigma, l_x, l_e, l_f). The data's own w_x and h are not used.
     #[must_use]
     pub fn matrix_in_weights(&self, mu: &Rational) -> AffineMatrix<Rational> {
         use Signal::{E, Phi, S, Ue, Ux, X};

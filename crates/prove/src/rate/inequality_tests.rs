@@ -159,9 +159,9 @@ fn a_proof_stops_at_the_largest_rate() {
     }
 }
 
-/// The same optimum by a semidefinite program over all of w, Pi and l, which knows nothing of the scalar condition: with the trace
-/// of Pi that of the proposal, the largest t with M >= t at both ends and Pi >= t is positive 1 % below the largest rate and not 1 %
-/// above it.
+/// A semidefinite program over all of w, Pi and l, which knows nothing of the scalar condition, finds the same largest rate. With the
+/// trace of Pi that of the proposal, the largest t with M >= t at both ends and Pi >= t is positive 1 % below the largest rate, and not
+/// 1 % above it.
 #[test]
 fn a_semidefinite_program_finds_the_same_largest_rate() {
     let spec = example();

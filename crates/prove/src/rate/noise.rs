@@ -69,7 +69,8 @@ pub struct NoiseBound<P> {
 pub enum NoNoiseBound {
     /// The document has an `actuator`: the bound of the control that keeps to it knows no noise.
     Actuator,
-    /// The same of a law that is computed in doubles.
+    /// The document has an `actuator`, and its law is computed in doubles: the bound of the control that keeps to the actuator knows neither
+    /// noise nor rounding.
     ActuatorInDoubles,
     /// No rate was proved, which a claim has beside.
     NoRate,

@@ -378,7 +378,8 @@ impl CoordinateSearch<'_> {
         Ok(estimates.extreme(&[[set.x_p, set.e_p], error_box], inequality))
     }
 
-    /// The same near a proposal, at the first of a few gains at which there are such points; none where every point is looked at instead.
+    /// The points that matter near a proposal, at the first of a few gains at which there are such points; none where every point is looked at
+    /// instead.
     ///
     /// # Errors
     /// The obstacle, where there are none and pairs of points would have to be sought anew for every candidate, which takes minutes.
@@ -485,7 +486,7 @@ pub(super) fn best_shape_near(model: &FloatModel, proposal: SharpProposal) -> Sh
     best.filter(|found| found.sigma < proposal.sigma).unwrap_or(proposal)
 }
 
-/// The same P for both.
+/// The shape with L alone: stability and existence have one P, and existence has no matrix inequality.
 pub(super) fn alone(l: &DMatrix<f64>) -> Shape<'_> {
     Shape { l, second: None, energy: None }
 }

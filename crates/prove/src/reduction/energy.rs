@@ -53,8 +53,8 @@ impl CoordinateSearch<'_> {
         self.estimates(at.shape(), density).propose_energy([set.x_p, set.e_p], share * at.proposal.sigma)
     }
 
-    /// The same with another matrix inequality of existence, where the gain is smaller with it after the shape of the error box has been
-    /// sought again.
+    /// The start with another matrix inequality of existence, where the gain is smaller with it after the shape of the error box has been
+    /// sought again; else the start itself.
     pub(super) fn with_energy(&self, at: &Start, shares: &[f64]) -> Start {
         let on_set = |factor: f64| {
             let sampled = self.sampled(at, factor)?;

@@ -41,7 +41,8 @@ fn ratio(near: &Near, plant: &Plant, watch: &dyn Watch) -> Option<f64> {
     Some(sampled(near, plant, watch, |_, samples| gain_near(near, samples))? / near.gain)
 }
 
-/// The same of the gains of the regulator at samples.
+/// How many times the gain of the regulator at samples near the choice for a family is that of the family, where a member or a smaller
+/// family stands in its place. `None` where the orbit is not proved in these coordinates, or there is no such gain.
 fn ratio_at_samples(near: &Near, plant: &Plant, sampling: &Sampling, watch: &dyn Watch) -> Option<f64> {
     let gain = |along: &Along, samples: &Samples<'_>| {
         let chosen = |search: &CoordinateSearch<'_>| search.with(near.start.shape(), Some(&near.start.proposal));
@@ -90,8 +91,9 @@ fn costs(
     parallel::map(&closed, cost)
 }
 
-/// The same for the regulator at samples, and first what it would be with the nominal `input_gain`; a specification has no other interval.
-/// Never above `sigma`, the gain of all of them, which serves each.
+/// The gains of the regulator at samples where one of the intervals is closed to its nominal value: first that of `input_gain`, then those
+/// of the parameters in the order of the plant, last that of the `period`; a specification has no other interval than `input_gain`.
+/// Estimates, never above `sigma`, the gain of all of them, which serves each. None where there is no gain.
 pub(super) fn costs_at_samples(
     (spec, plant): (&Specification, Option<(&Plant, Option<&Near>)>),
     (sampling, sigma): (&Sampling, f64),

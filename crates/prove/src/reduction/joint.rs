@@ -288,7 +288,7 @@ fn rounded(FloatMetric { p, cross, weight, k_p, margins }: &FloatMetric, share: 
     })
 }
 
-/// The same inequality with a share of its margins.
+/// The joint inequality with this share of its margins c_x, c_e and c_y, rounded down.
 fn weakened(inequality: &JointInequality, share: f64) -> Option<JointInequality> {
     let share = Rational::from_f64(share)?;
     let weaker = |metric: &Metric| {

@@ -50,7 +50,7 @@ pub enum Beside<'g> {
     Nothing,
     /// Those of a table of larger gains.
     Rows,
-    /// The same, and one that is given.
+    /// Those of a table of larger gains, and those of one that is given.
     Gain(&'g Rational),
 }
 
@@ -109,7 +109,9 @@ pub fn reduce(plant: &Plant, beside: Beside<'_>, watch: &dyn Watch) -> Result<Re
     reduce_to(plant, &last, watch)
 }
 
-/// The same of the smallest gain without joint metrics, which may be larger.
+/// Proves the data of the smallest gain without joint metrics, which may be larger than with them.
+///
+/// Guarantee: that of [`reduce`].
 ///
 /// # Errors
 /// Those of [`reduce`].
@@ -117,7 +119,8 @@ pub(super) fn reduce_without_joint(plant: &Plant, watch: &dyn Watch) -> Result<R
     reduce_to(plant, &|_, _, proved| proved, watch)
 }
 
-/// The same with what is proved at last.
+/// Proves the data that the sharp derivation needs, and has `last` prove what is proved at last. Guarantee: that of [`reduce`], where
+/// `last` keeps it.
 pub(super) fn reduce_to(plant: &Plant, last: &Last<'_>, watch: &dyn Watch) -> Result<Reduced, PlantRefusal> {
     let (whole, candidates) = with_whole(plant, watch)?;
     let [narrow, narrower] = NARROW;
@@ -184,7 +187,9 @@ fn in_cells(
     })
 }
 
-/// The same with C5 by norms: what a bounding specification of the plant can have.
+/// Proves the data that the sharp derivation needs with C5 by norms: what a bounding specification of the plant can have.
+///
+/// Guarantee: that of [`reduce`].
 ///
 /// # Errors
 /// What could not be proved or found.
@@ -192,7 +197,7 @@ pub fn reduce_by_norms(plant: &Plant) -> Result<Reduced, PlantRefusal> {
     reduce_by_norms_watched(plant, &Unwatched)
 }
 
-/// The same, while somebody waits.
+/// Proves the data with C5 by norms as [`reduce_by_norms`] does, while `watch` hears of the stages.
 ///
 /// # Errors
 /// Those of [`reduce_by_norms`].
@@ -202,8 +207,10 @@ pub(super) fn reduce_by_norms_watched(plant: &Plant, watch: &dyn Watch) -> Resul
     })
 }
 
-/// The same in the coordinates that are proposed first where they lead to a gain: for rows beside a claim. The gain may be larger than that of
-/// [`reduce_by_norms`], which improves them.
+/// Proves the data with C5 by norms in the coordinates that are proposed first, where they lead to a gain: for rows beside a claim. The gain
+/// may be larger than that of [`reduce_by_norms`], which improves the coordinates.
+///
+/// Guarantee: that of [`reduce`].
 ///
 /// # Errors
 /// What could not be proved or found.
@@ -292,7 +299,7 @@ struct Found {
     path: Option<Path>,
 }
 
-/// The same with its data proved.
+/// What was found in floating point, with its data proved.
 struct Proved {
     found: Found,
     reduced: Reduced,

@@ -43,7 +43,8 @@ pub struct Prepared {
     plant: Option<Box<Plant>>,
     /// The data of that plant by norms, where bounds are to be kept: of a larger gain than the least one they may say more.
     by_norms: Option<Box<ProvedData>>,
-    /// The same in the coordinates that are proposed first, once the bound of |e| at the smallest gain is found to be far above the set.
+    /// The data by norms in the coordinates that are proposed first, once the bound of |e| at the smallest gain is found to be far above the
+    /// set.
     quick: OnceLock<Option<Box<ProvedData>>>,
     /// About the gain at which norms prove a claim at samples, where this one rests on a matrix inequality and rates are asked for.
     norms_from: Option<f64>,
@@ -85,7 +86,7 @@ pub enum StateStart {
     State,
     /// `|L^-1 (x - x_0)|`, of a plant.
     Coordinates,
-    /// The same of a plant whose set is asked for as a ball: it contains that of all `|x - x_0|` up to this (derivation, 11.5).
+    /// `|L^-1 (x - x_0)|`, of a plant whose set is asked for as a ball: the set contains that of all `|x - x_0|` up to this (derivation, 11.5).
     Ball(Rational),
 }
 
@@ -115,7 +116,7 @@ impl Prepared {
         Prepared::watched(subject, gain, &Unwatched)
     }
 
-    /// The same, while somebody waits.
+    /// Proves the data of a subject as [`Prepared::new`] does, while `watch` hears of the stages.
     ///
     /// # Errors
     /// Those of [`Prepared::new`].
@@ -123,7 +124,8 @@ impl Prepared {
         Prepared::resting(subject, Ask { gain, on: RestsOn::Either, rows: false }, watch)
     }
 
-    /// The same of a claim that may be asked to rest on norms; in continuous time the data are those of the smallest gain then.
+    /// Proves the data of a subject for a claim that may be asked to rest on norms; in continuous time the data are those of the smallest
+    /// gain then.
     pub(super) fn resting(
         subject: Subject,
         Ask { gain, on, rows }: Ask,
@@ -176,8 +178,8 @@ impl Prepared {
         Ok(Prepared::of(spec, Start::Given(witness.numbers), None))
     }
 
-    /// The same, for a claim that is to keep to limits at its gain: at the one that is given, or at the smallest one that is found with
-    /// which it does.
+    /// The prepared subject for a claim that is to keep to limits at its gain: at the one that is given, or at the smallest one that is found
+    /// with which it does.
     #[must_use]
     pub fn within(self, limits: Limits, watch: &dyn Watch) -> Prepared {
         let kept = !limits.is_empty() || self.spec.actuator.is_some();

@@ -58,14 +58,14 @@ struct ByNorms {
 pub enum RestsOn {
     /// What serves for the smaller gain.
     Either,
-    /// The same but for joint metrics, which take long, and which only make a gain smaller that is found without them.
+    /// What serves for the smaller gain, but no joint metrics: they take long, and only make a gain smaller that is found without them.
     WithoutJoint,
     /// Norms of the error system, without which there are no rates.
     Norms,
 }
 
-/// The same for the regulator at samples: at the gain that is given, or at the smallest one that is found, by norms or, where that serves
-/// for a smaller one and they are not asked for, by matrix inequalities over the derivatives.
+/// Proves the data of a plant for the regulator at samples: at the gain that is given, or at the smallest one that is found. They are by
+/// norms, or by matrix inequalities over the derivatives where these serve for a smaller gain and norms are not asked for.
 ///
 /// # Errors
 /// What could not be proved or found.
@@ -86,7 +86,7 @@ fn near((along, chosen): &(Along, Chosen), narrow: f64, gain: f64) -> Near {
     Near { coordinates, start, path: Some(Path::Straight), narrow, gain }
 }
 
-/// The same for many pairs of a gain and a sampling period: the orbit and the coordinates are found once.
+/// Calls `with` for the proofs at many pairs of a gain and a sampling period: the orbit and the coordinates are found once.
 ///
 /// # Errors
 /// What could not be proved or found of those; that of norms, without which nothing is said of the regulator in continuous time.

@@ -79,7 +79,7 @@ impl<'a> Sampling<'a> {
         }
     }
 
-    /// The same with what is proved of the tube in the coordinates that are taken.
+    /// The suprema along the orbit with what is proved of the tube in the coordinates that are taken.
     pub(super) fn with_tube(&self, tube: TubeOfFamily) -> Sampling<'a> {
         let tried = AtomicUsize::new(self.tried.load(Ordering::Relaxed));
         Sampling { plain: self.plain.clone(), tube, tried, ..*self }
@@ -115,7 +115,7 @@ impl<'a> Sampling<'a> {
         FloatSuprema::of_cells(self.plant, self.cells.in_doubles(), rows(l), matrices)
     }
 
-    /// The same at so many points, about the tube.
+    /// The suprema in these coordinates at so many points, about the tube.
     pub(super) fn estimates(
         &self,
         l: &DMatrix<f64>,

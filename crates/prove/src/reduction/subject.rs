@@ -23,7 +23,7 @@ pub(super) struct Sought {
     pub(super) near: Option<Box<Near>>,
 }
 
-/// The same at samples.
+/// Where the search for a gain at samples may start, and what it saw beside.
 pub(super) struct SoughtAtSamples {
     pub(super) proposal: SampledProposal,
     /// Other data at a gain that is given, and where the search for a witness may start.
@@ -71,7 +71,7 @@ impl Subject {
         Subject::from_value(&document.root())
     }
 
-    /// The same of a value of a document, such as the copy in a certificate.
+    /// Reads it from a value of a document, such as the copy in a certificate; what is neither is told as a specification.
     ///
     /// # Errors
     /// What is wrong with it.
@@ -190,7 +190,8 @@ impl Subject {
         Ok((spec, start.map(|sought| sought.proposal)))
     }
 
-    /// The same with what is proved of a plant beside, for larger gains and otherwise.
+    /// The specification with proved data, where the search for a gain may start, and what is proved of a plant beside, for larger gains and
+    /// otherwise.
     pub(super) fn proved_with_alternatives(
         self,
         (beside, on): (Beside<'_>, RestsOn),
@@ -215,7 +216,7 @@ impl Subject {
         }
     }
 
-    /// The same for a claim about the regulator at samples, at the gain that is given or at the smallest one.
+    /// The specification with proved data for a claim about the regulator at samples, at the gain that is given or at the smallest one.
     ///
     /// # Errors
     /// Those of [`Subject::proved`].

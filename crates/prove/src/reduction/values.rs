@@ -16,9 +16,9 @@ use sigmastar_theory::data::Data;
 /// the sampled ones, and close to the arguments.
 pub(super) const ENLARGED: [f64; 2] = [1e-2, 1e-5];
 
-/// The same for a gain that may become larger in return: the room between both sides of S1 and S2 that the proposal leaves (where the least
-/// set ceases to be one, that of a somewhat larger gain has room for proved values), and how far beyond the arguments there, while the
-/// proved values lead to no gain near the proposal.
+/// The room between both sides of S1 and S2 that the proposal leaves, and how far beyond its arguments the bounds are proved, in turn, for a
+/// gain that may become larger in return. They are tried while the proved values lead to no gain near the proposal. Where the least set
+/// ceases to be one, that of a somewhat larger gain has room for proved values.
 const FURTHER: [(f64, f64); 6] =
     [(ROOM, 5e-3), (ROOM, 1e-2), (2e-2, 5e-3), (5e-2, 1.25e-2), (0.1, 2.5e-2), (0.3, 7.5e-2)];
 

@@ -1,4 +1,4 @@
-//! Plants of the tests, and the parts together.
+//! The orbit from the proposal in doubles to the decision, and what is refused; the plants of these tests.
 
 mod clocks;
 mod families;

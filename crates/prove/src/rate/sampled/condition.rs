@@ -275,8 +275,8 @@ impl SampledCondition {
         [integrator * y, y, moved].map(|value| value.re * value.re + value.im * value.im)
     }
 
-    /// The same along the circle of a rate, where it may be largest; by the tangents of the half angles, so that no function is needed
-    /// that differs between machines.
+    /// What the outputs weigh along the circle of a rate, at points where that may be largest. The tangents of the half angles give the
+    /// points, so that no function is needed that differs between machines.
     fn along(&self, rate: f64) -> Vec<Sizes> {
         let radius = (-self.step * rate).portable_exp();
         let mut tangents: Vec<f64> = (0..120).map(|k| 1e-4 * 1.15f64.portable_powi(k)).chain([0.0, 1e9]).collect();

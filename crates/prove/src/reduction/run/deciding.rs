@@ -47,7 +47,8 @@ impl Prepared {
         self.certify_checked(options, &|_| Checked::Decided, &Unwatched)
     }
 
-    /// The same, of claims that a checker decides: the best of them, and none where it decides none.
+    /// Searches, rounds and decides, and has a checker decide the claims again: the best claim that it decides, and none where it decides
+    /// none. Hypothesis: that of [`Prepared::certify`].
     ///
     /// # Errors
     /// Those of [`Prepared::certify`].
@@ -240,7 +241,7 @@ impl Prepared {
         Ok(runs)
     }
 
-    /// The same at samples.
+    /// The run at samples with what is said beside the claim.
     fn compared_at_samples<'s>(
         &self,
         run: Run<'s>,
