@@ -1,7 +1,9 @@
 //! The decided conditions with both sides.
 
+use serde_json::{Value, json};
 use sigmastar_document::number::{estimate, margin, pair};
 use sigmastar_document::{Block, Table};
+use sigmastar_prove::certificate::conditions_json;
 use sigmastar_prove::certify::Certification;
 use sigmastar_theory::derivation::condition::Condition;
 
@@ -42,4 +44,13 @@ pub(super) fn of(heading: &str, conditions: &[Condition]) -> Vec<Block> {
         Block::Table(table),
         Block::facts(legend),
     ]
+}
+
+/// The conditions as in a certificate, with the truth of each.
+pub(super) fn conditions_with_truth(conditions: &[Condition]) -> Value {
+    let mut list = conditions_json(conditions);
+    for (item, condition) in list.as_array_mut().into_iter().flatten().zip(conditions) {
+        item["truth"] = json!(condition.truth().to_string());
+    }
+    list
 }

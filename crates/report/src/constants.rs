@@ -1,7 +1,7 @@
 //! The paper's constants, printed and repaired, beside those of the claim; the matrix inequalities; what the printed formulas say.
 
+use super::conditions::conditions_with_truth;
 use super::failures::VERSION;
-use super::json::conditions_with_truth;
 use super::matrix_checks::{checks_json, section as matrix_inequalities};
 use super::verdict::sentence;
 use rug::Rational;

@@ -1,5 +1,6 @@
 //! The report on a certification as JSON.
 
+use super::conditions::conditions_with_truth;
 use super::constants::parts_json;
 use super::failures::{FORMAT, VERSION, errors_json};
 use super::for_n_o::rates_json;
@@ -17,7 +18,7 @@ use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::write_exact;
 use sigmastar_lang::spec::{InputGain, Specification};
 use sigmastar_propose::search::{Binding, OptionalDatum};
-use sigmastar_prove::certificate::{conditions_json, no_plant_json, set_fields};
+use sigmastar_prove::certificate::{no_plant_json, set_fields};
 use sigmastar_prove::certify::{Certification, Verdict};
 use sigmastar_theory::derivation::condition::Condition;
 use sigmastar_theory::derivation::consequences::ErrorBounds;
@@ -114,15 +115,6 @@ pub(super) fn actuator(spec: &Specification) -> Option<Value> {
 /// The gain with each interval closed to its nominal value.
 pub(super) fn interval_costs(all: &[(String, Option<f64>)]) -> Value {
     all.iter().map(|(name, sigma)| (name.clone(), json!(sigma.map(estimate)))).collect::<serde_json::Map<_, _>>().into()
-}
-
-/// The conditions as in a certificate, with the truth of each.
-pub(super) fn conditions_with_truth(conditions: &[Condition]) -> Value {
-    let mut list = conditions_json(conditions);
-    for (item, condition) in list.as_array_mut().into_iter().flatten().zip(conditions) {
-        item["truth"] = json!(condition.truth().to_string());
-    }
-    list
 }
 
 /// The optional data with the estimate of sigma* without each; null where none is found.

@@ -1,8 +1,9 @@
 //! The report on a certification of the regulator at samples.
 
+use super::conditions::conditions_with_truth;
 use super::failures::{FORMAT, VERSION, errors_json};
 use super::for_n_o::{rates_json, sampled_section};
-use super::json::{actuator, bounds_json, conditions_with_truth, control, input_gain, interval_costs, targets_json};
+use super::json::{actuator, bounds_json, control, input_gain, interval_costs, targets_json};
 use super::limits;
 use super::obstacles::{
     SLOWER, SMALLER_START, again, describe, first_failing, first_of, first_unproved, other_gain, rest_of, smaller_by,
