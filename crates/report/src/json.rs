@@ -20,7 +20,6 @@ use sigmastar_lang::spec::{InputGain, Specification};
 use sigmastar_propose::search::{Binding, OptionalDatum};
 use sigmastar_prove::certificate::{no_plant_json, set_fields};
 use sigmastar_prove::certify::{Certification, Verdict};
-use sigmastar_theory::derivation::condition::Condition;
 use sigmastar_theory::derivation::consequences::ErrorBounds;
 use sigmastar_theory::derivation::control::Control;
 use sigmastar_theory::derivation::targets::{Consequences, Target, TargetKind, TargetOutcome};

@@ -290,12 +290,8 @@ impl<'a> Form<'a> {
     }
 
     /// The entry of any two signals at a corner, in either order.
-<<<<<<< HEAD:crates/decide/src/rates/inequality.rs
     #[must_use]
     pub fn coefficient(&self, corner: &Corner, first: Signal, second: Signal) -> Enclosure {
-=======
-    fn coefficient(&self, corner: &Corner, first: Signal, second: Signal) -> Enclosure {
->>>>>>> ea5d8be9 (Doc comments of decide, propose and prove say what each item gives; headers of moved files say what they hold now; two links that led nowhere):crates/prove/src/rate/inequality.rs
         use Signal::{D, Ux, V, Xi, Y};
         let LoopBounds { x_decay, root_p_up, k_x, k_f, .. } = self.dynamics.bounds;
         let number = |value: &Rational| Enclosure::from_rational(value, self.twice_rate.precision());
