@@ -191,7 +191,7 @@ pub enum Command {
     /// The paper's constants for a bounding specification, printed and repaired, beside the proved ones
     ///
     /// Every formula of the paper as it is printed, with the smallest sound repair, and as it is in the proof of the claim; Sylvester's
-    /// criterion, the spectral radius and the matrix inequalities beside them. The same table is in `certify --full`.
+    /// criterion, the spectral radius and the matrix inequalities beside them. The whole report of `certify` has the same table.
     #[command(after_long_help = EXIT_CODES)]
     Constants(ConstantsArgs),
     /// Find and prove the Lyapunov triple of a Jacobian, or the orbit of a plant

@@ -1,8 +1,7 @@
 //! What a run found out.
 
-use super::constants::Constants;
 use super::gain_row::{GainRow, RowNoise};
-use super::matrix_checks::MatrixChecks;
+use super::matrix_checks::{MatrixChecks, SylvesterCheck};
 use super::options::{Limits, Options};
 use super::outcome::{Outcome, is_better};
 use super::verdict::Verdict;
@@ -10,7 +9,7 @@ use crate::rate::found::RateForCount;
 use rug::Rational;
 use sigmastar_decide::conditions::BoundingProblem;
 use sigmastar_decide::conditions::NoPlant;
-use sigmastar_decide::conditions::{Decided, Proof, SharpProof};
+use sigmastar_decide::conditions::{Decided, Proof, RepairedProof, SharpProof};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_lang::spec::model::Specification;
 use sigmastar_propose::search::{Binding, Datum, Failing, Obstacle, OptionalDatum};
@@ -22,6 +21,7 @@ use sigmastar_theory::derivation::initial_set::ClaimedSet;
 use sigmastar_theory::derivation::printed::{Infeasible, PrintedEvaluation};
 use sigmastar_theory::derivation::relative_degree::RelativeDegreeError;
 use sigmastar_theory::derivation::sharp::SharpEvaluation;
+use sigmastar_theory::derivation::table::Row;
 use std::sync::OnceLock;
 
 /// What the printed formulas say about the data; nothing where the data are those of a plant's formulas.
@@ -33,6 +33,21 @@ pub struct PrintedFigure {
     pub evaluation: Option<PrintedEvaluation<Enclosure>>,
     /// The figure that the other conditions would give: max(sigma_p*, sigma_a*).
     pub sigma: Option<Enclosure>,
+}
+
+/// The paper's constants beside those of a claim.
+#[derive(Clone, Debug)]
+pub struct Constants {
+    /// The derivation of the claim, at the precision of the table.
+    pub sharp: Outcome<SharpProof>,
+    /// The repaired derivation; none where it does not apply, or nothing is compared.
+    pub repaired: Option<Outcome<RepairedProof>>,
+    /// What the printed formulas say.
+    pub printed: PrintedFigure,
+    /// Sylvester's criterion for R of the repaired derivation.
+    pub sylvester: Option<SylvesterCheck>,
+    /// Every constant; of a plant those of the claim alone, and none without a proof.
+    pub rows: Vec<Row>,
 }
 
 /// The exact-regulation claim.
@@ -121,12 +136,6 @@ pub struct Certification<'s> {
 }
 
 impl Certification<'_> {
-    /// The paper's constants beside those of the claim; worked out the first time that they are asked for.
-    #[must_use]
-    pub fn constants(&self) -> &Constants {
-        self.constants.get_or_init(|| Constants::of(self))
-    }
-
     /// What was decided, proved or not; `None` where there was no witness.
     #[must_use]
     pub fn attempt(&self) -> Option<Decided<'_>> {

@@ -1,52 +1,37 @@
 //! The paper's constants, printed and repaired, beside those of a claim: one table, worked out where it is asked for, at a precision at
 //! which its numbers are known well.
 
-use super::certification::{Certification, PrintedFigure};
+use super::certification::{Certification, Constants, PrintedFigure};
 use super::matrix_checks::SylvesterCheck;
 use super::outcome::Outcome;
 use super::pool::model;
+use super::precision::{is_rough, known_well, raise, rough};
 use super::produce::proved_up_to_arguments;
 use super::round::{TransferKind, round_repaired};
 use rug::Rational;
-use sigmastar_decide::conditions::Ladder;
-use sigmastar_decide::conditions::decide;
-use sigmastar_decide::conditions::{Decided, Proof, RepairedProof, SharpProof, Witness};
+use sigmastar_decide::conditions::{Proof, RepairedProof};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, round_f64};
-use sigmastar_lang::spec::model::Specification;
 use sigmastar_propose::search::{FloatModel, search_printed, search_repaired};
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::printed::{PrintedEvaluation, level_condition};
 use sigmastar_theory::derivation::table::{At, Row, TableInput, Value, table};
 use sigmastar_theory::transfer::printed_transfer;
 
-/// Binary digits that a reported number has, where the precision allows it.
-const DIGITS: u32 = 56;
-
-/// The most bits that are spent on that: a number that is 0, and not exactly so, is never known to any digit.
-const FINEST: u32 = 512;
-
-/// The paper's constants beside those of a claim.
-#[derive(Clone, Debug)]
-pub struct Constants {
-    /// The derivation of the claim, at the precision of the table.
-    pub sharp: Outcome<SharpProof>,
-    /// The repaired derivation; none where it does not apply, or nothing is compared.
-    pub repaired: Option<Outcome<RepairedProof>>,
-    /// What the printed formulas say.
-    pub printed: PrintedFigure,
-    /// Sylvester's criterion for R of the repaired derivation.
-    pub sylvester: Option<SylvesterCheck>,
-    /// Every constant; of a plant those of the claim alone, and none without a proof.
-    pub rows: Vec<Row>,
+impl Certification<'_> {
+    /// The paper's constants beside those of the claim; worked out the first time that they are asked for.
+    #[must_use]
+    pub fn constants(&self) -> &Constants {
+        self.constants.get_or_init(|| Constants::of(self))
+    }
 }
 
 impl Constants {
-    /// Searches and decides what is compared, and evaluates the table; proofs are decided again at a doubled precision up to [`FINEST`]
-    /// while a number is not known to [`DIGITS`]: where a bounding function cancels, fewer bits decide a condition than tell its sides.
+    /// Searches and decides what is compared, and evaluates the table; proofs are decided again at a doubled precision
+    /// while a number is not known well: where a bounding function cancels, fewer bits decide a condition than tell its sides.
     ///
     /// Guarantee: a proof stays one; an evaluation is replaced only by one of more bits that is proved too.
-    pub(super) fn of(run: &Certification<'_>) -> Constants {
+    fn of(run: &Certification<'_>) -> Constants {
         let (spec, ladder) = (run.spec, run.options.ladder);
         let data = Data::new(spec, ladder.start.max(53));
         let (repaired, printed) = compared(run, &data);
@@ -95,34 +80,6 @@ impl Constants {
     }
 }
 
-/// A proof at a precision at which its sides and its periodic solution are known to [`DIGITS`], and that precision.
-pub(super) fn refined(
-    mut sharp: Outcome<SharpProof>,
-    spec: &Specification,
-    ladder: Ladder,
-) -> (Outcome<SharpProof>, u32) {
-    let precision = known_well(ladder.start.max(53), ladder, |ladder| {
-        raise(&mut sharp, spec, ladder);
-        !sharp.proved().map(Proof::decided).is_some_and(|proof| is_rough(&proof))
-    });
-    (sharp, precision)
-}
-
-/// The first precision from `start` on, doubled up to [`FINEST`], at which things are known well, or the last one.
-fn known_well(start: u32, ladder: Ladder, mut is_known: impl FnMut(Ladder) -> bool) -> u32 {
-    let finest = FINEST.min(ladder.limit);
-    let mut precision = start;
-    while !is_known(Ladder { start: precision, ..ladder }) && precision < finest {
-        precision = (2 * precision).min(finest);
-    }
-    precision
-}
-
-fn is_rough(proof: &Decided<'_>) -> bool {
-    let [x_per, e_per, _] = proof.periodic;
-    rough(x_per) || rough(e_per) || proof.conditions.iter().any(|c| rough(&c.lhs) || rough(&c.rhs))
-}
-
 /// The repaired and the printed derivation. Both know of no input gain, of no actuator, and of no interval of the period (their K_alpha falls
 /// as T grows), and they need data that are not computed from a plant's formulas.
 fn compared(run: &Certification<'_>, data: &Data<'_>) -> (Option<Outcome<RepairedProof>>, PrintedFigure) {
@@ -157,28 +114,6 @@ fn printed_evaluation(data: &Data<'_>, model: &FloatModel) -> Option<PrintedEval
     let printed = printed_transfer(data);
     let kappas = [&printed.kappa_0, &printed.kappa_1];
     Some(PrintedEvaluation::new(data, kappas, &data.rational(&x_a), &data.rational(&e_a), |_| h))
-}
-
-/// Decides a proof again where it was decided with fewer bits; it gives way only to one that is proved too.
-fn raise<W: Witness + Clone>(outcome: &mut Outcome<Proof<W>>, spec: &Specification, ladder: Ladder) {
-    if let Outcome::Proved(proof) = outcome
-        && proof.precision < ladder.start
-    {
-        let again = decide(spec, proof.witness.clone(), ladder);
-        if again.truth().is_true() {
-            **proof = again;
-        }
-    }
-}
-
-/// Whether a number that has bounds is known to less than [`DIGITS`].
-fn rough(value: &Enclosure) -> bool {
-    if !value.is_bounded() {
-        return false;
-    }
-    let width = Enclosure::point(&value.upper()) - Enclosure::point(&value.lower());
-    let unit = Enclosure::from_rational(&(Rational::from(1) >> DIGITS), DIGITS);
-    !width.le(&(value.abs().ceiling() * unit)).is_true()
 }
 
 /// A row without the figures that rest on data which are not computed from a plant's formulas.

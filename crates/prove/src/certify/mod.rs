@@ -17,6 +17,7 @@ mod nominal_ball;
 mod options;
 mod outcome;
 mod pool;
+mod precision;
 mod produce;
 mod rates;
 mod refusal;
@@ -32,8 +33,7 @@ mod start;
 mod verdict;
 
 pub use ball::{claimed_ball, covers_ball, inverse_norm, within_ball};
-pub use certification::{Alternatives, Certification, ExactClaim, PrintedFigure, RelativeDegreeGains};
-pub use constants::Constants;
+pub use certification::{Alternatives, Certification, Constants, ExactClaim, PrintedFigure, RelativeDegreeGains};
 pub use gain_row::{GainRow, RowNoise, SHOWN_N_O};
 pub use gains::ROWS;
 pub use jacobian::{MAX_SEARCHES, Resolution, resolve, resolve_with, with_triple};

@@ -25,7 +25,8 @@ pub struct Options {
     pub transfer: TransferChoice,
     /// The working precisions (default: 128 to 1024 bits).
     pub ladder: Ladder,
-    /// Whether the printed and the repaired derivation are worked out too, for comparison (default: yes).
+    /// Whether what else would give is worked out too, and the paper's derivations are searched where their constants are asked for
+    /// (default: yes).
     pub compare: bool,
 }
 

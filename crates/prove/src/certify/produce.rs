@@ -1,12 +1,12 @@
 //! The whole run: prove the bounding functions, search, round, decide.
 
 use super::certification::{Alternatives, Certification, ExactClaim, RelativeDegreeGains};
-use super::constants::refined;
 use super::least_limit::with_least_kept;
 use super::matrix_checks::MatrixChecks;
 use super::options::{Limits, Options};
 use super::outcome::{Outcome, failing};
 use super::pool::{BestSharp, Member, Wanted};
+use super::precision::refined;
 use super::refusal::Refusal;
 use super::round::exact_claim;
 use super::sensitivity::{aligned, ranked, with_nominal_gain};

@@ -4,9 +4,9 @@
 //! box, and with the same weights C4 holds in every larger box; of either C5 asks for a larger gain.
 
 use super::certification::{Certification, ExactClaim};
-use super::constants::refined;
 use super::matrix_checks::MatrixChecks;
 use super::outcome::Outcome;
+use super::precision::refined;
 use super::rates::{for_n_o, for_n_o_at_samples};
 use super::round::LONG_DIGITS;
 use super::sampled::{SampledCertification, recheck_sampled};
