@@ -79,8 +79,8 @@ impl CertifyOptions {
         self
     }
 
-    /// Whether the repaired derivation is worked out too, and its free numbers put into the certificate (default: yes).
-    /// Without it a run is faster, and the claim is the same or nearly so.
+    /// Whether what else would give is worked out too, as bounds at larger gains and what intervals of parameters cost, and the repaired
+    /// derivation, whose free numbers are in the certificate (default: yes). Without it a run is faster, and the claim is the same or nearly so.
     #[must_use]
     pub fn compare(mut self, compare: bool) -> CertifyOptions {
         self.compare = compare;

@@ -93,7 +93,7 @@ pub fn run(args: &CertifyArgs) -> Result<u8, Failure> {
         }
     };
     let prepared = match prepared {
-        Err(errors) if witness.is_none() && !args.no_compare && is_of_set(&errors) => {
+        Err(errors) if witness.is_none() && !args.no_alternatives && is_of_set(&errors) => {
             let found = shrunk(&document, gain.as_ref(), (&limits, &counts), args.options(), &stages);
             Err(found.map_or(errors.clone(), |found| {
                 errors.into_iter().map(|errors| errors.with_more_help(&in_words(&found))).collect()

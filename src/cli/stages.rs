@@ -53,7 +53,7 @@ impl fmt::Display for Step {
             Step::Of(Stage::Triple) => "finding and proving the triple of the Jacobian",
             Step::Of(Stage::Witness) => "searching the free numbers, deciding the conditions",
             Step::Of(Stage::Limits) => "seeking a gain that keeps to what is asked for",
-            Step::Of(Stage::Comparison) => "working out what else would give (`--no-compare` leaves it out)",
+            Step::Of(Stage::Comparison) => "working out what else would give (`--no-alternatives` leaves it out)",
             Step::Decision => "deciding the conditions",
             Step::Rates => "proving rates",
             Step::Checked => "letting the independent checker decide",

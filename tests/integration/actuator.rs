@@ -262,7 +262,7 @@ fn rows_of_larger_gains() {
             assert!(peak <= (of_claim + number(&own["error_box"]["D_e"])) * (1.0 + 1e-3), "{file} {at}: {peak}");
         }
     }
-    let (_, without) = report(&[&format!("specs/{NAME}.json"), "--no-compare"]);
+    let (_, without) = report(&[&format!("specs/{NAME}.json"), "--no-alternatives"]);
     assert_eq!(without["gains"], object!([]));
 }
 

@@ -65,7 +65,7 @@ fn a_box_without_states_has_no_x() {
     let [path, made] = ["plant.json", "made.json"].map(|name| folder.path().join(name));
     let wide = changed(&tight(), &[("/actuator/max", object!("30"))]);
     std::fs::write(&path, wide.to_string()).unwrap();
-    program().args(["certify", "--no-compare", "-q", "-o"]).arg(&made).arg(&path).assert().code(0);
+    program().args(["certify", "--no-alternatives", "-q", "-o"]).arg(&made).arg(&path).assert().code(0);
     assert!(proofs_check::check(&std::fs::read(&made).unwrap()).is_flawless());
     let with_x = changed(&wide, &[("/states", object!(["x"])), ("/f", object!(["e - x"]))]);
     let (code, text) = certify(&with_x, &[]);
@@ -115,16 +115,16 @@ fn gains_of_a_linear_plant_at_samples() {
         let path = folder.path().join("plant.json");
         std::fs::write(&path, drive().to_string()).unwrap();
         let mut call = program();
-        call.args(["certify", "--no-compare", "-q", "--format", "json", "--sampling-period", period]).arg(path);
+        call.args(["certify", "--no-alternatives", "-q", "--format", "json", "--sampling-period", period]).arg(path);
         let output = call.output().unwrap();
         assert_eq!(output.status.code(), Some(0), "{period}");
         json(&output.stdout)["sigma"].as_str().unwrap().parse().unwrap()
     };
     let [fast, slow, slower] = ["1/1500", "1/1200", "1/1050"].map(sigma);
     assert!(fast < slow && slow < slower && slower < 500.0, "{fast} {slow} {slower}");
-    let (code, text) = certify(&drive(), &["--no-compare", "--sampling-period", "1/1000", "--sigma", "300"]);
+    let (code, text) = certify(&drive(), &["--no-alternatives", "--sampling-period", "1/1000", "--sigma", "300"]);
     assert!(code == 3 && text.contains("nobody looks at the plant there") && !text.contains("finite value"), "{text}");
-    let (code, text) = certify(&drive(), &["--no-compare", "--sampling-period", "1/1000"]);
+    let (code, text) = certify(&drive(), &["--no-alternatives", "--sampling-period", "1/1000"]);
     assert!(code == 3 && text.contains("for every gain that norms may prove"), "{text}");
 }
 
@@ -136,7 +136,7 @@ fn rates_of_a_claim_by_a_matrix_inequality_at_samples() {
         let path = folder.path().join("plant.json");
         std::fs::write(&path, plant).unwrap();
         let mut call = program();
-        call.args(["certify", "--no-compare", "-q", "--format", "json", "--n-o", "0"]).args(more).arg(path);
+        call.args(["certify", "--no-alternatives", "-q", "--format", "json", "--n-o", "0"]).args(more).arg(path);
         let output = call.output().unwrap();
         (output.status.code().unwrap(), json(&output.stdout))
     };

@@ -17,14 +17,14 @@ pub(super) fn family([low, high]: [&str; 2]) -> Value {
 fn certified(folder: &Path, plant: &Value, threads: &str) -> (PathBuf, Value) {
     let mut program = program();
     program.env("RAYON_NUM_THREADS", threads);
-    certified_by(program, folder, plant, &["--no-compare"])
+    certified_by(program, folder, plant, &["--no-alternatives"])
 }
 
 /// The whole report on a plant by its certificate, in one line.
 fn in_words(folder: &Path, plant: &Value, certificate: &Path) -> String {
     let plant = stored(folder, "in-words.json", plant);
     let mut call = program();
-    call.args(["certify", "--no-compare", "--full", "--witness"]).arg(certificate).arg(plant);
+    call.args(["certify", "--no-alternatives", "--full", "--witness"]).arg(certificate).arg(plant);
     in_one_line(&told(&mut call).1)
 }
 

@@ -16,7 +16,7 @@ fn of_plant(folder: &TempDir, name: &str, flags: &[&str]) -> (String, Value) {
     let path = folder.path().join(format!("{name}.certificate.json"));
     let path = path.to_str().expect("a plain name").to_owned();
     let plant = format!("specs/plants/{name}.json");
-    sigmastar(&["certify", "-q", "--no-compare", "--force", "-o", &path, &plant]).args(flags).assert().code(0);
+    sigmastar(&["certify", "-q", "--no-alternatives", "--force", "-o", &path, &plant]).args(flags).assert().code(0);
     let certificate = json(&fs::read(&path).expect("written"));
     (path, certificate)
 }
@@ -29,7 +29,7 @@ fn stdout(arguments: &[&str]) -> String {
 #[test]
 fn a_certificate_stands_for_its_specification() {
     for command in [
-        &["certify", "--no-compare", "--full"][..],
+        &["certify", "--no-alternatives", "--full"][..],
         &["transfer", "--n-o", "0,1"],
         &["sampling", "--sampling-period", "1/100"],
         &["tune", "--over", "mu", "--tries", "3"],
@@ -46,8 +46,11 @@ fn a_certificate_stands_for_its_specification() {
     sigmastar(&["certify", "-", "--witness", "-"]).assert().code(2).stderr(contains("standard input is read once"));
     // From standard input too, and as what a study varies.
     let text = fs::read(Path::new(ROOT).join(OF_SPECIFICATION)).expect("kept");
-    let piped = sigmastar(&["certify", "-", "--no-compare", "--full"]).write_stdin(text).assert().code(0);
-    assert_eq!(utf8(piped.get_output().stdout.clone()), stdout(&["certify", "--no-compare", "--full", SPECIFICATION]));
+    let piped = sigmastar(&["certify", "-", "--no-alternatives", "--full"]).write_stdin(text).assert().code(0);
+    assert_eq!(
+        utf8(piped.get_output().stdout.clone()),
+        stdout(&["certify", "--no-alternatives", "--full", SPECIFICATION])
+    );
     let folder = TempDir::new().expect("a folder");
     let results = |subject: &str| {
         let subject = Path::new(ROOT).join(subject);

@@ -137,7 +137,7 @@ fn targets_are_exact_constants() {
         certify(&[EXAMPLE, &format!("--target-sup={value}")]).assert().code(2).stderr(contains(reason));
     }
     certify(&[EXAMPLE, "--target-rms", "sin(pi)"]).assert().code(3);
-    let report = certify(&[EXAMPLE, "--target-sup", "1e-40", "--format", "json", "--no-compare"]).assert().code(0);
+    let report = certify(&[EXAMPLE, "--target-sup", "1e-40", "--format", "json", "--no-alternatives"]).assert().code(0);
     assert_eq!(json(&report.get_output().stdout)["consequences"]["targets"][0]["answer"], "not reached");
 }
 
@@ -225,7 +225,7 @@ fn the_same_bytes_with_any_number_of_threads() {
 fn a_closed_pipe_is_no_failure() {
     use std::process::Stdio;
     let mut child = process()
-        .args(["certify", EXAMPLE, "--no-compare"])
+        .args(["certify", EXAMPLE, "--no-alternatives"])
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
         .spawn()
@@ -241,7 +241,8 @@ fn a_closed_pipe_is_no_failure() {
 #[test]
 fn a_full_disk_is_told() {
     let full = fs::OpenOptions::new().write(true).open("/dev/full").expect("Linux has it");
-    let output = process().args(["certify", EXAMPLE, "--no-compare"]).stdout(full).output().expect("the program runs");
+    let output =
+        process().args(["certify", EXAMPLE, "--no-alternatives"]).stdout(full).output().expect("the program runs");
     assert_eq!(output.status.code(), Some(2));
     assert!(String::from_utf8_lossy(&output.stderr).contains("no space is left"));
 }

@@ -82,7 +82,7 @@ fn a_counterexample_is_short_in_the_text_and_whole_in_the_json() {
 fn a_byte_order_mark_changes_nothing() {
     let digest = |text: String| {
         let output =
-            sigmastar(&["certify", "-", "--no-compare", "--format", "json"]).write_stdin(text).assert().code(0);
+            sigmastar(&["certify", "-", "--no-alternatives", "--format", "json"]).write_stdin(text).assert().code(0);
         let report = json(&output.get_output().stdout);
         report["specification"]["sha256"].as_str().expect("a digest").to_owned()
     };
@@ -126,7 +126,7 @@ fn a_smaller_initial_set_has_a_size() {
     let domain = ("\"X\": \"10\", \"E\": \"10\"", "\"X\": \"1\", \"E\": \"1\"");
     let set = |set: &str| example(&[domain, ("{ \"kind\": \"paper\" }", set)]);
     let run = |text: String| {
-        let output = sigmastar(&["certify", "-", "--no-compare", "--format", "json"]).write_stdin(text).output();
+        let output = sigmastar(&["certify", "-", "--no-alternatives", "--format", "json"]).write_stdin(text).output();
         let output = output.expect("it runs");
         let report = json(&output.stdout);
         (output.status.code(), report)
@@ -169,7 +169,7 @@ fn the_stages_of_a_call_are_told() {
             &["orbit", "coordinates", "bounds", "conditions", "rates", "checker"][..],
         ),
         (&["specs/linear.json"], 1, &["conditions"]),
-        (&["specs/paper-example-jacobian.json", "--no-compare"], 2, &["triple of the Jacobian", "conditions"]),
+        (&["specs/paper-example-jacobian.json", "--no-alternatives"], 2, &["triple of the Jacobian", "conditions"]),
         (&["specs/linear.json", "--witness", "proofs-check/tests/certificates/linear.sharp.json"], 1, &["deciding"]),
         (&["specs/linear.json", "--format", "html"], 2, &["conditions", "figures"]),
     ] {
@@ -190,6 +190,6 @@ fn the_stages_of_a_call_are_told() {
 /// What a Jacobian costs is said where it takes long, never on standard output, and not with `--quiet`.
 #[test]
 fn quiet_is_quiet_with_a_jacobian() {
-    let arguments = ["certify", "specs/paper-example-jacobian.json", "--no-compare", "--quiet", "--full"];
+    let arguments = ["certify", "specs/paper-example-jacobian.json", "--no-alternatives", "--quiet", "--full"];
     sigmastar(&arguments).assert().code(0).stderr(is_empty()).stdout(contains("finding and proving").not());
 }

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 fn certificate(folder: &Path, spec: &str) -> PathBuf {
     let file = folder.join("certificate.json");
-    program().args(["certify", spec, "--no-compare", "-q", "-o"]).arg(&file).assert().success();
+    program().args(["certify", spec, "--no-alternatives", "-q", "-o"]).arg(&file).assert().success();
     file
 }
 

@@ -282,7 +282,7 @@ fn plants_are_stable_at_the_gains_that_are_certified() {
             plant["internal_model"]["delay_samples"] = 1.into();
             let file = stored(folder.path(), &format!("{name}-{samples}.json"), &plant);
             let file = file.to_str().unwrap();
-            let report = answer(&["certify", file, "-q", "--no-compare"]);
+            let report = answer(&["certify", file, "-q", "--no-alternatives"]);
             let Some(sigma) = report["sigma"].as_str() else {
                 assert_eq!(report["verdict"], "undecided", "{name} {samples}");
                 println!("{name} {samples}: undecided");

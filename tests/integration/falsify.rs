@@ -7,7 +7,7 @@ use std::path::Path;
 
 /// The certificate that the program writes for a shipped specification, made once.
 fn certificate(name: &str) -> Value {
-    json(&made(&["certify", &format!("specs/{name}.json"), "--no-compare", "-q"]).1)
+    json(&made(&["certify", &format!("specs/{name}.json"), "--no-alternatives", "-q"]).1)
 }
 
 /// Runs `falsify` on a certificate and returns the exit code, the report and the counterexample, if one was written.
@@ -43,7 +43,7 @@ fn tight() -> Value {
 }
 
 fn certified(spec: &Value, folder: &Path) -> Value {
-    read(certified_in(folder, spec, &["--no-compare"]).0)
+    read(certified_in(folder, spec, &["--no-alternatives"]).0)
 }
 
 #[test]

@@ -90,7 +90,7 @@ fn random_families_are_certified_and_valid_and_no_member_breaks_a_bound() {
         let output = program()
             .arg("certify")
             .arg(&file)
-            .args(["--quiet", "--no-compare", "--format", "json", "-o"])
+            .args(["--quiet", "--no-alternatives", "--format", "json", "-o"])
             .arg(&certificate)
             .output();
         let report = json(&output.unwrap().stdout);

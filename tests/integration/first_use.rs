@@ -14,7 +14,7 @@ fn told(command: &[&str], name: &str, change: impl FnOnce(&mut Value)) -> (i32, 
 
 const LINEAR: &str = "specs/plants/linear.json";
 const PENDULUM: &str = "specs/plants/pendulum.json";
-const CERTIFY: [&str; 2] = ["certify", "--no-compare"];
+const CERTIFY: [&str; 2] = ["certify", "--no-alternatives"];
 
 /// The states and right sides of a plant.
 fn states(plant: &mut Value, states: &[&str], f: &[&str]) {
@@ -72,12 +72,12 @@ fn an_initial_set_that_is_too_large_is_told_with_one_that_is_not() {
         .map(|(share, _)| share.parse().expect("a number"))
         .unwrap_or_else(|| panic!("{text}"));
     let sigma = text.split_once("the gain ").and_then(|(_, rest)| rest.split_once(" is certified")).expect("a gain").0;
-    let (code, text) = with(&["--no-compare"], set(share));
+    let (code, text) = with(&["--no-alternatives"], set(share));
     let found = text.split_once("sigma* = ").and_then(|(_, rest)| rest.split_once(" in 1/time")).expect("a gain").0;
     let [found, sigma] = [found, sigma].map(|text| text.parse::<f64>().expect("a number"));
     // The search for a share goes without joint metrics.
     assert!(code == 0 && found <= sigma, "{sigma}: {text}");
-    let (code, text) = with(&["--no-compare"], set(share / 2));
+    let (code, text) = with(&["--no-alternatives"], set(share / 2));
     assert!(code == 3 && text.contains("at /initial_set") && !text.contains("divided by"), "{text}");
     // A gain that is too small for a set says nothing about the set.
     let (code, text) = with(&["--sigma", "1/100"], set(share));
@@ -231,7 +231,7 @@ fn of_text(command: &[&str], name: &str, text: &str) -> (i32, String) {
 
 #[test]
 fn rates_far_above_the_smallest_gain_are_found() {
-    let at = |flags: &[&str]| of_text(&[&["certify", "--no-compare"], flags].concat(), "pump.toml", PUMP);
+    let at = |flags: &[&str]| of_text(&[&["certify", "--no-alternatives"], flags].concat(), "pump.toml", PUMP);
     let (code, text) = at(&["--rate", "5", "--n-o", "2"]);
     assert!(code == 0 && text.contains("a rate of at least 5 for n_o = 2"), "{text}");
     if every(2) == 1 {
@@ -245,7 +245,7 @@ fn rates_far_above_the_smallest_gain_are_found() {
 fn the_smallest_gain_beside_a_limit_is_that_of_the_plant() {
     let report = |flags: &[&str]| -> Value {
         let (code, text) =
-            of_text(&[&["certify", "--no-compare", "-q", "--format", "json"], flags].concat(), "pump.toml", PUMP);
+            of_text(&[&["certify", "--no-alternatives", "-q", "--format", "json"], flags].concat(), "pump.toml", PUMP);
         assert_eq!(code, 0, "{text}");
         parsed(text.as_bytes())
     };
@@ -356,7 +356,7 @@ fn flags_of_files_and_of_other_commands_are_told_apart() {
 fn what_limits_a_gain_at_samples_is_what_it_would_fall_without() {
     let limit = |name: &str, samples: u32, flags: &[&str]| {
         let h = format!("1/{samples}");
-        let call = ["certify", "--no-compare", "-q", "--format", "json", "--sampling-period", &h, name];
+        let call = ["certify", "--no-alternatives", "-q", "--format", "json", "--sampling-period", &h, name];
         let output = program().args(call).args(flags).output().expect("the program runs");
         let report = parsed(&output.stdout);
         report["limit"]["name"].as_str().expect("a limit").to_owned()

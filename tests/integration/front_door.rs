@@ -126,7 +126,7 @@ fn a_forged_certificate_is_refused() {
 fn the_certificate_is_that_of_the_program() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("certificate.json");
-    program().args(["certify", EXAMPLE, "--no-compare", "-o"]).arg(&file).current_dir(ROOT).assert().success();
+    program().args(["certify", EXAMPLE, "--no-alternatives", "-o"]).arg(&file).current_dir(ROOT).assert().success();
     let specification = Specification::from_json(EXAMPLE_TEXT).unwrap();
     let certificate = certify(&specification, &quick()).unwrap();
     assert_eq!(certificate.to_json(), std::fs::read_to_string(file).unwrap());
@@ -301,7 +301,13 @@ fn plant() -> Subject {
 
 /// What the program writes for `certify`.
 fn told(args: &[&str]) -> Vec<u8> {
-    program().arg("certify").args(args).args(["--no-compare", "--quiet"]).output().expect("the program runs").stdout
+    program()
+        .arg("certify")
+        .args(args)
+        .args(["--no-alternatives", "--quiet"])
+        .output()
+        .expect("the program runs")
+        .stdout
 }
 
 #[test]

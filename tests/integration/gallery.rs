@@ -134,7 +134,7 @@ fn the_gains_at_samples_in_the_gallery_are_certified() {
     for (name, cells) in rows.into_iter().step_by(every(10)) {
         let plant = format!("specs/plants/{name}.json");
         let law = ["--sampling-period", &cells[1], "--sigma", &cells[2]];
-        let call = ["certify", &plant, "--quiet", "--no-compare", "--format", "json"].into_iter().chain(law);
+        let call = ["certify", &plant, "--quiet", "--no-alternatives", "--format", "json"].into_iter().chain(law);
         let output = program().args(call).output().unwrap();
         let report = json(&output.stdout);
         assert_eq!(report["verdict"], "certified", "{name}: {report:#}");

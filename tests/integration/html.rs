@@ -212,9 +212,9 @@ fn reports_on_certificates_are_pages() {
 fn a_stored_certificate_has_a_page() {
     let folder = tempfile::tempdir().unwrap();
     for (name, call) in [
-        ("sampled", &["certify", AT_REST, "--no-compare", "--sampling-period", "1/1000"][..]),
-        ("plant", &["certify", "specs/plants/pendulum.json", "--no-compare", "--n-o", "0,2"]),
-        ("family", &["certify", "specs/machines/quarter-car.toml", "--no-compare"]),
+        ("sampled", &["certify", AT_REST, "--no-alternatives", "--sampling-period", "1/1000"][..]),
+        ("plant", &["certify", "specs/plants/pendulum.json", "--no-alternatives", "--n-o", "0,2"]),
+        ("family", &["certify", "specs/machines/quarter-car.toml", "--no-alternatives"]),
     ] {
         let file = folder.path().join(name);
         let file = file.to_str().expect("a plain name");
@@ -253,7 +253,7 @@ fn names_from_files_are_no_markup() {
     let hostile = "<script>alert('x')</script> & \\\" onload=\\\"y";
     let folder = tempfile::tempdir().unwrap();
     for (text, command) in [
-        (EXAMPLE_TEXT, &["certify", "-q", "--no-compare"][..]),
+        (EXAMPLE_TEXT, &["certify", "-q", "--no-alternatives"][..]),
         (EXAMPLE_TEXT, &["transfer", "-q", "--n-o", "1"]),
         (EXAMPLE_TEXT, &["errata"]),
         (PLANT_TEXT, &["simulate", "-q", "--sigma", "2", "--n-o", "1", "--periods", "1"]),

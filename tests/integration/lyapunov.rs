@@ -68,21 +68,21 @@ fn the_certificate_carries_p_and_is_decided_again() {
     let file = folder.path().join("certificate.json");
     let name = file.to_str().expect("a plain name");
     let spec = "specs/paper-example-jacobian.json";
-    let (code, report, _) = run(&["certify", spec, "--no-compare", "-o", name]);
+    let (code, report, _) = run(&["certify", spec, "--no-alternatives", "-o", name]);
     assert_eq!(code, 0);
     // No larger than with the triple that paper-example.json ships.
-    let (_, shipped, _) = run(&["certify", "specs/paper-example.json", "--no-compare"]);
+    let (_, shipped, _) = run(&["certify", "specs/paper-example.json", "--no-alternatives"]);
     assert!(number(&report["sigma_star"]) <= number(&shipped["sigma_star"]));
     let mut certificate = read(&file);
     assert!(certificate["witness"]["lmi"]["l_x"].is_string());
     assert_eq!(certificate["specification"]["lyapunov"]["jacobian"].as_array().map(Vec::len), Some(2));
-    let (code, again, _) = run(&["certify", spec, "--no-compare", "--witness", name]);
+    let (code, again, _) = run(&["certify", spec, "--no-alternatives", "--witness", name]);
     assert_eq!((code, &again["sigma_star"]), (0, &report["sigma_star"]));
 
     let honest = certificate.clone();
     let decided = |certificate: &Value| {
         std::fs::write(&file, certificate.to_string()).unwrap();
-        run(&["certify", spec, "--no-compare", "--witness", name])
+        run(&["certify", spec, "--no-alternatives", "--witness", name])
     };
     certificate["witness"]["lyapunov"]["alpha"] = Value::from("0.6");
     let (code, report, _) = decided(&certificate);

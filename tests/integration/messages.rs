@@ -40,7 +40,7 @@ fn the_control_is_left_out_of_q() {
     let (code, text) = told(&["certify"], &path);
     assert!(code == 2 && !text.contains("leave it out of q"), "{text}");
     let (_folder, path) = file("plant.json", &plant("u + sin(2*pi*t)", Some("u")));
-    assert_eq!(told(&["certify", "--no-compare"], &path).0, 0);
+    assert_eq!(told(&["certify", "--no-alternatives"], &path).0, 0);
 }
 
 #[test]
@@ -51,7 +51,7 @@ fn a_sign_has_a_smooth_function_in_its_place() {
         ("tanh(20*e)/10 + sin(2*pi*t)", 0, None),
     ] {
         let (_folder, path) = file("plant.json", &plant(q, None));
-        let (found, text) = told(&["certify", "--no-compare"], &path);
+        let (found, text) = told(&["certify", "--no-alternatives"], &path);
         assert!(found == code && said.is_none_or(|said| text.contains(said)), "{q}: {text}");
     }
 }
@@ -68,7 +68,7 @@ fn a_quotient_that_is_0_over_0_is_named_with_its_instant() {
             plant["initial"] = serde_json::json!({ "x": [x], "e": "0" });
         }
         let (_folder, path) = file("plant.json", &plant.to_string());
-        let (code, text) = told(&["certify", "--no-compare"], &path);
+        let (code, text) = told(&["certify", "--no-alternatives"], &path);
         (code, in_one_line(&text))
     };
     const CHANGED: &str = "with it the model is another one";
@@ -107,7 +107,7 @@ fn a_corner_is_told_straight() {
     assert!(text.contains("write sqrt(u^2 + 1/100) for abs(u)") && !text.contains("not true"), "{text}");
     let (_folder, path) = file("plant.json", &plant("abs(100 + e)/100 + sin(2*pi*t)", None));
     // What is not seen to vanish anywhere is not said to.
-    let (_, text) = told(&["certify", "--no-compare"], &path);
+    let (_, text) = told(&["certify", "--no-alternatives"], &path);
     assert!(!text.contains("abs vanishes at some state"), "{text}");
 }
 
@@ -160,7 +160,7 @@ fn what_is_no_certificate_yet_is_certified_first() {
 
 /// What is certified of the paper's example with these flags: the exit code, and both streams in one line.
 fn certified(flags: &[&str]) -> (i32, String) {
-    let (code, text) = told(&[&["certify", "--no-compare"], flags].concat(), std::path::Path::new(EXAMPLE));
+    let (code, text) = told(&[&["certify", "--no-alternatives"], flags].concat(), std::path::Path::new(EXAMPLE));
     (code, in_one_line(&text))
 }
 
@@ -271,7 +271,7 @@ fn what_stands_in_a_field_of_an_object_is_put_there() {
         let mut plant: Value = serde_json::from_str(&plant("sin(2*pi*t)", None)).unwrap();
         plant[name] = value;
         let (_folder, path) = file("plant.json", &plant.to_string());
-        told(&["certify", "--no-compare"], &path)
+        told(&["certify", "--no-alternatives"], &path)
     };
     for (name, value, said) in [
         ("actuator", "5".into(), "write `{ \"max\": \"5\" }`"),
@@ -327,13 +327,13 @@ fn what_is_used_nowhere_is_told_before_the_search() {
     let mut plant: Value = serde_json::from_str(&plant("k*sin(2*pi*t)", None)).unwrap();
     plant["parameters"] = serde_json::json!({ "k": "1", "c": "2" });
     let (_folder, path) = file("plant.json", &plant.to_string());
-    let output = program().args(["certify", "--progress", "--no-compare"]).arg(&path).output().unwrap();
+    let output = program().args(["certify", "--progress", "--no-alternatives"]).arg(&path).output().unwrap();
     let text = utf8(output.stderr);
     let [remark, stage] = ["the parameter 'c' is used nowhere", "stage 1 of"].map(|part| text.find(part).unwrap());
     assert!(remark < stage, "{text}");
     plant["q"] = "k*sin(2*pi*t)/c".into();
     let (_folder, path) = file("plant.json", &plant.to_string());
-    let (_, text) = told(&["certify", "--no-compare"], &path);
+    let (_, text) = told(&["certify", "--no-alternatives"], &path);
     assert!(!text.contains("used nowhere"), "{text}");
 }
 
@@ -345,7 +345,8 @@ fn a_start_of_simulations_far_outside_of_the_set_is_told() {
         plant["initial"]["x"][0] = initial.into();
         let (folder, path) = file("plant.json", &plant.to_string());
         let certificate = folder.path().join("certificate.json");
-        let output = program().args(["certify", "--no-compare", "-o"]).args([&certificate, &path]).output().unwrap();
+        let output =
+            program().args(["certify", "--no-alternatives", "-o"]).args([&certificate, &path]).output().unwrap();
         let said = "far outside of the certified set |y| <= ";
         let text = utf8(output.stderr);
         assert!(output.status.success() && text.contains(said) == far, "{initial}: {text}");
@@ -404,7 +405,7 @@ fn a_constant_that_divides_is_zero() {
         "{said}"
     );
     let (_folder, path) = file("plant.json", &text("2 - 1"));
-    assert_eq!(told(&["certify", "--no-compare"], &path).0, 0);
+    assert_eq!(told(&["certify", "--no-alternatives"], &path).0, 0);
     // One that is 0 at some states alone is told of those.
     let (_folder, path) = file("plant.json", &plant("-e/(1 - e) + sin(2*pi*t)", None));
     let (_, said) = told(&["certify"], &path);
@@ -420,7 +421,7 @@ fn an_operation_by_entries() {
     let (code, said) = told(&["certify"], &path);
     assert!(code == 2 && !said.contains("for .*"), "{said}");
     let (_folder, path) = file("plant.json", &plant("-e + sin(2.*pi*t)", None));
-    assert_eq!(told(&["certify", "--no-compare"], &path).0, 0);
+    assert_eq!(told(&["certify", "--no-alternatives"], &path).0, 0);
 }
 
 #[test]
@@ -429,7 +430,7 @@ fn a_certificate_is_no_page() {
     let certify = |name: &str| {
         let target = folder.path().join(name);
         let target = target.to_str().unwrap();
-        (told(&["certify", "--no-compare", "-o", target], &path), std::path::Path::new(target).exists())
+        (told(&["certify", "--no-alternatives", "-o", target], &path), std::path::Path::new(target).exists())
     };
     let ((code, said), written) = certify("report.html");
     assert!(code == 2 && !written && said.contains("--format html > report.html"), "{said}");

@@ -52,7 +52,7 @@ const LETTERS: [&str; 24] = [
 fn no_name_of_a_plant_is_taken_for_a_letter_of_the_claim() {
     let folder = tempfile::tempdir().unwrap();
     let plain = plant(["p_1", "p_2", "p_3", "p_4"]);
-    let (certificate, _) = certified_in(folder.path(), &plain, &["--no-compare"]);
+    let (certificate, _) = certified_in(folder.path(), &plain, &["--no-alternatives"]);
     let statement = read(certificate)["claim"]["statement"].as_str().unwrap().to_owned();
     for part in ["every input gain in [1.9/'p_1', 2.1/'p_1'] (one", "with a constant 'p_1' of the file in [1.8, 2.2] ("]
     {
@@ -78,7 +78,7 @@ fn no_name_of_a_plant_is_taken_for_a_letter_of_the_claim() {
     for place in 0..names.len() {
         let [a, b, c] = [place, place + 1, place + 2].map(|place| names[place % names.len()]);
         let other = plant([a, b, c, a]);
-        let (certificate, _) = certified_in(folder.path(), &other, &["--no-compare"]);
+        let (certificate, _) = certified_in(folder.path(), &other, &["--no-alternatives"]);
         let certificate = read(certificate);
         let put_in = |text: &str| {
             ["p_1", "p_2", "p_3"]
@@ -115,7 +115,7 @@ fn the_words_of_both_programs_are_the_same() {
 #[test]
 fn an_export_has_the_words_of_this_program() {
     let folder = tempfile::tempdir().unwrap();
-    let (file, _) = certified_in(folder.path(), &support::document("linear"), &["--no-compare"]);
+    let (file, _) = certified_in(folder.path(), &support::document("linear"), &["--no-alternatives"]);
     let mut certificate = read(&file);
     let own = certificate["claim"]["statement"].clone();
     certificate["claim"]["statement"] = "Nothing saturates.".into();

@@ -20,7 +20,7 @@ fn certify(folder: &Path, text: &str, arguments: &[&str]) -> (Value, Option<Valu
     let [file, certificate] = ["spec.json", "certificate.json"].map(|name| folder.join(name));
     std::fs::write(&file, text).unwrap();
     let mut call = program();
-    call.arg("certify").arg(&file).args(arguments).args(["--no-compare", "--format", "json", "--force", "-o"]);
+    call.arg("certify").arg(&file).args(arguments).args(["--no-alternatives", "--format", "json", "--force", "-o"]);
     let output = call.arg(&certificate).output().unwrap();
     let report = json(&output.stdout);
     let written = std::fs::read(&certificate).ok().filter(|_| output.status.code() == Some(0));
@@ -150,7 +150,7 @@ fn the_way_from_an_aligned_start_is_bounded_by_the_peak() {
         let [peak, limit] = ["peak", "limit"].map(|name| &found["noise"][name]);
         let file = folder.path().join("spec.json");
         let mut call = program();
-        call.args(["certify", "--no-compare", "--full", "--sigma", "60", "--n-o", "1"]).arg(file);
+        call.args(["certify", "--no-alternatives", "--full", "--sigma", "60", "--n-o", "1"]).arg(file);
         let (_, said) = told(&mut call);
         let words = [
             " (t - t_0)) undisturbed, disturbed at most ",

@@ -131,7 +131,7 @@ fn the_claim_is_the_same_in_every_notation() {
         let file = folder.path().join(name);
         let certificate = folder.path().join(format!("{name}.certificate.json"));
         fs::write(&file, text).expect("written");
-        let call = ["certify", "-q", "--no-compare"];
+        let call = ["certify", "-q", "--no-alternatives"];
         program().args(call).arg(&file).arg("-o").arg(&certificate).assert().code(0).stderr(is_empty());
         let value = json(&fs::read(&certificate).expect("written"));
         assert!(value["specification"].get("$schema").is_none(), "{name}");
@@ -548,7 +548,7 @@ fn files_are_tuned_in_their_own_notation() {
     let better = |name: &str, text: &str, output: &str| {
         let report = json(&tuned(name, text, output).code(0).get_output().stdout);
         let mut again = program();
-        again.args(["certify", "-q", "--no-compare", "--format", "json"]).arg(folder.path().join(output));
+        again.args(["certify", "-q", "--no-alternatives", "--format", "json"]).arg(folder.path().join(output));
         let certified = json(&again.assert().code(0).get_output().stdout);
         assert_eq!(certified["sigma_star"], report["after"]["sigma_star"], "{name}");
         assert_ne!(report["after"]["sigma_star"], report["before"]["sigma_star"], "{name}");

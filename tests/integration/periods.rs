@@ -40,7 +40,7 @@ fn in_phase(period: &Value) -> Value {
 }
 
 fn certified(folder: &TempDir, document: &Value) -> (PathBuf, Value) {
-    certified_in(folder.path(), document, &["--no-compare"])
+    certified_in(folder.path(), document, &["--no-alternatives"])
 }
 
 /// The exit code of the document with the witness of a certificate, decided again.
@@ -209,14 +209,14 @@ fn a_mistuned_plant_is_certified_and_its_error_bounded_by_the_number_of_oscillat
     assert!((4..20).contains(&last) && enough > 0 && enough < last, "{mistuned}");
     assert!(sups[7] == sups[10] && last <= 20);
     let answer = |target: f64| {
-        let flags = ["--no-compare", "--target-sup", &target.to_string()];
+        let flags = ["--no-alternatives", "--target-sup", &target.to_string()];
         certified_in(folder.path(), &plant, &flags).1["consequences"]["targets"][0].clone()
     };
     let [reached, not_reached] = [1.1, 0.9].map(|factor| answer(factor * sups[10]));
     assert_eq!([&reached["answer"], &not_reached["answer"]], ["reached", "not reached"], "{reached}");
     assert!(reached["n_o"].as_u64().unwrap() <= enough);
     let call =
-        program().args(["certify", "--no-compare", "--full", "-q"]).arg(folder.path().join("input.json")).output();
+        program().args(["certify", "--no-alternatives", "--full", "-q"]).arg(folder.path().join("input.json")).output();
     let text = utf8(call.unwrap().stdout).replace('\n', " ");
     assert!(text.contains(&format!("An oscillator pays up to k = {last}")), "{text}");
 }

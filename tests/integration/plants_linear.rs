@@ -192,7 +192,7 @@ fn identity(n: usize) -> Vec<Vec<f64>> {
 fn gain(folder: &Path, name: &str, plant: &Value) -> Result<f64, String> {
     let file = stored(folder, &format!("{name}.json"), plant);
     let certificate = folder.join(format!("{name}.certificate.json"));
-    let call = ["--quiet", "--no-compare", "--format", "json", "-o"];
+    let call = ["--quiet", "--no-alternatives", "--format", "json", "-o"];
     let output = program().arg("certify").arg(&file).args(call).arg(&certificate).output().unwrap();
     let report = json(&output.stdout);
     if report["verdict"] != "certified" {

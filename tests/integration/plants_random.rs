@@ -193,7 +193,7 @@ fn what_takes_the_checker_many_boxes_is_proved_with_room() {
     for (mut plant, largest) in [(three, 0.14), (five, 3.6)].into_iter().step_by(every(2)) {
         plant["initial_set"] = value!({ "kind": "box", "ball": "1/4", "E0": "1/2", "Z0": "0" });
         // It is not written without being decided again.
-        let (certificate, report) = certified_in(folder.path(), &plant, &["--no-compare"]);
+        let (certificate, report) = certified_in(folder.path(), &plant, &["--no-alternatives"]);
         let sigma = number(&report["sigma_star"]);
         assert!(sigma < largest && certificate.is_file(), "{sigma}");
     }
@@ -206,7 +206,7 @@ fn all_that_is_certified_is_valid(plant: fn(u64) -> serde_json::Value) {
     for seed in seeds.clone() {
         let file = stored(folder.path(), &format!("{seed}.json"), &plant(seed));
         let certificate = folder.path().join(format!("{seed}.certificate.json"));
-        let call = ["--quiet", "--no-compare", "--format", "json", "-o"];
+        let call = ["--quiet", "--no-alternatives", "--format", "json", "-o"];
         let output = program().arg("certify").arg(&file).args(call).arg(&certificate).output().unwrap();
         let report = json(&output.stdout);
         // A plant of this kind is well formed, and a search that ends without a gain claims nothing.

@@ -34,7 +34,7 @@ fn rates_are_near_those_of_the_linearised_loops() {
     let (more, counts) = if every(2) == 1 { (&MORE[..], "0,1,4,10") } else { (&[][..], "0,1,4") };
     for (name, sigma, period) in PLANTS.iter().chain(more).copied() {
         let file = format!("specs/plants/{name}.json");
-        let report = answer(&["certify", &file, "--sigma", sigma, "--no-compare", "--n-o", counts]);
+        let report = answer(&["certify", &file, "--sigma", sigma, "--no-alternatives", "--n-o", counts]);
         assert_eq!(report["verdict"], "certified", "{name}");
         let e_0 = number(&report["initial_set"]["E0"]);
         for rate in report["for_n_o"].as_array().expect("asked for") {
@@ -73,7 +73,8 @@ fn pendulum(sigma: f64, time: f64, [theta, omega, e, z0, z1, z2]: [f64; 6]) -> [
 #[test]
 fn solutions_decay_as_it_is_claimed() {
     const STEPS: usize = 500;
-    let report = answer(&["certify", "specs/plants/pendulum.json", "--sigma", "0.8", "--n-o", "1", "--no-compare"]);
+    let report =
+        answer(&["certify", "specs/plants/pendulum.json", "--sigma", "0.8", "--n-o", "1", "--no-alternatives"]);
     let rate = &report["for_n_o"][0];
     let (rate, factor) = (number(&rate["rate"]), number(&rate["factor"]));
     let e_0 = number(&report["initial_set"]["E0"]);
@@ -96,8 +97,11 @@ fn the_certificate_has_the_slopes() {
     let [first, again] = ["first.json", "again.json"].map(|name| folder.path().join(name).display().to_string());
     let plant = "specs/plants/motor-axis.json";
     let run = |arguments: &[&str]| program().args(arguments).output().expect("it runs").status.code();
-    assert_eq!(run(&["certify", plant, "--sigma", "23", "--n-o", "2,0", "-o", &first, "--no-compare"]), Some(0));
-    assert_eq!(run(&["certify", plant, "--witness", &first, "--n-o", "0,2", "-o", &again, "--no-compare"]), Some(0));
+    assert_eq!(run(&["certify", plant, "--sigma", "23", "--n-o", "2,0", "-o", &first, "--no-alternatives"]), Some(0));
+    assert_eq!(
+        run(&["certify", plant, "--witness", &first, "--n-o", "0,2", "-o", &again, "--no-alternatives"]),
+        Some(0)
+    );
     let (first, again) = (read(&first), read(&again));
     assert_eq!(first["claim"], again["claim"]);
     assert_eq!(first["witness"], again["witness"]);

@@ -150,7 +150,7 @@ pub fn shares(
 #[test]
 fn solutions_decay_as_it_is_claimed() {
     let spec = "specs/paper-example-at-rest.json";
-    let found = answer(&["certify", spec, "--sigma", "45", "--n-o", "1", "--no-compare", "--format", "json"]);
+    let found = answer(&["certify", spec, "--sigma", "45", "--n-o", "1", "--no-alternatives", "--format", "json"]);
     let report = json(&found.stdout);
     let rate = &report["for_n_o"][0];
     let (rate, factor) = (number(&rate["rate"]), number(&rate["factor"]));
@@ -186,8 +186,11 @@ fn a_witness_is_read_beside_rates() {
     let [first, again] = ["first.json", "again.json"].map(|name| folder.path().join(name).display().to_string());
     let run = |arguments: &[&str]| program().args(arguments).output().expect("it runs").status.code();
     let spec = "specs/no-x.json";
-    assert_eq!(run(&["certify", spec, "--n-o", "2,0", "-o", &first, "--no-compare"]), Some(0));
-    assert_eq!(run(&["certify", spec, "--witness", &first, "--n-o", "0,2", "-o", &again, "--no-compare"]), Some(0));
+    assert_eq!(run(&["certify", spec, "--n-o", "2,0", "-o", &first, "--no-alternatives"]), Some(0));
+    assert_eq!(
+        run(&["certify", spec, "--witness", &first, "--n-o", "0,2", "-o", &again, "--no-alternatives"]),
+        Some(0)
+    );
     let (first, again) = (read(&first), read(&again));
     assert_eq!(first["claim"], again["claim"]);
     assert_eq!(first["witness"], again["witness"]);
@@ -242,7 +245,8 @@ fn a_gain_for_rates_that_are_asked_for() {
 #[test]
 fn at_samples_a_plant_of_which_rates_are_asked_rests_on_norms() {
     let report = |more: &[&str]| {
-        let call = ["certify", "specs/plants/motor-axis.json", "--sampling-period", "1/20000", "--no-compare", "-q"];
+        let call =
+            ["certify", "specs/plants/motor-axis.json", "--sampling-period", "1/20000", "--no-alternatives", "-q"];
         json(&program().args(call).args(["--format", "json"]).args(more).output().unwrap().stdout)
     };
     let [least, with_rates, fast, kept] =

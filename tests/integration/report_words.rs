@@ -17,7 +17,7 @@ fn what_vanishes_with_infinitely_many_oscillators() {
         ("specs/plants/motor-axis.json", "is bounded, and x - x_0(t) and e tend to 0, x_0 the T-periodic solution"),
         ("specs/plants/linear.json", "is bounded, and e tends to 0."),
     ] {
-        let text = in_one_line(&certify(&[file, "--full", "--no-compare"]));
+        let text = in_one_line(&certify(&[file, "--full", "--no-alternatives"]));
         assert!(text.contains(says), "{file}: {text}");
         assert_eq!(text.contains("x and e tend"), file == "specs/paper-example.json", "{file}");
     }
@@ -38,7 +38,7 @@ fn of_a_plant_without_states_nothing_is_said_of_states() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("certificate.json");
     let name = file.to_str().expect("a plain name");
-    certify(&["specs/plants/linear.json", "--no-compare", "-o", name]);
+    certify(&["specs/plants/linear.json", "--no-alternatives", "-o", name]);
     let falsified = other(&["falsify", name, "--trials", "1", "--full"]);
     assert!(falsified.contains("sup|e| of the periodic") && !falsified.contains("|x"), "{falsified}");
     // One with a state has all of it.
@@ -51,7 +51,7 @@ fn of_a_plant_without_states_nothing_is_said_of_states() {
 
 fn sensitivities(args: &[&str]) -> (Vec<String>, Vec<f64>, f64) {
     let report: Value =
-        serde_json::from_str(&certify(&[args, &["--format", "json", "--no-compare"]].concat())).unwrap();
+        serde_json::from_str(&certify(&[args, &["--format", "json", "--no-alternatives"]].concat())).unwrap();
     let list = report["sensitivities"].as_array().unwrap();
     let names = list.iter().map(|entry| entry["datum"].as_str().unwrap().to_owned()).collect();
     let gains = list.iter().map(|entry| number(&entry["estimate"])).collect();
@@ -146,7 +146,7 @@ fn what_is_said_of_the_rate_is_what_was_asked_for() {
         (&["--n-o", "1"][..], "part of the claim for the numbers below alone; sigma*"),
         (&[], "not part of the claim; sigma*"),
     ] {
-        let flags = [&["specs/paper-example.json", "--full", "--no-compare", "--sigma", "60"], flags].concat();
+        let flags = [&["specs/paper-example.json", "--full", "--no-alternatives", "--sigma", "60"], flags].concat();
         let text = in_one_line(&certify(&flags));
         let (_, rest) = text.split_once(said).unwrap_or_else(|| panic!("{text}"));
         assert!(rest.starts_with(expected), "{rest}");

@@ -231,7 +231,7 @@ fn rounding_alone_is_small_of_plants() {
         let mut plant = json(&std::fs::read(format!("specs/plants/{name}.json")).unwrap());
         plant["arithmetic"] = "double".into();
         std::fs::write(&file, plant.to_string()).unwrap();
-        let call = ["--sampling-period", step, "--n-o", "0,4,10", "--no-compare", "--format", "json", "-q"];
+        let call = ["--sampling-period", step, "--n-o", "0,4,10", "--no-alternatives", "--format", "json", "-q"];
         let output = program().arg("certify").arg(&file).args(call).args(*more).output().unwrap();
         let report = json(&output.stdout);
         assert_eq!(output.status.code(), Some(0), "{name}: {report:#}");
@@ -249,7 +249,7 @@ fn written(members: &[(&str, Value)], arguments: &[&str]) -> (Value, Value) {
     let folder = tempfile::tempdir().expect("a folder");
     let mut document = document("paper-example-at-rest");
     members.iter().for_each(|(name, value)| document[*name] = value.clone());
-    let flags = [&["--no-compare", "--sigma", "60"], arguments].concat();
+    let flags = [&["--no-alternatives", "--sigma", "60"], arguments].concat();
     let (certificate, report) = certified_in(folder.path(), &document, &flags);
     (report, read(certificate))
 }
@@ -303,7 +303,7 @@ fn the_way_from_an_aligned_start_is_bounded_by_the_peak() {
         document["initial_set"] = object!({ "kind": kind });
         let file = stored(folder.path(), "spec.json", &document);
         let mut call = program();
-        call.args(["certify", "--no-compare", "--sigma", "60"]).args(AT).arg(file);
+        call.args(["certify", "--no-alternatives", "--sigma", "60"]).args(AT).arg(file);
         let (code, text) = told(&mut call);
         let words = [" (t - t_0)) computed exactly, rounded at most ", " (t - t_0)), rounded + "];
         assert_eq!((code, words.map(|words| text.contains(words))), (0, expected), "{text}");

@@ -345,7 +345,8 @@ fn the_program_certifies_checks_its_file_and_exports_the_law() {
 fn targets_are_answered_at_samples() {
     let report = |targets: &[&str]| {
         let call =
-            [&["certify", AT_REST, "--sampling-period", "1/100", "--no-compare", "--format", "json"], targets].concat();
+            [&["certify", AT_REST, "--sampling-period", "1/100", "--no-alternatives", "--format", "json"], targets]
+                .concat();
         json(&program().args(call).assert().code(0).get_output().stdout)
     };
     let plain = report(&[])["consequences"].clone();

@@ -298,7 +298,7 @@ fn the_exported_c_behind_a_converter_of_12_bits() {
     document["arithmetic"] = "double".into();
     std::fs::write(&file, document.to_string()).unwrap();
     let step = format!("1/{SAMPLES}");
-    let call = ["--sampling-period", &step, "--sigma", "30", "--n-o", "0,4,10", "--no-compare", "--quiet", "-o"];
+    let call = ["--sampling-period", &step, "--sigma", "30", "--n-o", "0,4,10", "--no-alternatives", "--quiet", "-o"];
     program().arg("certify").arg(&file).args(call).arg(&certificate).assert().success();
     let text = std::fs::read_to_string(&certificate).unwrap();
     let stated = json(text.as_bytes());

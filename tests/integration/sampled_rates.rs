@@ -243,7 +243,7 @@ fn what_has_no_rates_at_samples_is_refused_with_the_reason() {
     // The smallest gain of this plant rests on (Ms), and so does a claim that is decided again.
     let by_matrix = folder.path().join("matrix.json").display().to_string();
     let at = ["specs/plants/motor-axis.json", "--sampling-period", "1/20000"];
-    program().arg("certify").args(at).args(["-q", "--no-compare", "-o", &by_matrix]).assert().success();
+    program().arg("certify").args(at).args(["-q", "--no-alternatives", "-o", &by_matrix]).assert().success();
     let answer = |arguments: &[&str]| {
         let output = program().arg("certify").args(arguments).args(["--format", "json"]).output().expect("it runs");
         (output.status.code(), json(&output.stdout))

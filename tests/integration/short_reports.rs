@@ -34,7 +34,7 @@ fn answers(report: &str) {
 fn claims_fit_a_screen() {
     for path in files("specs").into_iter().step_by(every(3)) {
         let path = format!("specs/{}.json", stem(&path));
-        let (report, remarks, code) = run(&["certify", &path, "--no-compare"]);
+        let (report, remarks, code) = run(&["certify", &path, "--no-alternatives"]);
         assert_eq!(code, 0, "{path}");
         fits(&report);
         answers(&report);
@@ -43,7 +43,7 @@ fn claims_fit_a_screen() {
     for arguments in [
         &["certify", PLANT][..],
         &["certify", AT_REST, "--sampling-period", "1/1000"],
-        &["certify", "specs/plants/motor-axis.json", "--sampling-period", "1/20000", "--no-compare"],
+        &["certify", "specs/plants/motor-axis.json", "--sampling-period", "1/20000", "--no-alternatives"],
         &["certify", EXAMPLE, "--target-sup", "1e-3", "--target-rms", "1e-3"],
     ] {
         let (report, _, code) = run(&[arguments, &["-q"]].concat());
@@ -127,7 +127,7 @@ fn the_whole_report_starts_with_the_short_one() {
     // Nothing is promised where there is nothing more.
     let (_, remarks, _) = run(&["certify", AT_REST, "--sampling-period", "1/10"]);
     assert!(!remarks.contains(REMARK), "{remarks}");
-    let (_, remarks, _) = run(&["certify", EXAMPLE, "--no-compare", "--quiet"]);
+    let (_, remarks, _) = run(&["certify", EXAMPLE, "--no-alternatives", "--quiet"]);
     assert!(remarks.is_empty(), "{remarks}");
 }
 

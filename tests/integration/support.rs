@@ -166,7 +166,7 @@ pub fn certified_by(mut program: Command, folder: &Path, document: &Value, flags
 /// What the program says of a document with the witness of a certificate, decided again: its code and its report.
 #[track_caller]
 pub fn decided_again(folder: &Path, document: &Value, certificate: &Path) -> (Option<i32>, Value) {
-    let call = ["certify", "--quiet", "--no-compare", "--format", "json", "--witness"];
+    let call = ["certify", "--quiet", "--no-alternatives", "--format", "json", "--witness"];
     let input = stored(folder, "again.json", document);
     let output = program().args(call).arg(certificate).arg(input).output().expect("the program runs");
     (output.status.code(), json(&output.stdout))

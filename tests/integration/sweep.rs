@@ -170,7 +170,7 @@ fn rows_are_what_certify_says() {
     for (index, row) in rows.iter().take(2).enumerate() {
         let case = program().args(["sweep", "--case", &index.to_string()]).arg(run.path("study.json")).assert().code(0);
         let certified = program()
-            .args(["certify", "-", "--no-compare", "--format", "json"])
+            .args(["certify", "-", "--no-alternatives", "--format", "json"])
             .write_stdin(case.get_output().stdout.clone())
             .assert()
             .code(0);
@@ -360,7 +360,7 @@ fn a_row_says_what_its_set_bounds() {
         }));
         run.sweep("r.csv", &[]);
         let mut certify = program();
-        certify.args(["certify", "-", "-q", "--no-compare", "--format", "json"]).write_stdin(plant.to_string());
+        certify.args(["certify", "-", "-q", "--no-alternatives", "--format", "json"]).write_stdin(plant.to_string());
         let report: Value = serde_json::from_slice(&certify.assert().code(0).get_output().stdout).unwrap();
         (run.rows("r.csv")[0].clone(), report["initial_set"].clone())
     };

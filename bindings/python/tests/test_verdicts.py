@@ -24,7 +24,7 @@ def verdict(path):
 
 @pytest.mark.parametrize("path", FILES, ids=lambda path: str(path.relative_to(ROOT)))
 def test_the_verdict_is_that_of_the_program(path, program):
-    code, output = program("certify", path, "--no-compare", "--quiet", "--format", "json")
+    code, output = program("certify", path, "--no-alternatives", "--quiet", "--format", "json")
     report = json.loads(output)
     said, found = verdict(path)
     assert said == report["verdict"]

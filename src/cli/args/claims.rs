@@ -86,10 +86,10 @@ pub struct CertifyArgs {
           value_parser = clap::value_parser!(u32).range(i64::from(DEFAULT_PRECISION)..=4096))]
     pub precision_limit: u32,
 
-    /// Do not work out the printed and the repaired derivation for comparison, nor, where a plant is not certified, a smaller
-    /// initial set
-    #[arg(long)]
-    pub no_compare: bool,
+    /// Leave out what else would give: bounds at larger gains, what intervals of parameters cost, a limit that can be kept, a smaller
+    /// initial set where a plant is not certified; and, in a whole report and a certificate, the search of the paper's derivations
+    #[arg(long, alias = "no-compare")]
+    pub no_alternatives: bool,
 
     /// Tell the stages of the work on standard error, a line for each; on a terminal they are shown anyhow where it takes longer
     #[arg(long, conflicts_with = "quiet")]
@@ -110,7 +110,7 @@ impl CertifyArgs {
                 TransferArg::ClosedForm => TransferChoice::ClosedForm,
             },
             ladder: Ladder { start: DEFAULT_PRECISION, limit: self.precision_limit },
-            compare: !self.no_compare,
+            compare: !self.no_alternatives,
         }
     }
 }

@@ -147,7 +147,7 @@ fn the_control_is_that_of_the_actuator() {
     let found = |nominal: f64| {
         let sizes = [nominal, 0.8 * nominal, 1.25 * nominal].map(|gain| gain.to_string());
         let file = with("no-x", &gain(&sizes[0], &sizes[1], &sizes[2]));
-        let (certificate, _) = certified_in(folder.path(), &file, &["--no-compare"]);
+        let (certificate, _) = certified_in(folder.path(), &file, &["--no-alternatives"]);
         let answer = checked(&certificate);
         assert_eq!(answer["figures"]["verdict"], "agree", "{answer}");
         let certificate = read(certificate);
@@ -175,7 +175,7 @@ fn the_control_is_that_of_the_actuator() {
 fn trials_take_the_ends_first() {
     let folder = tempfile::tempdir().unwrap();
     for (name, sizes) in [("no-x", gain("2", "1.8", "2.2")), ("plants/paper-example", interval())] {
-        let (certificate, _) = certified_in(folder.path(), &with(name, &sizes), &["--no-compare"]);
+        let (certificate, _) = certified_in(folder.path(), &with(name, &sizes), &["--no-alternatives"]);
         let found = tried(&read(&certificate), count(4, 8).into(), 3);
         let end = |name: &str| number(&sizes[name]);
         let mut gains = Vec::new();

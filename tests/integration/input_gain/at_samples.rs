@@ -137,7 +137,7 @@ fn the_claim_and_the_report_say_so() {
     assert!(statement.contains(expected), "{statement}");
     let input = folder.path().join("input.json");
     let again_by_flag =
-        program().args(["certify", "-q", "--no-compare", "--witness"]).arg(&certificate).arg(&input).output();
+        program().args(["certify", "-q", "--no-alternatives", "--witness"]).arg(&certificate).arg(&input).output();
     assert_eq!(again_by_flag.unwrap().status.code(), Some(0));
     let said = utf8(program().arg("certify").arg(&input).args(["--sampling-period", "1/200"]).output().unwrap().stdout);
     let said = in_one_line(&said);

@@ -30,7 +30,7 @@ fn checked(folder: &Path, certificate: &Value) -> Value {
 fn one_gain_serves_every_motor_and_every_drive() {
     let folder = tempfile::tempdir().unwrap();
     let motor = motor(&object!({ "nominal": "1/J", "low": "0.9/J", "high": "g/J" }));
-    let (certificate, report) = certified_in(folder.path(), &motor, &["--no-compare"]);
+    let (certificate, report) = certified_in(folder.path(), &motor, &["--no-alternatives"]);
     let certificate = read(certificate);
     let claim = &certificate["claim"];
     let sigma = number(&claim["sigma_star"]);
@@ -61,7 +61,7 @@ fn the_ball_about_the_nominal_orbit() {
     family["parameters"] = object!({ "J": "1", "b": "60", "k": { "nominal": "200", "low": "190", "high": "210" } });
     family["f"][0] = "-k*i + 150*e + 40*sin(100*pi*t)".into();
     family["initial_set"] = object!({ "kind": "at-rest", "X0": "1", "E0": "20" });
-    let (_, report) = certified_in(folder.path(), &family, &["--no-compare"]);
+    let (_, report) = certified_in(folder.path(), &family, &["--no-alternatives"]);
     let radius = |name: &str| number(&report["plant"][name]);
     let less = radius("ball") - radius("nominal_ball");
     assert!((0.00296..0.0035).contains(&less), "{less}");

@@ -106,7 +106,8 @@ def certify(
     - `rate`: certify the smallest gain that is found with which the rates for the numbers of `n_o` are at least this, in 1/time;
     - `transfer`: the proof of the transfer bound, `best`, `boxes` or `closed-form`;
     - `precision_limit`: the precision in bits at which an undecided condition is given up;
-    - `compare`: whether the repaired derivation is worked out too, for the report and the certificate.
+    - `compare`: whether what else would give is worked out too, as bounds at larger gains, and the repaired derivation, for the report
+      and the certificate.
 
     Raises InputError where the document or an option is wrong, UndecidedError where nothing is claimed either way, RefutedError
     where what was asked for is proved not to hold, and OSError for a file that cannot be read.
