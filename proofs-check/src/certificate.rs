@@ -7,6 +7,7 @@ use proofs_core::json::{Field, Json};
 use proofs_core::rules::bounding;
 use proofs_core::rules::claim::{Claim, reads};
 use proofs_core::rules::derivation::{Derivation, Inequalities};
+use proofs_core::rules::no_plant::NoPlant;
 use proofs_core::rules::rates::{self, Asked, Kind, Witness};
 use proofs_core::sha256;
 use proofs_core::spec::{Specification, header};
@@ -19,17 +20,9 @@ const PRECISIONS: std::ops::RangeInclusive<u32> = 128..=4096;
 const FIRST_PRECISION: u32 = 128;
 const LAST_PRECISION: u32 = 1024;
 
-/// What is known of a certificate whose claim is proved.
-pub struct Proved {
-    /// What the claim is about.
-    pub subject: Subject,
-    /// The answer about the figures.
-    pub figures: proofs_figures::Figures,
-}
-
-/// Applies every rule; `lines` receives the argument, line by line. `other` is a specification that the certificate has
-/// to be about; `figures_limit`, the steps that the figures may take.
-pub fn check(json: &Json, other: Option<&Json>, figures_limit: u64, lines: &mut Vec<String>) -> Outcome<Proved> {
+/// Applies every rule, and returns what a certificate is about whose claim is proved; `lines` receives the argument, line by line.
+/// `other` is a specification that the certificate has to be about.
+pub fn check(json: &Json, other: Option<&Json>, lines: &mut Vec<String>) -> Outcome<Subject> {
     let mut file = Field { json, pointer: String::new() }.fields()?;
     header(&mut file, "sigmastar/certificate")?;
     let mut tool = file.required("tool")?.fields()?;
@@ -65,17 +58,17 @@ pub fn check(json: &Json, other: Option<&Json>, figures_limit: u64, lines: &mut 
         Some(regulator) => Derivation::read_sampled(&mut witness, regulator, claim.set.clone())?,
         None => Derivation::read(&mut witness, claim.sigma.clone(), claim.set.clone())?,
     };
-    // The other figures are those of a continuous regulator; in a sampled certificate they are left to be refused.
     let continuous = claim.sampled.is_none();
-    let parts = proofs_figures::Parts {
-        conditions: file.optional("conditions"),
-        constants: if continuous { file.optional("constants") } else { None },
-        comparison: if continuous { file.optional("comparison") } else { None },
-        multipliers: if continuous { witness.optional("lmi") } else { None },
-        periodic: claim.periodic.clone(),
-        control: claim.control.clone(),
-        no_plant: if continuous { file.optional("no_plant") } else { None },
-    };
+    let no_plant = if continuous { file.optional("no_plant") } else { None };
+    let no_plant = no_plant.as_ref().map(NoPlant::read).transpose()?;
+    // Figures for people: nothing that is proved rests on them, and they are not looked at. Those of a continuous regulator are left to
+    // be refused in a sampled certificate.
+    file.optional("conditions");
+    if continuous {
+        file.optional("constants");
+        file.optional("comparison");
+        witness.optional("lmi");
+    }
     let states = spec.plant.as_ref().map_or(0, |plant| plant.states);
     let regions = derivation.regions();
     let kind = match regions {
@@ -91,7 +84,9 @@ pub fn check(json: &Json, other: Option<&Json>, figures_limit: u64, lines: &mut 
     let last = LAST_PRECISION.max(written_at);
     let (arguments, statement) = loop {
         let mut attempt = lines.clone();
-        let result = prove(&Data::new(&spec, precision), &claim, (&derivation, &rates), &mut attempt);
+        let d = Data::new(&spec, precision);
+        let result = prove(&d, &claim, (&derivation, &rates), &mut attempt)
+            .and_then(|proved| no_plant.as_ref().map_or(Ok(()), |part| part.prove(&d, &mut attempt)).map(|()| proved));
         // More bits do not help where the cutting of a box came to its end.
         let undecided = |finding: &Finding| finding.verdict == Verdict::Undecided && finding.rule != bounding::RULE;
         let open = result.as_ref().is_err_and(|finding| undecided(finding));
@@ -119,9 +114,7 @@ pub fn check(json: &Json, other: Option<&Json>, figures_limit: u64, lines: &mut 
     if let Some(other) = other {
         same_data(about, embedded.json, other)?;
     }
-    let figures = proofs_figures::check(&spec, &parts, &derivation, figures_limit);
-    lines.push(format!("figures on which no claim rests: {figures}"));
-    Ok(Proved { subject, figures })
+    Ok(subject)
 }
 
 /// The claim at one precision: the largest X and E at which bounding functions are used, and what is proved in words.
@@ -152,7 +145,7 @@ fn prove(
     lines.push("claim: verdict, n_o, mu, set, periodic solution and control follow from what is proved".to_owned());
     let mut largest = proved.arguments.each_ref().map(|argument| argument.hi().into_owned());
     if let Some(plant) = &d.spec.plant {
-        // Those of exact regulation, which has no figures of them, count as well, and one that is not known most of all.
+        // Those of exact regulation count as well, and one that is not known most of all.
         for (end, other) in largest.iter_mut().zip(derivation.regulated(d).into_iter().flatten()) {
             if !other.is_defined() || *other.hi() > *end {
                 end.clone_from(&other.hi());

@@ -2,8 +2,7 @@
 //!
 //! It decides a certificate's claim again from the embedded specification and the witness: no search, no solver, no
 //! floating point, and not a line of the program that wrote it. One rule a file; every rule names the section of
-//! docs/mathematics.md that proves it. What a certificate stores besides, figures on which no claim rests, is computed
-//! again apart ([`figures`]) and has an answer of its own.
+//! docs/mathematics.md that proves it. What a certificate stores besides, figures on which no claim rests, is not looked at.
 
 // What tests compare with need not be the same on every machine.
 #![cfg_attr(test, allow(clippy::disallowed_methods))]
@@ -17,7 +16,6 @@ pub use proofs_core::{
     bound, constant, data, effort, exact, expr, gain, input_gain, interval, jacobian, json, matrix, monotone, period,
     plant, propose, range, rules, sha256, spec, verdict, weights,
 };
-pub use proofs_figures as figures;
 pub use proofs_plants as plants;
 pub use report::Report;
 use std::io::Read;
@@ -34,12 +32,12 @@ pub fn check_against(bytes: &[u8], specification: Option<&[u8]>) -> Report {
     check_within(bytes, specification, effort::LIMIT)
 }
 
-/// Checks a certificate with another limit than [`effort::LIMIT`] on the steps that the claim may take, and again the figures.
+/// Checks a certificate with another limit than [`effort::LIMIT`] on the steps that the answer may take.
 pub fn check_within(bytes: &[u8], specification: Option<&[u8]>, limit: u64) -> Report {
     let mut lines = Vec::new();
     let (result, steps) = effort::limited(limit, || {
         let asked = specification.map(asked_for).transpose()?;
-        let result = json::parse(bytes).and_then(|json| certificate::check(&json, asked.as_ref(), limit, &mut lines));
+        let result = json::parse(bytes).and_then(|json| certificate::check(&json, asked.as_ref(), &mut lines));
         // What an undefined interval made of a rule says nothing about the file; proposals that were cut short prove nothing less.
         match result {
             Ok(_) if effort::spent() => Err(exhausted()),
@@ -48,12 +46,12 @@ pub fn check_within(bytes: &[u8], specification: Option<&[u8]>, limit: u64) -> R
         }
     });
     lines.push(format!("effort: {steps} of {limit} steps of interval arithmetic"));
-    let (proved, finding) = match result {
-        Ok(proved) => (Some(proved), None),
+    let (subject, finding) = match result {
+        Ok(subject) => (Some(subject), None),
         Err(finding) => (None, Some(*finding)),
     };
     let verdict = finding.as_ref().map_or(Verdict::Valid, |finding| finding.verdict);
-    Report { verdict, finding, proved, lines, steps }
+    Report { verdict, finding, subject, lines, steps }
 }
 
 fn exhausted() -> Box<Finding> {

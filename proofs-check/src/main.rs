@@ -21,7 +21,7 @@ Decides the claim of a certificate again, and says what it is about and what it 
                        proofs-check/coq: `proofs-check --coq CERT.json > cert.v`, then
                        `coqc -Q proofs-check/coq SigmaStar cert.v`
 
-exit codes: 0 valid, 1 invalid, 2 bad-input, 3 undecided; figures on which no claim rests do not change them;
+exit codes: 0 valid, 1 invalid, 2 bad-input, 3 undecided;
 with --coq: 0 written, 1 invalid data, 2 bad-input, 3 no theorem is written of a certificate of this kind";
 
 fn main() -> ExitCode {

@@ -12,7 +12,6 @@ pub use proofs_check::verdict::Verdict as CheckVerdict;
 #[non_exhaustive]
 pub struct CheckReport {
     verdict: CheckVerdict,
-    flawless: bool,
     statement: Option<String>,
     sha256: Option<String>,
     assumed: Vec<String>,
@@ -38,10 +37,9 @@ pub fn check_against(certificate: &str, subject: impl Into<Subject>) -> CheckRep
 
 impl CheckReport {
     fn new(report: &Report) -> CheckReport {
-        let subject = report.proved.as_ref().map(|proved| &proved.subject);
+        let subject = report.subject.as_ref();
         CheckReport {
             verdict: report.verdict,
-            flawless: report.is_flawless(),
             statement: subject.map(|subject| subject.statement.clone()),
             sha256: subject.map(|subject| subject.digest.clone()),
             assumed: subject.map_or_else(Vec::new, |subject| subject.assumed.clone()),
@@ -60,12 +58,6 @@ impl CheckReport {
     #[must_use]
     pub fn is_valid(&self) -> bool {
         self.verdict == CheckVerdict::Valid
-    }
-
-    /// Whether the claim is proved and every figure beside it, on which no claim rests, agrees too.
-    #[must_use]
-    pub fn is_flawless(&self) -> bool {
-        self.flawless
     }
 
     /// The claim that is proved, in words; `None` where none is.

@@ -103,7 +103,7 @@ fn the_claim_is_about_one_gain() {
     assert!(statement.contains("the gain sigma = ") && statement.contains("up to 26 in size"), "{statement}");
     assert!(certificate.get("comparison").is_none() && certificate["witness"].get("exact_regulation").is_none());
     let answer = proofs_check::check(certificate.to_string().as_bytes());
-    assert!(answer.is_flawless(), "{}", answer.text(false));
+    assert!(answer.is_valid(), "{}", answer.text(false));
     // Decided again from the certificate; refuted where the actuator takes less.
     let witness = read_witness(&Document::parse("certificate", &certificate.to_string()).unwrap()).unwrap();
     assert_eq!(recheck(&spec, &witness, options()).unwrap().verdict, Verdict::Certified);
@@ -214,7 +214,7 @@ fn a_gain_that_keeps_to_limits() {
         assert!(proved <= limit * (1.0 + 1e-12) && proved > 0.99 * limit, "{flag}: {proved}");
         let gain = number(&kept["sigma_star"]);
         assert!(gain > least_gain && number(&kept["sigma_star_estimate"]) <= gain * 1.01, "{flag} {gain}");
-        assert!(proofs_check::check(&std::fs::read(path).unwrap()).is_flawless());
+        assert!(proofs_check::check(&std::fs::read(path).unwrap()).is_valid());
         // Just below it no proof that keeps it is found.
         let below = format!("{:.6}", 0.98 * gain);
         let (code, missed) = report(&[&file, flag, asked, "--sigma", &below]);

@@ -20,8 +20,7 @@ fn packages() -> Vec<(String, PathBuf)> {
     let crates = std::fs::read_dir("crates").unwrap().map(|entry| entry.unwrap().path());
     let named = crates.map(|path| (path.file_name().unwrap().to_str().unwrap().to_owned(), path));
     let others = [("sigmastar", "."), ("proofs-check", "proofs-check")].into_iter();
-    let parts =
-        ["core", "plants", "figures"].map(|part| (format!("proofs-{part}"), PathBuf::from("proofs-check").join(part)));
+    let parts = ["core", "plants"].map(|part| (format!("proofs-{part}"), PathBuf::from("proofs-check").join(part)));
     let named = named.filter(|(name, _)| name != "lapack-faer");
     named.chain(others.map(|(name, path)| (name.to_owned(), PathBuf::from(path)))).chain(parts).collect()
 }

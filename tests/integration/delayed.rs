@@ -159,7 +159,7 @@ fn a_claim_is_certified_and_decided_again() {
         certificate["conditions"].as_array().unwrap().iter().map(|one| one["id"].as_str().unwrap()).collect();
     assert!(ids.contains(&"C4d") && ids.contains(&"C5d") && !ids.contains(&"C4") && !ids.contains(&"C5h"), "{ids:?}");
     let report = proofs_check::check(certificate.to_string().as_bytes());
-    assert!(report.is_flawless(), "{}", report.text(false));
+    assert!(report.is_valid(), "{}", report.text(false));
     // Again from its witness; with the other law it is not the same claim.
     let document = Document::parse("certificate", &certificate.to_string()).unwrap();
     let again = |change: &dyn Fn(&mut Value)| {
@@ -205,7 +205,7 @@ fn with_an_input_gain() {
         document["input_gain"] = json!({ "nominal": "2", "low": "1.8", "high": "2.2" });
     });
     let report = proofs_check::check(certificate.to_string().as_bytes());
-    assert!(report.is_flawless(), "{}", report.text(false));
+    assert!(report.is_valid(), "{}", report.text(false));
     for finding in &tried(&certificate, count(2, 4).into(), 1).findings {
         assert!(matches!(finding, Finding::Holds { .. }), "{finding:?}");
     }

@@ -41,7 +41,7 @@ fn a_stored_certificate_is_decided_again_to_what_it_was() {
             made
         };
         assert_eq!(claimed(&again), claimed(&certificate));
-        assert!(check(again.to_json()).is_flawless());
+        assert!(check(again.to_json()).is_valid());
         assert_eq!(again.claim(), certificate.claim());
         assert_eq!(again.conditions(), certificate.conditions());
         assert_eq!(again.subject().sha256(), certificate.subject().sha256());

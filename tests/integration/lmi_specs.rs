@@ -49,6 +49,6 @@ fn a_sector_of_one_slope_has_no_multiplier() {
         assert_eq!(written["witness"]["lmi"]["l_e"] != "0", present, "{most}: {}", written["witness"]["lmi"]);
         let answer = call(&[std::ffi::OsStr::new("check"), certificate.as_os_str()]);
         let text = String::from_utf8_lossy(&answer.stdout).into_owned();
-        assert!(text.starts_with("valid; figures: all"), "{most}: {text}");
+        assert!(text.starts_with("valid\n"), "{most}: {text}");
     }
 }

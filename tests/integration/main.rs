@@ -4,6 +4,7 @@
 #![allow(clippy::disallowed_methods, reason = "what is compared need not be the same on every machine")]
 
 mod actuator;
+mod agreement;
 mod aligned;
 mod architecture;
 mod bound;
@@ -88,6 +89,7 @@ mod spec_read;
 mod steady_states;
 mod support;
 mod sweep;
+mod table;
 mod transfer;
 mod transfer_sums;
 mod transfer_table;

@@ -63,7 +63,7 @@ fn every_plant_is_listed() {
     assert_eq!(names("specs/plants/invalid"), BTreeSet::from(REFUSED.map(|(name, ..)| name.to_owned())));
 }
 
-/// Each certificate is decided by the checker, which has no line in common with what made it, and every figure agrees;
+/// Each certificate is decided by the checker, which has no line in common with what made it, and shows the conditions that are decided;
 /// the documents say of each plant what its report says.
 #[test]
 fn the_shipped_plants_are_certified_and_checked() {

@@ -10,7 +10,7 @@ use sigmastar_prove::certificate::{certificate_json, read_witness};
 use sigmastar_prove::certify::{Certification, Options, TransferChoice, Verdict, certify, recheck};
 use sigmastar_theory::derivation::condition::Condition;
 
-const SPECS: [&str; 13] = [
+pub const SPECS: [&str; 13] = [
     "explicit-weights",
     "ill-conditioned",
     "linear",
@@ -151,7 +151,7 @@ fn comfortably(plain: &Plain) -> bool {
 }
 
 /// Holds up to the rounding of the plain arithmetic.
-fn holds(plain: &Plain) -> bool {
+pub fn holds(plain: &Plain) -> bool {
     let margin = Float::with_val(BITS, &plain.rhs.0 - &plain.lhs.0);
     let rounding = Float::with_val(BITS, -1) >> 300;
     plain.holds || (plain.id == "set" && margin > rounding)

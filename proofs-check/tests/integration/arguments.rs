@@ -2,12 +2,9 @@
 
 use crate::common::{BOXES, PAPER, certificate};
 use proofs_check::data::Data;
-use proofs_check::figures::existence::Existence;
-use proofs_check::figures::repaired;
 use proofs_check::interval::Interval;
 use proofs_check::json::{Field, parse};
 use proofs_check::rules::paths::{Path, Paths};
-use proofs_check::rules::set::ClaimedSet;
 use proofs_check::rules::stability::ErrorBox;
 use proofs_check::rules::transfer::{self, Proof};
 use proofs_check::spec::Specification;
@@ -38,27 +35,6 @@ fn close(value: &Interval, expected: f64) {
     assert!((lo - expected).abs() + (hi - expected).abs() <= 1e-12 * expected.abs(), "[{lo}, {hi}], not {expected}");
 }
 
-#[test]
-fn existence() {
-    let spec = apart();
-    let d = Data::new(&spec, 128);
-    let ex = Existence::new(&d, d.ratio(1, 4), d.ratio(1, 8));
-    let (x, e) = (0.25, 0.125);
-    let at = |c: f64, cx: f64, ce: f64| c + cx * x + ce * e;
-    let (f_e, f_xx, q_x, q_e) = (at(2.0, 3.0, 5.0), 3.0 + 5.0 * x, at(13.0, 17.0, 19.0), at(11.0, 13.0, 17.0));
-    let f_ex = at(5.0, 7.0, 11.0);
-    close(&ex.invariance(&d, &d.c), 4.0 * (f_e * e + f_xx * x * x / 2.0));
-    let [xx, xe, ex_gain, ee] = ex.contraction(&d, &d.c, &d.int(3));
-    close(&xx, 4.0 * (f_ex * e + 2.0 * f_xx * x));
-    close(&xe, 4.0 * f_e);
-    close(&ex_gain, 3.0 * q_x);
-    close(&ee, 3.0 * q_e);
-    let kappa = [d.int(2), d.int(3)];
-    let (q, q_t, f) = (at(7.0, 11.0, 13.0), at(17.0, 19.0, 23.0), at(1.0, 2.0, 3.0));
-    let paper = (1.0 + 2.0 + 162.0 * q_e * q_e) * q * q + 9.0 * (q_t * q_t + q_x * q_x * f * f);
-    close(&ex.z_squared_paper(&d, &kappa), paper);
-}
-
 /// The arguments of df/dx and dq/dx, and of df/de and dq/de, on each path; f and q each have their own.
 #[test]
 fn error_box() {
@@ -73,7 +49,7 @@ fn error_box() {
         for (q, e_q, x_q) in places {
             let error_box = ErrorBox::new(&d, Paths { f, q }, periodic, [&d.ratio(1, 2), &d.int(1)]);
             let bends = (3.0 + 5.0 * x) * x + (3.0 + 5.0 * x_b + 7.0 * e_f) * dx / 2.0;
-            close(&error_box.gam, 2.0 * (bends + (5.0 + 7.0 * x + 11.0 * e_f) * e_f));
+            close(&error_box.rate, 0.5 - 2.0 * (bends + (5.0 + 7.0 * x + 11.0 * e_f) * e_f));
             close(&error_box.k_f, 2.0 + 3.0 * x_f + 5.0 * e_b);
             close(&error_box.k_x, 13.0 + 17.0 * x_b + 19.0 * e_q);
             close(&error_box.k_e, 11.0 + 13.0 * x_q + 17.0 * e_b);
@@ -81,36 +57,6 @@ fn error_box() {
             close(&error_box.e_b, e_b);
         }
     }
-}
-
-#[test]
-fn repaired_form() {
-    let spec = apart();
-    let d = Data::new(&spec, 128);
-    let number = |n: i32, m: i32| Rational::from((n, m));
-    let k = transfer::closed_form(&d).map(|k| k.upper().unwrap());
-    let w = repaired::Witness {
-        pointer: String::new(),
-        sigma: number(100, 1),
-        set: ClaimedSet { x0: number(1, 2), e0: number(1, 4), z0: Some(number(0, 1)) },
-        x: number(1, 4),
-        e: number(1, 8),
-        level: number(9, 4),
-        h: number(1, 2),
-        p_x: number(1, 1),
-        p_e: number(1, 1),
-        k0: k[0].clone(),
-        k1: k[1].clone(),
-        transfer: Proof::ClosedForm,
-    };
-    let proved = repaired::evaluate(&d, &w).unwrap();
-    let (x, e, x_b, e_b, mu) = (0.25, 0.125, 1.75, 1.625, 1.0);
-    let inner = (3.0 + 5.0 * x + 7.0 * e) * x + (5.0 + 7.0 * x + 11.0 * e) * e;
-    let rho_0 = 4.0 * (inner + (3.0 + 5.0 * x_b + 7.0 * e) * (x_b + x) / 2.0);
-    let (q_x, q_e) = (13.0 + 17.0 * x_b + 19.0 * e_b, 11.0 + 13.0 * x_b + 17.0 * e_b);
-    let (f_e, ht) = (2.0 + 3.0 * x_b + 5.0 * e_b, 0.5 / mu);
-    let expected = [rho_0, rho_0 + ht * q_x * q_x, 4.0 * f_e + q_x, q_e + ht * q_e * q_e];
-    proved.rho.iter().zip(expected).for_each(|(rho, expected)| close(rho, expected));
 }
 
 /// The scalar test of the boxes, with s = A_m0 - k0 > 0 (mu = 20, k0 = 1) and with s = 0 (mu = 1, k0 = 20).

@@ -34,7 +34,7 @@ fn stored_ones_are_accepted() {
         let certificate = stored(&name);
         let report = accepted(&certificate);
         assert!(said(&judged(&certificate)).ends_with(&rates_in_words(&certificate)), "{name}");
-        let subject = &report.proved.as_ref().unwrap().subject;
+        let subject = report.subject.as_ref().unwrap();
         let said = format!("{WORDS}, also |e(t) - e_per(t)| <= ");
         assert_eq!(subject.statement.matches(&said).count(), count(&certificate), "{name}");
         let assumed = subject.assumed.join("\n");
@@ -45,7 +45,7 @@ fn stored_ones_are_accepted() {
         }
     }
     // Without it nothing is assumed of doubles.
-    let subject = accepted(&noisy("sampled")).proved.unwrap().subject;
+    let subject = accepted(&noisy("sampled")).subject.unwrap();
     assert!(!subject.assumed.join("\n").contains("doubles") && !subject.statement.contains(WORDS));
 }
 

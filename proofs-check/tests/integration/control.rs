@@ -38,10 +38,6 @@ fn a_bound_of_the_control_is_no_smaller_than_what_is_proved() {
             let is_true = factors.iter().all(|factor| *factor > 1.0);
             if is_true {
                 assert_eq!(report.verdict, Verdict::Valid, "{name}: {}", report.text(false));
-                // Larger than its rounding makes it.
-                let figures = &report.proved.as_ref().expect("it is valid").figures;
-                let loose = figures.findings.iter().filter(|finding| finding.pointer.starts_with("/claim/control"));
-                assert_eq!(loose.count(), 2, "{name}");
                 continue;
             }
             let finding = report.finding.as_ref().expect("it is too small");

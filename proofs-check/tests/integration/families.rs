@@ -251,7 +251,7 @@ fn certificates_of_families_are_valid() {
     ] {
         let report = changed(name, &[]);
         assert_eq!(report.verdict, Valid, "{name}: {}", report.text(true));
-        let subject = &report.proved.as_ref().unwrap().subject;
+        let subject = report.subject.as_ref().unwrap();
         assert!(subject.statement.contains(said), "{}", subject.statement);
         assert!(
             subject.assumed.iter().any(|line| line.contains("formulas, with a constant ")),

@@ -85,16 +85,6 @@ fn triples_that_are_not_those_of_the_jacobian() {
     }
 }
 
-/// The claim rests on the closed form of C5, and stands; the second proof is a figure.
-#[test]
-fn multipliers_that_prove_nothing() {
-    for (name, factor) in [("l_x", 1.5), ("l_e", 0.5), ("l_f", 2.0)] {
-        let report = forged(PAPER, &[(&format!("/witness/lmi/{name}"), Times(factor))]);
-        let [finding] = &report.proved.as_ref().unwrap().figures.findings[..] else { panic!("{}", report.text(false)) };
-        assert_eq!((finding.rule, finding.pointer.as_str()), ("matrix inequality of C5", "/witness/lmi"), "{name}");
-    }
-}
-
 #[test]
 fn boxes_that_leave_a_place_out_or_are_too_coarse() {
     let boxes = |edit: fn(&mut Vec<Value>)| {

@@ -59,7 +59,7 @@ fn a_claim_about_every_gain() {
     let report = judged(&made());
     assert_holds(&report);
     assert!(report.lines.iter().any(|line| line.contains("b_hi h dZ^2")), "{:?}", report.lines);
-    let subject = &report.proved.as_ref().unwrap().subject;
+    let subject = report.subject.as_ref().unwrap();
     let said = "every input gain in [1.6, 2.5] (one constant; the regulator divides by the nominal 2)";
     assert!(subject.statement.contains(said), "{}", subject.statement);
     for said in ["e' = q(t,x,e) + g v", "v = u/2; g is one constant in [1.6, 2.5]"] {
@@ -74,7 +74,7 @@ fn a_claim_about_every_gain() {
     assert_holds(&judged(&narrow));
 }
 
-/// A gain that is known: the same numbers as without one, and the same figures.
+/// A gain that is known: the same numbers as without one.
 #[test]
 fn a_gain_that_is_its_nominal_one() {
     let mut one = certificate(PAPER);
@@ -207,21 +207,6 @@ fn the_gain_of_a_theorem() {
     assert!(written(&wide).contains("  gain := None;\n"));
 }
 
-/// No table of figures is determined, no other derivation, and no second proof of C5.
-#[test]
-fn figures() {
-    let mut made = made();
-    let paper = certificate(PAPER);
-    made["constants"] = json!({ "tau": paper["constants"]["tau"] });
-    made["comparison"] = paper["comparison"].clone();
-    made["witness"]["lmi"] = paper["witness"]["lmi"].clone();
-    let report = judged(&made);
-    let figures = &report.proved.as_ref().unwrap_or_else(|| panic!("{}", report.text(false))).figures;
-    let found: Vec<&str> = figures.findings.iter().map(|finding| finding.pointer.as_str()).collect();
-    let found: Vec<&str> = found.into_iter().filter(|place| !place.starts_with("/claim/")).collect();
-    assert_eq!(found, ["/comparison", "/conditions", "/constants/tau", "/witness/lmi"]);
-}
-
 fn of_plant(name: &str) -> Value {
     parsed("gain", name)
 }
@@ -234,7 +219,7 @@ fn plants() {
         ("splitting", &["matrix inequality: S with e >= 0, at b_"]),
     ] {
         let report = judged(&of_plant(name));
-        assert!(report.is_flawless(), "{}", report.text(false));
+        assert!(report.is_valid(), "{}", report.text(false));
         let count = |start: &str| report.lines.iter().filter(|line| line.trim_start().starts_with(start)).count();
         assert!(questions.iter().all(|start| count(start) == 2), "{:?}", report.lines);
         // That of exact regulation besides.

@@ -204,7 +204,6 @@ fn the_claim_uses_the_proved_triple() {
     for name in [INTERVALS, PERIODIC, "paper-example-jacobian.sharp"] {
         assert_valid(&check(certificate(name).to_string().as_bytes()));
         for (field, factor) in [("p_low", 0.999), ("p_up", 1.001), ("alpha", 0.999)] {
-            // Another true triple does not fit the stored figures.
             let pointer = format!("/witness/lyapunov/{field}");
             let value: f64 = certificate(name).pointer(&pointer).unwrap().as_str().unwrap().parse().unwrap();
             let report = changed(name, &pointer, format!("{:.9}", value * factor));

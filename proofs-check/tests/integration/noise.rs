@@ -45,7 +45,7 @@ fn stored_ones_are_accepted() {
         let certificate = stored(&name);
         let report = accepted(&certificate);
         assert!(said(&judged(&certificate)).ends_with(&rates_in_words(&certificate)), "{name}");
-        let subject = &report.proved.as_ref().unwrap().subject;
+        let subject = report.subject.as_ref().unwrap();
         assert_eq!(subject.statement.matches("limit superior").count(), count(&certificate), "{name}");
         let assumed = subject.assumed.join("\n");
         assert!(assumed.contains("noise but where it is said") && assumed.contains("e + v for e"), "{assumed}");

@@ -4,7 +4,7 @@
 use super::coq_support::assert_refused_at;
 use super::families::interval;
 use super::plant_certificates::stored;
-use super::plant_mutations::alter;
+use super::plant_mutations::mutate;
 use crate::common::{
     BOXES, assert_refused, assert_valid, assert_words_are_ignored, certificate, edited, every, folder, judged, open,
     rehash, said,
@@ -71,7 +71,7 @@ fn valid(made: Value, changes: &[(&str, Value)]) -> Report {
 fn a_claim_about_every_period() {
     let report = judged(&made());
     assert_valid(&report);
-    let subject = &report.proved.as_ref().unwrap().subject;
+    let subject = report.subject.as_ref().unwrap();
     let said = "with every period in [0.9, 1] (one constant T; nominal 0.99), mu = 1";
     assert!(subject.statement.contains(said), "{}", subject.statement);
     let assumed = "T is one constant in [0.9, 1], and time enters the plant through the phase";
@@ -89,7 +89,7 @@ fn a_claim_about_every_period() {
     // With an interval of the input gain the words of both.
     let gain = interval(["2", "2", "4/2"]);
     let both = valid(made(), &[("/specification/input_gain", gain.clone()), ("/claim/input_gain", gain)]);
-    let statement = &both.proved.as_ref().unwrap().subject.statement;
+    let statement = &both.subject.as_ref().unwrap().statement;
     assert!(statement.contains("divides by the nominal 2), with every period in [0.9, 1]"), "{statement}");
 }
 
@@ -182,24 +182,6 @@ fn what_needs_one_period_is_refused() {
     assert_eq!(samples(false).verdict, Invalid, "{}", samples(false).text(false));
 }
 
-/// The printed and the repaired derivation are about one period; the figures of the conditions are those of the longest.
-#[test]
-fn figures_of_an_interval() {
-    let mut with_tables = made();
-    for part in ["constants", "comparison"] {
-        with_tables[part] = certificate(BOXES)[part].clone();
-    }
-    let report = valid(with_tables, &[]);
-    let figures = &report.proved.as_ref().unwrap().figures;
-    let without = |part: &str| figures.findings.iter().all(|finding| finding.pointer.starts_with(part));
-    assert!(!without("/constants") && figures.findings.len() > 20, "{:?}", figures.findings);
-    let stray = figures
-        .findings
-        .iter()
-        .find(|finding| !["/constants", "/comparison"].iter().any(|part| finding.pointer.starts_with(part)));
-    assert!(stray.is_none(), "{stray:?}");
-}
-
 /// v = T_nom/T: exact where the quotients are rational, else rounded outward.
 #[test]
 fn the_clock() {
@@ -253,7 +235,7 @@ fn certificates_of_plants_are_valid() {
     for (name, low, high) in [("motor-axis", "1/50.3", "1/49.75"), ("converter", "1/50.05", "1/49.95")] {
         let report = valid(of_plant(name), &[]);
         let said = format!("with every period in [{low}, {high}] (one constant T; nominal 1/50)");
-        assert!(report.proved.as_ref().unwrap().subject.statement.contains(&said), "{}", report.text(false));
+        assert!(report.subject.as_ref().unwrap().statement.contains(&said), "{}", report.text(false));
         let proved = |rule: &str| report.lines.iter().any(|line| line.starts_with(rule) && line.contains("boxes"));
         assert!(proved("joint inequality") && proved("existence inequality") == (name == "converter"));
         assert!(report.steps < 10_000_000, "{name}: {}", report.steps);
@@ -339,8 +321,8 @@ fn forged_certificates_of_plants() {
 
 #[test]
 fn leaves_of_certificates_of_plants() {
-    alter("periods/motor-axis", every(23));
-    alter("periods/converter", every(47));
+    mutate("periods/motor-axis", every(23));
+    mutate("periods/converter", every(47));
 }
 
 /// The bounds of a claim about a plant grow with its longest period, and its harmonics with the shortest.

@@ -48,7 +48,7 @@ fn certificates_are_valid_and_take_little_for_granted() {
     for name in ALL {
         let report = check(stored(name).to_string().as_bytes());
         assert_eq!(report.verdict, Verdict::Valid, "{}", report.text(false));
-        let subject = &report.proved.as_ref().unwrap().subject;
+        let subject = report.subject.as_ref().unwrap();
         assert!(subject.assumed.len() == 2 && subject.also.is_some() && subject.about == "plant", "{subject:?}");
         assert_eq!(report.json()["plant_sha256"], stored(name)["plant_sha256"]);
         assert!(report.text(false).contains("  plant: SHA-256 "));
@@ -65,7 +65,7 @@ fn exact_regulation_is_of_the_deviation_from_the_orbit() {
         ("no-states", "are bounded, and e tends to 0."),
     ] {
         let report = check(stored(name).to_string().as_bytes());
-        let also = report.proved.as_ref().and_then(|proved| proved.subject.also.clone()).unwrap();
+        let also = report.subject.as_ref().and_then(|subject| subject.also.clone()).unwrap();
         assert!(also.ends_with(vanishes) && !also.contains("x and e"), "{name}: {also}");
         assert!(report.text(false).contains(vanishes) && report.json()["also_proved"] == json!(also), "{name}");
     }

@@ -54,7 +54,7 @@ fn what_is_claimed() {
     for condition in ["S0c holds: b_hi K h weight_sum < 2", "b_hi h dZ^2"] {
         assert!(report.lines.iter().any(|line| line.contains(condition)), "{:?}", report.lines);
     }
-    let subject = &report.proved.as_ref().unwrap().subject;
+    let subject = report.subject.as_ref().unwrap();
     let said = "every phase of the sampling grid and every input gain in [1.6, 2.5] (one constant; the regulator divides by the \
                 nominal 2), with period";
     assert!(subject.statement.contains(said), "{}", subject.statement);
@@ -68,12 +68,12 @@ fn what_is_claimed() {
         let found = report.lines.iter().filter(|line| line.starts_with(start) && line.contains(", at b_")).count();
         assert_eq!(found, count, "{start}: {:?}", report.lines);
     }
-    let subject = &report.proved.as_ref().unwrap().subject;
+    let subject = report.subject.as_ref().unwrap();
     let said = "every plant of these formulas with a constant 'R' of the file in [590, 615] and a constant 's' of the file in [98, 102] has";
     assert!(subject.statement.contains(said) && subject.assumed.len() == 4, "{subject:?}");
 }
 
-/// A gain that is its nominal one leaves numbers and figures as they are; what is put out is divided all the same.
+/// A gain that is its nominal one leaves the numbers as they are; what is put out is divided all the same.
 #[test]
 fn a_gain_that_is_its_nominal_one() {
     for name in ["paper-example", "plant-motor-axis"] {

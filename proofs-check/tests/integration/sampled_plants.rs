@@ -64,7 +64,7 @@ fn refused(changes: &[(&str, Value)], verdict: Verdict, rule: &str) {
 fn a_plant_with_a_sampled_regulator() {
     let report = answer(&[]);
     assert_eq!(report.verdict, Valid, "{}", report.text(false));
-    let subject = &report.proved.as_ref().unwrap().subject;
+    let subject = report.subject.as_ref().unwrap();
     assert!(subject.about == "plant" && subject.assumed.len() == 3 && subject.also.is_none(), "{subject:?}");
     assert!(subject.assumed[0].contains("exactly these formulas") && subject.assumed[1].contains("sampled law"));
 }

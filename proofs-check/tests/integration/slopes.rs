@@ -51,7 +51,7 @@ fn stored_ones_are_accepted() {
     for (name, .., asked) in all() {
         let certificate = stored(name);
         let report = accepted(&certificate);
-        let statement = &report.proved.as_ref().unwrap().subject.statement;
+        let statement = &report.subject.as_ref().unwrap().statement;
         for rate in certificate["claim"]["for_n_o"].as_array().unwrap() {
             assert!(statement.contains(&format!(" With n_o = {} and ", rate["n_o"])), "{name}: {statement}");
         }

@@ -140,7 +140,7 @@ fn weights() {
     }
     let undecided = explicit(&["2", "exp(log(2))/2", "1/2", "1/3"], "1 + 1e-9");
     assert_eq!(rule(undecided), Some((Undecided, "weights")));
-    // Equality in W2 and W3 is allowed, and decided exactly: then it is the figures that no longer fit.
+    // Equality in W2 and W3 is allowed, and decided exactly.
     for report in [
         explicit(&["2", "1", "1/2"], "5/4"),
         explicit(&["2", "1", "1/4", "1/9"], "2"),

@@ -158,8 +158,8 @@ pub enum Command {
     /// Check a certificate with the independent checker
     ///
     /// Decides the claim again from the certificate alone, with none of the code that made it: the same as the program
-    /// `proofs-check`. Says what is proved, of which specification, and what is assumed; figures on which no claim rests
-    /// have an answer of their own. Exit codes: 0 valid, 1 invalid, 2 bad-input, 3 undecided.
+    /// `proofs-check`. Says what is proved, of which specification, and what is assumed.
+    /// Exit codes: 0 valid, 1 invalid, 2 bad-input, 3 undecided.
     Check(CheckArgs),
     /// Write the regulator of a specification, plant or certificate: matrices, the law for a computer, C code
     ///

@@ -149,7 +149,7 @@ fn the_control_is_that_of_the_actuator() {
         let file = with("no-x", &gain(&sizes[0], &sizes[1], &sizes[2]));
         let (certificate, _) = certified_in(folder.path(), &file, &["--no-alternatives"]);
         let answer = checked(&certificate);
-        assert_eq!(answer["figures"]["verdict"], "agree", "{answer}");
+        assert_eq!(answer["verdict"], "valid", "{answer}");
         let certificate = read(certificate);
         let (claim, outcome) = (claim(&certificate), tried(&certificate, 6, 3));
         let share = |part: &str| {

@@ -39,7 +39,7 @@ fn one_gain_serves_every_motor_and_every_drive() {
     let statement = claim["statement"].as_str().unwrap();
     assert!(statement.contains("every input gain in [0.9/'J', 1.1/'J']"), "{statement}");
     let answer = checked(folder.path(), &certificate);
-    assert_eq!((&answer["verdict"], &answer["figures"]["verdict"]), (&object!("valid"), &object!("agree")));
+    assert_eq!(&answer["verdict"], &object!("valid"));
     // The ball about the nominal orbit is within the ball about the member's own.
     let radius = |name: &str| number(&report["plant"][name]);
     assert!(radius("nominal_ball") > 0.0 && radius("nominal_ball") <= radius("ball"));

@@ -2,7 +2,10 @@
 //!
 //! C5 is decided by the determinant of the quadratic form itself, Nbar by MPFR's zeta function.
 
+mod multipliers;
 mod number;
+mod repaired;
+mod table;
 
 pub use number::{BITS, R, r};
 use rug::ops::Pow;
@@ -11,6 +14,7 @@ use serde_json::Value;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_lang::expr::Expr;
 use sigmastar_lang::spec::{Bound, Constant, InitialSet, Specification, Weights};
+pub use table::Cell;
 
 /// One condition: its identifier, both sides, and whether it holds.
 pub struct Plain {
@@ -89,6 +93,8 @@ fn total(weights: &Weights) -> R {
 /// The bounding functions at one point.
 struct At {
     f: R,
+    q: R,
+    qt: R,
     fe: R,
     fxx: R,
     fex: R,
@@ -102,6 +108,35 @@ struct At {
     fx: Option<R>,
     mixed: Option<[R; 2]>,
     rate: Option<R>,
+}
+
+/// What the data give on the error box.
+struct ErrorBox {
+    x_b: R,
+    e_b: R,
+    gamma: R,
+    /// a_2.
+    rate: R,
+    k_x: R,
+    k_f: R,
+    /// -slopes[1] <= dq/de <= slopes[0].
+    slopes: [R; 2],
+    threshold: R,
+}
+
+/// What follows from the witness of a sharp certificate.
+struct Derived {
+    conditions: Vec<Plain>,
+    a_1: R,
+    /// (c/a_1) b_fe.
+    x_gain: R,
+    /// rms(x), rms(e), rms(e').
+    means: [R; 3],
+    /// R_q, R_1.
+    rates: [R; 2],
+    /// |x|, |e|, |zeta|_N along the periodic solution.
+    sizes: [R; 3],
+    error_box: ErrorBox,
 }
 
 impl<'s> Spec<'s> {
@@ -141,6 +176,8 @@ impl<'s> Spec<'s> {
         };
         At {
             f: of(Bound::F),
+            q: of(Bound::Q),
+            qt: of(Bound::Qt),
             fe: of(Bound::Fe),
             fxx: of(Bound::Fxx),
             fex: of(Bound::Fex),
@@ -235,8 +272,14 @@ impl<'s> Spec<'s> {
         })
     }
 
-    /// M, C4 and C5 around a periodic solution of the given size, and the largest arguments.
-    fn stability(&self, [x_per, e_per]: [&R; 2], distances: &[R; 3], part: &Value, sigma: &R) -> (Vec<Plain>, [R; 2]) {
+    /// M, C4 and C5 around a periodic solution of the given size, and the error box.
+    fn stability(
+        &self,
+        [x_per, e_per]: [&R; 2],
+        distances: &[R; 3],
+        part: &Value,
+        sigma: &R,
+    ) -> (Vec<Plain>, ErrorBox) {
         let [d_x, d_e, w_x, h] = numbers(part, ["D_x", "D_e", "w_x", "h"]);
         let (x_b, e_b) = (x_per + &d_x, e_per + &d_e);
         // (x, e) of each leg of a path from the periodic solution: along the one that moves x the derivatives in x count, along
@@ -267,9 +310,8 @@ impl<'s> Spec<'s> {
         let first = r(2.0) * &h * &self.mu;
         let mut threshold = r(0.0);
         let mut definite = first > r(0.0);
-        for (slope, sign) in
-            [(edge.above.clone(), 1.0), (r(0.0) - &edge.below, 1.0), (edge.above, -1.0), (r(0.0) - edge.below, -1.0)]
-        {
+        let [above, below] = [edge.above.clone(), r(0.0) - &edge.below];
+        for (slope, sign) in [(above.clone(), 1.0), (below.clone(), 1.0), (above, -1.0), (below, -1.0)] {
             let k_x = r(sign) * &k_x;
             let coupled = &h * &k_x;
             let mixed = &h * &slope - &self.mu;
@@ -287,10 +329,11 @@ impl<'s> Spec<'s> {
         let mut conditions: Vec<Plain> = self.one_sided(&q_de[0], &q_de[1]).into_iter().collect();
         conditions.extend([
             less("C4", start, exit),
-            less("C5", &h / &self.mu * k_x.sq(), r(4.0) * &w_x * rate),
-            Plain { id: "C5b", lhs: threshold, rhs: sigma.clone(), holds: definite },
+            less("C5", &h / &self.mu * k_x.sq(), r(4.0) * &w_x * &rate),
+            Plain { id: "C5b", lhs: threshold.clone(), rhs: sigma.clone(), holds: definite },
         ]);
-        (conditions, [x_b, e_b])
+        let slopes = [edge.above, edge.below];
+        (conditions, ErrorBox { x_b, e_b, gamma, rate, k_x, k_f, slopes, threshold })
     }
 
     /// C_k, r_0 and r_1 of `q_0`.
@@ -310,6 +353,11 @@ impl<'s> Spec<'s> {
 
     /// All conditions of a sharp certificate (sections 5 and 10).
     pub fn sharp(&self, certificate: &Value) -> Vec<Plain> {
+        self.derive(certificate).conditions
+    }
+
+    /// The same, with the numbers that a table of constants shows.
+    fn derive(&self, certificate: &Value) -> Derived {
         let (witness, claim) = (&certificate["witness"], &certificate["claim"]);
         let sigma = number(&claim["sigma_star"]);
         let [x_p, e_p, k0, k1, kap] = numbers(witness, ["X_p", "E_p", "k0", "k1", "kap"]);
@@ -410,10 +458,10 @@ impl<'s> Spec<'s> {
         }
         all.extend(self.set(claim, &x_p, &e_p, &z));
         let distances = self.distances(claim, [&x_per, &e_per, &z]);
-        let (stability, [x_b, e_b]) = self.stability([&x_per, &e_per], &distances, witness, &sigma);
-        all.extend(self.domain(&x_p.max(&x_b), &e_p.max(&e_b)));
+        let (stability, error_box) = self.stability([&x_per, &e_per], &distances, witness, &sigma);
+        all.extend(self.domain(&x_p.max(&error_box.x_b), &e_p.max(&error_box.e_b)));
         all.push(self.transfer(witness, &k0, &k1));
-        all.push(less("S1", r(0.0), a_1));
+        all.push(less("S1", r(0.0), a_1.clone()));
         all.push(at_most("S1b", (&gain * &at.fe * &e_p).min(&(&k2 * &at.fe * &first[1])), x_p.clone()));
         all.push(at_most("S1c", &gain * &at.fe * &first[1], first[0].clone()));
         let [sup, rms, rate] = if kap == r(0.0) {
@@ -438,7 +486,9 @@ impl<'s> Spec<'s> {
             all.push(less("S3c", rate, refined[2].clone()));
         }
         all.extend(stability);
-        all
+        let [r_q, r_1, ..] = forced;
+        let sizes = [x_per, e_per, z];
+        Derived { conditions: all, a_1, x_gain: gain * at.fe, means: last, rates: [r_q, r_1], sizes, error_box }
     }
 
     /// Whether the sector of dq/de is one.
@@ -471,7 +521,7 @@ impl<'s> Spec<'s> {
         let z = z / &self.mu;
         let zero = r(0.0);
         let distances = self.distances(&certificate["claim"], [&zero, &zero, &z]);
-        let (stability, [x_b, e_b]) = self.stability([&zero, &zero], &distances, part, &sigma);
+        let (stability, ErrorBox { x_b, e_b, .. }) = self.stability([&zero, &zero], &distances, part, &sigma);
         let mut all = Vec::new();
         for value in numbers(part, ["sigma_star_oo", "D_x", "D_e", "w_x", "h"]) {
             all.push(less("sign", r(0.0), value));
@@ -488,6 +538,13 @@ fn number(value: &Value) -> R {
 
 fn numbers<const N: usize>(object: &Value, names: [&str; N]) -> [R; N] {
     names.map(|name| number(&object[name]))
+}
+
+/// The sizes of a claimed set, by their names.
+fn sizes(claim: &Value) -> Vec<(&'static str, R)> {
+    let set = &claim["initial_set"];
+    let there = ["X0", "E0", "Z0"].into_iter().filter(|name| set[name].is_string());
+    there.map(|name| (name, number(&set[name]))).collect()
 }
 
 fn signs(certificate: &Value, names: &[&str]) -> Vec<Plain> {

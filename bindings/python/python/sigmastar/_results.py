@@ -183,8 +183,6 @@ class Check(Reported):
 
     verdict: Literal["valid", "invalid", "bad-input", "undecided"]
     """`valid`, `invalid`, `bad-input` or `undecided`."""
-    is_flawless: bool
-    """Whether the claim is proved and every figure beside it, on which no claim rests, agrees too."""
     statement: Optional[str]
     """The claim that is proved; None where none is."""
     sha256: Optional[str]
@@ -202,7 +200,7 @@ class Check(Reported):
         return self.is_valid
 
     def __repr__(self) -> str:
-        return f"<Check: {self.verdict}{'' if self.is_flawless or not self.is_valid else ', a figure differs'}>"
+        return f"<Check: {self.verdict}>"
 
     def __str__(self) -> str:
         return self._reports["text"]
@@ -267,7 +265,6 @@ def check(told: Dict[str, Any]) -> Check:
     """The checker's answer."""
     return Check(
         verdict=told["verdict"],
-        is_flawless=told["flawless"],
         statement=told["statement"],
         sha256=told["sha256"],
         assumed=told["assumed"],

@@ -129,17 +129,6 @@ impl Interval {
         Interval::new(rounded(precision, lo, Round::Down), rounded(precision, hi, Round::Up))
     }
 
-    /// A decimal numeral of at most a thousand characters, whatever its exponent; `None` if it is none.
-    pub fn decimal(text: &str, precision: u32) -> Option<Interval> {
-        let plain = |b: u8| b.is_ascii_digit() || matches!(b, b'.' | b'-' | b'+' | b'e' | b'E');
-        let begins = text.trim_start_matches('-').starts_with(|c: char| c.is_ascii_digit());
-        if text.len() > 1000 || !begins || !text.bytes().all(plain) {
-            return None;
-        }
-        let end = |round| Some(Float::with_val_round(precision, Float::parse(text).ok()?, round).0);
-        Some(Interval::new(end(Round::Down)?, end(Round::Up)?))
-    }
-
     /// An integer.
     pub fn int(value: i64, precision: u32) -> Interval {
         if precision == doubles::BITS

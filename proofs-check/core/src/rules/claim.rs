@@ -37,7 +37,7 @@ pub struct Claim<'a> {
     /// Bounds of the periodic solution.
     pub periodic: Field<'a>,
     /// Bounds of the control, where they are claimed.
-    pub control: Option<Field<'a>>,
+    control: Option<Field<'a>>,
     /// What it says besides of given numbers of oscillators.
     pub rates: Vec<Rate<'a>>,
     /// The radius of the ball that the set of a plant contains, with its place and as it is written.
@@ -71,7 +71,7 @@ pub fn reads(rule: &'static str, field: &Field<'_>, expected: &str) -> Outcome<(
 }
 
 /// Reads X0, E0 and, unless the regulator starts aligned, Z0; with X0 as it is written, and the rest in words.
-pub fn read_set<'a>(fields: &mut Fields<'a>, aligned: bool) -> Outcome<(ClaimedSet, (&'a str, String))> {
+fn read_set<'a>(fields: &mut Fields<'a>, aligned: bool) -> Outcome<(ClaimedSet, (&'a str, String))> {
     let mut size = |name| {
         let field = fields.required(name)?;
         let value = field.rational()?;

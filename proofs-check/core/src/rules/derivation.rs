@@ -122,7 +122,7 @@ impl Derivation {
     /// Evaluates the conditions; the transfer bound is proved, and the others are left to be demanded.
     pub fn evaluate(&self, d: &Data<'_>) -> Outcome<Evaluated> {
         match &self.witness {
-            Witness::Sharp(w) => sharp::evaluate(d, w).map(|sharp| sharp.evaluated),
+            Witness::Sharp(w) => sharp::evaluate(d, w),
             Witness::Sampled(w) => sampled::evaluate(d, w),
         }
     }
@@ -154,13 +154,13 @@ impl Derivation {
 }
 
 /// Without a domain the bounding functions are proved up to the arguments that are used.
-pub fn without_domain(d: &Data<'_>, [x, e]: &[Interval; 2], lines: &mut Vec<String>) -> Outcome<()> {
+fn without_domain(d: &Data<'_>, [x, e]: &[Interval; 2], lines: &mut Vec<String>) -> Outcome<()> {
     // Those of a plant are numbers, which are proved apart.
     if d.spec.domain.is_some() || d.spec.plant.is_some() { Ok(()) } else { bounding::prove_all(d, [x, e], lines) }
 }
 
 /// Writes down all conditions, then demands each.
-pub fn all<'c>(
+fn all<'c>(
     rule: &'static str,
     pointer: &str,
     mut conditions: impl Iterator<Item = &'c Condition> + Clone,

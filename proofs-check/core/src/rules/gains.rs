@@ -10,11 +10,6 @@ pub fn kappas(d: &Data<'_>, k0: &Interval, k1: &Interval) -> [Interval; 2] {
     [k0 / d.w.sqr(), k1 / d.w.sqr().sqr()]
 }
 
-/// `K_alpha = c (e^{alpha T} - 1 + c) e^{-alpha T}`.
-pub fn k_alpha(d: &Data<'_>) -> Interval {
-    &d.c * (1 + (&d.c - 1) * (-(&d.alpha * d.period.only())).exp())
-}
-
 /// `beta_s(s) = sqrt((T/(2 s)) coth(s T/2))`: of a decay rate s > 0, from the root mean square of a T-periodic input to the
 /// supremum. So `K2(a) = c beta_s(a)`.
 pub fn beta_s(d: &Data<'_>, s: &Interval) -> Interval {

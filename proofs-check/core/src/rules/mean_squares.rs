@@ -52,13 +52,9 @@ pub struct Solution {
     pub e: Interval,
     /// R_q, R_1: the root mean squares of q along it and of its derivative in t.
     pub rates: [Interval; 2],
-    /// (c/a_1) b_fe: |x| over |e|.
-    pub x_gain: Interval,
     pub z_squared: Interval,
     /// A bound of |u| along it at sigma.
     pub steady: Interval,
-    /// a_1, and r_x, r_e, r_d of the solution; only the table of constants shows them.
-    pub shown: (Interval, [Interval; 3]),
     pub conditions: Vec<Condition>,
 }
 
@@ -356,6 +352,5 @@ pub fn evaluate(
     let sigma = d.number(sigma);
     let by_parts = control::by_parts(d, [&sigma, &d.mu], [&e, &z_squared.sqrt()]);
     let steady = control::Answer::continuous(d).steady(&bounds.along(&last), &by_parts);
-    let shown = (bounds.rate, last);
-    Solution { steady, x, e, rates: follows.rates, x_gain: bounds.x_gain, z_squared, shown, conditions }
+    Solution { steady, x, e, rates: follows.rates, z_squared, conditions }
 }

@@ -11,6 +11,7 @@ pub mod inequality;
 pub mod joint;
 pub mod mean_squares;
 pub mod metric;
+pub mod no_plant;
 pub mod paths;
 pub mod rates;
 pub mod regulation;

@@ -16,13 +16,6 @@ pub struct ClaimedSet {
     pub z0: Option<Rational>,
 }
 
-impl ClaimedSet {
-    /// The sizes that there are, by their names.
-    pub fn named(&self) -> impl Iterator<Item = (&'static str, &Rational)> {
-        ["X0", "E0", "Z0"].into_iter().zip([&self.x0, &self.e0].into_iter().chain(&self.z0))
-    }
-}
-
 /// The claimed set covers what the specification asks for. Differences of rationals are exact, so equality is decided.
 pub fn covers(d: &Data<'_>, set: &ClaimedSet, [x_p, e_p]: [&Rational; 2], z: &Interval) -> Vec<Condition> {
     let exact = |required: &Rational, claimed: &Rational| d.number(&Rational::from(required - claimed));

@@ -10,13 +10,11 @@ use super::existence::{Existence, covers};
 use super::gains::kappas;
 use super::inequality::{Inequality, demand_plant};
 use super::joint::Joint;
-use super::mean_squares::{self, Solution};
+use super::mean_squares;
 use super::set::ClaimedSet;
-use super::stability::ErrorBox;
 use super::transfer::{self, Proof};
 use crate::data::Data;
 use crate::input_gain;
-use crate::interval::Interval;
 use crate::json::Fields;
 use crate::rules::common::Sizes;
 use crate::verdict::{Outcome, Verdict, bad, finding, invalid};
@@ -75,14 +73,6 @@ impl Stability {
     }
 }
 
-/// What the conditions and the constants are about.
-pub struct Sharp {
-    pub evaluated: Evaluated,
-    pub solution: Solution,
-    pub error_box: ErrorBox,
-    pub threshold: Interval,
-}
-
 impl Witness {
     /// Takes the free numbers out of a witness; what is left there is the caller's to read or to refuse.
     pub fn read(fields: &mut Fields<'_>, sigma: Rational, set: ClaimedSet) -> Outcome<Witness> {
@@ -125,7 +115,7 @@ impl Witness {
 }
 
 /// Evaluates all conditions; nothing but the transfer proof and the signs is decided yet.
-pub fn evaluate(d: &Data<'_>, w: &Witness) -> Outcome<Sharp> {
+pub fn evaluate(d: &Data<'_>, w: &Witness) -> Outcome<Evaluated> {
     w.signs()?;
     w.stability.demand(d)?;
     w.without_gain(d)?;
@@ -157,23 +147,17 @@ pub fn evaluate(d: &Data<'_>, w: &Witness) -> Outcome<Sharp> {
     };
     evaluated.conditions.extend(levels);
     evaluated.control = control::put_out(d, [solution.steady.clone(), transient]);
-    let threshold = match &w.stability {
-        Stability::Joint(joint) => {
-            evaluated.conditions.extend(joint.conditions(d, &error_box, &w.sigma));
-            d.number(&joint.threshold)
-        }
+    match &w.stability {
+        Stability::Joint(joint) => evaluated.conditions.extend(joint.conditions(d, &error_box, &w.sigma)),
         Stability::Matrix(inequality) => {
             let place = (free.paths, [&solution.x, &solution.e], &error_box);
             evaluated.conditions.extend(inequality.conditions(d, place, (sigma, "sigma")));
-            d.number(&inequality.sigma)
         }
         Stability::Norms => {
             let decay = error_box.decay(d, [&w_x, &h], &sigma);
-            let threshold = decay[2].clone();
             evaluated.conditions.extend(error_box.conditions(decay, sigma, "sigma"));
-            threshold
         }
-    };
+    }
     evaluated.conditions.extend(control::saturation(d, &evaluated.control));
-    Ok(Sharp { evaluated, solution, error_box, threshold })
+    Ok(evaluated)
 }

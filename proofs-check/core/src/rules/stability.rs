@@ -16,7 +16,6 @@ pub struct ErrorBox {
     pub k_e: Interval,
     pub most: Interval,
     pub k_f: Interval,
-    pub gam: Interval,
     /// a_2: alpha - gam, or the rate where it is larger.
     pub rate: Interval,
     /// The condition on q_e_max, where it is given.
@@ -38,7 +37,6 @@ impl ErrorBox {
         let place = if paths.q == Path::ErrorFirst { "(x_per, E_b)" } else { "(X_b, E_b)" };
         ErrorBox {
             rate: d.better_rate(&(&d.alpha - &gam), false, &x_b, e_f),
-            gam,
             k_x: d.bound(Bound::Qx, &x_b, paths.q.e_at_dx(e_per, &e_b)) / d.p_low.sqrt(),
             k_f: d.bound(Bound::Fe, paths.f.x_at_de(x_per, &x_b), &e_b),
             one_sided: one_sided(place, &k_e, given.as_ref()),
