@@ -1,9 +1,11 @@
 //! `docs/formats.md` against the readers and against what the program writes: no example on it is wrong, and no field
 //! that is read or written is missing from it.
 
+use crate::cells;
+use crate::no_plant::{JACOBIAN, write};
 use crate::sampled;
 use crate::schemas::properties_of;
-use crate::support::{EXAMPLE, PLANT, ROOT, forged, options, program, read, refuted_witness};
+use crate::support::{EXAMPLE, PLANT, ROOT, certified_in, document, files, options, program, read, refuted_witness};
 use serde_json::{Value, json};
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{Document, Specification};
@@ -346,11 +348,7 @@ fn written() -> &'static BTreeMap<&'static str, Vec<Value>> {
             ),
             (
                 "check-fragment",
-                vec![
-                    other(&["check", VALID]),
-                    other(&["check", &forged("figures", "/witness/lmi/l_e", "0.25")]),
-                    run(1, &["check", refuted_witness(), "--format", "json"]),
-                ],
+                vec![other(&["check", VALID]), run(1, &["check", refuted_witness(), "--format", "json"])],
             ),
             ("case-fragment", lines_of_cases()),
             ("tune-fragment", vec![other(&["tune", "-q", EXAMPLE, "--over", "mu", "--tries", "8"])]),
@@ -496,6 +494,60 @@ fn every_field_that_is_written_is_named() {
         missing.extend(absent.map(|(_, pointer)| format!("{kind}: {pointer}")));
     }
     assert!(missing.is_empty(), "docs/formats.md does not name\n{}", missing.join("\n"));
+}
+
+/// Certificates of every kind: what they hold stands on the page, but for the file of the user that is inside of them and its names of
+/// parameters.
+#[test]
+fn every_field_of_a_certificate_is_named() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let contradicted = read(write(folder.path(), JACOBIAN, "2.1*X", "0"));
+    let axis = document("plants/motor-axis");
+    let no_x = |fields: &[(&str, Value)]| {
+        let mut made = document("no-x");
+        fields.iter().for_each(|(name, value)| made[*name] = value.clone());
+        made
+    };
+    let uncertain = no_x(&[("input_gain", json!({ "nominal": 1, "low": 0.9, "high": 1.1 }))]);
+    let noisy = no_x(&[("measurement", json!({ "noise": "1e-6", "quantum": "1e-6" })), ("disturbance", json!("1e-6"))]);
+    let doubles = no_x(&[("arithmetic", json!("double"))]);
+    let made: [(&Value, &[&str]); 9] = [
+        // One whose Jacobian contradicts its bounds.
+        (&contradicted, &[]),
+        // A plant whose existence rests on a matrix inequality.
+        (&document("plants/converter"), &[]),
+        // One at samples, where stability and existence rest on matrix inequalities.
+        (&axis, &["--sampling-period", "1/50000"]),
+        // An actuator whose gain is known to an interval.
+        (&uncertain, &[]),
+        // Noise and a disturbance, for given n_o; and rounding, at samples.
+        (&noisy, &["--sigma", "6", "--n-o", "1"]),
+        (&doubles, &["--sigma", "6.5", "--sampling-period", "(1)/120", "--n-o", "1"]),
+        // A rate of a plant whose claim rests on a matrix inequality.
+        (&axis, &["--sigma", "23", "--n-o", "1"]),
+        // The same on a path with a corner, where the parts of the derivatives are known apart.
+        (&document("plants/paper-example"), &["--sigma", "9.1", "--n-o", "0"]),
+        // A family whose parameters are cut into cells.
+        (&cells::family(["1.7", "2.3"]), &[]),
+    ];
+    let made = made
+        .map(|(document, flags)| read(certified_in(folder.path(), document, &[&["--no-compare"], flags].concat()).0));
+    let folders = ["certificates", "sampled", "plants", "actuator", "rates", "noise", "arithmetic", "gain", "periods"];
+    let stored = folders.iter().flat_map(|folder| files(&format!("proofs-check/tests/{folder}"))).map(read);
+    let is_certificate = |file: &Value| file["format"] == "sigmastar/certificate";
+    let all: Vec<Value> = stored.filter(is_certificate).chain(made).collect();
+    let mut fields = BTreeMap::new();
+    Shape::of(&all).names("", &["specification", "plant", "parameters"], &mut fields);
+    // Parts that few of them have.
+    for rare in
+        ["no_plant", "comparison", "matrix_inequality", "existence_inequality", "joint_inequality", "cells", "Pi"]
+    {
+        assert!(fields.contains_key(rare), "no certificate has `{rare}`");
+    }
+    let named = named(&page());
+    let missing: Vec<&String> =
+        fields.iter().filter(|(name, _)| !named.contains(*name)).map(|(_, pointer)| pointer).collect();
+    assert!(missing.is_empty(), "docs/formats.md does not name {missing:?}");
 }
 
 /// The schemas know exactly the fields that the readers know (`schemas.rs`).

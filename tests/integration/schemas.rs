@@ -1,10 +1,9 @@
 //! The JSON Schemas: they are what the command prints, they accept every file that the readers accept, and they know exactly
 //! the fields that the readers know.
 
-use crate::no_plant::{JACOBIAN, write};
-use crate::support::{ROOT, certified_in, certify_all, document, files, program, read, stem, utf8};
+use crate::support::{ROOT, files, program, stem, utf8};
 use crate::validator::Validator;
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{Document, SpecErrors, Specification};
 use sigmastar_schema::Schema;
@@ -43,7 +42,6 @@ fn every_shipped_file_is_valid() {
         (Schema::Specification, &["specs"][..]),
         (Schema::Plant, &["specs/plants"]),
         (Schema::Study, &["specs/studies"]),
-        (Schema::Certificate, &["proofs-check/tests/certificates", "proofs-check/tests/sampled"]),
     ] {
         let validator = validator(schema);
         let all: Vec<_> = folders.iter().flat_map(|folder| files(folder)).collect();
@@ -327,102 +325,8 @@ pub fn properties_of(schema: &Value, found: &mut BTreeSet<String>) {
             assert!(schema["description"].as_str().is_some_and(|text| text.len() > 5), "{name} has no description");
         }
     }
-    for named in schema.get("$defs").and_then(Value::as_object).into_iter().flat_map(Map::values) {
-        properties_of(named, found);
-    }
     for keyword in ["items", "additionalProperties"] {
         schema.get(keyword).into_iter().for_each(|schema| properties_of(schema, found));
     }
     schema.get("oneOf").and_then(Value::as_array).into_iter().flatten().for_each(|schema| properties_of(schema, found));
-}
-
-/// The schema of certificates is that of what is written: each of its fields is in a certificate, and a certificate has no
-/// other.
-#[test]
-fn the_schema_of_certificates_is_that_of_what_is_written() {
-    let validator = validator(Schema::Certificate);
-    let fresh = certify_all(&["no-x", "paper-example"]);
-    let folder = tempfile::tempdir().expect("a folder");
-    let contradicted = parsed(Path::new(&write(folder.path(), JACOBIAN, "2.1*X", "0")));
-    let axis = document("plants/motor-axis");
-    let no_x = |fields: &[(&str, Value)]| with("specs/no-x.json", fields);
-    let uncertain = no_x(&[("input_gain", json!({ "nominal": 1, "low": 0.9, "high": 1.1 }))]);
-    let noisy = no_x(&[("measurement", json!({ "noise": "1e-6", "quantum": "1e-6" })), ("disturbance", json!("1e-6"))]);
-    let doubles = no_x(&[("arithmetic", json!("double"))]);
-    let made: [(&Value, &[&str]); 9] = [
-        // One whose Jacobian contradicts its bounds.
-        (&contradicted, &[]),
-        // A plant whose existence rests on a matrix inequality.
-        (&document("plants/converter"), &[]),
-        // One at samples, where stability and existence rest on matrix inequalities.
-        (&axis, &["--sampling-period", "1/50000"]),
-        // An actuator whose gain is known to an interval.
-        (&uncertain, &[]),
-        // Noise and a disturbance, for given n_o; and rounding, at samples.
-        (&noisy, &["--sigma", "6", "--n-o", "1"]),
-        (&doubles, &["--sigma", "6.5", "--sampling-period", "(1)/120", "--n-o", "1"]),
-        // A rate of a plant whose claim rests on a matrix inequality.
-        (&axis, &["--sigma", "23", "--n-o", "1"]),
-        // The same on a path with a corner, where the parts of the derivatives are known apart.
-        (&document("plants/paper-example"), &["--sigma", "9.1", "--n-o", "0"]),
-        // A family whose parameters are cut into cells.
-        (&super::cells::family(["1.7", "2.3"]), &[]),
-    ];
-    let made = made.map(|(document, flags)| {
-        read(certified_in(folder.path(), document, &[&["--no-alternatives"], flags].concat()).0)
-    });
-    let mut used = BTreeSet::new();
-    for certificate in made.iter().chain(fresh.iter().map(|shipped| &shipped.certificate)) {
-        assert_eq!(validator.complaints(certificate), None, "{}", certificate["claim"]["statement"]);
-        names(certificate, &mut used);
-    }
-    let stored = ["certificates", "sampled", "plants", "actuator", "rates", "noise", "arithmetic"];
-    let stored = stored.map(|name| format!("proofs-check/tests/{name}"));
-    for folder in &stored {
-        for path in files(folder).iter().filter(|path| !path.ends_with("plants/paper-example.json")) {
-            let certificate = parsed(path);
-            assert!(validator.is_valid(&certificate), "{}", path.display());
-            names(&certificate, &mut used);
-        }
-    }
-    let schema = Schema::Certificate.json();
-    let mut all = BTreeSet::new();
-    properties_of(&schema, &mut all);
-    let unused: Vec<_> = all.difference(&used).map(String::as_str).collect();
-    // Parts of embedded files that these have not; the readers of those are held against the same tables above.
-    let embedded = [
-        "a",
-        "f_x",
-        "high",
-        "low",
-        "nominal",
-        "parameters",
-        "q_e_max",
-        "q_te",
-        "q_tx",
-        "rate",
-        "relative_degree",
-        "sensitivities",
-        "values",
-        "z",
-    ];
-    let rest: Vec<&str> = unused.into_iter().filter(|name| !embedded.contains(name)).collect();
-    assert!(rest.is_empty(), "{rest:?}");
-    // A field more, anywhere: refused.
-    let good = &fresh[0].certificate;
-    let mut objects = vec![String::new()];
-    let mut count = 0;
-    while let Some(pointer) = objects.pop() {
-        let Some(fields) = good.pointer(&pointer).and_then(Value::as_object) else { continue };
-        let constants = pointer == "/constants";
-        if !constants {
-            let mut more = good.clone();
-            let place = more.pointer_mut(&pointer).and_then(Value::as_object_mut).expect("an object");
-            place.insert("zzz".to_owned(), Value::Object(Map::new()));
-            assert!(!validator.is_valid(&more), "{pointer} with another field");
-        }
-        count += 1;
-        objects.extend(fields.keys().filter(|name| !name.contains(['/', '~'])).map(|name| format!("{pointer}/{name}")));
-    }
-    assert!(count > 20, "{count}");
 }

@@ -1,4 +1,4 @@
-//! JSON Schemas of the files that people write, and of certificates: for editors and validators.
+//! JSON Schemas of the files that people write: for editors and validators.
 //!
 //! A schema knows the names, types and places of fields. It knows no mathematics: what it accepts, the readers may refuse.
 //! What the readers accept, it accepts.
@@ -7,7 +7,6 @@
 // What tests compare with need not be the same on every machine.
 #![cfg_attr(test, allow(clippy::disallowed_methods))]
 
-mod certificate;
 mod parts;
 mod plant;
 mod shape;
@@ -29,13 +28,11 @@ pub enum Schema {
     Plant,
     /// A parameter study.
     Study,
-    /// A certificate.
-    Certificate,
 }
 
 impl Schema {
     /// All of them.
-    pub const ALL: [Schema; 4] = [Schema::Specification, Schema::Plant, Schema::Study, Schema::Certificate];
+    pub const ALL: [Schema; 3] = [Schema::Specification, Schema::Plant, Schema::Study];
 
     /// Its name.
     #[must_use]
@@ -44,16 +41,14 @@ impl Schema {
             Schema::Specification => "specification",
             Schema::Plant => "plant",
             Schema::Study => "study",
-            Schema::Certificate => "certificate",
         }
     }
 
     fn shape(self) -> Shape {
         match self {
-            Schema::Specification => Shape::Object(specification::fields(true)),
-            Schema::Plant => Shape::Object(plant::fields(true)),
+            Schema::Specification => Shape::Object(specification::fields()),
+            Schema::Plant => Shape::Object(plant::fields()),
             Schema::Study => study::shape(),
-            Schema::Certificate => certificate::shape(),
         }
     }
 
@@ -62,7 +57,6 @@ impl Schema {
             Schema::Specification => "Bounding specification of sigmastar",
             Schema::Plant => "Plant of sigmastar",
             Schema::Study => "Parameter study of sigmastar",
-            Schema::Certificate => "Certificate of sigmastar",
         }
     }
 
@@ -73,13 +67,7 @@ impl Schema {
         schema.insert("$schema".to_owned(), json!(DIALECT));
         schema.insert("$id".to_owned(), json!(format!("urn:sigmastar:schema:{}:1", self.name())));
         schema.insert("title".to_owned(), json!(self.title()));
-        let shape = self.shape();
-        schema.extend(shape.json());
-        let mut definitions = Map::new();
-        shape.definitions(&mut definitions);
-        if !definitions.is_empty() {
-            schema.insert("$defs".to_owned(), Value::Object(definitions));
-        }
+        schema.extend(self.shape().json());
         Value::Object(schema)
     }
 }

@@ -9,18 +9,15 @@ pub(super) const POSITIVE: Shape = Shape::Constant(Sign::Positive);
 /// A constant that is not negative.
 pub(super) const NONNEGATIVE: Shape = Shape::Constant(Sign::Nonnegative);
 
-/// `format`, `version`, `name`, `description`; `$schema` where the file is one of its own.
-pub(super) fn header(format: &'static str, versions: &[u64], whole: bool) -> Vec<Field> {
-    let schema = whole.then(|| {
-        may("$schema", "Schema", "Where an editor finds the schema of this file. It is ignored.", Shape::Text)
-    });
-    let rest = [
+/// `$schema`, `format`, `version`, `name`, `description`.
+pub(super) fn header(format: &'static str, versions: &[u64]) -> Vec<Field> {
+    vec![
+        may("$schema", "Schema", "Where an editor finds the schema of this file. It is ignored.", Shape::Text),
         must("format", "Format", "The kind of this file.", Shape::Word(vec![format])),
         must("version", "Version", "The version of the format.", Shape::Version(versions.to_vec())),
         must("name", "Name", "Free text for reports; no claim depends on it.", Shape::Text),
         may("description", "Description", "Free text for reports; no claim depends on it.", Shape::Text),
-    ];
-    schema.into_iter().chain(rest).collect()
+    ]
 }
 
 /// `internal_model`.

@@ -11,7 +11,7 @@ use sigmastar_lang::plant::{FORMAT, VERSIONS};
 const VARIABLES: &str = "t, phase, the states, e and the parameters";
 
 /// All fields; those of a file of its own, or of a copy in another one.
-pub(super) fn fields(whole: bool) -> Vec<Field> {
+pub(super) fn fields() -> Vec<Field> {
     let number = || Shape::Constant(Sign::Any);
     let start = vec![
         must("x", "x", "One number for each state.", any_list(number())),
@@ -27,7 +27,7 @@ pub(super) fn fields(whole: bool) -> Vec<Field> {
         ("Low", "The least value, a rational number."),
         ("High", "The largest value, a rational number."),
     ];
-    let mut fields = header(FORMAT, &VERSIONS, whole);
+    let mut fields = header(FORMAT, &VERSIONS);
     fields.extend([
         period(),
         must(

@@ -29,8 +29,6 @@ pub(super) enum Shape {
     Word(Vec<&'static str>),
     /// One of these versions.
     Version(Vec<u64>),
-    /// A SHA-256 in lower-case hexadecimal.
-    Digest,
     /// A text, a number or a Boolean.
     Scalar,
     /// So many values of a shape.
@@ -43,8 +41,6 @@ pub(super) enum Shape {
     Foreign,
     /// Exactly one of these.
     OneOf(Vec<Shape>),
-    /// A shape that stands in several places: it is written once, under this name.
-    Named(&'static str, Box<Shape>),
 }
 
 /// A decimal numeral without a sign.
@@ -127,7 +123,6 @@ impl Shape {
                 words => json!({ "enum": words }),
             },
             Shape::Version(versions) => json!({ "enum": versions }),
-            Shape::Digest => json!({ "type": "string", "pattern": "^[0-9a-f]{64}$" }),
             Shape::Scalar => json!({ "type": ["string", "number", "boolean"] }),
             Shape::List(shape, least, most) => {
                 let mut list = json!({ "type": "array", "items": shape.json(), "minItems": least });
@@ -145,27 +140,12 @@ impl Shape {
             }
             Shape::Map(shape) => json!({ "type": "object", "additionalProperties": shape.json() }),
             Shape::Foreign => json!({ "type": "object" }),
-            Shape::Named(name, _) => json!({ "$ref": format!("#/$defs/{name}") }),
             Shape::OneOf(shapes) => json!({ "oneOf": shapes.iter().map(Shape::json).collect::<Vec<_>>() }),
         };
         match value {
             Value::Object(fields) => fields,
             // Every arm above is an object.
             _ => Map::new(),
-        }
-    }
-
-    /// The shapes with names, wherever they stand.
-    pub(super) fn definitions(&self, found: &mut Map<String, Value>) {
-        match self {
-            Shape::Named(name, shape) => {
-                shape.definitions(found);
-                found.insert((*name).to_owned(), Value::Object(shape.json()));
-            }
-            Shape::List(shape, ..) | Shape::Map(shape) => shape.definitions(found),
-            Shape::Object(fields) => fields.iter().for_each(|field| field.shape.definitions(found)),
-            Shape::OneOf(shapes) => shapes.iter().for_each(|shape| shape.definitions(found)),
-            _ => {}
         }
     }
 }

@@ -7,9 +7,9 @@ use super::parts::{
 use super::shape::{Field, Shape, Sign, list, may, must};
 use sigmastar_lang::spec::{Bound, FORMAT, MAX_HARMONICS, MAX_RELATIVE_DEGREE_COEFFICIENTS, MAX_STATES, VERSIONS};
 
-/// All fields; those of a file of its own, or of a copy in another one.
-pub(super) fn fields(whole: bool) -> Vec<Field> {
-    let mut fields = header(FORMAT, &VERSIONS, whole);
+/// All fields.
+pub(super) fn fields() -> Vec<Field> {
+    let mut fields = header(FORMAT, &VERSIONS);
     let harmonics = vec![
         must(
             "harmonics",

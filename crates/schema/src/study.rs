@@ -11,7 +11,7 @@ pub(super) fn shape() -> Shape {
 
 fn fields(design: &'static str) -> Vec<Field> {
     let latin = design == "latin";
-    let mut fields = header(FORMAT, &VERSIONS, true);
+    let mut fields = header(FORMAT, &VERSIONS);
     fields.extend([
         must(
             "subject",

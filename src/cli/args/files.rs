@@ -22,8 +22,6 @@ pub enum SchemaArg {
     Plant,
     /// A parameter study
     Study,
-    /// A certificate
-    Certificate,
 }
 
 impl SchemaArg {
@@ -33,7 +31,6 @@ impl SchemaArg {
             SchemaArg::Specification => Schema::Specification,
             SchemaArg::Plant => Schema::Plant,
             SchemaArg::Study => Schema::Study,
-            SchemaArg::Certificate => Schema::Certificate,
         }
     }
 }

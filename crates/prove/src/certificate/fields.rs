@@ -45,9 +45,6 @@ pub trait NumberFields: Sized {
     /// What it holds beside the numbers, which stands elsewhere in the file.
     type Other;
 
-    /// The names of the numbers, in the order of the file.
-    const NAMES: &'static [&'static str];
-
     /// The numbers by their names, in the order of the file.
     fn numbers(&self) -> Vec<(&'static str, &Rational)>;
 
@@ -71,8 +68,6 @@ macro_rules! numbers {
     ($part:ident { $($field:ident: $name:literal),+ } and ($($other:ident: $type:ty),*)) => {
         impl NumberFields for $part {
             type Other = ($($type,)*);
-
-            const NAMES: &'static [&'static str] = &[$($name),+];
 
             fn numbers(&self) -> Vec<(&'static str, &Rational)> {
                 vec![$(($name, &self.$field)),+]

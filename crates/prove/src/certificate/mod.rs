@@ -16,7 +16,7 @@ mod triple;
 mod words;
 mod write;
 
-pub use fields::{NumberFields, RefinedSquares, set_fields};
+pub use fields::set_fields;
 pub use json::{exact, object, rows};
 pub use of_plant::{joint_existence_json, joint_stability_json, plant_parts};
 pub use read::{embedded, read_lyapunov, read_witness};
