@@ -46,12 +46,12 @@ impl Subject {
     ) -> Subject {
         let text = |name: &str| {
             let mut fields = embedded.fields().ok()?;
-            fields.optional(name).and_then(|field| field.text().ok()).map(printable)
+            fields.optional(name).and_then(|field| field.text().ok()).map(free_text)
         };
         let named = [("name", text("name")), ("description", text("description"))];
         let mut free_texts: Vec<_> =
             named.into_iter().filter_map(|(name, text)| text.map(|text| (name, text))).collect();
-        free_texts.push(("tool", format!("{} {}", printable(tool), printable(version))));
+        free_texts.push(("tool", format!("{} {}", free_text(tool), free_text(version))));
         let also = derivation.regulation.as_ref().map(|w| {
             format!(
                 "With infinitely many oscillators and any gain sigma >= {}, solutions from the same set are bounded, and {}.",
@@ -212,7 +212,12 @@ fn assumed_of_plant(plant: &OfPlant, spec: &Specification) -> Vec<String> {
     vec![format!("the machine is {equations} + {input} with exactly these formulas{family}{where_}")]
 }
 
-/// A free text on one line: what is not shown, or moves what is, is escaped, and what is long is cut.
+/// A free text: several blanks are one, for with many of them it could end in what looks like a line of the answer where a terminal wraps it.
+fn free_text(text: &str) -> String {
+    printable(&text.split(' ').filter(|word| !word.is_empty()).collect::<Vec<_>>().join(" "))
+}
+
+/// A text of a file on one line: what is not shown, or moves what is, is escaped, and what is long is cut.
 fn printable(text: &str) -> String {
     let shown: String = text.chars().take(MAX_SHOWN).collect();
     let cut = if text.chars().nth(MAX_SHOWN).is_some() { "..." } else { "" };
@@ -293,7 +298,13 @@ fn shown(json: Option<&Json>) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::rounded_up;
+    use super::{free_text, rounded_up};
+
+    #[test]
+    fn blanks_of_a_free_text_move_nothing_to_another_line() {
+        assert_eq!(free_text(&format!("ok{}  proved:  all", " ".repeat(58))), "ok proved: all");
+        assert_eq!(free_text(" a b "), "a b");
+    }
 
     #[test]
     fn what_is_shown_is_not_below_the_number() {
