@@ -170,8 +170,7 @@ fn multipliers_prove_c5_a_second_time() {
             let value = parse(certificate["witness"]["lmi"][multiplier].as_str().unwrap());
             for factor in [(1, 1000), (1000, 1)] {
                 let mut made = certificate.clone();
-                let other =
-                    if value == 0 { Rational::from(1) } else { Rational::from(&value * Rational::from(factor)) };
+                let other = if value == 0 { Rational::from(1) } else { &value * Rational::from(factor) };
                 made["witness"]["lmi"][multiplier] = other.to_string().into();
                 assert!(!plain.multipliers_hold(&made), "{name}: {multiplier} times {factor:?}");
                 moved += 1;

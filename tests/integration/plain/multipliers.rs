@@ -63,9 +63,8 @@ fn is_definite(mut rows: Vec<Vec<R>>) -> bool {
         }
         for i in k + 1..rows.len() {
             let factor = &rows[i][k] / &rows[k][k];
-            for j in k..rows.len() {
-                rows[i][j] = &rows[i][j] - &factor * &rows[k][j];
-            }
+            let pivot = rows[k].clone();
+            rows[i].iter_mut().zip(&pivot).for_each(|(entry, above)| *entry = &*entry - &factor * above);
         }
     }
     true
