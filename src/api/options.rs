@@ -107,7 +107,7 @@ impl CertifyOptions {
         self
     }
 
-    /// Prove for each of these numbers of oscillators (at most 8, up to 50), at the gain of the claim alone, a rate and a factor with
+    /// Prove for each of these numbers of oscillators (at most 8, up to 120), at the gain of the claim alone, a rate and a factor with
     /// `|e - e_per| <= factor exp(-rate (t - t_0))` in the undisturbed loop, and put them into the certificate; at samples at the sampling instants, of a claim by norms.
     ///
     /// ```

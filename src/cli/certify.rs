@@ -17,7 +17,6 @@ use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{ErrorKind, SpecErrors};
 use sigmastar_prove::certificate::{certificate_of, is_sampled, read_for};
 use sigmastar_prove::certify::{FarStart, Limits, NoRatesOfClaim, rate_counts, unusual_mu};
-use sigmastar_prove::rate::bound::MAX_OSCILLATORS;
 use sigmastar_prove::reduction::{Checked, INITIAL_SET, Prepared, Run, Shrunk, Stage, Unwatched, Watch, shrunk};
 use sigmastar_report::{Origin, run_report};
 use sigmastar_theory::derivation::targets::{Target, TargetKind};
@@ -209,7 +208,7 @@ fn flag(kind: TargetKind) -> &'static str {
 /// The numbers of oscillators whose rates are asked for.
 fn counts(args: &CertifyArgs) -> Result<Vec<u32>, Failure> {
     let Some(text) = &args.n_o else { return Ok(Vec::new()) };
-    rate_counts(&finite_counts(text, MAX_OSCILLATORS)?).map_err(no_rates)
+    rate_counts(&finite_counts(text)?).map_err(no_rates)
 }
 
 fn no_rates(reason: NoRatesOfClaim) -> Failure {

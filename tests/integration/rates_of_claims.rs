@@ -4,6 +4,7 @@ use crate::support::{Shipped, answer, certified, json, number, options, program,
 use faer::Mat;
 use rug::Rational;
 use serde_json::Value;
+use sigmastar_lang::spec::{Document, Notation};
 use sigmastar_prove::certificate::certificate_json;
 use sigmastar_prove::certify::{Wanted, certify_for};
 use sigmastar_prove::rate::found::RateForCount;
@@ -162,7 +163,8 @@ fn solutions_decay_as_it_is_claimed() {
 #[test]
 fn what_has_no_rates_is_refused_with_the_reason() {
     for (arguments, part) in [
-        (&["specs/paper-example.json", "--n-o", "51"][..], "50"),
+        (&["specs/paper-example.json", "--n-o", "121"][..], "120"),
+        (&["specs/paper-example.json", "--n-o", "100,120"], "at most 30000 fit into one certificate"),
         (&["specs/paper-example.json", "--n-o", "0..8"], "at most 8"),
         (&["specs/paper-example.json", "--n-o", "inf"], "inf"),
         (&["specs/paper-example.json", "--n-o", "-1"], "`-1`"),
@@ -173,6 +175,21 @@ fn what_has_no_rates_is_refused_with_the_reason() {
         let message = report["errors"][0]["message"].as_str().expect("a message");
         assert!(message.contains(part), "{arguments:?}: {message}");
     }
+}
+
+/// The largest number is decided by both programs, and its file is one that both read.
+#[test]
+fn many_oscillators_are_within_reach() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("certificate.json");
+    let call = ["certify", "specs/paper-example.json", "--no-compare", "-q", "--sigma", "60", "--n-o", "120", "-o"];
+    assert_eq!(program().args(call).arg(&path).output().expect("it runs").status.code(), Some(0));
+    let bytes = std::fs::read(&path).expect("written");
+    assert!(proofs_check::check(&bytes).is_flawless());
+    let document = Document::from_bytes_as("certificate", &bytes, Notation::Json).expect("it is not too large");
+    // The slowest mode falls like n_o^(-3/2): 5e-4 with 100 of them, 2.7e-4 with 150.
+    let rate = document.at("/claim/for_n_o/0/rate").expect("a rate").to_json();
+    assert!((3e-4..4.5e-4).contains(&number(&rate)), "{rate}");
 }
 
 /// One that is given to be decided again keeps its claim, and has rates where they are asked for.

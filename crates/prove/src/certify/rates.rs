@@ -5,7 +5,7 @@ use super::options::Limits;
 use super::outcome::Outcome;
 use super::sampled::SampledCertification;
 use super::verdict::Verdict;
-use crate::rate::bound::{MAX_COUNTS, MAX_OSCILLATORS, Place, RateBound, bound};
+use crate::rate::bound::{MAX_COUNTS, MAX_ENTRIES, MAX_OSCILLATORS, Place, RateBound, bound};
 use crate::rate::by_matrices::{Start, Tube, bounds};
 use crate::rate::found::{ForCount, RateForCount, SampledRateForCount};
 use crate::rate::noise::{Confinement, NoNoiseBound, NoiseBound, noise_bound};
@@ -40,6 +40,8 @@ pub enum NoRatesOfClaim {
     TooMany(usize),
     /// This number is beyond the largest one.
     Beyond(u32),
+    /// Together their matrices have so many entries.
+    TooLarge(usize),
 }
 
 impl NoRatesOfClaim {
@@ -65,7 +67,14 @@ impl NoRatesOfClaim {
             }
             NoRatesOfClaim::Beyond(n_o) => {
                 format!(
-                    "{option}: n_o = {n_o} is beyond {MAX_OSCILLATORS}, the largest of which a certificate has a rate"
+                    "{option}: n_o = {n_o} is beyond {MAX_OSCILLATORS}: the matrix that proves its rate, of order {}, does not fit into a certificate",
+                    2 * u64::from(n_o) + 2
+                )
+            }
+            NoRatesOfClaim::TooLarge(entries) => {
+                format!(
+                    "{option}: the matrices that prove the rates of these numbers, and what noise and disturbances do there, have {entries} \
+                     entries; at most {MAX_ENTRIES} fit into one certificate"
                 )
             }
         }
@@ -80,7 +89,7 @@ impl NoRatesOfClaim {
             NoRatesOfClaim::OfFormulas => {
                 "leave it out; a bounding specification of the plant (`sigmastar bound`) has a claim by norms"
             }
-            NoRatesOfClaim::TooMany(_) => "ask for fewer, or write several certificates",
+            NoRatesOfClaim::TooMany(_) | NoRatesOfClaim::TooLarge(_) => "ask for fewer, or write several certificates",
             NoRatesOfClaim::Beyond(_) => "ask for smaller numbers",
         }
     }
@@ -89,7 +98,7 @@ impl NoRatesOfClaim {
 /// The numbers in order, each once.
 ///
 /// # Errors
-/// More than [`MAX_COUNTS`] different ones, and one beyond [`MAX_OSCILLATORS`].
+/// More than [`MAX_COUNTS`] different ones, one beyond [`MAX_OSCILLATORS`], and more than [`MAX_ENTRIES`] of all together.
 pub fn rate_counts(asked: &[u32]) -> Result<Vec<u32>, NoRatesOfClaim> {
     let mut counts = asked.to_vec();
     counts.sort_unstable();
@@ -97,8 +106,15 @@ pub fn rate_counts(asked: &[u32]) -> Result<Vec<u32>, NoRatesOfClaim> {
     match (counts.len(), counts.last()) {
         (_, Some(last)) if *last > MAX_OSCILLATORS => Err(NoRatesOfClaim::Beyond(*last)),
         (count, _) if count > MAX_COUNTS => Err(NoRatesOfClaim::TooMany(count)),
-        _ => Ok(counts),
+        _ => fitting(counts, false),
     }
+}
+
+/// The same numbers, where their matrices fit into a certificate: Pi of order 2 n_o + 2 for each, and one more where inputs count.
+fn fitting(counts: Vec<u32>, with_inputs: bool) -> Result<Vec<u32>, NoRatesOfClaim> {
+    let triangle = |n_o: &u32| (*n_o as usize + 1) * (2 * *n_o as usize + 3);
+    let entries = counts.iter().map(triangle).sum::<usize>() * if with_inputs { 2 } else { 1 };
+    if entries > MAX_ENTRIES { Err(NoRatesOfClaim::TooLarge(entries)) } else { Ok(counts) }
 }
 
 impl Certification<'_> {
@@ -126,6 +142,7 @@ impl Certification<'_> {
             self.for_n_o = Vec::new();
             return Ok(());
         };
+        let counts = fitting(counts, self.spec.disturbances.any())?;
         self.for_n_o = for_n_o(self.spec, proof, &counts);
         self.make_room(&counts);
         self.set_rates_of_rows(&counts, None);
@@ -364,6 +381,7 @@ impl SampledCertification<'_> {
             self.for_n_o =
                 counts.iter().map(|n_o| SampledRateForCount { n_o: *n_o, bound: None, noise: noise() }).collect();
         } else {
+            let counts = fitting(counts.clone(), self.spec.disturbances.any_at_samples())?;
             self.for_n_o = for_n_o_at_samples(self.spec, proof, &counts);
             self.make_room(&counts);
         }
@@ -456,7 +474,12 @@ mod tests {
     fn numbers_are_few_small_and_different() {
         assert_eq!(rate_counts(&[4, 0, 50, 4]), Ok(vec![0, 4, 50]));
         assert_eq!(rate_counts(&[]), Ok(Vec::new()));
-        assert_eq!(rate_counts(&[1, 51]), Err(NoRatesOfClaim::Beyond(51)));
+        assert_eq!(rate_counts(&[1, 121]), Err(NoRatesOfClaim::Beyond(121)));
+        assert_eq!(rate_counts(&[120]), Ok(vec![120]));
+        // (n + 1) (2 n + 3) each, and twice as many with noise.
+        assert_eq!(rate_counts(&[120, 20]), Err(NoRatesOfClaim::TooLarge(29_403 + 903)));
+        assert_eq!(fitting(vec![84], true), Ok(vec![84]));
+        assert_eq!(fitting(vec![86], true), Err(NoRatesOfClaim::TooLarge(2 * 87 * 175)));
         assert_eq!(rate_counts(&[0, 1, 2, 3, 4, 5, 6, 7, 8]), Err(NoRatesOfClaim::TooMany(9)));
         assert!(rate_counts(&[7; 20]).is_ok());
     }

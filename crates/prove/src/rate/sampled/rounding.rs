@@ -124,7 +124,7 @@ impl ComputedLaw {
             let roundings = Enclosure::from_integer(i64::from(k), precision) * power(UNIT, precision);
             &roundings / (&one - &roundings)
         };
-        // A certificate has at most 50 oscillators.
+        // Of the few oscillators of a certificate the roundings are far below 1/UNIT.
         let of_control = gamma(roots.len() as u32 + OF_CONTROL);
         let tiny =
             power(-LARGEST, precision) * (&one + gain) * (&one + sigma) * (&one + n_bar.sqr()) * (&one + nominal);
