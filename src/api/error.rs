@@ -35,7 +35,7 @@ pub enum ErrorKind {
     NotCertified,
     /// A result is beyond double precision.
     Overflow,
-    /// What was asked for does not know how to honour a field of the document, such as `input_gain`.
+    /// What was asked for does not know how to honour a field of the document, such as `delay_samples`.
     NotAvailable,
 }
 
