@@ -185,7 +185,7 @@ fn many_oscillators_are_within_reach() {
     let call = ["certify", "specs/paper-example.json", "--no-compare", "-q", "--sigma", "60", "--n-o", "120", "-o"];
     assert_eq!(program().args(call).arg(&path).output().expect("it runs").status.code(), Some(0));
     let bytes = std::fs::read(&path).expect("written");
-    assert!(proofs_check::check(&bytes).is_flawless());
+    assert!(proofs_check::check(&bytes).is_valid());
     let document = Document::from_bytes_as("certificate", &bytes, Notation::Json).expect("it is not too large");
     // The slowest mode falls like n_o^(-3/2): 5e-4 with 100 of them, 2.7e-4 with 150.
     let rate = document.at("/claim/for_n_o/0/rate").expect("a rate").to_json();

@@ -44,7 +44,7 @@ pub use outcome::Outcome;
 pub use pool::{Member, Wanted};
 pub use produce::{certify, certify_for, certify_member, recheck};
 pub use rates::{NoRatesOfClaim, SaidOfCount, apart, rate_counts, rates_in_words};
-pub use refusal::{Refusal, WITHOUT_INPUT_GAIN, not_available_with_input_gain};
+pub use refusal::Refusal;
 pub use sampled::{SampledCertification, certify_sampled, certify_sampled_within, recheck_sampled, sampled_model};
 pub use scale::unusual_mu;
 pub use smaller::SmallerChoice;

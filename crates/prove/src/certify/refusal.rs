@@ -4,15 +4,6 @@ use sigmastar_decide::conditions::BoundingProblem;
 use sigmastar_lang::spec::{ErrorKind, SpecErrors, Specification};
 use sigmastar_theory::derivation::relative_degree::RelativeDegreeError;
 
-/// What helps where `input_gain` is not honoured.
-pub const WITHOUT_INPUT_GAIN: &str = "leave `input_gain` out where the gain is known; `sigmastar certify` takes it";
-
-/// That something does not know what to do with `input_gain`.
-#[must_use]
-pub fn not_available_with_input_gain(what: &str) -> String {
-    format!("{what} is not available with `input_gain` yet: it is not proved for an uncertain gain")
-}
-
 /// Why a specification comes to no run.
 #[derive(Clone, Debug)]
 pub enum Refusal {

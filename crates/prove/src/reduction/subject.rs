@@ -4,7 +4,7 @@ use super::proofs::{Near, ProvedData, Reduced};
 use super::reduce::{Beside, reduce_by_norms_watched, reduce_without_joint};
 use super::watch::{Stage, Unwatched, Watch};
 use super::{ReducedSampled, RestsOn, reduce, reduce_sampled};
-use crate::certify::{Alternatives, WITHOUT_INPUT_GAIN, not_available_with_input_gain, with_triple};
+use crate::certify::{Alternatives, with_triple};
 use rug::Rational;
 use sigmastar_lang::plant::{self, Plant};
 use sigmastar_lang::spec::{
@@ -154,18 +154,6 @@ impl Subject {
     #[must_use]
     pub fn actuator(&self) -> Option<&Actuator> {
         self.part(|spec| &spec.actuator, |plant| &plant.actuator).as_ref()
-    }
-
-    /// That what is asked for can be had of a document with this input gain, which it does not honour.
-    ///
-    /// # Errors
-    /// That there is an input gain, at its place.
-    pub fn without_input_gain(&self, what: &str) -> Result<(), Vec<SpecErrors>> {
-        if self.input_gain().is_none() {
-            return Ok(());
-        }
-        let message = not_available_with_input_gain(what);
-        Err(vec![self.errors_at("/input_gain", ErrorKind::NotAvailable, message, WITHOUT_INPUT_GAIN)])
     }
 
     /// The samples that the regulator is asked for at, if any.
