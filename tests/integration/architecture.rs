@@ -39,8 +39,8 @@ fn sources(folder: &Path) -> Vec<PathBuf> {
     let mut found = Vec::new();
     for entry in std::fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
-        let name = path.file_stem().unwrap();
-        if name == "tests" {
+        let name = path.file_stem().unwrap().to_str().unwrap();
+        if name == "tests" || name.ends_with("_tests") {
             continue;
         } else if path.is_dir() {
             found.extend(sources(&path));
@@ -151,7 +151,7 @@ fn all_circles(folder: &Path, path: &str) -> Vec<String> {
     for entry in std::fs::read_dir(folder).unwrap() {
         let inner = entry.unwrap().path();
         let name = inner.file_stem().unwrap().to_str().unwrap().to_owned();
-        if inner.is_dir() && name != "tests" {
+        if inner.is_dir() && name != "tests" && !name.ends_with("_tests") {
             found.extend(all_circles(&inner, &format!("{path}{name}::")));
         }
     }
