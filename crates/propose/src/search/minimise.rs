@@ -106,7 +106,7 @@ fn centroid(vertices: &[Vertex]) -> Vec<f64> {
 fn deviation(simplex: &[Vertex]) -> f64 {
     let count = simplex.len() as f64;
     let mean = simplex.iter().map(|vertex| vertex.1).sum::<f64>() / count;
-    (1.0 / (count - 1.0) * simplex.iter().map(|vertex| (vertex.1 - mean).powi(2)).sum::<f64>()).sqrt()
+    (1.0 / (count - 1.0) * simplex.iter().map(|vertex| (vertex.1 - mean) * (vertex.1 - mean)).sum::<f64>()).sqrt()
 }
 
 #[cfg(test)]

@@ -9,7 +9,7 @@ mod input_gain;
 mod joint;
 mod narrow;
 mod outside;
-mod random_points;
+pub(crate) mod random_points;
 mod sampled;
 mod slopes;
 mod splitting;

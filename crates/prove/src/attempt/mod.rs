@@ -16,7 +16,7 @@ mod triple;
 mod value;
 
 #[cfg(test)]
-mod bound_tests;
+pub(crate) mod bound_tests;
 #[cfg(test)]
 mod orbit_tests;
 

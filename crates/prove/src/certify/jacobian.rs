@@ -136,7 +136,7 @@ fn for_existence(
         candidates.found.iter().map(|candidate| (sigma(&candidate), candidate)).collect();
     better.retain(|(sigma, _)| *sigma < alone.sigma * (1.0 - WORTH));
     better.sort_by(|a, b| a.0.total_cmp(&b.0));
-    first_proved(&candidates, better.into_iter().map(|(_, candidate)| candidate)).ok()
+    first_proved(candidates, better.into_iter().map(|(_, candidate)| candidate)).ok()
 }
 
 /// A specification with a Lyapunov triple: as it is, or with those of its Jacobian, which are `given` or found, and proved.

@@ -115,7 +115,7 @@ impl<'a> Kind<'a> {
     }
 
     fn prove(&self, tube: &Tube<'_>, balls: &[FloatSlopes]) -> Option<Vec<Slopes>> {
-        balls.iter().zip(&self.parts).map(|(ball, (_, at))| prove_slopes(&tube.engine, ball, *at)).collect()
+        balls.iter().zip(&self.parts).map(|(ball, (_, at))| prove_slopes(tube.engine, ball, *at)).collect()
     }
 }
 

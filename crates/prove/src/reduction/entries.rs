@@ -223,7 +223,7 @@ pub(super) fn prove_all(
         None => Ok(None),
         Some(wanted) => {
             let mut failed = tried.load(Ordering::Relaxed);
-            let proved = prove_inequality(&engine, suprema, wanted, mu, &mut failed);
+            let proved = prove_inequality(engine, suprema, wanted, mu, &mut failed);
             tried.store(failed, Ordering::Relaxed);
             proved.map(Some).ok_or_else(|| not_proved("stability", [&wanted.x, &wanted.e]))
         }
@@ -231,7 +231,7 @@ pub(super) fn prove_all(
     let existence = || match &needed.existence {
         None => Ok(None),
         Some(wanted) => {
-            let proved = prove_existence(&engine, suprema, wanted);
+            let proved = prove_existence(engine, suprema, wanted);
             proved.map(Some).ok_or_else(|| not_proved("existence", [&wanted.x, &wanted.e]))
         }
     };
@@ -267,7 +267,7 @@ fn prove_at_samples(
     let existence = match existence {
         None => None,
         Some(wanted) => {
-            let proved = prove_sampled_existence(&engine, suprema, wanted);
+            let proved = prove_sampled_existence(engine, suprema, wanted);
             Some(proved.ok_or_else(|| not_proved("existence", [&wanted.x, &wanted.e]))?)
         }
     };
@@ -283,7 +283,7 @@ fn value_of(
 ) -> Result<ProvedValue, PlantRefusal> {
     let stateless = engine.states() == 0;
     let refusal = || PlantRefusal::NotProved { bound: bound.field(), at: [x.to_f64(), e.to_f64()] };
-    let (value, sampled) = match prove_value(&engine, suprema, bound, &x, &e) {
+    let (value, sampled) = match prove_value(engine, suprema, bound, &x, &e) {
         Some(proved) => (proved.value, Rational::from_f64(proved.sampled)),
         // Without states every rate is as good as any other, and the checker asks for none.
         None if bound.is_rate() && stateless => (Rational::from(1), None),

@@ -1,14 +1,11 @@
 //! The values in certificates of the shipped plants, against random points.
 
-#[path = "../attempt/bound_tests/random_points.rs"]
-mod random_points;
-
 use super::closer::closer;
 use super::{
     Beside, Checked, PlantRefusal, Prepared, Reduced, Stage, Subject, Unwatched, Watch, bounds_around, reduce,
 };
+use crate::attempt::bound_tests::random_points::random_points;
 use crate::certify::{Limits, Options, Wanted, certify_for};
-use random_points::random_points;
 use rayon::prelude::*;
 use rug::Rational;
 use sigmastar_lang::plant::Plant;

@@ -98,7 +98,7 @@ impl PlantBounds {
 /// A polynomial that is proved, near the least that the samples allow; the constant at the far corner where none is.
 fn majorant(engine: &Engine, samples: &FloatSuprema, kind: Bound, domain: [&Rational; 2]) -> Option<Majorant> {
     let corner = || {
-        let proved = prove_value(&engine, samples, kind, domain[0], domain[1])?;
+        let proved = prove_value(engine, samples, kind, domain[0], domain[1])?;
         let direction = if kind.is_rate() { Direction::Down } else { Direction::Up };
         Some(round_rational(&proved.value, DIGITS, direction))
     };
