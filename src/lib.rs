@@ -2,7 +2,7 @@
 //!
 //! A [`Specification`] says what is known of a plant, and a [`Subject`] is one or a plant by its formulas; [`certify`] finds a
 //! small gain and proves that it works, and [`check`] decides the [`Certificate`] again with code of its own.
-//! [`transfer_bound`] proves the transfer bound by itself, [`rates`] what rate of convergence is proved,
+//! [`transfer_bound`] proves the transfer bound by itself,
 //! [`regulator_matrices`] and [`sampled_regulator`] give the regulator, a [`Study`] is many cases. [`reread`] decides a stored certificate
 //! again, [`bounding_specification`] bounds a plant, [`sampling`] finds pairs of a gain and a sampling period, [`lyapunov`] a
 //! triple. What goes wrong is an [`Error`] with a [`kind`](Error::kind).

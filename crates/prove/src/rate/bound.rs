@@ -1,7 +1,7 @@
 //! From a rate to a bound of the error: `|e(t) - e_per(t)| <= C exp(-rate (t - t_0))` for every start in a set, at one n_o and one
 //! gain (derivation, section 13.6).
 //!
-//! With the W of [`super::inequality`], `Pi >= diag(e_low, 0)` and `Pi <= diag(e_up, z_up I)`,
+//! With the W of [`sigmastar_decide::rates::inequality`], `Pi >= diag(e_low, 0)` and `Pi <= diag(e_up, z_up I)`,
 //! `et(t)^2 <= W(t)/e_low <= exp(-2 rate (t - t_0)) W(t_0)/e_low` and `W(t_0) <= w P_up dX^2 + e_up dE^2 + z_up dZ^2` where
 //! |xt| <= dX, |et| <= dE and |zt|_N <= dZ at t_0: so C^2 is that sum over e_low.
 

@@ -1,7 +1,7 @@
 //! Bounds of what noise and a disturbance do to the error, for one n_o and one gain (derivation, section 13.6, Proposition N).
 //!
 //! What is measured is e + v, and d is added to q: any measurable signals with |v| <= v_bar, |d| <= d_bar. (N) is the form of
-//! [`super::inequality`] with these inputs and lam > 0 for the rate, positive definite at the corners, with Pi >= diag(e_low, 0). With
+//! [`sigmastar_decide::rates::inequality`] with these inputs and lam > 0 for the rate, positive definite at the corners, with Pi >= diag(e_low, 0). With
 //! `S^2 = (g_d d_bar^2 + g_v v_bar^2)/(2 lam e_low)` and L_0 the left side of C4,
 //!
 //! - the limit superior of |e - e_per| is at most S, and |e - e_per| <= sqrt(L_0) + S at all times from the start on,

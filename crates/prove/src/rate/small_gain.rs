@@ -1,4 +1,4 @@
-//! The largest rate that the inequality of [`super::inequality`] can prove, in floating point: a scalar condition.
+//! The largest rate that the inequality of [`sigmastar_decide::rates::inequality`] can prove, in floating point: a scalar condition.
 //!
 //! With the slope of q in the middle of its sector, `delta = delta_c + delta'`, `|delta'| <= k_d = (m + k_l)/2`, and with an input
 //! gain in the middle of its interval, `b = b_c + b'`, `|b'| <= b_d`, what is left of them is added at B: `delta' et` and `b' v y` with
@@ -104,7 +104,7 @@ impl FloatDynamics {
         finite.then_some(found)
     }
 
-    /// B_v of [`super::inequality`] in the middle, and sigma + mu b'b.
+    /// B_v of [`sigmastar_decide::rates::inequality`] in the middle, and sigma + mu b'b.
     pub(super) fn noise(&self, oscillators: &OscillatorMatrix) -> (Vec<f64>, f64) {
         // Those of the model are -b.
         let total = self.sigma + self.mu * self.weights.iter().sum::<f64>();

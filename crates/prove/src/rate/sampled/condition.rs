@@ -1,6 +1,6 @@
 //! The largest decay from sample to sample that (R_h) can prove, in floating point: a scalar condition, and the multipliers for it.
 //!
-//! In the form of [`super::form`] the variables (X, rho_E, rho_Y) and (e, zs, w1, w2, p) do not meet. With `w1 = c_1 e + w1'`,
+//! In the form of [`sigmastar_decide::rates::at_samples`] the variables (X, rho_E, rho_Y) and (e, zs, w1, w2, p) do not meet. With `w1 = c_1 e + w1'`,
 //! `|w1'| <= d_1 |e|`, `w2 = c_2 y + w2'`, `|w2'| <= d_2 |y|`, the second part is the bounded real inequality of a system whose one input is
 //! `u = w1' + w2' + p`, with the weight `1/(1/l_slope + 1/l_hold + 1/l_x)`, and whose outputs are e and y, with the weights
 //! `l_slope d_1^2 + l_e c_E^2` and `l_hold d_2^2 + l_y c_Y^2`. The first part is positive definite for some w if and only if

@@ -1,6 +1,6 @@
 //! Bounds of what noise and a disturbance do to the error of the law at samples, for one n_o (derivation, section 13.6).
 //!
-//! What is measured is e + v, and d is added to q: any measurable signals with |v| <= v_bar, |d| <= d_bar. By the form of [`super::form`] with these
+//! What is measured is e + v, and d is added to q: any measurable signals with |v| <= v_bar, |d| <= d_bar. By the form of [`sigmastar_decide::rates::at_samples`] with these
 //! inputs W of what they add from 0 on stays below `e_low s^2`,
 //! `s^2 = (g_d (1+g)^2 d_bar^2 + g_v v_bar^2 + g_r c_d^2 d_bar^2)/(c e_low)`, so that it moves e by at most s at the samples. Between them e is a straight
 //! line and at most `(h/2) sup|q + d|` more, |q| <= k_x xi + k_e |e|, xi <= kappa sup|e|, kappa = sqrt(P_up) k_f/a_2: with
