@@ -19,7 +19,7 @@ const WORKING_PRECISION: u32 = 4096;
 ///
 /// # Guarantee
 /// The enclosure contains k_2. It is exact up to rounding except for polynomials with roots so close to the imaginary axis
-/// that [`WORKING_PRECISION`] does not tell them from one on it.
+/// that `WORKING_PRECISION` does not tell them from one on it.
 ///
 /// # Errors
 /// [`RelativeDegreeError::Count`] and [`RelativeDegreeError::NotHurwitz`] for unusable coefficients,
