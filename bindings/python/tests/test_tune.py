@@ -47,7 +47,6 @@ def test_a_certificate_stands_for_what_it_is_about():
     certificate = sigmastar.certify(LINEAR)
     assert sigmastar.certify(certificate).to_json() == certificate.to_json()
     for call in (
-        lambda document: sigmastar.rate(document, [1], sigma=3),
         lambda document: sigmastar.transfer(document, n_o=[0]),
         lambda document: sigmastar.sampling(document, ["1/100"]),
         lambda document: sigmastar.tune(document, "mu", tries=3),

@@ -15,7 +15,7 @@ A claim is proved: no floating-point number decides it. What is not certified is
 """
 
 from ._beside import BoundedPlant, Lyapunov, Pair, SamplingPairs, Tuned, Tuning
-from ._calls import bound, certify, check, controller, falsify, load, lyapunov, rate, sampling, simulate, transfer, tune
+from ._calls import bound, certify, check, controller, falsify, load, lyapunov, sampling, simulate, transfer, tune
 from ._condition import Condition
 from ._errors import Diagnostic, InputError, RefutedError, SigmastarError, UndecidedError
 from ._exact import Exact
