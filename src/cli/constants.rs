@@ -7,7 +7,12 @@ use super::subject::{Asked, Subject, proved};
 use sigmastar_document::Made;
 use sigmastar_lang::spec::{InputGain, Specification};
 use sigmastar_prove::certify::{Member, Options, Wanted, certify_member};
+use sigmastar_prove::rate::oscillators::lemma;
 use sigmastar_report::ConstantsReport;
+use sigmastar_theory::data::Data;
+
+/// The numbers of oscillators that Lemma 1 is shown for.
+const SHOWN_N_O: [u32; 6] = [0, 1, 2, 5, 10, 20];
 
 /// Runs the command and returns the exit code.
 pub fn run(args: &ConstantsArgs) -> Result<u8, Failure> {
@@ -35,7 +40,9 @@ fn worked_out(subject: Subject, quiet: bool) -> Result<(Made, u8), Failure> {
     let member = Member::new(&spec, start.as_ref(), options);
     let run = certify_member(&member, options, Wanted::default())
         .map_err(|refusal| Failure::Documents(refusal.errors(&spec)))?;
-    Ok((Made::of(&ConstantsReport { run: &run }), run.verdict.exit_code()))
+    let data = Data::new(&spec, options.ladder.start);
+    let lemma_1 = SHOWN_N_O.map(|n_o| (n_o, lemma(&data, n_o)));
+    Ok((Made::of(&ConstantsReport { run: &run, lemma_1: &lemma_1 }), run.verdict.exit_code()))
 }
 
 /// A field of the specification of which the paper's formulas know nothing.

@@ -55,6 +55,26 @@ fn the_repaired_gain_is_in_the_table() {
     assert!(gain("sharp") < gain("repaired"), "{found}");
 }
 
+/// Lemma 1 of the paper: with no oscillator A = -mu n_0, so that p is at least 1/(2 mu n_0), and what is proved is at most about twice that;
+/// the rates fall with n_o, and stay below what the spectral abscissa allows.
+#[test]
+fn lemma_1_is_shown_for_a_few_numbers_of_oscillators() {
+    let found = report(&["constants", EXAMPLE]);
+    let rows = found["lemma_1"].as_array().unwrap();
+    let number = |value: &Value| -> f64 { value.as_str().unwrap().parse().unwrap() };
+    assert_eq!(rows[0]["n_o"], 0);
+    let n_0 = 2.0;
+    assert!((1.0..2.001).contains(&(number(&rows[0]["p"]) * 2.0 * n_0)), "{found:#}");
+    let rates: Vec<f64> = rows.iter().map(|row| number(&row["rate"])).collect();
+    assert!(rates.len() > 3 && rates.windows(2).all(|pair| pair[1] < pair[0]), "{rates:?}");
+    for row in rows {
+        assert!(number(&row["rate"]) * number(&row["p"]) * 2.0 <= 1.0, "{row}");
+        assert!(number(&row["rate"]) < -0.99 * number(&row["spectral_abscissa_estimate"]), "{row}");
+    }
+    let text = output(&["constants", EXAMPLE]);
+    assert!(text.contains("Lemma 1 of the paper") && text.contains("P_zeta"), "{text}");
+}
+
 /// For the short form of a report the table is not worked out.
 #[test]
 fn a_short_report_has_no_table() {

@@ -289,3 +289,50 @@ fn numbers_of_section_13_name_one_thing() {
         assert_eq!(wrong_references(text, &numbers).len(), count, "{text}");
     }
 }
+
+/// The commands that a text speaks of: `sigmastar NAME` within backticks, after `$ ` or behind a pipe.
+fn commands(text: &str) -> BTreeSet<String> {
+    let starts = ["`sigmastar ", "$ sigmastar ", "| sigmastar "];
+    let rests = starts.iter().flat_map(|start| text.split(start).skip(1));
+    let name = |rest: &str| rest.chars().take_while(|c| c.is_ascii_lowercase()).collect::<String>();
+    rests.map(name).filter(|name| !name.is_empty()).collect()
+}
+
+/// What a document, a message or a comment tells people to call is there to be called.
+#[test]
+fn every_command_that_is_spoken_of_exists() {
+    let help = String::from_utf8(crate::support::answer(&["--help"]).stdout).unwrap();
+    let (_, listed) = help.split_once("Commands:\n").expect("the commands");
+    let listed = listed.lines().take_while(|line| !line.is_empty()).filter(|line| !line.starts_with("   "));
+    let known: BTreeSet<&str> = listed.filter_map(|line| line.split_whitespace().next()).collect();
+    let mut texts = shipped();
+    // Its section on what is gone names what is gone.
+    texts.remove("CHANGELOG.md");
+    for folder in ["crates", "src", "bindings/python/python", "bindings/python/src", "proofs-check/src"] {
+        collect_sources(&Path::new(ROOT).join(folder), &mut texts);
+    }
+    let mut met = BTreeSet::new();
+    for (path, text) in &texts {
+        for name in commands(text) {
+            assert!(known.contains(name.as_str()), "{path} speaks of `sigmastar {name}`");
+            met.insert(name);
+        }
+    }
+    assert!(met.len() > 12, "{met:?}");
+    assert_eq!(
+        commands("see `sigmastar rate FILE` or\n$ sigmastar check x; sigmastar itself"),
+        BTreeSet::from(["rate", "check"].map(str::to_owned))
+    );
+}
+
+/// The Rust and Python sources of a folder, by their paths.
+fn collect_sources(folder: &Path, texts: &mut Texts) {
+    for entry in std::fs::read_dir(folder).expect("a folder") {
+        let path = entry.expect("an entry").path();
+        if path.is_dir() {
+            collect_sources(&path, texts);
+        } else if path.extension().is_some_and(|ending| ending == "rs" || ending == "py") {
+            texts.insert(path.display().to_string(), std::fs::read_to_string(&path).expect("a source"));
+        }
+    }
+}

@@ -6,18 +6,21 @@ use super::matrix_checks::{checks_json, section as matrix_inequalities};
 use super::verdict::sentence;
 use rug::Rational;
 use serde_json::{Value as Json, json};
-use sigmastar_document::number::{compact, estimate};
+use sigmastar_document::number::{compact, estimate, exact};
 use sigmastar_document::{Block, Readable, Table, clean};
-use sigmastar_exact::number::write_exact;
+use sigmastar_exact::number::{Direction, write_exact};
 use sigmastar_lang::spec::InputGain;
 use sigmastar_prove::certificate::constants_json;
 use sigmastar_prove::certify::{Certification, Constants, Outcome, PrintedFigure};
+use sigmastar_prove::rate::oscillators::Lemma;
 use sigmastar_theory::derivation::table::{At, Entry, Row, Status, Value};
 
 /// The report of `constants`, of a specification by bounds.
 pub struct ConstantsReport<'r> {
     /// The run.
     pub run: &'r Certification<'r>,
+    /// Lemma 1 of the paper for some numbers of oscillators; none where nothing is proved.
+    pub lemma_1: &'r [(u32, Option<Lemma>)],
 }
 
 impl Readable for ConstantsReport<'_> {
@@ -25,6 +28,7 @@ impl Readable for ConstantsReport<'_> {
         let name = clean(&self.run.spec.name);
         let name = if name.is_empty() { "(no name)" } else { &name };
         let mut blocks = vec![Block::Title(format!("{name}: the paper's constants")), Block::says(sentence(self.run))];
+        blocks.extend(lemma_1(self.lemma_1));
         blocks.extend(sections(self.run));
         blocks
     }
@@ -39,8 +43,33 @@ impl Readable for ConstantsReport<'_> {
         for (name, value) in parts_json(run) {
             report[name] = value;
         }
+        report["lemma_1"] = self.lemma_1.iter().map(lemma_json).collect();
         report
     }
+}
+
+/// What is proved of P_zeta, with the decay rate of the oscillators alone.
+fn lemma_1(lemmas: &[(u32, Option<Lemma>)]) -> Vec<Block> {
+    let says = "There is a P_zeta with P_zeta (Phi - mu M M'N) + (.)' <= -N and 0 < P_zeta <= p N. Every kappa > 0 is admissible in \
+                N + kappa P_zeta; the rate of the oscillators alone, in |z|_N, tends to 1/(2 p) as kappa grows. The spectral abscissa \
+                is an estimate.";
+    let mut table = Table::new(&["n_o", "p (proved)", "rate 1/(2 p) (1/time)", "spectral abscissa"]);
+    for (n_o, lemma) in lemmas {
+        let [p, rate, abscissa] = lemma.as_ref().map_or_else(
+            || ["-"; 3].map(str::to_owned),
+            |Lemma { p, rate, abscissa }| [exact(p, Direction::Up), exact(rate, Direction::Down), estimate(*abscissa)],
+        );
+        table.push([n_o.to_string(), p, rate, abscissa]);
+    }
+    vec![Block::heading("Lemma 1 of the paper"), Block::says(says), Block::Table(table)]
+}
+
+fn lemma_json((n_o, lemma): &(u32, Option<Lemma>)) -> Json {
+    let lemma = lemma.as_ref();
+    json!({
+        "n_o": n_o, "p": lemma.map(|lemma| write_exact(&lemma.p)), "rate": lemma.map(|lemma| write_exact(&lemma.rate)),
+        "spectral_abscissa_estimate": lemma.map(|lemma| estimate(lemma.abscissa)),
+    })
 }
 
 /// The constants of a run; none of a plant, for they are about bounding functions.
@@ -62,7 +91,7 @@ pub(super) fn sections(run: &Certification<'_>) -> Vec<Block> {
     blocks
 }
 
-/// The same as JSON, by the names of the fields.
+/// The matrix inequalities, the constants and what the printed formulas say as JSON, by the names of the fields.
 pub(super) fn parts_json(run: &Certification<'_>) -> [(&'static str, Json); 4] {
     fn of<P>(outcome: &Outcome<P>, sigma: impl Fn(&P) -> &Rational) -> Json {
         match outcome {

@@ -247,7 +247,7 @@ fn what_cannot_be_read_is_named() {
     for (pointer, value, place) in [
         ("/claim/for_n_o", json!({}), "/claim/for_n_o"),
         ("/claim/for_n_o/0/n_o", json!("0"), "/claim/for_n_o/0/n_o"),
-        ("/claim/for_n_o/1/n_o", json!(121), "/claim/for_n_o/1/n_o"),
+        ("/claim/for_n_o/1/n_o", json!(101), "/claim/for_n_o/1/n_o"),
         (count, json!(1), "/witness/for_n_o/0/Pi"),
         ("/claim/for_n_o/0/rate", json!("inf"), "/claim/for_n_o/0/rate"),
         ("/claim/for_n_o/0/noise", json!("1"), "/claim/for_n_o/0/noise"),

@@ -436,7 +436,7 @@ fn what_cannot_be_read_is_named() {
         ("k", json!("1"), "k"),
         ("noise", json!({}), "noise"),
         ("n_o", json!(1), "Pi"),
-        ("n_o", json!(121), "n_o"),
+        ("n_o", json!(101), "n_o"),
         ("Pi", json!([]), "Pi"),
         ("Pi/0", json!([]), "Pi/0"),
         ("Pi/0", json!(["1", "1"]), "Pi/0"),

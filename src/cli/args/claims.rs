@@ -75,7 +75,7 @@ pub struct CertifyArgs {
     #[arg(long, value_name = "V", allow_hyphen_values = true)]
     pub target_rms: Option<String>,
 
-    /// Prove for each of these numbers of oscillators (at most 8, up to 120), at the gain of the claim alone, a rate and a factor with
+    /// Prove for each of these numbers of oscillators (at most 8, up to 100), at the gain of the claim alone, a rate and a factor with
     /// |e - e_per| <= factor exp(-rate (t - t_0)) in the undisturbed loop, and with `measurement`, `disturbance` or, at samples, `arithmetic` in FILE what these do
     /// to e in the limit and on the way, and put them into the certificate; e.g. `0,4,10`
     #[arg(long, value_name = "LIST", allow_hyphen_values = true)]

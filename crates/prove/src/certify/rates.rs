@@ -110,7 +110,10 @@ pub fn rate_counts(asked: &[u32]) -> Result<Vec<u32>, NoRatesOfClaim> {
     }
 }
 
-/// The same numbers, where their matrices fit into a certificate: Pi of order 2 n_o + 2 for each, and one more where inputs count.
+/// Numbers of oscillators whose matrices fit into a certificate: Pi of order 2 n_o + 2 for each, and one more where inputs count.
+///
+/// # Errors
+/// They have more than [`MAX_ENTRIES`] entries together.
 fn fitting(counts: Vec<u32>, with_inputs: bool) -> Result<Vec<u32>, NoRatesOfClaim> {
     let triangle = |n_o: &u32| (*n_o as usize + 1) * (2 * *n_o as usize + 3);
     let entries = counts.iter().map(triangle).sum::<usize>() * if with_inputs { 2 } else { 1 };
@@ -474,12 +477,12 @@ mod tests {
     fn numbers_are_few_small_and_different() {
         assert_eq!(rate_counts(&[4, 0, 50, 4]), Ok(vec![0, 4, 50]));
         assert_eq!(rate_counts(&[]), Ok(Vec::new()));
-        assert_eq!(rate_counts(&[1, 121]), Err(NoRatesOfClaim::Beyond(121)));
-        assert_eq!(rate_counts(&[120]), Ok(vec![120]));
+        assert_eq!(rate_counts(&[1, 101]), Err(NoRatesOfClaim::Beyond(101)));
+        assert_eq!(rate_counts(&[100]), Ok(vec![100]));
         // (n + 1) (2 n + 3) each, and twice as many with noise.
-        assert_eq!(rate_counts(&[120, 20]), Err(NoRatesOfClaim::TooLarge(29_403 + 903)));
-        assert_eq!(fitting(vec![84], true), Ok(vec![84]));
-        assert_eq!(fitting(vec![86], true), Err(NoRatesOfClaim::TooLarge(2 * 87 * 175)));
+        assert_eq!(rate_counts(&[100, 42]), Err(NoRatesOfClaim::TooLarge(20_503 + 3741)));
+        assert_eq!(fitting(vec![76], true), Ok(vec![76]));
+        assert_eq!(fitting(vec![77], true), Err(NoRatesOfClaim::TooLarge(2 * 78 * 157)));
         assert_eq!(rate_counts(&[0, 1, 2, 3, 4, 5, 6, 7, 8]), Err(NoRatesOfClaim::TooMany(9)));
         assert!(rate_counts(&[7; 20]).is_ok());
     }

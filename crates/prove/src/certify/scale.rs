@@ -13,7 +13,7 @@ pub fn unusual_mu(model: &InternalModel, period: &Period) -> Option<String> {
     let share = model.mu.to_f64() * period.nominal().to_f64();
     let [low, high] = USUAL;
     let does = if share < low / FAR {
-        "so small a mu makes the oscillators slow (`sigmastar rate` shows what is proved of that)"
+        "so small a mu makes the oscillators slow (`sigmastar certify FILE --n-o N` shows what is proved of that)"
     } else if share > high * FAR {
         "so large a mu makes the law multiply e by as much, at most by sigma + mu Nbar^2, and asks for short sampling periods"
     } else {

@@ -19,14 +19,15 @@ use sigmastar_theory::derivation::stability::ErrorBox;
 use sigmastar_theory::evidence::Slopes;
 
 /// The largest number of oscillators of which a certificate has a rate.
-pub const MAX_OSCILLATORS: u32 = 120;
+pub const MAX_OSCILLATORS: u32 = 100;
 
 /// The most numbers of oscillators of one certificate.
 pub const MAX_COUNTS: usize = 8;
 
-/// The most entries of the triangles of all Pi of one certificate: written, they fill most of the megabyte of which a document is read. One of
-/// [`MAX_OSCILLATORS`] has 29,403.
-pub const MAX_ENTRIES: usize = 30_000;
+/// The most entries of the triangles of all Pi of one certificate, those of x left out: with six states and [`DIGITS`] at their most an entry
+/// takes 38 bytes on a line of its own, and all of them less than the megabyte of which a document is read. One of [`MAX_OSCILLATORS`]
+/// has 20,503.
+pub const MAX_ENTRIES: usize = 24_000;
 
 /// Shares of the largest rate that are claimed, in this order; nearer to it C would be large and the numbers long.
 pub(super) const SHARES: [f64; 4] = [0.95, 0.8, 0.5, 0.2];

@@ -165,22 +165,22 @@ fn in_cells(
         };
         let by_matrix = best_by_matrix(&along.coordinates.p, &[Start::from(&chosen)], sampling);
         let by_matrix = by_matrix.and_then(|found| found.proved(sampling, Some(chosen.proposal.sigma)).ok());
-        let mut by_matrix: Vec<Proved> = by_matrix.into_iter().chain(far_better).collect();
-        by_matrix.sort_by(|a, b| a.gain().total_cmp(&b.gain()));
-        let mut by_matrix = by_matrix.into_iter();
+        let mut all: Vec<Proved> = by_matrix.into_iter().chain(far_better).collect();
         // What norms prove is above the samples.
         let least = chosen.proposal.sigma;
-        let by_norms = || Found { along, chosen, path: None }.proved(sampling, None);
-        let best = match by_matrix.next() {
-            Some(found) if found.gain() < least => found,
-            Some(found) => match by_norms() {
-                Ok(other) if other.gain() < found.gain() => other,
-                _ => found,
-            },
-            None => by_norms()?,
-        };
+        if all.iter().all(|found| found.gain() >= least) {
+            match (Found { along, chosen, path: None }.proved(sampling, None)) {
+                Ok(found) => all.push(found),
+                Err(refusal) if all.is_empty() => return Err(refusal),
+                Err(_) => {}
+            }
+        }
+        // Of those that are as good the first stays first.
+        all.sort_by(|a, b| a.gain().total_cmp(&b.gain()));
+        let mut all = all.into_iter();
+        let best = all.next().ok_or(PlantRefusal::NoContraction)?;
         // What is proved at last may do more for the one that is a little behind.
-        let behind = by_matrix.next().filter(|other| other.gain() < NEAR_SAMPLES * best.gain());
+        let behind = all.next().filter(|other| other.gain() < NEAR_SAMPLES * best.gain());
         let best = best.finished(sampling, last)?;
         let behind = behind.and_then(|other| other.finished(sampling, last).ok());
         Ok(behind.filter(|other| other.proposal.sigma < best.proposal.sigma).unwrap_or(best))

@@ -9,7 +9,7 @@ use rug::Rational;
 pub const RULE: &str = "rates";
 
 /// The largest n_o.
-pub const LARGEST: u32 = 120;
+pub const LARGEST: u32 = 100;
 
 /// That `|e - e_per| <= factor exp(-rate (t - t_0))` with n_o oscillators, at the gain of the claim; at samples for the sampling instants t.
 pub struct Rate<'a> {
