@@ -24,8 +24,8 @@ pub const MAX_OSCILLATORS: u32 = 100;
 /// The most numbers of oscillators of one certificate.
 pub const MAX_COUNTS: usize = 8;
 
-/// The most entries of the triangles of all Pi of one certificate, those of x left out: with six states and [`DIGITS`] at their most an entry
-/// takes 38 bytes on a line of its own, and all of them less than the megabyte of which a document is read. One of [`MAX_OSCILLATORS`]
+/// The most entries of the triangles of all Pi of one certificate, those of x left out: with six states and the most digits that are tried an
+/// entry takes 38 bytes on a line of its own, and all of them less than the megabyte of which a document is read. One of [`MAX_OSCILLATORS`]
 /// has 20,503.
 pub const MAX_ENTRIES: usize = 24_000;
 
