@@ -66,13 +66,13 @@ fn edge(certificate: &Value) -> Result<Edge, String> {
 
 fn proved(run: &Run<'_>) -> Option<ProvedBounds> {
     let (steady, peak, control) = match run {
-        Run::Continuous(run) => run.bounds()?,
+        Run::Continuous(run) => run.best_bounds()?,
         Run::Sampled(run) => {
             let evaluation = &run.claim()?.evaluation;
-            (&evaluation.size.e_per, &evaluation.peak, &evaluation.control)
+            (evaluation.size.e_per.clone(), evaluation.peak.clone(), evaluation.control.clone())
         }
     };
-    let Control { steady: along, transient } = control;
-    let [steady, error, along, largest] = [steady, peak, along, &(along + transient)].map(Enclosure::upper_f64);
+    let Control { steady: along, transient } = &control;
+    let [steady, error, along, largest] = [&steady, &peak, along, &(along + transient)].map(Enclosure::upper_f64);
     Some(ProvedBounds { error, control: [along, largest], steady })
 }

@@ -41,6 +41,7 @@ mod fuzz;
 mod gallery;
 mod html;
 mod input_gain;
+mod linear_plants;
 mod lmi_decay;
 mod lmi_specs;
 mod lyapunov;

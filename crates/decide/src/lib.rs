@@ -7,6 +7,7 @@
 
 pub mod bounds;
 pub mod conditions;
+pub mod linear;
 pub mod lyapunov;
 pub mod orbit;
 pub mod rates;

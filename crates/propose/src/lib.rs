@@ -6,6 +6,7 @@
 #![cfg_attr(test, allow(clippy::disallowed_methods))]
 
 pub mod bounds;
+pub mod linear_peak;
 pub mod lyapunov;
 pub mod orbit;
 pub mod search;

@@ -1,6 +1,7 @@
 //! The first lines of a report on a certified claim: the gain, from where, what to do next, what sets the gain, what is
 //! assumed. The sections below say more of each.
 
+use super::by_count::section as by_count;
 use super::of_plant::orbit;
 use super::verdict::assumed;
 use super::{Origin, sensitivity, words};
@@ -24,8 +25,8 @@ const SHOWN: [u64; 3] = [0, 10, 100];
 
 /// Of a claim about the regulator in continuous time; nothing without one.
 pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences>, origin: Origin) -> Vec<Block> {
-    let (Some(sigma), Some(set), Some(periodic), Some(error_box), Some((_, peak, _))) =
-        (run.sigma_star(), run.claimed_set(), run.periodic_solution(), run.error_box(), run.bounds())
+    let (Some(sigma), Some(set), Some(periodic), Some(error_box), Some((steady, peak, control))) =
+        (run.sigma_star(), run.claimed_set(), run.periodic_solution(), run.error_box(), run.best_bounds())
     else {
         return Vec::new();
     };
@@ -73,15 +74,20 @@ pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences
     );
     facts.extend(input_gain(run).map(|said| ("input gain", said)));
     facts.extend(interval_costs(run.spec, &run.interval_costs, "sigma*").map(|said| ("intervals", said)));
-    facts.extend(consequences.and_then(|all| error(&all.by_n_o)).map(|said| ("steady error", said)));
+    // A table stands below where more is known.
+    let by_n_o = consequences.filter(|_| run.by_count.is_none());
+    facts.extend(by_n_o.and_then(|all| error(&all.by_n_o)).map(|said| ("steady error", said)));
     facts.extend(
         for_n_o(run, consequences.is_some_and(|all| !all.targets.is_empty())).map(|said| ("convergence", said)),
     );
     // It grows with the gain, of which the claim says "or any larger".
-    let control = run.control().map(|bounds| (bounds, " (both at this gain)"));
-    facts.push(("to", to(run.spec, &periodic, (upper(&error_box[0]), peak), control)));
+    let [x, _, zeta, z] = periodic;
+    let periodic = [x, steady, zeta, z];
+    let control = Some((&control, " (both at this gain)"));
+    facts.push(("to", to(run.spec, &periodic, (upper(&error_box[0]), &peak), control)));
     facts.push(("assumed", assumed(run.spec, run.largest_arguments(), None)));
-    vec![Block::facts(facts), Block::says(norms(run.spec, "sigma"))]
+    let known = by_count(run);
+    [Block::facts(facts)].into_iter().chain(known).chain([Block::says(norms(run.spec, "sigma"))]).collect()
 }
 
 /// How fast the error decays for the numbers of oscillators that were asked about; without any, how to ask, where nothing else was `asked`.

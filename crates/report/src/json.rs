@@ -1,5 +1,6 @@
 //! The report on a certification as JSON.
 
+use super::by_count::counts_json;
 use super::conditions::conditions_with_truth;
 use super::constants::parts_json;
 use super::failures::{FORMAT, VERSION, errors_json};
@@ -76,6 +77,7 @@ pub(super) fn report(run: &Certification<'_>, consequences: Option<&Consequences
         ("sigma_star_by_norms_estimate", json!(run.alternatives.by_norms.map(estimate))),
         ("consequences", consequences.map_or(Value::Null, consequences_json)),
         ("gains", rows_json(&run.gains)),
+        ("by_n_o", counts_json(run)),
         ("exact_regulation", exact_regulation(run)),
         ("relative_degree", gains_json(run)),
     ]) {

@@ -10,6 +10,7 @@
 
 mod about;
 mod brief;
+mod by_count;
 mod certification;
 mod conditions;
 mod consequences;

@@ -5,6 +5,7 @@ use super::enclose::{binary, power, unary};
 use super::fourier::Fourier;
 use super::monomial::Monomial;
 use super::syntax::{Argument, Binary, NodeKind, Unary};
+use super::{Operations, PlantVariable, Walk};
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use std::ops::Range;
@@ -140,12 +141,7 @@ impl Expr {
                 }
                 NodeKind::Power(exponent) => raise(pop(), *exponent),
             };
-            let value = value.and_then(|value| match value {
-                Term::Polynomial(polynomial) if polynomial.harmonics.len() > MAX_HARMONIC => {
-                    Err(format!("harmonics above {MAX_HARMONIC} are not read"))
-                }
-                value => Ok(value),
-            });
+            let value = value.and_then(of_few_harmonics);
             stack.push(value.map_err(|reason| NotTrigonometric { span: node.span.clone(), reason })?);
         }
         // Every parsed expression leaves exactly one value.
@@ -157,6 +153,90 @@ impl Expr {
                 Err(NotTrigonometric { span: 0..self.text.len(), reason })
             }
         }
+    }
+}
+
+/// Evaluation of a plant's formulas at x = 0 and e = 0, with parameters in enclosures, as trigonometric polynomials in t.
+struct AtOrigin<'a> {
+    parameters: &'a [Enclosure],
+    period: &'a Monomial,
+    precision: u32,
+}
+
+impl AtOrigin<'_> {
+    fn exact(&self, value: &Rational) -> Result<Term, String> {
+        constant(Enclosure::from_rational(value, self.precision), Some(Monomial::rational(value.clone())))
+    }
+}
+
+impl Operations for AtOrigin<'_> {
+    type Value = Result<Term, String>;
+
+    fn number(&mut self, value: &Rational) -> Self::Value {
+        self.exact(value)
+    }
+
+    fn pi(&mut self) -> Self::Value {
+        constant(Enclosure::pi(self.precision), Some(Monomial::pi()))
+    }
+
+    fn variable(&mut self, variable: PlantVariable) -> Self::Value {
+        match variable {
+            PlantVariable::Time => {
+                let slope = Monomial::rational(Rational::from(1));
+                Ok(Term::Line { slope, offset: Enclosure::zero(self.precision) })
+            }
+            PlantVariable::State(_) | PlantVariable::Error => self.exact(&Rational::new()),
+            PlantVariable::Parameter(index) => match self.parameters.get(index) {
+                Some(value) => constant(value.clone(), None),
+                None => Err("a parameter has no interval".to_owned()),
+            },
+        }
+    }
+
+    fn unary(&mut self, operation: Unary, a: &Self::Value) -> Self::Value {
+        apply(operation, a.clone()?, self.period, self.precision).and_then(of_few_harmonics)
+    }
+
+    fn binary(&mut self, operation: Binary, a: &Self::Value, b: &Self::Value) -> Self::Value {
+        combine(operation, a.clone()?, b.clone()?).and_then(of_few_harmonics)
+    }
+
+    fn power(&mut self, base: &Self::Value, exponent: i32) -> Self::Value {
+        raise(base.clone()?, exponent).and_then(of_few_harmonics)
+    }
+
+    fn step(&mut self, _: &Self::Value) -> Self::Value {
+        Err("a step is not a trigonometric polynomial".to_owned())
+    }
+}
+
+impl Walk {
+    /// The formulas at x = 0 and e = 0 as trigonometric polynomials of the given period, with each parameter of which an interval is known
+    /// anywhere in its enclosure.
+    ///
+    /// Guarantee: as for [`Expr::trigonometric`], for every choice of the parameters.
+    ///
+    /// # Errors
+    /// Why one of them is none.
+    pub fn trigonometric_at_origin(
+        &self,
+        parameters: &[Enclosure],
+        period: &Monomial,
+        precision: u32,
+    ) -> Result<Vec<TrigonometricPolynomial>, String> {
+        let values = self.evaluate(&mut AtOrigin { parameters, period, precision });
+        values.into_iter().map(|value| polynomial(value?)).collect()
+    }
+}
+
+/// A term without harmonics above [`MAX_HARMONIC`].
+fn of_few_harmonics(term: Term) -> Result<Term, String> {
+    match term {
+        Term::Polynomial(polynomial) if polynomial.harmonics.len() > MAX_HARMONIC => {
+            Err(format!("harmonics above {MAX_HARMONIC} are not read"))
+        }
+        term => Ok(term),
     }
 }
 

@@ -1,5 +1,6 @@
 //! What a run found out.
 
+use super::by_count::ByCount;
 use super::gain_row::{GainRow, RowNoise};
 use super::matrix_checks::{MatrixChecks, SylvesterCheck};
 use super::options::{Limits, Options};
@@ -123,6 +124,8 @@ pub struct Certification<'s> {
     pub interval_costs: Vec<(String, Option<f64>)>,
     /// Bounds at the gain of the claim and at larger ones; empty without a claim, with an actuator, and where no search was made.
     pub gains: Vec<GainRow>,
+    /// Bounds for each number of oscillators at the gain of the claim, of a plant that is linear in x and e; with the rows.
+    pub by_count: Option<ByCount>,
     /// What is proved of noise at the gains of these rows, for the numbers of oscillators that were asked about.
     pub noise_of_rows: Vec<RowNoise>,
     /// Bounding functions that were neither proved nor refuted.

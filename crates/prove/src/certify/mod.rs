@@ -4,6 +4,7 @@
 //! refuses is a [`Refusal`].
 
 mod ball;
+mod by_count;
 mod certification;
 mod consequences;
 mod constants;
@@ -33,6 +34,7 @@ mod start;
 mod verdict;
 
 pub use ball::{claimed_ball, covers_ball, inverse_norm, within_ball};
+pub use by_count::{ByCount, CountBounds};
 pub use certification::{Alternatives, Certification, Constants, ExactClaim, PrintedFigure, RelativeDegreeGains};
 pub use gain_row::{GainRow, RowNoise, SHOWN_N_O};
 pub use gains::ROWS;

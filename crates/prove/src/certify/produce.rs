@@ -204,6 +204,7 @@ fn assemble<'s>(
         interval_costs: Vec::new(),
         without_optional,
         gains: Vec::new(),
+        by_count: None,
         noise_of_rows: Vec::new(),
         unproved_bounds: unproved,
         constants: OnceLock::new(),

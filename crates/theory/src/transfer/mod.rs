@@ -26,6 +26,7 @@ pub(crate) mod weights_only;
 
 pub use boxes::{BoxProof, MAX_BOXES, MAX_N0};
 pub use closed_form::closed_form_pair;
+pub use complex::Complex;
 pub use graph::transfer_graph;
 pub use matched::{MatchedProof, TradeOff};
 pub use pair::{

@@ -184,6 +184,9 @@ impl Prepared {
         run.smallest_gain = run.smallest_gain.map(|least| proposal.map_or(least, |known| known.sigma.min(least)));
         if options.compare {
             run.set_gains(pool);
+            if let Some(plant) = self.plant.as_deref() {
+                run.set_counts(plant);
+            }
         }
         let smallest = self.seeks_smallest();
         let alternatives = start.filter(|_| smallest).map(|sought| sought.alternatives);

@@ -1,0 +1,167 @@
+//! A quadratic form that falls along every difference of two solutions of a linear loop, and the peaks that follow (derivation, 13.7 (M),
+//! 14.5).
+
+use super::PRECISION;
+use super::plant::LinearPlant;
+use super::steady::{Loop, Sizes};
+use rug::Rational;
+use sigmastar_exact::enclosure::{Enclosure, Truth};
+use sigmastar_matrix::{ScaledMatrix, is_positive_definite, is_symmetric};
+
+/// The most boxes of parameters that are looked at.
+const MAX_BOXES: usize = 2048;
+
+/// `V = y'P y + w e^2 + (b mu k_p/2) |zeta|_N^2`, at the gain b of the actuator.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Falling {
+    /// P by rows: symmetric, positive definite, in the coordinates `y = L^-1 x`.
+    pub matrix: Vec<Vec<Rational>>,
+    /// `P <= p_up I`.
+    pub p_up: Rational,
+    /// w > 0.
+    pub weight: Rational,
+    /// k_p > 0.
+    pub k_p: Rational,
+}
+
+/// The starts.
+#[derive(Clone, Debug)]
+pub struct Start {
+    /// X_0, of `|L^-1 (x - x_0)|`.
+    pub x0: Enclosure,
+    /// E_0.
+    pub e0: Enclosure,
+    /// Z_0; none where the regulator sets z = M e at its first instant.
+    pub z0: Option<Enclosure>,
+}
+
+/// Bounds for every solution from the set, at all times.
+#[derive(Clone, Debug)]
+pub struct Peak {
+    /// Of |e - e_per|.
+    pub error: Enclosure,
+    /// Of |u - u_per|, of the law.
+    pub control: Enclosure,
+}
+
+impl Falling {
+    /// Whether V falls.
+    ///
+    /// Guarantee: `True` only if P is symmetric and positive definite, not above p_up, w and k_p are positive, and
+    /// `[[-(P J + J'P), -P g, -(k_p/2) r'], [., 2 sigma w, -w - (k_p/2)(d + (1-b) sigma)], [., ., k_p]]` is positive definite for every
+    /// member, in the coordinates y, and every gain b of the actuator. Then V falls along every difference of two solutions, for every
+    /// number of oscillators; it has no periodic solution but one.
+    #[must_use]
+    pub fn decide(&self, plant: &LinearPlant, own: &Loop, coordinates: &[Vec<Rational>]) -> Truth {
+        let Falling { matrix, p_up, weight, k_p } = self;
+        let n = plant.states();
+        let below = |i: usize, j: usize| Rational::from(if i == j { p_up } else { &ZERO } - &matrix[i][j]);
+        let fits = is_symmetric(matrix, n)
+            && is_positive_definite(matrix)
+            && is_positive_definite(&(0..n).map(|i| (0..n).map(|j| below(i, j)).collect()).collect::<Vec<_>>())
+            && *weight > 0
+            && *k_p > 0;
+        if !fits {
+            return Truth::False;
+        }
+        let mut open = vec![plant.whole().to_vec()];
+        let mut boxes = 0;
+        while let Some(ends) = open.pop() {
+            boxes += 1;
+            let holds = plant.member(&plant.enclosed(&ends)).is_some_and(|member| {
+                let rows = own.in_coordinates(&member.rows, coordinates);
+                own.gain.iter().all(|b| self.is_definite(&rows, own, b))
+            });
+            if holds {
+                continue;
+            }
+            let Some(halves) = widest_halved(&ends).filter(|_| boxes < MAX_BOXES) else { return Truth::Undecided };
+            open.extend(halves);
+        }
+        Truth::True
+    }
+
+    /// Whether the matrix is positive definite for every entry of `[[J, g], [r, d]]` in these enclosures.
+    fn is_definite(&self, rows: &[Vec<Enclosure>], own: &Loop, b: &Enclosure) -> bool {
+        let n = rows.len() - 1;
+        let exact = |value: &Rational| Enclosure::from_rational(value, PRECISION);
+        let (weight, k_p) = (exact(&self.weight), exact(&self.k_p));
+        let half = &k_p / 2;
+        let zero = || Enclosure::zero(PRECISION);
+        // P times a column.
+        let times =
+            |i: usize, column: usize| (0..n).fold(zero(), |sum, k| sum + exact(&self.matrix[i][k]) * &rows[k][column]);
+        let entry = |i: usize, j: usize| {
+            // i >= j.
+            match (i, j) {
+                (i, j) if i < n => (times(i, j) + times(j, i)).negate(),
+                (i, j) if i == n && j < n => times(j, n).negate(),
+                (i, j) if i == n && j == n => &own.sigma * &weight * 2,
+                (_, j) if j < n => (&half * &rows[n][j]).negate(),
+                (_, j) if j == n => {
+                    let moved = &rows[n][n] + (Enclosure::one(PRECISION) - b) * &own.sigma;
+                    (&weight + &half * moved).negate()
+                }
+                _ => k_p.clone(),
+            }
+        };
+        ScaledMatrix::from_enclosures(n + 2, entry).is_some_and(|matrix| matrix.is_positive_definite().is_true())
+    }
+
+    /// How far solutions from the starts may be from the periodic one of these sizes.
+    ///
+    /// Hypothesis: V falls, at this gain. Guarantee: with `V_0 = p_up dX^2 + w dE^2 + (b mu k_p/2) dZ^2` they are
+    /// `sqrt(V_0/w)` and `sqrt(V_0 (sigma^2/w + 2 mu Nbar^2/(b k_p)))`, at the worse end of b, in which the square is convex.
+    #[must_use]
+    pub fn peak(&self, own: &Loop, start: &Start, sizes: &Sizes<Enclosure>) -> Peak {
+        let exact = |value: &Rational| Enclosure::from_rational(value, PRECISION);
+        let (weight, k_p) = (exact(&self.weight), exact(&self.k_p));
+        let [x, e] = [&start.x0 + &sizes.states, &start.e0 + &sizes.error];
+        let of_start = start.z0.as_ref().map(|z0| z0 + own.n_bar_squared.sqrt() * &start.e0);
+        let z = of_start.map_or_else(|| sizes.zeta.clone(), |of_start| of_start + &sizes.zeta);
+        let plain = exact(&self.p_up) * x.sqr() + &weight * e.sqr();
+        let level = |b: &Enclosure| &plain + b * &own.mu * &k_p / 2 * z.sqr();
+        let of_control =
+            |b: &Enclosure| level(b) * (own.sigma.sqr() / &weight + &own.mu * &own.n_bar_squared * 2 / (b * &k_p));
+        let [low, high] = &own.gain;
+        Peak { error: (level(high) / &weight).sqrt(), control: of_control(low).max(&of_control(high)).sqrt() }
+    }
+}
+
+static ZERO: std::sync::LazyLock<Rational> = std::sync::LazyLock::new(Rational::new);
+
+impl Loop {
+    /// `[[L^-1 A L, L^-1 b], [c L, d]]`, by rows.
+    #[must_use]
+    pub fn in_coordinates(&self, rows: &[Vec<Enclosure>], coordinates: &[Vec<Rational>]) -> Vec<Vec<Enclosure>> {
+        let n = coordinates.len();
+        let exact = |value: &Rational| Enclosure::from_rational(value, PRECISION);
+        let sum =
+            |terms: &mut dyn Iterator<Item = Enclosure>| terms.fold(Enclosure::zero(PRECISION), |sum, term| sum + term);
+        let right: Vec<Vec<Enclosure>> = rows
+            .iter()
+            .map(|row| {
+                let entry = |j: usize| sum(&mut (0..n).map(|k| &row[k] * exact(&coordinates[k][j])));
+                (0..n).map(entry).chain([row[n].clone()]).collect()
+            })
+            .collect();
+        let states = self.inverse.iter().map(|inverse| {
+            (0..=n).map(|j| sum(&mut (0..n).map(|k| exact(&inverse[k]) * &right[k][j]))).collect::<Vec<Enclosure>>()
+        });
+        states.chain([right[n].clone()]).collect()
+    }
+}
+
+/// Both halves across the side that is longest beside its middle; `None` where none has a length.
+fn widest_halved(ends: &[[Rational; 2]]) -> Option<[Vec<[Rational; 2]>; 2]> {
+    let share = |[low, high]: &[Rational; 2]| {
+        let sum = Rational::from(low.abs_ref()) + Rational::from(high.abs_ref());
+        if sum == 0 { sum } else { Rational::from(high - low) / sum }
+    };
+    let side = (0..ends.len()).rev().max_by_key(|&side| share(&ends[side])).filter(|&side| share(&ends[side]) > 0)?;
+    let middle: Rational = Rational::from(&ends[side][0] + &ends[side][1]) / 2;
+    let [mut below, mut above] = [ends.to_vec(), ends.to_vec()];
+    below[side][1] = middle.clone();
+    above[side][0] = middle;
+    Some([below, above])
+}

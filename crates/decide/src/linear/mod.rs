@@ -1,0 +1,20 @@
+//! Plants that are linear in x and e with coefficients that do not depend on t (derivation, 14.3): their periodic solution for a given
+//! number of oscillators, harmonic by harmonic, and what bounds the way to it.
+//!
+//! [`LinearPlant`] is read off the formulas; [`sizes`] bounds the periodic solution of every member of the family; [`Falling`] decides that
+//! a quadratic form falls along every difference of two solutions, and says what follows.
+
+mod falling;
+mod largest;
+mod member;
+mod plant;
+mod steady;
+
+pub use falling::{Falling, Peak, Start};
+pub use largest::sizes;
+pub use member::Member;
+pub use plant::{LinearPlant, MAX_LINES};
+pub use steady::{Loop, Oscillators, Sizes};
+
+/// Bits of the enclosures.
+pub const PRECISION: u32 = 53;

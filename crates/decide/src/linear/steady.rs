@@ -1,0 +1,197 @@
+//! The periodic solution of a linear loop for a given number of oscillators (derivation, 14.3).
+
+use super::PRECISION;
+use super::member::Line;
+use rug::Rational;
+use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_lang::spec::InternalModel;
+use sigmastar_theory::transfer::Complex;
+use std::sync::LazyLock;
+
+/// How many oscillators there are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Oscillators {
+    /// So many.
+    Exactly(u64),
+    /// One for each line of the plant at least.
+    ForEachLine,
+}
+
+/// The regulator, whose base frequency is that of the period, and the gain of the actuator over its nominal value.
+#[derive(Clone, Debug)]
+pub struct Loop {
+    /// sigma.
+    pub sigma: Enclosure,
+    /// mu.
+    pub mu: Enclosure,
+    /// Om = w = 2 pi/T.
+    pub fundamental: Enclosure,
+    /// n_0, n_1, ..., as far as there are lines.
+    pub weights: Vec<Enclosure>,
+    /// The square of Nbar, the sum of all weights.
+    pub n_bar_squared: Enclosure,
+    /// The interval `[b_lo, b_hi]`; `[1, 1]` without an input gain.
+    pub gain: [Enclosure; 2],
+    /// The inverse of the coordinates L: sizes of x are those of `L^-1 x`.
+    pub inverse: Vec<Vec<Rational>>,
+}
+
+impl Loop {
+    /// The loop of an internal model with a matched base frequency at a gain, for a plant with so many lines.
+    #[must_use]
+    pub fn new(
+        sigma: &Rational,
+        model: &InternalModel,
+        lines: usize,
+        gain: Option<[Enclosure; 2]>,
+        inverse: Vec<Vec<Rational>>,
+    ) -> Loop {
+        let one = Enclosure::one(PRECISION);
+        Loop {
+            sigma: Enclosure::from_rational(sigma, PRECISION),
+            mu: model.mu.enclose(PRECISION),
+            fundamental: model.base_frequency.enclose(PRECISION),
+            weights: (0..=lines as u64).map(|l| model.weights.weight(l, PRECISION)).collect(),
+            n_bar_squared: model.weights.total(PRECISION),
+            gain: gain.unwrap_or([one.clone(), one]),
+            inverse,
+        }
+    }
+
+    /// `sum_{|l| <= N} c_l/(l - k)^power`, c_0 = n_0 and else n_|l|/2, for k > N: g_N(k) and its derivative.
+    fn poles(&self, oscillators: usize, k: usize, power: u32) -> Enclosure {
+        let term = |l: usize| {
+            let at = |l: i64| Enclosure::from_rational(&Rational::from((1, (l - k as i64).pow(power))), PRECISION);
+            let both = if l == 0 { at(0) } else { (at(l as i64) + at(-(l as i64))) / 2 };
+            &self.weights[l] * both
+        };
+        (0..=oscillators).fold(Enclosure::zero(PRECISION), |sum, l| sum + term(l))
+    }
+}
+
+/// Bounds along the periodic solution.
+#[derive(Clone, Debug)]
+pub struct Sizes<T> {
+    /// Of |e|.
+    pub error: T,
+    /// Of |u| of the law.
+    pub control: T,
+    /// Of `|L^-1 (x - x_0)|`.
+    pub states: T,
+    /// Of |zeta|_N.
+    pub zeta: T,
+}
+
+impl<T> Sizes<T> {
+    /// With a value of each in its place.
+    pub(super) fn with<U>(&self, other: &Sizes<U>, of: impl Fn(&T, &U) -> T) -> Sizes<T> {
+        Sizes {
+            error: of(&self.error, &other.error),
+            control: of(&self.control, &other.control),
+            states: of(&self.states, &other.states),
+            zeta: of(&self.zeta, &other.zeta),
+        }
+    }
+
+    /// In a fixed order.
+    pub(super) fn each(&self) -> [&T; 4] {
+        [&self.error, &self.control, &self.states, &self.zeta]
+    }
+}
+
+impl Loop {
+    /// Bounds of the periodic solution of every member whose lines are these, with a gain of the actuator in `gain`. `None` where the answer
+    /// to a line may have no bound.
+    ///
+    /// Line k meets an oscillator where k <= N: then `e_k = 0`, `u_k = -c_k/b`, and `|zeta_k|_N = sqrt(2/n_k) |c_k|/(b mu)`. Else
+    /// `e_k = c_k/D`, `D = i om_k - W_k + b (sigma + i y_k (i om_k + sigma))`, `y_k = nu g_N(k)`, `u_k = ((i om_k - W_k) e_k - c_k)/b`, and
+    /// `|zeta_k|_N = sqrt(g_N'(k)) |i om_k + sigma| |e_k|/w`.
+    pub(super) fn sizes(&self, lines: &[Line], gain: &Enclosure, oscillators: Oscillators) -> Option<Sizes<Enclosure>> {
+        let zero = || Enclosure::zero(PRECISION);
+        let met = match oscillators {
+            Oscillators::Exactly(count) => usize::try_from(count).unwrap_or(usize::MAX).min(lines.len() - 1),
+            Oscillators::ForEachLine => lines.len() - 1,
+        };
+        let of_mu = gain * &self.mu;
+        let mut within = zero();
+        let mut sizes = Sizes { error: zero(), control: zero(), states: zero(), zeta: zero() };
+        let (mut errors, mut controls) = (Vec::new(), Vec::new());
+        for (k, line) in lines.iter().enumerate() {
+            let Line { frequency, states, transfer, forcing } = line;
+            if k <= met {
+                // |zeta_0|^2 = |c_0|^2/((b mu)^2 n_0); both of k and -k: 2 * 2 |c_k|^2/((b mu)^2 n_k).
+                let both = if k == 0 { 1 } else { 4 };
+                within = within + forcing.norm_squared() / of_mu.sqr() / &self.weights[k] * both;
+                errors.push(Complex::real(zero()));
+                controls.push(forcing.scaled(&gain.recip().negate()));
+                continue;
+            }
+            let y = &self.mu / &self.fundamental * self.poles(met, k, 1);
+            let answer = Complex { re: &self.sigma - &y * frequency, im: &y * &self.sigma }.scaled(gain);
+            let own = Complex { re: transfer.re.negate(), im: frequency - &transfer.im };
+            let error = forcing.div(&own.add(&answer));
+            if !(error.re.is_bounded() && error.im.is_bounded()) {
+                return None;
+            }
+            controls.push(own.mul(&error).sub(forcing).scaled(&gain.recip()));
+            let moved: Vec<Complex> = states.iter().map(|part| part.mul(&error)).collect();
+            sizes.states = sizes.states + self.length(&moved) * 2;
+            let of_y = (frequency.sqr() + self.sigma.sqr()).sqrt() * error.norm();
+            sizes.zeta = sizes.zeta + self.poles(met, k, 2).sqrt() * of_y / &self.fundamental * 2;
+            errors.push(error);
+        }
+        sizes.zeta = sizes.zeta + within.sqrt();
+        sizes.error = largest(&errors);
+        sizes.control = largest(&controls);
+        Some(sizes)
+    }
+
+    /// |L^-1 x|.
+    fn length(&self, x: &[Complex]) -> Enclosure {
+        let row = |row: &Vec<Rational>| {
+            let zero = Complex::real(Enclosure::zero(PRECISION));
+            let entries = row.iter().zip(x).filter(|(entry, _)| **entry != 0);
+            entries.fold(zero, |sum, (entry, x)| sum.add(&x.scaled(&Enclosure::from_rational(entry, PRECISION))))
+        };
+        let squares = self.inverse.iter().map(|entries| row(entries).norm_squared());
+        squares.fold(Enclosure::zero(PRECISION), |sum, square| sum + square).sqrt()
+    }
+}
+
+/// In how many parts the period is cut.
+const PARTS: usize = 128;
+
+/// `cos(m pi/PARTS)` for m = 0, ..., 2 PARTS - 1.
+static COSINES: LazyLock<Vec<Enclosure>> = LazyLock::new(|| {
+    let angle = |m: usize| Enclosure::pi(PRECISION) * m as i64 / PARTS as i64;
+    (0..2 * PARTS).map(|m| angle(m).cos()).collect()
+});
+
+/// The largest `|sum_k w_k e^{i k s}|`, over -K..K with `w_-k = conj(w_k)`: about its middle each part has the second Taylor polynomial as a
+/// bound. The first coefficient is that of k = 0, which is real.
+fn largest(coefficients: &[Complex]) -> Enclosure {
+    // Numbers in the middle of the coefficients, and how far the sum may be from that with these.
+    let exact = |value: &Enclosure| Enclosure::exactly(value.midpoint_f64());
+    let middles: Vec<Complex> = coefficients.iter().map(|w| Complex { re: exact(&w.re), im: exact(&w.im) }).collect();
+    let both = |k: usize| if k == 0 { 1 } else { 2 };
+    let zero = || Enclosure::zero(PRECISION);
+    let pairs = coefficients.iter().zip(&middles).enumerate();
+    let apart = pairs.fold(zero(), |sum, (k, (w, middle))| sum + w.sub(middle).norm() * both(k));
+    let half = Enclosure::pi(PRECISION) / PARTS as i64;
+    let bent = middles.iter().enumerate().fold(zero(), |sum, (k, w)| sum + w.norm() * (both(k) * (k * k) as i64));
+    let curved = half.sqr() / 2 * bent;
+    let at = |part: usize| {
+        let mut value = middles.first().map_or_else(zero, |mean| mean.re.clone());
+        let mut slope = zero();
+        for (k, w) in middles.iter().enumerate().skip(1) {
+            let m = k * (2 * part + 1) % (2 * PARTS);
+            // sin(a) = cos(a - pi/2).
+            let (cos, sin) = (&COSINES[m], &COSINES[(m + 2 * PARTS - PARTS / 2) % (2 * PARTS)]);
+            value = value + (&w.re * cos - &w.im * sin) * 2;
+            slope = slope - (&w.re * sin + &w.im * cos) * (2 * k as i64);
+        }
+        value.abs() + slope.abs() * &half + &curved
+    };
+    let above = (0..PARTS).map(at).reduce(|a, b| a.max(&b)).unwrap_or_else(zero);
+    above + apart
+}

@@ -1,0 +1,201 @@
+//! Bounds for each number of oscillators, of plants that are linear in x and e (derivation, 14.3, 14.5).
+
+use super::certification::Certification;
+use super::gain_row::{GainRow, RowProof, SHOWN_N_O};
+use rug::Rational;
+use sigmastar_decide::linear::{Falling, LinearPlant, Loop, Oscillators, PRECISION, Sizes, Start, sizes};
+use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_exact::number::{Direction, round_f64};
+use sigmastar_exact::parallel;
+use sigmastar_lang::plant::Plant;
+use sigmastar_lang::spec::Specification;
+use sigmastar_matrix::doubles::largest;
+use sigmastar_matrix::inverse;
+use sigmastar_propose::linear_peak::{FallingForm, PeakOf, PeakProgram};
+use sigmastar_theory::derivation::control::Control;
+use sigmastar_theory::derivation::initial_set::ClaimedSet;
+
+/// Digits of the numbers of a form.
+const DIGITS: u32 = 9;
+
+/// Bounds for one number of oscillators, or for all from it on, at one gain.
+#[derive(Clone, Debug)]
+pub struct CountBounds {
+    /// n_o.
+    pub n_o: u64,
+    /// Whether they hold for every larger number, too.
+    pub or_more: bool,
+    /// Of |e| along the periodic solution.
+    pub steady_error: Enclosure,
+    /// Of |e| of every solution from the set, at all times.
+    pub peak_error: Enclosure,
+    /// Of what is put out.
+    pub control: Control<Enclosure>,
+}
+
+/// Bounds for every number of oscillators.
+#[derive(Clone, Debug)]
+pub struct ByCount {
+    /// For 0, 1, ..., K, the last of them for every larger number, too: K is the number of harmonics of the plant.
+    pub counts: Vec<CountBounds>,
+}
+
+impl ByCount {
+    /// Those for a number of oscillators.
+    #[must_use]
+    pub fn at(&self, n_o: u64) -> Option<&CountBounds> {
+        self.counts.iter().rev().find(|bounds| bounds.n_o <= n_o)
+    }
+
+    /// The largest of a bound.
+    fn largest(&self, of: impl Fn(&CountBounds) -> &Enclosure) -> Option<Enclosure> {
+        self.counts.iter().map(of).cloned().reduce(|a, b| a.max(&b))
+    }
+}
+
+/// Bounds for every number of oscillators, at a gain and from a set, for every member of the family and every gain of the actuator.
+///
+/// Hypotheses: the plant is linear, with this specification; its base frequency is matched; the regulator is that in continuous time; the set is
+/// in the coordinates of the specification. Guarantee: there is one periodic solution, which has these bounds, and so have the solutions from
+/// the set. `None` where no form is found that falls, or a bound is not found.
+fn by_count(
+    (plant, linear): (&Plant, &LinearPlant),
+    spec: &Specification,
+    sigma: &Rational,
+    set: &ClaimedSet,
+) -> Option<ByCount> {
+    let model = &spec.internal_model;
+    let coordinates = &spec.plant()?.coordinates;
+    let gain = spec.input_gain.as_ref().and_then(|gain| gain.factors(PRECISION));
+    let own = Loop::new(sigma, model, linear.lines(), gain, inverse(coordinates)?);
+    let counts: Vec<u64> = (0..=linear.lines() as u64).collect();
+    let of_count = |count: &u64| match *count == linear.lines() as u64 {
+        true => sizes(linear, &own, Oscillators::ForEachLine),
+        false => sizes(linear, &own, Oscillators::Exactly(*count)),
+    };
+    let found: Vec<Sizes<Enclosure>> = parallel::map(&counts, of_count).into_iter().collect::<Option<_>>()?;
+    let exact = |value: &Rational| Enclosure::from_rational(value, PRECISION);
+    let start = Start { x0: exact(&set.x0), e0: exact(&set.e0), z0: set.z0.as_ref().map(exact) };
+    let forms: Vec<Falling> = [PeakOf::Error, PeakOf::Control]
+        .into_iter()
+        .filter_map(|of| form((plant, linear), &own, coordinates, (&start, found.first()?), of))
+        .collect();
+    let nominal = spec.input_gain.as_ref().map(|gain| gain.nominal.enclose(PRECISION));
+    let bounds = |(n_o, sizes): (u64, &Sizes<Enclosure>)| {
+        let peaks = forms.iter().map(|form| form.peak(&own, &start, sizes));
+        let peak = peaks.reduce(|a, b| sigmastar_decide::linear::Peak {
+            error: a.error.min(&b.error),
+            control: a.control.min(&b.control),
+        })?;
+        let control = Control { steady: sizes.control.clone(), transient: peak.control }.over(nominal.as_ref());
+        Some(CountBounds {
+            n_o,
+            or_more: n_o == linear.lines() as u64,
+            steady_error: sizes.error.clone(),
+            peak_error: &sizes.error + &peak.error,
+            control,
+        })
+    };
+    Some(ByCount { counts: counts.into_iter().zip(&found).map(bounds).collect::<Option<_>>()? })
+}
+
+/// A form that is proved to fall, with a small peak for the start of a loop without oscillators.
+fn form(
+    (plant, linear): (&Plant, &LinearPlant),
+    own: &Loop,
+    coordinates: &[Vec<Rational>],
+    (start, sizes): (&Start, &Sizes<Enclosure>),
+    of: PeakOf,
+) -> Option<Falling> {
+    let member = |values: Vec<Rational>| {
+        let ends: Vec<[Rational; 2]> = values.into_iter().map(|value| [value.clone(), value]).collect();
+        let rows = own.in_coordinates(&linear.member(&linear.enclosed(&ends))?.rows, coordinates);
+        Some(rows.iter().map(|row| row.iter().map(Enclosure::midpoint_f64).collect()).collect())
+    };
+    let of_zeta = start
+        .z0
+        .as_ref()
+        .map_or(0.0, |z0| z0.upper_f64() + own.n_bar_squared.sqrt().upper_f64() * start.e0.upper_f64());
+    let program = PeakProgram {
+        members: plant.parameters.looked_at().into_iter().map(member).collect::<Option<_>>()?,
+        gain: own.gain.each_ref().map(Enclosure::midpoint_f64),
+        sigma: own.sigma.midpoint_f64(),
+        mu: own.mu.midpoint_f64(),
+        n_bar_squared: own.n_bar_squared.midpoint_f64(),
+        start: [
+            start.x0.upper_f64() + sizes.states.upper_f64(),
+            start.e0.upper_f64() + sizes.error.upper_f64(),
+            of_zeta + sizes.zeta.upper_f64(),
+        ],
+    };
+    (0..)
+        .map_while(|attempt| program.propose(of, attempt))
+        .filter_map(|form| rounded(&form))
+        .find(|form| form.decide(linear, own, coordinates).is_true())
+}
+
+/// A form in short numbers.
+fn rounded(FallingForm { matrix, weight, k_p }: &FallingForm) -> Option<Falling> {
+    let short = |value: f64| round_f64(value, DIGITS, Direction::Nearest);
+    let row = |row: &Vec<f64>| row.iter().map(|entry| short(*entry)).collect::<Option<Vec<Rational>>>();
+    let above = if matrix.is_empty() { 1.0 } else { largest(matrix.clone()) * (1.0 + 1e-6) };
+    Some(Falling {
+        matrix: matrix.iter().map(row).collect::<Option<_>>()?,
+        p_up: round_f64(above, DIGITS, Direction::Up)?,
+        weight: short(*weight)?,
+        k_p: short(*k_p)?,
+    })
+}
+
+impl GainRow {
+    /// The row with the bounds for every number of oscillators where these are smaller.
+    fn with(&mut self, found: &ByCount) {
+        for (bound, n_o) in self.steady.iter_mut().zip(SHOWN_N_O) {
+            if let Some(own) = found.at(n_o) {
+                *bound = bound.min(&own.steady_error);
+            }
+        }
+        if let Some(peak) = found.largest(|bounds| &bounds.peak_error) {
+            self.peak = self.peak.min(&peak);
+        }
+        let control =
+            [found.largest(|bounds| &bounds.control.steady), found.largest(|bounds| &bounds.control.transient)];
+        if let [Some(steady), Some(transient)] = control {
+            let Control { steady: known, transient: known_transient } = &self.control;
+            self.control = Control { steady: known.min(&steady), transient: known_transient.min(&transient) };
+        }
+    }
+}
+
+impl Certification<'_> {
+    /// Bounds of |e| along the periodic solution and at all times, and of the control, for every number of oscillators, at the gain of the claim, if
+    /// certified: the least that are proved.
+    #[must_use]
+    pub fn best_bounds(&self) -> Option<(Enclosure, Enclosure, Control<Enclosure>)> {
+        let (steady, peak, control) = self.bounds()?;
+        let own = self.gains.first();
+        let (peak, control) = own.map_or((peak, control), |row| (&row.peak, &row.control));
+        let by_count = self.by_count.as_ref().and_then(|found| found.largest(|bounds| &bounds.steady_error));
+        let steady = by_count.map_or_else(|| steady.clone(), |found| steady.min(&found));
+        Some((steady, peak.clone(), control.clone()))
+    }
+
+    /// Bounds for every number of oscillators, at the gain of the claim and at those of the rows, where the plant is linear in x and e; nothing
+    /// where it is not, where the base frequency is not matched, or the document has noise or a disturbance.
+    pub fn set_counts(&mut self, plant: &Plant) {
+        let fits = self.spec.internal_model.matched && !self.spec.disturbances.any() && self.claim().is_some();
+        let Some(linear) = fits.then(|| LinearPlant::of(plant)).flatten() else { return };
+        let at = |row: &GainRow| {
+            let RowProof::Continuous(proof, other) = &row.proof else { return None };
+            let spec = other.as_deref().unwrap_or(self.spec);
+            by_count((plant, &linear), spec, &row.sigma, &proof.witness.set)
+        };
+        let found = parallel::map(&self.gains, at);
+        for (row, found) in self.gains.iter_mut().zip(&found) {
+            if let Some(found) = found {
+                row.with(found);
+            }
+        }
+        self.by_count = found.into_iter().next().flatten();
+    }
+}
