@@ -5,7 +5,7 @@ use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 use rug::Rational;
 use serde_json::{Value, json};
-use sigmastar_decide::linear::{Falling, LinearPlant, Loop, Oscillators, PRECISION, Start, sizes};
+use sigmastar_decide::linear::{Answers, Falling, LinearPlant, Loop, Oscillators, PRECISION, Start, sizes};
 use sigmastar_exact::enclosure::{Enclosure, Truth};
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::Document;
@@ -150,9 +150,10 @@ fn sizes_are_those_of_the_worst_member() {
     assert_eq!(linear.lines(), 4);
     for sigma in [12, 40] {
         let own = own(sigma, &linear, &plant);
+        let answers = Answers::new(&linear, own.fundamental.clone());
         for n in 0..=5 {
             let count = if n >= 4 { Oscillators::ForEachLine } else { Oscillators::Exactly(n as u64) };
-            let found = sizes(&linear, &own, count).unwrap();
+            let found = sizes(&answers, &own, count).unwrap();
             let mut largest = [0.0_f64; 4];
             for (a, b) in [(0.8, 0.9), (0.8, 1.1), (1.2, 0.9), (1.2, 1.1), (1.0, 1.0), (1.0, 0.9), (1.1, 0.93)] {
                 let (space, states, controls) = periodic(a, b, f64::from(sigma), n);
@@ -198,13 +199,14 @@ fn nothing_goes_beyond_the_peaks() {
     ] {
         assert_eq!(wrong.decide(&linear, &own, &identity), is, "{wrong:?}");
     }
+    let answers = Answers::new(&linear, own.fundamental.clone());
     let exact = |value: i32| Enclosure::from_integer(i64::from(value), PRECISION);
     let start = Start { x0: exact(1), e0: exact(2), z0: None };
     let mut random = StdRng::seed_from_u64(14);
     let mut nearest = 0.0_f64;
     for n in [0, 2, 5] {
         let count = if n >= 4 { Oscillators::ForEachLine } else { Oscillators::Exactly(n as u64) };
-        let steady = sizes(&linear, &own, count).unwrap();
+        let steady = sizes(&answers, &own, count).unwrap();
         let peak = falling.peak(&own, &start, &steady);
         let [of_e, of_u] = [&peak.error, &peak.control].map(Enclosure::upper_f64);
         for _ in 0..40 {

@@ -1,73 +1,100 @@
 //! The largest sizes of the members of a linear family, by subdivision of the box of parameters and gains.
 
 use super::PRECISION;
+use super::member::Line;
 use super::plant::LinearPlant;
 use super::steady::{Loop, Oscillators, Sizes};
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// The most boxes that are looked at.
 const MAX_BOXES: usize = 1024;
 
-/// By what share a bound may be above what some member has: of e and u, and of what only the transient rests on.
-const ROOMS: [f64; 4] = [0.005, 0.005, 0.03, 0.03];
+/// By what share a bound may be above what is met: of e and u, and of what only the transient rests on.
+const ROOMS: [f64; 4] = [0.01, 0.01, 0.05, 0.05];
+
+/// How the members on the boxes of the parameters that were looked at answer the harmonics: the same for every gain and number of
+/// oscillators.
+#[derive(Debug)]
+pub struct Answers<'p> {
+    plant: &'p LinearPlant,
+    fundamental: Enclosure,
+    known: Mutex<HashMap<Vec<[Rational; 2]>, Option<Arc<Vec<Line>>>>>,
+}
+
+impl<'p> Answers<'p> {
+    /// Of a plant whose first harmonic has this frequency.
+    #[must_use]
+    pub fn new(plant: &'p LinearPlant, fundamental: Enclosure) -> Answers<'p> {
+        Answers { plant, fundamental, known: Mutex::default() }
+    }
+
+    /// The plant.
+    #[must_use]
+    pub fn plant(&self) -> &'p LinearPlant {
+        self.plant
+    }
+
+    fn lines(&self, parameters: &[[Rational; 2]]) -> Option<Arc<Vec<Line>>> {
+        // Whoever panics while he holds the lock has changed nothing but whole entries.
+        let lock = || self.known.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(lines) = lock().get(parameters) {
+            return lines.clone();
+        }
+        let member = self.plant.member(&self.plant.enclosed(parameters));
+        let lines = member.and_then(|member| member.lines(self.plant.lines(), &self.fundamental)).map(Arc::new);
+        lock().insert(parameters.to_vec(), lines.clone());
+        lines
+    }
+}
 
 /// Bounds along the periodic solution of every member of the family at every gain of the actuator, for this number of oscillators.
 ///
 /// Guarantee: for every such member whose loop has one T-periodic solution at most that is so bounded. `None` where no bound is found within
 /// the effort.
 #[must_use]
-pub fn sizes(plant: &LinearPlant, own: &Loop, oscillators: Oscillators) -> Option<Sizes<Enclosure>> {
+pub fn sizes(answers: &Answers<'_>, own: &Loop, oscillators: Oscillators) -> Option<Sizes<Enclosure>> {
     let [low, high] = [own.gain[0].lower_rational()?, own.gain[1].upper_rational()?];
-    let mut whole = plant.whole().to_vec();
+    let mut whole = answers.plant.whole().to_vec();
     whole.push([low, high]);
     let at = |ends: &[[Rational; 2]]| {
         let (gain, parameters) = ends.split_last()?;
-        let lines = plant.member(&plant.enclosed(parameters))?.lines(plant.lines(), &own.fundamental)?;
-        own.sizes(&lines, &Enclosure::between(&gain[0], &gain[1], PRECISION), oscillators)
+        own.sizes(&*answers.lines(parameters)?, &Enclosure::between(&gain[0], &gain[1], PRECISION), oscillators)
     };
     let mut open = vec![whole.clone()];
-    let mut known: Option<Sizes<f64>> = None;
+    let mut known: Option<Sizes<Enclosure>> = None;
     let mut found: Option<Sizes<Enclosure>> = None;
     let mut boxes = 0;
     while !open.is_empty() {
         boxes += open.len();
-        // What some member has, so that the largest is not below it.
-        for ends in &open {
-            let middle: Vec<[Rational; 2]> =
-                ends.iter().map(|[low, high]| [(); 2].map(|()| Rational::from(low + high) / 2)).collect();
-            if let Some(sizes) = at(&middle) {
-                let upper = sizes.doubles();
-                known = Some(known.map_or_else(|| upper.clone(), |known| known.with(&upper, |a, b| a.max(*b))));
-            }
-        }
-        let known = known.as_ref();
+        let all: Vec<Option<Sizes<Enclosure>>> = open.iter().map(|ends| at(ends)).collect();
+        known = all.iter().flatten().chain(&known).cloned().reduce(|a, b| a.with(&b, |a, b| a.max(b)));
         let mut next = Vec::new();
-        for ends in open {
-            let sizes = at(&ends);
-            let sharp = sizes.as_ref().zip(known).is_some_and(|(sizes, known)| {
-                let pairs = sizes.each().into_iter().zip(known.each()).zip(ROOMS);
-                pairs.into_iter().all(|((size, known), room)| size.upper_f64() <= known * (1.0 + room))
+        for (ends, sizes) in open.into_iter().zip(all) {
+            let sharp = sizes.as_ref().zip(known.as_ref()).is_some_and(|(sizes, known)| {
+                let mut pairs = sizes.each().into_iter().zip(known.each()).zip(ROOMS);
+                pairs.all(|((size, known), room)| size.upper_f64() <= known.lower_f64() * (1.0 + room))
             });
             match sizes {
                 Some(sizes) if sharp || boxes >= MAX_BOXES => {
                     found = Some(found.map_or_else(|| sizes.clone(), |found| found.with(&sizes, |a, b| a.max(b))));
                 }
                 None if boxes >= MAX_BOXES => return None,
-                _ => next.extend(halved(ends, &whole)?),
+                sizes => match halved(ends, &whole) {
+                    Some(halves) => next.extend(halves),
+                    // There is nothing to cut.
+                    None => {
+                        let sizes = sizes?;
+                        found = Some(found.map_or_else(|| sizes.clone(), |found| found.with(&sizes, |a, b| a.max(b))));
+                    }
+                },
             }
         }
         open = next;
     }
     found
-}
-
-impl Sizes<Enclosure> {
-    fn doubles(&self) -> Sizes<f64> {
-        let Sizes { error, control, states, zeta } = self;
-        let [error, control, states, zeta] = [error, control, states, zeta].map(Enclosure::upper_f64);
-        Sizes { error, control, states, zeta }
-    }
 }
 
 /// Both halves of a box, across the side that is the largest share of that of the whole; `None` where none has a length.

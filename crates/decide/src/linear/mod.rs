@@ -11,7 +11,7 @@ mod plant;
 mod steady;
 
 pub use falling::{Falling, Peak, Start};
-pub use largest::sizes;
+pub use largest::{Answers, sizes};
 pub use member::Member;
 pub use plant::{LinearPlant, MAX_LINES};
 pub use steady::{Loop, Oscillators, Sizes};

@@ -84,7 +84,7 @@ pub struct Sizes<T> {
 
 impl<T> Sizes<T> {
     /// With a value of each in its place.
-    pub(super) fn with<U>(&self, other: &Sizes<U>, of: impl Fn(&T, &U) -> T) -> Sizes<T> {
+    pub(super) fn with(&self, other: &Sizes<T>, of: impl Fn(&T, &T) -> T) -> Sizes<T> {
         Sizes {
             error: of(&self.error, &other.error),
             control: of(&self.control, &other.control),
@@ -101,7 +101,7 @@ impl<T> Sizes<T> {
 
 impl Loop {
     /// Bounds of the periodic solution of every member whose lines are these, with a gain of the actuator in `gain`. `None` where the answer
-    /// to a line may have no bound.
+    /// to a line may have no bound. What is below them some instant has, of |e| and |u|.
     ///
     /// Line k meets an oscillator where k <= N: then `e_k = 0`, `u_k = -c_k/b`, and `|zeta_k|_N = sqrt(2/n_k) |c_k|/(b mu)`. Else
     /// `e_k = c_k/D`, `D = i om_k - W_k + b (sigma + i y_k (i om_k + sigma))`, `y_k = nu g_N(k)`, `u_k = ((i om_k - W_k) e_k - c_k)/b`, and
@@ -158,8 +158,12 @@ impl Loop {
     }
 }
 
-/// In how many parts the period is cut.
-const PARTS: usize = 128;
+/// In how many parts the period is cut at first, and at most: powers of two.
+const FIRST_PARTS: usize = 8;
+const PARTS: usize = 256;
+
+/// By what share of the largest value that was met a part may be bounded above it before it is cut.
+const ROOM: f64 = 1e-3;
 
 /// `cos(m pi/PARTS)` for m = 0, ..., 2 PARTS - 1.
 static COSINES: LazyLock<Vec<Enclosure>> = LazyLock::new(|| {
@@ -167,8 +171,8 @@ static COSINES: LazyLock<Vec<Enclosure>> = LazyLock::new(|| {
     (0..2 * PARTS).map(|m| angle(m).cos()).collect()
 });
 
-/// The largest `|sum_k w_k e^{i k s}|`, over -K..K with `w_-k = conj(w_k)`: about its middle each part has the second Taylor polynomial as a
-/// bound. The first coefficient is that of k = 0, which is real.
+/// The largest `|sum_k w_k e^{i k s}|`, over -K..K with `w_-k = conj(w_k)`: about its middle a part of the period has the second Taylor
+/// polynomial as a bound. The first coefficient is that of k = 0, which is real.
 fn largest(coefficients: &[Complex]) -> Enclosure {
     // Numbers in the middle of the coefficients, and how far the sum may be from that with these.
     let exact = |value: &Enclosure| Enclosure::exactly(value.midpoint_f64());
@@ -177,21 +181,31 @@ fn largest(coefficients: &[Complex]) -> Enclosure {
     let zero = || Enclosure::zero(PRECISION);
     let pairs = coefficients.iter().zip(&middles).enumerate();
     let apart = pairs.fold(zero(), |sum, (k, (w, middle))| sum + w.sub(middle).norm() * both(k));
-    let half = Enclosure::pi(PRECISION) / PARTS as i64;
     let bent = middles.iter().enumerate().fold(zero(), |sum, (k, w)| sum + w.norm() * (both(k) * (k * k) as i64));
-    let curved = half.sqr() / 2 * bent;
-    let at = |part: usize| {
+    let mut met = zero();
+    let mut above = zero();
+    let mut open: Vec<[usize; 2]> = (0..FIRST_PARTS).map(|part| [part, FIRST_PARTS]).collect();
+    while let Some([part, parts]) = open.pop() {
+        let angle = (2 * part + 1) * (PARTS / parts);
         let mut value = middles.first().map_or_else(zero, |mean| mean.re.clone());
         let mut slope = zero();
         for (k, w) in middles.iter().enumerate().skip(1) {
-            let m = k * (2 * part + 1) % (2 * PARTS);
+            let m = k * angle % (2 * PARTS);
             // sin(a) = cos(a - pi/2).
             let (cos, sin) = (&COSINES[m], &COSINES[(m + 2 * PARTS - PARTS / 2) % (2 * PARTS)]);
             value = value + (&w.re * cos - &w.im * sin) * 2;
             slope = slope - (&w.re * sin + &w.im * cos) * (2 * k as i64);
         }
-        value.abs() + slope.abs() * &half + &curved
-    };
-    let above = (0..PARTS).map(at).reduce(|a, b| a.max(&b)).unwrap_or_else(zero);
-    above + apart
+        let half = Enclosure::pi(PRECISION) / parts as i64;
+        let bound = value.abs() + slope.abs() * &half + half.sqr() / 2 * &bent;
+        met = met.max(&value.abs());
+        if bound.upper_f64() <= met.lower_f64() * (1.0 + ROOM) || parts == PARTS {
+            above = above.max(&bound);
+        } else {
+            open.extend([[2 * part, 2 * parts], [2 * part + 1, 2 * parts]]);
+        }
+    }
+    // From what is met at one instant up to the bound of all.
+    let [low, high] = [(met - &apart).max(&zero()), above + apart];
+    low.hull(&high)
 }

@@ -3,7 +3,7 @@
 use super::certification::Certification;
 use super::gain_row::{GainRow, RowProof, SHOWN_N_O};
 use rug::Rational;
-use sigmastar_decide::linear::{Falling, LinearPlant, Loop, Oscillators, PRECISION, Sizes, Start, sizes};
+use sigmastar_decide::linear::{Answers, Falling, LinearPlant, Loop, Oscillators, PRECISION, Sizes, Start, sizes};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, round_f64};
 use sigmastar_exact::parallel;
@@ -59,19 +59,19 @@ impl ByCount {
 /// in the coordinates of the specification. Guarantee: there is one periodic solution, which has these bounds, and so have the solutions from
 /// the set. `None` where no form is found that falls, or a bound is not found.
 fn by_count(
-    (plant, linear): (&Plant, &LinearPlant),
+    (plant, answers): (&Plant, &Answers<'_>),
     spec: &Specification,
     sigma: &Rational,
     set: &ClaimedSet,
 ) -> Option<ByCount> {
-    let model = &spec.internal_model;
+    let (linear, model) = (answers.plant(), &spec.internal_model);
     let coordinates = &spec.plant()?.coordinates;
     let gain = spec.input_gain.as_ref().and_then(|gain| gain.factors(PRECISION));
     let own = Loop::new(sigma, model, linear.lines(), gain, inverse(coordinates)?);
     let counts: Vec<u64> = (0..=linear.lines() as u64).collect();
     let of_count = |count: &u64| match *count == linear.lines() as u64 {
-        true => sizes(linear, &own, Oscillators::ForEachLine),
-        false => sizes(linear, &own, Oscillators::Exactly(*count)),
+        true => sizes(answers, &own, Oscillators::ForEachLine),
+        false => sizes(answers, &own, Oscillators::Exactly(*count)),
     };
     let found: Vec<Sizes<Enclosure>> = parallel::map(&counts, of_count).into_iter().collect::<Option<_>>()?;
     let exact = |value: &Rational| Enclosure::from_rational(value, PRECISION);
@@ -185,10 +185,11 @@ impl Certification<'_> {
     pub fn set_counts(&mut self, plant: &Plant) {
         let fits = self.spec.internal_model.matched && !self.spec.disturbances.any() && self.claim().is_some();
         let Some(linear) = fits.then(|| LinearPlant::of(plant)).flatten() else { return };
+        let answers = Answers::new(&linear, plant.internal_model.base_frequency.enclose(PRECISION));
         let at = |row: &GainRow| {
             let RowProof::Continuous(proof, other) = &row.proof else { return None };
             let spec = other.as_deref().unwrap_or(self.spec);
-            by_count((plant, &linear), spec, &row.sigma, &proof.witness.set)
+            by_count((plant, &answers), spec, &row.sigma, &proof.witness.set)
         };
         let found = parallel::map(&self.gains, at);
         for (row, found) in self.gains.iter_mut().zip(&found) {
