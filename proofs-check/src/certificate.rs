@@ -99,8 +99,8 @@ pub fn check(json: &Json, other: Option<&Json>, lines: &mut Vec<String>) -> Outc
     let shown = arguments.each_ref().map(Float::to_f64);
     // Last, because it may take the longest.
     if let Some(cells) = &cells {
-        let inequalities =
-            Inequalities { slopes: regions.map(|at| Asked { witnesses: &rates, at }), ..derivation.inequalities() };
+        let slopes = regions.map(|at| Asked { witnesses: &rates, at });
+        let inequalities = Inequalities { list: Some(&derivation.inequalities), law: derivation.law(), slopes };
         proofs_plants::prove(&spec, cells, arguments.each_ref(), inequalities, lines)?;
     }
     if let Some((jacobian, witness)) = &spec.jacobian {
@@ -130,7 +130,7 @@ fn prove(
         bounding::prove_all(d, [&x, &e], lines)?;
     }
     let proved = derivation.prove(d, lines)?;
-    let free = derivation.free();
+    let free = &derivation.free;
     let statement = claim.check(d, &proved, [&free.x_p, &free.e_p], derivation.prediction())?;
     if !rates.is_empty() {
         if !derivation.rests_on_norms() && derivation.regions().is_none() {

@@ -1,7 +1,7 @@
 //! The data of a specification, enclosed at one working precision (docs/mathematics.md, section 1).
 
 use crate::bound::Bound;
-use crate::gain::Gain;
+use crate::input_gain::Gain;
 use crate::interval::Interval;
 use crate::period::Ends;
 use crate::plant::entries::Name;
@@ -91,6 +91,13 @@ impl<'s> Data<'s> {
     /// A number times an end of b, where there is a gain.
     pub fn by_gain(&self, end: fn(&Gain) -> &Interval, value: &Interval) -> Interval {
         self.gain.as_ref().map_or_else(|| value.clone(), |gain| end(gain) * value)
+    }
+
+    /// b and `(1-b) sigma` at both ends of b, in words; 1 and 0 without a gain.
+    pub fn ends(&self, sigma: &Interval) -> Vec<(&'static str, [Interval; 2])> {
+        let Some(gain) = &self.gain else { return vec![("", [1, 0].map(|value| self.int(value)))] };
+        let [low, high] = gain.shifts(sigma);
+        vec![(", at b_lo", [gain.low.clone(), low]), (", at b_hi", [gain.high.clone(), high])]
     }
 
     /// A bound of e by q or by q', with a gain over b_m.

@@ -4,9 +4,8 @@
 
 use super::formula::{Axis, Formulas, Id};
 use super::machine::{At, Curves, Machine};
-use super::members::{Expanded, roots, total};
 use super::model::{Model, wave};
-use super::path::{Judged, Path, Polynomial, bound, bound_of_derivative, everywhere};
+use super::path::{Expanded, Judged, Path, Polynomial, bound, bound_of_derivative, everywhere, roots, total};
 use super::read::Plant;
 use super::region::{Piece, Region};
 use super::time::around;

@@ -34,78 +34,30 @@ pub fn prove(jacobian: &Jacobian, period: &Period, w: &Witness) -> Outcome<Strin
     at_rising_precision(|precision| attempt(jacobian, (&period.nominal.enclose(precision), clock.as_ref()), w))
 }
 
-/// An inequality on matrices of formulas in t, which holds at every t where it is proved.
-struct Problem<'a> {
-    /// The nominal one.
-    period: &'a Interval,
-    clock: Option<&'a Span>,
-    w: &'a Witness,
-    boxes: usize,
-}
-
-/// The formulas of a problem, with what their operations ask for, and the entries of P.
-struct Parts {
-    formulas: Formulas,
-    demands: Vec<(Id, Demand)>,
-    p: Vec<Vec<Id>>,
-}
-
-impl Parts {
-    /// One F of the Jacobian: the bits of a vertex say of each interval entry whether its upper end stands for it; without one the middle does.
-    fn member(&mut self, jacobian: &Jacobian, vertex: Option<usize>) -> Vec<Vec<Id>> {
-        let mut index = 0;
-        let Parts { formulas, demands, .. } = self;
-        let time = formulas.leaf(Leaf::Time);
-        let mut entry = |entry: &Entry| match entry {
-            Entry::Function(expr) => formulas.read(expr, &[time], demands),
-            Entry::Between(ends) => {
-                index += 1;
-                let [lo, hi] = ends.each_ref().map(|end| formulas.read(end.expr(), &[], demands));
-                match vertex {
-                    Some(vertex) if vertex >> (index - 1) & 1 == 1 => hi,
-                    Some(_) => lo,
-                    None => {
-                        let half = formulas.number(&Rational::from((1, 2)));
-                        formulas.make(half * (lo + hi))
-                    }
+/// One F of the Jacobian: the bits of a vertex say of each interval entry whether its upper end stands for it; without one the middle does.
+fn member(
+    formulas: &mut Formulas,
+    demands: &mut Vec<(Id, Demand)>,
+    jacobian: &Jacobian,
+    vertex: Option<usize>,
+) -> Vec<Vec<Id>> {
+    let (mut index, time) = (0, formulas.leaf(Leaf::Time));
+    let mut entry = |entry: &Entry| match entry {
+        Entry::Function(expr) => formulas.read(expr, &[time], demands),
+        Entry::Between(ends) => {
+            index += 1;
+            let [lo, hi] = ends.each_ref().map(|end| formulas.read(end.expr(), &[], demands));
+            match vertex {
+                Some(vertex) if vertex >> (index - 1) & 1 == 1 => hi,
+                Some(_) => lo,
+                None => {
+                    let half = formulas.number(&Rational::from((1, 2)));
+                    formulas.make(half * (lo + hi))
                 }
             }
-        };
-        jacobian.iter().map(|row| row.iter().map(&mut entry).collect()).collect()
-    }
-}
-
-impl Problem<'_> {
-    /// Proves a matrix positive semidefinite at every t; `refutes`: where it is not, the triple is not one.
-    fn everywhere(&mut self, what: &str, refutes: bool, rows: impl Fn(&mut Parts) -> Vec<Vec<Id>>) -> Outcome<()> {
-        let mut parts = Parts { formulas: Formulas::default(), demands: Vec::new(), p: Vec::new() };
-        parts.formulas.clock = self.clock.map(|_| parts.formulas.leaf(Leaf::Parameter(0)));
-        parts.p = matrix(&mut parts.formulas, 0, self.w);
-        let rows = rows(&mut parts);
-        let question = Question::new(&mut parts.formulas, rows, 0);
-        let Parts { formulas, demands, .. } = &parts;
-        if formulas.is_too_large() {
-            return too_large(RULE, &self.w.pointer);
         }
-        let curves = Curves { orbit: Vec::new(), lyapunov: vec![polynomials(self.w)] };
-        let precision = self.period.precision();
-        let machine = Machine::new(formulas, &curves, &(Interval::pi(precision) * 2 / self.period));
-        let (root, mut values) = (machine.period(self.period), machine.values());
-        let zero = Interval::int(0, precision);
-        let parameters = self.clock.iter().map(|clock| clock.ends.clone()).collect();
-        let region = Region { states: 0, shape: Shape::Ball(zero.clone()), output: zero, parameters };
-        let place = "/specification/lyapunov/jacobian";
-        smooth::prove(formulas, demands, place, &machine, &root, &region, &mut values)?;
-        let (truth, near) = match question.decide(&machine, &root, &region, MAX_PIECES, &mut values) {
-            Answer::Proved(count) => {
-                self.boxes += count;
-                return Ok(());
-            }
-            Answer::Refuted(near) => (refutes.then_some(false), near),
-            Answer::Open(near) => (None, near),
-        };
-        demand(truth, RULE, &self.w.pointer, format!("{what} at {near}"))
-    }
+    };
+    jacobian.iter().map(|row| row.iter().map(&mut entry).collect()).collect()
 }
 
 fn attempt(jacobian: &Jacobian, (period, clock): (&Interval, Option<&Span>), w: &Witness) -> Outcome<String> {
@@ -115,33 +67,63 @@ fn attempt(jacobian: &Jacobian, (period, clock): (&Interval, Option<&Span>), w: 
         Entry::Between(ends) => Some(ends.each_ref().map(|end| end.enclose(precision))),
     };
     let intervals: Vec<[Interval; 2]> = jacobian.iter().flatten().filter_map(ends).collect();
+    let by_vertices = intervals.len() <= MAX_VERTEX_ENTRIES;
+    let count = if by_vertices { 1 << intervals.len() } else { 1 };
     let [p_low, p_up, alpha] = &w.numbers;
-    let mut problem = Problem { period, clock, w, boxes: 0 };
-    problem.everywhere("P_low I <= P", true, |parts| shifted(&mut parts.formulas, &parts.p, p_low, 1))?;
-    problem.everywhere("P <= P_up I", true, |parts| shifted(&mut parts.formulas, &parts.p, p_up, -1))?;
+    // In a ball |P D + D'P| <= 2 P_up |D|, and |D| is at most the root of the sum of the squared radii.
+    let squares = intervals.iter().fold(Interval::int(0, precision), |sum, [lo, hi]| sum + ((hi - lo) / 2).sqr());
+    let taken = (Interval::rational(p_up, precision) * squares.sqrt() * 2).upper().filter(|_| !by_vertices);
+    if !by_vertices && taken.is_none() {
+        return bad(&w.pointer, "the interval entries are not bounded");
+    }
 
-    let what = "P' + P F + F'P <= -2 alpha P";
-    let count = if intervals.len() <= MAX_VERTEX_ENTRIES { 1 << intervals.len() } else { 0 };
+    let curves = Curves { orbit: Vec::new(), lyapunov: vec![polynomials(w)] };
+    let zero = || Interval::int(0, precision);
+    let parameters = clock.iter().map(|clock| clock.ends.clone()).collect();
+    let region = Region { states: 0, shape: Shape::Ball(zero()), output: zero(), parameters };
+    let falls = "P' + P F + F'P <= -2 alpha P";
+    let mut boxes = 0;
     for vertex in 0..count {
-        problem.everywhere(what, true, |parts| {
-            let f = parts.member(jacobian, Some(vertex));
-            rate(&mut parts.formulas, alpha, &parts.p, &f)
-        })?;
+        let (mut formulas, mut demands) = (Formulas::default(), Vec::new());
+        formulas.clock = clock.map(|_| formulas.leaf(Leaf::Parameter(0)));
+        let p = matrix(&mut formulas, 0, w);
+        let mut asked = Vec::new();
+        if vertex == 0 {
+            asked.push(("P_low I <= P", shifted(&mut formulas, &p, p_low, 1)));
+            asked.push(("P <= P_up I", shifted(&mut formulas, &p, p_up, -1)));
+        }
+        let f = member(&mut formulas, &mut demands, jacobian, by_vertices.then_some(vertex));
+        let mut rows = rate(&mut formulas, alpha, &p, &f);
+        if let Some(taken) = &taken {
+            let taken = formulas.number(taken);
+            rows.iter_mut().enumerate().for_each(|(i, row)| row[i] = formulas.make(row[i] - taken));
+        }
+        asked.push((falls, rows));
+        let asked: Vec<_> =
+            asked.into_iter().map(|(what, rows)| (what, Question::new(&mut formulas, rows, 0))).collect();
+        if formulas.is_too_large() {
+            return too_large(RULE, &w.pointer);
+        }
+        let machine = Machine::new(&formulas, &curves, &(Interval::pi(precision) * 2 / period));
+        let (root, mut values) = (machine.period(period), machine.values());
+        let place = "/specification/lyapunov/jacobian";
+        smooth::prove(&formulas, &demands, place, &machine, &root, &region, &mut values)?;
+        for (what, question) in asked {
+            let (truth, near) = match question.decide(&machine, &root, &region, MAX_PIECES, &mut values) {
+                Answer::Proved(count) => {
+                    boxes += count;
+                    continue;
+                }
+                // The ball is larger than the Jacobian.
+                Answer::Refuted(near) => ((by_vertices || what != falls).then_some(false), near),
+                Answer::Open(near) => (None, near),
+            };
+            demand(truth, RULE, &w.pointer, format!("{what} at {near}"))?;
+        }
     }
-    if count == 0 {
-        // |P D + D'P| <= 2 P_up |D|, and |D| is at most the root of the sum of the squared radii.
-        let squares = intervals.iter().fold(Interval::int(0, precision), |sum, [lo, hi]| sum + ((hi - lo) / 2).sqr());
-        let taken = (Interval::rational(p_up, precision) * squares.sqrt() * 2).upper();
-        let taken = taken.map_or_else(|| bad(&w.pointer, "the interval entries are not bounded"), Ok)?;
-        problem.everywhere(what, false, |parts| {
-            let f = parts.member(jacobian, None);
-            let mut rows = rate(&mut parts.formulas, alpha, &parts.p, &f);
-            let taken = parts.formulas.number(&taken);
-            rows.iter_mut().enumerate().for_each(|(i, row)| row[i] = parts.formulas.make(row[i] - taken));
-            rows
-        })?;
-    }
-    let where_ =
-        if count == 0 { "in a ball that contains the intervals".to_owned() } else { format!("at {count} vertices") };
-    Ok(format!("P_low I <= P <= P_up I, and {what} {where_}, by {} boxes in t", problem.boxes))
+    let where_ = match by_vertices {
+        false => "in a ball that contains the intervals".to_owned(),
+        true => format!("at {count} vertices"),
+    };
+    Ok(format!("P_low I <= P <= P_up I, and {falls} {where_}, by {boxes} boxes in t"))
 }

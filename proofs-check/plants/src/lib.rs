@@ -4,7 +4,6 @@
 //! `bounds` is true (P2), and the forcing is as `forcing` says (P3). What the claim says of balls and domains is decided in
 //! `proofs_core::plant` (P4).
 
-mod around;
 pub mod at_samples;
 pub mod bounds;
 pub mod cells;
@@ -12,14 +11,11 @@ mod derivative;
 mod form;
 pub mod formula;
 pub mod harmonics;
-pub mod inequalities;
 pub mod inequality;
 pub mod jacobian;
 mod linear;
 pub mod machine;
-mod members;
 pub mod model;
-mod narrowing;
 pub mod orbit;
 pub mod parts;
 pub mod path;
@@ -27,14 +23,13 @@ pub mod periodic;
 pub mod question;
 pub mod read;
 pub mod region;
-mod slopes;
 pub mod smooth;
 mod still;
 pub mod taylor;
 mod term;
 pub mod time;
 
-use inequality::Said;
+use form::Said;
 use machine::{Cell, Machine, Values};
 use model::{Frame, Model};
 use proofs_core::interval::Interval;
@@ -104,7 +99,7 @@ fn prove_in(
     lines.push("formulas: periodic in t, by their form".to_owned());
     let mut model = Model::new(plant, Frame::Moving);
     let rest = harmonics::Rest::new(plant, &mut model);
-    let defect = members::roots(&mut model.formulas, &model.defect, plant.family.len());
+    let defect = path::roots(&mut model.formulas, &model.defect, plant.family.len());
     let mut asked = Vec::new();
     if plant.states() > 0 {
         orbit::radii(&plant.orbit, &plant.lyapunov[0])?;
@@ -112,7 +107,7 @@ fn prove_in(
     }
     let of_the_orbit = asked.len();
     let mut said: Vec<Said> = plant.known.entries.list.iter().map(|entry| of_entry(&mut model, entry)).collect();
-    said.extend(inequalities::questions(&mut model, inequalities, spec)?);
+    said.extend(inequality::questions(&mut model, inequalities, spec)?);
     let used = largest(arguments, &said);
     asked.extend(said.into_iter().map(|said| on_region(plant, said)));
     let still = still::Still::new(plant, inequalities, spec)?;

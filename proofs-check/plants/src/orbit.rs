@@ -5,10 +5,9 @@
 
 use super::formula::{Formulas, Id};
 use super::machine::Curves;
-use super::members::{Expanded, total};
 use super::model::Model;
 use super::parts::Orbit;
-use super::path::{Judged, Path, bound, bound_of_norm, everywhere};
+use super::path::{Expanded, Judged, Path, bound, bound_of_norm, everywhere, total};
 use super::question::Question;
 use super::read::Plant;
 use super::region::{Piece, Region};

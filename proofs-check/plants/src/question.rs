@@ -12,8 +12,7 @@
 
 use super::formula::{Axis, Demand, Formulas, Id};
 use super::machine::{At, Cell, Machine, Program, Values};
-use super::narrowing::Narrowing;
-use super::region::{Piece, Region, axes, axis};
+use super::region::{Narrowing, Piece, Region, axes, axis};
 use super::time::around;
 use proofs_core::effort;
 use proofs_core::interval::Interval;

@@ -3,8 +3,7 @@
 
 use super::formula::{Demand, Formulas, Id};
 use super::machine::{At, Cell, Machine, Values};
-use super::narrowing::Narrowing;
-use super::region::Region;
+use super::region::{Narrowing, Region};
 use proofs_core::effort;
 use proofs_core::verdict::{Outcome, demand};
 use std::rc::Rc;

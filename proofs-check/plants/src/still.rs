@@ -4,15 +4,14 @@
 //! and t move one state, one side is to be cut in the place of four. The set is larger than G(X,E), each state over all that it is
 //! there, so what is not proved on it says nothing.
 
-use super::around::Around;
+use super::form::Said;
 use super::formula::Id;
-use super::inequalities;
-use super::inequality::Said;
+use super::inequality;
 use super::machine::{At, Cell, Curves, Machine, Values};
 use super::model::{self, Frame, Model};
 use super::question::{Answer, Question};
 use super::read::Plant;
-use super::region::{Region, Shape};
+use super::region::{Around, Region, Shape};
 use super::time::around;
 use super::{PRECISION, end, of_entry, radius};
 use proofs_core::interval::Interval;
@@ -56,7 +55,7 @@ impl Still {
             (!moves).then(|| of_entry(&mut model, entry))
         };
         let mut questions: Vec<_> = plant.known.entries.list.iter().map(question).collect();
-        questions.extend(inequalities::questions(&mut model, inequalities, spec)?.into_iter().map(Some));
+        questions.extend(inequality::questions(&mut model, inequalities, spec)?.into_iter().map(Some));
         let questions = questions.into_iter().map(|said| said.filter(|said| !said.question.moves())).collect();
         Ok(Still { model, orbit, questions })
     }

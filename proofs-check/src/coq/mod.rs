@@ -11,7 +11,9 @@ mod text;
 
 use proofs_core::json::{Field, MAX_BYTES, parse};
 use proofs_core::rules::claim::Claim;
+use proofs_core::rules::common::Free;
 use proofs_core::rules::derivation::{Derivation, Witness};
+use proofs_core::rules::inequality::List;
 use proofs_core::rules::sharp;
 use proofs_core::sha256;
 use proofs_core::spec::{Specification, header};
@@ -25,6 +27,8 @@ struct Parts {
     /// The SHA-256 of the canonical specification that is in the file.
     digest: String,
     spec: Specification,
+    free: Free,
+    inequalities: List,
     witness: sharp::Witness,
     /// The bounds of sup|x|, sup|e| and sup|zeta|_N that the claim states.
     sizes: [Rational; 3],
@@ -86,19 +90,15 @@ fn read(file: &Field<'_>) -> Outcome<Parts> {
         let pointer = format!("{}/parameters", embedded.pointer);
         return unsupported(&pointer, "no theorem is written of a claim about every parameter of an interval");
     }
-    let Witness::Sharp(witness) = Derivation::read(&mut fields, claim.sigma.clone(), claim.set.clone())?.witness else {
+    let read = Derivation::read(&mut fields, claim.sigma.clone(), claim.set.clone())?;
+    let Derivation { free, inequalities, witness: Witness::Sharp(witness), .. } = read else {
         return unsupported("/witness", "no theorem is written of this kind of witness");
     };
-    let inequalities = [
-        witness.stability.matrix().map(|inequality| &inequality.pointer),
-        witness.stability.joint().map(|joint| &joint.pointer),
-        witness.existence.inequality.as_ref().map(|inequality| &inequality.pointer),
-    ];
-    if let Some(pointer) = inequalities.into_iter().flatten().next().filter(|_| spec.plant.is_none()) {
-        return bad(pointer, "a matrix inequality is about the formulas of a plant");
+    if let Some(part) = inequalities.all().next().filter(|_| spec.plant.is_none()) {
+        return bad(&part.pointer, "a matrix inequality is about the formulas of a plant");
     }
     let mut periodic = claim.periodic.fields()?;
     let mut size = |name| periodic.required(name)?.rational();
     let sizes = [size("x")?, size("e")?, size("zeta")?];
-    Ok(Parts { digest: sha256::hex_digest(canonical.as_bytes()), spec, witness: *witness, sizes })
+    Ok(Parts { digest: sha256::hex_digest(canonical.as_bytes()), spec, free, inequalities, witness: *witness, sizes })
 }

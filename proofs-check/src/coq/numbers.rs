@@ -7,7 +7,7 @@ use proofs_core::expr::Expr;
 use proofs_core::input_gain::factors;
 use proofs_core::interval::Interval;
 use proofs_core::range::Range;
-use proofs_core::rules::existence::{Existence, Form};
+use proofs_core::rules::inequality::Inequality;
 use proofs_core::rules::paths::Path;
 use proofs_core::rules::transfer::Proof;
 use proofs_core::spec::{Forcing, Size, Specification};
@@ -111,14 +111,14 @@ fn input_gain(gain: &Range) -> Outcome<String> {
 }
 
 /// (E).
-fn inequality(given: &Existence) -> String {
-    let [x, e, threshold] = [&given.x, &given.e, &given.threshold].map(number);
-    let form = match &given.form {
-        Form::Block(one) => {
-            let [k_p, c_x, c_y] = [&one.k_p, &one.least[0], &one.least[2]].map(number);
-            format!("one {k_p} {c_x} {c_y}")
+fn inequality(given: &Inequality) -> String {
+    let [x, e, threshold] = [&given.at[0], &given.at[1], &given.sigma].map(number);
+    let form = match &given.far {
+        None => {
+            let [c_x, _, c_y] = given.metric.least.each_ref().map(number);
+            format!("one {} {c_x} {c_y}", plants::k_p(&given.metric))
         }
-        Form::Joint(two) => format!("two {} {}", plants::metric(&two.near), plants::metric(&two.far)),
+        Some(far) => format!("two {} {}", plants::metric(&given.metric), plants::metric(far)),
     };
     format!("{{| X_i := {x}; E_i := {e}; tau_i := {threshold}; form_i := {form} |}}")
 }
@@ -168,7 +168,7 @@ fn harmonics(given: &Forcing) -> Outcome<String> {
 }
 
 fn of_witness(parts: &Parts) -> Fields {
-    let (witness, free) = (&parts.witness, &parts.witness.free);
+    let (witness, free) = (&parts.witness, &parts.free);
     let [r_x, r_e, r_d] = &witness.existence.r;
     let damped = (witness.existence.kap > 0).then(|| {
         let kap = &witness.existence.kap;
@@ -202,7 +202,7 @@ fn of_witness(parts: &Parts) -> Fields {
         ("r_e", number(r_e)),
         ("r_d", number(r_d)),
         ("damped", option(damped)),
-        ("existence", option(witness.existence.inequality.as_ref().map(inequality))),
+        ("existence", option(parts.inequalities.existence.as_ref().map(inequality))),
         ("refined", option(refined)),
         ("D_x", number(&free.d_x)),
         ("D_e", number(&free.d_e)),

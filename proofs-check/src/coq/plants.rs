@@ -8,9 +8,8 @@ use super::Parts;
 use super::terms::{Fields, constant, number, option, unsupported};
 use proofs_core::plant::OfPlant;
 use proofs_core::plant::entries::{Entry, Name};
-use proofs_core::rules::inequality::Inequality;
-use proofs_core::rules::joint::{Extent, Joint};
-use proofs_core::rules::metric::{Metric, Metrics};
+use proofs_core::rules::inequality::{Extent, Inequality, Metric, P};
+use proofs_core::rules::joint::Pair;
 use proofs_core::rules::paths::Path;
 use proofs_core::verdict::Outcome;
 use rug::Rational;
@@ -49,7 +48,7 @@ impl Table<'_> {
             return Ok(self.plant.entries.exactly_at(name, at).map(of_entry));
         }
         // Beyond all arguments of a certificate.
-        let free = &self.parts.witness.free;
+        let free = &self.parts.free;
         let far =
             [&free.x_p + Rational::from(&free.x_p + &free.d_x), &free.e_p + Rational::from(&free.e_p + &free.d_e)];
         let value = match name {
@@ -80,8 +79,9 @@ impl Table<'_> {
 pub fn known(parts: &Parts, plant: &OfPlant) -> Outcome<Fields> {
     let table = Table { parts, plant };
     let mut fields = existence(&table)?;
-    let known = match parts.witness.stability.joint() {
-        Some(joint) => format!("by_metrics {}", by_metrics(joint)),
+    let stable = parts.inequalities.stability.as_ref();
+    let known = match stable.and_then(|part| part.pair().map(|pair| (part, pair))) {
+        Some((part, pair)) => format!("by_metrics {}", by_metrics(part, pair)),
         None => stability(&table)?,
     };
     fields.push(("known", known));
@@ -91,7 +91,7 @@ pub fn known(parts: &Parts, plant: &OfPlant) -> Outcome<Fields> {
 
 /// The values at (X_p, E_p), and at (X_p, 0) those of df/dx.
 fn existence(table: &Table<'_>) -> Outcome<Fields> {
-    let (free, zero) = (&table.parts.witness.free, Rational::new());
+    let (free, zero) = (&table.parts.free, Rational::new());
     let rate = if table.plant.two_matrices { Name::RateExistence } else { Name::Rate };
     let [of_f, rate] = [Name::Fx, rate].map(|name| table.at(name, [&free.x_p, &zero]));
     let (of_f, rate) = (of_f?, rate?);
@@ -121,15 +121,18 @@ fn existence(table: &Table<'_>) -> Outcome<Fields> {
 
 /// The values at the arguments of section 5, or (M).
 fn stability(table: &Table<'_>) -> Outcome<String> {
-    let (witness, [x_per, e_per, _]) = (&table.parts.witness, &table.parts.sizes);
-    let free = &witness.free;
+    let (free, [x_per, e_per, _]) = (&table.parts.free, &table.parts.sizes);
     let (x_b, e_b) = (Rational::from(x_per + &free.d_x), Rational::from(e_per + &free.d_e));
     let at_dx = |path: Path| [&x_b, path.e_at_dx(e_per, &e_b)];
     let at_de = |path: Path| [path.x_at_de(x_per, &x_b), &e_b];
     let q_x = table.at(Name::Qx, at_dx(free.paths.q))?;
     let q_e = table.at(Name::Qe, at_de(free.paths.q))?;
-    let decline = match witness.stability.matrix() {
-        Some(inequality) => by_matrix(inequality, free.paths.f, free.paths.q),
+    let of_triple = table.parts.inequalities.stability.as_ref().and_then(|part| match &part.metric.p {
+        P::Triple { rate, .. } => Some((part, rate)),
+        P::Own(_) => None,
+    });
+    let decline = match of_triple {
+        Some((inequality, rate)) => by_matrix(inequality, rate, [free.paths.f, free.paths.q]),
         None => {
             let f_e = table.at(Name::Fe, at_de(free.paths.f))?;
             let rate = table.at(Name::Rate, at_dx(free.paths.f))?;
@@ -142,7 +145,7 @@ fn stability(table: &Table<'_>) -> Outcome<String> {
 }
 
 /// (M): how far it reaches for both points, such that the derivatives along the path are where it is proved (13.7).
-fn by_matrix(inequality: &Inequality, f: Path, q: Path) -> String {
+fn by_matrix(inequality: &Inequality, rate: &Rational, [f, q]: [Path; 2]) -> String {
     let path = if f == q { f } else { Path::Straight };
     let [[of_dx_x, of_dx_e], [of_de_x, of_de_e]] = inequality.arguments();
     let (x, e) = (of_dx_x.min(of_de_x), of_dx_e.min(of_de_e));
@@ -153,7 +156,7 @@ fn by_matrix(inequality: &Inequality, f: Path, q: Path) -> String {
         Path::Straight => [x, e],
     };
     let [reach_x, reach_e, x, e] = [reach_x, reach_e, x, e].map(number);
-    let [rate, sigma] = [&inequality.rate, &inequality.sigma].map(number);
+    let [rate, sigma] = [rate, &inequality.sigma].map(number);
     format!(
         "by_matrix {{| X_m := {reach_x}; E_m := {reach_e}; X_per_m := {x}; E_per_m := {e}; delta_m := {rate}; tau_m := {sigma} |}}"
     )
@@ -162,19 +165,22 @@ fn by_matrix(inequality: &Inequality, f: Path, q: Path) -> String {
 /// k_p, c_x, c_e, c_y of a metric.
 pub fn metric(metric: &Metric) -> String {
     let [c_x, c_e, c_y] = metric.least.each_ref().map(number);
-    format!("{{| k_p := {}; c_x := {c_x}; c_e := {c_e}; c_y := {c_y} |}}", number(&metric.k_p))
+    format!("{{| k_p := {}; c_x := {c_x}; c_e := {c_e}; c_y := {c_y} |}}", k_p(metric))
+}
+
+/// That of a metric with a P of its own.
+pub fn k_p(metric: &Metric) -> String {
+    number(&Rational::from(&metric.half * 2u32))
 }
 
 /// (Jm). Of P and p Coq has the extents alone.
-fn by_metrics(joint: &Joint) -> String {
-    let Metrics { near, far, cross } = &joint.metrics;
-    let square = cross.iter().fold(Rational::new(), |sum, entry| sum + Rational::from(entry.square_ref()));
+fn by_metrics(joint: &Inequality, [(near, of_near), (far, of_far)]: Pair<'_>) -> String {
+    let square = near.cross.iter().fold(Rational::new(), |sum, entry| sum + Rational::from(entry.square_ref()));
     let extent = |of: &Metric, extent: &Extent, cross: &str| {
         let [weight, p_up, x_low, e_low] = [&of.w, &extent.p_up, &extent.x_low, &extent.e_low].map(number);
         format!("{{| weight := {weight}; cross := {cross}; P_up := {p_up}; x_low := {x_low}; e_low := {e_low} |}}")
     };
-    let [of_near, of_far] = &joint.extents;
-    let [x, e, threshold] = [&joint.x, &joint.e, &joint.threshold].map(number);
+    let [x, e, threshold] = [&joint.at[0], &joint.at[1], &joint.sigma].map(number);
     format!(
         "{{| X_j := {x}; E_j := {e}; tau_j := {threshold};\n    near_m := {}; near_x := {};\n    far_m := {}; far_x := {} |}}",
         metric(near),

@@ -9,9 +9,8 @@ use proofs_check::Report;
 use proofs_check::data::Data;
 use proofs_check::json::{Field, decimal, parse};
 use proofs_check::rules::derivation::{Derivation, Witness};
-use proofs_check::rules::existence::{Existence, Form};
+use proofs_check::rules::inequality::{Inequality, Kind, Metric, P};
 use proofs_check::rules::mean_squares;
-use proofs_check::rules::metric::Metric;
 use proofs_check::rules::set::ClaimedSet;
 use proofs_check::spec::Specification;
 use proofs_check::verdict::Verdict;
@@ -464,22 +463,27 @@ fn bounds_of_all_of_q_are_not_used() {
     let one = || Rational::from(1);
     let set = ClaimedSet { x0: one(), e0: one(), z0: None };
     let derivation = Derivation::read(&mut fields, Rational::from(40), set).unwrap();
-    let Witness::Sharp(w) = derivation.witness else { panic!("it is in continuous time") };
+    let (free, Witness::Sharp(w)) = (derivation.free, derivation.witness) else { panic!("it is in continuous time") };
     let d = Data::new(&spec, 128);
-    let free = [&w.free.x_p, &w.free.e_p, &w.free.k0, &w.free.k1].map(|value| d.number(value));
+    let free = [&free.x_p, &free.e_p, &free.k0, &free.k1].map(|value| d.number(value));
     let [x_p, e_p, k0, k1] = &free;
-    let evaluated = |inequality: Option<Existence>| {
-        let w = mean_squares::Witness { r: [one(), one(), one()], refined: None, inequality, ..w.existence.clone() };
-        mean_squares::evaluate(&d, &w, &Rational::from(40), [x_p, e_p], [k0, k1], &[d.int(1), d.int(1)])
+    let evaluated = |inequality: Option<&Inequality>| {
+        let w = mean_squares::Witness { r: [one(), one(), one()], refined: None, ..w.existence.clone() };
+        mean_squares::evaluate(&d, (&w, inequality), &Rational::from(40), [x_p, e_p], [k0, k1], &[d.int(1), d.int(1)])
     };
-    let part = Existence {
-        pointer: String::new(),
-        x: one(),
-        e: one(),
-        threshold: one(),
-        form: Form::Block(Metric { p: Vec::new(), w: one(), k_p: one(), least: [one(), Rational::new(), one()] }),
+    let metric = Metric {
+        p: P::Own(Vec::new()),
+        w: one(),
+        half: one(),
+        cross: Vec::new(),
+        least: [one(), Rational::new(), one()],
+        lambda: Rational::new(),
+        gamma: None,
+        extent: None,
     };
-    let [with, without] = [evaluated(Some(part)), evaluated(None)];
+    let (kind, pointer, at) = (Kind::Existence, String::new(), [one(), one()]);
+    let part = Inequality { kind, pointer, at, sigma: one(), at_samples: false, metric, far: None, splitting: None };
+    let [with, without] = [evaluated(Some(&part)), evaluated(None)];
     assert!(without.rates[0].lt(&with.rates[0]) == Some(true) && without.rates[1].is_defined());
     assert!(!with.rates[1].is_defined(), "there is no other bound of it");
 }

@@ -110,10 +110,10 @@ fn compare(given: Given, sigma: Rational, kap: Rational, r: [Rational; 3], last:
     let d = Data::new(&spec, 128);
     let (k0, k1) = (40.0, 30.0);
     let pair = [d.int(40), d.int(30)];
-    let w = Witness { r: r.clone(), kap: kap.clone(), refined: last.clone(), inequality: None };
+    let w = Witness { r: r.clone(), kap: kap.clone(), refined: last.clone() };
     let kappa = kappas(&d, &pair[0], &pair[1]);
     let solution =
-        mean_squares::evaluate(&d, &w, &sigma, [&d.ratio(1, 4), &d.ratio(3, 8)], [&pair[0], &pair[1]], &kappa);
+        mean_squares::evaluate(&d, (&w, None), &sigma, [&d.ratio(1, 4), &d.ratio(3, 8)], [&pair[0], &pair[1]], &kappa);
 
     // Om of the longest period, and of the shortest (section 13.3).
     let [fast, om] = given.period.unwrap_or([2.0; 2]).map(|end| 2.0 * std::f64::consts::PI / end);
@@ -401,7 +401,7 @@ fn exact_regulation() {
             let rest_t = if q_0[1] { REST[1] } else { 9.0 + slope };
             z = f64::min(z, harmonics.sqrt() + root(REST[0], rest_t));
         }
-        let conditions = regulation::evaluate(&d, &set, &w, (None, None)).unwrap();
+        let conditions = regulation::evaluate(&d, &set, &w, None).unwrap();
         let ids: Vec<&str> = conditions.iter().map(|condition| condition.id).collect();
         assert_eq!(ids, ["domain", "domain", "C4", "M", "C5", "C5b"]);
         let [low, high] = gain.unwrap_or([1.0; 2]);
@@ -415,7 +415,7 @@ fn exact_regulation() {
                 &d,
                 &set,
                 &regulation::Witness { paths: Paths { f, ..w.paths }, ..w.clone() },
-                (None, None),
+                None,
             );
             close("C5", &conditions.unwrap()[4].rhs, 4.0 * 0.5);
         }

@@ -7,7 +7,7 @@ use super::plant_support::Parts;
 use crate::common::judged;
 use proofs_check::data::Data;
 use proofs_check::json::{Field, Json, parse};
-use proofs_check::rules::existence::Existence;
+use proofs_check::rules::inequality::{Inequality, Kind};
 use proofs_check::spec::Specification;
 use proofs_check::verdict::Verdict;
 use rug::Rational;
@@ -185,12 +185,13 @@ fn what_they_say_of_a_solution() {
     let d = Data::new(&spec, 128);
     let mut draw = drawn(29);
     let mut larger = [[0; 2]; 3];
+    let none = Rational::new();
     for _ in 0..40 {
         let mut metric = || [1.0, 1.0, 0.1 + draw(), 0.1 + draw(), 0.1 + draw()];
         let pair = Pair { near: metric(), far: metric(), p: 0.1, sigma: 3.0 };
         let (c_e, oscillation) = ([0.1 + draw(), 0.1 + draw()], 0.1 + draw());
         let part = parse(pair.part(c_e, ["1", "1"]).to_string().as_bytes()).unwrap();
-        let existence = Existence::read(&field(&part)).unwrap();
+        let existence = Inequality::read(&field(&part), Kind::Existence, [&none, &none], None).unwrap();
         let number = |value: f64| d.number(&Rational::from_f64(value).unwrap());
         let answer = existence.answer(&d, &Rational::from(3), &number(oscillation));
         let of = |[_, _, k_p, c_x, c_y]: [f64; 5], c_e: f64| {

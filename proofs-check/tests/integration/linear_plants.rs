@@ -4,10 +4,9 @@
 use crate::common::{PAPER, certificate, drawn, every};
 use proofs_check::data::Data;
 use proofs_check::json::{Field, parse};
-use proofs_check::rules::existence::{Existence, Form};
 use proofs_check::rules::gains::kappas;
+use proofs_check::rules::inequality::{Inequality, Kind, Metric, P};
 use proofs_check::rules::mean_squares::{self, Solution, Witness};
-use proofs_check::rules::metric::{Metric, Metrics};
 use proofs_check::rules::transfer::closed_form;
 use proofs_check::spec::Specification;
 use rug::Rational;
@@ -93,7 +92,7 @@ impl Plant {
     }
 
     /// The inequality of existence with the threshold 0.8 sigma and the largest c_y/k_p that a few trials find.
-    fn inequality(&self, sigma: f64) -> Option<Existence> {
+    fn inequality(&self, sigma: f64) -> Option<Inequality> {
         let Plant { a, b, k_x, k_e, .. } = self;
         let steps = |from: f64| (0..40).map(move |i| from * 1.3_f64.powi(i));
         let mut best: Option<[f64; 4]> = None;
@@ -108,25 +107,14 @@ impl Plant {
                 best = Some([p, k_p, c_x, c_y]);
             }
         }
-        let number = |value: f64| Rational::from_f64(value).expect("a finite number");
-        best.map(|[p, k_p, c_x, c_y]| Existence {
-            pointer: String::new(),
-            x: number(1e6),
-            e: number(1e6),
-            threshold: number(0.8 * sigma),
-            form: Form::Block(Metric {
-                p: vec![vec![number(p)]],
-                w: number(1.0),
-                k_p: number(k_p),
-                least: [number(c_x), number(0.0), number(c_y * (1.0 - 1e-9))],
-            }),
+        best.map(|[p, k_p, c_x, c_y]| {
+            existence(0.8 * sigma, metric([p, 0.0, 1.0, k_p], [c_x, 0.0, c_y * (1.0 - 1e-9)]), None)
         })
     }
 
     /// Two joint metrics at sigma itself, with the largest c_y/k_p that a few draws find for each.
-    fn joint(&self, sigma: f64) -> Option<Existence> {
+    fn joint(&self, sigma: f64) -> Option<Inequality> {
         let Plant { a, b, k_x, k_e, .. } = *self;
-        let number = |value: f64| Rational::from_f64(value).expect("a finite number");
         let mut draw = drawn(31);
         // Given p and w of the near metric, the far one; without them the near one. c_y is what is left of k_p after x and e.
         let mut search = |near: Option<[f64; 2]>| {
@@ -155,23 +143,7 @@ impl Plant {
         };
         let (near, of_near) = search(None)?;
         let (far, of_far) = search(Some([near[1], near[2]]))?;
-        let metric = |[p, _, w, k_p]: [f64; 4], c: [f64; 3]| Metric {
-            p: vec![vec![number(p)]],
-            w: number(w),
-            k_p: number(k_p),
-            least: c.map(number),
-        };
-        Some(Existence {
-            pointer: String::new(),
-            x: number(1e6),
-            e: number(1e6),
-            threshold: number(sigma),
-            form: Form::Joint(Box::new(Metrics {
-                near: metric(near, of_near),
-                far: metric(far, of_far),
-                cross: vec![number(near[1])],
-            })),
-        })
+        Some(existence(sigma, metric(near, of_near), Some(metric([far[0], 0.0, far[2], far[3]], of_far))))
     }
 
     /// The root mean squares of x, e, e', q, q', then sup|x|, sup|e| and sup of zeta'N zeta, of the exact solution.
@@ -226,27 +198,52 @@ impl Plant {
     }
 }
 
+/// P, p, w and k_p of a metric, and its least.
+fn metric([p, cross, w, k_p]: [f64; 4], c: [f64; 3]) -> Metric {
+    let number = |value: f64| Rational::from_f64(value).expect("a finite number");
+    Metric {
+        p: P::Own(vec![vec![number(p)]]),
+        w: number(w),
+        half: number(k_p / 2.0),
+        cross: vec![number(cross)],
+        least: c.map(number),
+        lambda: Rational::new(),
+        gamma: None,
+        extent: None,
+    }
+}
+
+/// An inequality of existence that is proved everywhere.
+fn existence(threshold: f64, metric: Metric, far: Option<Metric>) -> Inequality {
+    let number = |value: f64| Rational::from_f64(value).expect("a finite number");
+    Inequality {
+        kind: Kind::Existence,
+        pointer: String::new(),
+        at: [number(1e6), number(1e6)],
+        sigma: number(threshold),
+        at_samples: false,
+        metric,
+        far,
+        splitting: None,
+    }
+}
+
 /// A rational a little above a number.
 fn above(value: f64) -> Rational {
     Rational::from_f64(value * 1.0001 + 1e-9).expect("a finite number")
 }
 
 /// What is proved with the witness to which the right sides of S1-S3 lead, and its root mean squares.
-fn proved(d: &Data<'_>, sigma: f64, kap: f64, inequality: Option<&Existence>) -> Option<(Solution, [Rational; 3])> {
+fn proved(d: &Data<'_>, sigma: f64, kap: f64, inequality: Option<&Inequality>) -> Option<(Solution, [Rational; 3])> {
     let sigma = Rational::from_f64(sigma)?;
     let pair = closed_form(d).map(|k| k.ceiling());
     let kappa = kappas(d, &pair[0], &pair[1]);
     let (mut box_, mut r) = ([10.0, 10.0], [10.0, 10.0, 1000.0]);
     let mut last = r;
     for round in 0..200 {
-        let w = Witness {
-            r: r.map(above),
-            kap: Rational::from_f64(kap)?,
-            refined: Some(last.map(above)),
-            inequality: inequality.cloned(),
-        };
+        let w = Witness { r: r.map(above), kap: Rational::from_f64(kap)?, refined: Some(last.map(above)) };
         let [x_p, e_p] = box_.map(|value| d.number(&above(value)));
-        let solution = mean_squares::evaluate(d, &w, &sigma, [&x_p, &e_p], [&pair[0], &pair[1]], &kappa);
+        let solution = mean_squares::evaluate(d, (&w, inequality), &sigma, [&x_p, &e_p], [&pair[0], &pair[1]], &kappa);
         if round > 190 && solution.conditions.iter().all(|condition| condition.truth() == Some(true)) {
             return Some((solution, w.refined?));
         }
@@ -287,7 +284,7 @@ fn no_exact_solution_is_larger_than_what_is_proved() {
         let (own, joint) = (plant.inequality(sigma), plant.joint(sigma));
         let some = k_e.abs() / 2.0;
         let mut proved_by = [false; 3];
-        let mut cases: Vec<(usize, bool, f64, Option<&Existence>)> =
+        let mut cases: Vec<(usize, bool, f64, Option<&Inequality>)> =
             [(false, 0.0), (true, 0.0), (true, some), (false, k_e.abs())]
                 .map(|(q_0, kap)| (0, q_0, kap, None))
                 .to_vec();

@@ -340,7 +340,7 @@ fn conditions_of_a_plant_take_both_ends() {
     let d = Data::new(&spec, 128);
     let answer = proofs_check::rules::control::Answer::continuous(&d);
     assert!((answer.by_rate.lo().to_f64() * 3.0 * 40.0 - 1.0).abs() < 1e-12);
-    let (harmonics, _) = proofs_check::rules::forced::forcing(&d, spec.q_0.as_ref().unwrap());
+    let (harmonics, _) = proofs_check::rules::gains::forcing(&d, spec.q_0.as_ref().unwrap());
     // At v = 60/50 the harmonic of the cosine is (1490.9396 + 0.2 * 3.8343, 5.768 - 0.2 * 8.2090), at 4/5 the other way.
     let size = |v: f64| (1490.939632991 + v * 3.83433936).hypot(5.768008783 - v * 8.209025034) / 2.0;
     let largest = f64::max(size(0.2), size(-0.2));

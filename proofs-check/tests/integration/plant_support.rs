@@ -6,11 +6,9 @@ use proofs_check::json::{Field, Json, decimal, parse};
 use proofs_check::plants as plant;
 use proofs_check::plants::read::Plant;
 use proofs_check::rules::derivation::Inequalities;
-use proofs_check::rules::existence::Existence;
-use proofs_check::rules::inequality::Inequality;
-use proofs_check::rules::joint::Joint;
+use proofs_check::rules::inequality::{Inequality, Kind as Of, List};
 use proofs_check::rules::rates::{Asked, Kind, Witness};
-use proofs_check::rules::sampled::{inequality as at_samples, law::Terms};
+use proofs_check::rules::sampled::law::Terms;
 use proofs_check::spec::Specification;
 use proofs_check::verdict::{Outcome, Verdict};
 use rug::{Float, Rational};
@@ -29,54 +27,39 @@ pub fn read(parts: &Value) -> Outcome<(Specification, Vec<Plant>)> {
     fields.finish().map(|()| read)
 }
 
-/// A matrix inequality as a witness has it, beside its weights.
-fn inequality(parts: &Value) -> Outcome<Inequality> {
-    let json = parse(parts["part"].to_string().as_bytes()).unwrap();
-    let weight = |name: &str| decimal(parts[name].as_str().unwrap()).unwrap();
-    let field = Field { json: &json, pointer: "/witness/matrix_inequality".to_owned() };
-    Inequality::read(&field, [&weight("w_x"), &weight("h")])
-}
-
-/// An inequality of existence as a witness has it.
-fn existence(part: &Value) -> Outcome<Existence> {
+/// An inequality as a witness with w_x and h has it.
+fn inequality(kind: Of, part: &Value, weights: &Value, law: Option<&Rational>) -> Outcome<Inequality> {
     let json = parse(part.to_string().as_bytes()).unwrap();
-    Existence::read(&Field { json: &json, pointer: "/witness/existence_inequality".to_owned() })
+    let weight =
+        |name: &str| weights.get(name).map_or_else(Rational::new, |text| decimal(text.as_str().unwrap()).unwrap());
+    let pointer = format!("/witness/{}", kind.rule().replace(' ', "_"));
+    Inequality::read(&Field { json: &json, pointer }, kind, [&weight("w_x"), &weight("h")], law)
 }
 
-/// Two joint metrics as a witness has them.
-fn joint(part: &Value) -> Outcome<Joint> {
-    let json = parse(part.to_string().as_bytes()).unwrap();
-    Joint::read(&Field { json: &json, pointer: "/witness/joint_inequality".to_owned() })
-}
-
-/// Those at samples, beside the numbers of the law and the weights of the witness.
-struct AtSamples {
-    law: Terms,
-    stability: Option<at_samples::Stability>,
-    existence: Option<at_samples::Existence>,
-}
-
-impl AtSamples {
-    pub fn read(parts: &Value) -> Outcome<AtSamples> {
+/// All of them, and the law of those at samples.
+fn inequalities(parts: &Value) -> Outcome<(List, Option<Terms>)> {
+    let none = Value::Null;
+    let at_samples = parts.get("at_samples");
+    let law = at_samples.map(|parts| {
         let value = |name: &str| decimal(parts[name].as_str().unwrap()).unwrap();
         let samples = u32::try_from(parts["samples"].as_u64().unwrap()).unwrap();
-        let law = Terms {
-            sigma: value("sigma"),
-            samples,
-            gain: value("gain"),
-            weight_sum: value("weight_sum"),
-            delayed: false,
-        };
-        let part = |name: &str| parts.get(name).map(|part| parse(part.to_string().as_bytes()).unwrap());
-        let (stability, existence) = (part("stability"), part("existence"));
-        let field = |json, name: &str| Field { json, pointer: format!("/witness/{name}_inequality") };
-        let weights = [&value("w_x"), &value("h")];
-        let stability =
-            stability.as_ref().map(|json| at_samples::Stability::read(&field(json, "matrix"), weights)).transpose()?;
-        let existence =
-            existence.as_ref().map(|json| at_samples::Existence::read(&field(json, "existence"))).transpose()?;
-        Ok(AtSamples { law, stability, existence })
-    }
+        let (sigma, gain, weight_sum) = (value("sigma"), value("gain"), value("weight_sum"));
+        Terms { sigma, samples, gain, weight_sum, delayed: false }
+    });
+    let read = |kind, part: Option<&Value>, weights: &Value| {
+        part.map(|part| inequality(kind, part, weights, law.as_ref().map(|law| &law.sigma))).transpose()
+    };
+    let (stability, existence) = match at_samples {
+        Some(of) => (read(Of::Matrix, of.get("stability"), of)?, read(Of::Existence, of.get("existence"), of)?),
+        None => {
+            let of = parts.get("inequality").unwrap_or(&none);
+            let matrix = read(Of::Matrix, of.get("part"), of)?;
+            let joint = read(Of::Joint, parts.get("joint"), &none)?;
+            assert!(matrix.is_none() || joint.is_none());
+            (matrix.or(joint), read(Of::Existence, parts.get("existence"), &none)?)
+        }
+    };
+    Ok((List { stability, existence }, law))
 }
 
 /// Rates as the witness of a claim by a matrix inequality has them, and where that has (J, r), and (g, d).
@@ -101,25 +84,11 @@ impl Slopes {
 /// Applies the rules of section 11; the lines of the argument.
 pub fn judged(parts: &Value) -> Outcome<Vec<String>> {
     let (spec, plant) = read(parts)?;
-    let inequality = parts.get("inequality").map(inequality).transpose()?;
-    let existence = parts.get("existence").map(existence).transpose()?;
-    let joint = parts.get("joint").map(joint).transpose()?;
-    let at_samples = parts.get("at_samples").map(AtSamples::read).transpose()?;
-    let at_samples = at_samples.as_ref().map(|parts| at_samples::Inequalities {
-        law: &parts.law,
-        stability: parts.stability.as_ref(),
-        existence: parts.existence.as_ref(),
-    });
+    let (list, law) = inequalities(parts)?;
     let slopes = parts.get("slopes").map(Slopes::read).transpose()?;
     let slopes =
         slopes.as_ref().map(|parts| Asked { witnesses: &parts.list, at: parts.at.each_ref().map(<[_; 2]>::each_ref) });
-    let inequalities = Inequalities {
-        stability: inequality.as_ref(),
-        joint: joint.as_ref(),
-        existence: existence.as_ref(),
-        slopes,
-        at_samples,
-    };
+    let inequalities = Inequalities { list: Some(&list), law: law.as_ref(), slopes };
     let none = Float::new(128);
     let mut lines = Vec::new();
     let (answer, steps) =

@@ -544,7 +544,7 @@ fn how_far_the_control_goes() {
         seen[usize::from(ends[1] > ends[0])] += 1;
         for (at_samples, expected) in [(true, ends[0].max(ends[1])), (false, of(2.0, 0.5))] {
             let reach = [0.2, 0.3, 2.0].map(number);
-            let (_, found) = free.level(&d, &reach, [&number(sigma), &number(gain)], (at_samples, &number(1.0)));
+            let (_, found) = free.level(&d, &reach, [&number(sigma), &number(gain)], (at_samples, &number(1.0), None));
             close("transient", &found, expected, &Float::new(1.0, 1.0, 2, 0.5));
         }
     }

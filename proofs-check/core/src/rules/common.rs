@@ -104,25 +104,32 @@ impl Free {
     /// C4 of U, at dX, dE, dZ, and how far the control -sigma e + mu M'N zeta goes from there; `of_u`: sigma and mu. At the gain b the weight
     /// of zeta is b h, in the level too: the square of the second is convex in b, and the larger of those at both ends of b bounds it. In
     /// continuous time the level is that at b_hi, and the weight that at b_lo, times `share`: of a matrix inequality whose threshold tau is below
-    /// sigma, U with `tau/sigma` times that weight is what falls (section 13.1, Theorem G3).
+    /// sigma, U with `tau/sigma` times that weight is what falls (section 13.1, Theorem G3). `past`: what a delay adds to the level, and to the square
+    /// of the control over it (section 13.4).
     pub fn level(
         &self,
         d: &Data<'_>,
         reach: &[Interval; 3],
         of_u: [&Interval; 2],
-        (at_samples, share): (bool, &Interval),
+        (at_samples, share, past): (bool, &Interval, Option<[Interval; 2]>),
     ) -> (Condition, Interval) {
         let [d_x, d_e, w_x, h] = [&self.d_x, &self.d_e, &self.w_x, &self.h].map(|value| d.number(value));
         let [low, high] = [d.by_gain(|gain| &gain.low, &h), d.by_gain(|gain| &gain.high, &h)];
-        let [[least, _], [start, exit]] = [&low, &high].map(|h| level(d, reach, [&d_x, &d_e, &w_x, h]));
-        let transient = |level, h| control::transient(d, of_u, [&d.int(1), h], level);
+        let [[mut least, _], [mut start, exit]] = [&low, &high].map(|h| level(d, reach, [&d_x, &d_e, &w_x, h]));
+        let weight = if d.gain.is_some() { "b_hi h" } else { "h" };
+        let mut what = format!("w_x P_up dX^2 + dE^2 + {weight} dZ^2 < min{{w_x P_low D_x^2, D_e^2}}");
+        let mut more = d.int(0);
+        let id = if past.is_some() { "C4d" } else { "C4" };
+        if let Some([stored, of_control]) = past {
+            (least, start, more) = (least + &stored, start + stored, of_control);
+            what = format!("gm h (Y_0 + y_per)^2 + {what}");
+        }
+        let transient = |level, h| control::transient(d, of_u, [&d.int(1), h], (level, &more));
         let transient = if at_samples {
             transient(&least, &low).max(&transient(&start, &high))
         } else {
             transient(&start, &(&low * share))
         };
-        let weight = if d.gain.is_some() { "b_hi h" } else { "h" };
-        let what = format!("w_x P_up dX^2 + dE^2 + {weight} dZ^2 < min{{w_x P_low D_x^2, D_e^2}}");
-        (Condition::less("C4", what, start, exit), transient)
+        (Condition::less(id, what, start, exit), transient)
     }
 }

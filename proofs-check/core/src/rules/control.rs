@@ -69,7 +69,13 @@ pub fn by_parts(d: &Data<'_>, [sigma, mu]: [&Interval; 2], [e, zeta]: [&Interval
     sigma * e + mu * &d.n_bar * zeta
 }
 
-/// `|sigma e - mu M'N zeta|` where `weight e^2 + h |zeta|_N^2 <= level`: the function that falls is not below that sum.
-pub fn transient(d: &Data<'_>, [sigma, mu]: [&Interval; 2], [weight, h]: [&Interval; 2], level: &Interval) -> Interval {
-    (level * (sigma.sqr() / weight + (mu * &d.n_bar).sqr() / h)).sqrt()
+/// `|sigma e - mu M'N zeta|` where `weight e^2 + h |zeta|_N^2 <= level`: the function that falls is not below that sum. `more` is what the last y adds
+/// to the square of it over the level (section 13.4).
+pub fn transient(
+    d: &Data<'_>,
+    [sigma, mu]: [&Interval; 2],
+    [weight, h]: [&Interval; 2],
+    (level, more): (&Interval, &Interval),
+) -> Interval {
+    (level * (sigma.sqr() / weight + (mu * &d.n_bar).sqr() / h + more)).sqrt()
 }

@@ -4,9 +4,7 @@
 //! as they must be up to every argument that is used, and so the claim at `sigma` and `set` is proved.
 
 use super::common::{Evaluated, Free};
-use super::existence::Existence;
-use super::inequality::Inequality;
-use super::joint::Joint;
+use super::inequality::{Inequality, List};
 use super::sampled::{self, claim::Regulator};
 use super::set::ClaimedSet;
 use super::{bounding, rates, regulation, sharp};
@@ -14,10 +12,10 @@ use crate::actuator;
 use crate::data::Data;
 use crate::interval::Interval;
 use crate::json::Fields;
-use crate::verdict::{Condition, Outcome, Verdict, finding};
+use crate::verdict::{Condition, Outcome, Verdict, bad, finding};
 use rug::Rational;
 
-/// The free numbers of a claim about either regulator.
+/// What a claim about either regulator has of its own.
 pub enum Witness {
     /// In continuous time: sections 5 and 10.
     Sharp(Box<sharp::Witness>),
@@ -28,17 +26,20 @@ pub enum Witness {
 /// What has to be proved of a plant's formulas besides their bounds, where stability or existence rests on it.
 #[derive(Clone, Copy, Default)]
 pub struct Inequalities<'w> {
-    pub stability: Option<&'w Inequality>,
-    pub joint: Option<&'w Joint>,
-    pub existence: Option<&'w Existence>,
-    /// (D), of the rates that a claim by one of the first two has.
+    /// Those of stability and of existence.
+    pub list: Option<&'w List>,
+    /// The law that they are about, of a regulator at samples.
+    pub law: Option<&'w sampled::law::Terms>,
+    /// (D), of the rates that a claim by an inequality has.
     pub slopes: Option<rates::Asked<'w>>,
-    /// Those of a sampled regulator, with its law.
-    pub at_samples: Option<sampled::inequality::Inequalities<'w>>,
 }
 
 /// One derivation with its witness.
 pub struct Derivation {
+    /// The numbers that both regulators have. X_p and E_p bound the periodic solution exactly.
+    pub free: Free,
+    /// What proves that the error decays in the place of C5, or C5h, and what adds to S1 and S2, where they are given.
+    pub inequalities: List,
     pub witness: Witness,
     /// Exact regulation, which a claim in continuous time may add.
     pub regulation: Option<Box<regulation::Witness>>,
@@ -47,15 +48,25 @@ pub struct Derivation {
 impl Derivation {
     /// Takes the free numbers out of a witness; what is left there is the caller's to read or to refuse.
     pub fn read(fields: &mut Fields<'_>, sigma: Rational, set: ClaimedSet) -> Outcome<Derivation> {
-        let witness = Witness::Sharp(Box::new(sharp::Witness::read(fields, sigma, set)?));
+        if fields.has("p_x") && !fields.has("r_x") {
+            return bad(&fields.pointer, "this witness, by p_x and p_e, is of an older form: certify again");
+        }
+        let free = Free::read(fields, set)?;
+        let inequalities = List::read(fields, [&free.w_x, &free.h], None)?;
+        let witness = Witness::Sharp(Box::new(sharp::Witness::read(fields, sigma, &free)?));
         let regulation = fields.part("exact_regulation", regulation::Witness::read)?.map(Box::new);
-        Ok(Derivation { witness, regulation })
+        Ok(Derivation { free, inequalities, witness, regulation })
     }
 
     /// Takes the free numbers of a claim about a sampled regulator out of a witness.
     pub fn read_sampled(fields: &mut Fields<'_>, regulator: &Regulator<'_>, set: ClaimedSet) -> Outcome<Derivation> {
-        let witness = Witness::Sampled(Box::new(sampled::Witness::read(fields, regulator, set)?));
-        Ok(Derivation { witness, regulation: None })
+        let free = Free::read(fields, set)?;
+        let inequalities = List::read(fields, [&free.w_x, &free.h], Some(&regulator.sigma))?;
+        if let Some(part) = inequalities.all().next().filter(|_| regulator.delayed) {
+            return bad(&part.pointer, "a matrix inequality says nothing of a law with a delay");
+        }
+        let witness = Witness::Sampled(Box::new(sampled::Witness::read(fields, regulator)?));
+        Ok(Derivation { free, inequalities, witness, regulation: None })
     }
 
     /// The largest X and E of exact regulation, where that is claimed.
@@ -63,25 +74,9 @@ impl Derivation {
         self.regulation.as_ref().map(|w| [d.number(&w.d_x), d.number(&w.d_e)])
     }
 
-    /// Those of the witness.
-    pub fn inequalities(&self) -> Inequalities<'_> {
-        match &self.witness {
-            Witness::Sharp(w) => Inequalities {
-                stability: w.stability.matrix(),
-                joint: w.stability.joint(),
-                existence: w.existence.inequality.as_ref(),
-                ..Inequalities::default()
-            },
-            Witness::Sampled(w) => Inequalities { at_samples: Some(w.inequalities()), ..Inequalities::default() },
-        }
-    }
-
     /// Whether the error decays by C5 or, at samples without a delay, by C5h.
     pub fn rests_on_norms(&self) -> bool {
-        match &self.witness {
-            Witness::Sharp(w) => matches!(w.stability, sharp::Stability::Norms),
-            Witness::Sampled(w) => w.stability.is_none() && w.past.is_none(),
-        }
+        self.inequalities.stability.is_none() && self.prediction().is_none()
     }
 
     /// The law of a claim at samples.
@@ -94,13 +89,12 @@ impl Derivation {
 
     /// (X, E) at which the inequality by which the error decays has (J, r), and (g, d), in continuous time; none where it does by norms.
     pub fn regions(&self) -> Option<[[&Rational; 2]; 2]> {
-        let Inequalities { stability, joint, .. } = self.inequalities();
-        stability.map(Inequality::arguments).or_else(|| joint.map(|part| [[&part.x, &part.e]; 2]))
+        self.inequalities.stability.as_ref().filter(|part| !part.at_samples).map(Inequality::arguments)
     }
 
     /// Whether it is an inequality with a splitting, on a path with a corner.
     pub fn has_corner(&self) -> bool {
-        self.inequalities().stability.is_some_and(|part| part.splitting.is_some())
+        self.inequalities.stability.as_ref().is_some_and(|part| part.splitting.is_some())
     }
 
     /// Y_0 as it is written, of a law with a delay.
@@ -111,19 +105,12 @@ impl Derivation {
         }
     }
 
-    /// The numbers that both regulators have. X_p and E_p bound the periodic solution exactly.
-    pub fn free(&self) -> &Free {
-        match &self.witness {
-            Witness::Sharp(w) => &w.free,
-            Witness::Sampled(w) => &w.free,
-        }
-    }
-
     /// Evaluates the conditions; the transfer bound is proved, and the others are left to be demanded.
     pub fn evaluate(&self, d: &Data<'_>) -> Outcome<Evaluated> {
+        let common = (&self.free, &self.inequalities);
         match &self.witness {
-            Witness::Sharp(w) => sharp::evaluate(d, w),
-            Witness::Sampled(w) => sampled::evaluate(d, w),
+            Witness::Sharp(w) => sharp::evaluate(d, common, w),
+            Witness::Sampled(w) => sampled::evaluate(d, common, w),
         }
     }
 
@@ -134,7 +121,7 @@ impl Derivation {
             Witness::Sharp(w) => ("sharp", &w.sigma),
             Witness::Sampled(w) => ("sampled", &w.terms.sigma),
         };
-        let Free { pointer, set, .. } = self.free();
+        let Free { pointer, set, .. } = &self.free;
         lines.push(format!("{name} derivation, sigma = {sigma}"));
         all(name, pointer, evaluated.transfer.iter().chain(&evaluated.conditions), lines)?;
         without_domain(d, &evaluated.arguments, lines)?;
@@ -144,8 +131,7 @@ impl Derivation {
                 return Err(finding(Verdict::Undecided, actuator::RULE, &exact.pointer, message));
             }
             lines.push(format!("exact regulation, sigma_oo = {}", exact.sigma));
-            let Inequalities { stability, joint, .. } = self.inequalities();
-            let conditions = regulation::evaluate(d, set, exact, (stability, joint))?;
+            let conditions = regulation::evaluate(d, set, exact, self.inequalities.stability.as_ref())?;
             all("exact regulation", &exact.pointer, conditions.iter(), lines)?;
             without_domain(d, &[d.number(&exact.d_x), d.number(&exact.d_e)], lines)?;
         }

@@ -11,14 +11,13 @@
 //! l G(r') < l r' in every place, against the choice of l. Strictness matters.
 
 use super::control::{self, Along};
-use super::existence::{Existence, of_periodic};
-use super::forced::{Forced, twice_sum};
-use super::gains::{beta_s, bt, damped, tau};
-use super::metric::Answer;
+use super::existence::Answer;
+use super::gains::{Forced, beta_s, bt, damped, tau, twice_sum};
+use super::inequality::Inequality;
 use super::stability::one_sided;
 use crate::bound::Bound;
 use crate::data::Data;
-use crate::gain::Gain;
+use crate::input_gain::Gain;
 use crate::interval::Interval;
 use crate::json::Field;
 use crate::verdict::{Condition, Outcome, Relation};
@@ -36,8 +35,6 @@ pub struct Witness {
     pub kap: Rational,
     /// Root mean squares that are proved of the solution itself.
     pub refined: Option<Means>,
-    /// What stands in the place of S1b to S2c, where it is given.
-    pub inequality: Option<Existence>,
 }
 
 /// Reads r'_x, r'_e, r'_d.
@@ -142,22 +139,37 @@ impl<'a> Bounds<'a> {
         }
     }
 
-    /// S1 to S2c: x+ and e+, of which these are sup, rms and rms of the derivative, stay in the set of the proof.
+    /// S1, and S1b to S2c: sup|x|, rms(x), and these sup|e|, rms(e), rms(e'). With what an inequality of existence says, `answer` with its bound of
+    /// rms(x) in words, they are strict, and the last four are the least of several bounds.
     pub(super) fn stay(
         &self,
         [r_x, r_e, r_d]: &[Interval; 3],
         [sup_e, rms_e, rms_e_t]: &[Interval; 3],
         [of_sup, of_rms, of_rms_t]: [&str; 3],
+        answer: Option<(&Answer, &str)>,
     ) -> Vec<Condition> {
-        let (sup_x, rms_x) = (self.sup_x_in_box(r_e), &self.x_gain * r_e);
-        let sides = [[&sup_x, &self.x_p], [&rms_x, r_x], [sup_e, &self.e_p], [rms_e, r_e], [rms_e_t, r_d]];
-        let what = ["(c/a_1) b_fe r_e", of_sup, of_rms, of_rms_t].map(str::to_owned);
-        [self.contracts()].into_iter().chain(of_periodic(Relation::AtMost, sides, what)).collect()
-    }
-
-    /// S1.
-    pub(super) fn contracts(&self) -> Condition {
-        Condition::less("S1", "0 < a_1", self.d.int(0), self.rate.clone())
+        let (sup_x, mut rms_x, mut of_x) = (self.sup_x_in_box(r_e), &self.x_gain * r_e, "(c/a_1) b_fe r_e".to_owned());
+        if let Some((answer, said)) = answer {
+            rms_x = rms_x.least(&answer.rms_x);
+            of_x += &format!(", {said}");
+        }
+        let relation = if answer.is_some() { Relation::Less } else { Relation::AtMost };
+        let least = |what: &str| if answer.is_some() { format!("min{{{what}}}") } else { what.to_owned() };
+        let all = [
+            ("S1b", "min{(c/a_1) b_fe E_p, K2(a_1) b_fe r_e}".to_owned(), "X_p", [&sup_x, &self.x_p]),
+            ("S1c", least(&of_x), "r_x", [&rms_x, r_x]),
+            ("S2", least(of_sup), "E_p", [sup_e, &self.e_p]),
+            ("S2b", least(of_rms), "r_e", [rms_e, r_e]),
+            ("S2c", least(of_rms_t), "r_d", [rms_e_t, r_d]),
+        ];
+        let condition = |(id, what, end, [lhs, rhs]): (_, String, &str, [&Interval; 2])| {
+            let what = format!("{what} {} {end}", relation.symbol());
+            Condition { id, what, lhs: lhs.clone(), relation, rhs: rhs.clone() }
+        };
+        [Condition::less("S1", "0 < a_1", self.d.int(0), self.rate.clone())]
+            .into_iter()
+            .chain(all.map(condition))
+            .collect()
     }
 
     /// A bound of sup|x|, from sup|e| <= E_p and rms(e) <= r_e.
@@ -237,13 +249,13 @@ impl<'a> Bounds<'a> {
         if let Some(damping) = damping {
             let [rms_e, rms_e_t] = self.damped(r, damping);
             let sup_e = (self.d.period.longest() * &r[1] * &r[2]).sqrt();
-            return self.stay(r, &[sup_e, rms_e, rms_e_t], ["sqrt(T r_e r_d)", "g_k Rt", "Rt + kap r_e"]);
+            return self.stay(r, &[sup_e, rms_e, rms_e_t], ["sqrt(T r_e r_d)", "g_k Rt", "Rt + kap r_e"], None);
         }
         let Follows { sup_e, rms_e, rms_e_t, .. } = self.at(r, None);
         let forced = if self.forced.is_some() { ", q_0 form" } else { "" };
         let of_sup = format!("min{{bt R_q, tau R_1, sqrt(T r_e r_d){forced}}}");
         let of_rms = format!("min{{R_q/sg, R_1/(Om sg){forced}}}");
-        self.stay(r, &[sup_e, rms_e, rms_e_t], [&of_sup, &of_rms, "min{R_q, R_1/sg}"])
+        self.stay(r, &[sup_e, rms_e, rms_e_t], [&of_sup, &of_rms, "min{R_q, R_1/sg}"], None)
     }
 
     /// G: the least of all bounds of rms(x), rms(e), rms(e') of an actual solution at (r_x, r_e, r_d), those of 10.4 with `damping`.
@@ -301,20 +313,20 @@ impl<'a> Bounds<'a> {
     }
 }
 
-/// Evaluates S1-S3; `pair` is (k0, k1), which the transfer proof has to settle.
+/// Evaluates S1-S3; `pair` is (k0, k1), which the transfer proof has to settle. The inequality of existence has a part in S1b to S2c, where it is given.
 pub fn evaluate(
     d: &Data<'_>,
-    w: &Witness,
+    (w, inequality): (&Witness, Option<&Inequality>),
     sigma: &Rational,
     [x_p, e_p]: [&Interval; 2],
     pair: [&Interval; 2],
     kappa: &[Interval; 2],
 ) -> Solution {
     let mut bounds = Bounds::new(d, &d.number(sigma), [x_p, e_p]);
-    if w.inequality.is_some() {
+    if inequality.is_some() {
         bounds = bounds.for_any_share_of_forcing();
     }
-    let answer = w.inequality.as_ref().map(|inequality| inequality.answer(d, sigma, &bounds.oscillation()));
+    let answer = inequality.map(|inequality| inequality.answer(d, sigma, &bounds.oscillation()));
     let r = w.r.each_ref().map(|value| d.number(value));
     let most = d.q_e_max(x_p, e_p);
     let upper = most.as_ref().map_or(bounds.q_e.clone(), |most| most.min(&bounds.q_e));
@@ -324,14 +336,22 @@ pub fn evaluate(
     let damping = [damped(d, sigma, &w.kap), kap, rho];
     let (damping, answer) = (with_kap.then_some(&damping), answer.as_ref());
 
-    let mut conditions = match &w.inequality {
+    let mut conditions = match inequality {
         Some(inequality) => {
             let follows = bounds.at(&r, answer);
             let means = bounds.means(&r, &follows, damping, answer);
-            let ([r_x, r_e, r_d], [rms_x, rms_e, rms_e_t]) = (&r, &means);
-            let sup_x = bounds.sup_x_in_box(r_e);
-            let sides = [[&sup_x, x_p], [rms_x, r_x], [&follows.sup_e, e_p], [rms_e, r_e], [rms_e_t, r_d]];
-            inequality.conditions(d, sigma, bounds.contracts(), sides, with_kap)
+            let [_, rms_e, rms_e_t] = means;
+            let c_e = if inequality.far.is_some() { "c_e" } else { "2 (sigma - threshold)" };
+            let [damped, damped_t] = if with_kap { ["g_k Rt, ", "Rt + kap r_e, "] } else { [""; 2] };
+            let what = [
+                "bt R_q, tau R_1, sqrt(T r_e r_d), q_0 form, bt r_y",
+                &format!("R_q/sg, R_1/(Om sg), q_0 form, {damped}r_y/sg, k_p Q_m/(2 sqrt({c_e} c_y))"),
+                &format!("R_q, R_1/sg, {damped_t}r_y"),
+            ];
+            let said = answer.map(|answer| (answer, "k_p Q_m/(2 sqrt(c_x c_y))"));
+            let mut conditions = inequality.enough(d, (sigma, "sigma"));
+            conditions.extend(bounds.stay(&r, &[follows.sup_e, rms_e, rms_e_t], what, said));
+            conditions
         }
         None => bounds.stays(&r, damping),
     };

@@ -1,16 +1,14 @@
-//! The rules, one a file.
+//! The rules.
 pub mod bounding;
 pub mod claim;
 pub mod common;
 pub mod control;
 pub mod derivation;
 pub mod existence;
-pub mod forced;
 pub mod gains;
 pub mod inequality;
 pub mod joint;
 pub mod mean_squares;
-pub mod metric;
 pub mod no_plant;
 pub mod paths;
 pub mod rates;

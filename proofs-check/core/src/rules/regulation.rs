@@ -3,9 +3,9 @@
 //! Guarantee, for a matched base frequency: with n_o infinite, for every sigma' >= sigma, solutions from the claimed
 //! set are bounded and x, e -> 0. S1-S3 are not used; the error box is around 0.
 
-use super::forced::forcing;
+use super::gains::forcing;
 use super::inequality::Inequality;
-use super::joint::Joint;
+use super::joint;
 use super::paths::Paths;
 use super::set::{self, ClaimedSet};
 use super::stability::{ErrorBox, distances, level};
@@ -66,7 +66,7 @@ pub fn evaluate(
     d: &Data<'_>,
     set: &ClaimedSet,
     w: &Witness,
-    (inequality, joint): (Option<&Inequality>, Option<&Joint>),
+    stability: Option<&Inequality>,
 ) -> Outcome<Vec<Condition>> {
     if !d.spec.regulator.matched {
         return invalid("exact regulation", &w.pointer, "it needs base_frequency = 2 pi/period, asserted by `matched`");
@@ -82,21 +82,16 @@ pub fn evaluate(
     let domain = set::domain(d, &d_x, &d_e);
     let mut conditions = domain.clone();
     conditions.push(Condition::less("C4", "level condition around the origin", start, exit));
-    match inequality.filter(|inequality| inequality.is_for([&w.w_x, &w.h])) {
-        Some(inequality) => {
-            let place = (w.paths, [&zero, &zero], &error_box);
-            conditions.extend(inequality.conditions(d, place, (sigma, "sigma_oo")));
-        }
-        None => {
-            let decay = error_box.decay(d, [&w_x, &h], &sigma);
-            conditions.extend(error_box.conditions(decay, sigma, "sigma_oo"));
-        }
-    }
+    let place = (w.paths, [&zero, &zero], &error_box);
+    conditions.extend(match stability.filter(|part| part.is_for([&w.w_x, &w.h])) {
+        Some(part) => part.conditions(d, place, (&w.sigma, "sigma_oo")),
+        None => error_box.conditions(error_box.decay(d, [&w_x, &h], &sigma), sigma, "sigma_oo"),
+    });
     let by_norms = conditions.iter().all(|condition| condition.truth() == Some(true));
-    Ok(match joint.filter(|_| !by_norms) {
-        Some(joint) => {
-            let levels = joint.levels(d, &reach, [&w.d_x, &w.d_e]);
-            domain.into_iter().chain(levels).chain(joint.conditions(d, &error_box, &w.sigma)).collect()
+    Ok(match stability.and_then(|part| part.pair().map(|pair| (part, pair))).filter(|_| !by_norms) {
+        Some((part, pair)) => {
+            let levels = joint::levels(d, pair, &reach, [&w.d_x, &w.d_e]);
+            domain.into_iter().chain(levels).chain(part.conditions(d, place, (&w.sigma, "sigma_oo"))).collect()
         }
         None => conditions,
     })

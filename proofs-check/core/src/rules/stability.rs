@@ -47,7 +47,7 @@ impl ErrorBox {
         }
     }
 
-    /// k_e and most, with a gain those of [`crate::gain::Gain::sector`].
+    /// k_e and most, with a gain those of [`crate::input_gain::Gain::sector`].
     fn sector(&self, d: &Data<'_>, ht: &Interval, sigma: &Interval) -> [Interval; 2] {
         match &d.gain {
             Some(gain) => gain.sector([ht, sigma], [&self.k_e, &self.most]),

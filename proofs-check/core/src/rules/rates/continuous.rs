@@ -93,16 +93,13 @@ impl<'a> Loop<'a> {
     pub(super) fn corners(&self) -> Vec<Corner> {
         let ErrorBox { k_e, most, .. } = self.error_box;
         let slopes = [-k_e, most.clone()];
-        let ends = match &self.d.gain {
-            None => vec![(self.d.int(1), self.d.int(0))],
-            Some(gain) => [&gain.low, &gain.high].into_iter().cloned().zip(gain.shifts(&self.sigma)).collect(),
-        };
         let at = |gain: &Interval, moved: &Interval, slope: &Interval| Corner {
             gain: gain.clone(),
             mu: gain * &self.d.mu,
             slope: slope + moved,
         };
-        ends.iter().flat_map(|(gain, moved)| slopes.each_ref().map(|slope| at(gain, moved, slope))).collect()
+        let ends = self.d.ends(&self.sigma);
+        ends.iter().flat_map(|(_, [gain, moved])| slopes.each_ref().map(|slope| at(gain, moved, slope))).collect()
     }
 
     /// `Pi B_v`: -Phi b has `l w sqrt(n_l)` at the second state of an oscillator.

@@ -36,6 +36,7 @@ use crate::interval::Interval;
 use crate::json::{Field, Fields};
 use crate::matrix::positive_definite;
 use crate::rules::sampled::law::Law;
+use crate::rules::sampled::stability::Within;
 use crate::rules::stability::ErrorBox;
 use crate::verdict::{Condition, Outcome, demand};
 use rug::Rational;
@@ -81,13 +82,9 @@ impl OfNoise {
 
 /// The bounds of a step, under their names above.
 struct Step {
-    k_e: Interval,
-    g: Interval,
+    within: Within,
     /// lo1 and hi1, lo2 and hi2.
     slopes: [[Interval; 2]; 2],
-    c_x: Interval,
-    c_e: Interval,
-    c_y: Interval,
     c_d: Interval,
     kf: Interval,
 }
@@ -95,28 +92,18 @@ struct Step {
 impl Step {
     /// Of a law whose kp is demanded to be above 0; S0 has `h sigma <= 1`.
     fn new(law: &Law<'_>, error_box: &ErrorBox, pointer: &str) -> Outcome<Step> {
-        let d = law.d;
-        let (pi, h, hs) = (Interval::pi(d.precision), &law.h, &law.share);
-        let ErrorBox { k_x, k_f, k_e: k_l, most, .. } = error_box;
-        let k_e = k_l.max(most);
-        let drift = h * &k_e / &pi;
-        let kp = 1 - &drift;
-        Condition::less("R", "0 < 1 - h k_e/pi", d.int(0), kp.clone()).demand(RULE, pointer)?;
-        let g = h * &k_e / d.int(12).sqrt() / &kp;
-        let g2 = (h * &k_e).sqr() / 6 / &kp;
-        let (first, second, bend) = (1 - hs / 2, h / 2, &g * &k_e);
+        let (d, within) = (law.d, Within::new(law, error_box, [&law.h, &law.share]));
+        let ErrorBox { k_f, k_e: k_l, most, .. } = error_box;
+        Condition::less("R", "0 < 1 - h k_e/pi", d.int(0), within.room.clone()).demand(RULE, pointer)?;
+        let (first, second, bend) = (1 - &law.share / 2, &law.h / 2, &within.g * &within.k_e);
         Ok(Step {
             slopes: [
                 [-(&first * k_l + &bend), &first * most + bend],
-                [-(&second * k_l + &g2), (&second * most + g2).max(&d.int(0))],
+                [-(&second * k_l + &within.bend), (&second * most + &within.bend).max(&d.int(0))],
             ],
-            c_x: h * k_x / &pi / &kp,
-            c_e: (1 - hs + hs.sqr() / 3).sqrt() + &drift / &kp,
-            c_y: h / d.int(3).sqrt() / &kp,
-            c_d: h / pi / &kp,
+            c_d: &law.h / Interval::pi(d.precision) / &within.room,
             kf: d.p_up.sqrt() * k_f,
-            k_e,
-            g,
+            within,
         })
     }
 }
@@ -163,11 +150,7 @@ impl<'a> Loop<'a> {
 
     /// The ends of b_u.
     pub(super) fn ends(&self) -> Vec<Interval> {
-        self.law
-            .d
-            .gain
-            .as_ref()
-            .map_or_else(|| vec![self.law.d.int(1)], |gain| vec![gain.low.clone(), gain.high.clone()])
+        self.law.d.ends(&self.law.sigma).into_iter().map(|(_, [b_u, _])| b_u).collect()
     }
 
     /// `b'R`, with 0 at e.
@@ -251,7 +234,7 @@ impl<'a> Loop<'a> {
 
         if let Some([w, l_x, l_e, l_y]) = &self.of_x {
             let ErrorBox { k_x, rate: a_2, .. } = self.error_box;
-            let rho = x.times(&step.c_x) + rho_e.clone() + rho_y.clone() + of(of_r);
+            let rho = x.times(&step.within.c_x) + rho_e.clone() + rho_y.clone() + of(of_r);
             let reach = &law.h * &step.kf;
             form.add_square(&(w * a_2 * &law.h * 2), &x);
             form.add(&-(w * &reach * 2), &x, &rho);
@@ -260,9 +243,9 @@ impl<'a> Loop<'a> {
                 form.add_square(&-(l * bound.sqr()), of);
                 form.add_square(l, own);
             };
-            within(l_x, k_x * (1 + &step.g), &x, &p);
-            within(l_e, step.c_e.clone(), &e, &rho_e);
-            within(l_y, step.c_y.clone(), &y, &rho_y);
+            within(l_x, k_x * (1 + &step.within.g), &x, &p);
+            within(l_e, step.within.c_e.clone(), &e, &rho_e);
+            within(l_y, step.within.c_y.clone(), &y, &rho_y);
         }
         for (variable, weight) in [of_d, of_v, of_r].into_iter().zip(inputs) {
             if let Some(weight) = weight {
@@ -315,7 +298,7 @@ pub fn noise(
     made.decays([g_d, g_v, g_r], &format!("(R_h) with noise for n_o = {n_o}"))?;
     let (step, [c, ..]) = (&made.step, &made.of_slopes);
     let d_bar = d.number(&d_bar);
-    let own = (1 + &step.g) * &d_bar;
+    let own = (1 + &step.within.g) * &d_bar;
     let of_inputs =
         |of_d: &Interval| added(d, g_d, of_d) + added(d, g_v, &known.off) + added(d, g_r, &(&step.c_d * &d_bar));
     let at_samples = match rounding {
@@ -327,7 +310,7 @@ pub fn noise(
         }
     };
     let (kappa, half) = (of_states(d, error_box, pointer)?, &law.h / 2);
-    Ok([between(&at_samples, [&half, &d_bar], &step.k_e + &error_box.k_x * &kappa, pointer)?, kappa])
+    Ok([between(&at_samples, [&half, &d_bar], &step.within.k_e + &error_box.k_x * &kappa, pointer)?, kappa])
 }
 
 /// A bound of |e| at all times, from one at samples: `sup|e| <= s + half (steepness sup|e| + d_bar)`, half = h/2.

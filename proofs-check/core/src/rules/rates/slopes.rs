@@ -155,16 +155,8 @@ struct Loop {
 }
 
 impl Loop {
-    /// `b_u mu` and `(1 - b_u) sigma` at both ends of an input gain.
-    fn ends(&self, d: &Data<'_>) -> Vec<(&'static str, [Interval; 2])> {
-        let Some(gain) = &d.gain else { return vec![("", [d.mu.clone(), d.int(0)])] };
-        let [low, high] = gain.shifts(&self.sigma);
-        let end = |of: &Interval, shift| [of * &d.mu, shift];
-        vec![(", at b_lo", end(&gain.low, low)), (", at b_hi", end(&gain.high, high))]
-    }
-
     /// The lower triangle of the form of (K) in (x, e, zs) and the omega of each part; what comes back through B beside them is
-    /// `(1 - b_u) sigma e + b_u mu b'zs`.
+    /// `(1 - b_u) sigma e + b_u mu b'zs`; `end`: b_u mu and (1 - b_u) sigma.
     fn form(&self, rate: &Interval, end: &[Interval; 2]) -> Vec<Vec<Interval>> {
         let Loop { sigma, norm, parts } = self;
         let (order, of_e) = (norm.order(), norm.of_e);
@@ -206,9 +198,14 @@ pub fn rate(
     let made = Loop { sigma: d.number(sigma), norm, parts };
     made.norm.lies_above()?;
     let rate = d.number(&claimed.rate);
-    for (at, end) in made.ends(d) {
+    for (at, [b_u, shift]) in d.ends(&made.sigma) {
         let what = format!("(K) for n_o = {}, rate {}{at}", stored.n_o, claimed.rate);
-        demand(positive_definite(made.form(&rate, &end)), RULE, &format!("{}/Pi", stored.pointer), what)?;
+        demand(
+            positive_definite(made.form(&rate, &[b_u * &d.mu, shift])),
+            RULE,
+            &format!("{}/Pi", stored.pointer),
+            what,
+        )?;
     }
     let x_up = x_up.as_ref().map(|value| d.number(value));
     Ok([made.norm.start(d, x_up.as_ref(), ends, reach)?, made.norm.e_low])

@@ -69,7 +69,7 @@ fn with_stored(name: &str, use_it: impl Fn(&Data<'_>, (&Derivation, &Rational), 
     let proofs = witness.optional("for_n_o");
     let proofs = Witness::read_all(proofs.as_ref(), &rates, kind).unwrap();
     let d = Data::new(&spec, 128);
-    let free = derivation.free();
+    let free = &derivation.free;
     let Sizes { x, e, .. } = sizes(&d, claim.json);
     let radii = [d.number(&free.d_x), d.number(&free.d_e)];
     let error_box = ErrorBox::new(&d, free.paths, [&x, &e], radii.each_ref());

@@ -9,9 +9,7 @@ use super::law::Law;
 use crate::data::Data;
 use crate::interval::Interval;
 use crate::json::Fields;
-use crate::rules::common::Free;
 use crate::rules::set;
-use crate::rules::stability::level;
 use crate::verdict::{Condition, Outcome};
 use rug::Rational;
 
@@ -45,28 +43,16 @@ impl Past {
         Ok(Condition::at_most("set", "0 <= h Y_0 - E_0", d.int(0), room))
     }
 
-    /// C4d, and how far the control goes from there: `u = -sigma e + K M'N R zeta + h (sigma + K b1) y_{k-1}`, |b1| <= Nb2, and the level is not
-    /// below `e^2 + b h |zeta|_N^2 + gm h y_{k-1}^2` at the gain b; the product is convex in b, so an end has the largest.
+    /// What is stored in the level of C4d, and what the last y adds to the square of the control over the level:
+    /// `u = -sigma e + K M'N R zeta + h (sigma + K b1) y_{k-1}`, |b1| <= Nb2, and the level is not below `e^2 + b h |zeta|_N^2 + gm h y_{k-1}^2` at the
+    /// gain b.
     ///
     /// At the start y_{-1} is within Y_0 of 0, that of the periodic solution within `y_per`. Where the regulator starts with z = M e the last y
     /// that zeta is told is 0 there and that of e is not: both are within the sum.
-    pub fn level(&self, law: &Law<'_>, free: &Free, reach: &[Interval; 3], y_per: &Interval) -> (Condition, Interval) {
-        let d = law.d;
-        let [d_x, d_e, w_x, h, gm] = [&free.d_x, &free.d_e, &free.w_x, &free.h, &self.gm].map(|value| d.number(value));
-        let stored = &gm * &law.h * (d.number(&self.y_0) + y_per).sqr();
-        let past = &law.h * (&law.sigma + &law.gain * law.sum()).sqr() / &gm;
-        let at = |h: Interval| {
-            let [start, exit] = level(d, reach, [&d_x, &d_e, &w_x, &h]);
-            let start = start + &stored;
-            let transient = (&start * (law.sigma.sqr() + (&law.gain * &d.n_bar).sqr() / h + &past)).sqrt();
-            (start, exit, transient)
-        };
-        let (_, _, least) = at(d.by_gain(|gain| &gain.low, &h));
-        let (start, exit, most) = at(d.by_gain(|gain| &gain.high, &h));
-        let weight = if d.gain.is_some() { "b_hi h" } else { "h" };
-        let what =
-            format!("gm h (Y_0 + y_per)^2 + w_x P_up dX^2 + dE^2 + {weight} dZ^2 < min{{w_x P_low D_x^2, D_e^2}}");
-        (Condition::less("C4d", what, start, exit), least.max(&most))
+    pub fn level(&self, law: &Law<'_>, y_per: &Interval) -> [Interval; 2] {
+        let gm = law.d.number(&self.gm);
+        let stored = &gm * &law.h * (law.d.number(&self.y_0) + y_per).sqr();
+        [stored, &law.h * (&law.sigma + &law.gain * law.sum()).sqr() / gm]
     }
 }
 

@@ -8,11 +8,10 @@
 
 use super::delay;
 use super::gains::Gains;
-use super::inequality::Existence;
 use super::law::Law;
 use crate::interval::Interval;
 use crate::rules::control;
-use crate::rules::existence::strictly;
+use crate::rules::inequality::Inequality;
 use crate::rules::mean_squares::{Bounds, Means};
 use crate::verdict::Condition;
 
@@ -31,7 +30,7 @@ pub struct Solution {
 /// Evaluates S1 and S2; `pair` is (k0, k1), which the transfer rule has to settle.
 pub fn evaluate(
     law: &Law<'_>,
-    (means, inequality): (&Means, Option<&Existence>),
+    (means, inequality): (&Means, Option<&Inequality>),
     [x_p, e_p]: [&Interval; 2],
     pair: [&Interval; 2],
 ) -> Solution {
@@ -41,7 +40,7 @@ pub fn evaluate(
         bounds = bounds.for_any_share_of_forcing();
     }
     let r = means.each_ref().map(|value| d.number(value));
-    let [r_x, r_e, r_d] = &r;
+    let [_, r_e, r_d] = &r;
     let [[r_q, r_1], _] = bounds.inputs(&r);
     let gains = Gains::new(law);
     let pi = Interval::pi(d.precision);
@@ -55,24 +54,21 @@ pub fn evaluate(
     let mut rms_e = (&gains.rms * &r_q).least(&(&gains.rms_t * &r_1)) + between_rms;
     let mut rms_e_t = (&gains.slope * &r_q).least(&((gains.rms.sqr() + (&law.h / &pi).sqr()).sqrt() * &r_1));
 
-    let conditions = if let Some(inequality) = inequality {
-        let answer = inequality.answer(law, &bounds.oscillation());
+    let answer = inequality.map(|inequality| inequality.answer(d, &inequality.sigma, &bounds.oscillation()));
+    let mut what = ["sup|e|", "rms(e)", "rms(e')"];
+    if let Some(answer) = &answer {
         // sup|G| <= (sqrt(h)/2)|G'|_2, and e' is the slope of the interpolation and G', which are orthogonal.
         sup_e = sup_e.least(&(&gains.sup_y * &answer.rms_y + (&law.h * period).sqrt() / 2 * &r_q));
         rms_e = rms_e.least(&answer.rms_e);
         rms_e_t = rms_e_t.least(&((&answer.rms_y * 2 / (2 - &law.share)).sqr() + r_q.sqr()).sqrt());
-        let (sup_x, rms_x) = (bounds.sup_x_in_box(r_e), (&bounds.x_gain * r_e).least(&answer.rms_x));
-        let sides = [[&sup_x, x_p], [&rms_x, r_x], [&sup_e, e_p], [&rms_e, r_e], [&rms_e_t, r_d]];
-        let what = [
-            "(c/a_1) b_fe r_e, sqrt(gamma/c_x) Q_m",
+        what = [
             "12.2, sqrt(T r_e r_d), bt_h r_y + (sqrt(h T)/2) R_q",
             "12.2, sqrt(gamma/c_e) Q_m",
             "12.2, sqrt((2 r_y/(2 - h sigma))^2 + R_q^2)",
         ];
-        [bounds.contracts()].into_iter().chain(strictly(sides, what.map(str::to_owned))).collect()
-    } else {
-        bounds.stay(&r, &[sup_e.clone(), rms_e, rms_e_t], ["sup|e|", "rms(e)", "rms(e')"])
-    };
+    }
+    let said = answer.as_ref().map(|answer| (answer, "sqrt(gamma/c_x) Q_m"));
+    let conditions = bounds.stay(&r, &[sup_e.clone(), rms_e, rms_e_t], what, said);
     let e = e_p.min(&sup_e);
     let w_squared = d.w.sqr();
     let mean = (period / (&law.mu * 2) + pair[0] / &w_squared) * r_q.sqr() + pair[1] / w_squared.sqr() * r_1.sqr();

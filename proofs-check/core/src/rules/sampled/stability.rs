@@ -10,9 +10,41 @@ use crate::interval::Interval;
 use crate::rules::stability::ErrorBox;
 use crate::verdict::Condition;
 
-/// k_e = max{k_l, m} bounds |dq/de| in the error box.
-fn steepness(error_box: &ErrorBox) -> Interval {
-    error_box.k_e.max(&error_box.most)
+/// What the bounds of the error box say of a time t after a sample, `t sigma` = ts: the root mean square of e on it is at most `c_x X + c_e E + c_y Y`.
+pub struct Within {
+    /// k_e = max{k_l, m} bounds |dq/de| in the error box.
+    pub k_e: Interval,
+    /// `kp = 1 - h k_e/pi`.
+    pub room: Interval,
+    /// `t k_x/(pi kp)`.
+    pub c_x: Interval,
+    /// `sqrt(1 - ts + ts^2/3) + t k_e/(pi kp)`.
+    pub c_e: Interval,
+    /// `t/(sqrt(3) kp)`.
+    pub c_y: Interval,
+    /// `t k_e/(sqrt(12) kp)`.
+    pub g: Interval,
+    /// `(t k_e)^2/(6 kp)`.
+    pub bend: Interval,
+}
+
+impl Within {
+    /// Where kp is above 0.
+    pub fn new(law: &Law<'_>, error_box: &ErrorBox, [t, ts]: [&Interval; 2]) -> Within {
+        let (d, pi) = (law.d, Interval::pi(law.d.precision));
+        let k_e = error_box.k_e.max(&error_box.most);
+        let room = 1 - &law.h * &k_e / &pi;
+        let reach = t / &room;
+        Within {
+            c_x: &reach * &error_box.k_x / &pi,
+            c_e: (1 - ts + ts.sqr() / 3).sqrt() + &reach * &k_e / pi,
+            c_y: &reach / d.int(3).sqrt(),
+            g: &reach * &k_e / d.int(12).sqrt(),
+            bend: t * &reach * k_e.sqr() / 6,
+            k_e,
+            room,
+        }
+    }
 }
 
 /// C5h: `kp = 1 - h k_e/pi > 0`, and the leading minors of Q_0 and Q_h. With a gain the weight of zeta is `b eta` (section 13.1), so that
@@ -27,10 +59,14 @@ pub fn conditions(
 ) -> Vec<Condition> {
     let id = if gm.is_some() { "C5d" } else { "C5h" };
     let zero = law.d.int(0);
-    let room = 1 - &law.h * steepness(error_box) / Interval::pi(law.d.precision);
-    let mut conditions = vec![Condition::less(id, "0 < 1 - h k_e/pi", zero.clone(), room.clone())];
-    for (name, at_end) in [("Q_0", false), ("Q_h", true)] {
-        let rows = form(law, error_box, weights, gm, (&room, at_end));
+    let none = [&zero; 2];
+    let mut conditions = Vec::new();
+    for (name, at, loss) in [("Q_0", none, &zero), ("Q_h", [&law.h, &law.share], &law.loss)] {
+        let within = Within::new(law, error_box, at);
+        if conditions.is_empty() {
+            conditions.push(Condition::less(id, "0 < 1 - h k_e/pi", zero.clone(), within.room.clone()));
+        }
+        let rows = form(law, (error_box, &within), weights, gm, (at, loss));
         // All leading principal minors are positive exactly if the form is positive definite (Sylvester).
         conditions.extend((1..=rows.len()).map(|order| {
             let minor = determinant(&rows, &(0..order).collect::<Vec<_>>());
@@ -47,43 +83,35 @@ pub fn conditions(
 /// `-(1-b) sigma h y_{k-1}` in it.
 fn form(
     law: &Law<'_>,
-    error_box: &ErrorBox,
+    (error_box, within): (&ErrorBox, &Within),
     [w_x, eta]: [&Interval; 2],
     gm: Option<&Interval>,
-    (room, at_end): (&Interval, bool),
+    ([t, ts], loss): ([&Interval; 2], &Interval),
 ) -> Vec<Vec<Interval>> {
-    let (d, pi) = (law.d, Interval::pi(law.d.precision));
-    let [t, ts, loss] =
-        if at_end { [&law.h, &law.share, &law.loss].map(Interval::clone) } else { [0; 3].map(|zero| d.int(zero)) };
-    let (k_e, k_x) = (steepness(error_box), &error_box.k_x);
-    let reach = &t / room;
-    let (c_x, c_y) = (&reach * k_x / &pi, &reach / d.int(3).sqrt());
-    let c_e = (1 - &ts + ts.sqr() / 3).sqrt() + &reach * &k_e / pi;
-    let g = &reach * &k_e / d.int(12).sqrt();
-    let bend = &t * &reach * k_e.sqr() / 6;
+    let (d, k_x, Within { k_e, c_x, c_e, c_y, g, bend, .. }) = (law.d, &error_box.k_x, within);
     let coupling = w_x * d.p_up.sqrt() * &error_box.k_f;
     let scaled = eta / &law.gain;
-    let mean = &scaled * (1 - &ts / 2);
-    let rest = 1 - &ts;
+    let mean = &scaled * (1 - ts / 2);
+    let rest = 1 - ts;
     // y has (1-b) sigma e_k in it.
     let [up, down] = law.shifts(&(&scaled * &law.sigma));
     let damping = (&rest + &mean * &error_box.most + up).abs().max(&(&rest - &mean * &error_box.k_e + down).abs());
 
-    let xx = w_x * &error_box.rate * 2 - &coupling * &c_x * 2;
+    let xx = w_x * &error_box.rate * 2 - &coupling * c_x * 2;
     let xe = -(&coupling * c_e);
-    let xy = -(&coupling * &c_y + &scaled * k_x * (1 + &g));
-    let ee = &law.sigma * (2 - &ts);
-    let ey = -(damping + &scaled * g * &k_e);
-    let yy = &scaled * 2 * (1 - loss) - &t - &scaled * &t * &error_box.most - &scaled * &bend * 2;
+    let xy = -(&coupling * c_y + &scaled * k_x * (1 + g));
+    let ee = &law.sigma * (2 - ts);
+    let ey = -(damping + &scaled * g * k_e);
+    let yy = &scaled * 2 * (1 - loss) - t - &scaled * t * &error_box.most - &scaled * bend * 2;
     let Some(gm) = gm else { return vec![vec![xx], vec![xe, ee], vec![xy, ey, yy]] };
 
     let share = &law.share;
     let [up, down] = law.shifts(&law.sigma);
     // b_hi K h Nb2, twice the loss, and what a gain adds.
-    let beside = &t * &k_e / 2 * share + bend * share + &law.loss * 2 + up.max(&-down) * &law.h;
+    let beside = t * k_e / 2 * share + bend * share + &law.loss * 2 + up.max(&-down) * &law.h;
     // Halves of what stands before X P, E P and Y P; of P alone e(t)^2 has t (h sigma P)^2.
     let of_p =
-        vec![-(coupling * c_y * share), -(rest.abs() * share), -(&t * share + scaled * beside), gm - &t * share.sqr()];
+        vec![-(coupling * c_y * share), -(rest.abs() * share), -(t * share + scaled * beside), gm - t * share.sqr()];
     vec![vec![xx], vec![xe, ee], vec![xy, ey, yy - gm], of_p]
 }
 

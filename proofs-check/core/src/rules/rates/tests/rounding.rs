@@ -23,7 +23,7 @@ fn each(name: &str, use_it: impl Fn(&Law<'_>, &Derivation, (&ErrorBox, &Known), 
     let sizes = |d: &Data<'_>| sizes(d, part(&json, "claim").json);
     with_stored(&format!("arithmetic/{name}"), |d, (derivation, _), error_box, witness: &Witness| {
         let Proof::Sampled(_, Some(proof)) = &witness.proof else { panic!("{name}") };
-        let known = Known::new(d, (derivation.free(), &sizes(d)), &error_box.e_b, true);
+        let known = Known::new(d, (&derivation.free, &sizes(d)), &error_box.e_b, true);
         let law = Law::new(d, derivation.law().unwrap());
         use_it(&law, derivation, (error_box, &known), (proof.rounding.as_ref().unwrap(), witness.n_o));
     });
@@ -75,7 +75,7 @@ fn the_bounds_are_those_of_the_counts() {
 fn what_is_measured_is_the_nearest_double() {
     for name in STORED {
         each(name, |law, derivation, (error_box, known), _| {
-            let (d, free) = (law.d, derivation.free());
+            let (d, free) = (law.d, &derivation.free);
             let v_bar = d.number(&d.spec.noise.v_bar());
             let own = &known.off - &v_bar;
             close(&own, U0 * (double(&error_box.e_b) + double(&v_bar)), name);

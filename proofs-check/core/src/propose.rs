@@ -1,6 +1,12 @@
-//! Cuts of a box [0, X] x [0, E] into pieces on which an expression is proved nondecreasing, the widest first.
+//! Everything that is searched for: where to cut, by which rule each part is to be proved, which factors a
+//! polynomial has.
+//!
+//! What comes from here is plain data ([`crate::monotone::Step`], break points, factors) and proves nothing: the rules verify that the
+//! parts cover the whole, each part by one evaluation, and multiply the factors out. So a mistake here can make an answer `undecided`, never `valid`. It
+//! is paid for apart from the claim ([`crate::effort::aside`]).
 
 use crate::effort;
+use crate::monotone::polynomials::{Factor, Polynomial, derivative, plus, scaled, trimmed};
 use crate::monotone::{Facts, Function, Piece, Reason, Step};
 use rug::Rational;
 use std::collections::VecDeque;
@@ -26,7 +32,8 @@ fn reason(facts: &Facts<'_>, along: usize) -> Option<Reason> {
     reasons.find(|reason| facts.shows(along, *reason))
 }
 
-/// Cuts the box until every piece is proved, a point refutes it or the effort ends.
+/// Cuts a box [0, X] x [0, E] into pieces on which an expression is proved nondecreasing, the widest first, until every piece is proved, a point refutes
+/// it or the effort ends.
 pub fn cuts(function: &Function<'_>, whole: &Piece) -> Proposal {
     let limit = MAX_PIECES.min(MAX_WORK / function.expr.len().max(1));
     let (mut steps, mut looked_at) = (Vec::new(), 0);
@@ -65,4 +72,58 @@ pub fn cuts(function: &Function<'_>, whole: &Piece) -> Proposal {
         steps.push(Step::Cut { along, at: middle });
     }
     Proposal::Steps(steps)
+}
+
+/// The square-free factors of a polynomial (Yun) with their exponents, in the order of these.
+pub fn square_free(p: &Polynomial) -> Vec<Factor> {
+    let Some(constant) = p.last() else { return Vec::new() };
+    let d = derivative(p);
+    let shared = common(p, &d);
+    if shared.len() <= 1 {
+        return vec![(monic(p), 1)];
+    }
+    let (mut bare, mut slope) =
+        (divided(&monic(p), &shared).0, divided(&scaled(&d, &Rational::from(constant.recip_ref())), &shared).0);
+    let mut factors = Vec::new();
+    let mut exponent = 1;
+    while bare.len() > 1 {
+        let left = plus(&slope, &scaled(&derivative(&bare), &Rational::from(-1)));
+        let factor = common(&bare, &left);
+        (bare, slope) = (divided(&bare, &factor).0, divided(&left, &factor).0);
+        if factor.len() > 1 {
+            factors.push((factor, exponent));
+        }
+        exponent += 1;
+    }
+    factors
+}
+
+/// Quotient and remainder by a polynomial other than 0.
+fn divided(p: &Polynomial, q: &Polynomial) -> (Polynomial, Polynomial) {
+    let Some(lead) = q.last() else { return (Vec::new(), p.clone()) };
+    let (mut quotient, mut rest) = (Vec::new(), p.clone());
+    while rest.len() >= q.len() {
+        let factor = rest.pop().unwrap_or_default() / lead;
+        let shift = rest.len() + 1 - q.len();
+        for (k, b) in q[..q.len() - 1].iter().enumerate() {
+            rest[shift + k] -= Rational::from(&factor * b);
+        }
+        quotient.push(factor);
+    }
+    quotient.reverse();
+    (trimmed(quotient), trimmed(rest))
+}
+
+/// The greatest common divisor, with leading coefficient 1.
+fn common(p: &Polynomial, q: &Polynomial) -> Polynomial {
+    let (mut p, mut q) = (monic(p), monic(q));
+    while !q.is_empty() {
+        let (_, rest) = divided(&p, &q);
+        (p, q) = (q, monic(&rest));
+    }
+    p
+}
+
+fn monic(p: &Polynomial) -> Polynomial {
+    p.last().map_or_else(Vec::new, |lead| scaled(p, &Rational::from(lead.recip_ref())))
 }
