@@ -148,10 +148,23 @@ pub fn stored(folder: &Path, name: &str, document: &Value) -> PathBuf {
     path
 }
 
-/// Certifies a document, which is written into a folder: the certificate, beside it, and the report.
+/// Certifies a document, once for all tests: the certificate, written into a folder beside the document, and the report.
 #[track_caller]
 pub fn certified_in(folder: &Path, document: &Value, flags: &[&str]) -> (PathBuf, Value) {
-    certified_by(program(), folder, document, flags)
+    type Made = Mutex<HashMap<String, Arc<OnceLock<(Vec<u8>, Value)>>>>;
+    static MADE: LazyLock<Made> = LazyLock::new(Made::default);
+    let key = format!("{document} {flags:?}");
+    // Where a call fails in here, so does every test that wants it.
+    let place = Arc::clone(MADE.lock().expect("no test panics in here").entry(key).or_default());
+    let (certificate, report) = place.get_or_init(|| {
+        let own = tempfile::tempdir().expect("a folder for tests");
+        let (certificate, report) = certified_by(program(), own.path(), document, flags);
+        (std::fs::read(certificate).expect("it is there"), report)
+    });
+    stored(folder, "input.json", document);
+    let path = folder.join("certificate.json");
+    std::fs::write(&path, certificate).expect("a folder for tests");
+    (path, report.clone())
 }
 
 /// The same by a program that is set up otherwise.
