@@ -166,6 +166,7 @@ fn from_the_set_the_actuator_never_saturates() {
 
 /// The bounds of the control and of the way hold for every member that is drawn, and are of the size of what is met.
 #[test]
+#[ignore = "search tier"]
 fn the_bounds_of_the_control_are_no_larger_than_they_need_be() {
     let mut best = [0.0_f64; 2];
     for name in ["linear", NAME, "plants/linear", "plants/duffing"] {
@@ -250,7 +251,8 @@ fn rows_of_larger_gains() {
         let rows = whole["gains"].as_array().unwrap();
         assert!(rows.len() >= at_least, "{file}: {rows:?}");
         assert_eq!(rows[0]["sigma"], whole["sigma_star"]);
-        for (at, row) in rows.iter().enumerate().skip(1) {
+        let tried = if every(2) == 1 { rows.len() } else { at_least };
+        for (at, row) in rows.iter().enumerate().take(tried).skip(1) {
             assert!(number(&row["sigma"]) > 1.19 * number(&rows[0]["sigma"]));
             let (code, own) = report(&[&file, "--sigma", row["sigma"].as_str().unwrap()]);
             assert_eq!(code, 0);

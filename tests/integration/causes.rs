@@ -109,6 +109,7 @@ fn drive() -> Value {
 /// At samples a gain is found wherever one that is given is certified, and the gain grows with the sampling period until there is none; then no
 /// bound of a linear plant is said to have no value.
 #[test]
+#[ignore = "search tier"]
 fn gains_of_a_linear_plant_at_samples() {
     let sigma = |period: &str| -> f64 {
         let folder = tempfile::tempdir().unwrap();
@@ -130,6 +131,7 @@ fn gains_of_a_linear_plant_at_samples() {
 
 /// Rates at samples are proved from norms: of a claim by (Ms) the reason is told, and the claim stays; of one by norms there is a rate.
 #[test]
+#[ignore = "search tier"]
 fn rates_of_a_claim_by_a_matrix_inequality_at_samples() {
     let answer = |plant: &str, more: &[&str]| {
         let folder = tempfile::tempdir().unwrap();

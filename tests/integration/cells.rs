@@ -30,6 +30,7 @@ fn in_words(folder: &Path, plant: &Value, certificate: &Path) -> String {
 
 /// The box is cut, the same on any number of threads; every number counts in every cell, for both programs.
 #[test]
+#[ignore = "search tier"]
 fn a_wide_family_is_certified_in_cells() {
     let temporary = TempDir::new().unwrap();
     let folder = temporary.path();
@@ -89,6 +90,7 @@ fn a_wide_family_is_certified_in_cells() {
 
 /// What a report says of all cells is true of each: the tube is the smallest, within which every member has one orbit.
 #[test]
+#[ignore = "search tier"]
 fn what_is_said_of_all_cells_is_true_of_each() {
     let temporary = TempDir::new().unwrap();
     let folder = temporary.path();

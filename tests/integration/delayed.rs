@@ -261,9 +261,10 @@ fn what_is_refused() {
     assert!(String::from_utf8(output.stderr).unwrap().contains("3 K h Nb2/2"));
 }
 
-/// Where a gain of a shipped plant is certified with a delay the loop at its periodic solution is stable, up to the largest number of oscillators; an
-/// ordinary run takes two plants.
+/// Where a gain of a shipped plant is certified with a delay the loop at its periodic solution is stable, up to the largest number of oscillators; a
+/// night takes every plant.
 #[test]
+#[ignore = "search tier"]
 fn plants_are_stable_at_the_gains_that_are_certified() {
     let folder = tempfile::tempdir().unwrap();
     let answer = |arguments: &[&str]| -> Value {

@@ -1,7 +1,8 @@
 //! Random families of plants (docs/mathematics.md, 13.2): what is certified is valid for the checker, no simulated member breaks a bound, and
 //! a fiftieth of the gain is refuted for most.
 //!
-//! `SIGMASTAR_CASES=0..40 cargo test --release --test integration families_random -- --nocapture` runs them all, with 500 members each.
+//! `SIGMASTAR_CASES=0..40 cargo test --release --test integration families_random -- --include-ignored --nocapture` runs them all, with 500
+//! members each.
 
 use crate::plants_random;
 use crate::support::{cases, checked, json, number, program, read, stored};
@@ -13,8 +14,8 @@ use std::ops::Range;
 use std::path::Path;
 use tempfile::TempDir;
 
-/// Seeds of an ordinary run, and of a night.
-const SEEDS: [u64; 2] = [1, 40];
+/// Seeds of the search tier, and of a night.
+const SEEDS: [u64; 2] = [2, 40];
 
 /// Members that are simulated of a family, likewise.
 const MEMBERS: [u64; 2] = [2, 500];
@@ -77,13 +78,14 @@ fn answer(command: &str, certificate: &Path, more: &[&str]) -> Value {
 }
 
 #[test]
+#[ignore = "search tier"]
 fn random_families_are_certified_and_valid_and_no_member_breaks_a_bound() {
     let folder = TempDir::new().unwrap();
     let seeds = cases(SEEDS[0], SEEDS[1]);
     let count = (seeds.end - seeds.start) as f64;
     let members = if count > SEEDS[0] as f64 { MEMBERS[1] } else { MEMBERS[0] };
     let (mut certified, mut refuted, mut simulated) = (0, 0, 0);
-    // Numbered from 1: that one shows in an ordinary run that a gain much too small is found.
+    // Numbered from 1: that one shows in the search tier that a gain much too small is found.
     for seed in seeds.map(|seed| seed + 1) {
         let file = stored(folder.path(), &format!("{seed}.json"), &family(seed));
         let certificate = folder.path().join(format!("{seed}.certificate.json"));

@@ -1,6 +1,6 @@
 //! The gallery of plants: its tables say what the program certifies, its figures are what the program draws.
 
-use crate::support::{ROOT, every, guide, json, program, utf8};
+use crate::support::{ROOT, guide, json, program, utf8};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -127,19 +127,31 @@ fn figures_that_are_not_the_programs_are_found() {
 }
 
 /// The gains at samples.
+fn at_samples() -> BTreeMap<String, Vec<String>> {
+    table(&page("gallery.md"), "| plant | h | sigma |")
+}
+
+fn assert_certified_at_samples(name: &str, cells: &[String]) {
+    let plant = format!("specs/plants/{name}.json");
+    let law = ["--sampling-period", &cells[1], "--sigma", &cells[2]];
+    let call = ["certify", &plant, "--quiet", "--no-alternatives", "--format", "json"].into_iter().chain(law);
+    let output = program().args(call).output().unwrap();
+    let report = json(&output.stdout);
+    assert_eq!(report["verdict"], "certified", "{name}: {report:#}");
+    assert_eq!(report["samples"], 200, "{name}");
+}
+
 #[test]
-fn the_gains_at_samples_in_the_gallery_are_certified() {
-    let rows = table(&page("gallery.md"), "| plant | h | sigma |");
+fn a_gain_at_samples_in_the_gallery_is_certified() {
+    let rows = at_samples();
     assert!(rows.keys().eq(plants().keys()));
-    for (name, cells) in rows.into_iter().step_by(every(10)) {
-        let plant = format!("specs/plants/{name}.json");
-        let law = ["--sampling-period", &cells[1], "--sigma", &cells[2]];
-        let call = ["certify", &plant, "--quiet", "--no-alternatives", "--format", "json"].into_iter().chain(law);
-        let output = program().args(call).output().unwrap();
-        let report = json(&output.stdout);
-        assert_eq!(report["verdict"], "certified", "{name}: {report:#}");
-        assert_eq!(report["samples"], 200, "{name}");
-    }
+    assert_certified_at_samples("linear", &rows["linear"]);
+}
+
+#[test]
+#[ignore = "search tier"]
+fn the_gains_at_samples_in_the_gallery_are_certified() {
+    at_samples().iter().for_each(|(name, cells)| assert_certified_at_samples(name, cells));
 }
 
 /// A drawing as numbers and what is between them.

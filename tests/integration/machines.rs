@@ -64,26 +64,36 @@ fn every_machine_has_a_row_and_a_section() {
     }
 }
 
-/// Of an ordinary run two machines; with `SIGMASTAR_CASES=all` every one, and the smallest gains that are found.
-#[test]
-fn the_machines_are_certified_checked_and_exported() {
+/// What the page says of a machine: its row, its certificates in continuous time and at samples, and the C code of the latter.
+fn assert_as_documented(name: &str, cells: &[String]) {
     let folder = TempDir::new().unwrap();
-    let every_machine = every(4);
-    for (name, cells) in machines().into_iter().step_by(every_machine) {
-        if every_machine == 1 {
-            let (_, report) = certified(folder.path(), &name, &[]);
+    let gain = ["--sigma", &cells[3]];
+    let (certificate, report) = certified(folder.path(), name, &gain);
+    let columns = wrong(cells, states(name), &report);
+    assert!(columns.is_empty(), "docs/machines.md, {name}: {columns:?} in\n{cells:?}\n{report:#}");
+    assert_valid(&certificate);
+    let output = program().args(["falsify", "-q", "--trials", "2"]).arg(&certificate).output().unwrap();
+    assert!(output.status.success(), "{name}: {}", utf8(output.stderr));
+    let (certificate, _) = certified(folder.path(), name, &[gain[0], gain[1], "--sampling-period", &cells[9]]);
+    assert_valid(&certificate);
+    compiles(folder.path(), &certificate);
+}
+
+#[test]
+fn a_machine_is_certified_checked_and_exported() {
+    assert_as_documented("hard-disk", &machines()["hard-disk"]);
+}
+
+/// In a night the smallest gains that are found, too.
+#[test]
+#[ignore = "search tier"]
+fn the_machines_are_certified_checked_and_exported() {
+    for (name, cells) in machines() {
+        if every(2) == 1 {
+            let (_, report) = certified(TempDir::new().unwrap().path(), &name, &[]);
             assert_eq!(report["sigma_star"], *cells[2], "{name}");
         }
-        let gain = ["--sigma", &cells[3]];
-        let (certificate, report) = certified(folder.path(), &name, &gain);
-        let columns = wrong(&cells, states(&name), &report);
-        assert!(columns.is_empty(), "docs/machines.md, {name}: {columns:?} in\n{cells:?}\n{report:#}");
-        assert_valid(&certificate);
-        let output = program().args(["falsify", "-q", "--trials", "2"]).arg(&certificate).output().unwrap();
-        assert!(output.status.success(), "{name}: {}", utf8(output.stderr));
-        let (certificate, _) = certified(folder.path(), &name, &[gain[0], gain[1], "--sampling-period", &cells[9]]);
-        assert_valid(&certificate);
-        compiles(folder.path(), &certificate);
+        assert_as_documented(&name, &cells);
     }
 }
 

@@ -206,6 +206,7 @@ fn trials_hold_the_bounds_and_break_smaller_ones() {
 
 /// Of a plant the claim rests on norms where what noise does is asked, in continuous time and at samples: the checker decides it, and trials hold it.
 #[test]
+#[ignore = "search tier"]
 fn noise_of_a_plant_is_bounded_by_norms() {
     let folder = tempfile::tempdir().unwrap();
     let small = [("measurement", object!({ "quantum": "1/1000" })), ("disturbance", object!("1/20"))];

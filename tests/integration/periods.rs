@@ -126,6 +126,7 @@ fn the_gain_grows_with_the_interval_from_that_of_the_point() {
 }
 
 #[test]
+#[ignore = "search tier"]
 fn a_plant_is_certified_for_every_period_of_the_interval() {
     let folder = TempDir::new().unwrap();
     let period = interval("1", "0.998", "1.002");
@@ -192,6 +193,7 @@ fn a_specification_is_certified_for_every_period_of_the_interval() {
 
 /// With an exact period and another base frequency a plant is certified, the checker agrees, and the report says what oscillators are worth.
 #[test]
+#[ignore = "search tier"]
 fn a_mistuned_plant_is_certified_and_its_error_bounded_by_the_number_of_oscillators() {
     let folder = TempDir::new().unwrap();
     let mut plant = with_period("plants/paper-example", &"1".into());

@@ -63,24 +63,32 @@ fn every_plant_is_listed() {
     assert_eq!(names("specs/plants/invalid"), BTreeSet::from(REFUSED.map(|(name, ..)| name.to_owned())));
 }
 
-/// Each certificate is decided by the checker, which has no line in common with what made it, and shows the conditions that are decided;
-/// the documents say of each plant what its report says.
-#[test]
-fn the_shipped_plants_are_certified_and_checked() {
+/// The gain of a plant. The certificate is decided by the checker, which has no line in common with what made it, and shows the conditions
+/// that are decided; the documents say of the plant what its report says.
+fn certified_and_checked(name: &str, most: f64) -> f64 {
     let folder = TempDir::new().unwrap();
-    let mut gains = BTreeMap::new();
-    for (name, most) in CERTIFIED.into_iter().step_by(every(5)) {
-        let (certificate, report) = reported(folder.path(), name);
-        let sigma = number(&report["sigma_star"]);
-        assert!(sigma <= most, "{name}: {sigma}");
-        gallery::compare(name, &report);
-        assert_valid(&certificate);
-        gains.insert(name, sigma);
-    }
-    // The gain does not depend on the units and the axes in which a plant is written.
-    if let Some(rotated) = gains.get("paper-example-rotated") {
-        let ratio = rotated / gains["paper-example"];
-        assert!((ratio - 1.0).abs() < 0.03, "{ratio}");
+    let (certificate, report) = reported(folder.path(), name);
+    let sigma = number(&report["sigma_star"]);
+    assert!(sigma <= most, "{name}: {sigma}");
+    gallery::compare(name, &report);
+    assert_valid(&certificate);
+    sigma
+}
+
+/// The gain does not depend on the units and the axes in which a plant is written.
+#[test]
+fn a_shipped_plant_is_certified_and_checked_in_any_axes() {
+    let most = BTreeMap::from(CERTIFIED);
+    let [plain, rotated] =
+        ["paper-example", "paper-example-rotated"].map(|name| certified_and_checked(name, most[name]));
+    assert!((rotated / plain - 1.0).abs() < 0.03, "{}", rotated / plain);
+}
+
+#[test]
+#[ignore = "search tier"]
+fn the_shipped_plants_are_certified_and_checked() {
+    for (name, most) in CERTIFIED {
+        certified_and_checked(name, most);
     }
 }
 

@@ -2,7 +2,7 @@
 //! are valid, the gain does not depend on the units of the states and of time, and it is near the least one for which the same
 //! Lyapunov function proves stability, which one semidefinite program in doubles says.
 //!
-//! `SIGMASTAR_CASES=0..200 cargo test --release --test integration random_linear` takes other seeds than an ordinary run.
+//! `SIGMASTAR_CASES=0..200 cargo test --release --test integration random_linear -- --include-ignored` takes other seeds than the search tier.
 
 use crate::support::{cases, checked, json, number, program, stored};
 use rand::rngs::StdRng;
@@ -206,6 +206,7 @@ fn gain(folder: &Path, name: &str, plant: &Value) -> Result<f64, String> {
 }
 
 #[test]
+#[ignore = "search tier"]
 fn random_linear_plants_are_certified_in_any_units() {
     let folder = TempDir::new().unwrap();
     let mut failures = Vec::new();

@@ -341,9 +341,22 @@ fn examine_all<A: Arithmetic>(case: u64, [a, b]: [&A; 2], [of_a, of_b]: [&[Float
     }
 }
 
+/// Cases of an ordinary run.
+const ORDINARY: u64 = 300;
+
 #[test]
 fn fuzz_intervals_of_both_programs() {
-    for case in cases(1500, 150_000) {
+    examine_cases(cases(ORDINARY, 150_000));
+}
+
+#[test]
+#[ignore = "search tier"]
+fn more_intervals_of_both_programs() {
+    examine_cases(ORDINARY..1500);
+}
+
+fn examine_cases(cases: std::ops::Range<u64>) {
+    for case in cases {
         let random = &mut random(1, case);
         let (a, b) = (sample(random), sample(random));
         let members = [&a.members[..], &b.members[..]];

@@ -197,6 +197,7 @@ fn family(interval: [&str; 2], gain: Option<Value>) -> Value {
 
 /// One certificate of a family at samples: the intervals are in the claim, each costs something, and the corners are tried first.
 #[test]
+#[ignore = "search tier"]
 fn families_are_certified_at_samples() {
     let folder = tempfile::tempdir().unwrap();
     let file = family(["145", "155"], Some(gain("2", "1.9", "2.1")));
@@ -242,6 +243,7 @@ fn families_are_certified_at_samples() {
 
 /// Trials of true claims at both ends of the gain and inside, at every number of oscillators; a false claim is contradicted.
 #[test]
+#[ignore = "search tier"]
 fn trials_with_an_uncertain_gain() {
     let cases: Vec<_> = ["paper-example", "paper-example-rms-at-rest", "motor-axis", "linear"]
         .into_iter()

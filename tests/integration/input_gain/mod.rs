@@ -187,6 +187,7 @@ fn the_claim_and_the_report_say_so() {
 
 /// By norms, by (M) and by (M) with (E), the last two from formulas; by both programs, and by neither with a wider interval in the place of its own.
 #[test]
+#[ignore = "search tier"]
 fn plants_are_certified_for_every_gain_of_the_interval() {
     let folder = tempfile::tempdir().unwrap();
     for (name, most, inequality, condition) in [
