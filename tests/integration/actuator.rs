@@ -120,7 +120,7 @@ fn the_claim_is_about_one_gain() {
     }
 }
 
-const ON_THE_WAY: &str = "|u| on the way, against what the actuator takes";
+const ON_THE_WAY: &str = "$`|u|`$ on the way, against what the actuator takes";
 
 /// Of each kind of claim: the checker agrees, and no member of it asks the actuator for more than it takes; told that it takes less, one does.
 #[test]
@@ -175,8 +175,8 @@ fn the_bounds_of_the_control_are_no_larger_than_they_need_be() {
         assert!(outcome.counterexample().is_none(), "{name}");
         for closest in outcome.closest() {
             match closest.quantity {
-                "sup|u| of the periodic solution" => best[0] = best[0].max(closest.share),
-                "|u - u_p| on the way, against its bound" => best[1] = best[1].max(closest.share),
+                "$`sup|u|`$ of the periodic solution" => best[0] = best[0].max(closest.share),
+                "$`|u - u_p|`$ on the way, against its bound" => best[1] = best[1].max(closest.share),
                 _ => {}
             }
         }

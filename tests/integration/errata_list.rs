@@ -1,7 +1,7 @@
 //! The list of errata: complete, in order, proved where it says so, and to the digits that are quoted for it.
 
 use rug::Rational;
-use sigmastar_document::{Block, Readable};
+use sigmastar_document::{Block, Readable, plain};
 use sigmastar_exact::enclosure::Truth;
 use sigmastar_exact::number::parse_decimal;
 use sigmastar_paper::errata::ErrataReport;
@@ -10,7 +10,7 @@ use sigmastar_paper::errata::{Class, Erratum, Evidence, Kind, Relation, Side, er
 /// The only evidence of an item whose statement contains the fragment.
 fn find<'l>(list: &'l [Erratum], id: &str, fragment: &str) -> &'l Evidence {
     let item = list.iter().find(|item| item.id == id).unwrap();
-    let found: Vec<&Evidence> = item.evidence.iter().filter(|e| e.statement.contains(fragment)).collect();
+    let found: Vec<&Evidence> = item.evidence.iter().filter(|e| plain(&e.statement).contains(fragment)).collect();
     assert_eq!(found.len(), 1, "{id}: `{fragment}` is in {} statements", found.len());
     found[0]
 }

@@ -251,7 +251,7 @@ fn a_stored_certificate_has_a_page() {
 /// Names and texts of files are text, in titles, figures and anchors too.
 #[test]
 fn names_from_files_are_no_markup() {
-    let hostile = "<script>alert('x')</script> & \\\" onload=\\\"y";
+    let hostile = "<script>alert('x')</script> $`n_o`$ & \\\" onload=\\\"y";
     let folder = tempfile::tempdir().unwrap();
     for (text, command) in [
         (EXAMPLE_TEXT, &["certify", "-q", "--no-alternatives"][..]),
@@ -265,7 +265,7 @@ fn names_from_files_are_no_markup() {
         std::fs::write(&file, format!("{}{hostile}{}", &text[..start], &text[end..])).unwrap();
         let page = page(&[command, &[file.to_str().expect("a plain name")]].concat(), 0);
         sound(&page);
-        let shown = "&lt;script&gt;alert('x')&lt;/script&gt; &amp; &quot; onload=&quot;y";
+        let shown = "&lt;script&gt;alert('x')&lt;/script&gt; $'n_o'$ &amp; &quot; onload=&quot;y";
         assert!(page.contains(&format!("<title>{shown}")) || page.contains(&format!("seen from {shown}")), "{page}");
     }
 }

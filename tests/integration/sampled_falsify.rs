@@ -46,7 +46,7 @@ fn a_true_claim_holds() {
         assert!(
             used("sup|zeta|_N") > 1e-3
                 && used("sup|e|") > 1e-5
-                && used("against D_e") > 0.01
+                && used("against $`D_e`$") > 0.01
                 && used("|u - u_p|") > 0.01,
             "{shares:?}"
         );
@@ -67,16 +67,16 @@ pub fn forged(certificate: &Value, pointer: &str, factor: f64) -> Value {
 fn a_forged_claim_is_contradicted() {
     for (pointer, factor, quantity, trials) in [
         ("/claim/sigma", 0.02, "", 4),
-        ("/claim/initial_set/E0", 40.0, "against D_e", 4),
-        ("/claim/initial_set/X0", 40.0, "against D_x", 4),
+        ("/claim/initial_set/E0", 40.0, "against $`D_e`$", 4),
+        ("/claim/initial_set/X0", 40.0, "against $`D_x`$", 4),
         ("/claim/periodic_solution/x", 0.01, "sup|x|", 4),
         ("/claim/periodic_solution/e", 0.01, "sup|e|", 4),
         ("/claim/periodic_solution/zeta", 0.01, "sup|zeta|_N", 4),
         ("/claim/periodic_solution/z", 0.01, "sup|z|_N", 4),
         ("/claim/control/steady", 0.01, "sup|u|", 4),
         ("/claim/control/transient", 0.01, "|u - u_p|", 4),
-        ("/witness/D_e", 0.03, "against D_e", 4),
-        ("/witness/D_x", 0.03, "against D_x", 4),
+        ("/witness/D_e", 0.03, "against $`D_e`$", 4),
+        ("/witness/D_x", 0.03, "against $`D_x`$", 4),
         // A gain K of the wrong sign feeds the oscillators.
         ("/claim/gain", -5.0, "", 4),
     ]

@@ -1,4 +1,4 @@
-//! The parts of a document, without any format.
+//! The parts of a document, without any format. Formulas and code are marked in every text but titles and code blocks (see `span`).
 
 use super::notation::one_notation;
 use crate::plot::Figure;

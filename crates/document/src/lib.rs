@@ -15,10 +15,12 @@ mod notation;
 pub mod number;
 pub mod plot;
 pub mod progress;
+mod span;
 mod text;
 
 pub use block::{Align, Block, Column, Extent, Table, clean, is_hidden};
 pub use made::Made;
+pub use span::{plain, plain_all};
 
 /// A report that can be written in every format, with the same content in each.
 pub trait Readable {

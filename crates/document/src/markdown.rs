@@ -1,6 +1,7 @@
 //! Reports as GitHub-flavoured Markdown.
 
 use super::block::{Align, Block, Table};
+use super::span::plain;
 
 /// The blocks as Markdown, ending in a line feed. What has a meaning in Markdown is escaped.
 #[must_use]
@@ -54,9 +55,10 @@ fn escape_line(text: &str) -> String {
     if inside.starts_with(['#', '>', '-', '+']) { format!("\\{inside}") } else { inside }
 }
 
-/// Text with the characters escaped that could start markup: an underscore between letters or digits cannot. What
+/// Text without the marks of formulas, with the characters escaped that could start markup: an underscore between letters or digits cannot. What
 /// stands between backticks is code and stays as it is (strangers' texts have no backticks, see `clean`).
 fn escape(text: &str) -> String {
+    let text = plain(text);
     let characters: Vec<char> = text.chars().collect();
     let is_word = |index: Option<usize>| index.and_then(|i| characters.get(i)).is_some_and(|c| c.is_alphanumeric());
     let mut output = String::with_capacity(text.len());

@@ -1,6 +1,7 @@
 //! Reports as plain text for a terminal of 100 columns.
 
 use super::block::{Align, Block, Table};
+use super::span::plain;
 
 /// The width to which sentences are wrapped.
 const WIDTH: usize = 100;
@@ -38,7 +39,7 @@ fn underlined(output: &mut String, title: &str, line: &str) {
 fn wrap(output: &mut String, text: &str, first: &str, rest: &str) {
     let mut line = first.to_owned();
     let mut empty = true;
-    for word in glued(text) {
+    for word in glued(&plain(text)) {
         if !empty && line.chars().count() + 1 + word.chars().count() > WIDTH {
             output.push_str(line.trim_end());
             output.push('\n');
@@ -56,7 +57,7 @@ fn wrap(output: &mut String, text: &str, first: &str, rest: &str) {
 }
 
 /// What stands between two sides that belong on one line.
-pub(super) const RELATIONS: [&str; 4] = ["<=", ">=", "<", "="];
+const RELATIONS: [&str; 4] = ["<=", ">=", "<", "="];
 
 /// The words of a text, with a relation and its two sides as one word, and what stands between two bars too.
 fn glued(text: &str) -> Vec<String> {
@@ -79,10 +80,12 @@ fn glued(text: &str) -> Vec<String> {
 }
 
 fn render_table(output: &mut String, table: &Table) {
-    let rows = table.shown();
+    let without_marks = |cells: Vec<String>| cells.iter().map(|cell| plain(cell)).collect::<Vec<String>>();
+    let titles = without_marks(table.columns.iter().map(|column| column.title.clone()).collect());
+    let rows: Vec<Vec<String>> = table.shown().into_iter().map(without_marks).collect();
     let width = |index: usize| {
         let cells = rows.iter().map(|row| row[index].chars().count());
-        cells.chain([table.columns[index].title.chars().count()]).max().unwrap_or(0)
+        cells.chain([titles[index].chars().count()]).max().unwrap_or(0)
     };
     let widths: Vec<usize> = (0..table.columns.len()).map(width).collect();
     let mut line = |cells: &mut dyn Iterator<Item = &str>| {
@@ -97,7 +100,7 @@ fn render_table(output: &mut String, table: &Table) {
         output.push_str(text.trim_end());
         output.push('\n');
     };
-    line(&mut table.columns.iter().map(|column| column.title.as_str()));
+    line(&mut titles.iter().map(String::as_str));
     let rules: Vec<String> = widths.iter().map(|width| "-".repeat(*width)).collect();
     line(&mut rules.iter().map(String::as_str));
     for row in &rows {

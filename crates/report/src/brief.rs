@@ -33,22 +33,22 @@ pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences
     let sigma = write_exact(sigma);
     let gain = match (&run.given_gain, &run.spec.actuator) {
         (_, Some(actuator)) => format!(
-            "sigma = {sigma} in 1/time, this one alone; |u| never exceeds the {} that the actuator takes; the same for every n_o",
+            "$`sigma = {sigma}`$ in 1/time, this one alone; $`|u|`$ never exceeds the {} that the actuator takes; the same for every $`n_o`$",
             clean(&actuator.max.text)
         ),
         (Some(_), None) => {
-            format!("sigma = {sigma} in 1/time, as it was given, or any larger; the same for every n_o")
+            format!("$`sigma = {sigma}`$ in 1/time, as it was given, or any larger; the same for every $`n_o`$")
         }
         (None, None) if !run.limits.is_empty() => {
             let least = run.smallest_gain.map_or_else(String::new, |least| {
                 format!(
-                    "; sigma*, the smallest gain for which the loop is proved, is about {} (an estimate)",
+                    "; $`sigma*`$, the smallest gain for which the loop is proved, is about {} (an estimate)",
                     estimate(least)
                 )
             });
             format!(
-                "sigma = {sigma} in 1/time, the smallest one that is found that keeps to what was asked for; the loop is proved for every \
-                 larger one, too, whose bounds are others; the same for every n_o{least}{}",
+                "$`sigma = {sigma}`$ in 1/time, the smallest one that is found that keeps to what was asked for; the loop is proved for every \
+                 larger one, too, whose bounds are others; the same for every $`n_o`${least}{}",
                 // The limit holds for every n_o, so without oscillators too.
                 match run.limits.steady_error {
                     Some(_) =>
@@ -57,7 +57,7 @@ pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences
                 }
             )
         }
-        (None, None) => format!("sigma* = {sigma} in 1/time, or any larger; the same for every n_o"),
+        (None, None) => format!("$`sigma* = {sigma}`$ in 1/time, or any larger; the same for every $`n_o`$"),
     };
     let mut facts = vec![
         ("gain", gain),
@@ -73,7 +73,7 @@ pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences
             .map(|sigma| ("aligned start", sensitivity::aligned(sigma))),
     );
     facts.extend(input_gain(run).map(|said| ("input gain", said)));
-    facts.extend(interval_costs(run.spec, &run.interval_costs, "sigma*").map(|said| ("intervals", said)));
+    facts.extend(interval_costs(run.spec, &run.interval_costs, "$`sigma*`$").map(|said| ("intervals", said)));
     // A table stands below where more is known.
     let by_n_o = consequences.filter(|_| run.by_count.is_none());
     facts.extend(by_n_o.and_then(|all| error(&all.by_n_o)).map(|said| ("steady error", said)));
@@ -87,7 +87,7 @@ pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences
     facts.push(("to", to(run.spec, &periodic, (upper(&error_box[0]), &peak), control)));
     facts.push(("assumed", assumed(run.spec, run.largest_arguments(), None)));
     let known = by_count(run);
-    [Block::facts(facts)].into_iter().chain(known).chain([Block::says(norms(run.spec, "sigma"))]).collect()
+    [Block::facts(facts)].into_iter().chain(known).chain([Block::says(norms(run.spec, "$`sigma`$"))]).collect()
 }
 
 /// How fast the error decays for the numbers of oscillators that were asked about; without any, how to ask, where nothing else was `asked`.
@@ -97,18 +97,18 @@ fn for_n_o(run: &Certification<'_>, asked: bool) -> Option<String> {
         let how = "`--n-o N` proves a rate at this gain, `--rate V --n-o N` finds a gain for one";
         return (!asked).then(|| how.to_owned());
     }
-    Some(format!("|e - e_per| at this gain alone, {}", all.join("; ")))
+    Some(format!("$`|e - e_per|`$ at this gain alone, {}", all.join("; ")))
 }
 
 /// A clause for each number of oscillators.
 fn rates<P, Q>(spec: &Specification, found: &[ForCount<P, Q>], why_not: &str) -> Vec<String> {
     let one = |ForCount { n_o, bound, noise }: &ForCount<P, Q>| match bound {
-        None => format!("n_o = {n_o}: not proved ({why_not})"),
+        None => format!("$`n_o = {n_o}`$: not proved ({why_not})"),
         Some(RateBound { rate, factor, .. }) => {
             let bounds = |noise: &NoiseBound<Q>| [noise.peak.clone(), noise.limit.clone()];
             let disturbed = disturbed(spec, noise.as_ref().map(|noise| noise.as_ref().map(bounds)));
             let [factor, rate] = [exact(factor, Direction::Up), exact(rate, Direction::Down)];
-            format!("n_o = {n_o}: {factor} exp(-{rate} (t - t_0)){disturbed}")
+            format!("$`n_o = {n_o}`$: $`{factor} exp(-{rate} (t - t_0))`${disturbed}")
         }
     };
     found.iter().map(one).collect()
@@ -136,7 +136,7 @@ fn disturbed(spec: &Specification, noise: Option<Result<[Rational; 2], &NoNoiseB
 /// What a claim at samples says of the given n_o, as one line: rates at the sampling instants; nothing where none was asked for.
 fn for_n_o_at_samples(run: &SampledCertification<'_>) -> Option<String> {
     let all = rates(run.spec, &run.for_n_o, &run.why_no_rate());
-    (!all.is_empty()).then(|| format!("|e - e_per| at the sampling instants, {}", all.join("; ")))
+    (!all.is_empty()).then(|| format!("$`|e - e_per|`$ at the sampling instants, {}", all.join("; ")))
 }
 
 /// Of a claim about the regulator at samples; nothing without one.
@@ -149,13 +149,15 @@ pub(super) fn of_samples(
     let witness = &proof.witness;
     // That gain stands exactly in the sentence above: the claim is about no other.
     let gain =
-        "exactly that sigma, in 1/time, for this sampling period alone: no threshold, neither for larger gains nor for faster samples"
+        "exactly that $`sigma`$, in 1/time, for this sampling period alone: no threshold, neither for larger gains nor for faster samples"
             .to_owned();
     let when = witness.delay.as_ref().map_or_else(
         || "a sampling instant".to_owned(),
         |delay| {
             let y_0 = exact(&delay.y_0, Direction::Down);
-            format!("a sampling instant, with a prediction of e there that is off by at most h Y_0, Y_0 = {y_0}")
+            format!(
+                "a sampling instant, with a prediction of $`e`$ there that is off by at most $`h Y_0`$, $`Y_0 = {y_0}`$"
+            )
         },
     );
     let mut facts = vec![
@@ -179,10 +181,10 @@ pub(super) fn of_samples(
     let proved = run.counts_noise();
     let beside = match (proved && run.spec.v_bar() > 0, proved && run.spec.disturbances.in_doubles()) {
         (false, false) => "",
-        (true, false) => ", but what noise adds with given n_o counts `measurement`",
-        (false, true) => ", but what is said of given n_o counts the rounding of the exported C code",
+        (true, false) => ", but what noise adds with given $`n_o`$ counts `measurement`",
+        (false, true) => ", but what is said of given $`n_o`$ counts the rounding of the exported C code",
         (true, true) => {
-            ", but what noise adds with given n_o counts `measurement` and the rounding of the exported C code"
+            ", but what noise adds with given $`n_o`$ counts `measurement` and the rounding of the exported C code"
         }
     };
     facts.push(("assumed", format!("{}; {of_the_computer}{beside}", assumed(run.spec, run.largest_arguments(), None))));
@@ -222,11 +224,14 @@ fn next(spec: &Specification, origin: Origin, at_samples: bool) -> String {
 fn norms(spec: &Specification, what: &str) -> String {
     match (spec.plant().is_some(), spec.state_name()) {
         (true, Some(_)) => {
-            "Here |z|_N = sqrt(z'Nz), and y = L^-1 (x - x_0(t)) with the orbit x_0 and a matrix L.".to_owned()
+            "Here $`|z|_N = sqrt(z'Nz)`$, and $`y = L^-1 (x - x_0(t))`$ with the orbit $`x_0`$ and a matrix $`L`$."
+                .to_owned()
         }
-        (true, None) => "Here |z|_N = sqrt(z'Nz).".to_owned(),
+        (true, None) => "Here $`|z|_N = sqrt(z'Nz)`$.".to_owned(),
         (false, _) => {
-            format!("Here |z|_N = sqrt(z'Nz). The same {what} serves every plant that the bounding functions describe.")
+            format!(
+                "Here $`|z|_N = sqrt(z'Nz)`$. The same {what} serves every plant that the bounding functions describe."
+            )
         }
     }
 }
@@ -235,7 +240,7 @@ fn norms(spec: &Specification, what: &str) -> String {
 fn from(spec: &Specification, set: &ClaimedSet, [x, e, ..]: &[Enclosure; 4], when: &str) -> String {
     let ball = spec.plant().and_then(|plant| claimed_ball(plant, &set.x0));
     let ball =
-        ball.map_or_else(String::new, |ball| format!("; so from |x - x_0| <= {}", exact(&ball, Direction::Down)));
+        ball.map_or_else(String::new, |ball| format!("; so from $`|x - x_0| <= {}`$", exact(&ball, Direction::Down)));
     let own = words::origin_of_sizes(spec, set, [x, e]);
     format!("{}, at {when}{ball}; {own}", words::set(spec, set))
 }
@@ -249,12 +254,13 @@ fn to(
 ) -> String {
     let ([x, e, _, _], peak) = (periodic.each_ref().map(upper), upper(peak));
     let (along, on_the_way) = match spec.state_name() {
-        Some(state) => {
-            (format!("|{state}| <= {x}, |e| <= {e}"), format!("{state} stays within {d_x} of it, |e| <= {peak}"))
-        }
-        None => (format!("|e| <= {e}"), format!("|e| <= {peak}")),
+        Some(state) => (
+            format!("$`|{state}| <= {x}`$, $`|e| <= {e}`$"),
+            format!("$`{state}`$ stays within {d_x} of it, $`|e| <= {peak}`$"),
+        ),
+        None => (format!("$`|e| <= {e}`$"), format!("$`|e| <= {peak}`$")),
     };
-    let of_u = |bound: &Enclosure| format!(", |u| <= {}", upper(bound));
+    let of_u = |bound: &Enclosure| format!(", $`|u| <= {}`$", upper(bound));
     let [steady, largest] = match control {
         Some((Control { steady, transient }, which)) => {
             [of_u(steady), format!("{}{which}", of_u(&(steady + transient)))]
@@ -268,7 +274,11 @@ fn to(
 fn set_by(run: &Certification<'_>) -> Option<String> {
     let binding = run.binding.filter(|_| run.given_gain.is_none())?;
     let best = run.sensitivities.first().map(|(datum, gain)| {
-        format!("; {} lowers sigma* by about {} %", sensitivity::one_per_cent(run.spec, *datum), estimate(100.0 * gain))
+        format!(
+            "; {} lowers $`sigma*`$ by about {} %",
+            sensitivity::one_per_cent(run.spec, *datum),
+            estimate(100.0 * gain)
+        )
     });
     Some(format!("{}{} (estimates)", binding.describe(), best.unwrap_or_default()))
 }
@@ -300,5 +310,5 @@ fn interval_costs(spec: &Specification, all: &[(String, Option<f64>)], gain: &st
 fn error(by_n_o: &[(u64, ErrorBounds)]) -> Option<String> {
     let shown = by_n_o.iter().filter(|(n_o, _)| SHOWN.contains(n_o));
     let shown: Vec<String> = shown.map(|(n_o, bounds)| format!("{} with {n_o}", upper(&bounds.sup))).collect();
-    (!shown.is_empty()).then(|| format!("sup|e| at most {} oscillators", shown.join(", ")))
+    (!shown.is_empty()).then(|| format!("$`sup|e|`$ at most {} oscillators", shown.join(", ")))
 }

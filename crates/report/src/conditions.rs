@@ -27,19 +27,19 @@ pub(super) fn of(heading: &str, conditions: &[Condition]) -> Vec<Block> {
         table.push([
             id,
             pair(&condition.lhs),
-            condition.relation.to_string(),
+            format!("$`{}`$", condition.relation),
             pair(&condition.rhs),
             margin(&condition.margin()),
             estimate(condition.relative_margin()),
             condition.truth().to_string(),
         ]);
-        legend.push((condition.id, condition.what.clone()));
+        legend.push((condition.id, format!("$`{}`$", condition.what)));
     }
     vec![
         Block::heading(heading),
         Block::says(
             "Both sides are enclosed, rounded outward; the margin is right minus left, rounded down; the relative margin \
-             is an estimate. A margin near 0 is no weakness: at the smallest sigma some conditions are active.",
+             is an estimate. A margin near 0 is no weakness: at the smallest $`sigma`$ some conditions are active.",
         ),
         Block::Table(table),
         Block::facts(legend),

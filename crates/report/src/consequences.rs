@@ -20,8 +20,8 @@ pub(super) fn section(spec: &Specification, consequences: &Consequences) -> Vec<
     let mut blocks = vec![Block::heading("The regulated error"), Block::List(psi_items(spec, consequences))];
     let (at, which) = match spec.actuator {
         None => (
-            "at sigma* and for every larger sigma",
-            " psi_1/sigma says how sup|e| falls with sigma whatever n_o is, the table what each n_o is worth at sigma*: both hold, and the \
+            "at $`sigma*`$ and for every larger $`sigma`$",
+            " $`psi_1/sigma`$ says how $`sup|e|`$ falls with $`sigma`$ whatever $`n_o`$ is, the table what each $`n_o`$ is worth at $`sigma*`$: both hold, and the \
              smaller bound counts.",
         ),
         Some(_) => ("at the gain of the claim", ""),
@@ -41,22 +41,24 @@ fn mistuned_words(spec: &Specification, mistuned: &MistunedSummary) -> String {
     let MistunedSummary { largest, last_that_pays, enough } = mistuned;
     let why = match words::period(spec) {
         Some(interval) => format!("The period is one constant from {interval}"),
-        None => "The base frequency is not asserted to be 2 pi / period".to_owned(),
+        None => "The base frequency is not asserted to be $`2 pi / period`$".to_owned(),
     };
     let distance = format!(
         "{why}: the harmonics are up to {} away from the oscillators, relative to their frequency, so that none vanishes.",
         upper(largest)
     );
     let worth = match (*last_that_pays, *enough) {
-        (0, _) => "With this no oscillator lowers a bound: the table is the same for every n_o.".to_owned(),
+        (0, _) => "With this no oscillator lowers a bound: the table is the same for every $`n_o`$.".to_owned(),
         (last, enough) => {
             let last_words = match last == MAX_TUNED as u64 {
                 true => format!(
                     "Of the first {last} oscillators each lowers the bound of its harmonic, and more are not counted"
                 ),
-                false => format!("An oscillator pays up to k = {last}: from n_o = {last} on no bound falls any more"),
+                false => {
+                    format!("An oscillator pays up to $`k = {last}`$: from $`n_o = {last}`$ on no bound falls any more")
+                }
             };
-            format!("{last_words}; from n_o = {enough} on that of sup|e| falls by 1 % or less.")
+            format!("{last_words}; from $`n_o = {enough}`$ on that of $`sup|e|`$ falls by 1 % or less.")
         }
     };
     format!("{distance} {worth}")
@@ -72,7 +74,7 @@ pub(super) fn sampled_section(consequences: &SampledConsequences) -> Vec<Block> 
 
 fn table(by_n_o: &[(u64, ErrorBounds)]) -> Table {
     let row = |(n_o, bounds): &(u64, ErrorBounds)| [n_o.to_string(), upper(&bounds.rms), upper(&bounds.sup)];
-    Table::of(&["n_o", "rms(e) at most", "sup|e| at most"], by_n_o.iter().map(row))
+    Table::of(&["$`n_o`$", "$`rms(e)`$ at most", "$`sup|e|`$ at most"], by_n_o.iter().map(row))
 }
 
 /// The answers to the targets, if there are any, where so many oscillators were looked at.
@@ -107,24 +109,26 @@ fn psi_items(spec: &Specification, consequences: &Consequences) -> Vec<String> {
     let mut items = Vec::new();
     // With an actuator nothing is said of another gain.
     if spec.actuator.is_none() {
-        items.push(format!("sup|e| <= psi_1/sigma with psi_1 = {}, for every n_o and mu", upper(psi_1)));
-        items.extend(
-            spec.state_name().map(|state| {
-                format!("sup|{state}| <= psi_x/sigma with psi_x = {}, for every n_o and mu", upper(psi_x))
-            }),
-        );
+        items
+            .push(format!("$`sup|e| <= psi_1/sigma`$ with $`psi_1 = {}`$, for every $`n_o`$ and $`mu`$", upper(psi_1)));
+        items.extend(spec.state_name().map(|state| {
+            format!("$`sup|{state}| <= psi_x/sigma`$ with $`psi_x = {}`$, for every $`n_o`$ and $`mu`$", upper(psi_x))
+        }));
     }
     if consequences.mistuned.is_none() {
-        items.push(format!("the integral of e^2 over a period <= psi_2/(n_o + 1)^2 with psi_2 = {}", upper(psi_2)));
+        items.push(format!(
+            "the integral of $`e^2`$ over a period $`<= psi_2/(n_o + 1)^2`$ with $`psi_2 = {}`$",
+            upper(psi_2)
+        ));
     }
     items
 }
 
 fn answer(target: &Target, outcome: TargetOutcome, most: u64) -> String {
-    let wanted = format!("{} <= {}", target.kind.name(), clean(&target.value.text));
+    let wanted = format!("$`{} <= {}`$", target.kind.name(), clean(&target.value.text));
     match outcome {
         TargetOutcome::Reached(n_o) => {
-            format!("Target {wanted}: certified with n_o = {n_o} oscillators, the least for these bounds")
+            format!("Target {wanted}: certified with $`n_o = {n_o}`$ oscillators, the least for these bounds")
         }
         TargetOutcome::NotReached => {
             format!("Target {wanted}: not certified with any number of oscillators up to {most}")

@@ -50,10 +50,10 @@ impl Readable for ConstantsReport<'_> {
 
 /// What is proved of P_zeta, with the decay rate of the oscillators alone.
 fn lemma_1(lemmas: &[(u32, Option<Lemma>)]) -> Vec<Block> {
-    let says = "There is a P_zeta with P_zeta (Phi - mu M M'N) + (.)' <= -N and 0 < P_zeta <= p N. Every kappa > 0 is admissible in \
-                N + kappa P_zeta; the rate of the oscillators alone, in |z|_N, tends to 1/(2 p) as kappa grows. The spectral abscissa \
+    let says = "There is a $`P_zeta`$ with $`P_zeta (Phi - mu M M'N) + (.)' <= -N`$ and $`0 < P_zeta <= p N`$. Every $`kappa > 0`$ is admissible in \
+                $`N + kappa P_zeta`$; the rate of the oscillators alone, in $`|z|_N`$, tends to $`1/(2 p)`$ as $`kappa`$ grows. The spectral abscissa \
                 is an estimate.";
-    let mut table = Table::new(&["n_o", "p (proved)", "rate 1/(2 p) (1/time)", "spectral abscissa"]);
+    let mut table = Table::new(&["$`n_o`$", "$`p`$ (proved)", "rate $`1/(2 p)`$ (1/time)", "spectral abscissa"]);
     for (n_o, lemma) in lemmas {
         let [p, rate, abscissa] = lemma.as_ref().map_or_else(
             || ["-"; 3].map(str::to_owned),
@@ -141,7 +141,7 @@ fn tables(rows: &[Row]) -> Vec<Block> {
     blocks.push(Block::Subheading("Sources (P: labels of the paper; sections of the derivation)".to_owned()));
     let mut sources = Vec::new();
     for row in rows {
-        collect(&mut sources, &source(row), row.name.clone());
+        collect(&mut sources, &source(row), named(row));
     }
     blocks.push(listed(sources));
     blocks
@@ -155,6 +155,14 @@ fn heading(at: At) -> &'static str {
     }
 }
 
+/// The name of a constant; a label of the paper in it is no formula.
+fn named(row: &Row) -> String {
+    match row.name.split_once(" P:") {
+        Some((name, label)) => format!("$`{name}`$ P:{label}"),
+        None => format!("$`{}`$", row.name),
+    }
+}
+
 fn cells(row: &Row, notes: &mut Vec<(String, Vec<String>)>) -> [String; 6] {
     let mut cell = |derivation: &str, entry: &Option<Entry>| match entry {
         None => "-".to_owned(),
@@ -163,7 +171,7 @@ fn cells(row: &Row, notes: &mut Vec<(String, Vec<String>)>) -> [String; 6] {
             format!("{}{mark}", compact(value))
         }
         Some(Entry { value: Value::Infeasible(reason) | Value::Unavailable(reason), .. }) => {
-            collect(notes, reason, format!("{} ({derivation})", row.name));
+            collect(notes, reason, format!("{} ({derivation})", named(row)));
             "(none)".to_owned()
         }
     };
@@ -174,7 +182,7 @@ fn cells(row: &Row, notes: &mut Vec<(String, Vec<String>)>) -> [String; 6] {
         factor.map_or_else(|| "-".to_owned(), estimate)
     };
     [
-        row.name.clone(),
+        named(row),
         cell("printed", &row.printed),
         cell("repaired", &row.repaired),
         cell("sharp", &row.sharp),
@@ -233,14 +241,16 @@ fn printed(run: &Certification<'_>, printed: &PrintedFigure) -> Vec<Block> {
             format!(", about {} times the sharp one", estimate(factor))
         });
         items.push(format!(
-            "Without that condition, the other printed conditions would give sigma* = {}{factor}. This is no theorem: \
+            "Without that condition, the other printed conditions would give $`sigma* = {}`${factor}. This is no theorem: \
              several of the formulas are unsound.",
             compact(sigma)
         ));
     } else if printed.evaluation.is_some() {
         let reasons: Vec<String> = named_reasons(printed).map(|(name, reason)| format!("{name}: {reason}")).collect();
         let reasons = if reasons.is_empty() { "their figures are not finite".to_owned() } else { reasons.join("; ") };
-        items.push(format!("Without that condition, the other printed conditions give no sigma* either ({reasons})."));
+        items.push(format!(
+            "Without that condition, the other printed conditions give no $`sigma*`$ either ({reasons})."
+        ));
     } else if !run.options.compare {
         items.push("Its other conditions were not searched.".to_owned());
     } else {

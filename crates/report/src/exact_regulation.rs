@@ -15,8 +15,8 @@ pub(super) fn section(run: &Certification<'_>, rechecked: bool) -> Vec<Block> {
         (Some(claim), Some(proof)) => {
             let set = &proof.witness.set;
             format!(
-                "sigma*_oo = {}: with infinitely many oscillators and any sigma >= sigma*_oo, every solution from {} is \
-                 bounded, and {}. No rate is claimed, and nothing about z. This uses the bounding functions up to {}.",
+                "$`sigma*_oo = {}`$: with infinitely many oscillators and any $`sigma >= sigma*_oo`$, every solution from {} is \
+                 bounded, and {}. No rate is claimed, and nothing about $`z`$. This uses the bounding functions up to {}.",
                 write_exact(&claim.witness.sigma),
                 words::set(run.spec, set),
                 words::limit(run.spec),
@@ -24,7 +24,7 @@ pub(super) fn section(run: &Certification<'_>, rechecked: bool) -> Vec<Block> {
             )
         }
         _ if !run.spec.internal_model.matched => {
-            "Not claimed: it needs a base frequency of exactly 2 pi / period (`\"matched\": true`).".to_owned()
+            "Not claimed: it needs a base frequency of exactly $`2 pi / period`$ (`\"matched\": true`).".to_owned()
         }
         _ if run.spec.actuator.is_some() => {
             "Not claimed with an actuator that saturates: it is about other gains.".to_owned()

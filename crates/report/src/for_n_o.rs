@@ -4,7 +4,7 @@ use super::words;
 use rug::Rational;
 use serde_json::{Value, json};
 use sigmastar_document::number::{estimate, exact};
-use sigmastar_document::{Block, Table};
+use sigmastar_document::{Block, Table, plain};
 use sigmastar_exact::number::{Direction, write_exact};
 use sigmastar_lang::spec::Specification;
 use sigmastar_prove::certify::{Certification, RowNoise, SampledCertification};
@@ -21,7 +21,7 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
     let mut blocks = vec![
         Block::heading("For given numbers of oscillators"),
         Block::says(format!(
-            "For every start in the set |e(t) - e_per(t)| <= factor exp(-rate (t - t_0)){}: a part of the claim, for this n_o and this gain \
+            "For every start in the set $`|e(t) - e_per(t)| <= factor exp(-rate (t - t_0))`${}: a part of the claim, for this $`n_o`$ and this gain \
              alone, proved from the bounds on the error box, or from the derivatives there. The factor is for the whole set at once, and far above what most \
              starts need. What limits the rate is an estimate. `not proved` says nothing either way.",
             undisturbed(run.spec.disturbances.any())
@@ -57,13 +57,14 @@ fn rates<P, Q>(found: &[ForCount<P, Q>]) -> Table {
             [n_o.to_string(), exact(rate, Direction::Down), exact(factor, Direction::Up), limited_by(*limit)]
         }
     };
-    Table::of(&["n_o", "rate in 1/time", "factor in the unit of e", "<limited by"], found.iter().map(row))
+    Table::of(&["$`n_o`$", "rate in 1/time", "factor in the unit of $`e`$", "<limited by"], found.iter().map(row))
 }
 
 /// What noise and a disturbance do to the error, where the document has them.
 fn noise_section(run: &Certification<'_>) -> Vec<Block> {
     let words = format!("With {}, any measurable signals,", run.spec.disturbances.in_words());
-    let said = Said { title: "Noise and disturbances", words, without: "them", decay: "lambda in 1/time", place: "" };
+    let said =
+        Said { title: "Noise and disturbances", words, without: "them", decay: "$`lambda`$ in 1/time", place: "" };
     let asked = asked(&run.for_n_o, |proof| &proof.witness.rate);
     let elsewhere = at_other_gains(&asked, (run.sigma_star(), &run.noise_of_rows));
     let mut blocks = disturbed(run.spec, asked, &said);
@@ -95,7 +96,7 @@ fn at_other_gains(
             parts.push(format!("the least in the limit that is proved is {}", at(least)));
         }
         if !parts.is_empty() {
-            blocks.push(Block::says(format!("n_o = {n_o}: {}.", parts.join("; "))));
+            blocks.push(Block::says(format!("$`n_o = {n_o}`$: {}.", parts.join("; "))));
         }
     }
     blocks
@@ -162,11 +163,11 @@ fn disturbed(spec: &Specification, asked: Vec<(u32, Result<Shown, NoNoiseBound>)
     let mut blocks = vec![
         Block::heading(*title),
         Block::says(format!(
-            "{words} |e(t) - e_per(t)| is at most this in the limit and at all times from the start on, for every \
-             start in the set: a part of the claim, for this n_o and this gain alone. e_per is of the periodic solution without {without}{}.",
+            "{words} $`|e(t) - e_per(t)|`$ is at most this in the limit and at all times from the start on, for every \
+             start in the set: a part of the claim, for this $`n_o`$ and this gain alone. $`e_per`$ is of the periodic solution without {without}{}.",
             match words::limit_adds_to_the_way(spec) {
-                true => format!("; on the way |e(t) - e_per(t)| <= factor exp(-rate (t - t_0)) + the limit{place}"),
-                false => "; the start is z = M e of the measured e".to_owned(),
+                true => format!("; on the way $`|e(t) - e_per(t)| <= factor exp(-rate (t - t_0)) + the limit`${place}"),
+                false => "; the start is $`z = M e`$ of the measured $`e`$".to_owned(),
             },
         )),
         Block::Table(table),
@@ -174,14 +175,14 @@ fn disturbed(spec: &Specification, asked: Vec<(u32, Result<Shown, NoNoiseBound>)
     blocks.extend(
         reasons
             .into_iter()
-            .map(|(reason, counts)| Block::says(format!("n_o = {}: {}.", counts.join(", "), reason.message()))),
+            .map(|(reason, counts)| Block::says(format!("$`n_o = {}`$: {}.", counts.join(", "), reason.message()))),
     );
     blocks
 }
 
 fn limited_by(limit: Limit) -> String {
     match limit {
-        Limit::Plant(rate) => format!("the plant: x decays at a_2 = {} in the error box", estimate(rate)),
+        Limit::Plant(rate) => format!("the plant: $`x`$ decays at $`a_2 = {}`$ in the error box", estimate(rate)),
         Limit::Oscillators(rate) => format!("the slowest mode of the loop, {}", estimate(rate)),
         Limit::Middle(rate) => {
             format!(
@@ -201,7 +202,7 @@ fn one_json<P, Q>(ForCount { n_o, bound, noise }: &ForCount<P, Q>, why_not: &str
     let mut value = match bound {
         None => json!({ "n_o": n_o, "rate": null, "factor": null, "limited_by": format!("not proved: {why_not}") }),
         Some(RateBound { rate, factor, limit, .. }) => json!({
-            "n_o": n_o, "rate": write_exact(rate), "factor": write_exact(factor), "limited_by": limited_by(*limit),
+            "n_o": n_o, "rate": write_exact(rate), "factor": write_exact(factor), "limited_by": plain(&limited_by(*limit)),
         }),
     };
     match noise {
@@ -222,8 +223,8 @@ pub(super) fn sampled_section(run: &SampledCertification<'_>) -> Vec<Block> {
     vec![
         Block::heading("For given numbers of oscillators"),
         Block::says(format!(
-            "For every start in the set at a sampling instant t_0, |e(t) - e_per(t)| <= factor exp(-rate (t - t_0)) at every sampling instant \
-             t from there on{}: a part of the claim, for this n_o, this gain and this sampling period alone, proved from the bounds on the \
+            "For every start in the set at a sampling instant $`t_0`$, $`|e(t) - e_per(t)| <= factor exp(-rate (t - t_0))`$ at every sampling instant \
+             $`t`$ from there on{}: a part of the claim, for this $`n_o`$, this gain and this sampling period alone, proved from the bounds on the \
              error box. The factor is for the whole set at once, and far above what most starts need. What limits the rate is an \
              estimate. `not proved` says nothing either way.",
             undisturbed(run.spec.disturbances.any_at_samples())
@@ -247,7 +248,7 @@ fn sampled_noise(run: &SampledCertification<'_>) -> Vec<Block> {
         (None, _) => ("Rounding", format!("With the law {IN_DOUBLES}"), "rounding"),
     };
     let place = " at the sampling instants, between samples too the bound at all times";
-    let said = Said { title, words, without, decay: "c of a sample", place };
+    let said = Said { title, words, without, decay: "$`c`$ of a sample", place };
     let asked = asked(&run.for_n_o, |proof| &proof.witness.c);
     let own = run.claim().map(|proof| &proof.witness.sigma);
     let elsewhere = at_other_gains(&asked, (own, &run.noise_of_rows));

@@ -12,28 +12,28 @@ const WORTH: f64 = 0.5;
 
 /// The table of a claim in continuous time; nothing where there are no rows but that of the claim.
 pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
-    let steady = SHOWN_N_O.map(|n_o| format!("steady |e|, {n_o}"));
-    let says = "Steady is along the periodic solution, of the error with 0 and with 10 oscillators; largest is on the way from |e| <= E0 and the rest \
+    let steady = SHOWN_N_O.map(|n_o| format!("steady $`|e|`$, {n_o}"));
+    let says = "Steady is along the periodic solution, of the error with 0 and with 10 oscillators; largest is on the way from $`|e| <= E0`$ and the rest \
                 of the initial set, of which a size that the file does not state goes with the gain: it is at least twice the bound of the periodic solution there. \
-                Each row is proved, for every n_o but where one is named, with a witness of its own that no independent program checks: \
+                Each row is proved, for every $`n_o`$ but where one is named, with a witness of its own that no independent program checks: \
                 `certify --sigma V -o FILE` writes a certificate, and `sampling` lists the longest sampling periods of such gains.";
     table(&run.gains, &steady, says)
 }
 
 /// The table of a claim at samples; nothing where there are no rows but that of the claim.
 pub(super) fn sampled_section(run: &SampledCertification<'_>) -> Vec<Block> {
-    let says = "At the same samples; steady is along the periodic solution, largest on the way from |e| <= E0 and the rest of the initial set, of which a \
-                size that the file does not state goes with the gain: it is at least twice the bound of the periodic solution there. Each row is proved, for every n_o below half of \
+    let says = "At the same samples; steady is along the periodic solution, largest on the way from $`|e| <= E0`$ and the rest of the initial set, of which a \
+                size that the file does not state goes with the gain: it is at least twice the bound of the periodic solution there. Each row is proved, for every $`n_o`$ below half of \
                 the samples but where one is named, and for that gain alone; no independent program checks it: `certify --sigma V -o FILE` writes a certificate.";
-    table(&run.gains, &["steady |e|".to_owned()], says)
+    table(&run.gains, &["steady $`|e|`$".to_owned()], says)
 }
 
 fn table(rows: &[GainRow], steady: &[String], says: &str) -> Vec<Block> {
     let [first, _, ..] = rows else { return Vec::new() };
     let rates: Vec<String> = first.rates.iter().map(|(n_o, _)| format!("rate, {n_o}")).collect();
-    let titles: Vec<&str> = std::iter::once("sigma")
+    let titles: Vec<&str> = std::iter::once("$`sigma`$")
         .chain(steady.iter().map(String::as_str))
-        .chain(["E0", "largest |e|", "steady |u|", "largest |u|"])
+        .chain(["$`E0`$", "largest $`|e|`$", "steady $`|u|`$", "largest $`|u|`$"])
         .chain(rates.iter().map(String::as_str))
         .collect();
     let mut table = Table::new(&titles);
@@ -85,10 +85,10 @@ pub(super) fn remark(run: &Certification<'_>) -> Option<String> {
     let better = run.gains.iter().skip(1).find(|row| row.peak.upper_f64() <= WORTH * peak);
     let better = better.map_or_else(String::new, |row| {
         let e0 = exact(&row.e0, Direction::Down);
-        format!(": at sigma = {} it is {}, from {e0}", write_exact(&row.sigma), upper(&row.peak))
+        format!(": at $`sigma = {}`$ it is {}, from {e0}", write_exact(&row.sigma), upper(&row.peak))
     });
     Some(format!(
-        "Remark: on the way |e| is proved to be at most {}, from at most {} at the start. A larger gain may help{better}; `--peak-error V` \
+        "Remark: on the way $`|e|`$ is proved to be at most {}, from at most {} at the start. A larger gain may help{better}; `--peak-error V` \
          seeks one.",
         upper(&own.peak),
         exact(&set.e0, Direction::Down)

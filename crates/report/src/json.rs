@@ -15,6 +15,7 @@ use super::sensitivity;
 use super::verdict::{basis, sentence};
 use serde_json::{Value, json};
 use sigmastar_document::number::{estimate, full};
+use sigmastar_document::{plain, plain_all};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::write_exact;
 use sigmastar_lang::spec::{InputGain, Specification};
@@ -29,7 +30,7 @@ use sigmastar_theory::derivation::targets::{Consequences, Target, TargetKind, Ta
 pub(super) fn report(run: &Certification<'_>, consequences: Option<&Consequences>, rechecked: bool) -> Value {
     let mut report = json!({
         "format": FORMAT, "version": VERSION,
-        "verdict": run.verdict.to_string(), "statement": sentence(run), "remarks": remarks(run),
+        "verdict": run.verdict.to_string(), "statement": plain(&sentence(run)), "remarks": plain_all(remarks(run)),
         "no_plant": run.no_plant.as_ref().map(no_plant_json), "derivation": "sharp",
         "specification": { "name": run.spec.name, "sha256": run.spec.sha256 },
     });
@@ -38,7 +39,7 @@ pub(super) fn report(run: &Certification<'_>, consequences: Option<&Consequences
     {
         report[if run.spec.actuator.is_some() { "sigma" } else { "sigma_star" }] = json!(write_exact(sigma));
         report["given_gain"] = json!(run.given_gain.is_some());
-        report["basis"] = json!(basis(run));
+        report["basis"] = json!(plain_all(basis(run)));
         report["initial_set"] = set_fields(claimed).collect();
         let [x, e, zeta, z] = periodic.each_ref().map(full);
         report["periodic_solution"] = json!({ "x": x, "e": e, "zeta": zeta, "z": z });
@@ -58,7 +59,7 @@ pub(super) fn report(run: &Certification<'_>, consequences: Option<&Consequences
         report["errors"] = errors_json(&errors);
     }
     if run.verdict != Verdict::Certified {
-        report["advice"] = json!(advice(run, rechecked));
+        report["advice"] = json!(plain_all(advice(run, rechecked)));
     }
     report["conditions"] = conditions_with_truth(run.conditions());
     for (name, value) in parts_json(run).into_iter().chain([
@@ -128,7 +129,7 @@ fn without_optional(run: &Certification<'_>) -> Value {
 fn sensitivities(run: &Certification<'_>) -> Value {
     run.sensitivities
         .iter()
-        .map(|(datum, gain)| json!({ "datum": sensitivity::name(run.spec, *datum), "estimate": estimate(*gain) }))
+        .map(|(datum, gain)| json!({ "datum": plain(&sensitivity::name(run.spec, *datum)), "estimate": estimate(*gain) }))
         .collect()
 }
 

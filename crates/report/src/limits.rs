@@ -50,13 +50,13 @@ pub(super) fn sampled_sentence(run: &SampledCertification<'_>) -> String {
 }
 
 fn in_words(sigma: Option<&Rational>, kept: Option<String>) -> String {
-    sigma.zip(kept).map_or_else(String::new, |(sigma, kept)| format!(" At sigma = {}, {kept}.", write_exact(sigma)))
+    sigma.zip(kept).map_or_else(String::new, |(sigma, kept)| format!(" At $`sigma = {}`$, {kept}.", write_exact(sigma)))
 }
 
 /// "|e| <= 0.1 on the way (proved: 0.0997), ..."; nothing where nothing was asked for.
 fn kept(limits: &Limits, bounds: &Bounds<'_>) -> Option<String> {
-    let named = named(limits, bounds).into_iter().filter_map(|(_, of, limit, bound)| {
-        limit.map(|limit| of.replace("VALUE", &format!("{limit} (proved: {})", upper(&bound))))
+    let named = named(limits, bounds).into_iter().filter_map(|(_, [size, place], limit, bound)| {
+        limit.map(|limit| format!("$`{size} <= {limit}`$ (proved: {}) {place}", upper(&bound)))
     });
     let all: Vec<String> = named.chain(rate_kept(limits, bounds)).collect();
     (!all.is_empty()).then(|| all.join(", "))
@@ -67,7 +67,7 @@ fn rate_kept(limits: &Limits, bounds: &Bounds<'_>) -> Option<String> {
     let (asked, slowest) = (limits.rate.as_ref()?, slowest(bounds)?);
     let counts: Vec<String> = bounds.rates.iter().map(|(n_o, _)| n_o.to_string()).collect();
     let proved = exact(slowest, Direction::Down);
-    Some(format!("a rate of at least {} for n_o = {} (proved: {proved})", write_exact(asked), counts.join(", ")))
+    Some(format!("a rate of at least {} for $`n_o = {}`$ (proved: {proved})", write_exact(asked), counts.join(", ")))
 }
 
 /// The slowest rate, where all are proved.
@@ -75,13 +75,16 @@ fn slowest<'r>(bounds: &Bounds<'r>) -> Option<&'r Rational> {
     bounds.rates.iter().map(|(_, rate)| *rate).min()?
 }
 
-fn named(limits: &Limits, bounds: &Bounds<'_>) -> [(&'static str, &'static str, Option<String>, Enclosure); 3] {
+/// What may be limited: its field, what is bounded and where, the limit that was asked for, and what is proved.
+type Named = (&'static str, [&'static str; 2], Option<String>, Enclosure);
+
+fn named(limits: &Limits, bounds: &Bounds<'_>) -> [Named; 3] {
     let text = |limit: &Option<Rational>| limit.as_ref().map(write_exact);
     let largest = &bounds.control.steady + &bounds.control.transient;
     [
-        ("steady_error", "|e| <= VALUE along the periodic solution", text(&limits.steady_error), bounds.steady.clone()),
-        ("peak_error", "|e| <= VALUE on the way", text(&limits.peak_error), bounds.peak.clone()),
-        ("control", "|u| <= VALUE on the way", text(&limits.control), largest),
+        ("steady_error", ["|e|", "along the periodic solution"], text(&limits.steady_error), bounds.steady.clone()),
+        ("peak_error", ["|e|", "on the way"], text(&limits.peak_error), bounds.peak.clone()),
+        ("control", ["|u|", "on the way"], text(&limits.control), largest),
     ]
 }
 
@@ -112,6 +115,9 @@ fn kept_json(limits: &Limits, bounds: &Bounds<'_>) -> Option<Value> {
 /// " and an actuator that takes |u| <= 50 (u does not exceed it from the set)"; nothing where there is none.
 pub(super) fn of_actuator(spec: &Specification) -> String {
     spec.actuator.as_ref().map_or_else(String::new, |actuator| {
-        format!(" and an actuator that takes |u| <= {} (u does not exceed it from the set)", clean(&actuator.max.text))
+        format!(
+            " and an actuator that takes $`|u| <= {}`$ ($`u`$ does not exceed it from the set)",
+            clean(&actuator.max.text)
+        )
     })
 }

@@ -32,16 +32,16 @@ impl Readable for LyapunovReport {
         let mut blocks = vec![
             Block::Title(format!("{}: the Lyapunov triple of its Jacobian", clean(&self.resolution.spec.name))),
             Block::Verdict(format!(
-                "Proved for every t and every matrix F of the Jacobian: p_low I <= P <= p_up I and P' + P F + F'P <= -2 alpha P \
-                 with p_low = {}, p_up = {}, alpha = {}.",
+                "Proved for every $`t`$ and every matrix F of the Jacobian: $`p_low I <= P <= p_up I`$ and $`P' + P F + F'P <= -2 alpha P`$ \
+                 with $`p_low = {}`$, $`p_up = {}`$, $`alpha = {}`$.",
                 triple.p_low.text, triple.p_up.text, triple.alpha.text
             )),
             Block::heading("P"),
         ];
         let waves = self.matrix.harmonics.iter().zip(1..).flat_map(|([cos, sin], k)| {
             [
-                (format!("the factor of cos({k} w t), w = 2 pi/period"), cos),
-                (format!("the factor of sin({k} w t)"), sin),
+                (format!("the factor of $`cos({k} w t)`$, $`w = 2 pi/period`$"), cos),
+                (format!("the factor of $`sin({k} w t)`$"), sin),
             ]
         });
         let mean = if self.matrix.harmonics.is_empty() { "constant" } else { "the mean" };
@@ -52,7 +52,7 @@ impl Readable for LyapunovReport {
         blocks.push(Block::Detail);
         blocks.push(Block::heading("Candidates"));
         blocks.push(Block::says(
-            "Floating point: what was tried, by its rate. The one with the smallest sigma* that could be proved is the one above.",
+            "Floating point: what was tried, by its rate. The one with the smallest $`sigma*`$ that could be proved is the one above.",
         ));
         let tried = self.resolution.candidates.found.iter().zip(&self.resolution.sigmas).map(|(candidate, sigma)| {
             [
@@ -62,7 +62,7 @@ impl Readable for LyapunovReport {
                 sigma.map_or_else(|| "-".to_owned(), estimate),
             ]
         });
-        blocks.push(Block::Table(Table::of(&["alpha", "p_up/p_low", "degree of P", "sigma*"], tried)));
+        blocks.push(Block::Table(Table::of(&["$`alpha`$", "$`p_up/p_low`$", "degree of P", "$`sigma*`$"], tried)));
         blocks.extend(floquet_section("Of the middle of the Jacobian", &self.resolution.candidates.floquet));
         blocks
     }
@@ -89,7 +89,7 @@ impl Readable for LyapunovReport {
 pub(super) fn floquet_section(whose: &str, exponents: &[[f64; 2]]) -> [Block; 3] {
     [
         Block::heading("Floquet exponents (floating point, not certified)"),
-        Block::says(format!("{whose}, in 1/time. Minus the largest real part bounds alpha for every P(t).")),
+        Block::says(format!("{whose}, in 1/time. Minus the largest real part bounds $`alpha`$ for every P(t).")),
         Block::Table(Table::of(&["real part", "imaginary part"], exponents.iter().map(|parts| parts.map(estimate)))),
     ]
 }

@@ -24,33 +24,33 @@ fn order_of_magnitude(difference: f64) -> String {
 /// C5 for the weights of the certificate, and with C4 for the best ones in its error box.
 fn decay_items(check: &CrossCheck) -> [String; 2] {
     let proved = if check.multipliers.is_some() {
-        "at sigma* the matrix is proved positive definite, exactly, with the multipliers in the certificate"
+        "at $`sigma*`$ the matrix is proved positive definite, exactly, with the multipliers in the certificate"
     } else {
-        "no multipliers were proved at sigma*; C5 rests on the closed form"
+        "no multipliers were proved at $`sigma*`$; C5 rests on the closed form"
     };
     let fixed = format!(
-        "C5: sigma must exceed {} by the closed form (proved), {} by the semidefinite program (floating point); {}; {proved}.",
+        "C5: $`sigma`$ must exceed {} by the closed form (proved), {} by the semidefinite program (floating point); {}; {proved}.",
         pair(&check.fixed.closed_form),
         solver_sigma(check.fixed.solver_sigma),
         compared(&check.fixed, true)
     );
     let free = match &check.free {
         Ok(free) => format!(
-            "sigma must exceed {} by the semidefinite program (floating point), {} by the closed form there; {}",
+            "$`sigma`$ must exceed {} by the semidefinite program (floating point), {} by the closed form there; {}",
             solver_sigma(free.solver_sigma),
             solver_sigma(free.closed_form.midpoint_f64()),
             compared(free, check.free_contradicts())
         ),
         Err(error) => format!("not worked out: {error}"),
     };
-    [fixed, format!("C4 and C5 in the same error box, with the best w_x and h for it: {free}.")]
+    [fixed, format!("C4 and C5 in the same error box, with the best $`w_x`$ and $`h`$ for it: {free}.")]
 }
 
 fn compared(figures: &SigmaBothWays, contradiction: bool) -> String {
     let verdict = match (&figures.remark, figures.agree()) {
         (_, true) => "they agree".to_owned(),
         (None, false) if contradiction => "they DISAGREE".to_owned(),
-        (None, false) => "possible, though not the smallest sigma for these".to_owned(),
+        (None, false) => "possible, though not the smallest $`sigma`$ for these".to_owned(),
         (Some(remark), false) => format!("the solver stopped early ({remark})"),
     };
     format!("{verdict}: the relative difference is below {}", order_of_magnitude(figures.relative_difference))
@@ -74,7 +74,7 @@ pub(super) fn section(checks: &MatrixChecks, sylvester: Option<&SylvesterCheck>)
              solutions from the initial set tend to it is)"
         };
         let stein = match &check.stein {
-            Some(_) => "; the diagonal Stein inequality D - M'DM > 0 is proved, exactly",
+            Some(_) => "; the diagonal Stein inequality $`D - M'DM > 0`$ is proved, exactly",
             None => "",
         };
         format!(

@@ -40,7 +40,7 @@ pub(super) fn sentence(run: &Certification<'_>) -> String {
         Attempt::NotFound(obstacle) => obstacle.sentence(),
     };
     let word = if run.verdict == Verdict::Refuted { "Refuted" } else { "Undecided" };
-    format!("{word}: no sigma is certified here; {what}. Nothing is claimed about the plant either way.")
+    format!("{word}: no $`sigma`$ is certified here; {what}. Nothing is claimed about the plant either way.")
 }
 
 /// The first bounding function that is not proved, in words, or what is said without one.
@@ -122,7 +122,7 @@ fn truth(condition: &Condition) -> &'static str {
 
 pub(super) fn describe(condition: &Condition) -> String {
     format!(
-        "{} ({}): {} {} {} is {}",
+        "{} ($`{}`$): $`{} {} {}`$ is {}",
         condition.id,
         condition.what,
         pair(&condition.lhs),
@@ -154,7 +154,7 @@ pub(super) fn advice(run: &Certification<'_>, rechecked: bool) -> Vec<String> {
             add("raise --precision-limit");
         }
         Attempt::Failing(_) if !rechecked => {
-            add("other units of time, x and e, in which the data have ordinary magnitudes");
+            add("other units of time, $`x`$ and $`e`$, in which the data have ordinary magnitudes");
         }
         Attempt::Failing(_) => add("search again (without --witness): another witness may exist"),
         Attempt::NotFound(obstacle) => obstacle_advice(run, obstacle, &mut add),
@@ -165,7 +165,7 @@ pub(super) fn advice(run: &Certification<'_>, rechecked: bool) -> Vec<String> {
 fn obstacle_advice(run: &Certification<'_>, obstacle: Obstacle, add: &mut dyn FnMut(&str)) {
     let domain = run.spec.domain.as_ref();
     match obstacle.failing {
-        Failing::Magnitude(_) => add("units of time, x, e and q in which the numbers are of ordinary size"),
+        Failing::Magnitude(_) => add("units of time, $`x`$, $`e`$ and $`q`$ in which the numbers are of ordinary size"),
         Failing::Beyond { .. } => {
             add(
                 "another gain, or the plant without this witness: its bounds are known as far as the smallest gain needs them",
@@ -175,26 +175,30 @@ fn obstacle_advice(run: &Certification<'_>, obstacle: Obstacle, add: &mut dyn Fn
             add(&smaller(run));
             add(&format!("a {} that is finite at these arguments", bound.field()));
         }
-        Failing::NotFinite(None) => add("units of time, x, e and q in which the numbers are of ordinary size"),
+        Failing::NotFinite(None) => {
+            add("units of time, $`x`$, $`e`$ and $`q`$ in which the numbers are of ordinary size")
+        }
         Failing::Existence => {
             add(
-                "a larger alpha, a smaller p_up/p_low, or smaller f_e, f_xx: a_1 > 0 (sharp), C1 and C3 (repaired) do not contain sigma there",
+                "a larger $`alpha`$, a smaller $`p_up/p_low`$, or smaller $`f_e`$, $`f_xx`$: $`a_1 > 0`$ (sharp), C1 and C3 (repaired) do not contain $`sigma`$ there",
             );
         }
         Failing::DomainX | Failing::DomainE => {
             if let Some(domain) = domain {
                 let (x, e) = (clean(&domain.x.text), clean(&domain.e.text));
-                add(&format!("a larger domain than X = {x}, E = {e}, if the bounding functions hold there"));
+                add(&format!("a larger domain than $`X = {x}`$, $`E = {e}`$, if the bounding functions hold there"));
             }
             add(&smaller(run));
         }
         Failing::Curvature => {
             add(&smaller(run));
-            add("a larger alpha, or smaller f_xx and f_ex: the nonlinearity is too strong for this initial set");
+            add(
+                "a larger $`alpha`$, or smaller $`f_xx`$ and $`f_ex`$: the nonlinearity is too strong for this initial set",
+            );
         }
         Failing::Coupling => {
             add(&smaller(run));
-            add("smaller q_x, f_e");
+            add("smaller $`q_x`$, $`f_e`$");
         }
         Failing::Gain { .. } => add("a larger gain, or none: without --sigma the smallest one is sought"),
         Failing::Limit { which, .. } => {
@@ -210,13 +214,13 @@ fn obstacle_advice(run: &Certification<'_>, obstacle: Obstacle, add: &mut dyn Fn
         Failing::Start { .. } => add(SMALLER_START),
         Failing::Rate { .. } => add(SLOWER),
         Failing::InputGain { .. } => add("a narrower interval `input_gain`"),
-        Failing::Delay { .. } => add("a shorter sampling period or a smaller mu"),
+        Failing::Delay { .. } => add("a shorter sampling period or a smaller $`mu`$"),
         Failing::Hold { .. } | Failing::Samples => add("a smaller gain or a shorter sampling period"),
-        Failing::Sampling => add("a shorter sampling period, or a smaller mu"),
+        Failing::Sampling => add("a shorter sampling period, or a smaller $`mu`$"),
         Failing::Bounds | Failing::Unproved(_) => add("a `domain` on which the bounding functions are valid"),
     }
     if let Some([x, e]) = run.largest_arguments().map(|arguments| arguments.each_ref().map(upper)) {
-        add(&format!("the last witness used the bounding functions up to X = {x}, E = {e}"));
+        add(&format!("the last witness used the bounding functions up to $`X = {x}`$, $`E = {e}`$"));
     }
 }
 
@@ -254,7 +258,7 @@ pub(super) fn wider(which: Limited) -> &'static str {
 pub(super) fn other_gain(which: Limited) -> &'static str {
     match which {
         Limited::Control | Limited::Actuator => {
-            "another gain, where this one is far above sigma* a smaller one: without --sigma one with which the limit is kept is sought"
+            "another gain, where this one is far above $`sigma*`$ a smaller one: without --sigma one with which the limit is kept is sought"
         }
         Limited::SteadyError | Limited::PeakError => {
             "a larger gain, which may leave less of the error: without --sigma one with which the limit is kept is sought"
@@ -272,7 +276,7 @@ fn smaller(run: &Certification<'_>) -> String {
             let edge =
                 if as_proposed { format!("; {ESTIMATE} fails for a set that is 3 % larger") } else { String::new() };
             format!(
-                "a smaller initial set: {} is certified, with sigma* = {}{share}{edge}",
+                "a smaller initial set: {} is certified, with $`sigma* = {}`${share}{edge}",
                 field(&set),
                 write_exact(&sigma)
             )

@@ -36,31 +36,31 @@ pub(super) fn section(spec: &Specification, set: Option<&ClaimedSet>) -> Vec<Blo
         let written = format!("T in [{}, {}] (nominal {nominal})", low.words(), high.words());
         blocks.push(Block::facts([("period", clean(&written))]));
         blocks.push(Block::says(
-            "Everything below is proved for every constant period in this interval, of which the clock v = T_nominal/T is one more \
-             parameter: xb follows it too, and all of this is about the phase 2 pi t/T.",
+            "Everything below is proved for every constant period in this interval, of which the clock $`v = T_nominal/T`$ is one more \
+             parameter: $`xb`$ follows it too, and all of this is about the phase $`2 pi t/T`$.",
         ));
     }
     if parameters.iter().any(|parameter| parameter.interval.is_some()) {
         blocks.push(Block::says(format!(
-            "Everything below is proved for every value of the parameters in these intervals, each of them constant in time; x_0(t) is that of \
-             the member, and xb(t) follows it{} as an affine function of the parameters.",
+            "Everything below is proved for every value of the parameters in these intervals, each of them constant in time; $`x_0(t)`$ is that of \
+             the member, and $`xb(t)`$ follows it{} as an affine function of the parameters.",
             if is_cut(plant) { ", in each of the cells below," } else { "" }
         )));
     }
     blocks.extend(cut(plant));
     if plant.states() > 0 {
         blocks.push(Block::says(
-            "x_0(t) is the T-periodic solution of x' = f(t,x,0), and y = L^-1 (x - x_0) are the coordinates in which all norms are \
+            "$`x_0(t)`$ is the T-periodic solution of $`x' = f(t,x,0)`$, and $`y = L^-1 (x - x_0)`$ are the coordinates in which all norms are \
              taken. Everything below is proved.",
         ));
         blocks.push(Block::facts(facts(plant, set)));
         blocks.push(matrix("L", &plant.coordinates));
     }
     let (where_, titles) = match spec.state_name() {
-        Some(_) => ("|y| <= X, |e| <= E", &["<bound", "<of", "X", "E", "value"][..]),
-        None => ("|e| <= E", &["<bound", "<of", "E", "value"][..]),
+        Some(_) => ("$`|y| <= X`$, $`|e| <= E`$", &["<bound", "<of", "$`X`$", "$`E`$", "value"][..]),
+        None => ("$`|e| <= E`$", &["<bound", "<of", "$`E`$", "value"][..]),
     };
-    blocks.push(Block::says(format!("The bounds that the conditions use, for {where_} and every t:")));
+    blocks.push(Block::says(format!("The bounds that the conditions use, for {where_} and every $`t`$:")));
     let mut table = Table::new(titles);
     for ProvedValue { bound, x, e, value, .. } in &spec.bounds.proved_values().entries {
         // Without states those of f, and of derivatives by x, are of nothing.
@@ -70,7 +70,7 @@ pub(super) fn section(spec: &Specification, set: Option<&ClaimedSet>) -> Vec<Blo
         let [x, e] = [x, e].map(|end| exact(end, Direction::Down));
         let direction = if bound.is_rate() { Direction::Down } else { Direction::Up };
         let arguments = words::with_state(spec, [x, e]);
-        let names = [bound.field(), bound.of_what()].map(str::to_owned);
+        let names = [bound.field(), bound.of_what()].map(|name| format!("$`{name}`$"));
         table.push(names.into_iter().chain(arguments).chain([exact(value, direction)]));
     }
     blocks.push(Block::Table(table));
@@ -79,11 +79,11 @@ pub(super) fn section(spec: &Specification, set: Option<&ClaimedSet>) -> Vec<Blo
         let [states, error] = &where_;
         let place = match inequality.splitting {
             None => format!("at every point of {states}"),
-            Some(_) => format!("with df/dx, dq/dx at every point of {states}, df/de, dq/de at every one of {error},"),
+            Some(_) => format!("with $`df/dx`$, $`dq/dx`$ at every point of {states}, $`df/de`$, $`dq/de`$ at every one of {error},"),
         };
         Block::says(format!(
-            "Stability rests on the matrix inequality (M) over the derivatives (section 13.7), which holds from sigma = {} on, \
-             {place} and every t. No condition uses the bounds at the same X and E; rates of convergence do.",
+            "Stability rests on the matrix inequality (M) over the derivatives (section 13.7), which holds from $`sigma = {}`$ on, \
+             {place} and every $`t`$. No condition uses the bounds at the same $`X`$ and $`E`$; rates of convergence do.",
             exact(&inequality.value, Direction::Up)
         ))
     }));
@@ -91,9 +91,9 @@ pub(super) fn section(spec: &Specification, set: Option<&ClaimedSet>) -> Vec<Blo
         let ExistenceInequality { x, e, k_p, c_y, value, .. } = existence;
         let place = place(spec, [x, e]);
         Block::says(format!(
-            "Existence rests on the matrix inequality (E) over the derivatives (section 13.7), which holds from sigma = {} on, at \
-             every point of {place} and every t: along the periodic solution the root mean square of q + mu s is at most {} times \
-             that of q(t,0,0) without its mean.",
+            "Existence rests on the matrix inequality (E) over the derivatives (section 13.7), which holds from $`sigma = {}`$ on, at \
+             every point of {place} and every $`t`$: along the periodic solution the root mean square of $`q + mu s`$ is at most {} times \
+             that of $`q(t,0,0)`$ without its mean.",
             exact(value, Direction::Up),
             exact(&Rational::from(k_p / c_y), Direction::Up)
         ))
@@ -102,9 +102,9 @@ pub(super) fn section(spec: &Specification, set: Option<&ClaimedSet>) -> Vec<Blo
     blocks.extend(joint.map(|joint| {
         let most = joint.metrics().map(|metric| Rational::from(&metric.k_p / &metric.c_y)).into_iter().max();
         Block::says(format!(
-            "Existence rests on the joint inequality (Jm) over the derivatives (section 13.7), whose two metrics of (y, e) serve \
-             from sigma = {} on, at every point of {} and every t: along the periodic solution the root mean square of q + mu s is \
-             at most {} times that of q(t,0,0) without its mean.",
+            "Existence rests on the joint inequality (Jm) over the derivatives (section 13.7), whose two metrics of $`(y, e)`$ serve \
+             from $`sigma = {}`$ on, at every point of {} and every $`t`$: along the periodic solution the root mean square of $`q + mu s`$ is \
+             at most {} times that of $`q(t,0,0)`$ without its mean.",
             exact(&joint.value, Direction::Up),
             place(spec, [&joint.x, &joint.e]),
             exact(&most.unwrap_or_default(), Direction::Up)
@@ -113,8 +113,8 @@ pub(super) fn section(spec: &Specification, set: Option<&ClaimedSet>) -> Vec<Blo
     let joint = spec.bounds.proved_values().joint_stability.as_ref();
     blocks.extend(joint.map(|JointStability { inequality, .. }| {
         Block::says(format!(
-            "Stability rests on the joint inequality (Jm) over the derivatives (section 13.7), whose two metrics of (y, e) serve \
-             from sigma = {} on, at every point of {} and every t.",
+            "Stability rests on the joint inequality (Jm) over the derivatives (section 13.7), whose two metrics of $`(y, e)`$ serve \
+             from $`sigma = {}`$ on, at every point of {} and every $`t`$.",
             exact(&inequality.value, Direction::Up),
             place(spec, [&inequality.x, &inequality.e])
         ))
@@ -133,7 +133,7 @@ fn cut(plant: &OfPlant) -> Option<Block> {
     is_cut(plant).then(|| {
         let why = plant.why_cut.as_ref().map_or_else(|| ".".to_owned(), |why| format!(": {why}."));
         Block::says(format!(
-            "Their box is cut into {} cells, which may overlap, each with an xb(t) and a tube of its own; every number below is true in all \
+            "Their box is cut into {} cells, which may overlap, each with an $`xb(t)`$ and a tube of its own; every number below is true in all \
              of them{why}",
             plant.cells.len()
         ))
@@ -146,14 +146,14 @@ fn at_samples(spec: &Specification) -> Vec<Block> {
     let of_stability = stability.iter().map(|SampledInequality { x, e, .. }| {
         Block::says(format!(
             "Stability rests on the matrix inequality (Ms) over the derivatives (section 13.7) in the place of C5h, at this gain and \
-             sampling period, at every point of {} and every t. No condition uses the bounds at the same X and E.",
+             sampling period, at every point of {} and every $`t`$. No condition uses the bounds at the same $`X`$ and $`E`$.",
             place(spec, [x, e])
         ))
     });
     let of_existence = existence.iter().map(|SampledExistence { x, e, gamma, c_y, .. }| {
         Block::says(format!(
-            "Existence rests on the matrix inequality (E) at samples (section 13.7), at every point of {} and every t: along the \
-             periodic solution the mean square of y over the samples is at most {} times that of q(t,0,0) without its mean.",
+            "Existence rests on the matrix inequality (E) at samples (section 13.7), at every point of {} and every $`t`$: along the \
+             periodic solution the mean square of $`y`$ over the samples is at most {} times that of $`q(t,0,0)`$ without its mean.",
             place(spec, [x, e]),
             exact(&Rational::from(gamma / c_y), Direction::Up)
         ))
@@ -164,7 +164,7 @@ fn at_samples(spec: &Specification) -> Vec<Block> {
 /// The points up to these arguments.
 fn place(spec: &Specification, ends: [&Rational; 2]) -> String {
     let [x, e] = ends.map(|end| exact(end, Direction::Down));
-    if spec.state_name().is_some() { format!("|y| <= {x}, |e| <= {e}") } else { format!("|e| <= {e}") }
+    if spec.state_name().is_some() { format!("$`|y| <= {x}`$, $`|e| <= {e}`$") } else { format!("$`|e| <= {e}`$") }
 }
 
 /// Where x_0 is, about: its mean and how far it swings, by each state; nothing of a plant without states, or of a specification.
@@ -185,7 +185,7 @@ pub(super) fn orbit(spec: &Specification) -> Option<String> {
     };
     let states: Vec<String> = names.iter().enumerate().map(of_state).collect::<Option<_>>()?;
     let members = if nominal.is_empty() { "" } else { ", of the nominal member: each has its own" };
-    (!states.is_empty()).then(|| format!("x_0(t): {}{members}", states.join(", ")))
+    (!states.is_empty()).then(|| format!("$`x_0(t)`$: {}{members}", states.join(", ")))
 }
 
 fn facts(plant: &OfPlant, set: Option<&ClaimedSet>) -> Vec<(&'static str, String)> {
@@ -198,19 +198,19 @@ fn facts(plant: &OfPlant, set: Option<&ClaimedSet>) -> Vec<(&'static str, String
         (
             "orbit",
             format!(
-                "a trigonometric polynomial with{most} {harmonics} harmonics; |L^-1 (x_0 - xb)| <= {} (defect{most} {}, tube{least} {})",
+                "a trigonometric polynomial with{most} {harmonics} harmonics; $`|L^-1 (x_0 - xb)| <= {}`$ (defect{most} {}, tube{least} {})",
                 up(&plant.largest(|cell| &cell.orbit.radius)),
                 up(&plant.largest(|cell| &cell.orbit.defect)),
                 exact(&plant.smallest(|cell| &cell.orbit.tube), Direction::Down)
             ),
         ),
-        ("rate along it", format!("alpha = {}", number(&plant.triple.alpha, Direction::Down))),
+        ("rate along it", format!("$`alpha = {}`$", number(&plant.triple.alpha, Direction::Down))),
     ];
     if !plant.matrix.harmonics.is_empty() {
         facts.push((
             "P(t)",
             format!(
-                "{} harmonics, p_low = {}, p_up = {}",
+                "{} harmonics, $`p_low = {}`$, $`p_up = {}`$",
                 plant.matrix.harmonics.len(),
                 number(&plant.triple.p_low, Direction::Down),
                 number(&plant.triple.p_up, Direction::Up)
@@ -221,10 +221,10 @@ fn facts(plant: &OfPlant, set: Option<&ClaimedSet>) -> Vec<(&'static str, String
         let Lyapunov { p_low, p_up, alpha } = triple;
         let [alpha, p_low] = [alpha, p_low].map(|value| number(value, Direction::Down));
         let p_up = number(p_up, Direction::Up);
-        facts.push(("P of existence", format!("alpha = {alpha}, p_low = {p_low}, p_up = {p_up}")));
+        facts.push(("P of existence", format!("$`alpha = {alpha}`$, $`p_low = {p_low}`$, $`p_up = {p_up}`$")));
     }
     facts.push((
-        "q(t, x_0, 0)",
+        "$`q(t, x_0, 0)`$",
         format!(
             "{}{} harmonics; the rest is at most {}, its derivative {}",
             if is_cut(plant) { "at most " } else { "" },
@@ -234,11 +234,11 @@ fn facts(plant: &OfPlant, set: Option<&ClaimedSet>) -> Vec<(&'static str, String
         ),
     ));
     if let Some(ball) = set.and_then(|set| claimed_ball(plant, &set.x0)) {
-        facts.push(("the initial set contains", format!("|x - x_0| <= {}", exact(&ball, Direction::Down))));
+        facts.push(("the initial set contains", format!("$`|x - x_0| <= {}`$", exact(&ball, Direction::Down))));
     }
     if let Some(ball) = set.and_then(|set| nominal_ball(plant, &set.x0)) {
         let said = format!(
-            "|x - xb(t)| <= {} about the xb of the nominal member{}, for every member",
+            "$`|x - xb(t)| <= {}`$ about the $`xb`$ of the nominal member{}, for every member",
             exact(&ball, Direction::Down),
             if is_cut(plant) { " in the first cell that has it" } else { "" }
         );

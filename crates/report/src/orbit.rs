@@ -31,9 +31,9 @@ impl Readable for OrbitReport<'_> {
         let mut blocks = vec![
             title,
             Block::Verdict(format!(
-                "Proved: {}x' = f(t,x,0) has exactly one T-periodic solution x_0 with |L^-1 (x_0 - xb)| <= {} for all t; it has \
-                 |L^-1 (x_0 - xb)| <= {}; along it p_low I <= P <= p_up I and P' + P J + J'P <= -2 alpha P, J = L^-1 df/dx L, \
-                 with p_low = {}, p_up = {}, alpha = {}.",
+                "Proved: {}$`x' = f(t,x,0)`$ has exactly one T-periodic solution $`x_0`$ with $`|L^-1 (x_0 - xb)| <= {}`$ for all $`t`$; it has \
+                 $`|L^-1 (x_0 - xb)| <= {}`$; along it $`p_low I <= P <= p_up I`$ and $`P' + P J + J'P <= -2 alpha P`$, $`J = L^-1 df/dx L`$, \
+                 with $`p_low = {}`$, $`p_up = {}`$, $`alpha = {}`$.",
                 members(&self.plant.parameters)
                     .map_or_else(String::new, |members| format!("of every plant with {members}, ")),
                 exact(&orbit.tube, Direction::Down),
@@ -45,7 +45,7 @@ impl Readable for OrbitReport<'_> {
             Block::heading("L, by rows"),
             Block::List(rows_text(&coordinates.l)),
         ];
-        let p = if coordinates.p.harmonics.is_empty() { "P is the identity." } else { "P varies with t." };
+        let p = if coordinates.p.harmonics.is_empty() { "P is the identity." } else { "P varies with $`t`$." };
         blocks.push(Block::says(p));
         blocks.push(Block::Detail);
         blocks.push(Block::heading("Candidates (floating point)"));

@@ -11,19 +11,19 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
     let body = match gains {
         Ok(gains) => {
             let mut items = vec![
-                format!("limsup|xi_1| <= k_inf limsup|e| with k_inf = {}", upper(&gains.k_inf)),
+                format!("$`limsup|xi_1| <= k_inf limsup|e|`$ with $`k_inf = {}`$", upper(&gains.k_inf)),
                 format!(
-                    "in the steady state the integral of xi_1^2 over a period is at most k_2 times that of e^2 with \
-                     k_2 = {}",
+                    "in the steady state the integral of $`xi_1^2`$ over a period is at most $`k_2`$ times that of $`e^2`$ with \
+                     $`k_2 = {}`$",
                     upper(&gains.k_2)
                 ),
             ];
             if let Some([sup, rms]) = run.regulated_output(gains) {
                 items.push(format!(
-                    "so, for every n_o{}, sup|xi_1| <= {} and rms(xi_1) <= {} along the \
-                     periodic solution; the bounds of e for a given n_o carry over by the factors k_inf and sqrt(k_2) = {}",
+                    "so, for every $`n_o`${}, $`sup|xi_1| <= {}`$ and $`rms(xi_1) <= {}`$ along the \
+                     periodic solution; the bounds of $`e`$ for a given $`n_o`$ carry over by the factors $`k_inf`$ and $`sqrt(k_2) = {}`$",
                     // With an actuator nothing is said of another gain.
-                    if run.spec.actuator.is_some() { "" } else { " and every sigma from sigma* on" },
+                    if run.spec.actuator.is_some() { "" } else { " and every $`sigma`$ from $`sigma*`$ on" },
                     upper(&sup),
                     upper(&rms),
                     upper(&gains.k_2.sqrt())
@@ -31,7 +31,7 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
             }
             Block::List(items)
         }
-        Err(error) => Block::says(format!("No bound of xi_1: {error}.")),
+        Err(error) => Block::says(format!("No bound of $`xi_1`$: {error}.")),
     };
     vec![Block::heading("Relative degree (from e to xi_1)"), body]
 }

@@ -27,7 +27,7 @@ pub fn remarks(run: &Certification<'_>) -> Vec<String> {
                 )
             })
         });
-        remarks.push(format!("Remark: sigma* is above 10^4 divided by the period.{cause}"));
+        remarks.push(format!("Remark: $`sigma*`$ is above $`10^4`$ divided by the period.{cause}"));
     }
     remarks.extend(gains::remark(run));
     remarks.extend(unused_disturbances(run.spec, run.claim().is_some() && run.for_n_o.is_empty()));
@@ -78,7 +78,7 @@ fn far_above_its_samples(entries: &[ProvedValue]) -> Option<String> {
     let rated = entries.iter().filter_map(|entry| Some((ratio(&entry)?, entry)));
     let (_, entry) = rated.max_by(|(one, _), (other, _)| one.total_cmp(other))?;
     Some(format!(
-        " One bound is far above its samples: {} ({}) is proved to be at most {}, and samples reach {}. A formula that is \
+        " One bound is far above its samples: $`{}`$ ($`{}`$) is proved to be at most {}, and samples reach {}. A formula that is \
          less steep, or a smaller `domain`, may bring the two together, and a smaller gain.",
         entry.bound.field(),
         entry.bound.of_what(),
@@ -153,16 +153,16 @@ fn of(no_plant: Option<&NoPlant>, force_at_origin: bool) -> Vec<String> {
     let mut remarks = Vec::new();
     if let Some(reason) = no_plant {
         let check = match reason.exceeded_by {
-            ExceededBy::Alpha { .. } => "f, f_xx, their domain, alpha, and the unit of time in each",
-            ExceededBy::Rate { .. } => "f, f_xx, their domain, rate, and the unit of time in each",
-            ExceededBy::Jacobian { .. } => "f, f_xx, their domain, the Jacobian, and the unit of time in each",
+            ExceededBy::Alpha { .. } => "$`f`$, $`f_xx`$, their domain, $`alpha`$, and the unit of time in each",
+            ExceededBy::Rate { .. } => "$`f`$, $`f_xx`$, their domain, rate, and the unit of time in each",
+            ExceededBy::Jacobian { .. } => "$`f`$, $`f_xx`$, their domain, the Jacobian, and the unit of time in each",
         };
         remarks.push(format!("Remark: {reason}. What is proved of all such plants is proved of none. Check {check}."));
     }
     if force_at_origin {
         remarks.push(
-            "Remark: f(0,0) > 0, although |f(t,0,0)| = 0 for every plant of the family. Were the bounds taken before the \
-             shift by x_0(t), the periodic solution of x' = f(t,x,0)? They are to hold after it (erratum E18; the guide)."
+            "Remark: $`f(0,0) > 0`$, although $`|f(t,0,0)| = 0`$ for every plant of the family. Were the bounds taken before the \
+             shift by $`x_0(t)`$, the periodic solution of $`x' = f(t,x,0)`$? They are to hold after it (erratum E18; the guide)."
                 .to_owned(),
         );
     }

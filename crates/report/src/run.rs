@@ -5,7 +5,7 @@ use super::certification::Report;
 use super::remarks::{remarks, sampled_remarks};
 use super::sampled::{self, SampledReport};
 use super::verdict::sentence;
-use sigmastar_document::{Extent, Readable};
+use sigmastar_document::{Extent, Readable, plain, plain_all};
 use sigmastar_prove::reduction::Run;
 use sigmastar_theory::derivation::targets::Target;
 
@@ -21,16 +21,16 @@ pub fn run_report<'r>(run: &'r Run<'r>, targets: &[Target], origin: Origin, exte
 /// What came of a run in one sentence; without a certificate, what failed.
 #[must_use]
 pub fn run_sentence(run: &Run<'_>) -> String {
-    match run {
+    plain(&match run {
         Run::Continuous(run) => sentence(run),
         Run::Sampled(run) => sampled::sentence(run),
-    }
+    })
 }
 
 /// What the data of a certified claim are to be looked at for.
 pub fn run_remarks(run: &Run<'_>) -> Vec<String> {
-    match run {
+    plain_all(match run {
         Run::Continuous(run) => remarks(run),
         Run::Sampled(run) => sampled_remarks(run),
-    }
+    })
 }

@@ -19,7 +19,7 @@ use rug::Rational;
 use serde_json::{Value, json};
 use sigmastar_decide::conditions::SampledProof;
 use sigmastar_document::number::{estimate, exact, full, upper};
-use sigmastar_document::{Block, Readable, clean};
+use sigmastar_document::{Block, Readable, clean, plain, plain_all};
 use sigmastar_exact::enclosure::{Enclosure, Truth};
 use sigmastar_exact::number::{Direction, write_exact};
 use sigmastar_propose::search::Failing;
@@ -59,7 +59,7 @@ impl<'r> SampledReport<'r> {
              follows from it."
                 .to_owned(),
             format!(
-                "Assumed of the computer: u is held over each sample, {}, no rounding{}, no quantisation{}{}; a period has exactly the \
+                "Assumed of the computer: $`u`$ is held over each sample, {}, no rounding{}, no quantisation{}{}; a period has exactly the \
                  whole number of samples.",
                 if run.sampling.delayed {
                     "what is computed from a measurement is put out exactly at the next sample"
@@ -67,11 +67,11 @@ impl<'r> SampledReport<'r> {
                     "no delay of the computation"
                 },
                 match run.counts_noise() && run.spec.disturbances.in_doubles() {
-                    true => " (but that of the exported C code counts in what is said of given n_o)",
+                    true => " (but that of the exported C code counts in what is said of given $`n_o`$)",
                     false => "",
                 },
                 match run.counts_noise() && run.spec.v_bar() > 0 {
-                    true => " (but that of e counts in what is said of given n_o)",
+                    true => " (but that of $`e`$ counts in what is said of given $`n_o`$)",
                     false => "",
                 },
                 if run.spec.actuator.is_some() { "" } else { ", no saturation" }
@@ -84,7 +84,7 @@ impl<'r> SampledReport<'r> {
             );
         }
         items.extend(of_the_data(run.spec, run.largest_arguments(), None));
-        items.push("Used: the base frequency is exactly 2 pi / period (proved of the numbers given).".to_owned());
+        items.push("Used: the base frequency is exactly $`2 pi / period`$ (proved of the numbers given).".to_owned());
         items
     }
 
@@ -100,9 +100,9 @@ pub(super) fn sentence(run: &SampledCertification<'_>) -> String {
     match run.claim() {
         Some(proof) => certified(run, proof),
         None => format!(
-            "{}: nothing is certified at the sampling period h = {step}{}; {}. Nothing is claimed about the plant either way.",
+            "{}: nothing is certified at the sampling period $`h = {step}`${}; {}. Nothing is claimed about the plant either way.",
             if run.verdict == Verdict::Refuted { "Refuted" } else { "Undecided" },
-            run.given_gain.as_ref().map_or_else(String::new, |gain| format!(" with sigma = {}", write_exact(gain))),
+            run.given_gain.as_ref().map_or_else(String::new, |gain| format!(" with $`sigma = {}`$", write_exact(gain))),
             obstacle(run),
         ),
     }
@@ -110,7 +110,7 @@ pub(super) fn sentence(run: &SampledCertification<'_>) -> String {
 
 fn obstacle(run: &SampledCertification<'_>) -> String {
     if run.given_gain.as_ref().is_some_and(|gain| run.sampling.fits(gain).is_false()) {
-        return "h sigma exceeds 1: the law would overshoot from sample to sample".to_owned();
+        return "$`h sigma`$ exceeds 1: the law would overshoot from sample to sample".to_owned();
     }
     match &run.outcome {
         Outcome::NotFound(obstacle) => obstacle.sentence(),
@@ -132,7 +132,7 @@ fn advice(run: &SampledCertification<'_>, rechecked: bool) -> Vec<String> {
             add(match (undecided, rechecked) {
                 (true, _) => "raise --precision-limit",
                 (false, true) => "search again (without --witness): another witness may exist",
-                (false, false) => "other units of time, x and e, in which the data have ordinary magnitudes",
+                (false, false) => "other units of time, $`x`$ and $`e`$, in which the data have ordinary magnitudes",
             });
         }
         Outcome::Proved(_) => {
@@ -146,13 +146,13 @@ fn obstacle_advice(run: &SampledCertification<'_>, failing: Failing, add: &mut d
     match failing {
         Failing::Hold { given: true, .. } => add("a smaller gain, or a shorter sampling period"),
         Failing::Hold { .. } => add("a shorter sampling period"),
-        Failing::Delay { .. } => add("a shorter sampling period, or a smaller mu"),
+        Failing::Delay { .. } => add("a shorter sampling period, or a smaller $`mu`$"),
         Failing::Sampling | Failing::Coupling | Failing::Existence => {
             if run.given_gain.is_some() {
                 add("another gain, or none: without --sigma the smallest one is sought");
             }
             add("a shorter sampling period: `sigmastar sampling` lists which gains go with which");
-            add("a smaller mu: theta = h mu Nbar^2/2 is what the oscillators lose to the sampling");
+            add("a smaller $`mu`$: $`theta = h mu Nbar^2/2`$ is what the oscillators lose to the sampling");
         }
         Failing::Limit { which, .. } => {
             if run.given_gain.is_some() {
@@ -175,9 +175,9 @@ fn certified(run: &SampledCertification<'_>, proof: &SampledProof) -> String {
     let (spec, witness) = (run.spec, &proof.witness);
     let samples = witness.sampling.samples;
     format!(
-        "Certified: the regulator at samples h = {} apart ({samples} in a period){} with sigma = {} and K = {}, mu = {} and base \
-         frequency {}, for every number of oscillators n_o < {samples}/2 and every phase of the samples{}{}: every solution that \
-         starts, at a sampling instant, from {}{} converges exponentially to a T-periodic solution, T = {}.{}",
+        "Certified: the regulator at samples $`h = {}`$ apart ({samples} in a period){} with $`sigma = {}`$ and $`K = {}`$, $`mu = {}`$ and base \
+         frequency $`{}`$, for every number of oscillators $`n_o < {samples}/2`$ and every phase of the samples{}{}: every solution that \
+         starts, at a sampling instant, from {}{} converges exponentially to a T-periodic solution, $`T = {}`$.{}",
         clean(&witness.sampling.text()),
         if witness.sampling.delayed { ", each control computed in the sample before it acts," } else { "" },
         write_exact(&witness.sigma),
@@ -190,7 +190,7 @@ fn certified(run: &SampledCertification<'_>, proof: &SampledProof) -> String {
         match &witness.delay {
             None => String::new(),
             Some(delay) => format!(
-                " and a prediction of e that is off by at most h Y_0, Y_0 = {} (at rest et_0 = u_0 = 0 is)",
+                " and a prediction of $`e`$ that is off by at most $`h Y_0`$, $`Y_0 = {}`$ (at rest $`et_0 = u_0 = 0`$ is)",
                 exact(&delay.y_0, Direction::Down)
             ),
         },
@@ -224,12 +224,12 @@ fn sets(run: &SampledCertification<'_>) -> Vec<Block> {
         Block::Heading(format!("The law and the sets at h = {}", clean(&witness.sampling.text()))),
         Block::facts([
             ("samples in a period", witness.sampling.samples.to_string()),
-            ("h sigma", upper(&evaluation.product)),
-            ("K, of u = -sigma e + K v", sigmastar_document::number::compact(&law.gain)),
+            ("$`h sigma`$", upper(&evaluation.product)),
+            ("$`K`$, of $`u = -sigma e + K v`$", sigmastar_document::number::compact(&law.gain)),
             (
                 match law.input_gain {
-                    None => "theta = h mu Nbar^2/2",
-                    Some(_) => "theta at the largest input gain",
+                    None => "$`theta = h mu Nbar^2/2`$",
+                    Some(_) => "$`theta`$ at the largest input gain",
                 },
                 upper(&theta(law)),
             ),
@@ -238,10 +238,10 @@ fn sets(run: &SampledCertification<'_>) -> Vec<Block> {
     ];
     blocks.extend(boxes.figure().map(Block::Drawing));
     blocks.push(Block::says(format!(
-        "Solutions from the initial set stay in the error box around the periodic solution, between samples too; zeta and z \
+        "Solutions from the initial set stay in the error box around the periodic solution, between samples too; $`zeta`$ and $`z`$ \
          are those at samples.{}",
         match run.for_n_o.is_empty() {
-            true => " The rate of convergence depends on n_o and is not part of the claim.",
+            true => " The rate of convergence depends on $`n_o`$ and is not part of the claim.",
             false => "",
         }
     )));
@@ -299,7 +299,7 @@ impl Readable for SampledReport<'_> {
         let run = self.run;
         let mut report = json!({
             "format": FORMAT, "version": VERSION, "regulator": "digital",
-            "verdict": run.verdict.to_string(), "statement": sentence(run), "remarks": sampled_remarks(run),
+            "verdict": run.verdict.to_string(), "statement": plain(&sentence(run)), "remarks": plain_all(sampled_remarks(run)),
             "no_plant": run.no_plant.as_ref().map(no_plant_json), "derivation": "sharp",
             "specification": { "name": run.spec.name, "sha256": run.spec.sha256 },
             "sampling_period": run.sampling.text(), "samples": run.sampling.samples,
@@ -314,7 +314,7 @@ impl Readable for SampledReport<'_> {
             report["gain"] = json!(write_exact(&witness.law.gain));
             report["h_sigma"] = json!(full(&proof.evaluation.product));
             report["theta"] = json!(full(&theta(law)));
-            report["basis"] = json!(self.basis());
+            report["basis"] = json!(plain_all(self.basis()));
             report["initial_set"] = set_fields(&witness.set).collect();
             let [x, e, zeta, z] = periodic.each_ref().map(full);
             report["periodic_solution"] = json!({ "x": x, "e": e, "zeta": zeta, "z": z });
@@ -335,7 +335,7 @@ impl Readable for SampledReport<'_> {
             }
             report["error_box"] = json!({ "D_x": write_exact(&witness.d_x), "D_e": write_exact(&witness.d_e) });
         } else {
-            report["advice"] = json!(advice(run, self.origin.is_given()));
+            report["advice"] = json!(plain_all(advice(run, self.origin.is_given())));
         }
         if let Some(gain) = input_gain(run.spec) {
             report["input_gain"] = gain;

@@ -20,14 +20,14 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
     let mut blocks = vec![
         Block::heading("What sets sigma* (estimates)"),
         Block::says(format!(
-            "sigma* is set by {}. {}",
+            "$`sigma*`$ is set by {}. {}",
             binding.describe(),
             binding.advice(run.spec.plant().is_some(), run.spec.initial_set.is_aligned())
         )),
     ];
     blocks.extend(run.alternatives.by_norms.map(|sigma| {
         Block::says(format!(
-            "By norms in the place of the matrix inequality: sigma* about {} (an estimate at few samples; better coordinates may \
+            "By norms in the place of the matrix inequality: $`sigma*`$ about {} (an estimate at few samples; better coordinates may \
              bring less).",
             estimate(sigma)
         ))
@@ -40,22 +40,23 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
     );
     if !run.interval_costs.is_empty() {
         blocks.push(Block::says(
-            "What each interval costs: sigma* with it closed to its nominal value, sought the whole way again and not decided.",
+            "What each interval costs: $`sigma*`$ with it closed to its nominal value, sought the whole way again and not decided.",
         ));
         let costs = run.interval_costs.iter().map(|(name, sigma)| [of_interval(run.spec, name), found(*sigma)]);
-        blocks.push(Block::Table(Table::of(&["<exactly known", "sigma*"], costs)));
+        blocks.push(Block::Table(Table::of(&["<exactly known", "$`sigma*`$"], costs)));
     }
     blocks.extend(ingredients(run).map(Block::Table));
     if !run.without_optional.is_empty() {
-        blocks.push(Block::says("What the optional data bring: sigma* without each."));
-        let without = run.without_optional.iter().map(|(datum, sigma)| [datum.field().to_owned(), found(*sigma)]);
-        blocks.push(Block::Table(Table::of(&["<without", "sigma*"], without)));
+        blocks.push(Block::says("What the optional data bring: $`sigma*`$ without each."));
+        let without =
+            run.without_optional.iter().map(|(datum, sigma)| [format!("$`{}`$", datum.field()), found(*sigma)]);
+        blocks.push(Block::Table(Table::of(&["<without", "$`sigma*`$"], without)));
     }
     let shown: Vec<_> = run.sensitivities.iter().filter(|(_, gain)| *gain >= 1e-6).collect();
     if let Some((datum, gain)) = shown.first() {
         let sentence = one_per_cent(run.spec, *datum);
         blocks.push(Block::says(format!(
-            "{}{} lowers sigma* by about {} %, more than any other of what is compared: {}. Floating point, re-optimised \
+            "{}{} lowers $`sigma*`$ by about {} %, more than any other of what is compared: {}. Floating point, re-optimised \
              locally, not certified.",
             sentence[..1].to_uppercase(),
             &sentence[1..],
@@ -63,7 +64,7 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
             compared(run)
         )));
         let rows = shown.iter().map(|(datum, gain)| [name(run.spec, *datum), format!("{} %", estimate(100.0 * gain))]);
-        let table = Table::of(&["<1 % better", "lowers sigma* by"], rows);
+        let table = Table::of(&["<1 % better", "lowers $`sigma*`$ by"], rows);
         blocks.push(Block::Table(table.with_bars(shown.iter().map(|(_, gain)| *gain).collect())));
     }
     blocks
@@ -76,19 +77,20 @@ fn found(sigma: Option<f64>) -> String {
 
 /// What a start with z = M e would bring.
 pub(super) fn aligned(sigma: f64) -> String {
-    format!("sigma* about {}, with the initial set `\"kind\": \"aligned\"` (an estimate)", estimate(sigma))
+    format!("$`sigma*`$ about {}, with the initial set `\"kind\": \"aligned\"` (an estimate)", estimate(sigma))
 }
 
 /// What an input gain that is known would bring.
 pub(super) fn nominal_gain(sigma: f64) -> String {
-    format!("with the gain known to be the nominal one sigma* is about {} (an estimate)", estimate(sigma))
+    format!("with the gain known to be the nominal one $`sigma*`$ is about {} (an estimate)", estimate(sigma))
 }
 
 /// What a datum is called in the file; the X0 of a plant may be given by a ball.
 pub(super) fn name(spec: &Specification, datum: Datum) -> String {
     match (datum, spec.plant().is_some_and(|plant| plant.ball.is_some())) {
         (Datum::Size(0), true) => "ball".to_owned(),
-        _ => datum.name(),
+        (Datum::Domain, _) => datum.name(),
+        _ => format!("$`{}`$", datum.name()),
     }
 }
 
@@ -101,7 +103,7 @@ pub(super) fn one_per_cent(spec: &Specification, datum: Datum) -> String {
         Datum::PUp | Datum::Harmonics | Datum::Size(_) => false,
     };
     let name = match datum {
-        Datum::Mu { .. } => "mu".to_owned(),
+        Datum::Mu { .. } => "$`mu`$".to_owned(),
         _ => name(spec, datum),
     };
     format!("one per cent {} {name}", if larger { "larger" } else { "smaller" })
@@ -111,7 +113,7 @@ pub(super) fn one_per_cent(spec: &Specification, datum: Datum) -> String {
 fn compared(run: &Certification<'_>) -> String {
     // What another mu needs is not worked out where it takes boxes.
     let by_boxes = run.sharp.proved().is_some_and(|proof| matches!(proof.witness.transfer, TransferProof::Boxes(_)));
-    let (mu, rest) = if by_boxes { ("", "mu and the weights") } else { (", and mu", "the weights") };
+    let (mu, rest) = if by_boxes { ("", "$`mu`$ and the weights") } else { (", and $`mu`$", "the weights") };
     match run.spec.plant().is_some() {
         true => format!(
             "the sizes of the initial set that the file states{mu}, with the bounds that are proved for the present set. Not \
@@ -133,12 +135,12 @@ fn ingredients(run: &Certification<'_>) -> Option<Table> {
     let term = |name: &str, value: f64| (name.to_owned(), value, estimate(value));
     let gain = |name: &str, sigma: &Rational| (name.to_owned(), sigma.to_f64(), exact(sigma, Direction::Up));
     let mut entries = vec![
-        term("C5: dq/de and the internal model's start", slope),
-        term("C5: the loop through x", all - slope),
-        gain("sigma*", &proof.witness.sigma),
+        term("C5: $`dq/de`$ and the internal model's start", slope),
+        term("C5: the loop through $`x`$", all - slope),
+        gain("$`sigma*`$", &proof.witness.sigma),
     ];
-    entries.extend(run.exact.as_ref().map(|claim| gain("sigma*_oo (n_o infinite)", &claim.witness.sigma)));
+    entries.extend(run.exact.as_ref().map(|claim| gain("$`sigma*_oo`$ ($`n_o`$ infinite)", &claim.witness.sigma)));
     let rows = entries.iter().map(|(name, _, text)| [name.clone(), text.clone()]);
-    let table = Table::of(&["<sigma* and the two terms of C5 that it exceeds", "1/time"], rows);
+    let table = Table::of(&["<$`sigma*`$ and the two terms of C5 that it exceeds", "1/time"], rows);
     Some(table.with_bars(entries.into_iter().map(|(_, value, _)| value).collect()))
 }

@@ -25,8 +25,10 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
     // The box is where solutions stay, so its radii are upper bounds.
     sizes.row("error box around it (radii)", error_box.each_ref().map(upper));
     let exact = run.exact_arguments();
-    let claim = if exact.is_some() { "bounding functions used up to, sigma*" } else { "bounding functions used up to" };
-    for (what, arguments) in [(claim, run.largest_arguments()), ("bounding functions used up to, sigma*_oo", exact)] {
+    let claim =
+        if exact.is_some() { "bounding functions used up to, $`sigma*`$" } else { "bounding functions used up to" };
+    for (what, arguments) in [(claim, run.largest_arguments()), ("bounding functions used up to, $`sigma*_oo`$", exact)]
+    {
         if let Some(arguments) = arguments.map(|arguments| arguments.each_ref().map(upper)) {
             sizes.row(what, arguments);
         }
@@ -50,7 +52,7 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
     blocks.extend(boxes.figure().map(Block::Drawing));
     blocks.push(Block::says(format!(
         "Solutions from the initial set stay in the error box around the periodic solution. The rate of convergence \
-         depends on n_o and {}; sigma* and the sets do not depend on n_o. sigma is in 1/time.",
+         depends on $`n_o`$ and {}; $`sigma*`$ and the sets do not depend on $`n_o`$. $`sigma`$ is in 1/time.",
         match run.rates().any(|(_, rate)| rate.is_some()) {
             true => "is part of the claim for the numbers below alone",
             false => "is not part of the claim",
@@ -67,8 +69,9 @@ pub(super) struct Sizes<'s> {
 
 impl<'s> Sizes<'s> {
     pub(super) fn new(spec: &'s Specification) -> Sizes<'s> {
-        let state = spec.state_name().map(|name| format!("|{name}|"));
-        let titles: Vec<&str> = ["<"].into_iter().chain(state.as_deref()).chain(["|e|", "|zeta|_N", "|z|_N"]).collect();
+        let state = spec.state_name().map(|name| format!("$`|{name}|`$"));
+        let titles: Vec<&str> =
+            ["<"].into_iter().chain(state.as_deref()).chain(["$`|e|`$", "$`|zeta|_N`$", "$`|z|_N`$"]).collect();
         Sizes { spec, table: Table::new(&titles) }
     }
 
@@ -76,7 +79,7 @@ impl<'s> Sizes<'s> {
     pub(super) fn of_claim(&mut self, set: &ClaimedSet, periodic: &[Enclosure; 4]) {
         let StartSizes { x0, e0, z0 } = set.map(|value| number::exact(value, Direction::Down));
         // z = M e is zeta = 0.
-        let [zeta, z] = z0.map_or_else(|| ["0".to_owned(), "z = M e".to_owned()], |z0| ["-".to_owned(), z0]);
+        let [zeta, z] = z0.map_or_else(|| ["0".to_owned(), "$`z = M e`$".to_owned()], |z0| ["-".to_owned(), z0]);
         self.cells("initial set (covered)", [x0, e0, zeta, z]);
         self.cells("periodic solution, at most", periodic.each_ref().map(upper));
     }

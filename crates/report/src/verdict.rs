@@ -20,7 +20,7 @@ pub(super) fn sentence(run: &Certification<'_>) -> String {
     let spec = run.spec;
     match (run.sigma_star(), run.claimed_set()) {
         (Some(sigma), Some(set)) => format!(
-            "Certified: with sigma = {}{}, mu = {} and base frequency {}{}, for every number of oscillators n_o >= 0{}, every solution that starts, at any time, from {} converges exponentially to a T-periodic \
+            "Certified: with $`sigma = {}`${}, $`mu = {}`$ and base frequency $`{}`${}, for every number of oscillators $`n_o >= 0`${}, every solution that starts, at any time, from {} converges exponentially to a T-periodic \
              solution{}.{}",
             if spec.actuator.is_some() { write_exact(sigma) } else { exact(sigma, Direction::Up) },
             if spec.actuator.is_some() { "" } else { " (or any larger)" },
@@ -30,7 +30,7 @@ pub(super) fn sentence(run: &Certification<'_>) -> String {
             words::of_all(spec),
             words::set(spec, set),
             match spec.period.interval() {
-                None => format!(", T = {}", clean(&spec.period.nominal().text)),
+                None => format!(", $`T = {}`$", clean(&spec.period.nominal().text)),
                 Some(_) => String::new(),
             },
             limits::sentence(run),
@@ -101,7 +101,7 @@ pub(super) fn of_the_data(
 ) -> Vec<String> {
     let mut items = Vec::new();
     if spec.plant().is_some() {
-        let of_states = if spec.state_name().is_some() { "the orbit x_0, the rate, " } else { "" };
+        let of_states = if spec.state_name().is_some() { "the orbit $`x_0`$, the rate, " } else { "" };
         items.push(format!(
             "Proved from the formulas: that they have the period and are smooth where they are used, {of_states}the harmonics \
              and every bound (section 11)."
@@ -112,13 +112,16 @@ pub(super) fn of_the_data(
     match &spec.lyapunov {
         LyapunovSource::Proved { triple, existence, .. } => {
             let shown = |triple: &Lyapunov| {
-                format!("p_low = {}, p_up = {}, alpha = {}", triple.p_low.text, triple.p_up.text, triple.alpha.text)
+                format!(
+                    "$`p_low = {}`$, $`p_up = {}`$, $`alpha = {}`$",
+                    triple.p_low.text, triple.p_up.text, triple.alpha.text
+                )
             };
             let other = existence
                 .as_ref()
                 .map(|other| format!("; for the existence of the periodic solution {}", shown(&other.0)));
             items.push(format!(
-                "Proved for every t and every matrix of the Jacobian: the Lyapunov triple {}{}.",
+                "Proved for every $`t`$ and every matrix of the Jacobian: the Lyapunov triple {}{}.",
                 shown(triple),
                 other.unwrap_or_default()
             ));
@@ -143,7 +146,7 @@ pub(super) fn assumed(spec: &Specification, used: Option<[Enclosure; 2]>, furthe
     let of_the_period = words::period(spec)
         .map_or_else(String::new, |interval| format!(", and that the period is one constant from {interval}"));
     let of_its_limit = spec.actuator.as_ref().map_or_else(String::new, |actuator| {
-        format!(", and that the actuator takes |u| <= {} as it is", clean(&actuator.max.text))
+        format!(", and that the actuator takes $`|u| <= {}`$ as it is", clean(&actuator.max.text))
     });
     assumed_of_the_plant(spec, used, further) + &of_the_actuator + &of_its_limit + &of_the_period
 }
@@ -152,8 +155,10 @@ fn assumed_of_the_plant(spec: &Specification, used: Option<[Enclosure; 2]>, furt
     if let Some(plant) = spec.plant() {
         let domain = plant.domain.as_ref().map_or_else(String::new, |domain| {
             let (x, e) = (clean(&domain.x.text), clean(&domain.e.text));
-            spec.state_name()
-                .map_or_else(|| format!(", for |e| <= {e}"), |_| format!(", for |x - x_0| <= {x}, |e| <= {e}"))
+            spec.state_name().map_or_else(
+                || format!(", for $`|e| <= {e}`$"),
+                |_| format!(", for $`|x - x_0| <= {x}`$, $`|e| <= {e}`$"),
+            )
         });
         return match members(&plant.parameters) {
             None => format!("that these formulas are the plant{domain}"),
@@ -162,16 +167,20 @@ fn assumed_of_the_plant(spec: &Specification, used: Option<[Enclosure; 2]>, furt
     }
     let [used, further] = [used, further].map(|some| some.map(|arguments| arguments.each_ref().map(upper)));
     let of_the_zero_dynamics = match &spec.lyapunov {
-        LyapunovSource::Proved { .. } => "that its Jacobian df/dx(t,0,0) is within the one given",
-        _ if spec.bounds.own(Bound::Rate).is_some() => "the Lyapunov triple (p_low, p_up, alpha) and the rate",
-        _ => "the Lyapunov triple (p_low, p_up, alpha)",
+        LyapunovSource::Proved { .. } => "that its Jacobian $`df/dx(t,0,0)`$ is within the one given",
+        _ if spec.bounds.own(Bound::Rate).is_some() => "the Lyapunov triple $`(p_low, p_up, alpha)`$ and the rate",
+        _ => "the Lyapunov triple $`(p_low, p_up, alpha)`$",
     };
     let of_the_disturbance =
-        if spec.q_0.is_some() { ", that q_0 bounds the harmonics of q(t,0,0) and the rest" } else { "" };
+        if spec.q_0.is_some() { ", that $`q_0`$ bounds the harmonics of $`q(t,0,0)`$ and the rest" } else { "" };
     format!(
         "{of_the_zero_dynamics}{of_the_disturbance}, and that the bounding functions bound the plant{}{}",
-        used.map_or_else(String::new, |[x, e]| format!(" for |x| <= {x}, |e| <= {e} and at all smaller arguments")),
-        further.map_or_else(String::new, |[x, e]| format!("; exact regulation needs them for |x| <= {x}, |e| <= {e}")),
+        used.map_or_else(String::new, |[x, e]| format!(
+            " for $`|x| <= {x}`$, $`|e| <= {e}`$ and at all smaller arguments"
+        )),
+        further.map_or_else(String::new, |[x, e]| format!(
+            "; exact regulation needs them for $`|x| <= {x}`$, $`|e| <= {e}`$"
+        )),
     )
 }
 
@@ -180,7 +189,7 @@ fn of_the_transfer_bound(run: &Certification<'_>) -> Option<String> {
     run.claim().map(|claim| {
         match claim.transfer {
             TransferProof::Matched { .. } => {
-                "Used: the base frequency is exactly 2 pi / period (proved of the numbers given). `--transfer boxes` does \
+                "Used: the base frequency is exactly $`2 pi / period`$ (proved of the numbers given). `--transfer boxes` does \
                  without."
             }
             TransferProof::ClosedForm | TransferProof::Boxes(_) => "Not used: that the base frequency fits the period.",

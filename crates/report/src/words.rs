@@ -14,9 +14,9 @@ use sigmastar_theory::derivation::initial_set::ClaimedSet;
 /// The initial set, rounded inward: `|x| <= 1, |e| <= 2, |z|_N <= 0`, or `z = M e`.
 pub(super) fn set(spec: &Specification, set: &ClaimedSet) -> String {
     let StartSizes { x0, e0, z0 } = set.map(|value| exact(value, Direction::Down));
-    let of_state = spec.state_name().map_or_else(String::new, |name| format!("|{name}| <= {x0}, "));
-    let of_regulator = z0.map_or_else(|| "z = M e".to_owned(), |z0| format!("|z|_N <= {z0}"));
-    format!("{of_state}|e| <= {e0}, {of_regulator}")
+    let of_state = spec.state_name().map_or_else(String::new, |name| format!("$`|{name}| <= {x0}`$, "));
+    let of_regulator = z0.map_or_else(|| "$`z = M e`$".to_owned(), |z0| format!("$`|z|_N <= {z0}`$"));
+    format!("{of_state}$`|e| <= {e0}`$, {of_regulator}")
 }
 
 /// Where the sizes of the initial set are from: those that are stated, and those that are not, by the bounds of the periodic solution of which they
@@ -38,7 +38,7 @@ pub(super) fn origin_of_sizes(spec: &Specification, set: &ClaimedSet, periodic: 
     match spec.state_name() {
         None => of_e,
         Some(_) if of_x == of_e => of_x,
-        Some(_) => format!("X0 {of_x}, E0 {of_e}"),
+        Some(_) => format!("$`X0`$ {of_x}, $`E0`$ {of_e}"),
     }
 }
 
@@ -93,17 +93,17 @@ pub(super) fn period(spec: &Specification) -> Option<String> {
 
 /// The arguments up to which bounding functions are used: `X = 1, E = 2`.
 pub(super) fn arguments(spec: &Specification, [x, e]: [String; 2]) -> String {
-    let of_state = spec.state_name().map_or_else(String::new, |_| format!("X = {x}, "));
-    format!("{of_state}E = {e}")
+    let of_state = spec.state_name().map_or_else(String::new, |_| format!("$`X = {x}`$, "));
+    format!("{of_state}$`E = {e}`$")
 }
 
 /// What vanishes with infinitely many oscillators. Within bounding functions x is the deviation from the solution of
 /// x' = f(t,x,0); in the formulas of a plant it is not.
 pub(super) fn limit(spec: &Specification) -> &'static str {
     match (spec.plant().is_some(), spec.state_name()) {
-        (false, _) => "x and e tend to 0",
-        (true, Some(_)) => "x - x_0(t) and e tend to 0, x_0 the T-periodic solution of x' = f(t,x,0)",
-        (true, None) => "e tends to 0",
+        (false, _) => "$`x`$ and $`e`$ tend to 0",
+        (true, Some(_)) => "$`x - x_0(t)`$ and $`e`$ tend to 0, $`x_0`$ the T-periodic solution of $`x' = f(t,x,0)`$",
+        (true, None) => "$`e`$ tends to 0",
     }
 }
 

@@ -4,6 +4,7 @@ use super::formula::typeset;
 use super::parts::Anchors;
 use crate::block::{Align, Block, Column, Table};
 use crate::plot::{Figure, PlotError, Size};
+use crate::span::{Span, spans};
 use maud::{Markup, PreEscaped, Render, html};
 
 /// The end of a line, so that the file can be read as text too.
@@ -93,26 +94,34 @@ fn inline(svg: &str, class: &str) -> String {
     svg.trim().replacen(" xmlns=\"http://www.w3.org/2000/svg\"", &format!(" class=\"{class}\""), 1)
 }
 
-/// A text in which what stands between backticks is code (strangers' texts have no backticks, see `clean`).
+/// A text with its formulas typeset and its code as code.
 struct Inline<'t>(&'t str);
 
 impl Render for Inline<'_> {
     fn render(&self) -> Markup {
-        let mut rest = self.0;
+        // What closes a bracket or a sentence is not parted from a formula before it.
+        let closes = |text: &str| text.len() - text.trim_start_matches([',', '.', ';', ':', '?', ')']).len();
+        let mut spans = spans(self.0).into_iter().peekable();
         let mut pieces = Vec::new();
-        while let Some((text, code, after)) = next_code(rest) {
-            pieces.push((text, code));
-            rest = after;
+        while let Some(span) = spans.next() {
+            pieces.push(match span {
+                Span::Text(text) => html! { (text) },
+                Span::Code(code) => html! { code { (code) } },
+                Span::Math(formula) => {
+                    let after = match spans.peek_mut() {
+                        Some(Span::Text(next)) => {
+                            let (after, rest) = next.split_at(closes(next));
+                            *next = rest;
+                            after
+                        }
+                        _ => "",
+                    };
+                    typeset(formula, after)
+                }
+            });
         }
-        html! { @for (text, code) in pieces { (typeset(text)) code { (code) } } (typeset(rest)) }
+        html! { @for piece in pieces { (piece) } }
     }
-}
-
-/// The text before the first code, that code, and the text after it.
-fn next_code(text: &str) -> Option<(&str, &str, &str)> {
-    let (before, rest) = text.split_once('`')?;
-    let (code, after) = rest.split_once('`')?;
-    Some((before, code, after))
 }
 
 #[cfg(test)]
@@ -152,6 +161,13 @@ mod tests {
     fn backticks_are_code_in_pairs() {
         assert_eq!(written(&[Block::says("a `b` c `d`")]), "<p>a <code>b</code> c <code>d</code></p>\n");
         assert_eq!(written(&[Block::says("a ` b")]), "<p>a ` b</p>\n");
+    }
+
+    #[test]
+    fn formulas_are_typeset_with_what_closes_behind_them() {
+        let x = "<math><mrow><mi>x</mi></mrow></math>";
+        assert_eq!(written(&[Block::says("a $`x`$ b")]), format!("<p>a {x} b</p>\n"));
+        assert_eq!(written(&[Block::says("($`x`$), b$")]), format!("<p>(<span class=\"whole\">{x}),</span> b$</p>\n"));
     }
 
     #[test]

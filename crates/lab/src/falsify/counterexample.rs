@@ -3,7 +3,7 @@
 use super::claim::TriedClaim;
 use super::finding::{Trial, TriedPlant, Violation};
 use serde_json::json;
-use sigmastar_document::clean;
+use sigmastar_document::{clean, plain};
 use sigmastar_lang::plant;
 use sigmastar_lang::spec::{Document, SpecErrors};
 
@@ -36,7 +36,7 @@ pub fn counterexample_plant(
     let (e, z) = rest.split_first().map_or((0.0, &[][..]), |(e, z)| (*e, z));
     let found = violation.map_or_else(String::new, |violation| {
         let Violation { quantity, bound, found } = violation;
-        format!("Counterexample: {quantity} is {found} where at most {bound} is claimed. ")
+        format!("Counterexample: {} is {found} where at most {bound} is claimed. ", plain(quantity))
     });
     let description = format!("{found}Simulate it with {}.", flags(claim, trial));
     let mut file = json!({

@@ -77,7 +77,7 @@ pub struct Trial {
 /// A bound that does not hold.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Violation {
-    /// What was bounded.
+    /// What was bounded, with its formulas marked.
     pub quantity: &'static str,
     /// By what.
     pub bound: f64,
@@ -108,19 +108,19 @@ pub(super) const MULTIPLIER: &str = "largest Floquet multiplier";
 pub(super) const LYAPUNOV: &str = "Lyapunov function on the way, against its start";
 
 /// The control along the periodic solution, and what it differs by on the way.
-pub(super) const STEADY_CONTROL: &str = "sup|u| of the periodic solution";
-pub(super) const CONTROL: &str = "|u - u_p| on the way, against its bound";
+pub(super) const STEADY_CONTROL: &str = "$`sup|u|`$ of the periodic solution";
+pub(super) const CONTROL: &str = "$`|u - u_p|`$ on the way, against its bound";
 /// What is put out, where the actuator saturates.
-pub(super) const SATURATION: &str = "|u| on the way, against what the actuator takes";
+pub(super) const SATURATION: &str = "$`|u|`$ on the way, against what the actuator takes";
 
 /// The error with noise and a disturbance, near the periodic solution and from the initial set.
 pub(super) const DISTURBED: [&str; 2] =
-    ["|e - e_p| with noise and disturbance, in the limit", "|e - e_p| with noise and disturbance, on the way"];
+    ["$`|e - e_p|`$ with noise and disturbance, in the limit", "$`|e - e_p|`$ with noise and disturbance, on the way"];
 
 /// The trial that came closest to a bound, of those in which every bound holds.
 #[derive(Clone, Copy, Debug)]
 pub struct Closest<'f> {
-    /// What is bounded.
+    /// What is bounded, with its formulas marked.
     pub quantity: &'static str,
     /// The found value over the bound.
     pub share: f64,

@@ -4,7 +4,7 @@ use super::claim::TriedClaim;
 use super::counterexample::counterexample_plant;
 use super::finding::{Closest, Falsification, Finding, Trial};
 use serde_json::{Value, json};
-use sigmastar_document::{Block, Readable, Table, clean};
+use sigmastar_document::{Block, Readable, Table, clean, plain};
 use sigmastar_exact::number::{Direction, round_f64, told_apart, write_exact};
 
 /// The report on the trials of a certificate, and of those at other base frequencies.
@@ -46,7 +46,7 @@ fn blocks(claim: &TriedClaim, outcome: &Falsification) -> Vec<Block> {
         (Some(sampled), own) => {
             let of = if own.is_some() { "of the plant itself with" } else { "with" };
             format!(
-                "{of} the law at samples, exactly h = {} ({} samples a period) and K = {:?}, at different phases of the \
+                "{of} the law at samples, exactly $`h = {}`$ ({} samples a period) and $`K = {:?}`$, at different phases of the \
                  sampling grid,",
                 sampled.step.text,
                 sampled.samples,
@@ -55,13 +55,13 @@ fn blocks(claim: &TriedClaim, outcome: &Falsification) -> Vec<Block> {
         }
         (None, Some(_)) if claim.spec.actuator.is_some() => "of the plant itself at the gain of the claim,".to_owned(),
         (None, None) if claim.spec.actuator.is_some() => "at the gain of the claim,".to_owned(),
-        (None, Some(_)) => "of the plant itself at sigma* and above,".to_owned(),
-        (None, None) => "at 1.000001 sigma*,".to_owned(),
+        (None, Some(_)) => "of the plant itself at $`sigma*`$ and above,".to_owned(),
+        (None, None) => "at $`1.000001 sigma*`$,".to_owned(),
     };
     let of_one_gain = claim.sampled.is_some() || claim.spec.actuator.is_some();
     let name = if of_one_gain { "sigma" } else { "sigma*" };
     blocks.push(Block::says(format!(
-        "{} trials {gains} {name} = {}, base frequency {}, seed {}: in {held} every bound holds, in {violated} one \
+        "{} trials {gains} $`{name} = {}`$, base frequency $`{}`$, seed {}: in {held} every bound holds, in {violated} one \
          does not, {} could not be finished. Floating point: what is found can be simulated again, what is not found is no \
          proof.",
         outcome.findings.len(),
@@ -74,7 +74,7 @@ fn blocks(claim: &TriedClaim, outcome: &Falsification) -> Vec<Block> {
         blocks.push(Block::heading("Counterexample"));
         let [found, bound] = told_apart([violation.found, violation.bound]);
         blocks.push(Block::says(format!(
-            "Trial {}, n_o = {}{}: {} is about {found}, and the claim allows about {bound}.",
+            "Trial {}, $`n_o = {}`${}: {} is about {found}, and the claim allows about {bound}.",
             trial.number,
             trial.n_o,
             member_words(trial),
@@ -119,14 +119,14 @@ fn plant_blocks(worst: &Closest<'_>, seed: u64) -> Vec<Block> {
     let (x, rest) = trial.start.split_at(f.len());
     let (e, z) = rest.split_first().map_or((0.0, &[][..]), |(e, z)| (*e, z));
     let mut facts: Vec<(String, String)> =
-        f.into_iter().zip(names).map(|(text, name)| (format!("d{name}/dt"), text)).collect();
-    facts.push(("de/dt - u".to_owned(), q));
+        f.into_iter().zip(names).map(|(text, name)| (format!("$`d{name}/dt`$"), text)).collect();
+    facts.push(("$`de/dt - u`$".to_owned(), q));
     let of_state = if x.is_empty() { String::new() } else { format!("x = {x:?}, ") };
-    facts.push(("start".to_owned(), format!("{of_state}e = {e:?}, z = {z:?}")));
+    facts.push(("start".to_owned(), format!("{of_state}$`e = {e:?}`$, z = {z:?}")));
     vec![
         Block::heading("The worst plant"),
         Block::says(format!(
-            "Trial {}, sigma = {:?}, n_o = {}{}{}, came closest to the bound of a size: {quantity} is {share:.3} of it. \
+            "Trial {}, $`sigma = {:?}`$, $`n_o = {}`${}{}, came closest to the bound of a size: {quantity} is {share:.3} of it. \
              (The multiplier and the Lyapunov function are close to theirs with any plant.) `sigmastar falsify` with \
              `--seed {seed} --trial {} -o FILE` writes it as a plant file, with the call of `simulate` in its description; so \
              for any other trial.",
@@ -134,7 +134,7 @@ fn plant_blocks(worst: &Closest<'_>, seed: u64) -> Vec<Block> {
             trial.sigma,
             trial.n_o,
             member_words(trial),
-            trial.phase.map_or_else(String::new, |phase| format!(", first sample at t = {phase:?}")),
+            trial.phase.map_or_else(String::new, |phase| format!(", first sample at $`t = {phase:?}`$")),
             trial.number
         )),
         Block::Detail,
@@ -147,7 +147,7 @@ fn worst_json(claim: &TriedClaim, worst: &Closest<'_>) -> Value {
     let Closest { quantity, share, trial, .. } = worst;
     let Trial { number, sigma, n_o, .. } = trial;
     let plant = counterexample_plant(claim, trial, None).map_or(Value::Null, |document| document.root().to_json());
-    let mut worst = json!({ "trial": number, "quantity": quantity, "share": share, "sigma": sigma, "n_o": n_o });
+    let mut worst = json!({ "trial": number, "quantity": plain(quantity), "share": share, "sigma": sigma, "n_o": n_o });
     worst["plant"] = plant;
     with_member(worst, trial)
 }
@@ -158,13 +158,15 @@ fn json(claim: &TriedClaim, outcome: &Falsification) -> Value {
         .iter()
         .map(|finding| match finding {
             Finding::Holds { trial, shares } => {
-                let shares: Vec<Value> =
-                    shares.iter().map(|(quantity, share)| json!({ "quantity": quantity, "share": share })).collect();
+                let shares: Vec<Value> = shares
+                    .iter()
+                    .map(|(quantity, share)| json!({ "quantity": plain(quantity), "share": share }))
+                    .collect();
                 with_member(json!({ "finding": "holds", "n_o": trial.n_o, "shares": shares }), trial)
             }
             Finding::Violated(trial, violation) => {
                 let finding = json!({
-                    "finding": "violated", "n_o": trial.n_o, "quantity": violation.quantity,
+                    "finding": "violated", "n_o": trial.n_o, "quantity": plain(violation.quantity),
                     "found": violation.found, "bound": violation.bound,
                 });
                 with_member(finding, trial)
@@ -176,7 +178,7 @@ fn json(claim: &TriedClaim, outcome: &Falsification) -> Value {
         .closest()
         .iter()
         .map(|Closest { quantity, share, trial, .. }| {
-            json!({ "quantity": quantity, "share": share, "trial": trial.number })
+            json!({ "quantity": plain(quantity), "share": share, "trial": trial.number })
         })
         .collect();
     let gain = if claim.sampled.is_some() { "sigma" } else { "sigma_star" };

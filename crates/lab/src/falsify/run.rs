@@ -21,7 +21,8 @@ const NEAR: f64 = 1e-4;
 const LAST: i32 = 40;
 
 /// What the claim says of every solution from the initial set: it stays in the error box around the periodic solution.
-const SIZES: [&str; 2] = ["|x| of the solution from the initial set", "|e| of the solution from the initial set"];
+const SIZES: [&str; 2] =
+    ["$`|x|`$ of the solution from the initial set", "$`|e|`$ of the solution from the initial set"];
 
 /// Why a periodic solution that breaks a bound is not held against the claim.
 pub(super) const ELSEWHERE: &str = "the periodic solution that was found breaks a bound, and the run from the initial set is \

@@ -179,10 +179,10 @@ fn check_orbit(
         }
     }
     checks.at_most(MULTIPLIER, steady.largest_multiplier().unwrap_or(0.0), 1.0);
-    checks.at_most("sup|x| of the periodic solution", x, claim.periodic[0]);
-    checks.at_most("sup|e| of the periodic solution", e, claim.periodic[1]);
-    checks.at_most("sup|zeta|_N of the periodic solution, at samples", zeta, claim.periodic[2]);
-    checks.at_most("sup|z|_N of the periodic solution, at samples", z, claim.periodic_z);
+    checks.at_most("$`sup|x|`$ of the periodic solution", x, claim.periodic[0]);
+    checks.at_most("$`sup|e|`$ of the periodic solution", e, claim.periodic[1]);
+    checks.at_most("$`sup|zeta|_N`$ of the periodic solution, at samples", zeta, claim.periodic[2]);
+    checks.at_most("$`sup|z|_N`$ of the periodic solution, at samples", z, claim.periodic_z);
     if let Some([steady, _]) = claim.control {
         let u = orbit.iter().fold(0.0_f64, |u, interval| u.max(interval.u.abs()));
         checks.at_most(STEADY_CONTROL, u, steady);
@@ -238,8 +238,8 @@ fn check_approach(
         }
     }
     let [d_x, d_e] = claim.error_box;
-    checks.at_most("|x - x_p| on the way, against D_x", away[0], d_x);
-    checks.at_most("|e - e_p| on the way, against D_e", away[1], d_e);
+    checks.at_most("$`|x - x_p|`$ on the way, against $`D_x`$", away[0], d_x);
+    checks.at_most("$`|e - e_p|`$ on the way, against $`D_e`$", away[1], d_e);
     if let Some([_, transient]) = claim.control {
         checks.at_most(CONTROL, control[0], transient);
     }

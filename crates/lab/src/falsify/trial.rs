@@ -177,22 +177,22 @@ fn check_orbit(
         closed_loop.regulator.weighted_norm(&zeta)
     });
     checks.at_most(MULTIPLIER, steady.multipliers.first().copied().unwrap_or(0.0), 1.0);
-    checks.at_most("sup|x| of the periodic solution", x, claim.periodic[0]);
-    checks.at_most("sup|e| of the periodic solution", e, claim.periodic[1]);
-    checks.at_most("sup|zeta|_N of the periodic solution", zeta, claim.periodic[2]);
+    checks.at_most("$`sup|x|`$ of the periodic solution", x, claim.periodic[0]);
+    checks.at_most("$`sup|e|`$ of the periodic solution", e, claim.periodic[1]);
+    checks.at_most("$`sup|zeta|_N`$ of the periodic solution", zeta, claim.periodic[2]);
     let z = largest(&|y| closed_loop.regulator.weighted_norm(&y[n + 1..]));
-    checks.at_most("sup|z|_N of the periodic solution", z, claim.periodic_z);
+    checks.at_most("$`sup|z|_N`$ of the periodic solution", z, claim.periodic_z);
     if let Some([steady, _]) = claim.control_at(trial.sigma) {
         let u = largest(&|y| closed_loop.demanded(y, Disturbance::default()).abs());
         checks.at_most(STEADY_CONTROL, u, steady * ABOVE);
     }
     if let Some(psi) = claim.psi {
-        checks.at_most("sup|e| against psi_1/sigma", e, psi[0] / trial.sigma);
-        checks.at_most("sup|x| against psi_x/sigma", x, psi[1] / trial.sigma);
+        checks.at_most("$`sup|e|`$ against $`psi_1/sigma`$", e, psi[0] / trial.sigma);
+        checks.at_most("$`sup|x|`$ against $`psi_x/sigma`$", x, psi[1] / trial.sigma);
     }
     if let Some([by_rms, by_sup]) = claim.error_bounds(trial.sigma, trial.n_o) {
-        checks.at_most("rms(e) against its bound for this n_o", rms(&error), by_rms);
-        checks.at_most("sup|e| against its bound for this n_o", e, by_sup);
+        checks.at_most("$`rms(e)`$ against its bound for this $`n_o`$", rms(&error), by_rms);
+        checks.at_most("$`sup|e|`$ against its bound for this $`n_o`$", e, by_sup);
     }
 }
 
@@ -243,8 +243,8 @@ fn check_approach(
         y = samples.last().cloned().unwrap_or(y);
     }
     let [d_x, d_e] = claim.error_box;
-    checks.at_most("|x - x_p| on the way, against D_x", away[0], d_x);
-    checks.at_most("|e - e_p| on the way, against D_e", away[1], d_e);
+    checks.at_most("$`|x - x_p|`$ on the way, against $`D_x`$", away[0], d_x);
+    checks.at_most("$`|e - e_p|`$ on the way, against $`D_e`$", away[1], d_e);
     if let Some([_, transient]) = claim.control_at(trial.sigma) {
         checks.at_most(CONTROL, control[0], transient * ABOVE);
     }

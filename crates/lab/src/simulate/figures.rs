@@ -2,6 +2,7 @@
 
 use super::run::{LongRun, Simulation};
 use super::{ClosedLoop, Disturbance, frequencies, magnitude};
+use sigmastar_document::plain;
 use sigmastar_document::plot::{Curve, Figure, Scale, Style};
 use sigmastar_lang::plant::Plant;
 use sigmastar_regulator::Regulator;
@@ -13,8 +14,10 @@ const SPECTRUM_FLOOR: f64 = 1e-16;
 /// The regulator in words.
 pub(super) fn regulator_words(regulator: &Regulator) -> String {
     match regulator.oscillators() {
-        None => format!("high-gain feedback, sigma = {}", regulator.sigma),
-        Some(n_o) => format!("internal model, sigma = {}, mu = {}, n_o = {n_o}", regulator.sigma, regulator.mu),
+        None => format!("high-gain feedback, $`sigma = {}`$", regulator.sigma),
+        Some(n_o) => {
+            format!("internal model, $`sigma = {}`$, $`mu = {}`$, $`n_o = {n_o}`$", regulator.sigma, regulator.mu)
+        }
     }
 }
 
@@ -84,7 +87,7 @@ pub fn figures(plant: &Plant, closed_loop: &ClosedLoop, simulation: &Simulation)
 
 fn response(closed_loop: &ClosedLoop, run: &LongRun) -> Figure {
     let points = run.times.iter().zip(&run.states).map(|(t, y)| (*t, y[closed_loop.states()])).collect();
-    let curves = vec![Curve { label: regulator_words(&closed_loop.regulator), points, style: Style::Line }];
+    let curves = vec![Curve { label: plain(&regulator_words(&closed_loop.regulator)), points, style: Style::Line }];
     over_time(closed_loop.period, "Regulated error", "e [unit of e]", curves)
 }
 
@@ -118,7 +121,7 @@ fn control(closed_loop: &ClosedLoop, run: &LongRun) -> Figure {
     let samples = (run.times.len() - 1) / run.return_distances.len().max(1);
     let last = run.times.iter().zip(&run.states).skip(run.times.len() - 1 - samples);
     let points = last.map(|(t, y)| (*t, closed_loop.control(y, Disturbance::default()))).collect();
-    let curves = vec![Curve { label: regulator_words(&closed_loop.regulator), points, style: Style::Line }];
+    let curves = vec![Curve { label: plain(&regulator_words(&closed_loop.regulator)), points, style: Style::Line }];
     over_time(
         closed_loop.period,
         "Control over the last period",

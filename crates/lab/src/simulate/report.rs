@@ -4,7 +4,7 @@ use super::figures::{figures, regulator_words};
 use super::run::{Integrator, LongRun, NoisyRun, PeriodFigures, Simulation, SteadyFigures};
 use super::{ClosedLoop, IntegrationFailure, SteadyState};
 use serde_json::{Value, json};
-use sigmastar_document::{Block, Readable, Table, clean};
+use sigmastar_document::{Block, Readable, Table, clean, plain};
 use sigmastar_lang::expr::quoted;
 use sigmastar_lang::plant::{Initial, InitialRegulator, Plant};
 
@@ -28,7 +28,7 @@ impl Readable for SimulationReport<'_> {
                 regulator_words(&closed_loop.regulator),
                 number(closed_loop.period),
                 closed_loop.limit().map_or_else(String::new, |limit| format!(
-                    " The actuator takes |u| <= {} and cuts off what is beyond.",
+                    " The actuator takes $`|u| <= {}`$ and cuts off what is beyond.",
                     number(limit)
                 ))
             )),
@@ -71,7 +71,7 @@ impl Readable for SimulationReport<'_> {
                 "multipliers_uncertainty": steady.uncertainty, "method": steady.method(), "start": steady.start,
             }),
             Err(error) => json!({
-                "error": error.to_string(), "help": error.way_out("--fixed"), "from": initial_words(plant),
+                "error": error.to_string(), "help": error.way_out("--fixed"), "from": plain(&initial_words(plant)),
             }),
         };
         let failure =
@@ -143,11 +143,11 @@ fn ended_early(error: &IntegrationFailure, flag: &str) -> Block {
 fn initial_words(plant: &Plant) -> String {
     let Initial { x, e, z } = &plant.initial;
     let states = plant.names.states().iter().zip(x).map(|(name, value)| format!("{} = {value}", quoted(name)));
-    let mut words: Vec<String> = states.chain([format!("e = {e}")]).collect();
+    let mut words: Vec<String> = states.chain([format!("$`e = {e}`$")]).collect();
     let of_regulator = match z {
         InitialRegulator::AtRest => "with the regulator at rest",
-        InitialRegulator::Aligned => "with z = M e",
-        InitialRegulator::Given(_) => "with the z of the plant file",
+        InitialRegulator::Aligned => "with $`z = M e`$",
+        InitialRegulator::Given(_) => "with the $`z`$ of the plant file",
     };
     words.push(of_regulator.to_owned());
     words.join(", ")
@@ -162,13 +162,13 @@ fn steady_blocks(plant: &Plant, steady: &SteadyState, figures: &SteadyFigures) -
         false => String::new(),
     };
     let scale = figures.sup;
-    let mut table = Table::new(&["k", "|c_k| of e"]);
+    let mut table = Table::new(&["$`k`$", "$`|c_k|`$ of $`e`$"]);
     for (k, amplitude) in figures.amplitudes.iter().enumerate() {
         table.push([k.to_string(), self::amplitude(*amplitude, scale)]);
     }
     vec![
         Block::says(format!(
-            "sup|e| = {}, rms(e) = {}. Periodic to {:.1e}; largest Floquet multiplier {}{doubt}: {verdict}.",
+            "$`sup|e| = {}`$, $`rms(e) = {}`$. Periodic to {:.1e}; largest Floquet multiplier {}{doubt}: {verdict}.",
             number(figures.sup),
             number(figures.rms),
             steady.residual,
@@ -181,7 +181,8 @@ fn steady_blocks(plant: &Plant, steady: &SteadyState, figures: &SteadyFigures) -
 
 /// The control and the states over a period.
 pub(super) fn period_words(plant: &Plant, figures: &PeriodFigures) -> String {
-    let mut words = format!("largest |u| = {}, integral of u^2 = {}", number(figures.sup_u), number(figures.energy));
+    let mut words =
+        format!("largest $`|u| = {}`$, integral of $`u^2 = {}`$", number(figures.sup_u), number(figures.energy));
     for (name, sup) in plant.names.states().iter().zip(&figures.sup_x) {
         words.push_str(&format!(", largest |{}| = {}", quoted(name), number(*sup)));
     }
@@ -194,7 +195,7 @@ fn long_words(plant: &Plant, run: &LongRun) -> String {
         None => "Not steady to 1e-6 at the end".to_owned(),
     };
     format!(
-        "{} periods. {settled}. Over the last period: largest |e| = {}, rms(e) = {}, {}. Over all: largest |u| = {}.",
+        "{} periods. {settled}. Over the last period: largest $`|e| = {}`$, $`rms(e) = {}`$, {}. Over all: largest $`|u| = {}`$.",
         run.return_distances.len(),
         number(run.sup),
         number(run.rms),
@@ -212,7 +213,7 @@ fn noisy_words(run: &NoisyRun) -> String {
     let half = run.sup.len() / 2;
     let (sup, rms) = (range(&run.sup[half..]), range(&run.rms[half..]));
     format!(
-        "Largest |v| = {}. Over single periods of the second half: largest |e| from {} to {}, rms(e) from {} to {}.",
+        "Largest $`|v| = {}`$. Over single periods of the second half: largest $`|e|`$ from {} to {}, $`rms(e)`$ from {} to {}.",
         number(run.largest_noise),
         number(sup.0),
         number(sup.1),

@@ -154,7 +154,7 @@ impl fmt::Display for Kind {
 /// A comparison that supports an erratum.
 #[derive(Clone, Debug)]
 pub struct Evidence {
-    /// What is compared, and why it matters.
+    /// What is compared, and why it matters; formulas are marked.
     pub statement: String,
     /// The left side.
     pub lhs: Side,
@@ -195,7 +195,7 @@ impl Evidence {
 
 impl fmt::Display for Evidence {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {} {} {}", self.statement, self.lhs, self.relation, self.rhs)?;
+        write!(f, "{}: $`{} {} {}`$", self.statement, self.lhs, self.relation, self.rhs)?;
         match self.kind {
             Kind::Rigorous => write!(f, " ({})", self.truth),
             Kind::Cited => f.write_str(" (cited, not proved)"),

@@ -51,24 +51,30 @@ pub(super) fn e14(data: Option<&Data<'_>>) -> Erratum {
     let imaginary = (1 + &zero + zero.sqr() - half.sqr()).sqrt();
     let evidence = vec![
         Evidence::rigorous(
-            "a = (10, 1, 1), the printed s^3 + 10 s^2 + s + 1: Hurwitz by Routh's criterion, a_1 a_2 > a_3 with a_i > 0",
+            "$`a = (10, 1, 1)`$, the printed $`s^3 + 10 s^2 + s + 1`$: Hurwitz by Routh's criterion, $`a_1 a_2 > a_3`$ with $`a_i > 0`$",
             (a[0] * a[1], Greater, a[2]),
         ),
         Evidence::rigorous(
-            "the companion matrix printed beside it has the characteristic polynomial s^3 + a_3 s^2 + a_2 s + a_1: det(2 I - A)",
+            "the companion matrix printed beside it has the characteristic polynomial $`s^3 + a_3 s^2 + a_2 s + a_1`$: $`det(2 I - A)`$",
             (companion_characteristic(&a, 2), Equal, Rational::from(8 + a[2] * 4 + a[1] * 2 + a[0])),
         ),
-        Evidence::rigorous("s^3 + s^2 + s + 10 is not Hurwitz: a_3 a_2 against a_1", (a[2] * a[1], Less, a[0])),
+        Evidence::rigorous(
+            "$`s^3 + s^2 + s + 10`$ is not Hurwitz: $`a_3 a_2`$ against $`a_1`$",
+            (a[2] * a[1], Less, a[0]),
+        ),
         Evidence::rigorous("it has the real zero r (signs at rationals)", (zero, Less, 0)),
-        Evidence::rigorous("and a pair of zeros with the real part -(1+r)/2", (real, Greater, 0)),
-        Evidence::rigorous("and the imaginary part sqrt(1 + r + r^2 - (1+r)^2/4)", (imaginary, Greater, integer(0))),
+        Evidence::rigorous("and a pair of zeros with the real part $`-(1+r)/2`$", (real, Greater, 0)),
+        Evidence::rigorous(
+            "and the imaginary part $`sqrt(1 + r + r^2 - (1+r)^2/4)`$",
+            (imaginary, Greater, integer(0)),
+        ),
     ];
     Erratum {
         id: "E14",
         place: "P:sec:higher_degree",
         class: Class::A,
-        printed: "s^(r-1) + a_1 s^(r-2) + ... + a_(r-1) is Hurwitz, and the same order in the equation of xi_1^(r)",
-        instead: "s^(r-1) + a_(r-1) s^(r-2) + ... + a_1, the polynomial of the companion matrix printed beside it",
+        printed: "$`s^(r-1) + a_1 s^(r-2) + ... + a_(r-1)`$ is Hurwitz, and the same order in the equation of $`xi_1^(r)`$",
+        instead: "$`s^(r-1) + a_(r-1) s^(r-2) + ... + a_1`$, the polynomial of the companion matrix printed beside it",
         evidence,
         for_data: data.map(for_data),
     }
@@ -89,6 +95,6 @@ fn for_data(data: &Data<'_>) -> ForData {
         (false, false) => (Bearing::Harmless, "the coefficients are Hurwitz in neither order"),
     };
     a.into_iter().enumerate().fold(ForData::new(bearing, summary), |for_data, (index, value)| {
-        for_data.figure(format!("a_{}", index + 1), Side::Exact(value))
+        for_data.figure(format!("$`a_{}`$", index + 1), Side::Exact(value))
     })
 }

@@ -65,9 +65,9 @@ impl ClosedForm {
         big_1: &Enclosure,
     ) -> [(&'static str, Enclosure, Enclosure); 3] {
         [
-            ("on |x| <= 1/2", self.near_zero.clone(), big_0.clone()),
-            ("the coefficients of x^2", self.k1.clone(), big_1.clone()),
-            ("at x = 1/2", &self.k0 + &self.k1 / 4, big_0 + big_1 / 4),
+            ("on $`|x| <= 1/2`$", self.near_zero.clone(), big_0.clone()),
+            ("the coefficients of $`x^2`$", self.k1.clone(), big_1.clone()),
+            ("at $`x = 1/2`$", &self.k0 + &self.k1 / 4, big_0 + big_1 / 4),
         ]
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::errata::{Erratum, Side, errata};
 use serde_json::{Value, json};
-use sigmastar_document::{Block, Made, Readable, clean};
+use sigmastar_document::{Block, Made, Readable, clean, plain};
 use sigmastar_lang::spec::Specification;
 
 /// The list of errata, with what each item means for a specification where one is given.
@@ -62,7 +62,7 @@ fn item_json(item: &Erratum) -> Value {
         .iter()
         .map(|evidence| {
             json!({
-                "kind": evidence.kind.to_string(), "statement": evidence.statement,
+                "kind": evidence.kind.to_string(), "statement": plain(&evidence.statement),
                 "lhs": side(&evidence.lhs), "relation": evidence.relation.to_string(), "rhs": side(&evidence.rhs),
                 "truth": evidence.truth.to_string(),
             })
@@ -72,12 +72,12 @@ fn item_json(item: &Erratum) -> Value {
         let figures: Vec<Value> = for_data
             .figures
             .iter()
-            .map(|figure| json!({ "name": figure.name, "value": side(&figure.value) }))
+            .map(|figure| json!({ "name": plain(&figure.name), "value": side(&figure.value) }))
             .collect();
-        json!({ "bearing": for_data.bearing.to_string(), "summary": for_data.summary, "figures": figures })
+        json!({ "bearing": for_data.bearing.to_string(), "summary": plain(&for_data.summary), "figures": figures })
     });
     json!({
-        "id": item.id, "class": item.class.to_string(), "place": item.place, "printed": item.printed,
-        "instead": item.instead, "proved": item.is_proved(), "evidence": evidence, "for_data": for_data,
+        "id": item.id, "class": item.class.to_string(), "place": plain(item.place), "printed": plain(item.printed),
+        "instead": plain(item.instead), "proved": item.is_proved(), "evidence": evidence, "for_data": for_data,
     })
 }

@@ -22,16 +22,16 @@ pub(super) fn e1(data: Option<&Data<'_>>) -> Erratum {
     let square_of_c = Rational::from(&half * 18);
     let evidence = vec![
         Evidence::rigorous(
-            "second member: 9 P_up x_a^2 <= ((6-1)^2/2 - 9) e_a^2, with the factor",
+            "second member: $`9 P_up x_a^2 <= ((6-1)^2/2 - 9) e_a^2`$, with the factor",
             (left_of_e, Equal, ratio(7, 2)),
         ),
         Evidence::rigorous(
-            "first member: P_low (3 sqrt(2) c + 1)^2/2 = 9 P_up + 3 sqrt(2) sqrt(P_up P_low) + P_low/2, so that \
-             9 e_a^2 <= (3 sqrt(2) sqrt(P_up P_low) + P_low/2) x_a^2; the factor of P_low c^2 = P_up",
+            "first member: $`P_low (3 sqrt(2) c + 1)^2/2 = 9 P_up + 3 sqrt(2) sqrt(P_up P_low) + P_low/2`$, so that \
+             $`9 e_a^2 <= (3 sqrt(2) sqrt(P_up P_low) + P_low/2) x_a^2`$; the factor of $`P_low c^2 = P_up`$",
             (square_of_c, Equal, 9),
         ),
         Evidence::rigorous(
-            "the two multiplied: 81 <= 3.5 (3 sqrt(2)/c + 1/(2 c^2)); the right side decreases in c >= 1, and at c = 1 it is",
+            "the two multiplied: $`81 <= 3.5 (3 sqrt(2)/c + 1/(2 c^2))`$; the right side decreases in $`c >= 1`$, and at $`c = 1`$ it is",
             (product(&integer(1)), Less, 81),
         ),
     ];
@@ -39,15 +39,15 @@ pub(super) fn e1(data: Option<&Data<'_>>) -> Erratum {
         id: "E1",
         place: "P:eq:boundx_bounde_1 with P:eq:temp_bound_xe2",
         class: Class::A,
-        printed: "9 P_up x_a^2 + 9 e_a^2 <= (1/2) min{P_low (x_b - x_a)^2, (e_b - e_a)^2} with x_b = (3 sqrt(2) c + 2) x_a, \
-                  e_b = 6 e_a; \"such x_a, e_a > 0 always exist\"",
-        instead: "no x_a, e_a > 0 satisfy it, for any P_up >= P_low; free radii of the error box (C4) replace the \
+        printed: "$`9 P_up x_a^2 + 9 e_a^2 <= (1/2) min{P_low (x_b - x_a)^2, (e_b - e_a)^2}`$ with $`x_b = (3 sqrt(2) c + 2) x_a`$, \
+                  $`e_b = 6 e_a`$; \"such $`x_a, e_a > 0`$ always exist\"",
+        instead: "no $`x_a, e_a > 0`$ satisfy it, for any $`P_up >= P_low`$; free radii of the error box (C4) replace the \
                   fixed multiples",
         evidence,
         for_data: data.map(|data| {
             ForData::new(Bearing::Bites, "the printed condition has no solution, so theorem 1 gives no gain")
-                .figure("c = sqrt(P_up/P_low)", data.c.clone())
-                .figure("3.5 (3 sqrt(2)/c + 1/(2 c^2)), to be at least 81", product(&data.c))
+                .figure("$`c = sqrt(P_up/P_low)`$", data.c.clone())
+                .figure("$`3.5 (3 sqrt(2)/c + 1/(2 c^2))`$, to be at least 81", product(&data.c))
         }),
     }
 }
@@ -67,12 +67,12 @@ pub(super) fn e2(data: Option<&Data<'_>>) -> Erratum {
     let four_digits = |value: i64| rational(&ratio(value, 10_000));
     let evidence = vec![
         Evidence::rigorous(
-            "with k = P_up/P_low it needs 9 k - 6 sqrt(2) sqrt(k) - 2 <= 0, increasing for k >= 1; at k = 1.2952 it is",
+            "with $`k = P_up/P_low`$ it needs $`9 k - 6 sqrt(2) sqrt(k) - 2 <= 0`$, increasing for $`k >= 1`$; at $`k = 1.2952`$ it is",
             (excess(&four_digits(12_952)), Less, 0),
         ),
-        Evidence::rigorous("and at k = 1.2953 it is", (excess(&four_digits(12_953)), Greater, 0)),
+        Evidence::rigorous("and at $`k = 1.2953`$ it is", (excess(&four_digits(12_953)), Greater, 0)),
         Evidence::rigorous(
-            "its root sqrt(k) = (sqrt(2) + 2)/3, that is k = (6 + 4 sqrt(2))/9, is above",
+            "its root $`sqrt(k) = (sqrt(2) + 2)/3`$, that is $`k = (6 + 4 sqrt(2))/9`$, is above",
             (largest_ratio(), Greater, ratio(12_952, 10_000)),
         ),
         Evidence::rigorous("and below", (largest_ratio(), Less, ratio(12_953, 10_000))),
@@ -84,15 +84,15 @@ pub(super) fn e2(data: Option<&Data<'_>>) -> Erratum {
             Truth::False => (Bearing::Harmless, "the printed condition can be met"),
             Truth::Undecided => (Bearing::Depends, "the ratio is too close to the threshold to tell"),
         };
-        ForData::new(bearing, summary).figure("P_up/P_low", ratio).figure("largest ratio", largest_ratio())
+        ForData::new(bearing, summary).figure("$`P_up/P_low`$", ratio).figure("largest ratio", largest_ratio())
     });
     Erratum {
         id: "E2",
         place: "P:eq:bound_xe_inf with P:eq:temp_bound_xe_inf",
         class: Class::A,
-        printed: "9 P_up x^2 + 9 e^2 <= (1/2) min{P_low x_b^2, e_b^2} with x_b = (3 sqrt(2) c + 2) x, e_b = 6 e, for every \
-                  (P_up, P_low, alpha)",
-        instead: "solvable only for P_up/P_low <= (6 + 4 sqrt(2))/9 = 1.2952..; C4 and C5 with x_per = e_per = 0 hold for \
+        printed: "$`9 P_up x^2 + 9 e^2 <= (1/2) min{P_low x_b^2, e_b^2}`$ with $`x_b = (3 sqrt(2) c + 2) x`$, $`e_b = 6 e`$, for every \
+                  $`(P_up, P_low, alpha)`$",
+        instead: "solvable only for $`P_up/P_low <= (6 + 4 sqrt(2))/9 = 1.2952..`$; C4 and C5 with $`x_per = e_per = 0`$ hold for \
                   any ratio",
         evidence,
         for_data,

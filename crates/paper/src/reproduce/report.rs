@@ -24,7 +24,7 @@ impl Readable for ReproductionReport<'_> {
             Block::Title("The paper's numerical section, computed again".to_owned()),
             Block::says(
                 "Floating point, no proof. Steady states by Newton shooting. Deviations are in units of the last printed \
-                 place, after rounding to it. The second printed column is headed (1/T) int e^2; what is printed there is \
+                 place, after rounding to it. The second printed column is headed $`(1/T) int e^2`$; what is printed there is \
                  its square root, the rms (erratum E19), and the rms is what is computed here.",
             ),
         ];
@@ -39,7 +39,9 @@ impl Readable for ReproductionReport<'_> {
             }
             blocks.push(Block::heading(title));
             match n_0 {
-                Some(1.0) => blocks.push(Block::says("The printed values were computed with n_0 = 1 (erratum E20).")),
+                Some(1.0) => {
+                    blocks.push(Block::says("The printed values were computed with $`n_0 = 1`$ (erratum E20)."))
+                }
                 Some(_) => blocks.push(Block::says("What the text states; the printed values do not belong to it.")),
                 None => {}
             }
@@ -93,9 +95,9 @@ fn parameters(row: &ComputedRow) -> [String; 3] {
 
 fn quiet_table(reproduction: &Reproduction, printed: PrintedTable, n_0: Option<f64>) -> Block {
     let mut table = Table::new(&[
-        "w T/(2 pi)",
-        "n_o",
-        "sigma",
+        "$`w T/(2 pi)`$",
+        "$`n_o`$",
+        "$`sigma`$",
         "sup printed",
         "here",
         "deviation",
@@ -126,7 +128,7 @@ fn quiet_table(reproduction: &Reproduction, printed: PrintedTable, n_0: Option<f
 fn words(law: Noise) -> [&'static str; 2] {
     match law {
         Noise::Printed => ["as printed", "printed"],
-        Noise::Everywhere => ["-sigma (e + v)", "everywhere"],
+        Noise::Everywhere => ["$`-sigma (e + v)`$", "everywhere"],
     }
 }
 
@@ -137,8 +139,17 @@ fn range([low, high]: [f64; 2]) -> String {
 fn noise_blocks(reproduction: &Reproduction) -> Vec<Block> {
     let settings = reproduction.settings;
     let largest: Vec<String> = reproduction.largest_noise.iter().map(|value| format!("{value:.1}")).collect();
-    let mut table =
-        Table::new(&["w T/(2 pi)", "n_o", "sigma", "n_0", "<law", "sup printed", "here", "rms printed", "here"]);
+    let mut table = Table::new(&[
+        "$`w T/(2 pi)`$",
+        "$`n_o`$",
+        "$`sigma`$",
+        "$`n_0`$",
+        "<law",
+        "sup printed",
+        "here",
+        "rms printed",
+        "here",
+    ]);
     for row in &reproduction.rows {
         for NoiseRange { law, sup, rms } in &row.noisy {
             let [law, _] = words(*law);
@@ -153,12 +164,12 @@ fn noise_blocks(reproduction: &Reproduction) -> Vec<Block> {
         Block::heading("Both tables, with measurement noise"),
         Block::says(format!(
             "Ranges over single periods among the last 30 of 150, over seeds 1 to {}, with {} steps per period. Two \
-             laws: as the paper prints it, and with u = -sigma (e + v) + mu M'N(z - M(e + v)) (erratum E22). Nothing \
+             laws: as the paper prints it, and with $`u = -sigma (e + v) + mu M'N(z - M(e + v))`$ (erratum E22). Nothing \
              is tuned to meet the printed values.",
             settings.seeds, settings.noise_steps
         )),
         Block::says(format!(
-            "The paper states |v| <= 40. At its sampling time of 1e-5 the largest |v| over 150 s is {} for these \
+            "The paper states $`|v| <= 40`$. At its sampling time of 1e-5 the largest $`|v|`$ over 150 s is {} for these \
              seeds.",
             largest.join(", ")
         )),

@@ -14,18 +14,18 @@ const LAMBDA_ROWS: u32 = 3;
 fn sentence(status: &PairStatus) -> String {
     match status {
         PairStatus::Proved => {
-            "The printed kappa_0, kappa_1 do bound the transfer here (proved by other means than the printed proof)."
+            "The printed $`kappa_0`$, $`kappa_1`$ do bound the transfer here (proved by other means than the printed proof)."
                 .to_owned()
         }
         PairStatus::Refuted(point) => format!(
-            "The printed kappa_0, kappa_1 are refuted: at n_o = {} and omega = {} w the transfer times w^2 is {}, \
+            "The printed $`kappa_0`$, $`kappa_1`$ are refuted: at $`n_o = {}`$ and $`omega = {} w`$ the transfer times $`w^2`$ is {}, \
              and they allow {}.",
             point.n_o,
             exact(&point.x, Direction::Nearest),
             compact(&point.value),
             compact(&point.bound),
         ),
-        PairStatus::Undecided => "The printed kappa_0, kappa_1 are neither proved nor refuted here.".to_owned(),
+        PairStatus::Undecided => "The printed $`kappa_0`$, $`kappa_1`$ are neither proved nor refuted here.".to_owned(),
     }
 }
 
@@ -37,17 +37,17 @@ pub(super) fn section(printed: &PrintedChecks, data: &Data<'_>, pair: &Certified
         constants.push([name.to_owned(), compact(value), compact(&repaired), compact(&proved)]);
     };
     let [kappa_0, kappa_1] = data.kappas(&data.rational(&pair.k0), &data.rational(&pair.k1));
-    row("kappa_0", &printed.constants.kappa_0, &printed.repaired.0 / w.sqr(), kappa_0);
-    row("kappa_1", &printed.constants.kappa_1, &printed.repaired.1 / w.sqr().sqr(), kappa_1);
+    row("$`kappa_0`$", &printed.constants.kappa_0, &printed.repaired.0 / w.sqr(), kappa_0);
+    row("$`kappa_1`$", &printed.constants.kappa_1, &printed.repaired.1 / w.sqr().sqr(), kappa_1);
     for (name, value) in [("S", &printed.constants.s), ("a", &printed.constants.a), ("varpi", &printed.constants.varpi)]
     {
         constants.push([name.to_owned(), compact(value)]);
     }
-    constants.push(["lambda, m = 0".to_owned(), "undefined (varpi/0)".to_owned()]);
+    constants.push(["$`lambda`$, $`m = 0`$".to_owned(), "undefined (varpi/0)".to_owned()]);
     for m in 1..=LAMBDA_ROWS {
         if let Some((low, high)) = lambda_interval(&printed.constants, m) {
             let text = format!("{} to {}", compact(&low), compact(&high));
-            constants.push([format!("lambda, m = {m}"), text]);
+            constants.push([format!("$`lambda`$, $`m = {m}`$"), text]);
         }
     }
     let checks = printed.checks.iter().map(|check| {
@@ -61,8 +61,8 @@ pub(super) fn section(printed: &PrintedChecks, data: &Data<'_>, pair: &Certified
     vec![
         Block::Aside("Printed, repaired and proved constants".to_owned()),
         Block::says(
-            "In the units of omega. The printed proof reads mu for nu = mu/w and drops the powers of w (E6); for \
-             m = 0, which it needs, its lambda is not defined (E7).",
+            "In the units of $`omega`$. The printed proof reads $`mu`$ for $`nu = mu/w`$ and drops the powers of $`w`$ (E6); for \
+             $`m = 0`$, which it needs, its $`lambda`$ is not defined (E7).",
         ),
         Block::Table(constants),
         Block::Table(Table::of(&["<printed statement", "printed", "needed", "<"], checks)),

@@ -11,8 +11,8 @@ pub(super) fn pair(data: &Data<'_>, pair: &CertifiedPair) -> Vec<Block> {
     let [kappa_0, kappa_1] = data.kappas(&data.rational(&pair.k0), &data.rational(&pair.k1));
     let mut blocks = vec![
         Block::Verdict(format!(
-            "Proved: T_N(x) <= k0 + k1 x^2 with k0 = {} and k1 = {}, for every number of oscillators N = n_o >= 0 and every \
-             x = omega/w >= 0, where nu = {} = {}.",
+            "Proved: $`T_N(x) <= k0 + k1 x^2`$ with $`k0 = {}`$ and $`k1 = {}`$, for every number of oscillators $`N = n_o >= 0`$ and every \
+             $`x = omega/w >= 0`$, where $`nu = {} = {}`$.",
             write_exact(&pair.k0),
             write_exact(&pair.k1),
             // That of the smallest input gain serves all of an interval.
@@ -20,8 +20,8 @@ pub(super) fn pair(data: &Data<'_>, pair: &CertifiedPair) -> Vec<Block> {
             compact(&data.nu),
         )),
         Block::says(format!(
-            "So zeta* N zeta <= (kappa_0 + kappa_1 omega^2) |v|^2 at every frequency omega, with kappa_0 = {} and kappa_1 = \
-             {}, whatever n_o is.",
+            "So $`zeta* N zeta <= (kappa_0 + kappa_1 omega^2) |v|^2`$ at every frequency $`omega`$, with $`kappa_0 = {}`$ and $`kappa_1 = \
+             {}`$, whatever $`n_o`$ is.",
             upper(&kappa_0),
             upper(&kappa_1),
         )),
@@ -30,8 +30,8 @@ pub(super) fn pair(data: &Data<'_>, pair: &CertifiedPair) -> Vec<Block> {
              decides that pair again from the certificate.",
         ),
         Block::says(format!(
-            "The proof: {} boxes over x in [0, {}] for each N < {} and for all N >= {} together, and one scalar test for \
-             x beyond (m0 = {}, N0 = {}).",
+            "The proof: {} boxes over $`x`$ in [0, {}] for each $`N < {}`$ and for all $`N >= {}`$ together, and one scalar test for \
+             $`x`$ beyond ($`m0 = {}`$, $`N0 = {}`$).",
             pair.proof.boxes(),
             f64::from(pair.proof.m0) - 0.5,
             pair.proof.n0,
@@ -42,7 +42,7 @@ pub(super) fn pair(data: &Data<'_>, pair: &CertifiedPair) -> Vec<Block> {
     ];
     if let (Some(point), Some(excess)) = (&pair.binding, pair.excess(data)) {
         blocks.push(Block::says(format!(
-            "With this k0 no k1 below {} is admissible, because of T_{}({}) = {}: k1 is at most {} % above the best.",
+            "With this $`k0`$ no $`k1`$ below {} is admissible, because of $`T_{}({}) = {}`$: $`k1`$ is at most {} % above the best.",
             lower(&point.least_k1),
             point.n_o,
             exact(&point.x, Direction::Nearest),
@@ -58,7 +58,7 @@ pub(super) fn uniformity(rows: &[Uniformity]) -> Vec<Block> {
     if rows.is_empty() {
         return Vec::new();
     }
-    let mut table = Table::new(&["n_o", "at least", "at most", "at x", "slowest decay, 1/time"]);
+    let mut table = Table::new(&["$`n_o`$", "at least", "at most", "at $`x`$", "slowest decay, 1/time"]);
     for Uniformity { sup, decay } in rows {
         table.push([
             sup.n_o.to_string(),
@@ -71,9 +71,9 @@ pub(super) fn uniformity(rows: &[Uniformity]) -> Vec<Block> {
     vec![
         Block::heading("How much of the bound each n_o uses"),
         Block::says(
-            "The supremum of T_N(x)/(k0 + k1 x^2) over x >= 0, enclosed; its lower end is the value at x. Beside it the \
-             decay rate of the slowest mode of the internal model, Phi - mu M M'N, from its enclosed poles: the bound \
-             does not depend on n_o, this rate tends to 0.",
+            "The supremum of $`T_N(x)/(k0 + k1 x^2)`$ over $`x >= 0`$, enclosed; its lower end is the value at $`x`$. Beside it the \
+             decay rate of the slowest mode of the internal model, $`Phi - mu M M'N`$, from its enclosed poles: the bound \
+             does not depend on $`n_o`$, this rate tends to 0.",
         ),
         Block::Table(table),
     ]
@@ -109,8 +109,8 @@ pub(super) fn matched(data: &Data<'_>, matched: &MatchedPair) -> Vec<Block> {
     vec![
         Block::heading("Matched base frequency"),
         Block::says(format!(
-            "The base frequency is exactly 2 pi/T, so only integers x occur. Proved for these: k0 = {}, k1 = {} \
-             (harmonics below {} one by one, the others by one inequality), that is kappa_0 = {}, kappa_1 = {}.",
+            "The base frequency is exactly $`2 pi/T`$, so only integers $`x`$ occur. Proved for these: $`k0 = {}`$, $`k1 = {}`$ \
+             (harmonics below {} one by one, the others by one inequality), that is $`kappa_0 = {}`$, $`kappa_1 = {}`$.",
             exact(&matched.k0, Direction::Up),
             exact(&matched.k1, Direction::Up),
             matched.first_of_tail,

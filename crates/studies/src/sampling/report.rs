@@ -35,7 +35,7 @@ impl Readable for SamplingReport<'_> {
         ];
         if let Some(sigma) = continuous {
             blocks.push(Block::says(format!(
-                "In continuous time norms ask for about sigma = {} (an estimate); a matrix inequality may ask for less. The longest sampling periods \
+                "In continuous time norms ask for about $`sigma = {}`$ (an estimate); a matrix inequality may ask for less. The longest sampling periods \
                  are sought with norms first: there may be longer ones.",
                 estimate(*sigma)
             )));
@@ -79,7 +79,7 @@ fn asked(row: &Row) -> [String; 2] {
 }
 
 fn table(rows: &[Row]) -> Table {
-    let mut table = Table::new(&["h", "samples", "sigma", "h sigma", "theta", "margin", "<limited by"]);
+    let mut table = Table::new(&["$`h`$", "samples", "$`sigma`$", "$`h sigma`$", "$`theta`$", "margin", "<limited by"]);
     for row in rows {
         let none = || "-".to_owned();
         match &row.found {

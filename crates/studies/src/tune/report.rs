@@ -5,7 +5,7 @@ use super::figures::{Figures, Goal};
 use super::parameter::Parameter;
 use serde_json::{Value, json};
 use sigmastar_document::number::{estimate, exact, full, upper};
-use sigmastar_document::{Block, Readable, Table, clean};
+use sigmastar_document::{Block, Readable, Table, clean, plain, plain_all};
 use sigmastar_exact::number::{Direction, write_exact};
 use sigmastar_prove::certificate::set_fields;
 
@@ -59,12 +59,12 @@ impl Readable for TuningReport<'_> {
             after
         });
         json!({
-            "format": FORMAT, "version": VERSION, "sentence": self.sentence(), "basis": BASIS,
+            "format": FORMAT, "version": VERSION, "sentence": plain(&self.sentence()), "basis": BASIS,
             "specification": { "name": self.name, "sha256": self.sha256 },
             "minimised": tuning.settings.goal.name(), "n_o": tuning.settings.n_o,
             "parameters": parameters, "before": self.tried(&tuning.before), "after": after,
             "tries": { "at_most": tuning.settings.tries, "certified": tuning.certified, "without_claim": tuning.without_claim },
-            "remarks": self.remarks(),
+            "remarks": plain_all(self.remarks()),
         })
     }
 }
@@ -79,14 +79,14 @@ impl TuningReport<'_> {
         let tuning = self.tuning;
         let what = match tuning.settings.goal {
             Goal::Sigma => self.gain(),
-            Goal::Feedback => "sigma* + mu Nbar^2".to_owned(),
-            Goal::Error(n_o) => format!("the bound of sup|e| with {n_o} oscillators"),
+            Goal::Feedback => "$`sigma* + mu Nbar^2`$".to_owned(),
+            Goal::Error(n_o) => format!("the bound of $`sup|e|`$ with {n_o} oscillators"),
         };
         let shown =
             |tried: &Tried| tried.outcome.as_ref().map_or_else(|_| "nothing".to_owned(), |figures| self.goal(figures));
         let values = |tried: &Tried| {
             let each = tuning.parameters.iter().zip(&tried.values);
-            each.map(|(parameter, value)| format!("{} = {}", parameter.name, clean(value)))
+            each.map(|(parameter, value)| format!("$`{} = {}`$", parameter.name, clean(value)))
                 .collect::<Vec<_>>()
                 .join(", ")
         };
@@ -120,7 +120,7 @@ impl TuningReport<'_> {
     /// What the certified gain is called: at samples it is no threshold.
     fn gain(&self) -> String {
         let period = self.tuning.figures().find_map(|figures| figures.sampling_period.as_ref());
-        period.map_or_else(|| "sigma*".to_owned(), |step| format!("the gain for samples {step} apart"))
+        period.map_or_else(|| "$`sigma*`$".to_owned(), |step| format!("the gain for samples {step} apart"))
     }
 
     /// What was to be small.
@@ -162,26 +162,26 @@ impl TuningReport<'_> {
             }
         };
         row(&self.gain(), &|figures| Some(exact(&figures.sigma, Direction::Up)));
-        row("sigma* + mu Nbar^2, at most", &|figures| figures.feedback.as_ref().map(upper));
-        for (index, name) in ["rms(e)", "sup|e|"].into_iter().enumerate() {
-            let name = format!("{name} at sigma*, n_o = {}, at most", tuning.settings.n_o);
+        row("$`sigma* + mu Nbar^2`$, at most", &|figures| figures.feedback.as_ref().map(upper));
+        for (index, name) in ["$`rms(e)`$", "$`sup|e|`$"].into_iter().enumerate() {
+            let name = format!("{name} at $`sigma*`$, $`n_o = {}`$, at most", tuning.settings.n_o);
             row(&name, &|figures| figures.error.as_ref().map(|error| upper(&error[index])));
         }
         let state = tuning.figures().find_map(|figures| figures.state);
         // Of a plant without states there is no size of a state.
         let norms = |others: &[&str]| -> Vec<(usize, String)> {
             let others = others.iter().map(|name| Some((*name).to_owned()));
-            let all = std::iter::once(state.map(|name| format!("|{name}|"))).chain(others);
+            let all = std::iter::once(state.map(|name| format!("$`|{name}|`$"))).chain(others);
             all.enumerate().filter_map(|(index, name)| Some((index, name?))).collect()
         };
-        for (index, name) in norms(&["|e|", "|z|_N"]) {
+        for (index, name) in norms(&["$`|e|`$", "$`|z|_N`$"]) {
             let size = |figures: &Figures| {
                 let size = figures.initial_set.named().nth(index);
-                Some(size.map_or_else(|| "z = M e".to_owned(), |(_, size)| exact(size, Direction::Down)))
+                Some(size.map_or_else(|| "$`z = M e`$".to_owned(), |(_, size)| exact(size, Direction::Down)))
             };
             row(&format!("initial set: {name}"), &size);
         }
-        for (index, name) in norms(&["|e|", "|zeta|_N", "|z|_N"]) {
+        for (index, name) in norms(&["$`|e|`$", "$`|zeta|_N`$", "$`|z|_N`$"]) {
             row(&format!("periodic solution: {name}, at most"), &|figures| figures.periodic.get(index).map(upper));
         }
         table
@@ -192,8 +192,8 @@ impl TuningReport<'_> {
         let mut remarks = Vec::new();
         if tuning.figures().any(|figures| figures.feedback.is_some()) {
             remarks.push(
-                "sigma* + mu Nbar^2 is what the law multiplies e by, at most, for every n_o: \
-                 u = -(sigma + mu (n_0 + ... + n_(n_o))) e + mu M'N z. Where it grows, a smaller sigma* is paid for there"
+                "$`sigma* + mu Nbar^2`$ is what the law multiplies $`e`$ by, at most, for every $`n_o`$: \
+                 $`u = -(sigma + mu (n_0 + ... + n_(n_o))) e + mu M'N z`$. Where it grows, a smaller $`sigma*`$ is paid for there"
                     .to_owned(),
             );
         }
@@ -211,8 +211,8 @@ impl TuningReport<'_> {
         }
         if matches!(tuning.settings.goal, Goal::Error(_)) {
             remarks.push(
-                "mu and the weights enter the bounds of the error through sigma* alone: at one gain, `certify --sigma V`, \
-                 they are the same before and after. A smaller bound at sigma* is one at a larger gain"
+                "$`mu`$ and the weights enter the bounds of the error through $`sigma*`$ alone: at one gain, `certify --sigma V`, \
+                 they are the same before and after. A smaller bound at $`sigma*`$ is one at a larger gain"
                     .to_owned(),
             );
         }
@@ -273,7 +273,7 @@ fn parameters(tuning: &Tuning) -> Table {
         let [from, to] = parameter.range.each_ref().map(write_exact);
         let after = tuning.after.as_ref().and_then(|(after, _)| after.values.get(index));
         let after = after.cloned().unwrap_or_else(|| "-".to_owned());
-        table.push([parameter.name.clone(), from, to, clean(&parameter.written), after]);
+        table.push([format!("$`{}`$", parameter.name), from, to, clean(&parameter.written), after]);
     }
     table
 }

@@ -4,6 +4,7 @@ use super::run::{SampledLongRun, SampledSimulation};
 use super::sampled_loop::{Piece, SampledLoop};
 use super::words::loop_words;
 use crate::simulate::figures::{control_axis, over_time, spectrum, spectrum_curve, table, transient};
+use sigmastar_document::plain;
 use sigmastar_document::plot::{Curve, Figure, Style};
 use sigmastar_lang::plant::Plant;
 
@@ -43,7 +44,7 @@ pub fn sampled_figures(
             Curve { label, points: points.collect(), style: Style::Line }
         };
         let period = sampled.period();
-        let error = vec![curve(sampled.states(), loop_words(sampled))];
+        let error = vec![curve(sampled.states(), plain(&loop_words(sampled)))];
         let response = over_time(period, "Regulated error", "e [unit of e]", error);
         let start = transient(&response, run.last_period.sup);
         figures.push(("response.svg", response));
@@ -58,7 +59,7 @@ pub fn sampled_figures(
             let length = piece.unit * (piece.states.len() - 1) as f64;
             [(piece.t, piece.u), (piece.t + length, piece.u)]
         });
-        let curves = vec![Curve { label: loop_words(sampled), points: held.collect(), style: Style::Line }];
+        let curves = vec![Curve { label: plain(&loop_words(sampled)), points: held.collect(), style: Style::Line }];
         let axis = control_axis("u", sampled.regulator.nominal);
         figures.push(("control.svg", over_time(period, "Control over the last period", &axis, curves)));
     }

@@ -35,7 +35,7 @@ impl Readable for SampledSimulationReport<'_> {
             None => format!("{} samples a period", number(sampled.period() / sampled.step())),
         });
         if sampled.phase != 0.0 {
-            about.push(format!("the first at t = {}", number(sampled.phase)));
+            about.push(format!("the first at $`t = {}`$", number(sampled.phase)));
         }
         about.extend(converter_words(sampled));
         let mut blocks = vec![
@@ -105,7 +105,7 @@ impl Readable for SampledSimulationReport<'_> {
 }
 
 fn steady_blocks(plant: &Plant, steady: &SampledSteady, sums: &PeriodSums) -> Vec<Block> {
-    let mut table = Table::new(&["k", "|c_k| of e", "|c_k| of e at the samples"]);
+    let mut table = Table::new(&["$`k`$", "$`|c_k|`$ of $`e`$", "$`|c_k|`$ of $`e`$ at the samples"]);
     for (k, amplitude) in sums.amplitudes.iter().enumerate() {
         let sampled =
             sums.amplitudes_at_samples.get(k).map_or_else(String::new, |size| self::amplitude(*size, sums.sup));
@@ -122,7 +122,7 @@ fn steady_blocks(plant: &Plant, steady: &SampledSteady, sums: &PeriodSums) -> Ve
     };
     vec![
         Block::says(format!(
-            "sup|e| = {} ({} at the samples), rms(e) = {}. Periodic to {:.1e}{stability}.",
+            "$`sup|e| = {}`$ ({} at the samples), $`rms(e) = {}`$. Periodic to {:.1e}{stability}.",
             number(sums.sup),
             number(sums.sup_at_samples),
             number(sums.rms),
@@ -143,7 +143,7 @@ fn long_words(plant: &Plant, sampled: &SampledLoop, run: &SampledLongRun) -> Str
         }
     };
     format!(
-        "{} periods. {settled}. Over the last period: largest |e| = {} ({} at the samples), rms(e) = {}, {}. Over all: largest |u| = {}.",
+        "{} periods. {settled}. Over the last period: largest $`|e| = {}`$ ({} at the samples), $`rms(e) = {}`$, {}. Over all: largest $`|u| = {}`$.",
         run.return_distances.len(),
         number(run.last_period.sup),
         number(run.last_period.sup_at_samples),

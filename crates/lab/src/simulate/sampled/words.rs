@@ -6,7 +6,7 @@ use crate::simulate::report::number;
 
 /// The regulator with its law at samples.
 pub(super) fn loop_words(sampled: &SampledLoop) -> String {
-    format!("{}, at samples h = {}", regulator_words(&sampled.regulator), number(sampled.step()))
+    format!("{}, at samples $`h = {}`$", regulator_words(&sampled.regulator), number(sampled.step()))
 }
 
 /// What stands between the law and the plant; nothing where that is nothing.
@@ -21,13 +21,13 @@ pub(super) fn converter_words(sampled: &SampledLoop) -> Vec<String> {
         words.push(format!("each control acts {} after its sample", number(converters.delay)));
     }
     if let Some(quantum) = converters.measured {
-        words.push(format!("e is measured in multiples of {}", number(quantum)));
+        words.push(format!("$`e`$ is measured in multiples of {}", number(quantum)));
     }
     if let Some(quantum) = converters.put_out {
-        words.push(format!("u is put out in multiples of {}", number(quantum)));
+        words.push(format!("$`u`$ is put out in multiples of {}", number(quantum)));
     }
     if let Some(limit) = sampled.discrete.saturation {
-        words.push(format!("u is clipped to |u| <= {}", number(limit)));
+        words.push(format!("$`u`$ is clipped to $`|u| <= {}`$", number(limit)));
     }
     words
 }
