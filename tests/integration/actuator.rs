@@ -120,7 +120,7 @@ fn the_claim_is_about_one_gain() {
     }
 }
 
-const ON_THE_WAY: &str = "$`|u|`$ on the way, against what the actuator takes";
+const IN_THE_TRANSIENT: &str = "$`|u|`$ in the transient, against what the actuator takes";
 
 /// Of each kind of claim: the checker agrees, and no member of it asks the actuator for more than it takes; told that it takes less, one does.
 #[test]
@@ -147,7 +147,7 @@ fn from_the_set_the_actuator_never_saturates() {
         for finding in &outcome.findings {
             let Finding::Holds { trial, shares } = finding else { panic!("{name}: {finding:?}") };
             assert!((trial.sigma / gain - 1.0).abs() < 1e-14);
-            let share = shares.iter().find(|(quantity, _)| *quantity == ON_THE_WAY).unwrap().1;
+            let share = shares.iter().find(|(quantity, _)| *quantity == IN_THE_TRANSIENT).unwrap().1;
             largest = largest.max(share);
         }
         assert!(largest <= 1.0 && (largest > 0.02 || name.ends_with("linear")), "{name}: {largest}");
@@ -160,7 +160,7 @@ fn from_the_set_the_actuator_never_saturates() {
         forged["claim"]["actuator"]["max"] = less.into();
         let found = tried(&forged, trials, 3);
         let (_, violation) = found.counterexample().expect("it asks for more");
-        assert_eq!(violation.quantity, ON_THE_WAY, "{name}");
+        assert_eq!(violation.quantity, IN_THE_TRANSIENT, "{name}");
     }
 }
 
@@ -176,7 +176,7 @@ fn the_bounds_of_the_control_are_no_larger_than_they_need_be() {
         for closest in outcome.closest() {
             match closest.quantity {
                 "$`sup|u|`$ of the periodic solution" => best[0] = best[0].max(closest.share),
-                "$`|u - u_p|`$ on the way, against its bound" => best[1] = best[1].max(closest.share),
+                "$`|u - u_p|`$ in the transient, against its bound" => best[1] = best[1].max(closest.share),
                 _ => {}
             }
         }

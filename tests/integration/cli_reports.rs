@@ -89,7 +89,7 @@ const SPECIFICATION: &str = "From the specification alone";
 const CERTIFICATE: &str = "At X_p, E_p, sigma of the certificate";
 const WITHOUT: &str = "Without a value";
 const PRINTED: &str = "What the printed formulas say";
-const SETS_SIGMA: &str = "What sets sigma* (estimates)";
+const LIMITING: &str = "Limiting condition of sigma* (estimates)";
 
 /// In Markdown there is the same as in the text.
 #[test]
@@ -109,8 +109,8 @@ fn paper_example() {
 fn other_plants() {
     let titles = outline(output(&EXAMPLE, 0));
     for (name, special) in [
-        ("no-x", &["Matrix inequalities", SPECIFICATION, WITHOUT, PRINTED, SETS_SIGMA][..]),
-        ("linear", &["Linear", "Conditions", WITHOUT, SETS_SIGMA]),
+        ("no-x", &["Matrix inequalities", SPECIFICATION, WITHOUT, PRINTED, LIMITING][..]),
+        ("linear", &["Linear", "Conditions", WITHOUT, LIMITING]),
         ("ill-conditioned", &[CERTIFICATE, WITHOUT, PRINTED]),
     ] {
         let report = shown(&[&format!("specs/{name}.json"), "--full"]);

@@ -113,9 +113,9 @@ fn simulated_again(counterexample: &str, more: &[&str]) -> Value {
 fn false_certificates_are_refuted_with_a_counterexample() {
     for (name, pointer, value, quantity) in [
         // A gain that is far too small, and nothing else wrong: sigma*/50 and less.
-        ("paper-example", "/claim/sigma_star", "9/10", "|e - e_p| on the way, against D_e"),
-        ("no-x", "/claim/sigma_star", "1/230", "|e - e_p| on the way, against D_e"),
-        ("linear", "/claim/sigma_star", "1/50", "Lyapunov function on the way, against its start"),
+        ("paper-example", "/claim/sigma_star", "9/10", "|e - e_p| in the transient, against D_e"),
+        ("no-x", "/claim/sigma_star", "1/230", "|e - e_p| in the transient, against D_e"),
+        ("linear", "/claim/sigma_star", "1/50", "Lyapunov function in the transient, against its start"),
         // A periodic solution far smaller than it is.
         ("no-x", "/witness/E_p", "0.002", "sup|e| of the periodic solution"),
         ("no-x", "/claim/periodic_solution/zeta", "1/10", "sup|zeta|_N of the periodic solution"),
@@ -146,8 +146,8 @@ fn false_certificates_are_refuted_with_a_counterexample() {
 #[test]
 fn certificates_with_optional_data_withstand_the_trials_and_false_ones_do_not() {
     for (name, too_small, quantity) in [
-        ("motor-axis-friction", "200", "Lyapunov function on the way, against its start"),
-        ("paper-example-harmonics-at-rest", "1/4", "Lyapunov function on the way, against its start"),
+        ("motor-axis-friction", "200", "Lyapunov function in the transient, against its start"),
+        ("paper-example-harmonics-at-rest", "1/4", "Lyapunov function in the transient, against its start"),
     ]
     .into_iter()
     .step_by(every(2))
@@ -191,7 +191,7 @@ fn the_worst_plant_is_named_and_can_be_simulated_again() {
         let largest = trials.iter().map(share).fold(0.0, f64::max);
         assert_eq!(share(&trials[closest["trial"].as_u64().unwrap() as usize - 1]), largest);
         assert_eq!(closest["share"], largest);
-        let general = ["largest Floquet multiplier", "Lyapunov function on the way, against its start"];
+        let general = ["largest Floquet multiplier", "Lyapunov function in the transient, against its start"];
         assert!(general.iter().any(|name| closest["quantity"] == *name) || worst["share"].as_f64().unwrap() >= largest);
     }
     let (tried, plant) = (folder.path().join("tried.json"), folder.path().join("plant.json"));

@@ -169,7 +169,10 @@ fn the_words_of_a_claim_say_what_it_keeps_to() {
     let (code, text) = certified(&["--max-control", "300", "--peak-error", "10"]);
     let (words, facts) = text.split_once(" - gain: ").unwrap();
     assert!(code == 0 && words.contains("T = 1. At sigma = ") && !facts.contains("(proved: "), "{text}");
-    assert!(words.contains(", |e| <= 10 (proved: ") && words.contains(") on the way, |u| <= 300 (proved: "), "{text}");
+    assert!(
+        words.contains(", |e| <= 10 (proved: ") && words.contains(") in the transient, |u| <= 300 (proved: "),
+        "{text}"
+    );
     let (_, text) = certified(&[]);
     assert!(!text.contains("At sigma = "), "{text}");
 }

@@ -189,7 +189,7 @@ fn trials_hold_the_bounds_and_break_smaller_ones() {
     assert!(outcome.counterexample().is_none(), "{:?}", outcome.counterexample());
     let closest = outcome.closest();
     let share = |part: &str| closest.iter().find(|closest| closest.quantity.contains(part)).expect("tried").share;
-    let [limit, way] = ["in the limit", "disturbance, on the way"].map(share);
+    let [limit, way] = ["in the limit", "disturbance, in the transient"].map(share);
     assert!((0.02..1.0).contains(&limit) && (0.02..1.0).contains(&way), "{limit} {way}");
     let mut forged = certificate.clone();
     for i in 0..2 {

@@ -181,7 +181,10 @@ fn each_cause_at_samples_is_told_where_it_is_one() {
 fn a_large_gain_is_remarked() {
     let large = changed("linear", &[("/bounds/q_e", "30000")]);
     let (code, told) = certify(&large, &[]);
-    assert!(code == 0 && told.contains("sigma* is above 10^4 divided by the period. It is set by C5: dq/de"), "{told}");
+    assert!(
+        code == 0 && told.contains("sigma* is above 10^4 divided by the period. It is limited by C5: dq/de"),
+        "{told}"
+    );
     for (text, options) in [(changed("linear", &[]), &[][..]), (large, &["--sigma", "40000"])] {
         let (code, told) = certify(&text, options);
         assert!(code == 0 && !told.contains("above 10^4"), "{told}");

@@ -25,7 +25,7 @@ fn answers(report: &str) {
         ["sigma", "exactly that sigma"].iter().any(|gain| report.contains(&format!("  - gain: {gain}"))),
         "{report}"
     );
-    for fact in ["from: |", "next: `", "set by: ", "to: a periodic solution with ", "assumed: "] {
+    for fact in ["initial set: |", "next: `", "limited by: ", "periodic solution: |", "assumed: "] {
         assert!(report.contains(&format!("  - {fact}")), "{fact}: {report}");
     }
 }

@@ -1,4 +1,4 @@
-//! The first lines of a report on a certified claim: the gain, from where, what to do next, what sets the gain, what is
+//! The first lines of a report on a certified claim: the gain, from where, what to do next, what limits the gain, what is
 //! assumed. The sections below say more of each.
 
 use super::by_count::section as by_count;
@@ -61,11 +61,11 @@ pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences
     };
     let mut facts = vec![
         ("gain", gain),
-        ("from", from(run.spec, set, &periodic, "any time")),
+        ("initial set", initial_set(run.spec, set, &periodic, "any time")),
         ("next", next(run.spec, origin, false)),
     ];
     facts.extend(orbit(run.spec).map(|said| ("orbit", said)));
-    facts.extend(set_by(run).map(|said| ("set by", said)));
+    facts.extend(limited_by(run).map(|said| ("limited by", said)));
     facts.extend(
         run.alternatives
             .aligned
@@ -84,7 +84,8 @@ pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences
     let [x, _, zeta, z] = periodic;
     let periodic = [x, steady, zeta, z];
     let control = Some((&control, " (both at this gain)"));
-    facts.push(("to", to(run.spec, &periodic, (upper(&error_box[0]), &peak), control)));
+    let transient = (upper(&error_box[0]), &peak);
+    facts.push(("periodic solution", periodic_solution(run.spec, &periodic, transient, control)));
     facts.push(("assumed", assumed(run.spec, run.largest_arguments(), None)));
     let known = by_count(run);
     [Block::facts(facts)].into_iter().chain(known).chain([Block::says(norms(run.spec, "$`sigma`$"))]).collect()
@@ -162,15 +163,18 @@ pub(super) fn of_samples(
     );
     let mut facts = vec![
         ("gain", gain),
-        ("from", from(run.spec, &witness.set, &periodic, &when)),
+        ("initial set", initial_set(run.spec, &witness.set, &periodic, &when)),
         ("next", next(run.spec, origin, true)),
     ];
     facts.extend(orbit(run.spec).map(|said| ("orbit", said)));
-    facts.extend(run.found.map(|(_, limit)| ("set by", format!("{} (an estimate)", limit.describe()))));
+    facts.extend(run.found.map(|(_, limit)| ("limited by", format!("{} (an estimate)", limit.describe()))));
     facts.extend(consequences.and_then(|all| error(&all.by_n_o)).map(|said| ("steady error", said)));
     facts.extend(for_n_o_at_samples(run).map(|said| ("convergence", said)));
-    let on_the_way = (exact(&witness.d_x, Direction::Up), &proof.evaluation.peak);
-    facts.push(("to", to(run.spec, &periodic, on_the_way, run.control().map(|bounds| (bounds, "")))));
+    let transient = (exact(&witness.d_x, Direction::Up), &proof.evaluation.peak);
+    facts.push((
+        "periodic solution",
+        periodic_solution(run.spec, &periodic, transient, run.control().map(|bounds| (bounds, ""))),
+    ));
     facts.extend(uncertain_gain(run.spec).map(|said| ("input gain", said)));
     facts.extend(interval_costs(run.spec, &run.interval_costs, "the gain").map(|said| ("intervals", said)));
     let late = if run.sampling.delayed { "every control put out at the next sample, no" } else { "no delay," };
@@ -237,7 +241,7 @@ fn norms(spec: &Specification, what: &str) -> String {
 }
 
 /// The initial set, of a plant the ball in it, and where its sizes are from.
-fn from(spec: &Specification, set: &ClaimedSet, [x, e, ..]: &[Enclosure; 4], when: &str) -> String {
+fn initial_set(spec: &Specification, set: &ClaimedSet, [x, e, ..]: &[Enclosure; 4], when: &str) -> String {
     let ball = spec.plant().and_then(|plant| claimed_ball(plant, &set.x0));
     let ball =
         ball.map_or_else(String::new, |ball| format!("; so from $`|x - x_0| <= {}`$", exact(&ball, Direction::Down)));
@@ -246,14 +250,14 @@ fn from(spec: &Specification, set: &ClaimedSet, [x, e, ..]: &[Enclosure; 4], whe
 }
 
 /// The periodic solution, how far from it solutions go, and how large the control gets.
-fn to(
+fn periodic_solution(
     spec: &Specification,
     periodic: &[Enclosure; 4],
     (d_x, peak): (String, &Enclosure),
     control: Option<(&Control<Enclosure>, &str)>,
 ) -> String {
     let ([x, e, _, _], peak) = (periodic.each_ref().map(upper), upper(peak));
-    let (along, on_the_way) = match spec.state_name() {
+    let (along, transient) = match spec.state_name() {
         Some(state) => (
             format!("$`|{state}| <= {x}`$, $`|e| <= {e}`$"),
             format!("$`{state}`$ stays within {d_x} of it, $`|e| <= {peak}`$"),
@@ -267,11 +271,11 @@ fn to(
         }
         None => [String::new(), String::new()],
     };
-    format!("a periodic solution with {along}{steady}; on the way {on_the_way}{largest}")
+    format!("{along}{steady}; in the transient {transient}{largest}")
 }
 
 /// The mechanism that asks for most of sigma*, and the datum that would lower it most.
-fn set_by(run: &Certification<'_>) -> Option<String> {
+fn limited_by(run: &Certification<'_>) -> Option<String> {
     let binding = run.binding.filter(|_| run.given_gain.is_none())?;
     let best = run.sensitivities.first().map(|(datum, gain)| {
         format!(

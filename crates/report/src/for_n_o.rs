@@ -166,7 +166,9 @@ fn disturbed(spec: &Specification, asked: Vec<(u32, Result<Shown, NoNoiseBound>)
             "{words} $`|e(t) - e_per(t)|`$ is at most this in the limit and at all times from the start on, for every \
              start in the set: a part of the claim, for this $`n_o`$ and this gain alone. $`e_per`$ is of the periodic solution without {without}{}.",
             match words::limit_adds_to_the_way(spec) {
-                true => format!("; on the way $`|e(t) - e_per(t)| <= factor exp(-rate (t - t_0)) + the limit`${place}"),
+                true => format!(
+                    "; in the transient $`|e(t) - e_per(t)| <= factor exp(-rate (t - t_0)) + the limit`${place}"
+                ),
                 false => "; the start is $`z = M e`$ of the measured $`e`$".to_owned(),
             },
         )),

@@ -13,7 +13,7 @@ const WORTH: f64 = 0.5;
 /// The table of a claim in continuous time; nothing where there are no rows but that of the claim.
 pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
     let steady = SHOWN_N_O.map(|n_o| format!("steady $`|e|`$, {n_o}"));
-    let says = "Steady is along the periodic solution, of the error with 0 and with 10 oscillators; largest is on the way from $`|e| <= E0`$ and the rest \
+    let says = "Steady is along the periodic solution, of the error with 0 and with 10 oscillators; largest is in the transient from $`|e| <= E0`$ and the rest \
                 of the initial set, of which a size that the file does not state goes with the gain: it is at least twice the bound of the periodic solution there. \
                 Each row is proved, for every $`n_o`$ but where one is named, with a witness of its own that no independent program checks: \
                 `certify --sigma V -o FILE` writes a certificate, and `sampling` lists the longest sampling periods of such gains.";
@@ -22,7 +22,7 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
 
 /// The table of a claim at samples; nothing where there are no rows but that of the claim.
 pub(super) fn sampled_section(run: &SampledCertification<'_>) -> Vec<Block> {
-    let says = "At the same samples; steady is along the periodic solution, largest on the way from $`|e| <= E0`$ and the rest of the initial set, of which a \
+    let says = "At the same samples; steady is along the periodic solution, largest in the transient from $`|e| <= E0`$ and the rest of the initial set, of which a \
                 size that the file does not state goes with the gain: it is at least twice the bound of the periodic solution there. Each row is proved, for every $`n_o`$ below half of \
                 the samples but where one is named, and for that gain alone; no independent program checks it: `certify --sigma V -o FILE` writes a certificate.";
     table(&run.gains, &["steady $`|e|`$".to_owned()], says)
@@ -75,7 +75,7 @@ pub(super) fn rows_json(rows: &[GainRow]) -> Value {
     rows.iter().map(row).collect()
 }
 
-/// That the bound of |e| on the way is far above the initial set, with a gain that is better where there is one.
+/// That the bound of |e| in the transient is far above the initial set, with a gain that is better where there is one.
 pub(super) fn remark(run: &Certification<'_>) -> Option<String> {
     let (set, own) = (run.claimed_set()?, run.gains.first()?);
     if !own.goes_far() {
@@ -88,7 +88,7 @@ pub(super) fn remark(run: &Certification<'_>) -> Option<String> {
         format!(": at $`sigma = {}`$ it is {}, from {e0}", write_exact(&row.sigma), upper(&row.peak))
     });
     Some(format!(
-        "Remark: on the way $`|e|`$ is proved to be at most {}, from at most {} at the start. A larger gain may help{better}; `--peak-error V` \
+        "Remark: in the transient $`|e|`$ is proved to be at most {}, from at most {} at the start. A larger gain may help{better}; `--peak-error V` \
          seeks one.",
         upper(&own.peak),
         exact(&set.e0, Direction::Down)

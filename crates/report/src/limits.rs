@@ -17,7 +17,7 @@ struct Bounds<'r> {
     rates: Vec<(u32, Option<&'r Rational>)>,
     /// |e| along the periodic solution.
     steady: &'r Enclosure,
-    /// |e| on the way.
+    /// |e| in the transient.
     peak: &'r Enclosure,
     /// What is put out.
     control: &'r Control<Enclosure>,
@@ -37,7 +37,7 @@ impl<'r> Bounds<'r> {
     }
 }
 
-/// " At sigma = 39.8018, |e| <= 0.1 on the way (proved: 0.0997), ...": what a claim keeps to, which a larger gain need not; empty where nothing was
+/// " At sigma = 39.8018, |e| <= 0.1 (proved: 0.0997) in the transient, ...": what a claim keeps to, which a larger gain need not; empty where nothing was
 /// asked for.
 pub(super) fn sentence(run: &Certification<'_>) -> String {
     in_words(run.sigma_star(), Bounds::of_run(run).and_then(|bounds| kept(&run.limits, &bounds)))
@@ -53,7 +53,7 @@ fn in_words(sigma: Option<&Rational>, kept: Option<String>) -> String {
     sigma.zip(kept).map_or_else(String::new, |(sigma, kept)| format!(" At $`sigma = {}`$, {kept}.", write_exact(sigma)))
 }
 
-/// "|e| <= 0.1 on the way (proved: 0.0997), ..."; nothing where nothing was asked for.
+/// "|e| <= 0.1 (proved: 0.0997) in the transient, ..."; nothing where nothing was asked for.
 fn kept(limits: &Limits, bounds: &Bounds<'_>) -> Option<String> {
     let named = named(limits, bounds).into_iter().filter_map(|(_, [size, place], limit, bound)| {
         limit.map(|limit| format!("$`{size} <= {limit}`$ (proved: {}) {place}", upper(&bound)))
@@ -83,8 +83,8 @@ fn named(limits: &Limits, bounds: &Bounds<'_>) -> [Named; 3] {
     let largest = &bounds.control.steady + &bounds.control.transient;
     [
         ("steady_error", ["|e|", "along the periodic solution"], text(&limits.steady_error), bounds.steady.clone()),
-        ("peak_error", ["|e|", "on the way"], text(&limits.peak_error), bounds.peak.clone()),
-        ("control", ["|u|", "on the way"], text(&limits.control), largest),
+        ("peak_error", ["|e|", "in the transient"], text(&limits.peak_error), bounds.peak.clone()),
+        ("control", ["|u|", "in the transient"], text(&limits.control), largest),
     ]
 }
 

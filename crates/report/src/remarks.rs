@@ -21,7 +21,7 @@ pub fn remarks(run: &Certification<'_>) -> Vec<String> {
             let of_plant = run.spec.plant().is_some();
             run.binding.map_or_else(String::new, |binding| {
                 format!(
-                    " It is set by {}. {}",
+                    " It is limited by {}. {}",
                     binding.describe(),
                     binding.advice(of_plant, run.spec.initial_set.is_aligned())
                 )

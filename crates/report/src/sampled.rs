@@ -286,7 +286,7 @@ impl Readable for SampledReport<'_> {
         }
         blocks.extend(sets(run));
         if let Some(limit) = self.limit() {
-            blocks.push(Block::heading("What limits it"));
+            blocks.push(Block::heading("Limiting condition"));
             blocks.push(Block::says(format!("{limit} This is floating point and an explanation, not a claim.")));
         }
         blocks.extend(of_plant::section(run.spec, run.claim().map(|proof| &proof.witness.set)));

@@ -18,9 +18,9 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
     }
     let Some(binding) = run.binding else { return Vec::new() };
     let mut blocks = vec![
-        Block::heading("What sets sigma* (estimates)"),
+        Block::heading("Limiting condition of sigma* (estimates)"),
         Block::says(format!(
-            "$`sigma*`$ is set by {}. {}",
+            "$`sigma*`$ is limited by {}. {}",
             binding.describe(),
             binding.advice(run.spec.plant().is_some(), run.spec.initial_set.is_aligned())
         )),

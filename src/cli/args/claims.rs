@@ -27,11 +27,11 @@ pub struct CertifyArgs {
     #[arg(long, value_name = "V", allow_hyphen_values = true)]
     pub steady_error: Option<String>,
 
-    /// Certify the smallest gain that is found with which |e| is at most V on the way from the initial set
+    /// Certify the smallest gain that is found with which |e| is at most V in the transient from the initial set
     #[arg(long, value_name = "V", allow_hyphen_values = true)]
     pub peak_error: Option<String>,
 
-    /// Certify the smallest gain that is found with which what is put out is at most V on the way from the initial set
+    /// Certify the smallest gain that is found with which what is put out is at most V in the transient from the initial set
     #[arg(long, value_name = "V", allow_hyphen_values = true)]
     pub max_control: Option<String>,
 
@@ -77,7 +77,7 @@ pub struct CertifyArgs {
 
     /// Prove for each of these numbers of oscillators (at most 8, up to 100), at the gain of the claim alone, a rate and a factor with
     /// |e - e_per| <= factor exp(-rate (t - t_0)) in the undisturbed loop, and with `measurement`, `disturbance` or, at samples, `arithmetic` in FILE what these do
-    /// to e in the limit and on the way, and put them into the certificate; e.g. `0,4,10`
+    /// to e in the limit and in the transient, and put them into the certificate; e.g. `0,4,10`
     #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
     pub n_o: Option<String>,
 

@@ -105,17 +105,19 @@ pub enum Finding {
 pub(super) const MULTIPLIER: &str = "largest Floquet multiplier";
 
 /// The quantity that is 1 at the start where P_low = P_up.
-pub(super) const LYAPUNOV: &str = "Lyapunov function on the way, against its start";
+pub(super) const LYAPUNOV: &str = "Lyapunov function in the transient, against its start";
 
-/// The control along the periodic solution, and what it differs by on the way.
+/// The control along the periodic solution, and what it differs by in the transient.
 pub(super) const STEADY_CONTROL: &str = "$`sup|u|`$ of the periodic solution";
-pub(super) const CONTROL: &str = "$`|u - u_p|`$ on the way, against its bound";
+pub(super) const CONTROL: &str = "$`|u - u_p|`$ in the transient, against its bound";
 /// What is put out, where the actuator saturates.
-pub(super) const SATURATION: &str = "$`|u|`$ on the way, against what the actuator takes";
+pub(super) const SATURATION: &str = "$`|u|`$ in the transient, against what the actuator takes";
 
 /// The error with noise and a disturbance, near the periodic solution and from the initial set.
-pub(super) const DISTURBED: [&str; 2] =
-    ["$`|e - e_p|`$ with noise and disturbance, in the limit", "$`|e - e_p|`$ with noise and disturbance, on the way"];
+pub(super) const DISTURBED: [&str; 2] = [
+    "$`|e - e_p|`$ with noise and disturbance, in the limit",
+    "$`|e - e_p|`$ with noise and disturbance, in the transient",
+];
 
 /// The trial that came closest to a bound, of those in which every bound holds.
 #[derive(Clone, Copy, Debug)]

@@ -238,8 +238,8 @@ fn check_approach(
         }
     }
     let [d_x, d_e] = claim.error_box;
-    checks.at_most("$`|x - x_p|`$ on the way, against $`D_x`$", away[0], d_x);
-    checks.at_most("$`|e - e_p|`$ on the way, against $`D_e`$", away[1], d_e);
+    checks.at_most("$`|x - x_p|`$ in the transient, against $`D_x`$", away[0], d_x);
+    checks.at_most("$`|e - e_p|`$ in the transient, against $`D_e`$", away[1], d_e);
     if let Some([_, transient]) = claim.control {
         checks.at_most(CONTROL, control[0], transient);
     }
