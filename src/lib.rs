@@ -76,6 +76,8 @@
 
 mod api;
 
+#[doc(hidden)]
+pub use api::program;
 pub use api::{
     BoundedPlant, BoundingFunction, Certificate, CertifyOptions, CheckReport, CheckVerdict, Claim, Condition,
     Diagnostic, Error, ErrorKind, InitialSet, JacobianEntry, OscillatorShare, PeriodicSolution, RegulatorMatrices,

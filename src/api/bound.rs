@@ -5,6 +5,7 @@ use super::subject::Subject;
 use super::{json_text, rational};
 use rug::Rational;
 use sigmastar_exact::number::write_exact;
+use sigmastar_lang::plant::Plant;
 use sigmastar_prove::reduction::{PlantRefusal, reduce_by_norms};
 
 /// A bounding specification whose every number is proved of a plant.
@@ -48,10 +49,17 @@ pub fn bounding_specification(plant: impl Into<Subject>, domain: Option<[&str; 2
         None => None,
         Some([x, e]) => Some([rational("domain", x)?, rational("domain", e)?]),
     };
-    let plant = plant.into().plant()?;
-    let refused = |refusal: PlantRefusal| Error::documents(&refusal.errors(&plant));
-    let reduced = reduce_by_norms(&plant).map_err(refused)?;
-    let bounded = sigmastar_studies::bounding::bounding_specification(&plant, &reduced.spec, asked).map_err(refused)?;
+    bounds_of(&plant.into().plant()?, asked)
+}
+
+/// [`bounding_specification`] of a plant that was read.
+///
+/// # Errors
+/// What could not be proved of the plant.
+pub fn bounds_of(plant: &Plant, domain: Option<[Rational; 2]>) -> Result<BoundedPlant, Error> {
+    let refused = |refusal: PlantRefusal| Error::documents(&refusal.errors(plant));
+    let reduced = reduce_by_norms(plant).map_err(refused)?;
+    let bounded = sigmastar_studies::bounding::bounding_specification(plant, &reduced.spec, domain).map_err(refused)?;
     Ok(BoundedPlant {
         json: json_text(&bounded.document),
         domain: bounded.domain.each_ref().map(write_exact),

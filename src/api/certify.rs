@@ -1,7 +1,7 @@
 //! Certifying: the whole way from a document to a certificate, or to the reason why there is none.
 
 use super::certificate::Certificate;
-use super::check::CheckVerdict;
+use super::check::{CheckVerdict, verdict_on};
 use super::condition::Condition;
 use super::error::{Error, ErrorKind};
 use super::json_text;
@@ -9,7 +9,8 @@ use super::options::{Asked, CertifyOptions};
 use super::report::Report;
 use super::subject::Subject;
 use sigmastar_prove::certificate::certificate_of;
-use sigmastar_prove::reduction::{Checked, Prepared, Run, Subject as Read, Unwatched, at_samples};
+use sigmastar_prove::certify::Options;
+use sigmastar_prove::reduction::{Checked, Prepared, Run, Subject as Read, Unwatched, Watch, at_samples};
 use sigmastar_report::run_sentence;
 
 /// Certifies a specification or a plant: a Lyapunov triple for a Jacobian or the orbit and bounds of a plant, the search for a
@@ -51,19 +52,46 @@ fn run(subject: &Subject, options: &CertifyOptions) -> Result<Certificate, Error
     }
     let prepared = Prepared::seeking(&asked.read, gain, (&limits, &counts), options, &Unwatched)
         .map_err(|all| Error::documents(&all))?;
-    let run = prepared.certify_checked(options, &checked, &Unwatched);
+    let run = decided(&prepared, (options, &counts), "`n_o`", &Unwatched, &|_| {})?;
+    Certificate::new(&run, &asked, false).ok_or_else(|| not_certified(&run))
+}
+
+/// What follows a claim that was decided.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Afterwards {
+    /// Rates for given numbers of oscillators.
+    Rates,
+    /// The certificate with these rates, by the independent checker.
+    Checked,
+}
+
+/// The claim of what is prepared, decided and decided again by the independent checker, with rates for these numbers of oscillators, whose
+/// argument is called `n_o`. Nothing is claimed that the checker does not decide as well.
+///
+/// # Errors
+/// What the data are refused for, and a claim that has no rates for these numbers.
+pub fn decided<'p>(
+    prepared: &'p Prepared,
+    (options, counts): (Options, &[u32]),
+    n_o: &str,
+    watch: &dyn Watch,
+    begin: &dyn Fn(Afterwards),
+) -> Result<Run<'p>, Error> {
+    let run = prepared.certify_checked(options, &checked, watch);
     let mut run = run.map_err(|all| Error::documents(&all))?;
-    run.prove_rates(&counts).map_err(Error::no_rates)?;
+    begin(Afterwards::Rates);
+    run.prove_rates(counts).map_err(|reason| Error::no_rates(reason, n_o))?;
     if !counts.is_empty() {
+        begin(Afterwards::Checked);
         run.answered(checked(&run));
     }
-    Certificate::new(&run, &asked, false).ok_or_else(|| not_certified(&run))
+    Ok(run)
 }
 
 /// What the independent checker says of the certificate of a run.
 fn checked(run: &Run<'_>) -> Checked {
     let Some(certificate) = certificate_of(run) else { return Checked::Decided };
-    match proofs_check::check(json_text(&certificate).as_bytes()).verdict {
+    match verdict_on(&json_text(&certificate)) {
         CheckVerdict::Valid => Checked::Decided,
         CheckVerdict::Undecided => Checked::GivenUp,
         _ => Checked::Refused,

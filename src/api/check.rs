@@ -5,6 +5,7 @@ use super::subject::Subject;
 use proofs_check::Report;
 use sigmastar_document::{Block, Made};
 
+pub use proofs_check::json::MAX_BYTES as MAX_CERTIFICATE;
 pub use proofs_check::verdict::Verdict as CheckVerdict;
 
 /// What the independent checker says about a certificate.
@@ -25,26 +26,37 @@ pub struct CheckReport {
 /// about *your* specification: [`check_against`] does.
 #[must_use]
 pub fn check(certificate: &str) -> CheckReport {
-    CheckReport::new(&proofs_check::check(certificate.as_bytes()))
+    check_bytes(certificate.as_bytes(), None, false)
 }
 
 /// Decides the claim of a certificate again as [`check`] does; a certificate about other data than those of the specification or plant is invalid.
 #[must_use]
 pub fn check_against(certificate: &str, subject: impl Into<Subject>) -> CheckReport {
-    let asked = subject.into().to_json();
-    CheckReport::new(&proofs_check::check_against(certificate.as_bytes(), Some(asked.as_bytes())))
+    check_bytes(certificate.as_bytes(), Some(subject.into().to_json().as_bytes()), false)
+}
+
+/// Decides the claim in the bytes of a certificate, about the data in those of a specification or plant where there are some; with every line
+/// of the argument in what it says, or not.
+#[must_use]
+pub fn check_bytes(certificate: &[u8], subject: Option<&[u8]>, verbose: bool) -> CheckReport {
+    CheckReport::new(&proofs_check::check_against(certificate, subject), verbose)
+}
+
+/// The answer alone.
+pub(super) fn verdict_on(certificate: &str) -> CheckVerdict {
+    proofs_check::check(certificate.as_bytes()).verdict
 }
 
 impl CheckReport {
-    fn new(report: &Report) -> CheckReport {
+    fn new(report: &Report, verbose: bool) -> CheckReport {
         let subject = report.subject.as_ref();
         CheckReport {
             verdict: report.verdict,
             statement: subject.map(|subject| subject.statement.clone()),
             sha256: subject.map(|subject| subject.digest.clone()),
             assumed: subject.map_or_else(Vec::new, |subject| subject.assumed.clone()),
-            text: report.text(false),
-            report: Rendered::new(Made::new(vec![Block::Code(report.text(false))], report.json())),
+            text: report.text(verbose),
+            report: Rendered::new(Made::new(vec![Block::Code(report.text(verbose))], report.json())),
         }
     }
 

@@ -66,6 +66,8 @@ pub struct Error {
     verdict: Verdict,
     text: String,
     diagnostics: Vec<Diagnostic>,
+    /// Those of documents, with their source.
+    sources: Vec<SpecErrors>,
     conditions: Vec<Condition>,
     report: Option<Report>,
 }
@@ -124,6 +126,13 @@ impl Error {
         &self.conditions
     }
 
+    /// What was found in documents and arguments, for the program, which shows it in its source; empty for an error without a place.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn sources(&self) -> &[SpecErrors] {
+        &self.sources
+    }
+
     /// An error without a place.
     pub(super) fn new(kind: ErrorKind, message: impl Into<String>, help: &str) -> Error {
         let message = message.into();
@@ -142,12 +151,13 @@ impl Error {
             expected: None,
             help: Some(help.to_owned()),
         };
-        Error { kind, verdict, text, diagnostics: vec![diagnostic], conditions: Vec::new(), report: None }
+        let (diagnostics, sources) = (vec![diagnostic], Vec::new());
+        Error { kind, verdict, text, diagnostics, sources, conditions: Vec::new(), report: None }
     }
 
-    /// A claim that has no rates for given numbers of oscillators.
-    pub(super) fn no_rates(reason: NoRatesOfClaim) -> Error {
-        Error::new(ErrorKind::Options, reason.message("`n_o`"), reason.help())
+    /// A claim that has no rates for given numbers of oscillators; `n_o` is what the argument is called.
+    pub(super) fn no_rates(reason: NoRatesOfClaim, n_o: &str) -> Error {
+        Error::new(ErrorKind::Options, reason.message(n_o), reason.help())
     }
 
     /// No claim: because of bounding functions that are not proved, or as the sentence says.
@@ -176,8 +186,8 @@ impl Error {
         let mut lines: Vec<String> = diagnostics.iter().map(Diagnostic::line).collect();
         lines.extend(all.iter().filter(|errors| errors.omitted() > 0).map(omitted));
         let kind = kind(each().map(|(_, error)| error));
-        let verdict = verdict_of_errors(all);
-        Error { kind, verdict, text: lines.join("\n"), diagnostics, conditions: Vec::new(), report: None }
+        let (verdict, sources) = (verdict_of_errors(all), all.to_vec());
+        Error { kind, verdict, text: lines.join("\n"), diagnostics, sources, conditions: Vec::new(), report: None }
     }
 
     /// Errors in an argument, which is shown by its name.

@@ -8,11 +8,17 @@ mod certificate;
 mod certify;
 mod check;
 mod condition;
+mod constants;
+#[cfg(feature = "lab")]
+mod edge;
 mod error;
 #[cfg(feature = "lab")]
 mod falsify;
 mod lyapunov;
 mod options;
+#[cfg(feature = "lab")]
+mod page;
+pub mod program;
 mod regulator;
 mod report;
 mod reread;

@@ -6,7 +6,9 @@ use rug::Rational;
 use sigmastar_decide::conditions::Ladder;
 use sigmastar_exact::enclosure::{DEFAULT_PRECISION, MAX_PRECISION};
 use sigmastar_lang::spec::Constant;
-use sigmastar_prove::certify::{Limits, Options, TransferChoice, rate_counts};
+use sigmastar_prove::certify::{Limits, TransferChoice, rate_counts};
+
+pub use sigmastar_prove::certify::Options;
 
 /// What a run of [`certify`](sigmastar_prove::certify) does. The defaults are those of the command `sigmastar certify`.
 ///
@@ -153,7 +155,18 @@ impl CertifyOptions {
         self
     }
 
-    /// The options of the layers below.
+    /// What goes for every run, for the layers below; that the limit of the precision is in range is for who sets it.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn of_run(&self) -> Options {
+        Options {
+            transfer: self.transfer,
+            ladder: Ladder { start: DEFAULT_PRECISION, limit: self.precision_limit },
+            compare: self.compare,
+        }
+    }
+
+    /// All of them, for the layers below.
     ///
     /// # Errors
     /// A limit of the precision out of range, and texts that are no such constants.
@@ -164,14 +177,10 @@ impl CertifyOptions {
             let help = format!("choose {} to {} bits", range.start(), range.end());
             return Err(Error::new(ErrorKind::Range, message, &help));
         }
-        let options = Options {
-            transfer: self.transfer,
-            ladder: Ladder { start: DEFAULT_PRECISION, limit: self.precision_limit },
-            compare: self.compare,
-        };
+        let options = self.of_run();
         let gain = self.sigma.as_ref().map(|text| rational("sigma", text)).transpose()?;
         let step = self.sampling_period.as_ref().map(|text| positive("sampling_period", text)).transpose()?;
-        let counts = rate_counts(&self.n_o).map_err(Error::no_rates)?;
+        let counts = rate_counts(&self.n_o).map_err(|reason| Error::no_rates(reason, "`n_o`"))?;
         let limit = |name, text: &Option<String>| text.as_ref().map(|text| rational(name, text)).transpose();
         let [steady, peak, control, rate] = &self.limits;
         let limits = Limits {

@@ -1,8 +1,10 @@
 //! Reports in the formats of the program.
 
-use sigmastar_document::{Extent, Made, Readable};
+use sigmastar_document::{Block, Extent, Made, Readable};
+use sigmastar_lang::spec::Constant;
 use sigmastar_prove::reduction::Run;
 use sigmastar_report::{Origin, run_report};
+use sigmastar_theory::derivation::targets::{Target, TargetKind};
 use std::fmt;
 
 /// The form of a report. The content is the same in each.
@@ -32,8 +34,14 @@ impl Report {
 
     /// That of `sigmastar certify`; `again` where a witness was decided again.
     pub(super) fn of_run(run: &Run<'_>, again: bool) -> Report {
-        let origin = if again { Origin::Witness } else { Origin::Search };
-        Report::of(&*run_report(run, &[], origin, Extent::Full))
+        Report::of(&*report_of(run, [None, None], again, Extent::Full))
+    }
+
+    /// Its parts, for a report that it is a part of.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn into_made(self) -> Made {
+        *self.made
     }
 
     pub(super) fn new(made: Made) -> Report {
@@ -49,6 +57,30 @@ impl Report {
             ReportFormat::Html => self.made.html(),
             ReportFormat::Json => super::json_text(&self.made.json()),
         }
+    }
+}
+
+/// The report on a run, with answers to targets of sup|e| and rms e; `again` where a witness was decided again.
+pub fn report_of<'r>(
+    run: &'r Run<'r>,
+    targets: [Option<Constant>; 2],
+    again: bool,
+    extent: Extent,
+) -> Box<dyn Readable + 'r> {
+    let kinds = [TargetKind::Sup, TargetKind::Rms].into_iter().zip(targets);
+    let targets: Vec<Target> = kinds.filter_map(|(kind, value)| Some(Target { kind, value: value? })).collect();
+    run_report(run, &targets, if again { Origin::Witness } else { Origin::Search }, extent)
+}
+
+/// For the program, which writes short forms, too.
+#[doc(hidden)]
+impl Readable for Report {
+    fn blocks(&self) -> Vec<Block> {
+        self.made.blocks()
+    }
+
+    fn json(&self) -> serde_json::Value {
+        self.made.json()
     }
 }
 

@@ -8,7 +8,7 @@ use super::subject::Subject;
 use sigmastar_lang::spec::{self, Document};
 use sigmastar_prove::certificate::{embedded, is_stated, read_for, stated_counts};
 use sigmastar_prove::certify::{Options, rate_counts};
-use sigmastar_prove::reduction::Prepared;
+use sigmastar_prove::reduction::{Prepared, Run};
 
 /// Reads a stored certificate and decides it again from its witness: nothing is searched for. `name` is what errors call it.
 ///
@@ -21,7 +21,26 @@ use sigmastar_prove::reduction::Prepared;
 /// [`Claim`](ErrorKind::Claim) where what is proved is not what is stored, as of a certificate that was altered, or that another
 /// version made.
 pub fn reread(name: &str, bytes: &[u8]) -> Result<Certificate, Error> {
-    let document = Document::from_bytes(name, bytes)?;
+    decided_again(name, &Document::from_bytes(name, bytes)?, |run, subject, stated| {
+        let certificate = Certificate::new(run, subject, true).ok_or_else(|| not_certified(run))?;
+        if !stated {
+            let message = format!("{name}: the claim that is stored is not the one that its witness proves");
+            let help = "`check` says what is wrong with it; `certify` makes a new certificate";
+            return Err(Error::new(ErrorKind::Claim, message, help));
+        }
+        Ok(certificate)
+    })
+}
+
+/// What the witness of a certificate proves, about the specification or plant in it, and whether that is what the certificate states.
+///
+/// # Errors
+/// What is wrong with the certificate, at its place, and those of `then`.
+pub(super) fn decided_again<T>(
+    name: &str,
+    document: &Document,
+    then: impl FnOnce(&Run<'_>, &Subject, bool) -> Result<T, Error>,
+) -> Result<T, Error> {
     let Some(copy) = embedded(&document.root()) else {
         let (kind, message) = (spec::ErrorKind::MissingField, "there is neither a `specification` nor a `plant` in it");
         let help = Some("name a certificate that `certify` wrote".to_owned());
@@ -30,18 +49,12 @@ pub fn reread(name: &str, bytes: &[u8]) -> Result<Certificate, Error> {
     // A document of its own, so that it can be asked for whatever a file can be asked for.
     let kind = if document.at("/plant").is_some() { "plant" } else { "specification" };
     let subject = Subject::new(Document::parse(&format!("{kind} of {name}"), &json_text(&copy.to_json()))?)?;
-    let witness = read_for(&document, &subject.read)?;
+    let witness = read_for(document, &subject.read)?;
     let of_another = witness.of_another;
     let prepared = Prepared::again(&subject.read, witness).map_err(|all| Error::documents(&all))?;
     let options = Options { compare: false, ..Options::default() };
     let mut run = prepared.certify(options).map_err(|all| Error::documents(&all))?;
-    let counts = rate_counts(&stated_counts(&document)).map_err(Error::no_rates)?;
-    run.prove_rates(&counts).map_err(Error::no_rates)?;
-    let certificate = Certificate::new(&run, &subject, true).ok_or_else(|| not_certified(&run))?;
-    if of_another || !is_stated(&run, &document) {
-        let message = format!("{name}: the claim that is stored is not the one that its witness proves");
-        let help = "`check` says what is wrong with it; `certify` makes a new certificate";
-        return Err(Error::new(ErrorKind::Claim, message, help));
-    }
-    Ok(certificate)
+    let no_rates = |reason| Error::no_rates(reason, "`n_o`");
+    run.prove_rates(&rate_counts(&stated_counts(document)).map_err(no_rates)?).map_err(no_rates)?;
+    then(&run, &subject, !of_another && is_stated(&run, document))
 }

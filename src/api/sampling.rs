@@ -4,23 +4,42 @@ use super::error::{Error, ErrorKind};
 use super::report::Report;
 use super::subject::Subject;
 use super::{positive, rational};
+use sigmastar_document::plot::Figure;
 use sigmastar_lang::spec::Sampling;
 use sigmastar_prove::reduction::{Subject as Read, with_sampled_pairs};
-use sigmastar_studies::sampling::{OfPlant, OfSpecification, SamplingReport, SamplingStudy, Unfit};
+use sigmastar_studies::sampling::{OfPlant, OfSpecification, SamplingReport, SamplingStudy, Unfit, sampling_figure};
 
 /// Certified pairs of a gain and a sampling period.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct SamplingPairs {
-    has_pair: bool,
+    study: SamplingStudy,
     report: Report,
+}
+
+/// What takes long of a search for pairs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PairsPart {
+    /// The triple of a Jacobian.
+    Triple,
+    /// The pairs of a specification.
+    OfSpecification,
+    /// The orbit and the pairs of a plant, each with its bounds.
+    OfPlant,
 }
 
 impl SamplingPairs {
     /// Whether any pair is certified.
     #[must_use]
     pub fn has_pair(&self) -> bool {
-        self.has_pair
+        self.study.has_pair()
+    }
+
+    /// The certified pairs, drawn, for the program.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn figure(&self) -> Figure {
+        sampling_figure(&self.study)
     }
 
     /// The report of `sigmastar sampling`, with every pair.
@@ -43,7 +62,19 @@ pub fn sampling(
     periods: Option<&[&str]>,
     sigmas: Option<&[&str]>,
 ) -> Result<SamplingPairs, Error> {
-    let subject = subject.into().read;
+    pairs_of(subject.into().read, [periods, sigmas], ["sampling_period", "sigma"], |_| {})
+}
+
+/// [`sampling`] of a document that was read, with the names of the two lists; what `waiting` returns of a part is dropped after it.
+///
+/// # Errors
+/// Those of [`sampling`].
+pub fn pairs_of<W>(
+    subject: Read,
+    [periods, sigmas]: [Option<&[&str]>; 2],
+    names: [&str; 2],
+    waiting: impl Fn(PairsPart) -> W,
+) -> Result<SamplingPairs, Error> {
     let unfit = |kind, unfit: Unfit| Error::new(kind, unfit.to_string(), &unfit.help());
     if !subject.is_matched() {
         return Err(unfit(ErrorKind::Options, Unfit::NotMatched));
@@ -51,23 +82,27 @@ pub fn sampling(
     let (name, sha256, period) =
         (subject.name().to_owned(), subject.sha256().to_owned(), subject.period().nominal().clone());
     let step = |text: &&str| {
-        let step = positive("sampling_period", text)?;
+        let step = positive(names[0], text)?;
         let none =
             || unfit(ErrorKind::Range, Unfit::NoWholeMultiple { period: period.clone(), step: step.text.clone() });
         Sampling::new(&period, step.clone()).ok_or_else(none)
     };
     let steps = periods.map(|all| all.iter().map(step).collect()).transpose()?;
-    let gains = sigmas.map(|all| all.iter().map(|text| rational("sigma", text)).collect()).transpose()?;
+    let gains = sigmas.map(|all| all.iter().map(|text| rational(names[1], text)).collect()).transpose()?;
     let study = match subject {
         Read::Plant(plant) => {
+            let _waiting = waiting(PairsPart::OfPlant);
             with_sampled_pairs(&plant, |pairs| SamplingStudy::new(&OfPlant { pairs }, &period, steps, gains))
                 .map_err(|refusal| Error::documents(&refusal.errors(&plant)))?
         }
-        specification @ Read::Specification(_) => {
-            let (spec, _) = specification.proved().map_err(|all| Error::documents(&all))?;
+        Read::Specification(spec) => {
+            let seeking = spec.lyapunov.triple().is_none().then(|| waiting(PairsPart::Triple));
+            let (spec, _) = Read::Specification(spec).proved().map_err(|all| Error::documents(&all))?;
+            drop(seeking);
+            let _waiting = waiting(PairsPart::OfSpecification);
             SamplingStudy::new(&OfSpecification { spec: &spec }, &period, steps, gains)
         }
     };
     let report = Report::of(&SamplingReport { study: &study, name: &name, sha256: &sha256 });
-    Ok(SamplingPairs { has_pair: study.has_pair(), report })
+    Ok(SamplingPairs { study, report })
 }

@@ -4,10 +4,11 @@ use super::error::{Error, ErrorKind};
 use super::report::Report;
 use super::subject::Subject;
 use super::{in_range, positive};
-use sigmastar_document::progress::Silent;
+use sigmastar_document::plot::Figure;
+use sigmastar_document::progress::{Progress, Silent};
 use sigmastar_lab::simulate::{
     ClosedLoop, Integrator, SampledLoop, SampledSettings, SampledSimulationReport, SimulationReport,
-    SimulationSettings, csv, sampled_csv, simulate_sampled,
+    SimulationSettings, csv, figures, sampled_csv, sampled_figures, simulate_sampled,
 };
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{Actuator, Constant};
@@ -107,7 +108,21 @@ impl SimulationOptions {
 pub struct Simulation {
     complete: bool,
     csv: Option<String>,
+    figures: Vec<(&'static str, Figure)>,
     report: Report,
+}
+
+/// What is made of a simulation beside its report.
+#[derive(Clone, Copy, Debug)]
+pub struct Wanted {
+    /// The run as a table.
+    pub csv: bool,
+    /// The figures.
+    pub figures: bool,
+}
+
+impl Wanted {
+    const TABLE: Wanted = Wanted { csv: true, figures: false };
 }
 
 impl Simulation {
@@ -121,6 +136,13 @@ impl Simulation {
     #[must_use]
     pub fn csv(&self) -> Option<&str> {
         self.csv.as_deref()
+    }
+
+    /// The figures with the names of their files, for the program; none where none are wanted.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn figures(&self) -> &[(&'static str, Figure)] {
+        &self.figures
     }
 
     /// The report of `sigmastar simulate`.
@@ -177,7 +199,6 @@ fn in_continuous_time(
     }
     let closed_loop = ClosedLoop::new(plant, regulator);
     let closed_loop = gain.into_iter().fold(closed_loop, ClosedLoop::with_input_gain);
-    let start = closed_loop.start_of(&plant.initial).map_err(wrong_dimension)?;
     let settings = SimulationSettings {
         periods: options.periods as usize,
         integrator: Integrator::Adaptive,
@@ -186,11 +207,29 @@ fn in_continuous_time(
         noise_steps: 1,
         harmonics: options.harmonics as usize,
     };
-    let simulation = sigmastar_lab::simulate::simulate(&closed_loop, &start, &settings, &Silent);
+    run_loop(plant, &closed_loop, &settings, Wanted::TABLE, &Silent)
+}
+
+/// Simulates a loop in continuous time from the initial condition of its plant.
+///
+/// # Errors
+/// An initial z that is for another number of oscillators.
+pub fn run_loop(
+    plant: &Plant,
+    closed_loop: &ClosedLoop,
+    settings: &SimulationSettings,
+    wanted: Wanted,
+    progress: &dyn Progress,
+) -> Result<Simulation, Error> {
+    let start = closed_loop.start_of(&plant.initial).map_err(wrong_dimension)?;
+    let simulation = sigmastar_lab::simulate::simulate(closed_loop, &start, settings, progress);
+    let noisy = simulation.noisy.as_ref().is_none_or(Result::is_ok);
+    let table = simulation.long.as_ref().ok().filter(|_| wanted.csv);
     Ok(Simulation {
-        complete: simulation.steady.is_ok() && simulation.long.is_ok(),
-        csv: simulation.long.as_ref().ok().map(|run| csv(plant, &closed_loop, run)),
-        report: Report::of(&SimulationReport { plant, closed_loop: &closed_loop, simulation: &simulation }),
+        complete: simulation.steady.is_ok() && simulation.long.is_ok() && noisy,
+        csv: table.map(|run| csv(plant, closed_loop, run)),
+        figures: if wanted.figures { figures(plant, closed_loop, &simulation) } else { Vec::new() },
+        report: Report::of(&SimulationReport { plant, closed_loop, simulation: &simulation }),
     })
 }
 
@@ -209,17 +248,33 @@ fn at_samples(
     if !sampled.regulator.is_representable() || !sampled.discrete.is_representable() {
         return Err(beyond());
     }
-    let start = sampled.start_of(&plant.initial).map_err(wrong_dimension)?;
     let settings = SampledSettings {
         periods: options.periods as usize,
         samples: options.samples as usize,
         harmonics: options.harmonics as usize,
     };
-    let simulation = simulate_sampled(&sampled, &start, &settings, &Silent);
+    run_sampled_loop(plant, &sampled, &settings, Wanted::TABLE, &Silent)
+}
+
+/// Simulates a loop with the law at samples from the initial condition of its plant.
+///
+/// # Errors
+/// An initial z that is for another number of oscillators.
+pub fn run_sampled_loop(
+    plant: &Plant,
+    sampled: &SampledLoop,
+    settings: &SampledSettings,
+    wanted: Wanted,
+    progress: &dyn Progress,
+) -> Result<Simulation, Error> {
+    let start = sampled.start_of(&plant.initial).map_err(wrong_dimension)?;
+    let simulation = simulate_sampled(sampled, &start, settings, progress);
+    let table = simulation.long.as_ref().ok().filter(|_| wanted.csv);
     Ok(Simulation {
         complete: simulation.steady.is_ok() && simulation.long.is_ok() && !simulation.is_unstable(),
-        csv: simulation.long.as_ref().ok().map(|run| sampled_csv(plant, &sampled, run)),
-        report: Report::of(&SampledSimulationReport { plant, sampled: &sampled, simulation: &simulation }),
+        csv: table.map(|run| sampled_csv(plant, sampled, run)),
+        figures: if wanted.figures { sampled_figures(plant, sampled, &simulation) } else { Vec::new() },
+        report: Report::of(&SampledSimulationReport { plant, sampled, simulation: &simulation }),
     })
 }
 

@@ -4,15 +4,16 @@ use super::error::{Error, ErrorKind};
 use super::report::Report;
 use super::subject::Subject;
 use super::{positive, rounded_up};
+use sigmastar_document::plot::Figure;
 use sigmastar_exact::enclosure::DEFAULT_PRECISION;
 use sigmastar_exact::number::write_exact;
 use sigmastar_lang::spec::Specification;
 use sigmastar_prove::reduction::Subject as Read;
-use sigmastar_report::TransferReport;
+use sigmastar_report::{TransferReport, transfer_figure};
 use sigmastar_theory::data::Data;
-use sigmastar_theory::transfer::{
-    self, CertifiedPair, OscillatorCount, PairChoice, PairError, rational_k0, smallest_k1,
-};
+use sigmastar_theory::transfer::{self, CertifiedPair, OscillatorCount, PairChoice, rational_k0, smallest_k1};
+
+pub use sigmastar_theory::transfer::PairError;
 
 /// A proved bound `T_N(x) <= k0 + k1 x^2` of the internal model, for every number of oscillators N >= 0 and every
 /// `x = omega/w >= 0`.
@@ -149,7 +150,9 @@ impl TransferOptions {
         self
     }
 
-    fn checked(&self) -> Result<(PairChoice, Vec<OscillatorCount>), Error> {
+    /// What they say, for the layers below.
+    #[doc(hidden)]
+    pub fn checked(&self) -> Result<(PairChoice, Vec<OscillatorCount>), Error> {
         if self.n_o.len() > TransferOptions::MOST {
             let message = format!("n_o has {} numbers of oscillators", self.n_o.len());
             let help =
@@ -211,9 +214,22 @@ impl TransferStudy {
 /// # Errors
 /// Those of [`transfer_bound`], and what is wrong with the options.
 pub fn transfer_study(subject: impl Into<Subject>, options: &TransferOptions) -> Result<TransferStudy, Error> {
-    let (pair, n_o) = options.checked()?;
-    let spec = specification(subject.into())?;
-    let study = transfer::TransferStudy::new(&spec, DEFAULT_PRECISION, &pair, &n_o, || {}).map_err(no_pair)?;
+    let asked = options.checked()?;
+    let study = transfer_of(&specification(subject.into())?, &asked, false, || {});
+    study.map(|(study, _)| study).map_err(no_pair)
+}
+
+/// [`transfer_study`] of data that are proved, with its figure where that is wanted; `done` is called after each number of oscillators.
+///
+/// # Errors
+/// There is no certified pair.
+pub fn transfer_of(
+    spec: &Specification,
+    (pair, n_o): &(PairChoice, Vec<OscillatorCount>),
+    figure: bool,
+    done: impl Fn() + Sync,
+) -> Result<(TransferStudy, Option<Figure>), PairError> {
+    let study = transfer::TransferStudy::new(spec, DEFAULT_PRECISION, pair, n_o, done)?;
     let share = |of: &transfer::Uniformity| OscillatorShare {
         n_o: match of.sup.n_o {
             OscillatorCount::Finite(n) => Some(n),
@@ -221,11 +237,12 @@ pub fn transfer_study(subject: impl Into<Subject>, options: &TransferOptions) ->
         },
         ratio: [of.sup.ratio.lower_f64(), of.sup.ratio.upper_f64()],
     };
-    Ok(TransferStudy {
+    let told = TransferStudy {
         bound: TransferBound::new(&study.data, &study.pair),
         shares: study.uniformity.iter().map(share).collect(),
         report: Report::of(&TransferReport(&study)),
-    })
+    };
+    Ok((told, figure.then(|| transfer_figure(&study))))
 }
 
 /// The data of the subject, proved where it is a plant. The internal model needs no Lyapunov triple.

@@ -4,7 +4,9 @@ use super::error::{Error, ErrorKind};
 use super::report::Report;
 use super::subject::Subject;
 use super::{in_range, json_text};
-use sigmastar_document::progress::Silent;
+use sigmastar_document::progress::{Progress, Silent};
+use sigmastar_lang::spec::Document;
+use sigmastar_prove::reduction::Subject as Read;
 use sigmastar_regulator::MAX_EXPORTED_OSCILLATORS;
 use sigmastar_studies::tune::{self, Goal, MAX_TRIES, Settings, TuneError, TuningReport, parameters};
 
@@ -44,6 +46,9 @@ impl Default for TuneOptions {
 }
 
 impl TuneOptions {
+    /// The most proposals of one call.
+    pub const MOST_TRIES: u32 = MAX_TRIES;
+
     /// `mu` and `n0`, for the smallest gain, by at most 120 proposals.
     #[must_use]
     pub fn new() -> TuneOptions {
@@ -77,7 +82,8 @@ impl TuneOptions {
 #[non_exhaustive]
 pub struct Tuned {
     has_claim: bool,
-    document: Option<String>,
+    document: Option<Document>,
+    json: Option<String>,
     report: Report,
 }
 
@@ -91,7 +97,14 @@ impl Tuned {
     /// The document with the better values and nothing else changed, as JSON; `None` where nothing better was found.
     #[must_use]
     pub fn document(&self) -> Option<&str> {
-        self.document.as_deref()
+        self.json.as_deref()
+    }
+
+    /// The same in the notation that it was read in, for the program.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn text(&self) -> Option<&str> {
+        self.document.as_ref().map(Document::text)
     }
 
     /// The report of `sigmastar tune`.
@@ -110,7 +123,19 @@ impl Tuned {
 /// number that is out of range; a document that is too large with other values.
 pub fn tune(subject: impl Into<Subject>, options: &TuneOptions) -> Result<Tuned, Error> {
     let Subject { read, source } = subject.into();
-    in_range("tries", options.tries, 2..=MAX_TRIES)?;
+    tune_watched((&read, &source), options, &Silent)
+}
+
+/// [`tune`] of a document that was read.
+///
+/// # Errors
+/// Those of [`tune`].
+pub fn tune_watched(
+    (read, source): (&Read, &Document),
+    options: &TuneOptions,
+    progress: &impl Progress,
+) -> Result<Tuned, Error> {
+    in_range("tries", options.tries, 2..=TuneOptions::MOST_TRIES)?;
     let goal = match options.goal {
         TuneGoal::SigmaStar => Goal::Sigma,
         TuneGoal::Feedback => Goal::Feedback,
@@ -124,11 +149,13 @@ pub fn tune(subject: impl Into<Subject>, options: &TuneOptions) -> Result<Tuned,
         _ => u64::from(N_O),
     };
     let wrong = |error: TuneError| Error::new(ErrorKind::Options, error.to_string(), &error.way_out());
-    goal.fits(&read).map_err(wrong)?;
-    let free = parameters(&options.over, &source, read.internal_model()).map_err(wrong)?;
+    goal.fits(read).map_err(wrong)?;
+    let free = parameters(&options.over, source, read.internal_model()).map_err(wrong)?;
     let settings = Settings { goal, n_o, tries: options.tries };
-    let tuning = tune::tune(&source, free, settings, &Silent)?;
+    let tuning = tune::tune(source, free, settings, progress)?;
     let report = Report::of(&TuningReport { tuning: &tuning, name: read.name(), sha256: read.sha256() });
-    let document = tuning.after.as_ref().map(|(_, tuned)| json_text(&tuned.root().to_json()));
-    Ok(Tuned { has_claim: tuning.has_claim(), document, report })
+    let has_claim = tuning.has_claim();
+    let document = tuning.after.map(|(_, tuned)| tuned);
+    let json = document.as_ref().map(|tuned| json_text(&tuned.root().to_json()));
+    Ok(Tuned { has_claim, document, json, report })
 }

@@ -7,9 +7,7 @@ use super::progress::working;
 use super::subject::Asked;
 use super::{input, output};
 use rug::Rational;
-use sigmastar_exact::number::write_exact;
-use sigmastar_prove::reduction::reduce_by_norms;
-use sigmastar_studies::bounding::bounding_specification;
+use sigmastar::program::bounds_of;
 
 /// Runs the command and returns the exit code.
 pub fn run(args: &BoundArgs) -> Result<u8, Failure> {
@@ -17,20 +15,17 @@ pub fn run(args: &BoundArgs) -> Result<u8, Failure> {
     let asked = args.domain.as_deref().map(domain).transpose()?;
     let plant = Asked::read(&args.plant)?.plant("`bound`")?;
     let working = working("finding the orbit and proving the plant's bounds", "", args.quiet);
-    let refused = |refusal: sigmastar_prove::reduction::PlantRefusal| Failure::Documents(refusal.errors(&plant));
-    let reduced = reduce_by_norms(&plant).map_err(refused)?;
-    let bounded = bounding_specification(&plant, &reduced.spec, asked).map_err(refused)?;
+    let bounded = bounds_of(&plant, asked)?;
     drop(working);
-    let text = format!("{:#}\n", bounded.document);
     if let Some(file) = file {
-        file.write(&text)?;
-    } else if let Err(code) = output::data(&text) {
+        file.write(bounded.to_json())?;
+    } else if let Err(code) = output::data(bounded.to_json()) {
         return Ok(code);
     }
     if !args.quiet {
-        let [x, e] = bounded.domain.each_ref().map(write_exact);
+        let [x, e] = bounded.domain();
         let place = args.output.as_deref().map(|path| format!("`{}`: ", output::shown(path))).unwrap_or_default();
-        let end = if bounded.limited { ", the domain of the plant" } else { "" };
+        let end = if bounded.is_limited() { ", the domain of the plant" } else { "" };
         output::remark(&format!("{place}every bound is proved for |y| <= {x}, |e| <= {e}{end}"));
     }
     Ok(0)

@@ -2,24 +2,20 @@
 
 use super::args::CertifyArgs;
 use super::counts::finite_counts;
-use super::edge::{Drawn, FIGURE_FILES};
 use super::failure::Failure;
 use super::files::{Input, OutputFile};
-use super::format::Format;
-use super::output::{Shortened, shown};
+use super::output::{Format, Shortened, shown};
 use super::stages::{Stages, Step};
 use super::subject::{Asked, Subject, proving, with_sampling_period};
 use super::{input, output};
-use proofs_check::verdict::Verdict;
+use sigmastar::program::{Afterwards, Drawn, FIGURE_FILES, decided, report_of};
 use sigmastar_document::number::estimate;
 use sigmastar_exact::number::write_exact;
 use sigmastar_lang::plant::Plant;
-use sigmastar_lang::spec::{ErrorKind, SpecErrors};
+use sigmastar_lang::spec::{Constant, ErrorKind, SpecErrors};
 use sigmastar_prove::certificate::{certificate_of, is_sampled, read_for};
 use sigmastar_prove::certify::{FarStart, Limits, NoRatesOfClaim, rate_counts, unusual_mu};
-use sigmastar_prove::reduction::{Checked, INITIAL_SET, Prepared, Run, Shrunk, Stage, Unwatched, Watch, shrunk};
-use sigmastar_report::{Origin, run_report};
-use sigmastar_theory::derivation::targets::{Target, TargetKind};
+use sigmastar_prove::reduction::{INITIAL_SET, Prepared, Run, Shrunk, Stage, Unwatched, Watch, shrunk};
 use std::path::Path;
 
 /// How to hear of the stages where standard error is no terminal.
@@ -110,15 +106,8 @@ pub fn run(args: &CertifyArgs) -> Result<u8, Failure> {
             &Unwatched
         }
     };
-    let mut run = prepared.certify_checked(args.options(), &checked, watch).map_err(Failure::Documents)?;
-    stages.begin(Step::Rates);
-    run.prove_rates(&counts).map_err(no_rates)?;
-    if !counts.is_empty() {
-        stages.begin(Step::Checked);
-        run.answered(checked(&run));
-    }
-    let origin = if witness.is_some() { Origin::Witness } else { Origin::Search };
-    let report = run_report(&run, &targets, origin, output::extent(args.format, args.full));
+    let run = decided(&prepared, (args.options(), &counts), "--n-o", watch, &|next| stages.begin(Step::After(next)))?;
+    let report = report_of(&run, targets, witness.is_some(), output::extent(args.format, args.full));
     let page = args.format == Format::Html;
     stages.begin(Step::Figures);
     let drawn = (page || args.plots.is_some()).then(|| Drawn::of(&run)).flatten();
@@ -183,11 +172,10 @@ fn steps(args: &CertifyArgs, subject: &Subject) -> Vec<Step> {
         (Subject::Specification(spec), _) if spec.lyapunov.triple().is_none() => vec![Stage::Triple],
         (Subject::Specification(_), _) => Vec::new(),
     };
-    let rates = args.n_o.is_some().then_some(Step::Rates);
-    let checked = args.n_o.is_some().then_some(Step::Checked);
+    let after = [Afterwards::Rates, Afterwards::Checked].map(Step::After).into_iter().filter(|_| args.n_o.is_some());
     let figures = (args.format == Format::Html || args.plots.is_some()).then_some(Step::Figures);
     let claim = if args.witness.is_some() { Step::Decision } else { Step::Of(Stage::Witness) };
-    data.into_iter().map(Step::Of).chain([claim]).chain(rates).chain(checked).chain(figures).collect()
+    data.into_iter().map(Step::Of).chain([claim]).chain(after).chain(figures).collect()
 }
 
 /// The stage in which the data of a witness are proved again.
@@ -195,13 +183,6 @@ fn first(subject: &Subject) -> Stage {
     match subject {
         Subject::Plant(_) => Stage::Bounds,
         Subject::Specification(_) => Stage::Triple,
-    }
-}
-
-fn flag(kind: TargetKind) -> &'static str {
-    match kind {
-        TargetKind::Sup => "--target-sup",
-        TargetKind::Rms => "--target-rms",
     }
 }
 
@@ -226,20 +207,10 @@ fn limits(args: &CertifyArgs) -> Result<Limits, Failure> {
     })
 }
 
-fn targets(args: &CertifyArgs) -> Result<Vec<Target>, Failure> {
-    let given = [(TargetKind::Sup, &args.target_sup), (TargetKind::Rms, &args.target_rms)];
-    let given = given.into_iter().filter_map(|(kind, text)| Some((kind, text.as_ref()?)));
-    given.map(|(kind, text)| input::target(kind, flag(kind), text)).collect()
-}
-
-/// What the independent checker says of the certificate that would be written: nothing is said to be certified that it does not decide as well.
-fn checked(run: &Run<'_>) -> Checked {
-    let Some(certificate) = certificate_of(run) else { return Checked::Decided };
-    match proofs_check::check(output::json_text(&certificate).as_bytes()).verdict {
-        Verdict::Valid => Checked::Decided,
-        Verdict::Undecided => Checked::GivenUp,
-        _ => Checked::Refused,
-    }
+/// Targets of sup|e| and rms e.
+fn targets(args: &CertifyArgs) -> Result<[Option<Constant>; 2], Failure> {
+    let target = |flag, text: &Option<String>| text.as_deref().map(|text| input::positive(flag, text)).transpose();
+    Ok([target("--target-sup", &args.target_sup)?, target("--target-rms", &args.target_rms)?])
 }
 
 /// Writes the certificate, or says why there is none; shows the report, and what is wrong with the bounding functions.

@@ -2,13 +2,12 @@
 
 use super::args::CheckArgs;
 use super::failure::Failure;
-use super::format::Format;
-use super::output::{self, json_text, reason, shown};
+use super::input;
+use super::output::{self, Format, json_text, reason, shown};
 use super::subject::{has_format, with_sampling_period};
-use super::{input, stored};
-use proofs_check::json::MAX_BYTES;
-use proofs_check::verdict::Verdict;
-use sigmastar_document::{Block, Made, clean};
+use sigmastar::program::{MAX_CERTIFICATE, check_bytes, page};
+use sigmastar::{CheckReport, CheckVerdict, Report};
+use sigmastar_document::clean;
 use sigmastar_lang::spec::{Document, Notation};
 use sigmastar_prove::certificate::FORMAT as CERTIFICATE;
 use std::fs::File;
@@ -17,41 +16,41 @@ use std::path::Path;
 
 /// Runs the command and returns the exit code: that of the independent checker.
 pub fn run(args: &CheckArgs) -> Result<u8, Failure> {
-    let (report, page) = answer(args)?;
+    let (answer, page) = answer(args)?;
     // The words of the checker's report are its own.
-    let words = || Made::new(vec![Block::Code(report.text(args.verbose))], report.json());
-    let text = output::report(&page.unwrap_or_else(words), args.format);
-    Ok(output::data(&text).err().unwrap_or(report.verdict.exit_code()))
+    let text = output::report(page.as_ref().unwrap_or(answer.report()), args.format);
+    Ok(output::data(&text).err().unwrap_or(answer.verdict().exit_code()))
 }
 
 /// The answer, and of a valid certificate the page where one is asked for.
-fn answer(args: &CheckArgs) -> Result<(proofs_check::Report, Option<Made>), Failure> {
-    let mut certificate = open(&args.certificate, "name a certificate that was written with `certify -o`")?;
-    let mut specification = args.spec.as_deref().map(|path| specification(path, args)).transpose()?;
-    let specification = specification.as_mut().map(|file| file as &mut dyn Read);
-    let mut bytes = Vec::new();
-    let read = certificate.by_ref().take(MAX_BYTES as u64 + 1).read_to_end(&mut bytes);
-    let report = read.and_then(|_| proofs_check::check_reader(&mut &bytes[..], specification)).map_err(|error| {
-        let message = format!("cannot read `{}`: {}", shown(&args.certificate), reason(&error));
-        Failure::call(message, "name files, not folders")
-    })?;
-    match report.verdict {
-        Verdict::Invalid => tell_difference(args),
-        Verdict::BadInput => tell_no_certificate(&args.certificate),
-        Verdict::Valid if args.format == Format::Html => {
-            let page = page(args, &bytes, &report);
-            return Ok((report, page));
+fn answer(args: &CheckArgs) -> Result<(CheckReport, Option<Report>), Failure> {
+    let certificate = open(&args.certificate, "name a certificate that was written with `certify -o`")?;
+    let specification = args.spec.as_deref().map(|path| specification(path, args)).transpose()?;
+    let bytes = |file: Box<dyn Read>| {
+        let mut bytes = Vec::new();
+        let read = file.take(MAX_CERTIFICATE as u64 + 1).read_to_end(&mut bytes);
+        read.map(|_| bytes).map_err(|error| {
+            let message = format!("cannot read `{}`: {}", shown(&args.certificate), reason(&error));
+            Failure::call(message, "name files, not folders")
+        })
+    };
+    let (certificate, specification) = (bytes(certificate)?, specification.map(bytes).transpose()?);
+    let answer = check_bytes(&certificate, specification.as_deref(), args.verbose);
+    match answer.verdict() {
+        CheckVerdict::Invalid => tell_difference(args),
+        CheckVerdict::BadInput => tell_no_certificate(&args.certificate),
+        CheckVerdict::Valid if args.format == Format::Html => {
+            let page = page_of(args, &certificate, &answer);
+            return Ok((answer, page));
         }
         _ => {}
     }
-    Ok((report, None))
+    Ok((answer, None))
 }
 
 /// The page of a valid certificate; where the same claim is not proved from it here, there is none, and a remark says what tells more.
-fn page(args: &CheckArgs, bytes: &[u8], report: &proofs_check::Report) -> Option<Made> {
-    let certificate = Document::from_bytes_as(&shown(&args.certificate), bytes, Notation::Json).map_err(Failure::from);
-    let words = report.text(args.verbose);
-    let page = certificate.and_then(|certificate| stored::page(&args.certificate, certificate, words)).ok().flatten();
+fn page_of(args: &CheckArgs, certificate: &[u8], answer: &CheckReport) -> Option<Report> {
+    let page = page(&shown(&args.certificate), certificate, answer.text().to_owned()).ok().flatten();
     if page.is_none() {
         output::remark(
             "the page has the words of the checker alone: this version does not prove the same claim from the \

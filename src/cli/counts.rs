@@ -1,17 +1,17 @@
 //! Numbers of oscillators on the command line: `0,1,5..10,20..100/10,inf`, the same in every `--n-o`.
 
 use super::failure::Failure;
-use sigmastar_theory::transfer::OscillatorCount;
+use sigmastar::TransferOptions;
 
 /// The most numbers of oscillators that one call looks at.
-const MOST: usize = 10_000;
+const MOST: usize = TransferOptions::MOST;
 
-/// Reads a list of numbers and ranges (both ends included, `first..last/step` in steps), in the order in which they are
+/// Reads a list of numbers (`None` for infinitely many) and ranges (both ends included, `first..last/step` in steps), in the order in which they are
 /// written.
 ///
 /// # Errors
 /// A part that is neither, an empty range, a step of 0, and more than 10000 numbers.
-pub fn counts(text: &str) -> Result<Vec<OscillatorCount>, Failure> {
+pub fn counts(text: &str) -> Result<Vec<Option<u64>>, Failure> {
     let wrong = |part: &str| {
         Failure::call(
             format!("`{part}` in --n-o is no number of oscillators and no range of them"),
@@ -23,7 +23,7 @@ pub fn counts(text: &str) -> Result<Vec<OscillatorCount>, Failure> {
     for part in text.split(',').map(str::trim) {
         let number = |text: &str| text.trim().parse::<u64>().map_err(|_| wrong(part));
         if part == "inf" {
-            all.push(OscillatorCount::Infinite);
+            all.push(None);
         } else if let Some((first, last)) = part.split_once("..") {
             let (last, step) = last.split_once('/').unwrap_or((last, "1"));
             let (first, last, step) = (number(first)?, number(last.trim_start_matches('='))?, number(step)?);
@@ -31,9 +31,9 @@ pub fn counts(text: &str) -> Result<Vec<OscillatorCount>, Failure> {
                 return Err(wrong(part));
             }
             let next = |n: &u64| n.checked_add(step).filter(|n| *n <= last);
-            all.extend(std::iter::successors(Some(first), next).take(MOST + 1).map(OscillatorCount::Finite));
+            all.extend(std::iter::successors(Some(first), next).take(MOST + 1).map(Some));
         } else {
-            all.push(OscillatorCount::Finite(number(part)?));
+            all.push(Some(number(part)?));
         }
         if all.len() > MOST {
             let message = format!("--n-o has more than {MOST} numbers of oscillators");
@@ -48,13 +48,11 @@ pub fn counts(text: &str) -> Result<Vec<OscillatorCount>, Failure> {
 /// # Errors
 /// Those of [`counts`]; `inf`, and a number that no regulator has.
 pub fn finite_counts(text: &str) -> Result<Vec<u32>, Failure> {
-    let beyond = |n_o: OscillatorCount| {
+    let beyond = |n_o: Option<u64>| {
+        let n_o = n_o.map_or_else(|| "infinity".to_owned(), |n_o| n_o.to_string());
         Failure::call(format!("--n-o {n_o}: there is an answer for finite numbers alone"), "ask for smaller numbers")
     };
-    let finite = |n_o: OscillatorCount| match n_o {
-        OscillatorCount::Finite(n) => u32::try_from(n).ok().ok_or_else(|| beyond(n_o)),
-        OscillatorCount::Infinite => Err(beyond(n_o)),
-    };
+    let finite = |n_o: Option<u64>| n_o.and_then(|n| u32::try_from(n).ok()).ok_or_else(|| beyond(n_o));
     counts(text)?.into_iter().map(finite).collect()
 }
 
@@ -84,12 +82,12 @@ mod tests {
 
     #[test]
     fn lists_and_ranges_are_read() {
-        let finite = |list: &[u64]| list.iter().copied().map(OscillatorCount::Finite).collect::<Vec<_>>();
+        let finite = |list: &[u64]| list.iter().copied().map(Some).collect::<Vec<_>>();
         assert_eq!(counts("0").unwrap(), finite(&[0]));
         assert_eq!(counts("3, 5..7,1000000000").unwrap(), finite(&[3, 5, 6, 7, 1_000_000_000]));
         assert_eq!(counts("5..=6").unwrap(), finite(&[5, 6]));
         assert_eq!(counts("5 .. 6").unwrap(), finite(&[5, 6]));
-        assert_eq!(counts("1,inf").unwrap()[1], OscillatorCount::Infinite);
+        assert_eq!(counts("1,inf").unwrap()[1], None);
         assert_eq!(counts("0..100/25,7").unwrap(), finite(&[0, 25, 50, 75, 100, 7]));
         assert_eq!(counts("3..=10 / 4").unwrap(), finite(&[3, 7]));
         assert_eq!(counts("0..18446744073709551615/18446744073709551615").unwrap(), finite(&[0, u64::MAX]));

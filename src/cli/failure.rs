@@ -1,7 +1,7 @@
 //! Calls that come to no claim, and how they are told.
 
-use super::format::Format;
-use super::output;
+use super::output::{self, Format};
+use sigmastar::Error;
 use sigmastar_lang::spec::SpecErrors;
 use sigmastar_prove::certify::{Verdict, verdict_of_errors};
 use sigmastar_report::{call_failure_json, failure_json};
@@ -23,6 +23,16 @@ pub enum Failure {
 impl From<SpecErrors> for Failure {
     fn from(errors: SpecErrors) -> Failure {
         Failure::Documents(vec![errors])
+    }
+}
+
+impl From<Error> for Failure {
+    fn from(error: Error) -> Failure {
+        match (error.sources(), error.diagnostics()) {
+            ([], [told, ..]) => Failure::call(&told.message, told.help.clone().unwrap_or_default()),
+            ([], []) => Failure::call(error.to_string(), ""),
+            (all, _) => Failure::Documents(all.to_vec()),
+        }
     }
 }
 

@@ -8,7 +8,6 @@ use sigmastar_lang::spec::{
     Document, Errors, MAX_BYTES, Notation, Reported, SpecError, SpecErrors, Value, any_constant, nonnegative_constant,
     positive_constant,
 };
-use sigmastar_theory::derivation::targets::{Target, TargetKind};
 use std::fs::File;
 use std::io::{self, ErrorKind, Read};
 use std::path::Path;
@@ -55,14 +54,6 @@ fn read(path: &Path, notation: Notation) -> Result<Document, Failure> {
         Failure::call(format!("cannot read `{name}`: {}", reason(&error)), help)
     })?;
     Ok(Document::from_bytes_as(&name, &bytes, notation)?)
-}
-
-/// Reads the value of a target flag.
-///
-/// # Errors
-/// Those of [`positive`].
-pub fn target(kind: TargetKind, flag: &str, text: &str) -> Result<Target, Failure> {
-    Ok(Target { kind, value: positive(flag, text)? })
 }
 
 /// Reads the value of a flag: a positive rational number.

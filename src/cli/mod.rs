@@ -8,12 +8,9 @@ mod colour;
 mod constants;
 mod controller;
 mod counts;
-mod edge;
-mod errata;
 mod failure;
 mod falsify;
 mod files;
-mod format;
 mod given;
 mod input;
 mod lyapunov;
@@ -26,10 +23,8 @@ mod reproduce;
 mod sampling;
 mod simulate;
 mod simulate_call;
-mod simulate_gain;
 mod simulate_sampled;
 mod stages;
-mod stored;
 mod subject;
 mod sweep;
 mod temporary;
@@ -39,8 +34,8 @@ mod write_files;
 
 use args::{Cli, Command, command};
 use clap::FromArgMatches;
-use format::Format;
-use sigmastar_prove::certify::Verdict;
+use output::Format;
+use sigmastar::Verdict;
 use std::process::ExitCode;
 
 /// Runs the command of the process's arguments and returns its exit code.
@@ -71,7 +66,7 @@ pub fn run() -> ExitCode {
         Command::Simulate(args) => (simulate::run(&args), args.format, args.quiet),
         Command::Reproduce(args) => (reproduce::run(&args), Format::Text, args.quiet),
         Command::Falsify(args) => (falsify::run(&args), args.format, args.quiet),
-        Command::Errata(args) => (errata::run(&args), args.format, false),
+        Command::Errata(args) => (constants::errata(&args), args.format, false),
         Command::Constants(args) => (constants::run(&args), args.format, args.quiet),
         Command::Lyapunov(args) => (lyapunov::run(&args), args.format, false),
         Command::Bound(args) => (bound::run(&args), Format::Text, args.quiet),

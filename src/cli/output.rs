@@ -1,12 +1,25 @@
 //! Data on standard output, remarks on standard error.
 
 use super::colour;
-use super::format::Format;
+use clap::ValueEnum;
+use sigmastar::Verdict;
 use sigmastar_document::{Extent, Made, Readable, is_hidden};
 use sigmastar_lang::spec::SpecErrors;
-use sigmastar_prove::certify::Verdict;
 use std::io::{self, ErrorKind, Write};
 use std::path::Path;
+
+/// A format of a report, the same for every command.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Format {
+    /// Plain text for a terminal
+    Text,
+    /// GitHub-flavoured Markdown
+    Markdown,
+    /// One HTML page with figures, which needs no other file
+    Html,
+    /// JSON, also for failures
+    Json,
+}
 
 /// Writes a report to standard output. A reader that has seen enough (`| head`) is no failure; any other error is
 /// told on standard error and returned as an exit code.

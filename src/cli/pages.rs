@@ -5,7 +5,7 @@ use super::output;
 use clap::CommandFactory;
 use clap_complete::Shell;
 use clap_mangen::Man;
-use sigmastar_prove::certify::Verdict;
+use sigmastar::Verdict;
 
 /// Writes the completion script of a shell; returns the exit code.
 pub fn completions(shell: Shell) -> u8 {

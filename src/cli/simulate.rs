@@ -7,16 +7,12 @@ use super::input;
 use super::output::{self, shown};
 use super::parameters;
 use super::progress::Bar;
-use super::simulate_call::Called;
-use super::simulate_gain::{at_period, gain_remarks, nominal, ordinary};
+use super::simulate_call::{Called, at_period, gain_remarks, nominal, ordinary, told, wanted};
 use super::simulate_sampled;
-use sigmastar_lab::simulate::{
-    ClosedLoop, FIGURE_FILES, Integrator, Noise, NoiseSettings, SimulationReport, SimulationSettings, csv, figures,
-    simulate,
-};
+use sigmastar::program::run_loop;
+use sigmastar_lab::simulate::{ClosedLoop, FIGURE_FILES, Integrator, Noise, NoiseSettings, SimulationSettings};
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::Constant;
-use sigmastar_prove::certify::Verdict;
 use sigmastar_regulator::{Design, Regulator, read_regulator};
 
 /// Runs the command and returns the exit code.
@@ -73,30 +69,11 @@ fn in_continuous_time(args: &SimulateArgs, plant: Plant, sigma: Option<&Constant
         Some(gain) => closed_loop.with_input_gain(ordinary(gain)?),
         None => closed_loop,
     };
-    let start = closed_loop.start_of(&plant.initial).map_err(simulate_sampled::wrong_dimension)?;
     let runs = if power.is_some() { 2 } else { 1 };
     let bar = Bar::new(u64::from(args.periods) * runs, args.quiet);
-    let simulation = simulate(&closed_loop, &start, &settings, &bar);
+    let simulation = run_loop(&plant, &closed_loop, &settings, wanted(args), &bar)?;
     bar.finish();
-
-    let report = SimulationReport { plant: &plant, closed_loop: &closed_loop, simulation: &simulation };
-    let text = output::report(&report, args.format);
-    if let (Some(file), Ok(run)) = (&csv_file, &simulation.long) {
-        file.write(csv(&plant, &closed_loop, run))?;
-    }
-    if let Some(folder) = &args.plots {
-        let drawn = figures(&plant, &closed_loop, &simulation);
-        args.replace.figures(folder, &drawn, Input::Plant(&args.plant), "leave --plots out")?;
-    }
-    if let Err(code) = output::data(&text) {
-        return Ok(code);
-    }
-    let noisy = simulation.noisy.as_ref().is_none_or(Result::is_ok);
-    let complete = simulation.steady.is_ok() && simulation.long.is_ok() && noisy;
-    if !complete && !args.quiet {
-        output::remark("undecided: a part of the simulation has no figures; the report says why and what to try");
-    }
-    Ok(if complete { 0 } else { Verdict::Undecided.exit_code() })
+    told(args, &simulation, csv_file.as_ref())
 }
 
 /// What is done otherwise than the call may suggest.

@@ -1,12 +1,17 @@
-//! What `sigmastar simulate` is asked for: a plant, and of a certificate its gain and its samples where the call has none.
+//! What `sigmastar simulate` is asked for: a plant, of a certificate its gain and its samples where the call has none, the
+//! period and the gain of the actuator; and how it answers.
 
 use super::args::SimulateArgs;
 use super::failure::Failure;
+use super::files::{Input, OutputFile};
 use super::subject::Asked;
 use super::{input, output};
+use sigmastar::program::Wanted;
+use sigmastar::{Simulation, Verdict};
 use sigmastar_exact::number::write_exact;
 use sigmastar_lang::plant::Plant;
-use sigmastar_lang::spec::Constant;
+use sigmastar_lang::spec::{Constant, InputGain};
+use sigmastar_regulator::Regulator;
 
 /// A call, with what a certificate adds to it.
 pub struct Called {
@@ -68,6 +73,32 @@ impl Called {
     }
 }
 
+/// What is made of the simulation beside its report.
+pub fn wanted(args: &SimulateArgs) -> Wanted {
+    Wanted { csv: args.csv.is_some(), figures: args.plots.is_some() }
+}
+
+/// Writes the files of a simulation, shows its report, and returns the exit code.
+pub fn told(args: &SimulateArgs, simulation: &Simulation, csv_file: Option<&OutputFile>) -> Result<u8, Failure> {
+    let text = output::report(simulation.report(), args.format);
+    if let Some((file, table)) = csv_file.zip(simulation.csv()) {
+        file.write(table)?;
+    }
+    if let Some(folder) = &args.plots {
+        args.replace.figures(folder, simulation.figures(), Input::Plant(&args.plant), "leave --plots out")?;
+    }
+    if let Err(code) = output::data(&text) {
+        return Ok(code);
+    }
+    if simulation.is_complete() {
+        return Ok(0);
+    }
+    if !args.quiet {
+        output::remark("undecided: a part of the simulation has no figures; the report says why and what to try");
+    }
+    Ok(Verdict::Undecided.exit_code())
+}
+
 /// Flags of the regulator at samples need a sampling time, from the call or from a certificate.
 fn at_samples(args: &SimulateArgs, step: Option<&Constant>) -> Result<(), Failure> {
     let of_samples = [
@@ -83,5 +114,67 @@ fn at_samples(args: &SimulateArgs, step: Option<&Constant>) -> Result<(), Failur
             format!("{flag} is of the regulator at samples, and no sampling period is given"),
             "give --sampled H, or name a certificate of the regulator at samples, whose sampling period is taken then",
         )),
+    }
+}
+
+/// The plant of a call with the period that is asked for.
+///
+/// # Errors
+/// What is wrong with the period.
+pub fn at_period(args: &SimulateArgs, plant: Plant) -> Result<Plant, Failure> {
+    let period = args.period.as_deref().map(|text| input::positive("--period", text)).transpose()?;
+    let Some(period) = period else { return Ok(plant) };
+    let value = period.to_f64();
+    let [low, high] = [plant.period.shortest(), plant.period.longest()];
+    if !args.quiet && (value < low.to_f64() || value > high.to_f64()) {
+        output::remark(&match plant.period.interval() {
+            None => format!("the plant file states the period {}: no claim covers {}", low.text, period.text),
+            Some(_) => format!(
+                "the period {} is outside of `period`, from {} to {}: no claim covers it",
+                period.text, low.text, high.text
+            ),
+        });
+    }
+    Ok(plant.at_period(&period))
+}
+
+/// The nominal gain of the actuator of a plant, where it states one.
+pub fn nominal(plant: &Plant) -> Option<f64> {
+    plant.input_gain.as_ref().map(|gain| gain.nominal.to_f64())
+}
+
+/// A gain in double precision.
+///
+/// # Errors
+/// One that is beyond it.
+pub fn ordinary(gain: &Constant) -> Result<f64, Failure> {
+    let gain = gain.to_f64();
+    if gain > 0.0 && gain.is_finite() {
+        return Ok(gain);
+    }
+    Err(Failure::call("--input-gain is beyond double precision", "give a gain of an ordinary magnitude"))
+}
+
+/// What no claim covers of a gain of the actuator, and what does not fit it.
+pub fn gain_remarks(plant: &Plant, gain: Option<&Constant>, regulator: &Regulator) {
+    match (&plant.input_gain, gain) {
+        (None, Some(_)) => {
+            output::remark("the plant file states no `input_gain`: no claim about it covers another gain than 1");
+        }
+        (Some(InputGain { low, high, .. }), Some(gain)) => {
+            let value = gain.to_f64();
+            if value < low.to_f64() || value > high.to_f64() {
+                output::remark(&format!(
+                    "the gain {} is outside of `input_gain`, from {} to {}: no claim covers it",
+                    gain.text, low.text, high.text
+                ));
+            }
+        }
+        (_, None) => {}
+    }
+    if regulator.divisor() != nominal(plant).unwrap_or(1.0) {
+        output::remark(
+            "the regulator is not divided by the nominal input gain of the plant file: it is simulated as it is",
+        );
     }
 }

@@ -7,15 +7,12 @@ use super::input;
 use super::output::{self, shown};
 use super::parameters;
 use super::progress::Bar;
-use super::simulate_gain::{at_period, gain_remarks, ordinary};
-use sigmastar_lab::simulate::{
-    Converters, FIGURE_FILES, SampledLoop, SampledSettings, SampledSimulationReport, sampled_csv, sampled_figures,
-    simulate_sampled,
-};
+use super::simulate_call::{at_period, gain_remarks, ordinary, told, wanted};
+use sigmastar::program::run_sampled_loop;
+use sigmastar_lab::simulate::{Converters, FIGURE_FILES, SampledLoop, SampledSettings};
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{Actuator, Constant};
-use sigmastar_prove::certify::Verdict;
-use sigmastar_regulator::{Design, Discrete, Regulator, WrongDimension, read_discrete, read_regulator};
+use sigmastar_regulator::{Design, Discrete, Regulator, read_discrete, read_regulator};
 
 /// Runs the command with this plant, gain and sampling time, and returns the exit code.
 ///
@@ -71,33 +68,15 @@ pub fn run(args: &SimulateArgs, plant: Plant, sigma: Option<&Constant>, step: &C
     if let Some(folder) = &args.plots {
         args.replace.folder(folder, &FIGURE_FILES)?;
     }
-    let start = sampled.start_of(&plant.initial).map_err(wrong_dimension)?;
     let settings = SampledSettings {
         periods: args.periods as usize,
         samples: args.samples as usize,
         harmonics: args.harmonics as usize,
     };
     let bar = Bar::new(u64::from(args.periods), args.quiet);
-    let simulation = simulate_sampled(&sampled, &start, &settings, &bar);
+    let simulation = run_sampled_loop(&plant, &sampled, &settings, wanted(args), &bar)?;
     bar.finish();
-
-    let report = SampledSimulationReport { plant: &plant, sampled: &sampled, simulation: &simulation };
-    let text = output::report(&report, args.format);
-    if let (Some(file), Ok(run)) = (&csv_file, &simulation.long) {
-        file.write(sampled_csv(&plant, &sampled, run))?;
-    }
-    if let Some(folder) = &args.plots {
-        let drawn = sampled_figures(&plant, &sampled, &simulation);
-        args.replace.figures(folder, &drawn, Input::Plant(&args.plant), "leave --plots out")?;
-    }
-    if let Err(code) = output::data(&text) {
-        return Ok(code);
-    }
-    let complete = simulation.steady.is_ok() && simulation.long.is_ok() && !simulation.is_unstable();
-    if !complete && !args.quiet {
-        output::remark("undecided: a part of the simulation has no figures; the report says why and what to try");
-    }
-    Ok(if complete { 0 } else { Verdict::Undecided.exit_code() })
+    told(args, &simulation, csv_file.as_ref())
 }
 
 fn beyond() -> Failure {
@@ -143,9 +122,4 @@ fn from_file(args: &SimulateArgs, step: &Constant) -> Result<(Regulator, Discret
         return Err(Failure::call(message, "export the regulator again"));
     }
     Ok((regulator, discrete))
-}
-
-/// The refusal of an initial z that is for another number of oscillators.
-pub(super) fn wrong_dimension(error: WrongDimension) -> Failure {
-    Failure::call(error.to_string(), "give the number of oscillators that it is for, or remove z for a start at rest")
 }

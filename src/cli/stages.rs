@@ -5,6 +5,7 @@
 use super::output;
 use super::progress::{Later, TICK, give_clock};
 use indicatif::{ProgressBar, ProgressDrawTarget};
+use sigmastar::program::Afterwards;
 use sigmastar_prove::reduction::{Stage, Watch};
 use std::fmt;
 use std::io::{IsTerminal, stderr};
@@ -24,10 +25,8 @@ pub enum Step {
     Of(Stage),
     /// The conditions, decided from the numbers of a certificate.
     Decision,
-    /// Rates for given numbers of oscillators.
-    Rates,
-    /// The certificate, by the independent checker.
-    Checked,
+    /// What follows the claim.
+    After(Afterwards),
     /// The simulation of figures.
     Figures,
 }
@@ -55,8 +54,8 @@ impl fmt::Display for Step {
             Step::Of(Stage::Limits) => "seeking a gain that keeps to what is asked for",
             Step::Of(Stage::Comparison) => "working out what else would give (`--no-alternatives` leaves it out)",
             Step::Decision => "deciding the conditions",
-            Step::Rates => "proving rates",
-            Step::Checked => "letting the independent checker decide",
+            Step::After(Afterwards::Rates) => "proving rates",
+            Step::After(Afterwards::Checked) => "letting the independent checker decide",
             Step::Figures => "simulating for the figures",
         })
     }
@@ -190,7 +189,12 @@ mod tests {
 
     #[test]
     fn a_stage_is_told_by_its_place_in_the_call() {
-        let steps = vec![Step::Of(Stage::Orbit), Step::Of(Stage::Bounds), Step::Of(Stage::Witness), Step::Rates];
+        let steps = vec![
+            Step::Of(Stage::Orbit),
+            Step::Of(Stage::Bounds),
+            Step::Of(Stage::Witness),
+            Step::After(Afterwards::Rates),
+        ];
         let stages = Stages::new(steps, false, true);
         assert!(!stages.are_told());
         stages.enter(Stage::Orbit);
@@ -207,7 +211,7 @@ mod tests {
         // A choice that fails is followed by another.
         stages.enter(Stage::Bounds);
         assert!(told(&stages).starts_with("stage 2 of 4: proving the bounds"));
-        stages.begin(Step::Rates);
+        stages.begin(Step::After(Afterwards::Rates));
         assert_eq!(told(&stages), "stage 4 of 4: proving rates");
     }
 }

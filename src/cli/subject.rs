@@ -7,7 +7,6 @@ use super::output::{json_text, shown};
 use super::progress::{Later, working};
 use sigmastar_lang::plant::{FORMAT as PLANT, Plant};
 use sigmastar_lang::spec::{Document, Specification};
-use sigmastar_propose::search::SharpProposal;
 use sigmastar_prove::certificate::{FORMAT as CERTIFICATE, embedded};
 use sigmastar_prove::reduction::{SAMPLING_PERIOD, at_samples};
 use std::path::Path;
@@ -91,15 +90,6 @@ impl Asked {
 /// Whether a document says that it is of this format.
 pub fn has_format(document: &Document, format: &str) -> bool {
     document.at("/format").is_some_and(|value| value.text() == Some(format))
-}
-
-/// [`Subject::proved`], with a word to whoever waits.
-///
-/// # Errors
-/// What keeps the data from being proved, at its place.
-pub fn proved(subject: Subject, quiet: bool) -> Result<(Specification, Option<SharpProposal>), Failure> {
-    let _working = proving(&subject, "", quiet);
-    subject.proved().map_err(Failure::Documents)
 }
 
 /// Says what takes long of a subject's data, if anything does, and `more` of how to hear of it.

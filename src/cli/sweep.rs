@@ -7,7 +7,7 @@ use super::output::shown;
 use super::progress::Bar;
 use super::subject::Asked;
 use super::{input, output};
-use sigmastar_prove::certify::Verdict;
+use sigmastar::Verdict;
 use sigmastar_studies::sweep::{
     FigureError, Results, Study, SubjectSource, Sweep, best, csv, run as certify_cases, summary, sweep_figure,
 };

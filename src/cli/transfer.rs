@@ -4,23 +4,22 @@ use super::args::{Replace, TransferArgs};
 use super::counts::counts;
 use super::failure::Failure;
 use super::files::{Input, OutputFile};
-use super::format::Format;
-use super::output::Shortened;
+use super::output::{Format, Shortened};
 use super::progress::Bar;
-use super::subject::{Asked, Subject, proved};
+use super::subject::{Asked, Subject, proving};
 use super::{input, output};
+use sigmastar::program::{PairError, transfer_of};
+use sigmastar::{TransferOptions, Verdict};
 use sigmastar_document::progress::Progress;
-use sigmastar_exact::enclosure::DEFAULT_PRECISION;
-use sigmastar_prove::certify::Verdict;
-use sigmastar_report::{TransferReport, pair_failure_json, transfer_figure};
-use sigmastar_theory::transfer::{PairChoice, PairError, TransferStudy};
+use sigmastar_report::pair_failure_json;
 use std::path::Path;
 
 /// Runs the command and returns the exit code.
 pub fn run(args: &TransferArgs) -> Result<u8, Failure> {
     let plot = args.plot.as_deref().map(|path| svg_file(path, &args.spec, args.replace)).transpose()?;
-    let pair = match (&args.k0, &args.minimise) {
-        (Some(text), _) => PairChoice::SmallestK1(input::positive("--k0", text)?),
+    let options = TransferOptions::new();
+    let options = match (&args.k0, &args.minimise) {
+        (Some(text), _) => options.k0(input::positive("--k0", text)?.text),
         (None, Some(text)) => {
             let Some((a, b)) = text.split_once(',') else {
                 return Err(Failure::call(
@@ -29,31 +28,37 @@ pub fn run(args: &TransferArgs) -> Result<u8, Failure> {
                 ));
             };
             let [a, b] = [a, b].map(|text| input::positive("--minimise", text.trim()));
-            PairChoice::Cheapest { a: a?, b: b? }
+            options.cheapest(a?.text, b?.text)
         }
-        (None, None) => PairChoice::ForData,
+        (None, None) => options,
     };
     let n_o = counts(&args.n_o)?;
-    let spec = match Asked::read(&args.spec)?.subject()? {
+    let subject = Asked::read(&args.spec)?.subject()?;
+    // The internal model needs no Lyapunov triple.
+    let spec = match subject {
         Subject::Specification(spec) => *spec,
-        plant @ Subject::Plant(_) => proved(plant, args.quiet)?.0,
+        plant @ Subject::Plant(_) => {
+            let _working = proving(&plant, "", args.quiet);
+            plant.proved().map_err(Failure::Documents)?.0
+        }
     };
     let bar = Bar::new(n_o.len() as u64, args.quiet);
-    let study = TransferStudy::new(&spec, DEFAULT_PRECISION, &pair, &n_o, || bar.advance());
+    let asked = options.n_o(n_o).checked()?;
+    let study = transfer_of(&spec, &asked, plot.is_some(), || bar.advance());
     bar.finish();
-    let study = match study {
-        Ok(study) => study,
+    let (study, figure) = match study {
+        Ok(found) => found,
         Err(error) => return Ok(no_pair(args, &error)),
     };
-    if let Some(file) = &plot {
-        let svg = transfer_figure(&study).svg();
+    if let Some((file, figure)) = plot.zip(figure) {
+        let svg = figure.svg();
         let svg = svg.map_err(|error| Failure::call(error.to_string(), "leave --plot out, and report this"))?;
         file.write(&svg)?;
         if !args.quiet {
             output::remark(&format!("the plot is in `{}`", file.name()));
         }
     }
-    let shown = Shortened::new(&TransferReport(&study), args.format, args.full);
+    let shown = Shortened::new(study.report(), args.format, args.full);
     Ok(shown.show(args.quiet).err().unwrap_or(Verdict::Certified.exit_code()))
 }
 

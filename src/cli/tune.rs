@@ -1,18 +1,14 @@
 //! `sigmastar tune`.
 
-use super::args::{TuneArgs, TuneGoal};
+use super::args::{TuneArgs, TuneGoal as Minimised};
 use super::failure::Failure;
 use super::files::Input;
-use super::output;
-use super::output::shown;
+use super::output::{self, shown};
 use super::progress::Bar;
 use super::subject::{Asked, Subject};
+use sigmastar::program::tune_watched;
+use sigmastar::{TuneGoal, TuneOptions, Verdict};
 use sigmastar_lang::spec::Notation;
-use sigmastar_prove::certify::Verdict;
-use sigmastar_studies::tune::{Goal, Settings, TuneError, TuningReport, parameters, tune};
-
-/// The number of oscillators for which the error is told where the call names none.
-const N_O: u32 = 5;
 
 /// Runs the command and returns the exit code.
 pub fn run(args: &TuneArgs) -> Result<u8, Failure> {
@@ -24,27 +20,20 @@ pub fn run(args: &TuneArgs) -> Result<u8, Failure> {
             format!("`{}` would be read in another notation than `{}` is written in", shown(path), document.label());
         return Err(Failure::call(message, "give it a name with the same ending: all but the numbers stays as it is"));
     }
-    let subject = Subject::read(&document)?;
-    let (name, sha256, model) = match &subject {
-        Subject::Specification(spec) => (&spec.name, &spec.sha256, &spec.internal_model),
-        Subject::Plant(plant) => (&plant.name, &plant.sha256, &plant.internal_model),
-    };
     let goal = match (args.error_at, args.minimise) {
-        (Some(n_o), _) => Goal::Error(u64::from(n_o)),
-        (None, TuneGoal::SigmaStar) => Goal::Sigma,
-        (None, TuneGoal::Feedback) => Goal::Feedback,
+        (Some(n_o), _) => TuneGoal::ErrorAt(n_o),
+        (None, Minimised::SigmaStar) => TuneGoal::SigmaStar,
+        (None, Minimised::Feedback) => TuneGoal::Feedback,
     };
-    goal.fits(&subject).map_err(|error| wrong(&error))?;
-    let parameters = parameters(&args.over, &document, model).map_err(|error| wrong(&error))?;
-    let settings = Settings { goal, n_o: u64::from(args.error_at.unwrap_or(N_O)), tries: args.tries };
+    let options = TuneOptions::new().over(&args.over).goal(goal).tries(args.tries);
     let bar = Bar::new(u64::from(args.tries), args.quiet);
-    let tuning = tune(&document, parameters, settings, &bar)?;
+    let tuned = tune_watched((&Subject::read(&document)?, &document), &options, &bar)?;
     bar.finish();
-    let text = output::report(&TuningReport { tuning: &tuning, name, sha256 }, args.format);
+    let text = output::report(tuned.report(), args.format);
     if let Some(file) = &file {
-        match &tuning.after {
-            Some((_, tuned)) => {
-                file.write(tuned.text())?;
+        match tuned.text() {
+            Some(text) => {
+                file.write(text)?;
                 if !args.quiet {
                     let name = file.name();
                     output::remark(&format!("the tuned specification is in `{name}`: sigmastar certify {name}"));
@@ -53,10 +42,6 @@ pub fn run(args: &TuneArgs) -> Result<u8, Failure> {
             None => output::remark(&format!("`{}` was not written: nothing better was found", file.name())),
         }
     }
-    let verdict = if tuning.has_claim() { Verdict::Certified } else { Verdict::Undecided };
+    let verdict = if tuned.has_claim() { Verdict::Certified } else { Verdict::Undecided };
     Ok(output::data(&text).err().unwrap_or(verdict.exit_code()))
-}
-
-fn wrong(error: &TuneError) -> Failure {
-    Failure::call(error.to_string(), error.way_out())
 }

@@ -183,6 +183,25 @@ fn crates_import_what_the_table_says() {
     assert_eq!(table, Imports::new());
 }
 
+/// The crates of this project that the files of a folder import.
+fn crates_of(folder: &str) -> BTreeSet<String> {
+    let named = |text: &str| -> BTreeSet<String> {
+        let words = text.split(|c: char| !c.is_alphanumeric() && c != '_');
+        let own = |word: &&str| word.starts_with("sigmastar_") || word.starts_with("proofs_");
+        words.filter(own).map(|word| word.trim_start_matches("sigmastar_").to_owned()).collect()
+    };
+    sources(Path::new(folder)).iter().flat_map(|path| named(&code(path))).collect()
+}
+
+#[test]
+fn the_program_asks_the_front_door() {
+    let may = ["document", "exact", "lab", "lang", "paper", "prove", "regulator", "report", "schema", "studies"];
+    assert_eq!(crates_of("src/cli"), BTreeSet::from(may.map(str::to_owned)));
+    let checks = |path: &PathBuf| code(path).contains("proofs_check");
+    let checking: Vec<PathBuf> = sources(Path::new("src")).into_iter().filter(checks).collect();
+    assert_eq!(checking, [Path::new("src/api/check.rs")]);
+}
+
 /// All names in the dependencies of a package of `crates`, and of those that it names, in turn.
 fn closure(name: &str) -> BTreeSet<String> {
     let mut found = BTreeSet::new();

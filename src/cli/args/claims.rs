@@ -1,11 +1,10 @@
 //! Flags of the commands that prove something, or say what was proved.
 
 use super::Replace;
-use crate::cli::format::Format;
+use crate::cli::output::Format;
 use clap::{Args, ValueEnum, ValueHint};
-use sigmastar_decide::conditions::Ladder;
-use sigmastar_exact::enclosure::{DEFAULT_PRECISION, MAX_PRECISION};
-use sigmastar_prove::certify::{Options, TransferChoice};
+use sigmastar::program::Options;
+use sigmastar::{CertifyOptions, TransferChoice};
 use std::path::PathBuf;
 
 /// The flags of `certify`.
@@ -82,8 +81,8 @@ pub struct CertifyArgs {
     pub n_o: Option<String>,
 
     /// Highest working precision in bits, 128 to 4096
-    #[arg(long, value_name = "BITS", default_value_t = MAX_PRECISION,
-          value_parser = clap::value_parser!(u32).range(i64::from(DEFAULT_PRECISION)..=4096))]
+    #[arg(long, value_name = "BITS", default_value_t = CertifyOptions::LARGEST_PRECISION_LIMIT,
+          value_parser = clap::value_parser!(u32).range(i64::from(CertifyOptions::LEAST_PRECISION_LIMIT)..=4096))]
     pub precision_limit: u32,
 
     /// Leave out what else would give: bounds at larger gains, what intervals of parameters cost, a limit that can be kept, a smaller
@@ -103,15 +102,13 @@ pub struct CertifyArgs {
 impl CertifyArgs {
     /// The options of the run.
     pub fn options(&self) -> Options {
-        Options {
-            transfer: match self.transfer {
-                TransferArg::Best => TransferChoice::Best,
-                TransferArg::Boxes => TransferChoice::Boxes,
-                TransferArg::ClosedForm => TransferChoice::ClosedForm,
-            },
-            ladder: Ladder { start: DEFAULT_PRECISION, limit: self.precision_limit },
-            compare: !self.no_alternatives,
-        }
+        let transfer = match self.transfer {
+            TransferArg::Best => TransferChoice::Best,
+            TransferArg::Boxes => TransferChoice::Boxes,
+            TransferArg::ClosedForm => TransferChoice::ClosedForm,
+        };
+        let options = CertifyOptions::new().transfer(transfer).precision_limit(self.precision_limit);
+        options.compare(!self.no_alternatives).of_run()
     }
 }
 

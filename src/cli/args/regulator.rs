@@ -2,10 +2,10 @@
 
 use super::Replace;
 use crate::cli::counts::one_count;
-use crate::cli::format::Format;
+use crate::cli::output::Format;
 use clap::{Args, ValueEnum, ValueHint};
+use sigmastar::RegulatorMatrices;
 use sigmastar_lab::simulate::MAX_FIXED_STEPS;
-use sigmastar_regulator::MAX_EXPORTED_OSCILLATORS;
 use std::path::PathBuf;
 
 /// The most oscillators of a simulation.
@@ -23,7 +23,7 @@ pub struct ControllerArgs {
     pub sigma: Option<String>,
 
     /// The number of oscillators n_o (the high-gain feedback u = -sigma e needs no file: see `simulate --high-gain`)
-    #[arg(long, value_name = "N", value_parser = one_count(MAX_EXPORTED_OSCILLATORS))]
+    #[arg(long, value_name = "N", value_parser = one_count(RegulatorMatrices::MAX_OSCILLATORS))]
     pub n_o: u32,
 
     /// Also the law for a computer with this sampling time, an exact positive constant; the control is held over each sample

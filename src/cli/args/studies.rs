@@ -2,10 +2,9 @@
 
 use super::Replace;
 use crate::cli::counts::one_count;
-use crate::cli::format::Format;
+use crate::cli::output::Format;
 use clap::{Args, ValueEnum, ValueHint};
-use sigmastar_regulator::MAX_EXPORTED_OSCILLATORS;
-use sigmastar_studies::tune::MAX_TRIES;
+use sigmastar::{RegulatorMatrices, TuneOptions};
 use std::path::PathBuf;
 
 /// The flags of `sweep`.
@@ -64,11 +63,11 @@ pub struct TuneArgs {
     pub minimise: TuneGoal,
 
     /// Make the certified bound of sup|e| with N oscillators, at sigma*, as small as possible instead
-    #[arg(long, value_name = "N", conflicts_with = "minimise", value_parser = one_count(MAX_EXPORTED_OSCILLATORS))]
+    #[arg(long, value_name = "N", conflicts_with = "minimise", value_parser = one_count(RegulatorMatrices::MAX_OSCILLATORS))]
     pub error_at: Option<u32>,
 
     /// Certify at most so many proposals, the values of the file among them
-    #[arg(long, value_name = "N", default_value_t = 120, value_parser = clap::value_parser!(u32).range(2..=i64::from(MAX_TRIES)))]
+    #[arg(long, value_name = "N", default_value_t = 120, value_parser = clap::value_parser!(u32).range(2..=i64::from(TuneOptions::MOST_TRIES)))]
     pub tries: u32,
 
     /// Format of the report

@@ -2,7 +2,7 @@
 //!
 //! The laboratory draws them from the certificate; the verdict, the exit code and every text do not know of them.
 
-use super::output;
+use super::json_text;
 use serde_json::Value;
 use sigmastar_document::plot::Figure;
 use sigmastar_document::{Block, Made, Readable};
@@ -59,7 +59,7 @@ impl Drawn {
 }
 
 fn edge(certificate: &Value) -> Result<Edge, String> {
-    let claim = Document::parse("certificate", &output::json_text(certificate));
+    let claim = Document::parse("certificate", &json_text(certificate));
     let claim = claim.and_then(|document| TriedClaim::from_document(&document));
     from_the_edge(&claim.map_err(|errors| errors.to_string())?)
 }

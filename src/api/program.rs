@@ -1,0 +1,21 @@
+//! What the program asks the front door for beside its page: the same functions of documents that were read, with the names of flags, figures
+//! in the place of files, and somebody who waits. No part of the interface.
+
+pub use super::bound::bounds_of;
+pub use super::certify::{Afterwards, decided};
+pub use super::check::{MAX_CERTIFICATE, check_bytes};
+pub use super::constants::constants_of;
+#[cfg(feature = "lab")]
+pub use super::edge::{Drawn, FIGURE_FILES};
+#[cfg(feature = "lab")]
+pub use super::falsify::{Attempt, TrialSettings};
+pub use super::lyapunov::lyapunov_of;
+pub use super::options::Options;
+#[cfg(feature = "lab")]
+pub use super::page::page;
+pub use super::report::report_of;
+pub use super::sampling::{PairsPart, pairs_of};
+#[cfg(feature = "lab")]
+pub use super::simulate::{Wanted, run_loop, run_sampled_loop};
+pub use super::transfer::{PairError, transfer_of};
+pub use super::tune::tune_watched;
