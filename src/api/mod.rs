@@ -60,7 +60,7 @@ pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 
 use rug::Rational;
 use sigmastar_exact::enclosure::{DEFAULT_PRECISION, Enclosure};
-use sigmastar_lang::spec::{Constant, Document, positive_constant};
+use sigmastar_lang::spec::{Constant, Document, Errors, Reported, Value, positive_constant};
 
 /// The smallest double that is not below an exact number.
 fn rounded_up(value: &Rational) -> f64 {
@@ -87,9 +87,18 @@ fn rational(name: &str, text: &str) -> Result<Rational, Error> {
 
 /// An argument that is an exact positive constant, as in a specification; `name` is what errors call it.
 fn positive(name: &str, text: &str) -> Result<Constant, Error> {
+    constant(name, text, positive_constant)
+}
+
+/// An argument that is an exact constant; `name` is what errors call it.
+fn constant(
+    name: &str,
+    text: &str,
+    read: impl Fn(&Value<'_>, &mut Errors) -> Result<Constant, Reported>,
+) -> Result<Constant, Error> {
     let document = Document::flag(name, text);
     let place = document.at(&format!("/{name}")).unwrap_or_else(|| document.root());
-    place.read(positive_constant).map_err(|errors| Error::argument(name, &errors))
+    place.read(read).map_err(|errors| Error::argument(name, &errors))
 }
 
 /// That a whole number is in range; `name` is what errors call it.

@@ -19,3 +19,39 @@ pub use super::sampling::{PairsPart, pairs_of};
 pub use super::simulate::{Wanted, run_loop, run_sampled_loop};
 pub use super::transfer::{PairError, transfer_of};
 pub use super::tune::tune_watched;
+
+use super::error::Error;
+use rug::Rational;
+use sigmastar_lang::spec::{Constant, any_constant, nonnegative_constant};
+
+/// The value of a flag that is an exact positive constant, as in a specification.
+///
+/// # Errors
+/// What is wrong with the constant, in its place.
+pub fn positive(flag: &str, text: &str) -> Result<Constant, Error> {
+    super::positive(flag, text)
+}
+
+/// The value of a flag that is an exact constant which is not negative.
+///
+/// # Errors
+/// What is wrong with the constant, in its place.
+pub fn nonnegative(flag: &str, text: &str) -> Result<Constant, Error> {
+    super::constant(flag, text, nonnegative_constant)
+}
+
+/// The value of a flag that is an exact constant.
+///
+/// # Errors
+/// What is wrong with the constant, in its place.
+pub fn real(flag: &str, text: &str) -> Result<Constant, Error> {
+    super::constant(flag, text, any_constant)
+}
+
+/// The value of a flag that is a positive rational number.
+///
+/// # Errors
+/// Those of [`positive`], and a constant that is not rational.
+pub fn rational(flag: &str, text: &str) -> Result<Rational, Error> {
+    super::rational(flag, text)
+}

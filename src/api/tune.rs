@@ -126,10 +126,10 @@ pub fn tune(subject: impl Into<Subject>, options: &TuneOptions) -> Result<Tuned,
     tune_watched((&read, &source), options, &Silent)
 }
 
-/// [`tune`] of a document that was read.
+/// [`tune()`] of a document that was read.
 ///
 /// # Errors
-/// Those of [`tune`].
+/// Those of [`tune()`].
 pub fn tune_watched(
     (read, source): (&Read, &Document),
     options: &TuneOptions,

@@ -2,15 +2,13 @@
 
 use super::failure::Failure;
 use super::output::{reason, shown};
-use rug::Rational;
-use sigmastar_lang::spec::model::Constant;
-use sigmastar_lang::spec::{
-    Document, Errors, MAX_BYTES, Notation, Reported, SpecError, SpecErrors, Value, any_constant, nonnegative_constant,
-    positive_constant,
-};
+use sigmastar_lang::spec::{Document, Errors, MAX_BYTES, Notation, SpecError, SpecErrors};
 use std::fs::File;
 use std::io::{self, ErrorKind, Read};
 use std::path::Path;
+
+/// Constants from flags.
+pub use sigmastar::program::{nonnegative, positive, rational, real};
 
 /// Reads a document that people write, in the notation that the name of its file says, or from standard input for `-`, in
 /// JSON; never more than the limit on documents.
@@ -56,42 +54,6 @@ fn read(path: &Path, notation: Notation) -> Result<Document, Failure> {
     Ok(Document::from_bytes_as(&name, &bytes, notation)?)
 }
 
-/// Reads the value of a flag: a positive rational number.
-///
-/// # Errors
-/// Those of [`positive`], and a constant that is not rational.
-pub fn rational(flag: &str, text: &str) -> Result<Rational, Failure> {
-    let constant = positive(flag, text)?;
-    constant
-        .as_rational()
-        .cloned()
-        .ok_or_else(|| Failure::call(format!("{flag} is not a rational number"), "write it as a decimal or a fraction"))
-}
-
-/// Reads the value of a flag: an exact positive constant, as in a specification.
-///
-/// # Errors
-/// What is wrong with the constant, in its place.
-pub fn positive(flag: &str, text: &str) -> Result<Constant, Failure> {
-    constant(flag, text, positive_constant)
-}
-
-/// Reads the value of a flag: an exact constant that is not negative.
-///
-/// # Errors
-/// What is wrong with the constant, in its place.
-pub fn nonnegative(flag: &str, text: &str) -> Result<Constant, Failure> {
-    constant(flag, text, nonnegative_constant)
-}
-
-/// Reads the value of a flag: an exact constant.
-///
-/// # Errors
-/// What is wrong with the constant, in its place.
-pub fn real(flag: &str, text: &str) -> Result<Constant, Failure> {
-    constant(flag, text, any_constant)
-}
-
 /// Errors of a field, at the flag that its value is from.
 pub fn at_flag((flag, text): (&str, &str), errors: &[SpecError]) -> SpecErrors {
     let document = Document::flag(flag, text);
@@ -102,14 +64,4 @@ pub fn at_flag((flag, text): (&str, &str), errors: &[SpecError]) -> SpecErrors {
         all.report(SpecError { expected: error.expected.clone(), help: error.help.clone(), ..at });
     }
     all.into_errors(&document)
-}
-
-fn constant(
-    flag: &str,
-    text: &str,
-    read: impl Fn(&Value<'_>, &mut Errors) -> Result<Constant, Reported>,
-) -> Result<Constant, Failure> {
-    let document = Document::flag(flag, text);
-    let place = document.at(&format!("/{flag}")).unwrap_or_else(|| document.root());
-    Ok(place.read(read)?)
 }
