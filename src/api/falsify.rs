@@ -90,6 +90,7 @@ pub fn falsify(name: &str, certificate: &[u8], trials: u32, seed: u64) -> Result
 
 /// What is held against the bounds of a certificate.
 pub struct Attempt {
+    /// That of the certificate, then those with other base frequencies.
     claims: Vec<TriedClaim>,
 }
 
