@@ -1,5 +1,5 @@
-//! What floating point proposes of a plant's formulas: its periodic orbit, coordinates, metrics, suprema over samples. Nothing is claimed by
-//! it, and no verdict rests on it.
+//! What floating point proposes: of a plant's formulas the periodic orbit, coordinates, metrics and suprema over samples; the free numbers of a
+//! claim; and quadratic functions for rates and noise. Nothing is claimed by it, and no verdict rests on it.
 
 #![deny(missing_docs)]
 // What tests compare with need not be the same on every machine.
@@ -9,5 +9,6 @@ pub mod bounds;
 pub mod linear_peak;
 pub mod lyapunov;
 pub mod orbit;
+pub mod rates;
 pub mod search;
 pub mod semidefinite;

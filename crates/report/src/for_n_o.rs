@@ -7,11 +7,11 @@ use sigmastar_document::number::{estimate, exact};
 use sigmastar_document::{Block, Table, plain};
 use sigmastar_exact::number::{Direction, write_exact};
 use sigmastar_lang::spec::Specification;
+use sigmastar_propose::rates::Limit;
 use sigmastar_prove::certify::{Certification, RowNoise, SampledCertification};
 use sigmastar_prove::rate::bound::RateBound;
 use sigmastar_prove::rate::found::ForCount;
 use sigmastar_prove::rate::noise::{NoNoiseBound, NoiseBound};
-use sigmastar_prove::rate::small_gain::Limit;
 
 /// The section; nothing where no number was asked about.
 pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {

@@ -24,7 +24,7 @@
 //! Bounds of the plant's data enter as rationals in the harder direction, for which the relations stay true, as in
 //! [`super::inequality`]; where k_x is 0, X, p, rho_E and rho_Y are left out.
 
-use super::inequality::{LoopBounds, is_definite};
+use super::inequality::{LoopBounds, input, is_definite, is_triangle, whole};
 use super::oscillators::OscillatorMatrix;
 use rug::Rational;
 use sigmastar_exact::enclosure::{Enclosure, Truth};
@@ -140,14 +140,13 @@ impl<'a> SampledDynamics<'a> {
     #[must_use]
     pub fn proves(&self, witness: &SampledRateWitness) -> bool {
         let n = self.oscillators.order() + 1;
-        let triangle = witness.pi.len() == n && witness.pi.iter().enumerate().all(|(i, row)| row.len() == i + 1);
         let mut positive = vec![&witness.c, &witness.l_slope, &witness.l_hold];
         positive.extend(witness.of_x.iter().flat_map(|OfX { w, l_x, l_e, l_y }| [w, l_x, l_e, l_y]));
         let Inputs { g_d, g_v, g_r } = &witness.inputs;
         positive.extend([g_d, g_v, g_r].into_iter().flatten());
         let within = self.bounds.has_x && self.disturbed && g_d.is_some();
         let fits = witness.of_x.is_some() == self.bounds.has_x && g_r.is_some() == within;
-        if !(triangle && fits) || positive.iter().any(|number| **number <= 0) {
+        if !(is_triangle(&witness.pi, n) && fits) || positive.iter().any(|number| **number <= 0) {
             return false;
         }
         let weighted = Weighted::new(self, &witness.pi);
@@ -219,15 +218,8 @@ impl<'a> Weighted<'a> {
         let (oscillators, law) = (dynamics.oscillators, dynamics.law);
         let precision = law.step.precision();
         let n = lower.len();
-        let number = |value: &Rational| Enclosure::from_rational(value, precision);
-        let pi: Vec<Enclosure> =
-            (0..n).flat_map(|i| (0..n).map(move |j| (i.max(j), i.min(j)))).map(|(i, j)| number(&lower[i][j])).collect();
-        // B is zero at every second state.
-        let b = |j: usize| match j.checked_sub(1) {
-            None => law.step.clone(),
-            Some(state) => (&law.step * &oscillators.b[state]).negate(),
-        };
-        let inputs: Linear = (0..n).filter(|j| *j < 2 || j % 2 == 0).map(|j| (j, b(j))).collect();
+        let pi = whole(lower, precision);
+        let inputs: Linear = input(oscillators).into_iter().map(|(j, entry)| (j, &law.step * entry)).collect();
         let dot = |form: &Linear, with: &dyn Fn(usize) -> Enclosure| {
             form.iter().fold(Enclosure::zero(precision), |sum, (j, entry)| sum + entry * with(*j))
         };

@@ -160,15 +160,32 @@ impl ErrorDynamics<'_> {
     #[must_use]
     pub fn proves(&self, witness: &RateWitness) -> bool {
         let n = self.oscillators.order() + 1;
-        let triangle = witness.pi.len() == n && witness.pi.iter().enumerate().all(|(i, row)| row.len() == i + 1);
         let positive = witness.inputs.iter().flatten().all(|weight| *weight > 0);
-        if !triangle || !positive || (self.bounds.has_x && witness.w <= 0) {
+        if !is_triangle(&witness.pi, n) || !positive || (self.bounds.has_x && witness.w <= 0) {
             return false;
         }
         let form = Form::new(self, witness);
         is_definite(n, |i, j| form.at(i, j))
             && form.corners().iter().all(|corner| is_definite(form.order(), |i, j| form.entry(corner, i, j)))
     }
+}
+
+/// Whether these are the rows of the lower triangle of a matrix of this order.
+pub(super) fn is_triangle(pi: &[Vec<Rational>], order: usize) -> bool {
+    pi.len() == order && pi.iter().enumerate().all(|(i, row)| row.len() == i + 1)
+}
+
+/// A symmetric matrix row by row, from the rows of its lower triangle.
+pub(super) fn whole(lower: &[Vec<Rational>], precision: u32) -> Vec<Enclosure> {
+    let places = (0..lower.len()).flat_map(|i| (0..lower.len()).map(move |j| (i.max(j), i.min(j))));
+    places.map(|(i, j)| Enclosure::from_rational(&lower[i][j], precision)).collect()
+}
+
+/// B = (1, -b), where it is not zero: at every second state it is.
+pub(super) fn input(oscillators: &OscillatorMatrix) -> Vec<(usize, Enclosure)> {
+    let first = (0, Enclosure::one(oscillators.mu.precision()));
+    let model = oscillators.b.iter().enumerate().filter(|(state, _)| *state == 0 || state % 2 == 1);
+    std::iter::once(first).chain(model.map(|(state, b)| (state + 1, b.negate()))).collect()
 }
 
 /// Whether Pi > diag(e_low, 0) is proved; Pi by the rows of its lower triangle.
@@ -213,16 +230,7 @@ impl<'a> Form<'a> {
         let precision = oscillators.mu.precision();
         let number = |value: &Rational| Enclosure::from_rational(value, precision);
         let n = oscillators.order() + 1;
-        let pi: Vec<Enclosure> = (0..n)
-            .flat_map(|i| (0..n).map(move |j| (i.max(j), i.min(j))))
-            .map(|(i, j)| number(&witness.pi[i][j]))
-            .collect();
-        let input = |i: usize| match i.checked_sub(1) {
-            None => Enclosure::one(precision),
-            Some(state) => oscillators.b[state].negate(),
-        };
-        // B is zero at every second state.
-        let inputs: Vec<(usize, Enclosure)> = (0..n).filter(|j| *j < 2 || j % 2 == 0).map(|j| (j, input(j))).collect();
+        let (pi, inputs) = (whole(&witness.pi, precision), input(oscillators));
         let image = (0..n)
             .map(|i| inputs.iter().fold(Enclosure::zero(precision), |sum, (j, b)| sum + &pi[i * n + j] * b))
             .collect();

@@ -5,15 +5,12 @@
 //! `et(t)^2 <= W(t)/e_low <= exp(-2 rate (t - t_0)) W(t_0)/e_low` and `W(t_0) <= w P_up dX^2 + e_up dE^2 + z_up dZ^2` where
 //! |xt| <= dX, |et| <= dE and |zt|_N <= dZ at t_0: so C^2 is that sum over e_low.
 
-use super::riccati::propose;
-use super::small_gain::{Limit, SmallGain};
-use faer::linalg::solvers::DenseSolveCore;
-use faer::{Mat, Side};
 use rug::Rational;
 use sigmastar_decide::rates::OscillatorMatrix;
 use sigmastar_decide::rates::inequality::{ErrorDynamics, LoopBounds, RateWitness, is_definite};
 use sigmastar_exact::enclosure::Enclosure;
-use sigmastar_exact::number::{Direction, Portable, round_f64, round_rational};
+use sigmastar_exact::number::{Direction, round_rational};
+use sigmastar_propose::rates::{Condition, Limit, Numbers, SmallGain};
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::stability::ErrorBox;
 use sigmastar_theory::evidence::Slopes;
@@ -34,9 +31,6 @@ pub(super) const SHARES: [f64; 4] = [0.95, 0.8, 0.5, 0.2];
 
 /// Digits of Pi that are tried.
 pub(super) const DIGITS: [u32; 4] = [6, 9, 12, 16];
-
-/// By what share the diagonal bounds of Pi may differ from the best ones.
-const ROOM: f64 = 1e-3;
 
 /// Where the error lives: what a claim by norms says of its error box, and from how far its solutions start.
 pub struct Place<'a> {
@@ -87,6 +81,14 @@ pub struct RateBound<P> {
     pub limit: Limit,
 }
 
+impl<P> RateBound<P> {
+    /// The same bound, with what is made of its proof.
+    fn with<Q>(self, of: impl FnOnce(P) -> Q) -> RateBound<Q> {
+        let RateBound { n_o, rate, proof, e_low, upper, factor, limit } = self;
+        RateBound { n_o, rate, proof: of(proof), e_low, upper, factor, limit }
+    }
+}
+
 /// The best bound that is found; `None` where nothing is proved.
 ///
 /// Guarantee: for every solution that stays in the error box of `place` from a start within its distances, at its gain, with n_o
@@ -97,26 +99,76 @@ pub fn bound(data: &Data<'_>, place: &Place<'_>, n_o: u32) -> Option<RateBound<B
     let bounds = LoopBounds::of_error(data, place.error_box)?;
     let oscillators = OscillatorMatrix::new(data, n_o);
     let dynamics = ErrorDynamics::new(data, &oscillators, place.sigma, &bounds);
-    let condition = SmallGain::new(&dynamics)?;
+    let proof = |witness| ByForm { witness, has_x: bounds.has_x, by: None };
+    best(data, place, n_o, &dynamics).map(|bound| bound.with(proof))
+}
+
+/// The loop of a claim by norms with n_o oscillators at one gain: in continuous time, or at samples.
+pub(super) trait Loop {
+    /// The numbers of a proof.
+    type Witness;
+
+    /// What says where to look for them.
+    type Condition: Condition<Numbers: Numbers<Witness = Self::Witness>>;
+
+    /// The condition in doubles; `None` where a number is not finite.
+    fn condition(&self) -> Option<Self::Condition>;
+
+    /// Whether the numbers prove their decay: that of [`ErrorDynamics::proves`], or of the loop at samples.
+    fn proves(&self, witness: &Self::Witness) -> bool;
+
+    /// The rate that they prove, in 1/time.
+    fn rate(&self, witness: &Self::Witness) -> Option<Rational>;
+
+    /// Their Pi, and w where x counts in W.
+    fn parts<'w>(&self, witness: &'w Self::Witness) -> (&'w [Vec<Rational>], Option<&'w Rational>);
+}
+
+impl Loop for ErrorDynamics<'_> {
+    type Witness = RateWitness;
+    type Condition = SmallGain;
+
+    fn condition(&self) -> Option<SmallGain> {
+        SmallGain::new(self)
+    }
+
+    fn proves(&self, witness: &RateWitness) -> bool {
+        ErrorDynamics::proves(self, witness)
+    }
+
+    fn rate(&self, witness: &RateWitness) -> Option<Rational> {
+        Some(witness.rate.clone())
+    }
+
+    fn parts<'w>(&self, witness: &'w RateWitness) -> (&'w [Vec<Rational>], Option<&'w Rational>) {
+        (&witness.pi, self.bounds.has_x.then_some(&witness.w))
+    }
+}
+
+/// The best bound that is found of a loop; `None` where nothing is proved.
+///
+/// Guarantee: that of [`bound`], of what the loop is; at samples for starts and times that are sampling instants.
+pub(super) fn best<L: Loop>(data: &Data<'_>, place: &Place<'_>, n_o: u32, of: &L) -> Option<RateBound<L::Witness>> {
+    let condition = of.condition()?;
     let largest = condition.largest_rate()?;
     SHARES.iter().find_map(|share| {
-        let proposal = propose(&condition, largest, *share)?;
+        let proposal = condition.propose(largest, *share)?;
         DIGITS.iter().find_map(|digits| {
             let witness = proposal.in_digits(*digits)?;
-            if !dynamics.proves(&witness) {
+            let rate = of.rate(&witness)?;
+            if !of.proves(&witness) {
                 return None;
             }
-            let [e_low, upper @ ..] = diagonal_bounds(&proposal.pi, place.distances)?;
+            let [e_low, upper @ ..] = proposal.diagonal_bounds(place.distances)?;
             let [e_up, z_up] = &upper;
-            if !lies_between(&witness.pi, 0, &e_low, [&Rational::new(), e_up, z_up], data.precision) {
+            let (pi, w) = of.parts(&witness);
+            if !lies_between(pi, 0, &e_low, [&Rational::new(), e_up, z_up], data.precision) {
                 return None;
             }
             // Where x does not count, W is without it.
-            let of_x = if bounds.has_x { data.rational(&witness.w) * &data.p_up } else { data.zero() };
+            let of_x = w.map_or_else(|| data.zero(), |w| data.rational(w) * &data.p_up);
             let factor = factor(data, [of_x, data.rational(e_up), data.rational(z_up)], place.distances, &e_low)?;
-            let (rate, limit) = (witness.rate.clone(), condition.limit());
-            let proof = ByForm { witness, has_x: bounds.has_x, by: None };
-            Some(RateBound { n_o, rate, proof, e_low, upper, factor, limit })
+            Some(RateBound { n_o, rate, proof: witness, e_low, upper, factor, limit: condition.limit() })
         })
     })
 }
@@ -156,30 +208,4 @@ pub(super) fn factor(
     let start = terms.fold(data.zero(), |sum, term| sum + term);
     let factor = (start / data.rational(e_low)).sqrt().upper_rational()?;
     Some(round_rational(&factor, 6, Direction::Up))
-}
-
-/// e_low, e_up, z_up in floating point, rounded to the safe side: of all `diag(e_up, z_up I) >= Pi` one for which
-/// `e_up dE^2 + z_up dZ^2` is about least.
-pub(super) fn diagonal_bounds(pi: &Mat<f64>, [_, of_e, of_zeta]: [&Enclosure; 3]) -> Option<[Rational; 3]> {
-    let n = pi.nrows();
-    let rest = Mat::from_fn(n - 1, n - 1, |i, j| pi[(i + 1, j + 1)]);
-    let eigen = rest.self_adjoint_eigen(Side::Lower).ok()?;
-    let values: Vec<f64> = eigen.S().column_vector().iter().copied().collect();
-    let vectors = eigen.U();
-    let along = |k: usize| (0..n - 1).map(|i| vectors[(i, k)] * pi[(i + 1, 0)]).sum::<f64>();
-    let squares: Vec<f64> = (0..n - 1).map(|k| along(k).portable_powi(2)).collect();
-    let largest = values.iter().copied().fold(0.0, f64::max);
-    let [of_e, of_zeta] = [of_e, of_zeta].map(|distance| distance.upper_f64().portable_powi(2));
-    // The Schur complement, for z_up above the largest eigenvalue.
-    let of = |z_up: f64| {
-        pi[(0, 0)] + squares.iter().zip(&values).map(|(square, value)| square / (z_up - value)).sum::<f64>()
-    };
-    let cost = |z_up: f64| of(z_up) * of_e + z_up * of_zeta;
-    let candidates = (0..60).map(|k| largest * (1.0 + ROOM * 1.3f64.portable_powi(k)));
-    let z_up = candidates.min_by(|a, b| cost(*a).total_cmp(&cost(*b)))?;
-    let inverse = pi.partial_piv_lu().inverse();
-    let low = round_f64((1.0 - ROOM) / inverse[(0, 0)], 6, Direction::Down)?;
-    let up = [(1.0 + ROOM) * of(z_up), z_up].map(|value| round_f64(value, 6, Direction::Up));
-    let [e_up, z_up] = up;
-    Some([low, e_up?, z_up?]).filter(|all| all[0] > 0)
 }

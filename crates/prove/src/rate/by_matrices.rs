@@ -5,25 +5,16 @@
 //! `et^2 <= W/e_low`: the factor is as in [`super::bound`].
 
 use super::bound::{ByForm, ByMatrices, DIGITS, RateBound, SHARES, factor, lies_between};
-use super::bounded_real::BoundedReal;
-use super::riccati::in_digits;
-use super::slopes_program::SampledSlopes;
-use super::small_gain::Limit;
 use crate::attempt::prove_slopes;
-use faer::linalg::solvers::DenseSolveCore;
-use faer::{Mat, Side};
 use rug::Rational;
 use sigmastar_decide::bounds::Engine;
 use sigmastar_decide::rates::inequality::{RateWitness, is_definite};
 use sigmastar_decide::rates::matrix_loop::{KnownSlopes, MatrixLoop, Multipliers};
 use sigmastar_exact::enclosure::Enclosure;
-use sigmastar_exact::number::{Direction, Portable, round_f64};
 use sigmastar_propose::bounds::{FloatSlopes, FloatSuprema};
+use sigmastar_propose::rates::{BoundedReal, Limit, SampledSlopes};
 use sigmastar_theory::data::Data;
 use sigmastar_theory::evidence::{Part, Slopes};
-
-/// By what share the diagonal bounds of Pi may differ from the best ones.
-const ROOM: f64 = 1e-3;
 
 /// By what share balls are enlarged before they are compared: what is proved of them is about that much larger.
 const SLACK: f64 = 0.002;
@@ -160,19 +151,12 @@ fn with_slopes(
     slopes: Vec<Slopes>,
 ) -> Option<RateBound<ByForm>> {
     let states = of.states;
-    let (equation, [largest, of_gain]) = equation(of, &slopes)?;
+    let (equation, largest) = equation(of, &slopes)?;
     SHARES.iter().find_map(|share| {
-        let pi = equation.pi([largest * (1.0 + share) / 2.0, of_gain])?;
-        let rate = round_f64(largest * share, 6, Direction::Down)?;
-        let (upper, e_low) = diagonal_bounds(&pi, states, start.distances)?;
+        let proposal = equation.propose(largest, *share)?;
+        let (upper, e_low) = proposal.diagonal_bounds_of_states(start.distances)?;
         DIGITS.iter().find_map(|digits| {
-            let witness = RateWitness {
-                rate: rate.clone(),
-                w: Rational::new(),
-                pi: in_digits(&pi, *digits)?,
-                l: Rational::new(),
-                inputs: [None, None],
-            };
+            let witness = proposal.in_digits(*digits)?;
             let known = Known { data, of, slopes: &slopes };
             let lies = || lies_between(&witness.pi, states, &e_low, upper.each_ref(), data.precision);
             if !known.proves(&witness) || !lies() {
@@ -183,7 +167,7 @@ fn with_slopes(
             let x_up = (states > 0).then_some(x_up);
             let by = Some(ByMatrices { slopes: slopes.clone(), x_up });
             let limit = Limit::Middle(equation.fastest());
-            let (rate, upper, e_low) = (rate.clone(), [e_up, z_up], e_low.clone());
+            let (rate, upper, e_low) = (witness.rate.clone(), [e_up, z_up], e_low.clone());
             let proof = ByForm { witness, has_x: false, by };
             Some(RateBound { n_o, rate, proof, e_low, upper, factor, limit })
         })
@@ -217,52 +201,5 @@ impl Known<'_> {
             let form = self.of.form(gain, &Multipliers { rate: &rate, pi: &pi, slopes: &slopes });
             is_definite(form.len(), |i, j| form[i][j].clone())
         })
-    }
-}
-
-/// x_up, e_up, z_up and e_low in floating point, rounded to the safe side: of all upper bounds some for which
-/// `x_up dX^2 + e_up dE^2 + z_up dZ^2` is about least. Without states x_up is 0.
-fn diagonal_bounds(pi: &Mat<f64>, states: usize, distances: [&Enclosure; 3]) -> Option<([Rational; 3], Rational)> {
-    let (n, signals) = (pi.nrows(), states + 1);
-    let squares = distances.map(|distance| distance.upper_f64().portable_powi(2));
-    let block = |from: usize, to: usize| Mat::from_fn(to - from, to - from, |i, j| pi[(from + i, from + j)]);
-    let eigen = block(signals, n).self_adjoint_eigen(Side::Lower).ok()?;
-    let values: Vec<f64> = eigen.S().column_vector().iter().copied().collect();
-    let across = Mat::from_fn(signals, n - signals, |i, j| pi[(i, signals + j)]) * eigen.U();
-    let largest = values.iter().copied().fold(0.0, f64::max);
-    let steps = (0..40).map(|k| 1.0 + ROOM * 1.4f64.portable_powi(k));
-    let mut best: Option<(f64, [f64; 3])> = None;
-    for z_up in steps.clone().map(|step| largest * step) {
-        // The Schur complement, for z_up above the largest eigenvalue; and once more for x_up.
-        let rest = Mat::from_fn(signals, signals, |i, j| {
-            let taken = values.iter().enumerate().map(|(k, value)| across[(i, k)] * across[(j, k)] / (z_up - value));
-            pi[(i, j)] + taken.sum::<f64>()
-        });
-        let corner = rest[(states, states)];
-        if states == 0 {
-            take(&mut best, squares, [0.0, corner, z_up]);
-            continue;
-        }
-        let eigen = Mat::from_fn(states, states, |i, j| rest[(i, j)]).self_adjoint_eigen(Side::Lower).ok()?;
-        let own: Vec<f64> = eigen.S().column_vector().iter().copied().collect();
-        let column = Mat::from_fn(1, states, |_, j| rest[(states, j)]) * eigen.U();
-        let most = own.iter().copied().fold(0.0, f64::max);
-        for x_up in steps.clone().map(|step| most * step) {
-            let taken = own.iter().enumerate().map(|(k, value)| column[(0, k)].portable_powi(2) / (x_up - value));
-            take(&mut best, squares, [x_up, corner + taken.sum::<f64>(), z_up]);
-        }
-    }
-    let (_, upper) = best?;
-    let inverse = pi.partial_piv_lu().inverse();
-    let low = round_f64((1.0 - ROOM) / inverse[(states, states)], 6, Direction::Down).filter(|low| *low > 0)?;
-    let [x_up, e_up, z_up] = upper.map(|value| round_f64(value * (1.0 + ROOM), 6, Direction::Up));
-    Some(([x_up?, e_up?, z_up?], low))
-}
-
-/// Keeps the bounds for which the sum at the start is less.
-fn take(best: &mut Option<(f64, [f64; 3])>, squares: [f64; 3], upper: [f64; 3]) {
-    let cost: f64 = squares.iter().zip(upper).map(|(square, upper)| square * upper).sum();
-    if best.is_none_or(|(least, _)| cost < least) && cost.is_finite() {
-        *best = Some((cost, upper));
     }
 }

@@ -12,22 +12,21 @@
 //! One part of it has the start and no inputs: U stays below L_0, and W tends to 0. The other starts at 0 and has the inputs: W stays below
 //! e_low S^2, and xi below kappa S. Their sum is strictly inside of the box, so the solution never leaves it.
 
-use super::bound::{DIGITS, Place};
-use super::noise_search::{Proposal, input_weights, propose};
+use super::bound::{DIGITS, Loop, Place};
 use rug::Rational;
 use sigmastar_decide::rates::OscillatorMatrix;
 use sigmastar_decide::rates::inequality::{ErrorDynamics, LoopBounds, RateWitness, is_above};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, round_f64, round_rational, write_exact};
+use sigmastar_propose::rates::NoiseProposal;
+use sigmastar_propose::rates::noise_search::propose;
 use sigmastar_theory::data::Data;
+use sigmastar_theory::derivation::stability::ErrorBox;
 
-/// Shares of the searched lambda that are claimed, in this order: what is left makes the form definite.
+/// Shares of the searched decay that are claimed, in this order: what is left makes the form definite.
 const SHARES: [f64; 3] = [0.99, 0.9, 0.6];
 
-/// By what share g_d and g_v may be above, and e_low below what is best.
-const ROOM: f64 = 1e-3;
-
-/// Digits of the numbers beside Pi.
+/// Digits of the bounds.
 const FIGURES: u32 = 6;
 
 /// What keeps the undisturbed solutions in the error box: C4 with its numbers.
@@ -159,25 +158,54 @@ pub fn noise_bound(
     let dynamics = ErrorDynamics::new(data, &oscillators, place.sigma, &bounds);
     let sizes = [data.spec.d_bar(), data.spec.v_bar()];
     let proposal = propose(&dynamics, sizes.each_ref().map(Rational::to_f64)).ok_or(NoNoiseBound::NotFound)?;
-    let of = |share: &f64| DIGITS.iter().find_map(|digits| proved(&dynamics, &proposal, *share, *digits, &sizes));
-    let (witness, e_low) = SHARES.iter().find_map(of).ok_or(NoNoiseBound::NotFound)?;
+    let (witness, e_low) = proved(&dynamics, &proposal, data.precision, |_| true).ok_or(NoNoiseBound::NotFound)?;
+    let s = (data.rational(&level(&witness, &sizes)) / data.rational(&e_low)).sqrt();
+    let [limit, peak] = within_the_box(data, place.error_box, confinement, &s)?;
+    Ok(NoiseBound { proof: NoiseByForm { witness, has_x: bounds.has_x }, e_low, limit, peak })
+}
+
+/// A witness with inputs and e_low of a proposal, both proved, of whose Pi something else is true besides.
+pub(super) fn proved<L: Loop>(
+    of: &L,
+    proposal: &impl NoiseProposal<Witness = L::Witness>,
+    precision: u32,
+    besides: impl Fn(&[Vec<Rational>]) -> bool,
+) -> Option<(L::Witness, Rational)> {
+    let one = |share: f64, digits: u32| {
+        let (witness, e_low) = proposal.in_digits(share, digits)?;
+        let (pi, _) = of.parts(&witness);
+        let holds = of.proves(&witness) && is_above(pi, &e_low, precision) && besides(pi);
+        holds.then_some((witness, e_low))
+    };
+    SHARES.iter().find_map(|share| DIGITS.iter().find_map(|digits| one(*share, *digits)))
+}
+
+/// kappa, of `xi <= kappa sup|e|` for the part with the inputs.
+pub(super) fn kappa(data: &Data<'_>, error_box: &ErrorBox<Enclosure>) -> Enclosure {
+    data.p_up.sqrt() * &error_box.k_f / &error_box.rate
+}
+
+/// S and sqrt(L_0) + S, rounded up, where the sum of what the start and the inputs do is proved to stay in the error box.
+///
+/// # Errors
+/// The box is too small for this S.
+pub(super) fn within_the_box(
+    data: &Data<'_>,
+    error_box: &ErrorBox<Enclosure>,
+    confinement: &Confinement<'_>,
+    s: &Enclosure,
+) -> Result<[Rational; 2], NoNoiseBound> {
     let number = |value: &Rational| data.rational(value);
-    let s = (number(&level(&witness, &sizes)) / number(&e_low)).sqrt();
-    let peak = confinement.level.sqrt() + &s;
+    let peak = confinement.level.sqrt() + s;
     let [d_x, d_e] = confinement.radii.map(number);
-    let error_box = place.error_box;
-    let kappa = data.p_up.sqrt() * &error_box.k_f / &error_box.rate;
-    let of_x = ((&confinement.level / number(confinement.w_x)).sqrt() + kappa * &s) / data.p_low.sqrt();
+    let of_x = ((&confinement.level / number(confinement.w_x)).sqrt() + kappa(data, error_box) * s) / data.p_low.sqrt();
     let decays = data.zero().lt(&error_box.rate).is_true();
     if !(decays && peak.lt(&d_e).is_true() && of_x.lt(&d_x).is_true()) {
         let needed = (&peak / d_e).max(&(of_x / d_x)).upper_f64();
         return Err(NoNoiseBound::LeavesBox { limit: s.upper_f64(), needed });
     }
-    let up = |value: &Enclosure| {
-        value.upper_rational().map(|upper| round_rational(&upper, FIGURES, Direction::Up)).ok_or(NoNoiseBound::NotFound)
-    };
-    let proof = NoiseByForm { witness, has_x: bounds.has_x };
-    Ok(NoiseBound { proof, e_low, limit: up(&s)?, peak: up(&peak)? })
+    let up = |value: &Enclosure| value.upper_rational().map(|upper| round_rational(&upper, FIGURES, Direction::Up));
+    up(s).zip(up(&peak)).map(|(limit, peak)| [limit, peak]).ok_or(NoNoiseBound::NotFound)
 }
 
 /// e_low S^2, which W of the part with the inputs does not exceed.
@@ -187,31 +215,6 @@ fn level(witness: &RateWitness, sizes: &[Rational; 2]) -> Rational {
         weight.as_ref().map(|weight| square * weight)
     });
     terms.fold(Rational::new(), |sum, term| sum + term) / (Rational::from(&witness.rate * 2))
-}
-
-/// A witness of (N) with a share of the proposed lambda and Pi in so many digits, and e_low; proved.
-fn proved(
-    dynamics: &ErrorDynamics<'_>,
-    proposal: &Proposal,
-    share: f64,
-    digits: u32,
-    sizes: &[Rational; 2],
-) -> Option<(RateWitness, Rational)> {
-    let rate = round_f64(proposal.rate * share, FIGURES, Direction::Down)?;
-    let found = super::riccati::Proposal { rate, w: proposal.w, pi: proposal.pi.clone() };
-    let witness = found.in_digits(digits)?;
-    let weights = input_weights(dynamics, &witness, sizes.each_ref().map(Rational::to_f64))?;
-    let inputs = [0, 1].map(|i| {
-        let weight = || round_f64(weights[i] * (1.0 + ROOM), FIGURES, Direction::Up);
-        (sizes[i] > 0).then(weight)
-    });
-    if inputs.iter().any(|weight| *weight == Some(None)) {
-        return None;
-    }
-    let witness = RateWitness { inputs: inputs.map(Option::flatten), ..witness };
-    let e_low = round_f64(proposal.e_low * (1.0 - ROOM), FIGURES, Direction::Down)?;
-    (dynamics.proves(&witness) && is_above(&witness.pi, &e_low, dynamics.oscillators.mu.precision()))
-        .then_some((witness, e_low))
 }
 
 #[cfg(test)]

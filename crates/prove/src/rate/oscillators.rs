@@ -3,22 +3,13 @@
 //! In the coordinates `N^(1/2) zeta`, in which |zeta|_N is the Euclidean norm, the matrix is `A = Phi - mu b b'` with
 //! `b = N^(1/2) M`: Phi commutes with N. Its order is 2 n_o + 1.
 
-use faer::{Mat, Side, c64};
 use rug::Rational;
 use sigmastar_decide::rates::OscillatorMatrix;
 use sigmastar_exact::enclosure::{Enclosure, Truth};
 use sigmastar_exact::number::{Direction, round_f64, round_rational};
 use sigmastar_matrix::ScaledMatrix;
+use sigmastar_propose::rates::oscillators::{Proposed, propose};
 use sigmastar_theory::data::Data;
-
-/// An eigenvalue decomposition of A in floating point.
-struct Eigen {
-    values: Vec<c64>,
-    /// The inverse of the matrix of eigenvectors.
-    inverse: Mat<c64>,
-    /// `V* V`.
-    gram: Mat<c64>,
-}
 
 /// What is proved of P_zeta of Lemma 1 of the paper (P:lemma:hurwitzPhiM) for one n_o.
 ///
@@ -38,57 +29,20 @@ pub struct Lemma {
 #[must_use]
 pub fn lemma(data: &Data<'_>, n_o: u32) -> Option<Lemma> {
     let system = OscillatorMatrix::new(data, n_o);
-    let found = eigen(&system)?;
-    let p = largest(&system, &proposed(&system, &found)?)?;
+    let Proposed { p, largest, abscissa } = propose(&system)?;
+    let p = proved(&system, &p, largest)?;
     let rate = round_rational(&(Rational::from(1) / (p.clone() * 2u32)), 6, Direction::Down);
-    let abscissa = found.values.iter().map(|value| value.re).fold(f64::NEG_INFINITY, f64::max);
     Some(Lemma { p, rate, abscissa })
 }
 
-/// The eigenvalues and eigenvectors of A in floating point.
-fn eigen(of: &OscillatorMatrix) -> Option<Eigen> {
-    let n = of.order();
-    let b: Vec<f64> = of.b.iter().map(Enclosure::midpoint_f64).collect();
-    let mu = of.mu.midpoint_f64();
-    let mut a = Mat::from_fn(n, n, |i, j| -mu * b[i] * b[j]);
-    for column in 0..n {
-        if let Some((row, entry)) = of.phi(column) {
-            a[(row, column)] += entry.midpoint_f64();
-        }
-    }
-    // A NaN would not stop the iteration.
-    if !a.as_ref().is_all_finite() {
-        return None;
-    }
-    let eigen = a.eigen().ok()?;
-    let vectors = eigen.U().to_owned();
-    let values: Vec<c64> = eigen.S().column_vector().iter().copied().collect();
-    use faer::linalg::solvers::DenseSolveCore;
-    let inverse = vectors.partial_piv_lu().inverse();
-    let gram = vectors.adjoint() * &vectors;
-    Some(Eigen { values, inverse, gram })
-}
-
-/// P for A, in doubles: of the Lyapunov equation `P A + A'P = -2 I` in the basis of eigenvectors, twice of what is proved.
-fn proposed(of: &OscillatorMatrix, eigen: &Eigen) -> Option<Mat<f64>> {
-    let n = of.order();
-    // Y_ij = -2 (V*V)_ij/(conj(l_i) + l_j), P = V^-* Y V^-1.
-    let y = Mat::from_fn(n, n, |i, j| {
-        eigen.gram[(i, j)] * c64::new(-2.0, 0.0) / (eigen.values[i].conj() + eigen.values[j])
-    });
-    let complex = eigen.inverse.adjoint() * &y * &eigen.inverse;
-    let p = Mat::from_fn(n, n, |i, j| (complex[(i, j)].re + complex[(j, i)].re) / 2.0);
-    p.as_ref().is_all_finite().then_some(p)
-}
-
-/// An upper bound of the largest eigenvalue of P, taken as the exact rational numbers that its doubles are, where `P > 0` and
-/// `P A + A'P <= -I` are proved of it.
-fn largest(of: &OscillatorMatrix, p: &Mat<f64>) -> Option<Rational> {
+/// An upper bound of the largest eigenvalue of P, which is about this one, where `P > 0` and `P A + A'P <= -I` are proved of it. P is taken as
+/// the exact rational numbers that its doubles are; it is symmetric, by rows.
+fn proved(of: &OscillatorMatrix, p: &[Vec<f64>], largest: f64) -> Option<Rational> {
     let n = of.order();
     let precision = of.mu.precision();
     let exact: Option<Vec<Enclosure>> = (0..n)
         .flat_map(|i| (0..n).map(move |j| (i.max(j), i.min(j))))
-        .map(|at| Some(Enclosure::from_rational(&Rational::from_f64(p[at])?, precision)))
+        .map(|(i, j)| Some(Enclosure::from_rational(&Rational::from_f64(p[i][j])?, precision)))
         .collect();
     let exact = exact?;
     let at = |i: usize, j: usize| &exact[i * n + j];
@@ -109,17 +63,16 @@ fn largest(of: &OscillatorMatrix, p: &Mat<f64>) -> Option<Rational> {
         }
         if i == j { sum - Enclosure::one(precision) } else { sum }
     };
-    let proved = |matrix: Option<ScaledMatrix>| matrix.is_some_and(|m| m.is_positive_definite() == Truth::True);
-    if !proved(ScaledMatrix::from_enclosures(n, decay))
-        || !proved(ScaledMatrix::from_doubles(n, |i, j| p[(i, j)], &vec![0.0; n]))
+    let is_proved = |matrix: Option<ScaledMatrix>| matrix.is_some_and(|m| m.is_positive_definite() == Truth::True);
+    if !is_proved(ScaledMatrix::from_enclosures(n, decay))
+        || !is_proved(ScaledMatrix::from_doubles(n, |i, j| p[i][j], &vec![0.0; n]))
     {
         return None;
     }
-    let eigenvalues = p.self_adjoint_eigenvalues(Side::Lower).ok()?;
-    let largest = round_f64(*eigenvalues.last()? * 1.0001, 6, Direction::Up)?;
+    let largest = round_f64(largest * 1.0001, 6, Direction::Up)?;
     let bound = Enclosure::from_rational(&largest, precision);
     let below = |i: usize, j: usize| if i == j { &bound - at(i, j) } else { at(i, j).negate() };
-    proved(ScaledMatrix::from_enclosures(n, below)).then_some(largest)
+    is_proved(ScaledMatrix::from_enclosures(n, below)).then_some(largest)
 }
 
 #[cfg(test)]
@@ -153,7 +106,7 @@ mod tests {
     fn a_wrong_p_proves_nothing() {
         let spec = example();
         let system = OscillatorMatrix::new(&Data::new(&spec, 128), 0);
-        let of = |p: f64| largest(&system, &Mat::from_fn(1, 1, |_, _| p));
+        let of = |p: f64| proved(&system, &[vec![p]], p);
         assert!(of(0.251).is_some_and(|largest| largest >= Rational::from((251, 1000))));
         assert_eq!([of(0.249), of(0.0), of(-1.0)], [None, None, None]);
     }

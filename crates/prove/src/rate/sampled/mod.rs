@@ -1,15 +1,11 @@
 //! Rates of the law at samples for a given number of oscillators (derivation, 13.6, Proposition R_h).
 //!
-//! - [`condition`]: the largest decay that it can prove, in floating point, and multipliers for it;
-//! - `riccati`: the quadratic function for them, by a discrete Riccati equation;
 //! - [`noise`]: what noise of the measurement and a disturbance do to the error, by the same inequality with inputs;
 //! - [`rounding`]: what the rounding of the exported law adds to it;
 //! - [`bound`]: from a decay to `|e - e_per| <= C exp(-rate (t - t_0))` at the sampling instants, as a certificate has it.
 
 pub mod bound;
-pub mod condition;
 pub mod noise;
-mod riccati;
 pub mod rounding;
 
 #[cfg(test)]

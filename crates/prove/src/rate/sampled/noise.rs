@@ -13,42 +13,17 @@
 //! zs+ is moved by a vector of at most dz besides, which adds `sqrt(z_up) dz` to the root of W. With I what the inputs add to W in a sample and a
 //! level with `sqrt((level^2 + I)/(1+c)) + sqrt(z_up) dz <= level`, that root stays below the level, and s is `level/sqrt(e_low)`.
 
-use super::bound::{DIGITS, Proposal};
-use super::condition::SampledCondition;
-use super::rounding::{
-    Computed, ComputedLaw, Rounded, RoundingWitness, are_zeta_bounds, largest_of_zeta, measured, settled, zeta_bounds,
-};
+use super::rounding::{Computed, ComputedLaw, Rounded, RoundingWitness, are_zeta_bounds, measured, settled};
 use crate::rate::bound::Place;
-use crate::rate::descent::{Point, Thoroughness, descend};
-use crate::rate::noise::{Confinement, NoNoiseBound, NoiseBound};
-use faer::linalg::solvers::DenseSolveCore;
+use crate::rate::noise::{Confinement, NoNoiseBound, NoiseBound, kappa, proved, within_the_box};
 use rug::Rational;
 use sigmastar_decide::rates::OscillatorMatrix;
 use sigmastar_decide::rates::at_samples::{Inputs, SampledDynamics, SampledRateWitness};
-use sigmastar_decide::rates::inequality::{LoopBounds, is_above};
+use sigmastar_decide::rates::inequality::LoopBounds;
 use sigmastar_exact::enclosure::Enclosure;
-use sigmastar_exact::number::{Direction, round_f64, round_rational};
+use sigmastar_propose::rates::sampled_noise_search::{Strengths, propose};
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::sampled::SampledLaw;
-use std::cell::Cell;
-
-/// Shares of the c of the search that are claimed, in this order: what is left makes the form definite.
-const SHARES: [f64; 3] = [0.99, 0.9, 0.6];
-
-/// By what share the weights of the inputs may be above, and e_low below what is best.
-const ROOM: f64 = 1e-3;
-
-/// Digits of the numbers beside Pi.
-const FIGURES: u32 = 6;
-
-/// What is given away of what the scalar condition leaves over, tried in turn: g_r falls with it.
-const SLACKS: [f64; 3] = [0.003, 0.05, 0.3];
-
-/// Steps of a search in the rate, in the size of the inputs, and in their ratio.
-const STEPS: [usize; 3] = [12, 8, 8];
-
-/// Orders of Pi from which on fewer steps are made.
-const LARGE: usize = 50;
 
 /// What proves bounds under noise at samples.
 #[derive(Clone, Debug)]
@@ -110,10 +85,12 @@ pub fn noise_bound(
         }
     };
     let strengths = Strengths { sizes, of_d: [enlarged * sizes[0], c_d * disturbance], moved };
-    let search = Search::new(&dynamics, strengths).ok_or(not_found)?;
-    let found = search.best().ok_or(not_found)?;
-    let of = |share: &f64| DIGITS.iter().find_map(|digits| proved(&dynamics, &found, *share, *digits));
-    let Proved { witness, e_low, of_zeta } = SHARES.iter().find_map(of).ok_or(not_found)?;
+    let found = propose(&dynamics, strengths).ok_or(not_found)?;
+    // z_low and z_up, of a law in doubles.
+    let zeta_bounds = if in_doubles { Some(found.zeta_bounds().ok_or(not_found)?) } else { None };
+    let precision = law.step.precision();
+    let between = |pi: &[_]| zeta_bounds.as_ref().is_none_or(|of_zeta| are_zeta_bounds(pi, of_zeta, precision));
+    let (witness, e_low) = proved(&dynamics, &found, precision, between).ok_or(not_found)?;
 
     let Inputs { g_d, g_v, g_r } = &witness.inputs;
     let weighed = |weight: &Option<Rational>, size: Enclosure| {
@@ -123,7 +100,7 @@ pub fn noise_bound(
         weighed(g_d, added(control)) + weighed(g_v, v_bar.clone()) + weighed(g_r, &sample.c_d * &d_bar)
     };
     let c = number(&witness.c);
-    let rounding = match (&computed, of_zeta) {
+    let rounding = match (&computed, zeta_bounds) {
         (Some(computed), Some(of_zeta)) => {
             Some(settled(computed, &c, of_zeta, |rounded| inputs(Some(&rounded.control)))?)
         }
@@ -134,135 +111,15 @@ pub fn noise_bound(
         Some(RoundingWitness { level, .. }) => number(level) / number(&e_low).sqrt(),
     };
     let error_box = place.error_box;
-    let kappa = data.p_up.sqrt() * &error_box.k_f / &error_box.rate;
     let two = data.rational(&Rational::from(2));
     let half = &law.step / &two;
     let k_e = error_box.sector.below.max(&error_box.sector.above);
-    let coupling = if bounds.has_x { &error_box.k_x * &kappa } else { data.zero() };
+    let coupling = if bounds.has_x { &error_box.k_x * kappa(data, error_box) } else { data.zero() };
     let bracket = Enclosure::one(data.precision) - &half * (k_e + coupling);
     let s = (at_samples + half * d_bar) / &bracket;
-    let peak = confinement.level.sqrt() + &s;
-    let [d_x, d_e] = confinement.radii.map(number);
-    let of_x = ((&confinement.level / number(confinement.w_x)).sqrt() + kappa * &s) / data.p_low.sqrt();
     if !(data.zero().lt(&error_box.rate).is_true() && data.zero().lt(&bracket).is_true()) {
         return Err(not_found);
     }
-    if !(peak.lt(&d_e).is_true() && of_x.lt(&d_x).is_true()) {
-        let needed = (&peak / d_e).max(&(of_x / d_x)).upper_f64();
-        return Err(NoNoiseBound::LeavesBox { limit: s.upper_f64(), needed });
-    }
-    let up = |value: &Enclosure| {
-        value.upper_rational().map(|upper| round_rational(&upper, FIGURES, Direction::Up)).ok_or(not_found)
-    };
-    Ok(NoiseBound { proof: SampledNoise { witness, rounding }, e_low, limit: up(&s)?, peak: up(&peak)? })
-}
-
-/// What is proved of the numbers of a search.
-struct Proved {
-    witness: SampledRateWitness,
-    e_low: Rational,
-    /// z_low and z_up; of a law in doubles.
-    of_zeta: Option<[Rational; 2]>,
-}
-
-/// A witness with a share of the proposed c and Pi in so many digits, and e_low; proved.
-fn proved(dynamics: &SampledDynamics<'_>, found: &Found, share: f64, digits: u32) -> Option<Proved> {
-    let Proposal { c, pi, l_slope, l_hold, of_x } = &found.proposal;
-    let scaled = Proposal { c: c * share, pi: pi.clone(), l_slope: *l_slope, l_hold: *l_hold, of_x: of_x.clone() };
-    let round = |weight: f64| round_f64(weight * (1.0 + ROOM), FIGURES, Direction::Up);
-    let weight = |weight: Option<f64>| match weight {
-        None => Some(None),
-        Some(weight) => round(weight).map(Some),
-    };
-    let Inputs { g_d, g_v, g_r } = found.inputs;
-    let inputs = Inputs { g_d: weight(g_d)?, g_v: weight(g_v)?, g_r: weight(g_r)? };
-    let witness = SampledRateWitness { inputs, ..scaled.in_digits(digits)? };
-    let e_low = round_f64(found.e_low * (1.0 - ROOM), FIGURES, Direction::Down).filter(|e_low| *e_low > 0)?;
-    let precision = dynamics.law.step.precision();
-    let of_zeta = if found.rounds { Some(zeta_bounds(pi)?) } else { None };
-    let between = of_zeta.as_ref().is_none_or(|of_zeta| are_zeta_bounds(&witness.pi, of_zeta, precision));
-    let holds = dynamics.proves(&witness) && is_above(&witness.pi, &e_low, precision) && between;
-    holds.then_some(Proved { witness, e_low, of_zeta })
-}
-
-/// The numbers of a proof in doubles.
-struct Found {
-    proposal: Proposal,
-    inputs: Inputs<f64>,
-    /// 1 over the first entry of the inverse of Pi.
-    e_low: f64,
-    /// s^2.
-    square: f64,
-    /// Whether the law rounds.
-    rounds: bool,
-}
-
-/// The sizes of the inputs.
-#[derive(Clone, Copy)]
-struct Strengths {
-    /// Of d, of which rounding is a part, and of v.
-    sizes: [f64; 2],
-    /// Of D, and c_d d_bar.
-    of_d: [f64; 2],
-    /// dz, where the law rounds.
-    moved: Option<f64>,
-}
-
-struct Search {
-    condition: SampledCondition,
-    largest: f64,
-    strengths: Strengths,
-}
-
-impl Search {
-    fn new(dynamics: &SampledDynamics<'_>, strengths: Strengths) -> Option<Search> {
-        let condition = SampledCondition::new(dynamics)?;
-        let largest = condition.largest_rate()?;
-        Some(Search { condition, largest, strengths })
-    }
-
-    /// About the least s: over the rate, the size of the inputs, with both over their ratio, and what is given away.
-    fn best(&self) -> Option<Found> {
-        let large = self.condition.order() > LARGE;
-        let steps = if large { STEPS.map(|steps| steps / 3) } else { STEPS };
-        let slack = Cell::new(SLACKS[0]);
-        let cost = |point: Point, slack: f64| self.solve(point, slack).map_or(f64::INFINITY, |found| found.square);
-        let settle = |at: Point| {
-            let best = SLACKS.into_iter().min_by(|one, other| cost(at, *one).total_cmp(&cost(at, *other)));
-            slack.set(best.unwrap_or_else(|| slack.get()));
-        };
-        let thoroughness = Thoroughness { steps, last: 6.0 };
-        let at = descend(thoroughness, self.strengths.sizes, |point| cost(point, slack.get()), settle);
-        self.solve(at, slack.get())
-    }
-
-    fn solve(&self, point: Point, slack: f64) -> Option<Found> {
-        let rate = point.rate(self.largest);
-        let multipliers = self.condition.multipliers(rate, slack)?;
-        let Strengths { sizes: [d, v], of_d: [of_d, within], moved } = self.strengths;
-        let [gam_d, gam_v] = point.weights(multipliers.room, self.strengths.sizes, self.condition.noise_gain);
-        let system = self.condition.disturbed(rate, &multipliers, [gam_d, gam_v]);
-        let pi = system.largest()?;
-        let first = pi.partial_piv_lu().inverse()[(0, 0)];
-        let inputs = Inputs {
-            g_d: (d > 0.0).then_some(1.0 / gam_d),
-            g_v: (v > 0.0).then_some(1.0 / gam_v),
-            g_r: (within > 0.0 && multipliers.of_x.is_some()).then_some(multipliers.g_r),
-        };
-        let weighed = |weight: Option<f64>, size: f64| weight.map_or(0.0, |weight| weight * size * size);
-        let level = weighed(inputs.g_d, of_d) + weighed(inputs.g_v, v) + weighed(inputs.g_r, within);
-        let c = self.condition.c(rate);
-        let square = match moved {
-            None => level * first / c,
-            Some(moved) => {
-                let moved = largest_of_zeta(&pi)?.sqrt() * moved;
-                let root = (moved * (1.0 + c) + (moved * moved * (1.0 + c) + c * level).sqrt()) / c;
-                root * root * first
-            }
-        };
-        let (l_slope, l_hold, of_x) = (multipliers.l_slope, multipliers.l_hold, multipliers.of_x);
-        let proposal = Proposal { c, pi, l_slope, l_hold, of_x };
-        let rounds = moved.is_some();
-        (square.is_finite() && square > 0.0).then_some(Found { proposal, inputs, e_low: 1.0 / first, square, rounds })
-    }
+    let [limit, peak] = within_the_box(data, error_box, confinement, &s)?;
+    Ok(NoiseBound { proof: SampledNoise { witness, rounding }, e_low, limit, peak })
 }

@@ -1,5 +1,5 @@
-use super::riccati::{self, Proposal};
-use super::small_gain::SmallGain;
+use super::{Condition, Proposal, RateNumbers, SmallGain};
+use crate::semidefinite::propose;
 use faer::Mat;
 use rug::Rational;
 use sigmastar_decide::rates::OscillatorMatrix;
@@ -7,7 +7,6 @@ use sigmastar_decide::rates::inequality::*;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_lang::spec::Specification;
 use sigmastar_matrix::AffineMatrix;
-use sigmastar_propose::semidefinite::propose;
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::paths::Paths;
 use sigmastar_theory::derivation::stability::ErrorBox;
@@ -45,10 +44,10 @@ fn of<'a>(oscillators: &'a OscillatorMatrix, bounds: &'a LoopBounds, sigma: Rati
 }
 
 /// A proposal for a share of the largest rate, with that rate.
-fn proposal(dynamics: &ErrorDynamics<'_>, share: f64) -> (Proposal, f64) {
+fn proposal(dynamics: &ErrorDynamics<'_>, share: f64) -> (Proposal<RateNumbers>, f64) {
     let condition = SmallGain::new(dynamics).expect("finite");
     let largest = condition.largest_rate().expect("the condition holds");
-    (riccati::propose(&condition, largest, share).expect("a proposal"), largest)
+    (condition.propose(largest, share).expect("a proposal"), largest)
 }
 
 /// Its witness.

@@ -3,6 +3,16 @@
 
 use sigmastar_exact::number::Portable;
 
+/// Steps of a search for where a product is least, or a gain largest.
+pub(super) const GOLDEN: usize = 40;
+
+/// Frequencies about each eigenvalue at which a transfer function is looked at, in units of its distance from the line or the circle.
+pub(super) const OFFSETS: [f64; 15] =
+    [0.0, 0.1, 0.25, 0.5, 0.8, 1.2, 2.0, 4.0, 10.0, -0.1, -0.25, -0.5, -1.0, -2.0, -5.0];
+
+/// Orders of Pi from which on fewer steps are made.
+const LARGE: usize = 50;
+
 /// Where a search is.
 #[derive(Clone, Copy)]
 pub(super) struct Point {
@@ -15,11 +25,17 @@ pub(super) struct Point {
 }
 
 /// How thorough a search is.
-pub(super) struct Thoroughness {
+pub(super) struct Thoroughness<'a> {
+    /// That of Pi.
+    pub(super) order: usize,
     /// Steps in the rate, in the size of the inputs, and in their ratio.
     pub(super) steps: [usize; 3],
+    /// By what they are divided where Pi is large.
+    pub(super) fewer: usize,
     /// The last position.
     pub(super) last: f64,
+    /// What is given away of what the condition leaves over: the first at first, and the best before the ratio is sought.
+    pub(super) slacks: &'a [f64],
 }
 
 impl Point {
@@ -47,35 +63,40 @@ impl Point {
     }
 }
 
-/// Where a cost is about least; what else it depends on is chosen anew in `settle`, before the ratio is.
-pub(super) fn descend(
-    Thoroughness { steps, last }: Thoroughness,
+/// The solution with about the least square, for inputs of these sizes; `None` where there is none.
+pub(super) fn least<S>(
+    Thoroughness { order, steps, fewer, last, slacks }: &Thoroughness<'_>,
     sizes: [f64; 2],
-    cost: impl Fn(Point) -> f64,
-    settle: impl Fn(Point),
-) -> Point {
+    solve: impl Fn(Point, f64) -> Option<S>,
+    square: impl Fn(&S) -> f64,
+) -> Option<S> {
+    let cost = |point: Point, slack: f64| solve(point, slack).map_or(f64::INFINITY, |found| square(&found));
+    let steps = if *order > LARGE { steps.map(|steps| steps / fewer) } else { *steps };
     let both = sizes.iter().all(|size| *size > 0.0);
-    let mut at = Point { position: 0.0, size: -1.0, ratio: 0.0 };
+    let (mut at, mut slack) = (Point { position: 0.0, size: -1.0, ratio: 0.0 }, *slacks.first()?);
     for round in 0..if both { 2 } else { 1 } {
         // The size that was best for one rate is near that for the next.
         let mut size = at.size;
         let of_position = |position| {
-            let of = |size: f64| cost(Point { position, size, ..at });
+            let of = |size: f64| cost(Point { position, size, ..at }, slack);
             let (found, value) = golden(of, [size - 3.0, size + 3.0], steps[1]);
             if value.is_finite() {
                 size = found;
             }
             value
         };
-        let (position, _) = golden(of_position, [-5.0, last], steps[0]);
-        (size, _) = golden(|size| cost(Point { position, size, ..at }), [size - 3.0, size + 3.0], steps[1]);
+        let (position, _) = golden(of_position, [-5.0, *last], steps[0]);
+        (size, _) = golden(|size| cost(Point { position, size, ..at }, slack), [size - 3.0, size + 3.0], steps[1]);
         at = Point { position, size, ..at };
-        settle(at);
+        if slacks.len() > 1 {
+            let best = slacks.iter().copied().min_by(|one, other| cost(at, *one).total_cmp(&cost(at, *other)));
+            slack = best.unwrap_or(slack);
+        }
         if both && round == 0 {
-            (at.ratio, _) = golden(|ratio| cost(Point { ratio, ..at }), [-3.0, 3.0], steps[2]);
+            (at.ratio, _) = golden(|ratio| cost(Point { ratio, ..at }, slack), [-3.0, 3.0], steps[2]);
         }
     }
-    at
+    solve(at, slack)
 }
 
 /// Where a function is about least, by golden sections with so many steps, and what it is there; where it is infinite on both sides the

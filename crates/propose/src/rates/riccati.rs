@@ -1,70 +1,7 @@
 //! Pi of the closed loop's Lyapunov function, proposed by a Riccati equation in floating point.
 
-use super::small_gain::{FloatDynamics, SmallGain};
 use faer::linalg::solvers::DenseSolveCore;
 use faer::{Mat, c64};
-use rug::Rational;
-use sigmastar_decide::rates::inequality::RateWitness;
-use sigmastar_exact::number::{Direction, Portable, round_f64};
-
-/// One of so many parts of what the small-gain condition leaves over goes to each of its two sides.
-const PARTS: f64 = 3.0;
-
-/// The numbers of a proof in doubles, with l = 1.
-#[derive(Clone, Debug)]
-pub struct Proposal {
-    /// The rate, rounded down.
-    pub rate: Rational,
-    /// w.
-    pub w: f64,
-    /// Pi.
-    pub pi: Mat<f64>,
-}
-
-impl Proposal {
-    /// The witness with w and each entry of Pi to so many digits, 0 where it is beyond those of its diagonal; `None` if one is not finite.
-    #[must_use]
-    pub fn in_digits(&self, digits: u32) -> Option<RateWitness> {
-        self.witness(round_f64(self.w, digits, Direction::Nearest), in_digits(&self.pi, digits))
-    }
-
-    fn witness(&self, w: Option<Rational>, pi: Option<Vec<Vec<Rational>>>) -> Option<RateWitness> {
-        Some(RateWitness { rate: self.rate.clone(), w: w?, pi: pi?, l: Rational::from(1), inputs: [None, None] })
-    }
-}
-
-/// The lower triangle of Pi to so many digits, 0 where an entry is beyond those of its diagonal; `None` if one is not finite.
-pub(super) fn in_digits(pi: &Mat<f64>, digits: u32) -> Option<Vec<Vec<Rational>>> {
-    let least = 0.1f64.portable_powi(digits as i32 + 1);
-    let entry = |i: usize, j: usize| {
-        let small = pi[(i, j)].abs() < least * (pi[(i, i)] * pi[(j, j)]).sqrt();
-        if small { Some(Rational::new()) } else { round_f64(pi[(i, j)], digits, Direction::Nearest) }
-    };
-    (0..pi.nrows()).map(|i| (0..=i).map(|j| entry(i, j)).collect()).collect()
-}
-
-/// A proposal for a share of the largest rate, with Pi from the Riccati equation
-/// `Pi (A_c + rate' I) + (.)' + c e e' + c_v v v' + beta Pi B B'Pi = 0` at a rate' halfway between the claimed and the largest one: the
-/// difference leaves the term 2 (rate' - rate) Pi in the matrix, which makes it definite.
-#[must_use]
-pub fn propose(condition: &SmallGain, largest: f64, share: f64) -> Option<Proposal> {
-    let shifted = largest * (1.0 + share) / 2.0;
-    let multipliers = condition.multipliers(shifted, PARTS)?;
-    let FloatDynamics { matrix, input, moved, .. } = &condition.dynamics;
-    let n = input.len();
-    let a = Mat::from_fn(n, n, |i, j| matrix[(i, j)] + if i == j { shifted } else { 0.0 });
-    let output = Mat::from_fn(n, n, |i, j| {
-        let of_e = if i == 0 && j == 0 { multipliers.output } else { 0.0 };
-        of_e + if moved.is_empty() { 0.0 } else { multipliers.moved * moved[i] * moved[j] }
-    });
-    let inputs = [(multipliers.input, input.clone())];
-    let equation = Equation { a: &a, inputs: &inputs, output: &output };
-    let pi = equation.stabilising([multipliers.output, multipliers.input])?;
-    // The subspace is less accurate where eigenvalues of the Hamiltonian matrix are close to the imaginary axis.
-    let pi = equation.refined(&pi).unwrap_or(pi);
-    let rate = round_f64(largest * share, 6, Direction::Down)?;
-    Some(Proposal { rate, w: multipliers.w, pi })
-}
 
 /// `Pi A + A'Pi + C + Pi R Pi = 0`, R the sum of the beta B B' of some inputs.
 pub(super) struct Equation<'a> {
@@ -79,7 +16,7 @@ pub(super) struct Equation<'a> {
 impl Equation<'_> {
     /// The least symmetric solution, from the stable subspace of the Hamiltonian matrix `[[A, R], [-C, -A']]`: with [X; Y] a
     /// basis of it, Pi = Y X^-1. The sizes are those of C and of R.
-    pub(super) fn stabilising(&self, [of_output, of_gain]: [f64; 2]) -> Option<Mat<f64>> {
+    fn stabilising(&self, [of_output, of_gain]: [f64; 2]) -> Option<Mat<f64>> {
         let Equation { a, inputs, output } = self;
         let n = a.nrows();
         // Pi in the unit root(size of C/size of R), in which both terms have the same size.
@@ -111,8 +48,15 @@ impl Equation<'_> {
         pi.as_ref().is_all_finite().then_some(pi)
     }
 
+    /// The same, after one step of Newton's method where that can be made: the subspace is less accurate where eigenvalues of the Hamiltonian
+    /// matrix are close to the imaginary axis.
+    pub(super) fn solution(&self, sizes: [f64; 2]) -> Option<Mat<f64>> {
+        let pi = self.stabilising(sizes)?;
+        Some(self.refined(&pi).unwrap_or(pi))
+    }
+
     /// One step of Newton's method: `Pi + D` with `D K + K'D` the negative of the left side of the equation at Pi, `K = A + R Pi`.
-    pub(super) fn refined(&self, pi: &Mat<f64>) -> Option<Mat<f64>> {
+    fn refined(&self, pi: &Mat<f64>) -> Option<Mat<f64>> {
         let Equation { a, inputs, output } = self;
         let n = a.nrows();
         let image = |input: &[f64]| (0..n).map(|i| (0..n).map(|j| pi[(i, j)] * input[j]).sum()).collect::<Vec<f64>>();

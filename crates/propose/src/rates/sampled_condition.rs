@@ -14,19 +14,17 @@
 //! `H_e = h H_y/(z-a)`, `G(z) = b'R (z - R)^-1 b`. In r it is convex. An input gain b, `|b - b_c| <= b_d`, is an input more at the same place,
 //! of `V = -(sigma h/(z-a) + K h G) H_y`, with one number q more. Nothing here is a claim: it says where to look for Pi.
 
-use super::riccati::System;
-use crate::rate::descent::golden;
-use crate::rate::small_gain::{GOLDEN, Limit};
+use super::least::{GOLDEN, OFFSETS, golden};
+use super::proposal::{Condition, Numbers, Proposal};
+use super::sampled_riccati::System;
 use faer::{Mat, c64};
-use sigmastar_decide::rates::at_samples::{OfX, SampledDynamics};
+use rug::Rational;
+use sigmastar_decide::rates::at_samples::{Inputs, OfX, SampledDynamics, SampledRateWitness};
 use sigmastar_exact::enclosure::Enclosure;
-use sigmastar_exact::number::Portable;
+use sigmastar_exact::number::{Direction, Portable, round_f64};
 
-/// Steps of the bisection in the rate.
+/// Steps of a bisection.
 const BISECTIONS: u32 = 40;
-
-/// Frequencies about each eigenvalue, in units of its distance from the line.
-const OFFSETS: [f64; 15] = [0.0, 0.1, 0.25, 0.5, 0.8, 1.2, 2.0, 4.0, 10.0, -0.1, -0.25, -0.5, -1.0, -2.0, -5.0];
 
 /// q of an input gain, over D_e + r D_y.
 const SHARES: [f64; 9] = [0.01, 0.03, 0.1, 0.2, 0.4, 0.7, 1.0, 2.0, 5.0];
@@ -63,7 +61,7 @@ struct States {
 
 /// The scalar condition of one n_o at one gain.
 pub struct SampledCondition {
-    pub(super) step: f64,
+    step: f64,
     sigma: f64,
     /// K, and b_c.
     k: f64,
@@ -113,13 +111,13 @@ impl Choice {
 
 /// The multipliers of a proposal in doubles, and the system from which Pi comes.
 pub(super) struct Multipliers {
-    pub(super) l_slope: f64,
-    pub(super) l_hold: f64,
+    l_slope: f64,
+    l_hold: f64,
     pub(super) of_x: Option<OfX<f64>>,
     /// The least g_r; 0 without x.
     pub(super) g_r: f64,
     /// The sum of 1/l over what is uncertain, and what the condition leaves besides.
-    pub(super) input: f64,
+    input: f64,
     pub(super) room: f64,
     /// The roots of what e, y and what the input gain moves weigh.
     weights: [f64; 3],
@@ -203,25 +201,6 @@ impl SampledCondition {
     /// The order of Pi.
     pub(super) fn order(&self) -> usize {
         self.row.len()
-    }
-
-    /// The rates of the loop with the uncertain parts in the middle, and of x.
-    fn ceilings(&self) -> [f64; 2] {
-        let of = |value: &c64| -value.re.portable_hypot(value.im).portable_ln() / self.step;
-        let of_loop = self.eigenvalues.iter().map(of).fold(f64::INFINITY, f64::min);
-        // c below (2 a_2 h - 2 h kf c_X)/(1 + h kf c_X)^2.
-        let of_x = self.states.map_or(f64::INFINITY, |States { decay, kf, c_x, .. }| {
-            let c = 2.0 * (decay * self.step - kf * c_x) / (1.0 + kf * c_x).portable_powi(2);
-            (1.0 + c).max(0.0).portable_ln() / (2.0 * self.step)
-        });
-        [of_loop, of_x]
-    }
-
-    /// What the rate is limited by.
-    #[must_use]
-    pub fn limit(&self) -> Limit {
-        let [of_loop, of_x] = self.ceilings();
-        if of_x <= of_loop { Limit::Plant(of_x) } else { Limit::Oscillators(of_loop) }
     }
 
     /// c of a rate.
@@ -314,24 +293,6 @@ impl SampledCondition {
         all.min_by(|one, other| one.1.total_cmp(&other.1)).unwrap_or((of(0.0, 0.0), f64::NAN))
     }
 
-    /// The largest rate of the condition, in 1/time; `None` where not even a tiny one fulfils it.
-    #[must_use]
-    pub fn largest_rate(&self) -> Option<f64> {
-        let [of_loop, of_x] = self.ceilings();
-        let ceiling = of_loop.min(of_x);
-        let holds = |rate: f64| self.best(self.sizes(self.c(rate)), &self.along(rate)).1 < 1.0;
-        // NaN and negative ceilings end here too.
-        if !(ceiling > 0.0 && ceiling.is_finite() && holds(1e-9 * ceiling)) {
-            return None;
-        }
-        let (mut low, mut up) = (1e-9 * ceiling, ceiling);
-        for _ in 0..BISECTIONS {
-            let middle = f64::midpoint(low, up);
-            if holds(middle) { low = middle } else { up = middle }
-        }
-        Some(low)
-    }
-
     /// Multipliers at a rate, with a share of what the condition leaves over given away, so that every inequality of the module is strict.
     pub(super) fn multipliers(&self, rate: f64, share: f64) -> Option<Multipliers> {
         let c = self.c(rate);
@@ -421,5 +382,69 @@ impl SampledCondition {
                 _ => root * multipliers.weights[i] * direct[i],
             }),
         }
+    }
+}
+
+impl Condition for SampledCondition {
+    type Numbers = SampledNumbers;
+
+    const BISECTIONS: u32 = BISECTIONS;
+
+    fn ceilings(&self) -> [f64; 2] {
+        let of = |value: &c64| -value.re.portable_hypot(value.im).portable_ln() / self.step;
+        let of_loop = self.eigenvalues.iter().map(of).fold(f64::INFINITY, f64::min);
+        // c below (2 a_2 h - 2 h kf c_X)/(1 + h kf c_X)^2.
+        let of_x = self.states.map_or(f64::INFINITY, |States { decay, kf, c_x, .. }| {
+            let c = 2.0 * (decay * self.step - kf * c_x) / (1.0 + kf * c_x).portable_powi(2);
+            (1.0 + c).max(0.0).portable_ln() / (2.0 * self.step)
+        });
+        [of_loop, of_x]
+    }
+
+    fn holds(&self, rate: f64) -> bool {
+        self.best(self.sizes(self.c(rate)), &self.along(rate)).1 < 1.0
+    }
+
+    fn propose(&self, largest: f64, share: f64) -> Option<Proposal<SampledNumbers>> {
+        let multipliers = self.multipliers(largest * f64::midpoint(1.0, share), 0.5)?;
+        let pi = multipliers.system.least()?;
+        Some(Proposal { pi, numbers: multipliers.numbers(self.c(largest * share)) })
+    }
+}
+
+/// The numbers of a proof at samples beside Pi, in doubles.
+#[derive(Clone, Debug)]
+pub struct SampledNumbers {
+    /// c.
+    pub c: f64,
+    /// l_slope.
+    pub l_slope: f64,
+    /// l_hold.
+    pub l_hold: f64,
+    /// Those of x.
+    pub of_x: Option<OfX<f64>>,
+}
+
+impl Multipliers {
+    /// Those of a proof, with this c.
+    pub(super) fn numbers(&self, c: f64) -> SampledNumbers {
+        SampledNumbers { c, l_slope: self.l_slope, l_hold: self.l_hold, of_x: self.of_x.clone() }
+    }
+}
+
+impl Numbers for SampledNumbers {
+    type Witness = SampledRateWitness;
+
+    fn witness(&self, pi: Vec<Vec<Rational>>, digits: u32) -> Option<SampledRateWitness> {
+        let round = |value: f64| round_f64(value, digits, Direction::Nearest);
+        let of_x = match &self.of_x {
+            None => None,
+            Some(OfX { w, l_x, l_e, l_y }) => {
+                Some(OfX { w: round(*w)?, l_x: round(*l_x)?, l_e: round(*l_e)?, l_y: round(*l_y)? })
+            }
+        };
+        let c = round_f64(self.c, 9, Direction::Down)?;
+        let [l_slope, l_hold] = [round(self.l_slope)?, round(self.l_hold)?];
+        Some(SampledRateWitness { pi, c, l_slope, l_hold, of_x, inputs: Inputs::default() })
     }
 }

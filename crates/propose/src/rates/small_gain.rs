@@ -17,39 +17,24 @@
 //! with one, if and only if `((k_d + kappa k_f)^2 |H|^2 + p b_d^2 |V|^2)(1 + 1/p) < 1` for some p > 0. Nothing here is a claim: it says
 //! where to look for Pi.
 
-use super::descent::golden;
+use super::least::{GOLDEN, OFFSETS, golden};
+use super::proposal::{Condition, Numbers, Proposal};
+use super::riccati::Equation;
 use faer::{Mat, c64};
+use rug::Rational;
 use sigmastar_decide::rates::OscillatorMatrix;
-use sigmastar_decide::rates::inequality::ErrorDynamics;
+use sigmastar_decide::rates::inequality::{ErrorDynamics, RateWitness};
 use sigmastar_exact::enclosure::Enclosure;
-use sigmastar_exact::number::Portable;
+use sigmastar_exact::number::{Direction, Portable, round_f64};
 
-/// Steps of the bisection in the rate.
-const BISECTIONS: u32 = 45;
-
-/// Steps of a search for where a product is least, or a gain largest.
-pub(super) const GOLDEN: usize = 40;
-
-/// Frequencies about each eigenvalue, in units of its distance from the line.
-const OFFSETS: [f64; 15] = [0.0, 0.1, 0.25, 0.5, 0.8, 1.2, 2.0, 4.0, 10.0, -0.1, -0.25, -0.5, -1.0, -2.0, -5.0];
+/// One of so many parts of what the condition leaves over goes to each of its two sides, for a rate.
+const PARTS: f64 = 3.0;
 
 /// p of an input gain.
 const SHARES: [f64; 11] = [0.01, 0.03, 0.1, 0.2, 0.4, 0.7, 1.0, 2.0, 5.0, 15.0, 50.0];
 
-/// The scalar condition of one n_o at one gain.
+/// The scalar condition of one n_o at one gain: the loop in doubles, with dq/de and the input gain in the middle.
 pub struct SmallGain {
-    pub(super) dynamics: FloatDynamics,
-    /// Those eigenvalues of A_c with Im >= 0.
-    eigenvalues: Vec<c64>,
-    has_x: bool,
-    x_decay: f64,
-    root_p_up: f64,
-    k_x: f64,
-    k_f: f64,
-}
-
-/// The loop in doubles, with dq/de and the input gain in the middle.
-pub(super) struct FloatDynamics {
     /// A_c.
     pub(super) matrix: Mat<f64>,
     /// B.
@@ -68,19 +53,27 @@ pub(super) struct FloatDynamics {
     frequency: f64,
     /// n_0, n_1, ..., n_(n_o).
     weights: Vec<f64>,
+    /// Those eigenvalues of A_c with Im >= 0.
+    eigenvalues: Vec<c64>,
+    has_x: bool,
+    x_decay: f64,
+    root_p_up: f64,
+    k_x: f64,
+    k_f: f64,
 }
 
-impl FloatDynamics {
-    /// `None` where a number is not finite.
-    fn new(dynamics: &ErrorDynamics<'_>) -> Option<FloatDynamics> {
-        let oscillators = dynamics.oscillators;
+impl SmallGain {
+    /// The condition in doubles; `None` where a number is not finite.
+    #[must_use]
+    pub fn new(dynamics: &ErrorDynamics<'_>) -> Option<SmallGain> {
+        let (oscillators, bounds) = (dynamics.oscillators, dynamics.bounds);
         let (mu, sigma) = (oscillators.mu.midpoint_f64(), dynamics.sigma.to_f64());
         let b: Vec<f64> = oscillators.b.iter().map(Enclosure::midpoint_f64).collect();
         let [low, high] =
             dynamics.input_gain.as_ref().map_or([1.0; 2], |ends| ends.each_ref().map(Enclosure::midpoint_f64));
         let (gain, half_gain) = (f64::midpoint(low, high), (high - low) / 2.0);
-        let [least, most] = dynamics.bounds.slopes.each_ref().map(rug::Rational::to_f64);
-        let slope = f64::midpoint(least, most) + (1.0 - gain) * sigma;
+        let [least, most] = bounds.slopes.each_ref().map(Rational::to_f64);
+        let (half_slope, slope) = ((most - least) / 2.0, f64::midpoint(least, most) + (1.0 - gain) * sigma);
         let n = b.len() + 1;
         let input: Vec<f64> = std::iter::once(1.0).chain(b.iter().map(|b| -b)).collect();
         let row: Vec<f64> = std::iter::once(slope).chain(b.iter().map(|b| gain * mu * b)).collect();
@@ -91,17 +84,33 @@ impl FloatDynamics {
                 matrix[(row + 1, column + 1)] += entry.midpoint_f64();
             }
         }
+        // A NaN would not stop an iteration for eigenvalues.
+        if !(half_slope.is_finite() && matrix.as_ref().is_all_finite()) {
+            return None;
+        }
+        let values = matrix.eigenvalues().ok()?;
         // |b|^2 on the first state of each oscillator; the second has 0.
         let first = b.iter().enumerate().filter(|(i, _)| *i == 0 || i % 2 == 1);
-        let weights = first.map(|(_, b)| b.portable_powi(2)).collect();
         let moved = std::iter::once(-sigma).chain(b.iter().map(|b| mu * b));
-        let moved = if half_gain > 0.0 { moved.collect() } else { Vec::new() };
-        let (half_slope, frequency) = ((most - least) / 2.0, oscillators.frequency.midpoint_f64());
-        // A NaN would not stop an iteration for eigenvalues.
-        let finite = half_slope.is_finite() && matrix.as_ref().is_all_finite();
-        let found =
-            FloatDynamics { matrix, input, moved, half_slope, half_gain, sigma, mu, gain, slope, frequency, weights };
-        finite.then_some(found)
+        Some(SmallGain {
+            moved: if half_gain > 0.0 { moved.collect() } else { Vec::new() },
+            matrix,
+            input,
+            half_slope,
+            half_gain,
+            sigma,
+            mu,
+            gain,
+            slope,
+            frequency: oscillators.frequency.midpoint_f64(),
+            weights: first.map(|(_, b)| b.portable_powi(2)).collect(),
+            eigenvalues: values.into_iter().filter(|value| value.im >= 0.0).collect(),
+            has_x: bounds.has_x,
+            x_decay: bounds.x_decay.to_f64(),
+            root_p_up: bounds.root_p_up.to_f64(),
+            k_x: bounds.k_x.to_f64(),
+            k_f: bounds.k_f.to_f64(),
+        })
     }
 
     /// B_v of [`sigmastar_decide::rates::inequality`] in the middle, and sigma + mu b'b.
@@ -132,76 +141,6 @@ impl FloatDynamics {
         let (direct, model) = (s + real(self.sigma), sum * real(self.mu));
         [direct * (real(1.0) + model * real(self.gain)) - real(self.slope), real(self.sigma) + direct * model]
     }
-}
-
-/// What keeps a rate from being larger, in floating point: an explanation, and no claim.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Limit {
-    /// The rate a_2 at which x decays in the error box.
-    Plant(f64),
-    /// The slowest eigenvalue of the loop with dq/de in the middle of its bounds, and without x.
-    Oscillators(f64),
-    /// The slowest eigenvalue of the loop with the first derivatives in the middle of what is known of them together.
-    Middle(f64),
-}
-
-/// What the condition at one rate leaves to choose from.
-#[derive(Clone, Copy, Debug)]
-pub struct Budget {
-    /// The largest k_d + kappa k_f that the rest of the loop allows, or infinity.
-    pub available: f64,
-    /// k_d.
-    pub from_e: f64,
-    /// kappa k_f.
-    pub from_x: f64,
-    /// p of an input gain.
-    share: f64,
-}
-
-impl Budget {
-    /// Whether the condition holds.
-    #[must_use]
-    pub fn suffices(&self) -> bool {
-        self.from_e + self.from_x < self.available
-    }
-}
-
-impl SmallGain {
-    /// The condition in doubles; `None` where a number is not finite.
-    #[must_use]
-    pub fn new(dynamics: &ErrorDynamics<'_>) -> Option<SmallGain> {
-        let bounds = dynamics.bounds;
-        let dynamics = FloatDynamics::new(dynamics)?;
-        let values = dynamics.matrix.eigenvalues().ok()?;
-        Some(SmallGain {
-            eigenvalues: values.into_iter().filter(|value| value.im >= 0.0).collect(),
-            dynamics,
-            has_x: bounds.has_x,
-            x_decay: bounds.x_decay.to_f64(),
-            root_p_up: bounds.root_p_up.to_f64(),
-            k_x: bounds.k_x.to_f64(),
-            k_f: bounds.k_f.to_f64(),
-        })
-    }
-
-    /// That of Pi, 2 n_o + 2.
-    pub(super) fn order(&self) -> usize {
-        self.dynamics.input.len()
-    }
-
-    /// Rates from here on are out of reach: an eigenvalue of A_c or the zero dynamics itself is slower.
-    #[must_use]
-    pub fn ceiling(&self) -> f64 {
-        let x = if self.has_x { self.x_decay } else { f64::INFINITY };
-        self.eigenvalues.iter().map(|value| -value.re).fold(x, f64::min)
-    }
-
-    /// What the ceiling is set by.
-    #[must_use]
-    pub fn limit(&self) -> Limit {
-        let loop_rate = self.eigenvalues.iter().map(|value| -value.re).fold(f64::INFINITY, f64::min);
-        if self.has_x && self.x_decay <= loop_rate { Limit::Plant(self.x_decay) } else { Limit::Oscillators(loop_rate) }
-    }
 
     /// The frequencies at which the line at a rate is looked at, `0 < rate < ceiling`.
     fn frequencies(&self, rate: f64) -> Vec<f64> {
@@ -211,7 +150,7 @@ impl SmallGain {
             .iter()
             .flat_map(|value| OFFSETS.iter().map(move |offset| value.im + offset * (-value.re - rate)))
             .filter(|omega| *omega >= 0.0)
-            .chain((0..60).map(|k| self.dynamics.sigma * 1e-3 * 1.25f64.portable_powi(k)))
+            .chain((0..60).map(|k| self.sigma * 1e-3 * 1.25f64.portable_powi(k)))
             .chain([0.0])
             .collect();
         omegas.sort_by(f64::total_cmp);
@@ -223,11 +162,11 @@ impl SmallGain {
         let omegas = self.frequencies(rate);
         // (1/(1 + 1/p) - p b_d^2 |V|^2)/|H|^2 is the square of what is left at a frequency.
         let left = |share: f64, omega: f64| {
-            let [inverse, moved] = self.dynamics.responses(rate, omega);
-            match self.dynamics.moved.is_empty() {
+            let [inverse, moved] = self.responses(rate, omega);
+            match self.moved.is_empty() {
                 true => inverse.norm(),
                 false => {
-                    let taken = share * (self.dynamics.half_gain * moved.norm()).portable_powi(2);
+                    let taken = share * (self.half_gain * moved.norm()).portable_powi(2);
                     let square = inverse.norm().portable_powi(2) * share / (1.0 + share) - taken;
                     square.max(0.0).sqrt()
                 }
@@ -243,7 +182,7 @@ impl SmallGain {
             let around = refined.map(|i| (omegas[i.saturating_sub(1)], omegas[(i + 1).min(omegas.len() - 1)]));
             around.map(|(low, up)| golden(|omega| left(share, omega), [low, up], GOLDEN).1).fold(least, f64::min)
         };
-        if self.dynamics.moved.is_empty() {
+        if self.moved.is_empty() {
             return [of(1.0), 1.0];
         }
         SHARES
@@ -253,34 +192,15 @@ impl SmallGain {
     }
 
     /// The two sides of the condition at a rate.
-    #[must_use]
-    pub fn budget(&self, rate: f64) -> Budget {
+    fn budget(&self, rate: f64) -> Budget {
         let from_x = if self.has_x { self.k_x * self.k_f * self.root_p_up / (self.x_decay - rate) } else { 0.0 };
         let [available, share] = self.available(rate);
-        Budget { available, from_e: self.dynamics.half_slope, from_x, share }
-    }
-
-    /// The largest rate of the condition; `None` where not even a tiny one fulfils it.
-    #[must_use]
-    pub fn largest_rate(&self) -> Option<f64> {
-        let ceiling = self.ceiling();
-        let holds = |rate: f64| self.budget(rate).suffices();
-        // NaN and negative ceilings end here too.
-        if !(ceiling > 0.0 && ceiling.is_finite() && holds(1e-9 * ceiling)) {
-            return None;
-        }
-        let (mut low, mut up) = (1e-9 * ceiling, ceiling);
-        for _ in 0..BISECTIONS {
-            let middle = f64::midpoint(low, up);
-            if holds(middle) { low = middle } else { up = middle }
-        }
-        Some(low)
+        Budget { available, from_e: self.half_slope, from_x, share }
     }
 
     /// w and l at a rate, with c, c_v and beta of `Pi A + A'Pi + c e e' + c_v v v' + beta Pi B B'Pi = 0`; one of so many
     /// parts of what the condition leaves over is given to each side, so that every inequality of the module is strict.
-    #[must_use]
-    pub fn multipliers(&self, rate: f64, parts: f64) -> Option<Multipliers> {
+    pub(super) fn multipliers(&self, rate: f64, parts: f64) -> Option<Multipliers> {
         let budget = self.budget(rate);
         if !budget.suffices() {
             return None;
@@ -300,21 +220,95 @@ impl SmallGain {
         // With l = 1: l_e = from_x/from_e. In units in which (1/l + 1/l_e) is 1 + from_e/from_x.
         let from_inputs = 1.0 + from_e / from_x;
         let output = from_e * from_x + from_x * from_x;
-        let moved = budget.share * self.dynamics.half_gain.portable_powi(2) / from_inputs;
-        let with_gain = if self.dynamics.moved.is_empty() { 0.0 } else { from_inputs / budget.share };
-        Some(Multipliers { w, output, moved, input: from_inputs + with_gain })
+        let moved = budget.share * self.half_gain.portable_powi(2) / from_inputs;
+        let with_gain = if self.moved.is_empty() { 0.0 } else { from_inputs / budget.share };
+        Some(Multipliers { budget, w, output, moved, input: from_inputs + with_gain })
+    }
+}
+
+/// What the condition at one rate leaves to choose from.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Budget {
+    /// The largest k_d + kappa k_f that the rest of the loop allows, or infinity.
+    pub(super) available: f64,
+    /// k_d.
+    pub(super) from_e: f64,
+    /// kappa k_f.
+    pub(super) from_x: f64,
+    /// p of an input gain.
+    share: f64,
+}
+
+impl Budget {
+    /// Whether the condition holds.
+    fn suffices(&self) -> bool {
+        self.from_e + self.from_x < self.available
+    }
+}
+
+impl Condition for SmallGain {
+    type Numbers = RateNumbers;
+
+    const BISECTIONS: u32 = 45;
+
+    fn ceilings(&self) -> [f64; 2] {
+        let of_loop = self.eigenvalues.iter().map(|value| -value.re).fold(f64::INFINITY, f64::min);
+        [of_loop, if self.has_x { self.x_decay } else { f64::INFINITY }]
+    }
+
+    fn holds(&self, rate: f64) -> bool {
+        self.budget(rate).suffices()
+    }
+
+    /// Pi is from the Riccati equation `Pi (A_c + rate' I) + (.)' + c e e' + c_v v v' + beta Pi B B'Pi = 0` at a rate' halfway between the
+    /// claimed and the largest one: the difference leaves the term 2 (rate' - rate) Pi in the matrix, which makes it definite.
+    fn propose(&self, largest: f64, share: f64) -> Option<Proposal<RateNumbers>> {
+        let shifted = largest * (1.0 + share) / 2.0;
+        let multipliers = self.multipliers(shifted, PARTS)?;
+        let SmallGain { matrix, input, moved, .. } = self;
+        let n = input.len();
+        let a = Mat::from_fn(n, n, |i, j| matrix[(i, j)] + if i == j { shifted } else { 0.0 });
+        let output = Mat::from_fn(n, n, |i, j| {
+            let of_e = if i == 0 && j == 0 { multipliers.output } else { 0.0 };
+            of_e + if moved.is_empty() { 0.0 } else { multipliers.moved * moved[i] * moved[j] }
+        });
+        let inputs = [(multipliers.input, input.clone())];
+        let equation = Equation { a: &a, inputs: &inputs, output: &output };
+        let pi = equation.solution([multipliers.output, multipliers.input])?;
+        let rate = round_f64(largest * share, 6, Direction::Down)?;
+        Some(Proposal { pi, numbers: RateNumbers { rate, w: multipliers.w } })
+    }
+}
+
+/// The rate, and the numbers of a proof in doubles, with l = 1.
+#[derive(Clone, Debug)]
+pub struct RateNumbers {
+    /// The rate, rounded down.
+    pub rate: Rational,
+    /// w.
+    pub w: f64,
+}
+
+impl Numbers for RateNumbers {
+    type Witness = RateWitness;
+
+    fn witness(&self, pi: Vec<Vec<Rational>>, digits: u32) -> Option<RateWitness> {
+        let w = round_f64(self.w, digits, Direction::Nearest)?;
+        Some(RateWitness { rate: self.rate.clone(), w, pi, l: Rational::from(1), inputs: [None, None] })
     }
 }
 
 /// What is left to find Pi with, for l = 1.
 #[derive(Clone, Copy, Debug)]
-pub struct Multipliers {
+pub(super) struct Multipliers {
+    /// What the condition leaves at the rate.
+    pub(super) budget: Budget,
     /// w, positive where xi counts.
-    pub w: f64,
+    pub(super) w: f64,
     /// At least `l_e k_d^2 + c_x`, positive.
-    pub output: f64,
+    pub(super) output: f64,
     /// `l_b b_d^2`.
-    pub moved: f64,
+    pub(super) moved: f64,
     /// At least the sum of 1/l, 1/l_e and 1/l_b over the signals that do not vanish, positive.
-    pub input: f64,
+    pub(super) input: f64,
 }

@@ -7,11 +7,17 @@
 //! is one more signal at B_q, `(b_u - b_c) (-sigma e + mu b'zs)`, with a multiplier of its own. Of balls of the columns of x and of e apart S is block
 //! diagonal, and H^-1 the sum of theirs.
 
+use super::diagonal;
+use super::proposal::{Numbers, Proposal};
 use super::riccati::Equation;
-use super::slopes_program::{closed, decay, matrices, moved};
-use faer::linalg::solvers::{DenseSolveCore, Llt};
+use super::slopes_program::{Ball, closed, decay, matrices, moved};
+use faer::linalg::solvers::Llt;
 use faer::{Mat, Side};
+use rug::Rational;
+use sigmastar_decide::rates::inequality::RateWitness;
 use sigmastar_decide::rates::matrix_loop::{KnownSlopes, MatrixLoop, Multipliers};
+use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_exact::number::{Direction, round_f64};
 
 /// Steps of the bisection in the rate, and the shares of the fastest one between which it goes.
 const BISECTIONS: u32 = 12;
@@ -47,14 +53,11 @@ impl BoundedReal {
         let (order, signals) = (of.order(), of.states + 1);
         let mut centre = Mat::<f64>::zeros(signals, signals);
         let (mut output, mut inverse) = (Mat::<f64>::zeros(order, order), Mat::<f64>::zeros(signals, signals));
-        for KnownSlopes { columns, q, g, h } in &slopes {
-            let count = columns.len();
-            let g = Mat::from_fn(count, signals, |i, j| g[i][j]);
-            let own = Llt::new(Mat::from_fn(signals, signals, |i, j| h[i][j]).as_ref(), Side::Lower).ok()?.inverse();
-            let middle = &own * g.transpose();
-            let size = Mat::from_fn(count, count, |i, j| q[i][j]) + &g * &middle;
-            centre.as_mut().subcols_mut(columns.start, count).copy_from(-middle);
-            output.as_mut().submatrix_mut(columns.start, columns.start, count, count).copy_from(size);
+        for part in &slopes {
+            let Ball { inverse: own, middle, size } = Ball::new(part)?;
+            let (start, count) = (part.columns.start, part.columns.len());
+            centre.as_mut().subcols_mut(start, count).copy_from(-middle);
+            output.as_mut().submatrix_mut(start, start, count, count).copy_from(size);
             inverse += own;
         }
         let rows: Vec<Vec<f64>> = (0..signals).map(|i| (0..signals).map(|j| centre[(i, j)]).collect()).collect();
@@ -108,9 +111,16 @@ impl BoundedReal {
         self.pi([rate, of_gain]).is_some_and(|pi| self.proves(&pi, rate * (1.0 - NEARLY)))
     }
 
-    /// Pi of the equation at a rate, for a multiplier of the input gain.
+    /// Numbers for a share of the largest rate, with its multiplier of the input gain; Pi is that of a rate halfway between.
     #[must_use]
-    pub fn pi(&self, [rate, of_gain]: [f64; 2]) -> Option<Mat<f64>> {
+    pub fn propose(&self, [largest, of_gain]: [f64; 2], share: f64) -> Option<Proposal<OfStates>> {
+        let pi = self.pi([largest * (1.0 + share) / 2.0, of_gain])?;
+        let rate = round_f64(largest * share, 6, Direction::Down)?;
+        Some(Proposal { pi, numbers: OfStates { rate, states: self.of.states } })
+    }
+
+    /// Pi of the equation at a rate, for a multiplier of the input gain.
+    fn pi(&self, [rate, of_gain]: [f64; 2]) -> Option<Mat<f64>> {
         let n = self.of.order();
         let a = Mat::from_fn(n, n, |i, j| self.matrix[(i, j)] + if i == j { rate } else { 0.0 });
         let (mut output, mut inputs) = (self.output.clone(), self.inputs.clone());
@@ -124,8 +134,7 @@ impl BoundedReal {
         let equation = Equation { a: &a, inputs: &inputs, output: &output };
         let of_inputs =
             inputs.iter().map(|(beta, input)| beta * input.iter().map(|entry| entry * entry).sum::<f64>()).sum();
-        let pi = equation.stabilising([trace(&output), of_inputs])?;
-        let pi = equation.refined(&pi).unwrap_or(pi);
+        let pi = equation.solution([trace(&output), of_inputs])?;
         Llt::new(pi.as_ref(), Side::Lower).is_ok().then_some(pi)
     }
 
@@ -146,4 +155,30 @@ impl BoundedReal {
 
 fn trace(of: &Mat<f64>) -> f64 {
     (0..of.nrows()).map(|i| of[(i, i)]).sum()
+}
+
+/// The numbers of a proof by all derivatives beside Pi, which is one of (x, e, zs): there are no multipliers.
+#[derive(Clone, Debug)]
+pub struct OfStates {
+    /// The rate, rounded down.
+    pub rate: Rational,
+    states: usize,
+}
+
+impl Numbers for OfStates {
+    type Witness = RateWitness;
+
+    fn witness(&self, pi: Vec<Vec<Rational>>, _: u32) -> Option<RateWitness> {
+        let none = Rational::new;
+        Some(RateWitness { rate: self.rate.clone(), w: none(), pi, l: none(), inputs: [None, None] })
+    }
+}
+
+impl Proposal<OfStates> {
+    /// x_up, e_up, z_up and e_low about Pi, rounded to the safe side, about the best for a start within these distances; without states x_up
+    /// is 0.
+    #[must_use]
+    pub fn diagonal_bounds_of_states(&self, distances: [&Enclosure; 3]) -> Option<([Rational; 3], Rational)> {
+        diagonal::bounds_of_states(&self.pi, self.numbers.states, distances)
+    }
 }

@@ -1,13 +1,13 @@
 //! What is to be known of the first derivatives together so that the loop decays fast: Q, G and H of (K) and (D) (derivation, 13.6),
 //! proposed by semidefinite programs over sampled derivatives. Nothing rests on them.
 
+use crate::bounds::{FloatSlopes, FloatSuprema};
+use crate::semidefinite::propose;
 use faer::linalg::solvers::{DenseSolveCore, Llt};
 use faer::{Mat, Side};
 use sigmastar_decide::rates::matrix_loop::{KnownSlopes, MatrixLoop, Multipliers};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_matrix::{AffineMatrix, Symmetric};
-use sigmastar_propose::bounds::{FloatSlopes, FloatSuprema};
-use sigmastar_propose::semidefinite::propose;
 use sigmastar_theory::evidence::Part;
 use std::ops::Range;
 
@@ -165,13 +165,10 @@ impl<'s> SampledSlopes<'s> {
     }
 
     /// The ball of a part of a solution, in the units of the plant.
-    fn ball(&self, part: Part, KnownSlopes { columns, q, g, h }: &KnownSlopes<f64>) -> Option<FloatSlopes> {
-        let (order, count) = (h.len(), columns.len());
-        let matrix = |of: &[Vec<f64>], rows: usize, columns: usize| Mat::from_fn(rows, columns, |i, j| of[i][j]);
-        let (q, g, h) = (matrix(q, count, count), matrix(g, count, order), matrix(h, order, order));
-        let inverse = Llt::new(h.as_ref(), Side::Lower).ok()?.inverse();
-        let centre = &inverse * g.transpose();
-        let size = &q + &g * &centre;
+    fn ball(&self, part: Part, slopes: &KnownSlopes<f64>) -> Option<FloatSlopes> {
+        let Ball { middle, size, .. } = Ball::new(slopes)?;
+        let (order, columns) = (slopes.h.len(), &slopes.columns);
+        let h = Mat::from_fn(order, order, |i, j| slopes.h[i][j]);
         let rows = |of: &Mat<f64>, scale: &dyn Fn(usize, usize) -> f64| -> Vec<Vec<f64>> {
             (0..of.nrows()).map(|i| (0..of.ncols()).map(|j| of[(i, j)] * scale(i, j)).collect()).collect()
         };
@@ -179,7 +176,7 @@ impl<'s> SampledSlopes<'s> {
         let own = |i: usize| self.unit(columns.start + i);
         let found = FloatSlopes {
             part,
-            centre: rows(&centre, &|i, j| -unit(i) / (own(j) * time)),
+            centre: rows(&middle, &|i, j| -unit(i) / (own(j) * time)),
             size: rows(&size, &|i, j| 1.0 / (own(i) * own(j) * time)),
             h: rows(&h, &|i, j| time / (unit(i) * unit(j))),
         };
@@ -263,6 +260,29 @@ impl<'s> SampledSlopes<'s> {
         let margin = found[last];
         let (_, slopes) = parts(&found[..last]);
         (margin > SOLVED).then_some(Solution { slopes, margin })
+    }
+}
+
+/// The ball `(D - C)'H (D - C) <= S` in which (D) has some columns of D.
+pub(super) struct Ball {
+    /// H^-1.
+    pub(super) inverse: Mat<f64>,
+    /// -C.
+    pub(super) middle: Mat<f64>,
+    /// S.
+    pub(super) size: Mat<f64>,
+}
+
+impl Ball {
+    /// `C = -H^-1 G'`, `S = Q + G H^-1 G'`; `None` where H is not definite.
+    pub(super) fn new(KnownSlopes { columns, q, g, h }: &KnownSlopes<f64>) -> Option<Ball> {
+        let (order, count) = (h.len(), columns.len());
+        let matrix = |of: &[Vec<f64>], rows: usize, columns: usize| Mat::from_fn(rows, columns, |i, j| of[i][j]);
+        let (q, g, h) = (matrix(q, count, count), matrix(g, count, order), matrix(h, order, order));
+        let inverse = Llt::new(h.as_ref(), Side::Lower).ok()?.inverse();
+        let middle = &inverse * g.transpose();
+        let size = &q + &g * &middle;
+        Some(Ball { inverse, middle, size })
     }
 }
 
