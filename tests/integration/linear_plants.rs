@@ -153,7 +153,7 @@ fn sizes_are_those_of_the_worst_member() {
         let answers = Answers::new(&linear, own.fundamental.clone());
         for n in 0..=5 {
             let count = if n >= 4 { Oscillators::ForEachLine } else { Oscillators::Exactly(n as u64) };
-            let found = sizes(&answers, &own, count).unwrap();
+            let found = sizes(&answers, &own, count, 8192).unwrap();
             let mut largest = [0.0_f64; 4];
             for (a, b) in [(0.8, 0.9), (0.8, 1.1), (1.2, 0.9), (1.2, 1.1), (1.0, 1.0), (1.0, 0.9), (1.1, 0.93)] {
                 let (space, states, controls) = periodic(a, b, f64::from(sigma), n);
@@ -206,7 +206,7 @@ fn nothing_goes_beyond_the_peaks() {
     let mut nearest = 0.0_f64;
     for n in [0, 2, 5] {
         let count = if n >= 4 { Oscillators::ForEachLine } else { Oscillators::Exactly(n as u64) };
-        let steady = sizes(&answers, &own, count).unwrap();
+        let steady = sizes(&answers, &own, count, 8192).unwrap();
         let peak = falling.peak(&own, &start, &steady);
         let [of_e, of_u] = [&peak.error, &peak.control].map(Enclosure::upper_f64);
         for _ in 0..40 {

@@ -9,11 +9,8 @@ use sigmastar_exact::enclosure::Enclosure;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// The most boxes that are looked at.
-const MAX_BOXES: usize = 1024;
-
 /// By what share a bound may be above what is met: of e and u, and of what only the transient rests on.
-const ROOMS: [f64; 4] = [0.01, 0.01, 0.05, 0.05];
+const ROOMS: [f64; 4] = [0.005, 0.005, 0.05, 0.05];
 
 /// How the members on the boxes of the parameters that were looked at answer the harmonics: the same for every gain and number of
 /// oscillators.
@@ -52,10 +49,10 @@ impl<'p> Answers<'p> {
 
 /// Bounds along the periodic solution of every member of the family at every gain of the actuator, for this number of oscillators.
 ///
-/// Guarantee: for every such member whose loop has one T-periodic solution at most that is so bounded. `None` where no bound is found within
-/// the effort.
+/// Guarantee: for every such member whose loop has one T-periodic solution at most that is so bounded. After so many boxes as `effort` none
+/// is cut any more; `None` where no bound is found by then.
 #[must_use]
-pub fn sizes(answers: &Answers<'_>, own: &Loop, oscillators: Oscillators) -> Option<Sizes<Enclosure>> {
+pub fn sizes(answers: &Answers<'_>, own: &Loop, oscillators: Oscillators, effort: usize) -> Option<Sizes<Enclosure>> {
     let [low, high] = [own.gain[0].lower_rational()?, own.gain[1].upper_rational()?];
     let mut whole = answers.plant.whole().to_vec();
     whole.push([low, high]);
@@ -78,10 +75,10 @@ pub fn sizes(answers: &Answers<'_>, own: &Loop, oscillators: Oscillators) -> Opt
                 pairs.all(|((size, known), room)| size.upper_f64() <= known.lower_f64() * (1.0 + room))
             });
             match sizes {
-                Some(sizes) if sharp || boxes >= MAX_BOXES => {
+                Some(sizes) if sharp || boxes >= effort => {
                     found = Some(found.map_or_else(|| sizes.clone(), |found| found.with(&sizes, |a, b| a.max(b))));
                 }
-                None if boxes >= MAX_BOXES => return None,
+                None if boxes >= effort => return None,
                 sizes => match halved(ends, &whole) {
                     Some(halves) => next.extend(halves),
                     // There is nothing to cut.

@@ -1,7 +1,7 @@
 //! Bounds for each number of oscillators, of plants that are linear in x and e (derivation, 14.3, 14.5).
 
 use super::certification::Certification;
-use super::gain_row::{GainRow, RowProof, SHOWN_N_O};
+use super::gain_row::{ByCount, CountBounds, GainRow, RowProof, SHOWN_N_O};
 use rug::Rational;
 use sigmastar_decide::linear::{Answers, Falling, LinearPlant, Loop, Oscillators, PRECISION, Sizes, Start, sizes};
 use sigmastar_exact::enclosure::Enclosure;
@@ -18,40 +18,8 @@ use sigmastar_theory::derivation::initial_set::ClaimedSet;
 /// Digits of the numbers of a form.
 const DIGITS: u32 = 9;
 
-/// Bounds for one number of oscillators, or for all from it on, at one gain.
-#[derive(Clone, Debug)]
-pub struct CountBounds {
-    /// n_o.
-    pub n_o: u64,
-    /// Whether they hold for every larger number, too.
-    pub or_more: bool,
-    /// Of |e| along the periodic solution.
-    pub steady_error: Enclosure,
-    /// Of |e| of every solution from the set, at all times.
-    pub peak_error: Enclosure,
-    /// Of what is put out.
-    pub control: Control<Enclosure>,
-}
-
-/// Bounds for every number of oscillators.
-#[derive(Clone, Debug)]
-pub struct ByCount {
-    /// For 0, 1, ..., K, the last of them for every larger number, too: K is the number of harmonics of the plant.
-    pub counts: Vec<CountBounds>,
-}
-
-impl ByCount {
-    /// Those for a number of oscillators.
-    #[must_use]
-    pub fn at(&self, n_o: u64) -> Option<&CountBounds> {
-        self.counts.iter().rev().find(|bounds| bounds.n_o <= n_o)
-    }
-
-    /// The largest of a bound.
-    fn largest(&self, of: impl Fn(&CountBounds) -> &Enclosure) -> Option<Enclosure> {
-        self.counts.iter().map(of).cloned().reduce(|a, b| a.max(&b))
-    }
-}
+/// Boxes of parameters and gains for each number of oscillators: at the gain of the claim, and at the others.
+const EFFORTS: [usize; 2] = [512, 64];
 
 /// Bounds for every number of oscillators, at a gain and from a set, for every member of the family and every gain of the actuator.
 ///
@@ -61,7 +29,7 @@ impl ByCount {
 fn by_count(
     (plant, answers): (&Plant, &Answers<'_>),
     spec: &Specification,
-    sigma: &Rational,
+    (sigma, effort): (&Rational, usize),
     set: &ClaimedSet,
 ) -> Option<ByCount> {
     let (linear, model) = (answers.plant(), &spec.internal_model);
@@ -70,8 +38,8 @@ fn by_count(
     let own = Loop::new(sigma, model, linear.lines(), gain, inverse(coordinates)?);
     let counts: Vec<u64> = (0..=linear.lines() as u64).collect();
     let of_count = |count: &u64| match *count == linear.lines() as u64 {
-        true => sizes(answers, &own, Oscillators::ForEachLine),
-        false => sizes(answers, &own, Oscillators::Exactly(*count)),
+        true => sizes(answers, &own, Oscillators::ForEachLine, effort),
+        false => sizes(answers, &own, Oscillators::Exactly(*count), effort),
     };
     let found: Vec<Sizes<Enclosure>> = parallel::map(&counts, of_count).into_iter().collect::<Option<_>>()?;
     let exact = |value: &Rational| Enclosure::from_rational(value, PRECISION);
@@ -189,7 +157,8 @@ impl Certification<'_> {
         let at = |row: &GainRow| {
             let RowProof::Continuous(proof, other) = &row.proof else { return None };
             let spec = other.as_deref().unwrap_or(self.spec);
-            by_count((plant, &answers), spec, &row.sigma, &proof.witness.set)
+            let effort = EFFORTS[usize::from(self.claim().is_none_or(|claim| *claim.sigma != row.sigma))];
+            by_count((plant, &answers), spec, (&row.sigma, effort), &proof.witness.set)
         };
         let found = parallel::map(&self.gains, at);
         for (row, found) in self.gains.iter_mut().zip(&found) {

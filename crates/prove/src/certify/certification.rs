@@ -1,7 +1,6 @@
 //! What a run found out.
 
-use super::by_count::ByCount;
-use super::gain_row::{GainRow, RowNoise};
+use super::gain_row::{ByCount, GainRow, RowNoise};
 use super::matrix_checks::{MatrixChecks, SylvesterCheck};
 use super::options::{Limits, Options};
 use super::outcome::{Outcome, is_better};

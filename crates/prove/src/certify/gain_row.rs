@@ -32,6 +32,41 @@ pub struct GainRow {
     pub(super) proof: RowProof,
 }
 
+/// Bounds for one number of oscillators, or for all from it on, at one gain.
+#[derive(Clone, Debug)]
+pub struct CountBounds {
+    /// n_o.
+    pub n_o: u64,
+    /// Whether they hold for every larger number, too.
+    pub or_more: bool,
+    /// Of |e| along the periodic solution.
+    pub steady_error: Enclosure,
+    /// Of |e| of every solution from the set, at all times.
+    pub peak_error: Enclosure,
+    /// Of what is put out.
+    pub control: Control<Enclosure>,
+}
+
+/// Bounds for every number of oscillators.
+#[derive(Clone, Debug)]
+pub struct ByCount {
+    /// For 0, 1, ..., K, the last of them for every larger number, too: K is the number of harmonics of the plant.
+    pub counts: Vec<CountBounds>,
+}
+
+impl ByCount {
+    /// Those for a number of oscillators.
+    #[must_use]
+    pub fn at(&self, n_o: u64) -> Option<&CountBounds> {
+        self.counts.iter().rev().find(|bounds| bounds.n_o <= n_o)
+    }
+
+    /// The largest of a bound.
+    pub(super) fn largest(&self, of: impl Fn(&CountBounds) -> &Enclosure) -> Option<Enclosure> {
+        self.counts.iter().map(of).cloned().reduce(|a, b| a.max(&b))
+    }
+}
+
 /// What proves a row.
 #[derive(Clone, Debug)]
 pub(super) enum RowProof {
