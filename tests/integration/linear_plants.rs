@@ -180,10 +180,7 @@ fn nothing_goes_beyond_the_peaks() {
     let identity = [[1, 0], [0, 1]].map(|row| row.map(Rational::from).to_vec()).to_vec();
     let own = own(40, &linear, &plant);
     let form = |p: (i32, i32), k_p: (i32, i32)| Falling {
-        matrix: identity
-            .iter()
-            .map(|row| row.iter().map(|one| Rational::from(one * Rational::from(p))).collect())
-            .collect(),
+        matrix: identity.iter().map(|row| row.iter().map(|one| one * Rational::from(p)).collect()).collect(),
         p_up: Rational::from(p) + Rational::from((1, 1000)),
         weight: Rational::from(1),
         k_p: Rational::from(k_p),

@@ -137,7 +137,8 @@ impl PeakProgram {
         let mut cost = vec![0.0; variables];
         cost[a] = if n > 0 { 1.0 } else { 0.0 };
         cost[w] = 1.0;
-        cost[kappa] = self.gain[1] * self.mu / (2.0 * sigma) * (self.start[2] / d_e).powi(2);
+        let of_zeta = self.start[2] / d_e;
+        cost[kappa] = self.gain[1] * self.mu / (2.0 * sigma) * of_zeta * of_zeta;
         let found = propose(&cost, &constraints).ok()?.x;
         // In units of e^2.
         let matrix = Symmetric::from_entries(n, &found).map(|_, _, value| value * ratio * ratio).rows();

@@ -12,13 +12,16 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// By what share a bound may be above what is met: of e and u, and of what only the transient rests on.
 const ROOMS: [f64; 4] = [0.005, 0.005, 0.05, 0.05];
 
+/// The ends of the parameters.
+type Ends = Vec<[Rational; 2]>;
+
 /// How the members on the boxes of the parameters that were looked at answer the harmonics: the same for every gain and number of
 /// oscillators.
 #[derive(Debug)]
 pub struct Answers<'p> {
     plant: &'p LinearPlant,
     fundamental: Enclosure,
-    known: Mutex<HashMap<Vec<[Rational; 2]>, Option<Arc<Vec<Line>>>>>,
+    known: Mutex<HashMap<Ends, Option<Arc<Vec<Line>>>>>,
 }
 
 impl<'p> Answers<'p> {
@@ -58,7 +61,7 @@ pub fn sizes(answers: &Answers<'_>, own: &Loop, oscillators: Oscillators, effort
     whole.push([low, high]);
     let at = |ends: &[[Rational; 2]]| {
         let (gain, parameters) = ends.split_last()?;
-        own.sizes(&*answers.lines(parameters)?, &Enclosure::between(&gain[0], &gain[1], PRECISION), oscillators)
+        own.sizes(&answers.lines(parameters)?, &Enclosure::between(&gain[0], &gain[1], PRECISION), oscillators)
     };
     let mut open = vec![whole.clone()];
     let mut known: Option<Sizes<Enclosure>> = None;
