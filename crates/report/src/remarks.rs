@@ -185,6 +185,6 @@ mod tests {
         assert_eq!(far_above_its_samples(&near), None);
         let far = [entry(Bound::Qe, 201, Some(100)), entry(Bound::Qx, 1000, Some(10)), entry(Bound::Fe, 7, Some(0))];
         let told = far_above_its_samples(&[near.as_slice(), &far].concat()).unwrap();
-        assert!(told.contains("q_x (") && told.contains("at most 1000, and samples reach 10."), "{told}");
+        assert!(told.contains("$`q_x`$ (") && told.contains("at most 1000, and samples reach 10."), "{told}");
     }
 }

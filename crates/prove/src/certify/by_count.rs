@@ -18,8 +18,8 @@ use sigmastar_theory::derivation::initial_set::ClaimedSet;
 /// Digits of the numbers of a form.
 const DIGITS: u32 = 9;
 
-/// Boxes of parameters and gains for each number of oscillators: at the gain of the claim, and at the others.
-const EFFORTS: [usize; 2] = [512, 64];
+/// Boxes of parameters and gains for all numbers of oscillators together: at the gain of the claim, and at the others.
+const EFFORTS: [usize; 2] = [8192, 512];
 
 /// Bounds for every number of oscillators, at a gain and from a set, for every member of the family and every gain of the actuator.
 ///
@@ -37,6 +37,7 @@ fn by_count(
     let gain = spec.input_gain.as_ref().and_then(|gain| gain.factors(PRECISION));
     let own = Loop::new(sigma, model, linear.lines(), gain, inverse(coordinates)?);
     let counts: Vec<u64> = (0..=linear.lines() as u64).collect();
+    let effort = effort / counts.len();
     let of_count = |count: &u64| match *count == linear.lines() as u64 {
         true => sizes(answers, &own, Oscillators::ForEachLine, effort),
         false => sizes(answers, &own, Oscillators::Exactly(*count), effort),
