@@ -52,8 +52,8 @@ impl<'p> Answers<'p> {
 
 /// Bounds along the periodic solution of every member of the family at every gain of the actuator, for this number of oscillators.
 ///
-/// Guarantee: for every such member whose loop has one T-periodic solution at most that is so bounded. After so many boxes as `effort` none
-/// is cut any more; `None` where no bound is found by then.
+/// Hypothesis: the loop of each has exactly one T-periodic solution ([`super::Falling::decide`]). Guarantee: that one is so bounded. After so
+/// many boxes as `effort` none is cut any more; `None` where no bound is found by then.
 #[must_use]
 pub fn sizes(answers: &Answers<'_>, own: &Loop, oscillators: Oscillators, effort: usize) -> Option<Sizes<Enclosure>> {
     let [low, high] = [own.gain[0].lower_rational()?, own.gain[1].upper_rational()?];

@@ -143,7 +143,8 @@ impl Loop {
         sizes.zeta = sizes.zeta + within.sqrt();
         sizes.error = largest(&errors);
         sizes.control = largest(&controls);
-        Some(sizes)
+        let bounded = sizes.each().into_iter().all(Enclosure::is_bounded);
+        bounded.then_some(sizes)
     }
 
     /// |L^-1 x|.
