@@ -10,7 +10,7 @@ use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// By what share a bound may be above what is met: of e and u, and of what only the transient rests on.
-const ROOMS: [f64; 4] = [0.005, 0.005, 0.05, 0.05];
+const ROOMS: [f64; 5] = [0.005, 0.005, 0.005, 0.05, 0.05];
 
 /// The ends of the parameters.
 type Ends = Vec<[Rational; 2]>;

@@ -74,6 +74,8 @@ impl Loop {
 pub struct Sizes<T> {
     /// Of |e|.
     pub error: T,
+    /// Of the root mean square of e.
+    pub mean_square: T,
     /// Of |u| of the law.
     pub control: T,
     /// Of `|L^-1 (x - x_0)|`.
@@ -87,6 +89,7 @@ impl<T> Sizes<T> {
     pub(super) fn with(&self, other: &Sizes<T>, of: impl Fn(&T, &T) -> T) -> Sizes<T> {
         Sizes {
             error: of(&self.error, &other.error),
+            mean_square: of(&self.mean_square, &other.mean_square),
             control: of(&self.control, &other.control),
             states: of(&self.states, &other.states),
             zeta: of(&self.zeta, &other.zeta),
@@ -94,8 +97,8 @@ impl<T> Sizes<T> {
     }
 
     /// In a fixed order.
-    pub(super) fn each(&self) -> [&T; 4] {
-        [&self.error, &self.control, &self.states, &self.zeta]
+    pub(super) fn each(&self) -> [&T; 5] {
+        [&self.error, &self.mean_square, &self.control, &self.states, &self.zeta]
     }
 }
 
@@ -114,7 +117,7 @@ impl Loop {
         };
         let of_mu = gain * &self.mu;
         let mut within = zero();
-        let mut sizes = Sizes { error: zero(), control: zero(), states: zero(), zeta: zero() };
+        let mut sizes = Sizes { error: zero(), mean_square: zero(), control: zero(), states: zero(), zeta: zero() };
         let (mut errors, mut controls) = (Vec::new(), Vec::new());
         for (k, line) in lines.iter().enumerate() {
             let Line { frequency, states, transfer, forcing } = line;
@@ -141,6 +144,8 @@ impl Loop {
             errors.push(error);
         }
         sizes.zeta = sizes.zeta + within.sqrt();
+        // Both of k and -k; the mean is 0.
+        sizes.mean_square = (errors.iter().fold(zero(), |sum, error| sum + error.norm_squared()) * 2).sqrt();
         sizes.error = largest(&errors);
         sizes.control = largest(&controls);
         let bounded = sizes.each().into_iter().all(Enclosure::is_bounded);

@@ -1,5 +1,6 @@
 //! The certificate file: the names of its numbers, reading its witness and its claim, writing it.
 
+mod by_count;
 mod fields;
 mod json;
 mod of_plant;

@@ -155,7 +155,7 @@ fn claim_part(
         return Err(errors.report(error.help("`certify --witness`, `controller` and `check` take it")));
     }
     for unused in
-        ["verdict", "n_o", "mu", "period", "parameters", "periodic_solution", "control", "for_n_o", "statement"]
+        ["verdict", "n_o", "mu", "period", "parameters", "periodic_solution", "control", "for_n_o", "by_n_o", "statement"]
     {
         let _ = claim.optional(unused);
     }
@@ -297,7 +297,9 @@ fn read_sharp(
         let transfer = read_transfer(fields, errors);
         let _ = fields.optional("lmi");
         // They are worked out again for the numbers that are asked about.
-        let _ = fields.optional("for_n_o");
+        for unused in ["for_n_o", "by_n_o"] {
+            let _ = fields.optional(unused);
+        }
         exact = fields
             .optional("exact_regulation")
             .map(|value| {

@@ -1,5 +1,6 @@
 //! The certificate file: self-contained, the same bytes for the same input.
 
+use super::by_count::{claimed_counts, count_witness};
 use super::fields::{NumberFields, paths_json, set_fields};
 use super::json::{exact, object, rows, text};
 use super::of_plant::plant_parts;
@@ -49,6 +50,14 @@ pub(super) fn upper_end(value: &Enclosure) -> Value {
     }
 }
 
+/// An upper end with a little room, so that whoever finds it in another way comes to it; exactly 0 stays 0.
+pub(super) fn with_room(value: &Enclosure) -> Value {
+    upper_end(&(value * Enclosure::from_rational(&ROOM, value.precision())))
+}
+
+/// By what factor such an end is enlarged.
+static ROOM: LazyLock<Rational> = LazyLock::new(|| Rational::from((1_000_001, 1_000_000)));
+
 /// The least positive upper bound that a claim writes.
 static LEAST_WRITTEN: LazyLock<Rational> =
     LazyLock::new(|| Rational::from((Integer::from(1), Integer::from(Integer::u_pow_u(10, 1000)))));
@@ -86,7 +95,7 @@ pub fn certificate_json(run: &Certification<'_>) -> Option<Value> {
     let said = ("statement", text(statement(spec, sigma, set) + &run.rates_in_words()));
     let of_actuator = input_gain_json(spec).into_iter().chain(actuator_json(spec));
     let names = of_actuator.chain(period).chain(parameters_json(spec)).chain(rest);
-    let claim = object(heading.into_iter().chain(names).chain(claimed_rates(&run.for_n_o)).chain([said]));
+    let claim = object(heading.into_iter().chain(names).chain(claimed_rates(&run.for_n_o)).chain(claimed_counts(run.by_count.as_ref())).chain([said]));
     let regulation = run.exact.as_ref().map(|exact| {
         let numbers = exact.witness.json().into_iter().chain([paths_json(exact.witness.paths)]);
         ("exact_regulation", object(numbers))
@@ -96,7 +105,7 @@ pub fn certificate_json(run: &Certification<'_>) -> Option<Value> {
     let multipliers = multipliers_json(run).map(|value| ("lmi", value));
     let of_data = lyapunov_parts(spec).into_iter().chain(plant_parts(spec)).chain(multipliers);
     let parts = refined.into_iter().chain(regulation).chain([paths_json(proof.witness.paths)]).chain(of_data);
-    let witness = with_witness(proof, parts.chain(rate_witnesses(&run.for_n_o)));
+    let witness = with_witness(proof, parts.chain(rate_witnesses(&run.for_n_o)).chain(count_witness(run.by_count.as_ref())));
     // The free numbers of the repaired derivation, without which its column of the constants could not be checked.
     let comparison = repaired.as_ref().and_then(Outcome::proved).map(|proof| {
         let RepairedWitness { sigma, set, .. } = &proof.witness;

@@ -1,7 +1,7 @@
 //! Bounds for each number of oscillators, of plants that are linear in x and e (derivation, 14.3, 14.5).
 
 use super::certification::Certification;
-use super::gain_row::{ByCount, CountBounds, GainRow, RowProof, SHOWN_N_O};
+use super::gain_row::{ByCount, CountBounds, CountProof, GainRow, RowProof, SHOWN_N_O};
 use rug::Rational;
 use sigmastar_decide::linear::{Answers, Falling, LinearPlant, Loop, Oscillators, PRECISION, Sizes, Start, sizes};
 use sigmastar_exact::enclosure::Enclosure;
@@ -61,11 +61,14 @@ fn by_count(
             n_o,
             or_more: n_o == linear.lines() as u64,
             steady_error: sizes.error.clone(),
+            mean_square: sizes.mean_square.clone(),
             peak_error: &sizes.error + &peak.error,
             control,
         })
     };
-    Some(ByCount { counts: counts.into_iter().zip(&found).map(bounds).collect::<Option<_>>()? })
+    let counts = counts.into_iter().zip(&found).map(bounds).collect::<Option<_>>()?;
+    let sizes = found.into_iter().map(|sizes| [sizes.states, sizes.zeta]).collect();
+    Some(ByCount { counts, proof: CountProof { forms, sizes }, checked: false })
 }
 
 /// A form that is proved to fall, with a small peak for the start of a loop without oscillators.
@@ -149,17 +152,32 @@ impl Certification<'_> {
         Some((steady, peak.clone(), control.clone()))
     }
 
-    /// Bounds for every number of oscillators, at the gain of the claim and at those of the rows, where the plant is linear in x and e; nothing
-    /// where it is not, where the base frequency is not matched, or the document has noise or a disturbance.
+    /// Bounds for every number of oscillators at the gain of the claim, where the plant is linear in x and e; nothing where it is not, where the
+    /// base frequency is not matched, or the document has noise or a disturbance.
     pub fn set_counts(&mut self, plant: &Plant) {
-        let fits = self.spec.internal_model.matched && !self.spec.disturbances.any() && self.claim().is_some();
-        let Some(linear) = fits.then(|| LinearPlant::of(plant)).flatten() else { return };
+        let Some(proof) = self.sharp.proved().filter(|_| self.claim().is_some()) else { return };
+        let Some(linear) = LinearPlant::of(plant).filter(|_| self.has_counts()) else { return };
         let answers = Answers::new(&linear, plant.internal_model.base_frequency.enclose(PRECISION));
+        let witness = &proof.witness;
+        self.by_count = by_count((plant, &answers), self.spec, (&witness.sigma, EFFORTS[0]), &witness.set);
+    }
+
+    fn has_counts(&self) -> bool {
+        self.spec.internal_model.matched && !self.spec.disturbances.any()
+    }
+
+    /// The rows with such bounds: that of the claim with those that are known, and the others.
+    pub fn set_counts_of_rows(&mut self, plant: &Plant) {
+        let Some(linear) = LinearPlant::of(plant).filter(|_| self.by_count.is_some()) else { return };
+        let answers = Answers::new(&linear, plant.internal_model.base_frequency.enclose(PRECISION));
+        let sigma = self.sigma_star();
         let at = |row: &GainRow| {
             let RowProof::Continuous(proof, other) = &row.proof else { return None };
+            if sigma == Some(&row.sigma) {
+                return self.by_count.clone();
+            }
             let spec = other.as_deref().unwrap_or(self.spec);
-            let effort = EFFORTS[usize::from(self.claim().is_none_or(|claim| *claim.sigma != row.sigma))];
-            by_count((plant, &answers), spec, (&row.sigma, effort), &proof.witness.set)
+            by_count((plant, &answers), spec, (&row.sigma, EFFORTS[1]), &proof.witness.set)
         };
         let found = parallel::map(&self.gains, at);
         for (row, found) in self.gains.iter_mut().zip(&found) {
@@ -167,6 +185,5 @@ impl Certification<'_> {
                 row.with(found);
             }
         }
-        self.by_count = found.into_iter().next().flatten();
     }
 }

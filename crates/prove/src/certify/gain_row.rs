@@ -3,6 +3,7 @@
 use crate::rate::found::ForCount;
 use rug::Rational;
 use sigmastar_decide::conditions::{SampledProof, SharpProof};
+use sigmastar_decide::linear::Falling;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_lang::spec::Specification;
 use sigmastar_theory::derivation::control::Control;
@@ -41,6 +42,8 @@ pub struct CountBounds {
     pub or_more: bool,
     /// Of |e| along the periodic solution.
     pub steady_error: Enclosure,
+    /// Of the root mean square of e along it.
+    pub mean_square: Enclosure,
     /// Of |e| of every solution from the set, at all times.
     pub peak_error: Enclosure,
     /// Of what is put out.
@@ -52,6 +55,19 @@ pub struct CountBounds {
 pub struct ByCount {
     /// For 0, 1, ..., K, the last of them for every larger number, too: K is the number of harmonics of the plant.
     pub counts: Vec<CountBounds>,
+    /// What proves them.
+    pub proof: CountProof,
+    /// Whether an independent program decides them, too.
+    pub checked: bool,
+}
+
+/// What proves bounds for each number of oscillators.
+#[derive(Clone, Debug)]
+pub struct CountProof {
+    /// Forms that fall along the differences of solutions.
+    pub forms: Vec<Falling>,
+    /// For each number of oscillators bounds of `|L^-1 (x - x_0)|` and `|zeta|_N` along the periodic solution.
+    pub sizes: Vec<[Enclosure; 2]>,
 }
 
 impl ByCount {

@@ -2,7 +2,7 @@
 
 use super::{Last, Prepared, Run, Start};
 use crate::certify::{
-    Alternatives, Certification, Member, Options, Refusal, Wanted, certify_member, certify_sampled_within, recheck,
+    Alternatives, ByCount, Certification, Member, Options, Refusal, Wanted, certify_member, certify_sampled_within, recheck,
     recheck_sampled,
 };
 use crate::reduction::closer::closer;
@@ -63,19 +63,28 @@ impl Prepared {
             Start::Continuous(start) => {
                 let pool = self.pool(start.as_deref(), options, watch);
                 let claims = |batch: Batch| self.claims(&pool, options, batch, watch);
-                let run = first_decided(claims, check);
+                let counted = |run: &mut Run<'_>| self.set_counts(run, options);
+                let run = first_decided(claims, &counted, check);
                 run.map(|run| self.compared(run, &pool, start.as_deref(), options, watch))
             }
             Start::Sampled(sampling, start) => {
                 let claims = |batch: Batch| self.claims_at_samples(sampling, start.as_ref(), options, batch, watch);
-                let run = first_decided(claims, check);
+                let counted = |run: &mut Run<'_>| self.set_counts(run, options);
+                let run = first_decided(claims, &counted, check);
                 run.map(|run| self.compared_at_samples(run, sampling, start.as_ref(), options, watch))
             }
             Start::Given(numbers) => {
-                first_decided(|batch| Ok(self.given(numbers, options, batch)?.into_iter().collect()), check)
+                first_decided(|batch| Ok(self.given(numbers, options, batch)?.into_iter().collect()), &|_| (), check)
             }
         };
         run.map_err(|refusal: Refusal| refusal.errors(&self.spec))
+    }
+
+    /// Bounds for each number of oscillators, which the certificate of the run then has.
+    fn set_counts(&self, run: &mut Run<'_>, options: Options) {
+        if let (Run::Continuous(run), Some(plant), true) = (run, self.plant.as_deref(), options.compare) {
+            run.set_counts(plant);
+        }
     }
 
     /// Whether it is the smallest gain that is sought: figures about it say nothing about another one.
@@ -185,7 +194,7 @@ impl Prepared {
         if options.compare {
             run.set_gains(pool);
             if let Some(plant) = self.plant.as_deref() {
-                run.set_counts(plant);
+                run.set_counts_of_rows(plant);
             }
         }
         let smallest = self.seeks_smallest();
@@ -283,9 +292,11 @@ impl Prepared {
     }
 }
 
-/// The first claim that the checker decides; where there is none, the best run with its claim taken back.
+/// The first claim that the checker decides; where there is none, the best run with its claim taken back. `counted` adds to a claim what its
+/// certificate says of each number of oscillators; where the checker does not decide that, it is no part of it.
 fn first_decided<'s>(
     claims: impl Fn(Batch) -> Result<Vec<Run<'s>>, Refusal>,
+    counted: &dyn Fn(&mut Run<'s>),
     check: &dyn Fn(&Run<'_>) -> Checked,
 ) -> Result<Run<'s>, Refusal> {
     let mut best: Option<Run<'s>> = None;
@@ -295,12 +306,19 @@ fn first_decided<'s>(
         if matches!(batch, Batch::Last) && answer == Checked::Decided {
             break;
         }
-        for run in claims(batch)? {
+        for mut run in claims(batch)? {
             if run.certified().is_none() {
                 best = best.or(Some(run));
                 continue;
             }
-            match check(&run) {
+            counted(&mut run);
+            let known = run.by_count_mut().map(|found| found.checked = true).is_some();
+            let mut answer_of = check(&run);
+            if known && answer_of != Checked::Decided {
+                let _ = run.by_count_mut().map(|found| found.checked = false);
+                answer_of = check(&run);
+            }
+            match answer_of {
                 Checked::Decided => return Ok(run),
                 // The first claim, in the place of a run without one.
                 other if answer == Checked::Decided => (best, answer) = (Some(run), other),
@@ -329,6 +347,13 @@ fn best_first(runs: &mut [Run<'_>]) {
 }
 
 impl Run<'_> {
+    fn by_count_mut(&mut self) -> Option<&mut ByCount> {
+        match self {
+            Run::Continuous(run) => run.by_count.as_mut(),
+            Run::Sampled(_) => None,
+        }
+    }
+
     /// Whether it has a claim and the other one has none, or a better one; where neither has one, whether it comes closer to what was asked for.
     fn is_better_than(&self, other: &Run<'_>) -> bool {
         match (self.certified().is_some(), other.certified().is_some(), self, other) {
