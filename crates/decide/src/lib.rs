@@ -11,3 +11,4 @@ pub mod linear;
 pub mod lyapunov;
 pub mod orbit;
 pub mod rates;
+pub mod trial;

@@ -6,9 +6,10 @@
 #![cfg_attr(test, allow(clippy::disallowed_methods))]
 
 pub mod bounds;
-pub mod linear_peak;
 pub mod lyapunov;
 pub mod orbit;
+pub mod peak_program;
 pub mod rates;
 pub mod search;
 pub mod semidefinite;
+pub mod trial;

@@ -3,7 +3,8 @@
 use serde_json::{Value, json};
 use sigmastar_document::number::{full, upper};
 use sigmastar_document::{Block, Table};
-use sigmastar_prove::certify::{ByCount, Certification, CountBounds};
+use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_prove::certify::{ByCount, Certification, CountBounds, Largest};
 
 /// The numbers of oscillators of which the short report has a row, with the last one, from which on nothing changes.
 const SHOWN: [u64; 6] = [0, 1, 2, 3, 5, 10];
@@ -13,10 +14,12 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
     let Some(ByCount { counts, checked, .. }) = &run.by_count else { return Vec::new() };
     let mut table = Table::new(&["n_o", "steady |e|", "largest |e|", "steady |u|", "largest |u|"]);
     for bounds in counts.iter().filter(|bounds| bounds.or_more || SHOWN.contains(&bounds.n_o)) {
-        let CountBounds { n_o, or_more, steady_error, peak_error, control, .. } = bounds;
+        let CountBounds { n_o, or_more, steady_error, steady_control, largest, .. } = bounds;
         let name = if *or_more { format!("{n_o} or more") } else { n_o.to_string() };
-        let largest = &control.steady + &control.transient;
-        table.push([name, upper(steady_error), upper(peak_error), upper(&control.steady), upper(&largest)]);
+        let shown = |value: Option<&Enclosure>| value.map_or_else(|| "not proved".to_owned(), upper);
+        let largest_error = shown(largest.as_ref().map(|largest| &largest.error));
+        let largest_control = shown(bounds.largest_control().as_ref());
+        table.push([name, upper(steady_error), largest_error, upper(steady_control), largest_control]);
     }
     let says = "At this gain, by the number of oscillators. Steady is along the periodic solution, largest is at all times from the initial set. \
                 Both are proved, for every plant and gain of the actuator of the claim";
@@ -26,10 +29,14 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
 
 /// All of them as JSON, and `null` where there are none.
 pub(super) fn counts_json(run: &Certification<'_>) -> Value {
-    let one = |CountBounds { n_o, or_more, steady_error, mean_square, peak_error, control }: &CountBounds| {
+    let one = |CountBounds { n_o, or_more, steady_error, mean_square, steady_control, largest }: &CountBounds| {
+        let [peak, transient] = match largest {
+            Some(Largest { error, transient }) => [full(error), full(transient)].map(Value::String),
+            None => [Value::Null, Value::Null],
+        };
         json!({
-            "n_o": n_o, "or_more": or_more, "steady_error": full(steady_error), "mean_square": full(mean_square), "peak_error": full(peak_error),
-            "control": { "steady": full(&control.steady), "transient": full(&control.transient) },
+            "n_o": n_o, "or_more": or_more, "steady_error": full(steady_error), "mean_square": full(mean_square), "peak_error": peak,
+            "control": { "steady": full(steady_control), "transient": transient },
         })
     };
     run.by_count.as_ref().map_or(Value::Null, |found| found.counts.iter().map(one).collect())

@@ -19,15 +19,9 @@ impl Engine {
     #[must_use]
     pub fn decide_joint(&self, inequality: &JointInequality, effort: usize) -> Decision {
         let JointInequality { x, e, value, near, far } = inequality;
-        let fits = |metric: &Metric| {
-            let Metric { matrix, cross, k_p, c_x, c_e, c_y, .. } = metric;
-            let order = self.states();
-            is_symmetric(matrix, order)
-                && cross.len() == order
-                && [k_p, c_x, c_e, c_y].into_iter().all(|number| *number > 0)
-        };
+        let order = self.states();
         let far_fits = far.weight >= 0 && far.cross.iter().all(|entry| *entry == 0);
-        if !fits(near) || !fits(far) || !far_fits || *value <= 0 {
+        if !fits(near, order) || !fits(far, order) || !far_fits || *value <= 0 {
             return Decision::FALSE;
         }
         if *x < 0 || *e < 0 || self.moves().is_some() {
@@ -57,8 +51,13 @@ impl Engine {
     }
 }
 
+/// Whether a metric has this order, and its margins are positive.
+pub(super) fn fits(Metric { matrix, cross, k_p, c_x, c_e, c_y, .. }: &Metric, order: usize) -> bool {
+    is_symmetric(matrix, order) && cross.len() == order && [k_p, c_x, c_e, c_y].into_iter().all(|number| *number > 0)
+}
+
 /// Whether a metric is strictly between what a level says.
-fn lies_between(Metric { matrix, cross, weight, .. }: &Metric, Level { p_up, x_low, e_low }: &Level) -> bool {
+pub(super) fn lies_between(Metric { matrix, cross, weight, .. }: &Metric, Level { p_up, x_low, e_low }: &Level) -> bool {
     let n = matrix.len();
     let less = |x: &Rational, e: &Rational| {
         let entry = |i: usize, j: usize| match (i < n, j < n) {

@@ -9,11 +9,13 @@ mod largest;
 mod member;
 mod plant;
 mod steady;
+mod supremum;
 
 pub use falling::{Falling, Peak, Start};
 pub use largest::{Answers, sizes};
 pub use member::Member;
 pub use plant::{LinearPlant, MAX_LINES};
+pub(crate) use supremum::supremum;
 pub use steady::{Loop, Oscillators, Sizes};
 
 /// Bits of the enclosures.

@@ -2,11 +2,11 @@
 
 use super::PRECISION;
 use super::member::Line;
+use super::supremum::supremum;
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_lang::spec::InternalModel;
 use sigmastar_theory::transfer::Complex;
-use std::sync::LazyLock;
 
 /// How many oscillators there are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -59,7 +59,7 @@ impl Loop {
     }
 
     /// `sum_{|l| <= N} c_l/(l - k)^power`, c_0 = n_0 and else n_|l|/2, for k > N: g_N(k) and its derivative.
-    fn poles(&self, oscillators: usize, k: usize, power: u32) -> Enclosure {
+    pub(crate) fn poles(&self, oscillators: usize, k: usize, power: u32) -> Enclosure {
         let term = |l: usize| {
             let at = |l: i64| Enclosure::from_rational(&Rational::from((1, (l - k as i64).pow(power))), PRECISION);
             let both = if l == 0 { at(0) } else { (at(l as i64) + at(-(l as i64))) / 2 };
@@ -104,12 +104,18 @@ impl<T> Sizes<T> {
 
 impl Loop {
     /// Bounds of the periodic solution of every member whose lines are these, with a gain of the actuator in `gain`. `None` where the answer
-    /// to a line may have no bound. What is below them some instant has, of |e| and |u|.
+    /// to a line may have no bound. What is below them some instant has, of |e| and |u|, but for `room`, a share of them.
     ///
     /// Line k meets an oscillator where k <= N: then `e_k = 0`, `u_k = -c_k/b`, and `|zeta_k|_N = sqrt(2/n_k) |c_k|/(b mu)`. Else
     /// `e_k = c_k/D`, `D = i om_k - W_k + b (sigma + i y_k (i om_k + sigma))`, `y_k = nu g_N(k)`, `u_k = ((i om_k - W_k) e_k - c_k)/b`, and
     /// `|zeta_k|_N = sqrt(g_N'(k)) |i om_k + sigma| |e_k|/w`.
-    pub(super) fn sizes(&self, lines: &[Line], gain: &Enclosure, oscillators: Oscillators) -> Option<Sizes<Enclosure>> {
+    pub(super) fn sizes(
+        &self,
+        lines: &[Line],
+        gain: &Enclosure,
+        oscillators: Oscillators,
+        room: f64,
+    ) -> Option<Sizes<Enclosure>> {
         let zero = || Enclosure::zero(PRECISION);
         let met = match oscillators {
             Oscillators::Exactly(count) => usize::try_from(count).unwrap_or(usize::MAX).min(lines.len() - 1),
@@ -146,8 +152,9 @@ impl Loop {
         sizes.zeta = sizes.zeta + within.sqrt();
         // Both of k and -k; the mean is 0.
         sizes.mean_square = (errors.iter().fold(zero(), |sum, error| sum + error.norm_squared()) * 2).sqrt();
-        sizes.error = largest(&errors);
-        sizes.control = largest(&controls);
+        let largest = |waves: Vec<Complex>| supremum(&waves.into_iter().map(|wave| vec![wave]).collect::<Vec<_>>(), room);
+        sizes.error = largest(errors);
+        sizes.control = largest(controls);
         let bounded = sizes.each().into_iter().all(Enclosure::is_bounded);
         bounded.then_some(sizes)
     }
@@ -162,56 +169,4 @@ impl Loop {
         let squares = self.inverse.iter().map(|entries| row(entries).norm_squared());
         squares.fold(Enclosure::zero(PRECISION), |sum, square| sum + square).sqrt()
     }
-}
-
-/// In how many parts the period is cut at first, and at most: powers of two.
-const FIRST_PARTS: usize = 8;
-const PARTS: usize = 256;
-
-/// By what share of the largest value that was met a part may be bounded above it before it is cut.
-const ROOM: f64 = 1e-3;
-
-/// `cos(m pi/PARTS)` for m = 0, ..., 2 PARTS - 1.
-static COSINES: LazyLock<Vec<Enclosure>> = LazyLock::new(|| {
-    let angle = |m: usize| Enclosure::pi(PRECISION) * m as i64 / PARTS as i64;
-    (0..2 * PARTS).map(|m| angle(m).cos()).collect()
-});
-
-/// The largest `|sum_k w_k e^{i k s}|`, over -K..K with `w_-k = conj(w_k)`: about its middle a part of the period has the second Taylor
-/// polynomial as a bound. The first coefficient is that of k = 0, which is real.
-fn largest(coefficients: &[Complex]) -> Enclosure {
-    // Numbers in the middle of the coefficients, and how far the sum may be from that with these.
-    let exact = |value: &Enclosure| Enclosure::exactly(value.midpoint_f64());
-    let middles: Vec<Complex> = coefficients.iter().map(|w| Complex { re: exact(&w.re), im: exact(&w.im) }).collect();
-    let both = |k: usize| if k == 0 { 1 } else { 2 };
-    let zero = || Enclosure::zero(PRECISION);
-    let pairs = coefficients.iter().zip(&middles).enumerate();
-    let apart = pairs.fold(zero(), |sum, (k, (w, middle))| sum + w.sub(middle).norm() * both(k));
-    let bent = middles.iter().enumerate().fold(zero(), |sum, (k, w)| sum + w.norm() * (both(k) * (k * k) as i64));
-    let mut met = zero();
-    let mut above = zero();
-    let mut open: Vec<[usize; 2]> = (0..FIRST_PARTS).map(|part| [part, FIRST_PARTS]).collect();
-    while let Some([part, parts]) = open.pop() {
-        let angle = (2 * part + 1) * (PARTS / parts);
-        let mut value = middles.first().map_or_else(zero, |mean| mean.re.clone());
-        let mut slope = zero();
-        for (k, w) in middles.iter().enumerate().skip(1) {
-            let m = k * angle % (2 * PARTS);
-            // sin(a) = cos(a - pi/2).
-            let (cos, sin) = (&COSINES[m], &COSINES[(m + 2 * PARTS - PARTS / 2) % (2 * PARTS)]);
-            value = value + (&w.re * cos - &w.im * sin) * 2;
-            slope = slope - (&w.re * sin + &w.im * cos) * (2 * k as i64);
-        }
-        let half = Enclosure::pi(PRECISION) / parts as i64;
-        let bound = value.abs() + slope.abs() * &half + half.sqr() / 2 * &bent;
-        met = met.max(&value.abs());
-        if bound.upper_f64() <= met.lower_f64() * (1.0 + ROOM) || parts == PARTS {
-            above = above.max(&bound);
-        } else {
-            open.extend([[2 * part, 2 * parts], [2 * part + 1, 2 * parts]]);
-        }
-    }
-    // From what is met at one instant up to the bound of all.
-    let [low, high] = [(met - &apart).max(&zero()), above + apart];
-    low.hull(&high)
 }

@@ -6,7 +6,7 @@ mod read;
 pub use periodicity::PeriodicityFailure;
 pub use read::{FORMAT, VERSIONS};
 
-use crate::expr::{Formula, Formulas, PlantExpr, PlantNames, PlantVariable, Program};
+use crate::expr::{Formula, Formulas, Fourier, PlantExpr, PlantNames, PlantVariable, Program};
 use crate::spec::{
     Actuator, Constant, Disturbances, Document, Domain, ErrorKind, InitialSet, InputGain, InternalModel, Parameters,
     Period, SpecErrors,
@@ -135,6 +135,14 @@ impl Plant {
             parameters: self.parameters.clone().with_clock(None),
             ..self.clone()
         }
+    }
+
+    /// The plant of the error less a wave of its period: `e + wave` stands in the place of e. Its document is that of this one.
+    #[must_use]
+    pub fn with_error_moved(&self, wave: &Fourier<Rational>) -> Plant {
+        let phase = self.period.phase();
+        let moved = |expr: &PlantExpr| expr.with_error_moved(wave, &phase);
+        Plant { f: self.f.iter().map(moved).collect(), q: moved(&self.q), ..self.clone() }
     }
 
     /// The plant of the same file with other values of some parameters, as exact constants by their names.

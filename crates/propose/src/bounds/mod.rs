@@ -15,6 +15,7 @@ mod energy_program;
 mod float_waves;
 mod joint_program;
 mod narrow;
+mod peak_points;
 mod place;
 mod points;
 mod pointwise;

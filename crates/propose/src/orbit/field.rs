@@ -15,7 +15,7 @@ const TIMES: usize = 8;
 const ELSEWHERE: [f64; 5] = [1.0, 1e-2, 1e2, 1e-4, 1e4];
 
 /// f, q and their derivatives at points, in doubles.
-pub(super) struct Field {
+pub(crate) struct Field {
     evaluator: Evaluator,
     states: usize,
     outputs: Vec<f64>,
@@ -24,11 +24,11 @@ pub(super) struct Field {
     /// The state of the plant, which is written over.
     state: Vec<f64>,
     /// T.
-    pub(super) period: f64,
+    pub(crate) period: f64,
 }
 
 impl Field {
-    pub(super) fn new(plant: &Plant) -> Field {
+    pub(crate) fn new(plant: &Plant) -> Field {
         let program = Arc::new(plant.program_with_derivatives());
         let outputs = vec![0.0; program.outputs()];
         let states = plant.states();
@@ -63,38 +63,38 @@ impl Field {
     }
 
     /// A curve of the plant's states in the units of the field.
-    pub(super) fn own(&self, series: &FloatSeries) -> FloatSeries {
+    pub(crate) fn own(&self, series: &FloatSeries) -> FloatSeries {
         series.scaled(|i| self.units[i].recip())
     }
 
     /// A curve in the units of the field, in those of the plant.
-    pub(super) fn written(&self, series: &FloatSeries) -> FloatSeries {
+    pub(crate) fn written(&self, series: &FloatSeries) -> FloatSeries {
         series.scaled(|i| self.units[i])
     }
 
     /// The units of the states: powers of two.
-    pub(super) fn units(&self) -> &[f64] {
+    pub(crate) fn units(&self) -> &[f64] {
         &self.units
     }
 
-    pub(super) fn states(&self) -> usize {
+    pub(crate) fn states(&self) -> usize {
         self.states
     }
 
     /// Evaluates everything at the time `s T`; what follows reads it. The state is in the units of the field.
-    pub(super) fn set(&mut self, s: f64, x: &[f64], e: f64) {
+    pub(crate) fn set(&mut self, s: f64, x: &[f64], e: f64) {
         self.evaluator.set_time(s * self.period);
         self.state.iter_mut().zip(x).zip(&self.units).for_each(|((state, x), unit)| *state = x * unit);
         self.evaluator.evaluate(&self.state, e, &mut self.outputs);
     }
 
     /// f.
-    pub(super) fn f(&self) -> DVector<f64> {
+    pub(crate) fn f(&self) -> DVector<f64> {
         DVector::from_fn(self.states, |i, _| self.outputs[i] / self.units[i])
     }
 
     /// The size of the terms of `T f` at the state that was set: f may vanish where they cancel.
-    pub(super) fn size(&self, x: &[f64]) -> f64 {
+    pub(crate) fn size(&self, x: &[f64]) -> f64 {
         let terms = |i: usize| {
             let own = (self.outputs[i] / self.units[i]).abs();
             (0..x.len()).map(|j| (self.derivative(i, j) * x[j]).abs()).fold(own, f64::max)
@@ -109,27 +109,27 @@ impl Field {
     }
 
     /// The derivative of f with respect to e.
-    pub(super) fn f_e(&self) -> DVector<f64> {
+    pub(crate) fn f_e(&self) -> DVector<f64> {
         DVector::from_fn(self.states, |i, _| self.derivative(i, self.states))
     }
 
     /// That of q with respect to x.
-    pub(super) fn q_x(&self) -> DVector<f64> {
+    pub(crate) fn q_x(&self) -> DVector<f64> {
         DVector::from_fn(self.states, |j, _| self.derivative(self.states, j))
     }
 
     /// That of q with respect to e.
-    pub(super) fn q_e(&self) -> f64 {
+    pub(crate) fn q_e(&self) -> f64 {
         self.derivative(self.states, self.states)
     }
 
     /// q.
-    pub(super) fn q(&self) -> f64 {
+    pub(crate) fn q(&self) -> f64 {
         self.outputs[self.states]
     }
 
     /// The derivative of f with respect to x.
-    pub(super) fn jacobian(&self) -> DMatrix<f64> {
+    pub(crate) fn jacobian(&self) -> DMatrix<f64> {
         let n = self.states;
         DMatrix::from_fn(n, n, |i, j| self.derivative(i, j))
     }

@@ -25,6 +25,7 @@ mod shape;
 
 pub use coordinates::{Rated, lower_triangular, propose_coordinates};
 pub use failure::OrbitFailure;
+pub(crate) use field::Field;
 pub use find::{FloatOrbit, find_orbit};
 pub use forcing::{propose_forcing, sampled_rests};
 pub use round::round_orbit;

@@ -43,7 +43,7 @@ impl FloatSeries {
     }
 
     /// The series with each component times a factor.
-    pub(super) fn scaled(&self, factor: impl Fn(usize) -> f64) -> FloatSeries {
+    pub(crate) fn scaled(&self, factor: impl Fn(usize) -> f64) -> FloatSeries {
         let scale = |values: &Vec<f64>| values.iter().enumerate().map(|(i, value)| value * factor(i)).collect();
         let harmonics = self.harmonics.iter().map(|pair| pair.each_ref().map(scale)).collect();
         FloatSeries { mean: scale(&self.mean), harmonics }
@@ -78,7 +78,7 @@ impl FloatSeries {
     }
 
     /// The first `degree` harmonics of samples that are spread evenly over the period, `2 degree + 1` of them or more.
-    pub(super) fn from_samples(samples: &[Vec<f64>], degree: usize) -> FloatSeries {
+    pub(crate) fn from_samples(samples: &[Vec<f64>], degree: usize) -> FloatSeries {
         let count = samples.len();
         let dimension = samples.first().map_or(0, Vec::len);
         let turn = Turn::new(count);

@@ -1,10 +1,15 @@
 //! What a certificate says of each number of oscillators, and what proves it (derivation, 14).
 
-use super::json::{exact, object, rows};
+use super::json::{exact, object, rows, series, vector};
 use super::write::with_room;
 use crate::certify::{ByCount, CountBounds, CountProof};
+use rug::Rational;
 use serde_json::{Value, json};
+use sigmastar_decide::bounds::StatesForm;
 use sigmastar_decide::linear::Falling;
+use sigmastar_decide::trial::{Trial, TubeProof};
+use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_lang::spec::{Level, Metric, TrigonometricVector, Wave};
 
 /// The name of both parts.
 pub(super) const BY_N_O: &str = "by_n_o";
@@ -12,15 +17,18 @@ pub(super) const BY_N_O: &str = "by_n_o";
 /// The part of the claim; none where nothing is claimed.
 pub(super) fn claimed_counts(found: Option<&ByCount>) -> Option<(&'static str, Value)> {
     let one = |bounds: &CountBounds| {
-        let CountBounds { n_o, or_more, steady_error, mean_square, peak_error, control } = bounds;
-        let steady = [("e", steady_error), ("e_rms", mean_square), ("u", &control.steady)];
-        let largest = [("e", peak_error), ("u", &(&control.steady + &control.transient))];
-        let numbers = |numbers: &[(&'static str, &_)]| object(numbers.iter().map(|(name, value)| (*name, with_room(value))));
+        let CountBounds { n_o, or_more, steady_error, mean_square, steady_control, largest } = bounds;
+        let numbers = |numbers: &[(&'static str, &Enclosure)]| {
+            object(numbers.iter().map(|(name, value)| (*name, with_room(value))))
+        };
         let mut part = json!({ "n_o": n_o });
         if *or_more {
             part["or_more"] = true.into();
         }
-        (part["steady"], part["largest"]) = (numbers(&steady), numbers(&largest));
+        part["steady"] = numbers(&[("e", steady_error), ("e_rms", mean_square), ("u", steady_control)]);
+        if let Some((largest, control)) = largest.as_ref().zip(bounds.largest_control()) {
+            part["largest"] = numbers(&[("e", &largest.error), ("u", &control)]);
+        }
         part
     };
     found.filter(|found| found.checked).map(|found| (BY_N_O, found.counts.iter().map(one).collect()))
@@ -28,7 +36,14 @@ pub(super) fn claimed_counts(found: Option<&ByCount>) -> Option<(&'static str, V
 
 /// The part of the witness.
 pub(super) fn count_witness(found: Option<&ByCount>) -> Option<(&'static str, Value)> {
-    let CountProof { forms, sizes } = &found.filter(|found| found.checked)?.proof;
+    let part = match &found.filter(|found| found.checked)?.proof {
+        CountProof::Linear { forms, sizes } => ("linear", linear(forms, sizes)),
+        CountProof::Trials(trials) => ("trials", trials.iter().map(|(trial, proof)| of_trial(trial, proof)).collect()),
+    };
+    Some((BY_N_O, object([part])))
+}
+
+fn linear(forms: &[Falling], sizes: &[[Enclosure; 2]]) -> Value {
     let form = |Falling { matrix, p_up, weight, k_p }: &Falling| {
         object([("P", rows(matrix)), ("p_up", exact(p_up)), ("w", exact(weight)), ("k_p", exact(k_p))])
     };
@@ -37,6 +52,35 @@ pub(super) fn count_witness(found: Option<&ByCount>) -> Option<(&'static str, Va
         let states = has_states.then(|| ("x", with_room(states)));
         object(states.into_iter().chain([("zeta", with_room(zeta))]))
     };
-    let linear = object([("forms", forms.iter().map(form).collect()), ("sizes", sizes.iter().map(size).collect())]);
-    Some((BY_N_O, object([("linear", linear)])))
+    object([("forms", forms.iter().map(form).collect()), ("sizes", sizes.iter().map(size).collect())])
+}
+
+fn of_trial(Trial { states: curve, error, forcing, .. }: &Trial, proof: &TubeProof) -> Value {
+    let TubeProof { defects: [d_x, d_q], radii, slopes, forms, states } = proof;
+    let has_states = states.is_some();
+    let wave = |wave: &Wave| object(series("mean", wave, exact));
+    let of_error = object(series("mean", error, exact).into_iter().filter(|(name, _)| *name != "mean"));
+    let of_states = |curve: &TrigonometricVector| object(series("mean", curve, |part| vector(part)));
+    let pair = |[x, e]: &[Rational; 2], names: [&'static str; 2]| {
+        let x = has_states.then(|| (names[0], exact(x)));
+        x.into_iter().chain([(names[1], exact(e))]).collect::<Vec<_>>()
+    };
+    let form = |(metric, level): &(Metric, Level)| {
+        let Metric { matrix, cross, weight, k_p, c_x, c_e, c_y } = metric;
+        let Level { p_up, x_low, e_low } = level;
+        let numbers = [("w", weight), ("k_p", k_p), ("c_x", c_x), ("c_e", c_e), ("c_y", c_y)];
+        let ends = [("P_up", p_up), ("x_low", x_low), ("e_low", e_low)];
+        let numbers = numbers.into_iter().chain(ends).map(|(name, value)| (name, exact(value)));
+        object([("P", rows(matrix)), ("p", vector(cross))].into_iter().chain(numbers))
+    };
+    let bound = |StatesForm { matrix, q_low, q_up, c, gamma }: &StatesForm| {
+        let numbers = [("Q_low", q_low), ("Q_up", q_up), ("c", c), ("gamma", gamma)];
+        object([("Q", rows(matrix))].into_iter().chain(numbers.map(|(name, value)| (name, exact(value)))))
+    };
+    let curve = has_states.then(|| ("x", of_states(curve)));
+    let curves = curve.into_iter().chain([("e", of_error), ("q", wave(forcing))]);
+    let numbers = pair(&[d_x.clone(), d_q.clone()], ["defect_x", "defect_q"]).into_iter();
+    let numbers = numbers.chain([("box", object(pair(radii, ["x", "e"])))]).chain(pair(slopes, ["q_x", "q_e"]));
+    let forms = [("forms", forms.iter().map(form).collect())];
+    object(curves.chain(numbers).chain(forms).chain(states.as_ref().map(|form| ("states", bound(form)))))
 }

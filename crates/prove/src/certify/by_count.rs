@@ -1,8 +1,10 @@
 //! Bounds for each number of oscillators, of plants that are linear in x and e (derivation, 14.3, 14.5).
 
 use super::certification::Certification;
-use super::gain_row::{ByCount, CountBounds, CountProof, GainRow, RowProof, SHOWN_N_O};
+use super::trials::{Asked, by_trials};
+use super::gain_row::{ByCount, CountBounds, CountProof, GainRow, Largest, RowProof, SHOWN_N_O};
 use rug::Rational;
+use sigmastar_decide::conditions::SharpProof;
 use sigmastar_decide::linear::{Answers, Falling, LinearPlant, Loop, Oscillators, PRECISION, Sizes, Start, sizes};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, round_f64};
@@ -11,9 +13,13 @@ use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::Specification;
 use sigmastar_matrix::doubles::largest;
 use sigmastar_matrix::inverse;
-use sigmastar_propose::linear_peak::{FallingForm, PeakOf, PeakProgram};
+use sigmastar_propose::bounds::PointSlopes;
+use sigmastar_propose::peak_program::{FallingForm, PeakOf, PeakProgram};
 use sigmastar_theory::derivation::control::Control;
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
+
+/// By what share of the diagonal the matrices of a form are to be definite, in turn.
+const MARGINS: [f64; 2] = [1e-6, 1e-4];
 
 /// Digits of the numbers of a form.
 const DIGITS: u32 = 9;
@@ -56,19 +62,20 @@ fn by_count(
             error: a.error.min(&b.error),
             control: a.control.min(&b.control),
         })?;
-        let control = Control { steady: sizes.control.clone(), transient: peak.control }.over(nominal.as_ref());
+        let Control { steady, transient } =
+            Control { steady: sizes.control.clone(), transient: peak.control }.over(nominal.as_ref());
         Some(CountBounds {
             n_o,
             or_more: n_o == linear.lines() as u64,
             steady_error: sizes.error.clone(),
             mean_square: sizes.mean_square.clone(),
-            peak_error: &sizes.error + &peak.error,
-            control,
+            largest: Some(Largest { error: &sizes.error + &peak.error, transient }),
+            steady_control: steady,
         })
     };
     let counts = counts.into_iter().zip(&found).map(bounds).collect::<Option<_>>()?;
     let sizes = found.into_iter().map(|sizes| [sizes.states, sizes.zeta]).collect();
-    Some(ByCount { counts, proof: CountProof { forms, sizes }, checked: false })
+    Some(ByCount { counts, proof: CountProof::Linear { forms, sizes }, checked: false })
 }
 
 /// A form that is proved to fall, with a small peak for the start of a loop without oscillators.
@@ -82,14 +89,19 @@ fn form(
     let member = |values: Vec<Rational>| {
         let ends: Vec<[Rational; 2]> = values.into_iter().map(|value| [value.clone(), value]).collect();
         let rows = own.in_coordinates(&linear.member(&linear.enclosed(&ends))?.rows, coordinates);
-        Some(rows.iter().map(|row| row.iter().map(Enclosure::midpoint_f64).collect()).collect())
+        let rows: Vec<Vec<f64>> =
+            rows.iter().map(|row| row.iter().map(Enclosure::midpoint_f64).collect()).collect();
+        let (last, states) = rows.split_last()?;
+        let (d, r) = last.split_last()?;
+        let (j, g) = states.iter().filter_map(|row| row.split_last()).map(|(g, j)| (j, *g)).unzip::<_, _, Vec<_>, Vec<_>>();
+        Some(PointSlopes { j: j.concat(), g, r: r.to_vec(), d: *d })
     };
     let of_zeta = start
         .z0
         .as_ref()
         .map_or(0.0, |z0| z0.upper_f64() + own.n_bar_squared.sqrt().upper_f64() * start.e0.upper_f64());
     let program = PeakProgram {
-        members: plant.parameters.looked_at().into_iter().map(member).collect::<Option<_>>()?,
+        points: plant.parameters.looked_at().into_iter().map(member).collect::<Option<_>>()?,
         gain: own.gain.each_ref().map(Enclosure::midpoint_f64),
         sigma: own.sigma.midpoint_f64(),
         mu: own.mu.midpoint_f64(),
@@ -99,15 +111,18 @@ fn form(
             start.e0.upper_f64() + sizes.error.upper_f64(),
             of_zeta + sizes.zeta.upper_f64(),
         ],
+        joint: false,
+        reach: None,
     };
-    (0..)
-        .map_while(|attempt| program.propose(of, attempt))
+    MARGINS
+        .into_iter()
+        .filter_map(|margin| program.propose(of, margin))
         .filter_map(|form| rounded(&form))
         .find(|form| form.decide(linear, own, coordinates).is_true())
 }
 
 /// A form in short numbers.
-fn rounded(FallingForm { matrix, weight, k_p }: &FallingForm) -> Option<Falling> {
+fn rounded(FallingForm { matrix, weight, k_p, .. }: &FallingForm) -> Option<Falling> {
     let short = |value: f64| round_f64(value, DIGITS, Direction::Nearest);
     let row = |row: &Vec<f64>| row.iter().map(|entry| short(*entry)).collect::<Option<Vec<Rational>>>();
     let above = if matrix.is_empty() { 1.0 } else { largest(matrix.clone()) * (1.0 + 1e-6) };
@@ -127,12 +142,11 @@ impl GainRow {
                 *bound = bound.min(&own.steady_error);
             }
         }
-        if let Some(peak) = found.largest(|bounds| &bounds.peak_error) {
+        if let Some(peak) = found.largest(|bounds| Some(&bounds.largest.as_ref()?.error)) {
             self.peak = self.peak.min(&peak);
         }
-        let control =
-            [found.largest(|bounds| &bounds.control.steady), found.largest(|bounds| &bounds.control.transient)];
-        if let [Some(steady), Some(transient)] = control {
+        let transient = found.largest(|bounds| Some(&bounds.largest.as_ref()?.transient));
+        if let Some((steady, transient)) = found.largest(|bounds| Some(&bounds.steady_control)).zip(transient) {
             let Control { steady: known, transient: known_transient } = &self.control;
             self.control = Control { steady: known.min(&steady), transient: known_transient.min(&transient) };
         }
@@ -147,23 +161,39 @@ impl Certification<'_> {
         let (steady, peak, control) = self.bounds()?;
         let own = self.gains.first();
         let (peak, control) = own.map_or((peak, control), |row| (&row.peak, &row.control));
-        let by_count = self.by_count.as_ref().and_then(|found| found.largest(|bounds| &bounds.steady_error));
+        let by_count = self.by_count.as_ref().and_then(|found| found.largest(|bounds| Some(&bounds.steady_error)));
         let steady = by_count.map_or_else(|| steady.clone(), |found| steady.min(&found));
         Some((steady, peak.clone(), control.clone()))
     }
 
-    /// Bounds for every number of oscillators at the gain of the claim, where the plant is linear in x and e; nothing where it is not, where the
-    /// base frequency is not matched, or the document has noise or a disturbance.
+    /// Bounds by the number of oscillators at the gain of the claim: for every number where the plant is linear in x and e, for some of them where
+    /// nothing of it is an interval; nothing where the base frequency is not matched, or the document has noise or a disturbance.
     pub fn set_counts(&mut self, plant: &Plant) {
-        let Some(proof) = self.sharp.proved().filter(|_| self.claim().is_some()) else { return };
-        let Some(linear) = LinearPlant::of(plant).filter(|_| self.has_counts()) else { return };
-        let answers = Answers::new(&linear, plant.internal_model.base_frequency.enclose(PRECISION));
-        let witness = &proof.witness;
-        self.by_count = by_count((plant, &answers), self.spec, (&witness.sigma, EFFORTS[0]), &witness.set);
+        let Some(SharpProof { witness, evaluation, .. }) = self.sharp.proved().filter(|_| self.has_counts()) else {
+            return;
+        };
+        self.by_count = match LinearPlant::of(plant) {
+            Some(linear) => {
+                let answers = Answers::new(&linear, plant.internal_model.base_frequency.enclose(PRECISION));
+                by_count((plant, &answers), self.spec, (&witness.sigma, EFFORTS[0]), &witness.set)
+            }
+            None => {
+                let exact = |value: &Rational| Enclosure::from_rational(value, PRECISION);
+                let periodic = &evaluation.periodic;
+                by_trials(&Asked {
+                    plant,
+                    spec: self.spec,
+                    sigma: &witness.sigma,
+                    set: &witness.set,
+                    error_box: [exact(&witness.d_x), exact(&witness.d_e)],
+                    periodic: [periodic.x_per.clone(), periodic.e_per.clone()],
+                })
+            }
+        };
     }
 
     fn has_counts(&self) -> bool {
-        self.spec.internal_model.matched && !self.spec.disturbances.any()
+        self.spec.internal_model.matched && !self.spec.disturbances.any() && self.claim().is_some()
     }
 
     /// The rows with such bounds: that of the claim with those that are known, and the others.

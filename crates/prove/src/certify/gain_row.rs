@@ -4,6 +4,7 @@ use crate::rate::found::ForCount;
 use rug::Rational;
 use sigmastar_decide::conditions::{SampledProof, SharpProof};
 use sigmastar_decide::linear::Falling;
+use sigmastar_decide::trial::{Trial, TubeProof};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_lang::spec::Specification;
 use sigmastar_theory::derivation::control::Control;
@@ -44,16 +45,33 @@ pub struct CountBounds {
     pub steady_error: Enclosure,
     /// Of the root mean square of e along it.
     pub mean_square: Enclosure,
-    /// Of |e| of every solution from the set, at all times.
-    pub peak_error: Enclosure,
-    /// Of what is put out.
-    pub control: Control<Enclosure>,
+    /// Of what is put out along it.
+    pub steady_control: Enclosure,
+    /// For every solution from the set, where they are proved.
+    pub largest: Option<Largest>,
 }
 
-/// Bounds for every number of oscillators.
+/// Bounds for every solution from the set, at all times.
+#[derive(Clone, Debug)]
+pub struct Largest {
+    /// Of |e|.
+    pub error: Enclosure,
+    /// Of how far what is put out is from that along the periodic solution.
+    pub transient: Enclosure,
+}
+
+impl CountBounds {
+    /// Of what is put out at all times, for every solution from the set, where it is proved.
+    #[must_use]
+    pub fn largest_control(&self) -> Option<Enclosure> {
+        Some(&self.steady_control + &self.largest.as_ref()?.transient)
+    }
+}
+
+/// Bounds by the number of oscillators.
 #[derive(Clone, Debug)]
 pub struct ByCount {
-    /// For 0, 1, ..., K, the last of them for every larger number, too: K is the number of harmonics of the plant.
+    /// In rising order; the last one may hold for every larger number, too.
     pub counts: Vec<CountBounds>,
     /// What proves them.
     pub proof: CountProof,
@@ -61,25 +79,33 @@ pub struct ByCount {
     pub checked: bool,
 }
 
-/// What proves bounds for each number of oscillators.
+/// What proves bounds by the number of oscillators.
 #[derive(Clone, Debug)]
-pub struct CountProof {
-    /// Forms that fall along the differences of solutions.
-    pub forms: Vec<Falling>,
-    /// For each number of oscillators bounds of `|L^-1 (x - x_0)|` and `|zeta|_N` along the periodic solution.
-    pub sizes: Vec<[Enclosure; 2]>,
+pub enum CountProof {
+    /// Of a plant that is linear in x and e (derivation, 14.3).
+    Linear {
+        /// Forms that fall along the differences of solutions.
+        forms: Vec<Falling>,
+        /// For each number of oscillators bounds of `|L^-1 (x - x_0)|` and `|zeta|_N` along the periodic solution.
+        sizes: Vec<[Enclosure; 2]>,
+    },
+    /// A trial for each number, and what is proved around it (derivation, 14.4).
+    Trials(Vec<(Trial, TubeProof)>),
 }
 
 impl ByCount {
     /// Those for a number of oscillators.
     #[must_use]
     pub fn at(&self, n_o: u64) -> Option<&CountBounds> {
-        self.counts.iter().rev().find(|bounds| bounds.n_o <= n_o)
+        self.counts.iter().rev().find(|bounds| bounds.n_o <= n_o).filter(|bounds| bounds.or_more || bounds.n_o == n_o)
     }
 
-    /// The largest of a bound.
-    pub(super) fn largest(&self, of: impl Fn(&CountBounds) -> &Enclosure) -> Option<Enclosure> {
-        self.counts.iter().map(of).cloned().reduce(|a, b| a.max(&b))
+    /// The largest of a bound over all numbers of oscillators; none where not all are known.
+    pub(super) fn largest(&self, of: impl Fn(&CountBounds) -> Option<&Enclosure>) -> Option<Enclosure> {
+        let all: Vec<&Enclosure> = self.counts.iter().map(of).collect::<Option<_>>()?;
+        let complete = self.counts.iter().map(|bounds| bounds.n_o).eq(0..self.counts.len() as u64);
+        let complete = complete && self.counts.last()?.or_more;
+        all.into_iter().cloned().reduce(|a, b| a.max(&b)).filter(|_| complete)
     }
 }
 

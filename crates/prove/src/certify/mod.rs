@@ -30,12 +30,13 @@ mod sampled;
 mod scale;
 mod sensitivity;
 mod smaller;
+mod trials;
 mod start;
 mod verdict;
 
 pub use ball::{claimed_ball, covers_ball, inverse_norm, within_ball};
 pub use certification::{Alternatives, Certification, Constants, ExactClaim, PrintedFigure, RelativeDegreeGains};
-pub use gain_row::{ByCount, CountBounds, CountProof, GainRow, RowNoise, SHOWN_N_O};
+pub use gain_row::{ByCount, CountBounds, CountProof, GainRow, Largest, RowNoise, SHOWN_N_O};
 pub use gains::ROWS;
 pub use jacobian::{MAX_SEARCHES, Resolution, resolve, resolve_with, with_triple};
 pub use matrix_checks::{ContractionCheck, MatrixChecks, SylvesterCheck};

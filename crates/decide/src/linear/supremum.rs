@@ -1,0 +1,118 @@
+//! How large a trigonometric polynomial becomes.
+
+use super::PRECISION;
+use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_theory::transfer::Complex;
+use std::sync::LazyLock;
+
+/// In how many parts the period is cut at first; of up to so many the cosines are known, and there are at most so many: powers of two.
+const FIRST_PARTS: usize = 8;
+const KNOWN_PARTS: usize = 256;
+const PARTS: usize = 1 << 17;
+
+/// `cos(m pi/KNOWN_PARTS)` for m = 0, ..., 2 KNOWN_PARTS - 1.
+static COSINES: LazyLock<Vec<Enclosure>> = LazyLock::new(|| {
+    let angle = |m: usize| Enclosure::pi(PRECISION) * m as i64 / KNOWN_PARTS as i64;
+    (0..2 * KNOWN_PARTS).map(|m| angle(m).cos()).collect()
+});
+
+/// The cosine and the sine of `m pi/parts`.
+fn turned(m: usize, parts: usize) -> [Enclosure; 2] {
+    let m = m % (2 * parts);
+    if parts <= KNOWN_PARTS {
+        // sin(a) = cos(a - pi/2).
+        let m = m * (KNOWN_PARTS / parts);
+        return [m, m + 2 * KNOWN_PARTS - KNOWN_PARTS / 2].map(|m| COSINES[m % (2 * KNOWN_PARTS)].clone());
+    }
+    let angle = Enclosure::pi(PRECISION) * m as i64 / parts as i64;
+    [angle.cos(), angle.sin()]
+}
+
+/// The largest Euclidean norm of `sum_k w_k e^{i k s}`, over -K..K with `w_-k = conj(w_k)`: w_k is a vector, the same for all k in length, and w_0 is
+/// real. Its lower end is not above what some instant has, the upper one not below what any has; they are a share of `room` apart but for the
+/// width of the coefficients, where the parts of the period suffice for that.
+///
+/// About its middle a part of the period has the second Taylor polynomial as a bound.
+pub(crate) fn supremum(harmonics: &[Vec<Complex>], room: f64) -> Enclosure {
+    // Numbers in the middle of the coefficients, and how far the sum may be from that with these.
+    let exact = |value: &Enclosure| Enclosure::exactly(value.midpoint_f64());
+    let middle = |w: &Complex| Complex { re: exact(&w.re), im: exact(&w.im) };
+    let middles: Vec<Vec<Complex>> = harmonics.iter().map(|part| part.iter().map(middle).collect()).collect();
+    let both = |k: usize| if k == 0 { 1 } else { 2 };
+    let zero = || Enclosure::zero(PRECISION);
+    let length = |squares: &mut dyn Iterator<Item = Enclosure>| squares.fold(zero(), |sum, square| sum + square).sqrt();
+    let apart = harmonics.iter().zip(&middles).enumerate().fold(zero(), |sum, (k, (part, middles))| {
+        sum + length(&mut part.iter().zip(middles).map(|(w, middle)| w.sub(middle).norm_squared())) * both(k)
+    });
+    let bent = middles.iter().enumerate().fold(zero(), |sum, (k, part)| {
+        sum + length(&mut part.iter().map(Complex::norm_squared)) * (both(k) * (k * k) as i64)
+    });
+    let components = middles.first().map_or(0, Vec::len);
+    // Bounds of the length in the middle of a part, and on all of it.
+    let on_part = |part: usize, parts: usize| {
+        let (mut values, mut slopes) = (vec![zero(); components], vec![zero(); components]);
+        for (k, part_of) in middles.iter().enumerate() {
+            let [cos, sin] = turned(k * (2 * part + 1), parts);
+            for ((value, slope), w) in values.iter_mut().zip(&mut slopes).zip(part_of) {
+                *value = &*value + (&w.re * &cos - &w.im * &sin) * both(k);
+                *slope = &*slope - (&w.re * &sin + &w.im * &cos) * (both(k) * k as i64);
+            }
+        }
+        let half = Enclosure::pi(PRECISION) / parts as i64;
+        let [value, slope] = [values, slopes].map(|all| length(&mut all.iter().map(Enclosure::sqr)));
+        let bound = &value + slope * &half + half.sqr() / 2 * &bent;
+        (value, bound)
+    };
+    let mut open: Vec<(usize, usize, Enclosure)> = Vec::new();
+    let mut met = zero();
+    let look = |part: usize, parts: usize, met: &mut Enclosure| {
+        let (value, bound) = on_part(part, parts);
+        *met = met.max(&value);
+        (part, parts, bound)
+    };
+    open.extend((0..FIRST_PARTS).map(|part| look(part, FIRST_PARTS, &mut met)));
+    let mut above = zero();
+    while let Some((part, parts, bound)) = open.pop() {
+        if bound.upper_f64() <= met.lower_f64() * (1.0 + room) || parts == PARTS {
+            above = above.max(&bound);
+        } else {
+            let halves = [2 * part, 2 * part + 1].map(|half| look(half, 2 * parts, &mut met));
+            open.extend(halves);
+        }
+    }
+    // From what is met at one instant up to the bound of all.
+    let [low, high] = [(met - &apart).max(&zero()), above + apart];
+    low.hull(&high)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn number(re: f64, im: f64) -> Complex {
+        Complex { re: Enclosure::exactly(re), im: Enclosure::exactly(im) }
+    }
+
+    /// Of curves whose largest length is known: 3 cos s; 1 - 2 sin 2s; the circle (cos s, sin s); (1, cos s).
+    #[test]
+    fn the_largest_length_is_enclosed_closely() {
+        let zero = || number(0.0, 0.0);
+        let cases = [
+            (vec![vec![zero()], vec![number(1.5, 0.0)]], 3.0),
+            (vec![vec![number(1.0, 0.0)], vec![zero()], vec![number(0.0, 1.0)]], 3.0),
+            (vec![vec![zero(), zero()], vec![number(0.5, 0.0), number(0.0, -0.5)]], 1.0),
+            (vec![vec![number(1.0, 0.0), zero()], vec![zero(), number(0.5, 0.0)]], 2.0_f64.sqrt()),
+        ];
+        for (harmonics, expected) in cases {
+            for room in [1e-2, 1e-8] {
+                let found = supremum(&harmonics, room);
+                assert!(found.lower_f64() <= expected && expected <= found.upper_f64(), "{expected}: {found:?}");
+                assert!(found.upper_f64() <= expected * (1.0 + 1.1 * room), "{expected}, {room}: {found:?}");
+            }
+        }
+        // Nothing is nothing, and what is not known exactly is not below what it may be.
+        assert_eq!(supremum(&[vec![zero()], vec![zero()]], 1e-3).upper_f64(), 0.0);
+        let wide = Complex { re: Enclosure::exactly(1.0).hull(&Enclosure::exactly(2.0)), im: Enclosure::exactly(0.0) };
+        assert!(supremum(&[vec![zero()], vec![wide]], 1e-3).upper_f64() >= 4.0);
+    }
+}

@@ -1,0 +1,193 @@
+//! The tube theorem (derivation, 14.4): what (14.4a), (14.4b) and the defects say of the periodic solution.
+
+use super::defects::Trial;
+use crate::bounds::StatesForm;
+use crate::linear::{Loop, PRECISION, supremum};
+use rug::Rational;
+use sigmastar_exact::enclosure::{Enclosure, Truth};
+use sigmastar_lang::spec::{Level, Metric, TrigonometricVector};
+use sigmastar_theory::transfer::Complex;
+
+/// By what share bounds of curves may be above what an instant has: of e and u, and of the states.
+const OF_ERROR: f64 = 1e-9;
+const OF_STATES: f64 = 1e-3;
+
+/// What is proved around a trial, each number a bound.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct TubeProof {
+    /// d_x and d_q.
+    pub defects: [Rational; 2],
+    /// D_x and D_e.
+    pub radii: [Rational; 2],
+    /// b_x and b_e.
+    pub slopes: [Rational; 2],
+    /// Forms with (14.4a) on the box; the first is that of the theorem.
+    pub forms: Vec<(Metric, Level)>,
+    /// (14.4b); none without states.
+    pub states: Option<StatesForm>,
+}
+
+/// What is known besides.
+#[derive(Clone, Debug)]
+pub struct Known<'a> {
+    /// The loop; its coordinates are those of the norms.
+    pub own: &'a Loop,
+    /// T.
+    pub period: &'a Enclosure,
+    /// xb.
+    pub orbit: &'a TrigonometricVector,
+    /// r.
+    pub radius: &'a Rational,
+}
+
+/// Bounds of the periodic solution.
+#[derive(Clone, Debug)]
+pub struct Concluded {
+    /// s_x and s_e, of the distances from the trial.
+    pub distances: [Enclosure; 2],
+    /// E_N, of |e|.
+    pub error: Enclosure,
+    /// Of the root mean square of e.
+    pub mean_square: Enclosure,
+    /// Of |u| of the law.
+    pub control: Enclosure,
+    /// X_N, of `|L^-1 (x - x_0)|`.
+    pub states: Enclosure,
+    /// Z_N, of `|zeta|_N`.
+    pub zeta: Enclosure,
+}
+
+fn exact(value: &Rational) -> Enclosure {
+    Enclosure::from_rational(value, PRECISION)
+}
+
+/// The Euclidean norm.
+pub(super) fn length(vector: &[Rational]) -> Enclosure {
+    let squares = vector.iter().map(|entry| exact(entry).sqr());
+    squares.fold(Enclosure::zero(PRECISION), |sum, square| sum + square).sqrt()
+}
+
+impl Concluded {
+    /// The bounds of Theorem T; `None` where it says nothing: the box may be too small for them, or the trial is none.
+    ///
+    /// Hypotheses: the numbers of `proof` are decided, for this trial, gain and plant, of which nothing is an interval; the formulas are smooth on the
+    /// box. Guarantee: the loop has exactly one T-periodic solution in the box, and it has these bounds.
+    #[must_use]
+    pub fn of(trial: &Trial, proof: &TubeProof, known: &Known<'_>) -> Option<Concluded> {
+        let Known { own, period, .. } = known;
+        let (Metric { cross, k_p, c_x, c_e, c_y, .. }, Level { p_up, .. }) = proof.forms.first()?;
+        if !trial.is_admissible() {
+            return None;
+        }
+        let [d_x, d_q] = proof.defects.each_ref().map(exact);
+        let [c_e, c_y, k_p] = [c_e, c_y, k_p].map(exact);
+        let of_states = match proof.states {
+            Some(_) => exact(p_up).sqr() / exact(c_x) + length(cross).sqr() / &c_e,
+            None => Enclosure::zero(PRECISION),
+        };
+        let all = d_x.sqr() * 4 * of_states + k_p.sqr() * d_q.sqr() / &c_y;
+        let of_y = (&all / &c_y).sqrt();
+        let next = &own.fundamental * (i64::try_from(trial.n_o).ok()?.checked_add(1)?);
+        let of_e = (&all / &c_e).sqrt().min(&(&of_y / (own.sigma.sqr() + next.sqr()).sqrt()));
+        let s_e = (*period * &of_e * &of_y).sqrt();
+        let (s_x, of_x) = match &proof.states {
+            None => (Enclosure::zero(PRECISION), Enclosure::zero(PRECISION)),
+            Some(StatesForm { q_low, q_up, c, gamma, .. }) => {
+                let [q_low, q_up, c, gamma] = [q_low, q_up, c, gamma].map(exact);
+                let inner = gamma * s_e.sqr() + q_up.sqr() * d_x.sqr() / &c;
+                ((&q_up / (q_low * &c) * inner).sqrt(), (&all / exact(c_x)).sqrt())
+            }
+        };
+        let inside = [&s_x, &s_e].into_iter().zip(&proof.radii).zip([proof.states.is_some(), true]);
+        let is_inside = |((distance, end), asked): ((&Enclosure, &Rational), bool)| {
+            !asked || distance.lt(&exact(end)) == Truth::True
+        };
+        if !inside.into_iter().all(is_inside) {
+            return None;
+        }
+        let [b_x, b_e] = proof.slopes.each_ref().map(exact);
+        let of_q = b_x * of_x + b_e * &of_e + d_q;
+        let met = trial.met();
+        let one = |weight: &Enclosure, times: i64| Enclosure::from_integer(times, PRECISION) / weight;
+        let first = one(own.weights.first()?, i64::try_from(met).ok()?.checked_add(1)?);
+        let weights = own.weights.get(1..=met)?;
+        let kappa = weights.iter().fold(first, |largest, weight| largest.max(&one(weight, 2))) / own.mu.sqr();
+        let s_z = (*period / (&own.mu * 2) + kappa).sqrt() * of_q;
+
+        let (of_error, of_forcing) = (trial.of_error(), trial.of_forcing());
+        let mismatch = trial.mismatch(own);
+        let alone = |waves: &[Complex]| waves.iter().map(|wave| vec![wave.clone()]).collect::<Vec<_>>();
+        let moved: Vec<Complex> = (0_i64..)
+            .zip(of_error.iter().zip(&of_forcing))
+            .map(|(k, (e, q))| {
+                let frequency = &own.fundamental * k;
+                Complex { re: (&e.im * &frequency).negate(), im: &e.re * &frequency }.sub(q)
+            })
+            .collect();
+        let n_bar = own.n_bar_squared.sqrt();
+        let control = supremum(&alone(&moved), OF_ERROR) + &mismatch + &own.sigma * &s_e + &own.mu * n_bar * &s_z;
+        let zero = || Enclosure::zero(PRECISION);
+        let square = of_error.iter().fold(zero(), |sum, wave| sum + wave.norm_squared()) * 2;
+        let [states, error, zeta] = Concluded::sizes_of(trial, known)?;
+        let concluded = Concluded {
+            error: error + &s_e,
+            mean_square: square.sqrt() + of_e,
+            control,
+            states: states + &s_x,
+            zeta: zeta + s_z,
+            distances: [s_x, s_e],
+        };
+        let Concluded { error, mean_square, control, states, zeta, .. } = &concluded;
+        let bounded = [error, mean_square, control, states, zeta].into_iter().all(Enclosure::is_bounded);
+        bounded.then_some(concluded)
+    }
+}
+
+impl Concluded {
+    /// Bounds of `|L^-1 (xhat - x_0)|`, `|ehat|` and zhat, of a trial alone; `None` where it has more oscillators than the loop has weights.
+    #[must_use]
+    pub fn sizes_of(trial: &Trial, Known { own, orbit, radius, .. }: &Known<'_>) -> Option<[Enclosure; 3]> {
+        let (of_error, of_forcing) = (trial.of_error(), trial.of_forcing());
+        let alone: Vec<Vec<Complex>> = of_error.iter().map(|wave| vec![wave.clone()]).collect();
+        Some([
+            supremum(&difference(&trial.states, orbit, own), OF_STATES) + exact(radius),
+            supremum(&alone, OF_ERROR),
+            of_zeta(trial, own, &of_error, &of_forcing)?,
+        ])
+    }
+}
+
+/// zhat.
+fn of_zeta(trial: &Trial, own: &Loop, of_error: &[Complex], of_forcing: &[Complex]) -> Option<Enclosure> {
+    let met = trial.met();
+    let mut within = Enclosure::zero(PRECISION);
+    let mut beyond = Enclosure::zero(PRECISION);
+    for (k, (e, q)) in of_error.iter().zip(of_forcing).enumerate() {
+        if k <= met {
+            let both = if k == 0 { 1 } else { 4 };
+            within = within + q.norm_squared() / own.mu.sqr() / own.weights.get(k)? * both;
+        } else {
+            let of_y = ((&own.fundamental * k as i64).sqr() + own.sigma.sqr()).sqrt() * e.norm();
+            beyond = beyond + own.poles(met, k, 2).sqrt() * of_y / &own.fundamental * 2;
+        }
+    }
+    Some(within.sqrt() + beyond)
+}
+
+/// The harmonics of `L^-1 (xhat - xb)`.
+fn difference(trial: &TrigonometricVector, orbit: &TrigonometricVector, own: &Loop) -> Vec<Vec<Complex>> {
+    let zeros = vec![Rational::new(); own.inverse.len()];
+    let minus = |a: &Vec<Rational>, b: &Vec<Rational>| -> Vec<Rational> {
+        let apart: Vec<Rational> = a.iter().zip(b).map(|(a, b)| Rational::from(a - b)).collect();
+        let row = |row: &Vec<Rational>| {
+            row.iter().zip(&apart).fold(Rational::new(), |sum, (l, x)| sum + Rational::from(l * x))
+        };
+        own.inverse.iter().map(row).collect()
+    };
+    let apart = trial.with(orbit, &zeros, minus);
+    let mean = apart.mean.iter().map(|value| Complex::real(exact(value))).collect();
+    let pair = |[cos, sin]: &[Vec<Rational>; 2]| {
+        cos.iter().zip(sin).map(|(cos, sin)| Complex { re: exact(cos) / 2, im: exact(sin) / -2 }).collect()
+    };
+    std::iter::once(mean).chain(apart.harmonics.iter().map(pair)).collect()
+}

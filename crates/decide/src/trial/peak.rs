@@ -1,0 +1,59 @@
+//! How far solutions from the initial set may be from the periodic one near a trial (derivation, 14.5).
+
+use super::conclude::{Concluded, TubeProof, length};
+use crate::linear::{Loop, PRECISION, Start};
+use rug::Rational;
+use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_lang::spec::{Level, Metric};
+
+/// What the second corollary of 14.5 says.
+#[derive(Clone, Debug)]
+pub struct Peaks {
+    /// For each form `V_0` of the level.
+    pub levels: Vec<Enclosure>,
+    /// How far the solutions come from the trial, in x and in e.
+    pub reach: [Enclosure; 2],
+    /// Of |e - e_per| at all times, by the best form.
+    pub error: Enclosure,
+    /// Of |u - u_per| of the law, by the best form.
+    pub control: Enclosure,
+}
+
+impl Peaks {
+    /// The bounds, for solutions from the start. They hold if `reach` is below the radii of the box; then these solutions converge to the periodic one.
+    ///
+    /// Hypotheses: those of [`Concluded::of`], for each form of `proof`. `None` without a form.
+    #[must_use]
+    pub fn of(proof: &TubeProof, concluded: &Concluded, own: &Loop, start: &Start) -> Option<Peaks> {
+        let exact = |value: &Rational| Enclosure::from_rational(value, PRECISION);
+        let has_states = proof.states.is_some();
+        let [x, e] = [&start.x0 + &concluded.states, &start.e0 + &concluded.error];
+        let n_bar_squared = &own.n_bar_squared;
+        let of_start = start.z0.as_ref().map(|z0| z0 + n_bar_squared.sqrt() * &start.e0);
+        let z = of_start.map_or_else(|| concluded.zeta.clone(), |of_start| of_start + &concluded.zeta);
+        let level = |(Metric { cross, weight, k_p, .. }, Level { p_up, .. }): &(Metric, Level)| {
+            let of_states = match has_states {
+                true => exact(p_up) * x.sqr() + length(cross) * &x * &e * 2,
+                false => Enclosure::zero(PRECISION),
+            };
+            of_states + exact(weight) * e.sqr() + exact(k_p) * &own.mu / 2 * z.sqr()
+        };
+        let levels: Vec<Enclosure> = proof.forms.iter().map(level).collect();
+        let each = || proof.forms.iter().zip(&levels);
+        let of_error = |((_, Level { e_low, .. }), level): (&(Metric, Level), &Enclosure)| (level / exact(e_low)).sqrt();
+        let of_control = |((Metric { k_p, .. }, Level { e_low, .. }), level): (&(Metric, Level), &Enclosure)| {
+            (level * (own.sigma.sqr() / exact(e_low) + &own.mu * n_bar_squared * 2 / exact(k_p))).sqrt()
+        };
+        let least = |a: Enclosure, b: Enclosure| a.min(&b);
+        let (Level { x_low, .. }, first) = each().next().map(|((_, level), value)| (level, value))?;
+        let of_x = if has_states { (first / exact(x_low)).sqrt() } else { Enclosure::zero(PRECISION) };
+        let of_e = each().next().map(of_error)?;
+        let [s_x, s_e] = &concluded.distances;
+        Some(Peaks {
+            reach: [of_x + s_x, of_e + s_e],
+            error: each().map(of_error).reduce(least)?,
+            control: each().map(of_control).reduce(least)?,
+            levels,
+        })
+    }
+}

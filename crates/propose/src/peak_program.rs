@@ -1,0 +1,242 @@
+//! Quadratic forms that fall along the differences of solutions, for small peaks (derivation, 14.4, 14.5): semidefinite programs over a few
+//! points at which the derivatives are known.
+
+use crate::bounds::PointSlopes;
+use crate::semidefinite::propose;
+use sigmastar_matrix::doubles::largest;
+use sigmastar_matrix::symmetric::{Symmetric, triangle};
+use sigmastar_matrix::AffineMatrix;
+
+/// What is to be small.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PeakOf {
+    /// |e - e_per|.
+    Error,
+    /// |u - u_per|.
+    Control,
+}
+
+/// A loop, and how far from its periodic solution it starts.
+#[derive(Clone, Debug)]
+pub struct PeakProgram {
+    /// J, g, r, d at some points, in the coordinates of the norms of x.
+    pub points: Vec<PointSlopes>,
+    /// b at both ends of the input gain.
+    pub gain: [f64; 2],
+    /// sigma.
+    pub sigma: f64,
+    /// mu.
+    pub mu: f64,
+    /// The sum of all weights.
+    pub n_bar_squared: f64,
+    /// The distances of the start from the periodic solution: of x, e, and zeta.
+    pub start: [f64; 3],
+    /// Whether x and e are joined.
+    pub joint: bool,
+    /// How far x may come from the periodic solution, where that is limited.
+    pub reach: Option<f64>,
+}
+
+/// `V = x'P x + 2 e p'x + w e^2 + (b mu k_p/2) |zeta|_N^2`.
+#[derive(Clone, Debug)]
+pub struct FallingForm {
+    /// P by rows.
+    pub matrix: Vec<Vec<f64>>,
+    /// p: zeros where x and e are not joined.
+    pub cross: Vec<f64>,
+    /// w.
+    pub weight: f64,
+    /// k_p.
+    pub k_p: f64,
+    /// `P <= p_up I`.
+    pub p_up: f64,
+    /// c_x, c_e and c_y of (14.4a) at the points.
+    pub margins: [f64; 3],
+    /// A bound of V at the start.
+    pub level: f64,
+}
+
+/// The places of the variables.
+#[derive(Clone, Copy)]
+struct Variables {
+    n: usize,
+    /// The entries of P come first, then those of p.
+    m: usize,
+    cross: usize,
+}
+
+impl Variables {
+    /// w; k_p sigma; what P, and |p|, are at most; what e^2 has at least.
+    fn w(self) -> usize {
+        self.m + self.cross
+    }
+    fn kappa(self) -> usize {
+        self.w() + 1
+    }
+    fn above(self) -> usize {
+        self.w() + 2
+    }
+    fn length(self) -> usize {
+        self.w() + 3
+    }
+    fn of_error(self) -> usize {
+        self.w() + 4
+    }
+    fn count(self) -> usize {
+        self.w() + 5
+    }
+
+    /// The coefficient of a variable in an entry of `[P p; p' w]`.
+    fn in_metric(self, variable: usize, i: usize, k: usize) -> f64 {
+        let (i, k) = (i.min(k), i.max(k));
+        let here = match (k < self.n, i < self.n) {
+            (true, _) => triangle(self.n).position(|(p, q)| (p.min(q), p.max(q)) == (i, k)),
+            (false, true) => (self.cross > 0).then(|| self.m + i),
+            (false, false) => Some(self.w()),
+        };
+        f64::from(here == Some(variable))
+    }
+}
+
+impl PeakProgram {
+    /// The form with the least bound of the peak that is found; `margin` is the share of the diagonal by which the matrices are to be definite. `None`
+    /// where none is found.
+    #[must_use]
+    pub fn propose(&self, of: PeakOf, margin: f64) -> Option<FallingForm> {
+        let n = self.points.first()?.r.len();
+        let m = triangle(n).count();
+        let v = Variables { n, m, cross: if self.joint { n } else { 0 } };
+        // Lengths of x, e and y, so that the distances of the start are 1: x = d_x xi, e = d_e eps, y = sigma d_e up.
+        let d_e = positive(self.start[1], 1.0);
+        let d_x = positive(self.start[0], d_e);
+        let ratio = d_e / d_x;
+        let mut constraints: Vec<AffineMatrix<f64>> = Vec::new();
+        for point in &self.points {
+            for b in self.gain {
+                let term = |variable: usize, i: usize, k: usize| {
+                    let kept = f64::from(i == k) * match (i < n, i == n) {
+                        (true, _) => f64::from(variable == v.above()),
+                        (_, true) => f64::from(variable == v.w()),
+                        _ => f64::from(variable == v.kappa()),
+                    };
+                    self.entry(v, (point, b), ratio, variable, i, k) - margin * kept
+                };
+                constraints.push(AffineMatrix::from_fn(n + 2, v.count(), |_, _| 0.0, term));
+            }
+        }
+        let is = |variable: usize, other: usize| f64::from(variable == other);
+        let of_zeta = self.start[2] / d_e;
+        let mut cost = vec![0.0; v.count()];
+        cost[v.w()] = 1.0;
+        cost[v.kappa()] = self.gain[1] * self.mu / (2.0 * self.sigma) * of_zeta * of_zeta;
+        if n > 0 {
+            (cost[v.above()], cost[v.length()]) = (1.0, 2.0);
+            let above = |variable: usize, i: usize, k: usize| {
+                is(variable, v.above()) * f64::from(i == k) - v.in_metric(variable, i, k)
+            };
+            constraints.push(AffineMatrix::from_fn(n, v.count(), |_, _| 0.0, above));
+            // What x^2 has at least: enough for the level to keep x within its reach.
+            let far = self.reach.map_or(0.0, |reach| (d_x / reach) * (d_x / reach));
+            let below = |variable: usize, i: usize, k: usize| {
+                let least = far * cost[variable] + margin * is(variable, v.above());
+                v.in_metric(variable, i, k) - if i == k && i < n { least } else { 0.0 }
+            };
+            constraints.push(AffineMatrix::from_fn(n + 1, v.count(), |_, _| 0.0, below));
+        } else {
+            constraints.push(AffineMatrix::from_fn(1, v.count(), |_, _| 0.0, |variable, _, _| is(variable, v.above())));
+        }
+        let long = |variable: usize, i: usize, k: usize| {
+            let of_length = is(variable, v.length()) * f64::from(i == k);
+            let beside = if i.max(k) == n && i.min(k) < n { v.in_metric(variable, i, k) } else { 0.0 };
+            of_length + beside
+        };
+        constraints.push(AffineMatrix::from_fn(n + 1, v.count(), |_, _| 0.0, long));
+        let of_error = |variable: usize, i: usize, k: usize| {
+            let least = if i == n && k == n { is(variable, v.of_error()) } else { 0.0 };
+            v.in_metric(variable, i, k) - least
+        };
+        constraints.push(AffineMatrix::from_fn(n + 1, v.count(), |_, _| 0.0, of_error));
+        constraints.push(match of {
+            PeakOf::Error => AffineMatrix::from_fn(1, v.count(), |_, _| -1.0, |variable, _, _| is(variable, v.of_error())),
+            PeakOf::Control => {
+                // 1/e_low + share/kappa <= 1, by its Schur complement.
+                let share = 2.0 * self.mu * self.n_bar_squared / (self.sigma * self.gain[0]);
+                let constant = |i: usize, k: usize| match (i.min(k), i.max(k)) {
+                    (0, 0) | (0, 1) => 1.0,
+                    (0, 2) => share.sqrt(),
+                    _ => 0.0,
+                };
+                let term = |variable: usize, i: usize, k: usize| match (i, k) {
+                    (1, 1) => is(variable, v.of_error()),
+                    (2, 2) => is(variable, v.kappa()),
+                    _ => 0.0,
+                };
+                AffineMatrix::from_fn(3, v.count(), constant, term)
+            }
+        });
+        let found = propose(&cost, &constraints).ok()?.x;
+        let level = cost.iter().zip(&found).map(|(cost, value)| cost * value).sum::<f64>() * d_e * d_e;
+        // In units of e^2.
+        let matrix = Symmetric::from_entries(n, &found).map(|_, _, value| value * ratio * ratio).rows();
+        let cross = if self.joint { found[m..m + n].iter().map(|value| value * ratio).collect() } else { vec![0.0; n] };
+        let [w, kappa, above] = [v.w(), v.kappa(), v.above()].map(|variable| found[variable]);
+        let p_up = above * ratio * ratio;
+        let margins = [margin * self.sigma * p_up, margin * self.sigma * w, margin * kappa / self.sigma];
+        Some(FallingForm { matrix, cross, weight: w, k_p: kappa / self.sigma, p_up, margins, level })
+    }
+
+    /// The coefficient of a variable in an entry of the matrix (14.4a) over sigma, in (xi, eps, up).
+    fn entry(&self, v: Variables, (point, b): (&PointSlopes, f64), ratio: f64, variable: usize, i: usize, k: usize) -> f64 {
+        let (i, k) = (i.min(k), i.max(k));
+        let (n, sigma) = (v.n, self.sigma);
+        let PointSlopes { j, g, r, d } = point;
+        // A row of P or p, by which a column is multiplied.
+        let times = |row: usize, column: &dyn Fn(usize) -> f64| -> f64 {
+            (0..n).map(|l| v.in_metric(variable, row, l) * column(l)).sum()
+        };
+        let of_state = |column: usize| move |l: usize| j[l * n + column] / sigma;
+        let of_error = |l: usize| g[l] * ratio / sigma;
+        let own = |row: usize, column: usize| v.in_metric(variable, row, column);
+        let of_kappa = if variable == v.kappa() { 1.0 } else { 0.0 };
+        match (i < n, k < n, i == n, k == n) {
+            (true, true, ..) => -times(i, &of_state(k)) - times(k, &of_state(i)),
+            (true, _, _, true) => own(i, n) - times(i, &of_error) - times(n, &of_state(i)),
+            (true, ..) => -own(i, n) - 0.5 * of_kappa * r[i] / (ratio * sigma),
+            (_, _, true, true) => 2.0 * own(n, n) - 2.0 * times(n, &of_error),
+            (_, _, true, _) => -own(n, n) - 0.5 * of_kappa * (d + (1.0 - b) * sigma) / sigma,
+            _ => of_kappa,
+        }
+    }
+
+    /// By how much the matrix (14.4a) of a form, less its margins, is not positive semidefinite at a point, in the lengths of the start.
+    #[must_use]
+    pub fn lack(&self, form: &FallingForm, point: &PointSlopes) -> f64 {
+        let n = point.r.len();
+        let d_e = positive(self.start[1], 1.0);
+        let d_x = positive(self.start[0], d_e);
+        let FallingForm { matrix: p, cross, weight, k_p, margins, .. } = form;
+        let PointSlopes { j, g, r, d } = point;
+        let sigma = self.sigma;
+        let of_state = |row: &[f64], column: usize| (0..n).map(|l| row[l] * j[l * n + column]).sum::<f64>();
+        let of_error = |row: &[f64]| row.iter().zip(g).map(|(p, g)| p * g).sum::<f64>();
+        let unit = |i: usize| if i < n { d_x } else if i == n { d_e } else { sigma * d_e };
+        let entry = |i: usize, k: usize| {
+            let (i, k) = (i.min(k), i.max(k));
+            let margin = |own: f64| if i == k { own } else { 0.0 };
+            let value = match (i < n, k < n, i == n, k == n) {
+                (true, true, ..) => -of_state(&p[i], k) - of_state(&p[k], i) - margin(margins[0]),
+                (true, _, _, true) => sigma * cross[i] - of_error(&p[i]) - of_state(cross, i),
+                (true, ..) => -cross[i] - 0.5 * k_p * r[i],
+                (_, _, true, true) => 2.0 * sigma * weight - 2.0 * of_error(cross) - margins[1],
+                (_, _, true, _) => -weight - 0.5 * k_p * d,
+                _ => k_p - margins[2],
+            };
+            -value * unit(i) * unit(k)
+        };
+        largest((0..n + 2).map(|i| (0..n + 2).map(|k| entry(i, k)).collect()).collect())
+    }
+}
+
+fn positive(value: f64, other: f64) -> f64 {
+    if value > 0.0 && value.is_finite() { value } else { other }
+}

@@ -1,0 +1,350 @@
+//! Bounds for given numbers of oscillators of any plant of which nothing is an interval, by trials (derivation, 14.4, 14.5).
+
+use super::gain_row::{ByCount, CountBounds, CountProof, Largest};
+use crate::attempt::prove_value;
+use rug::Rational;
+use sigmastar_decide::bounds::{Engine, Region, StatesForm};
+use sigmastar_decide::linear::{Loop, PRECISION, Start};
+use sigmastar_decide::trial::{Concluded, Known, Peaks, Trial, TubeProof};
+use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_exact::number::{Direction, round_f64, round_rational};
+use sigmastar_exact::parallel;
+use sigmastar_lang::plant::Plant;
+use sigmastar_lang::spec::{Bound, Level, Metric, OfPlant, ProvedCell, Specification};
+use sigmastar_matrix::inverse;
+use sigmastar_propose::bounds::{FloatCurve, FloatSuprema};
+use sigmastar_propose::orbit::FloatSeries;
+use sigmastar_propose::peak_program::{FallingForm, PeakOf, PeakProgram};
+use sigmastar_propose::trial::{ProposedTrial, TrialLoop};
+use sigmastar_theory::derivation::control::Control;
+use sigmastar_theory::derivation::initial_set::ClaimedSet;
+use sigmastar_theory::evidence::Coordinates;
+
+/// The numbers of oscillators that are looked at.
+const COUNTS: [u64; 7] = [0, 1, 2, 3, 5, 10, 20];
+
+/// Digits of the numbers of a form, and of bounds.
+const DIGITS: u32 = 9;
+const SHORT: u32 = 4;
+
+/// By what share of the diagonal the matrices of a form are to be definite, and how much of that is claimed.
+const MARGIN: f64 = 1e-3;
+const KEPT: f64 = 0.5;
+
+/// How far a metric is from what a level says of it.
+const ROOM: f64 = 1e-5;
+
+/// Defects that are small enough, beside q, and the velocity of the states.
+const SMALL: f64 = 1e-10;
+
+/// Boxes of the proof of a form.
+const EFFORT: usize = 20_000;
+
+/// How far x may come from the periodic solution, in distances of the start, in turn; the first box of e in that of its start.
+const REACHES: [f64; 3] = [1.5, 4.0, 12.0];
+const FIRST: f64 = 1.2;
+
+/// The share of a box up to which solutions may come, and how often the box is fitted to that.
+const FILLED: f64 = 0.985;
+const FITS: usize = 10;
+
+/// The claim that such bounds are added to.
+pub(super) struct Asked<'a> {
+    pub(super) plant: &'a Plant,
+    pub(super) spec: &'a Specification,
+    pub(super) sigma: &'a Rational,
+    pub(super) set: &'a ClaimedSet,
+    /// D_x and D_e of the claim, and `x_per`, `e_per`: the error box around its periodic solution, in which stability is proved.
+    pub(super) error_box: [Enclosure; 2],
+    pub(super) periodic: [Enclosure; 2],
+}
+
+/// The bounds that are found; `None` without any.
+pub(super) fn by_trials(asked: &Asked<'_>) -> Option<ByCount> {
+    let Asked { plant, spec, .. } = asked;
+    let of_plant = spec.plant()?;
+    let known_gain = spec.input_gain.as_ref().is_none_or(|gain| gain.factors(PRECISION).is_none());
+    let cell = of_plant.undivided().filter(|_| !plant.is_family() && plant.period.interval().is_none() && known_gain)?;
+    let found = parallel::map(&COUNTS, |n_o| Around { asked, of_plant, cell, n_o: *n_o }.bounds());
+    let (counts, trials): (Vec<_>, Vec<_>) = found.into_iter().flatten().unzip();
+    (!counts.is_empty()).then_some(ByCount { counts, proof: CountProof::Trials(trials), checked: false })
+}
+
+/// One number of oscillators.
+struct Around<'a> {
+    asked: &'a Asked<'a>,
+    of_plant: &'a OfPlant,
+    cell: &'a ProvedCell,
+    n_o: u64,
+}
+
+/// A trial with everything that is evaluated around it.
+struct Prepared {
+    trial: Trial,
+    own: Loop,
+    period: Enclosure,
+    start: Start,
+    engine: Engine,
+    samples: FloatSuprema,
+    defects: [Rational; 2],
+    /// The distances of the start from the periodic solution: of x, e, zeta.
+    distances: [f64; 3],
+}
+
+fn up(value: f64, digits: u32) -> Option<Rational> {
+    // Of 0 too a bound that is above it: what is proved is strict.
+    round_f64(value.max(f64::MIN_POSITIVE), digits, Direction::Up)
+}
+
+impl Around<'_> {
+    fn bounds(&self) -> Option<(CountBounds, (Trial, TubeProof))> {
+        let prepared = self.prepared()?;
+        let nominal = self.asked.spec.input_gain.as_ref().map(|gain| gain.nominal.enclose(PRECISION));
+        let known = self.known(&prepared);
+        let with_peaks = || {
+            let proof = self.peak_box(&prepared).and_then(|(radii, forms)| self.proof(&prepared, radii, &forms))?;
+            let concluded = Concluded::of(&prepared.trial, &proof, &known)?;
+            let peaks = Peaks::of(&proof, &concluded, &prepared.own, &prepared.start)?;
+            let inside = peaks.reach.iter().zip(&proof.radii).zip([proof.states.is_some(), true]);
+            let inside = inside.into_iter().all(|((reach, end), asked)| {
+                !asked || reach.lt(&Enclosure::from_rational(end, PRECISION)).is_true()
+            });
+            inside.then_some((proof, concluded, Some(peaks)))
+        };
+        let alone = || {
+            let (radii, forms) = self.small_box(&prepared)?;
+            let proof = self.proof(&prepared, radii, &forms)?;
+            let concluded = Concluded::of(&prepared.trial, &proof, &known)?;
+            self.is_of_the_claim(&concluded).then_some((proof, concluded, None))
+        };
+        let (proof, concluded, peaks) = with_peaks().or_else(alone)?;
+        let transient = peaks.as_ref().map_or_else(|| Enclosure::zero(PRECISION), |peaks| peaks.control.clone());
+        let Control { steady, transient } =
+            Control { steady: concluded.control.clone(), transient }.over(nominal.as_ref());
+        let bounds = CountBounds {
+            n_o: self.n_o,
+            or_more: false,
+            steady_error: concluded.error.clone(),
+            mean_square: concluded.mean_square.clone(),
+            steady_control: steady,
+            largest: peaks.map(|peaks| Largest { error: &concluded.error + peaks.error, transient }),
+        };
+        Some((bounds, (prepared.trial, proof)))
+    }
+
+    fn known<'p>(&'p self, prepared: &'p Prepared) -> Known<'p> {
+        let orbit = &self.cell.orbit;
+        Known {
+            own: &prepared.own,
+            period: &prepared.period,
+            orbit: &orbit.approximation.centre,
+            radius: &orbit.radius,
+        }
+    }
+
+    /// (ii) of 14.4.
+    fn is_of_the_claim(&self, concluded: &Concluded) -> bool {
+        let Asked { error_box, periodic, .. } = self.asked;
+        let sizes = [&concluded.states, &concluded.error];
+        let within = |((size, periodic), end): ((&Enclosure, &Enclosure), &Enclosure)| (size + periodic).le(end).is_true();
+        sizes.into_iter().zip(periodic).zip(error_box).all(within)
+    }
+
+    fn prepared(&self) -> Option<Prepared> {
+        let Asked { plant, spec, sigma, set, .. } = self.asked;
+        let model = &spec.internal_model;
+        let met = usize::try_from(self.n_o).ok()?;
+        let weight = |l: u64| model.weights.weight(l, PRECISION).midpoint_f64();
+        let program = TrialLoop {
+            plant,
+            sigma: sigma.to_f64(),
+            mu: model.mu.enclose(PRECISION).midpoint_f64(),
+            weights: (0..=self.n_o).map(weight).collect(),
+        };
+        let orbit = &self.cell.orbit.approximation.centre;
+        let doubles = |vector: &Vec<Rational>| vector.iter().map(Rational::to_f64).collect();
+        let curve = FloatSeries {
+            mean: doubles(&orbit.mean),
+            harmonics: orbit.harmonics.iter().map(|pair| pair.each_ref().map(doubles)).collect(),
+        };
+        let ProposedTrial { states, error, forcing } = program.propose(&curve)?;
+        let trial = Trial { n_o: self.n_o, states, error, forcing };
+        let l = &self.of_plant.coordinates;
+        let lines = met.max(trial.error.harmonics.len());
+        let own = Loop::new(sigma, model, lines, None, inverse(l)?);
+        let coordinates = Coordinates { l: l.clone(), p: self.of_plant.matrix.clone() };
+        let q = trial.forcing.parts().map(|part| part.to_f64().abs()).sum::<f64>();
+        let frequency = own.fundamental.upper_f64();
+        let speed = |(k, [a, b]): (usize, &[Vec<Rational>; 2])| {
+            (k + 1) as f64 * frequency * a.iter().chain(b).map(|part| part.to_f64().abs()).sum::<f64>()
+        };
+        let velocity = trial.states.harmonics.iter().enumerate().map(speed).sum::<f64>();
+        let scale = own.inverse.iter().flatten().map(|entry| entry.to_f64().abs()).fold(0.0, f64::max);
+        let [d_x, d_q] = trial.defects(plant, &coordinates, [SMALL * velocity * scale, SMALL * q]).ok()?;
+        let d_q = d_q + trial.mismatch(&own);
+        let moved = plant.with_error_moved(&trial.error);
+        let region = Region::new(l.clone(), trial.states.clone(), Rational::new()).ok()?;
+        let rows = l.iter().map(|row| row.iter().map(Rational::to_f64).collect()).collect();
+        let samples = FloatSuprema::new(&moved, FloatCurve::from(&trial.states), rows, [None; 2]);
+        let engine = Engine::new(&moved, region, None, None).ok()?;
+        let exact = |value: &Rational| Enclosure::from_rational(value, PRECISION);
+        let start = Start { x0: exact(&set.x0), e0: exact(&set.e0), z0: set.z0.as_ref().map(exact) };
+        let period = plant.period.nominal().enclose(PRECISION);
+        let defects = [up(d_x.upper_f64(), SHORT)?, up(d_q.upper_f64(), SHORT)?];
+        let mut prepared = Prepared { trial, own, period, start, engine, samples, defects, distances: [0.0; 3] };
+        let sizes = Concluded::sizes_of(&prepared.trial, &self.known(&prepared))?;
+        let Prepared { own, start, .. } = &prepared;
+        let n_bar = own.n_bar_squared.sqrt().upper_f64();
+        let of_zeta = start.z0.as_ref().map_or(0.0, |z0| z0.upper_f64() + n_bar * start.e0.upper_f64());
+        let [x, e, zeta] = sizes.map(|size| size.upper_f64());
+        prepared.distances = [start.x0.upper_f64() + x, start.e0.upper_f64() + e, of_zeta + zeta];
+        Some(prepared)
+    }
+
+    fn program(&self, prepared: &Prepared, reach: Option<f64>) -> PeakProgram {
+        let own = &prepared.own;
+        PeakProgram {
+            points: Vec::new(),
+            gain: [1.0; 2],
+            sigma: own.sigma.midpoint_f64(),
+            mu: own.mu.midpoint_f64(),
+            n_bar_squared: own.n_bar_squared.midpoint_f64(),
+            start: prepared.distances,
+            joint: true,
+            reach,
+        }
+    }
+
+    /// The box that solutions from the set do not leave, with the smallest peak that is found, and forms on it.
+    fn peak_box(&self, prepared: &Prepared) -> Option<([f64; 2], Vec<FallingForm>)> {
+        let [d_x, d_e, _] = prepared.distances;
+        let has_states = self.asked.plant.states() > 0;
+        let reaches = if has_states { &REACHES[..] } else { &REACHES[..1] };
+        let mut best: Option<([f64; 2], FallingForm)> = None;
+        for reach in reaches {
+            let x = if has_states { reach * d_x } else { 0.0 };
+            let mut e = FIRST * d_e;
+            for _ in 0..FITS {
+                let mut program = self.program(prepared, has_states.then_some(FILLED * x));
+                let Some(found) = prepared.samples.propose_peak([x, e], &mut program, (PeakOf::Error, MARGIN)) else { break };
+                let peak = found.level.sqrt();
+                if peak <= FILLED * e {
+                    if best.as_ref().is_none_or(|(_, known)| found.level < known.level) {
+                        best = Some(([x, e], found));
+                    }
+                    break;
+                }
+                e = 1.04 * peak;
+            }
+        }
+        let (radii, first) = best?;
+        let mut program = self.program(prepared, None);
+        let second = prepared.samples.propose_peak(radii, &mut program, (PeakOf::Control, MARGIN));
+        Some((radii, std::iter::once(first).chain(second).collect()))
+    }
+
+    /// A box that is small beside the trial, and a form on it.
+    fn small_box(&self, prepared: &Prepared) -> Option<([f64; 2], Vec<FallingForm>)> {
+        let radii = [0, 1].map(|i| SMALL_BOX * prepared.distances[i]);
+        let mut program = self.program(prepared, None);
+        let form = prepared.samples.propose_peak(radii, &mut program, (PeakOf::Error, MARGIN))?;
+        Some((radii, vec![form]))
+    }
+
+    /// What is proved on a box.
+    fn proof(&self, prepared: &Prepared, radii: [f64; 2], forms: &[FallingForm]) -> Option<TubeProof> {
+        let Prepared { engine, samples, .. } = prepared;
+        let has_states = self.asked.plant.states() > 0;
+        let [x, e] = radii.map(|radius| round_f64(radius, SHORT, Direction::Up));
+        let (x, e) = (x?, e?);
+        self.in_domain(prepared, [&x, &e])?;
+        engine.smooth(&x, &e).ok()?;
+        let forms: Vec<(Metric, Level)> = forms
+            .iter()
+            .map(|form| rounded(form, &x))
+            .collect::<Option<Vec<_>>>()?
+            .into_iter()
+            .map(|form| {
+                let decision = engine.decide_form((&form.0, &form.1), self.asked.sigma, [&x, &e], EFFORT);
+                decision.truth.is_true().then_some(form)
+            })
+            // The box is that of the first.
+            .enumerate()
+            .take_while(|(i, form)| *i > 0 || form.is_some())
+            .filter_map(|(_, form)| form)
+            .collect();
+        let first = forms.first()?;
+        let slope = |bound| prove_value(engine, samples, bound, &x, &e).map(|proved| proved.value);
+        let slopes = [if has_states { slope(Bound::Qx)? } else { Rational::new() }, slope(Bound::Qe)?];
+        let states = match has_states {
+            false => None,
+            true => {
+                let form = self.states_form(samples, first, [&x, &e])?;
+                engine.decide_states(&form, [&x, &e], EFFORT).truth.is_true().then_some(())?;
+                Some(form)
+            }
+        };
+        Some(TubeProof { defects: prepared.defects.clone(), radii: [x, e], slopes, forms, states })
+    }
+
+    /// That the box lies where the model holds.
+    fn in_domain(&self, prepared: &Prepared, [x, e]: [&Rational; 2]) -> Option<()> {
+        let Some(domain) = &self.asked.spec.domain else { return Some(()) };
+        let [of_x, of_e, _] = Concluded::sizes_of(&prepared.trial, &self.known(prepared))?;
+        let reach = [(of_x, x, &domain.x), (of_e, e, &domain.e)];
+        let within = |(size, radius, end): &(Enclosure, &Rational, &sigmastar_lang::spec::Constant)| {
+            (size + Enclosure::from_rational(radius, PRECISION)).le(&end.enclose(PRECISION)).is_true()
+        };
+        reach.iter().all(within).then_some(())
+    }
+
+    /// (14.4b) with the P of a form.
+    fn states_form(
+        &self,
+        samples: &FloatSuprema,
+        (metric, level): &(Metric, Level),
+        [x, e]: [&Rational; 2],
+    ) -> Option<StatesForm> {
+        let pushed = samples.refined(Bound::Fe, x.to_f64(), e.to_f64()).value;
+        let c_x = metric.c_x.to_f64();
+        let p_up = level.p_up.to_f64();
+        // |P g|^2 <= gamma (c_x - 2 c).
+        let gamma = 2.2 * (p_up * pushed) * (p_up * pushed) / c_x;
+        Some(StatesForm {
+            matrix: metric.matrix.clone(),
+            q_low: level.x_low.clone(),
+            q_up: level.p_up.clone(),
+            c: round_rational(&Rational::from(&metric.c_x / 4u32), DIGITS, Direction::Down),
+            gamma: up(gamma, SHORT)?,
+        })
+    }
+}
+
+/// The share of the distances of the start that a box has around a trial of which nothing is known further away.
+const SMALL_BOX: f64 = 1e-4;
+
+/// A form in short numbers, on a box up to this distance of x.
+fn rounded(form: &FallingForm, x: &Rational) -> Option<(Metric, Level)> {
+    let FallingForm { matrix, cross, weight, k_p, p_up, margins, level } = form;
+    let short = |value: f64| round_f64(value, DIGITS, Direction::Nearest);
+    let row = |row: &Vec<f64>| row.iter().map(|entry| short(*entry)).collect::<Option<Vec<Rational>>>();
+    let [c_x, c_e, c_y] = margins.map(|margin| round_f64(KEPT * margin, SHORT, Direction::Down));
+    let has_states = !matrix.is_empty();
+    let reach = FILLED * x.to_f64();
+    let x_low = if has_states { level / (reach * reach) } else { 1.0 };
+    let metric = Metric {
+        matrix: matrix.iter().map(row).collect::<Option<_>>()?,
+        cross: row(cross)?,
+        weight: short(*weight)?,
+        k_p: short(*k_p)?,
+        c_x: c_x.filter(|c| *c > 0)?,
+        c_e: c_e?,
+        c_y: c_y?,
+    };
+    let level = Level {
+        p_up: round_f64(if has_states { p_up * (1.0 + ROOM) } else { 1.0 }, DIGITS, Direction::Up)?,
+        x_low: round_f64(x_low * (1.0 - ROOM), DIGITS, Direction::Down)?,
+        e_low: round_f64(1.0 - ROOM, DIGITS, Direction::Down)?,
+    };
+    Some((metric, level))
+}
