@@ -3,9 +3,9 @@
 
 use crate::bounds::PointSlopes;
 use crate::semidefinite::propose;
+use sigmastar_matrix::AffineMatrix;
 use sigmastar_matrix::doubles::largest;
 use sigmastar_matrix::symmetric::{Symmetric, triangle};
-use sigmastar_matrix::AffineMatrix;
 
 /// What is to be small.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -50,6 +50,10 @@ pub struct FallingForm {
     pub k_p: f64,
     /// `P <= p_up I`.
     pub p_up: f64,
+    /// `Pi >= diag(x_low I, 0)`; 1 without states.
+    pub x_low: f64,
+    /// `Pi >= diag(0, e_low)`.
+    pub e_low: f64,
     /// c_x, c_e and c_y of (14.4a) at the points.
     pub margins: [f64; 3],
     /// A bound of V at the start.
@@ -114,11 +118,12 @@ impl PeakProgram {
         for point in &self.points {
             for b in self.gain {
                 let term = |variable: usize, i: usize, k: usize| {
-                    let kept = f64::from(i == k) * match (i < n, i == n) {
-                        (true, _) => f64::from(variable == v.above()),
-                        (_, true) => f64::from(variable == v.w()),
-                        _ => f64::from(variable == v.kappa()),
-                    };
+                    let kept = f64::from(i == k)
+                        * match (i < n, i == n) {
+                            (true, _) => f64::from(variable == v.above()),
+                            (_, true) => f64::from(variable == v.w()),
+                            _ => f64::from(variable == v.kappa()),
+                        };
                     self.entry(v, (point, b), ratio, variable, i, k) - margin * kept
                 };
                 constraints.push(AffineMatrix::from_fn(n + 2, v.count(), |_, _| 0.0, term));
@@ -157,7 +162,9 @@ impl PeakProgram {
         };
         constraints.push(AffineMatrix::from_fn(n + 1, v.count(), |_, _| 0.0, of_error));
         constraints.push(match of {
-            PeakOf::Error => AffineMatrix::from_fn(1, v.count(), |_, _| -1.0, |variable, _, _| is(variable, v.of_error())),
+            PeakOf::Error => {
+                AffineMatrix::from_fn(1, v.count(), |_, _| -1.0, |variable, _, _| is(variable, v.of_error()))
+            }
             PeakOf::Control => {
                 // 1/e_low + share/kappa <= 1, by its Schur complement.
                 let share = 2.0 * self.mu * self.n_bar_squared / (self.sigma * self.gain[0]);
@@ -178,15 +185,28 @@ impl PeakProgram {
         let level = cost.iter().zip(&found).map(|(cost, value)| cost * value).sum::<f64>() * d_e * d_e;
         // In units of e^2.
         let matrix = Symmetric::from_entries(n, &found).map(|_, _, value| value * ratio * ratio).rows();
-        let cross = if self.joint { found[m..m + n].iter().map(|value| value * ratio).collect() } else { vec![0.0; n] };
+        let cross: Vec<f64> =
+            if self.joint { found[m..m + n].iter().map(|value| value * ratio).collect() } else { vec![0.0; n] };
         let [w, kappa, above] = [v.w(), v.kappa(), v.above()].map(|variable| found[variable]);
         let p_up = above * ratio * ratio;
         let margins = [margin * self.sigma * p_up, margin * self.sigma * w, margin * kappa / self.sigma];
-        Some(FallingForm { matrix, cross, weight: w, k_p: kappa / self.sigma, p_up, margins, level })
+        // P less what p takes of it.
+        let less = |i: usize| (0..n).map(|k| cross[i] * cross[k] / w - matrix[i][k]).collect::<Vec<f64>>();
+        let x_low = if n > 0 { -largest((0..n).map(less).collect()) } else { 1.0 };
+        let e_low = found[v.of_error()];
+        Some(FallingForm { matrix, cross, weight: w, k_p: kappa / self.sigma, p_up, x_low, e_low, margins, level })
     }
 
     /// The coefficient of a variable in an entry of the matrix (14.4a) over sigma, in (xi, eps, up).
-    fn entry(&self, v: Variables, (point, b): (&PointSlopes, f64), ratio: f64, variable: usize, i: usize, k: usize) -> f64 {
+    fn entry(
+        &self,
+        v: Variables,
+        (point, b): (&PointSlopes, f64),
+        ratio: f64,
+        variable: usize,
+        i: usize,
+        k: usize,
+    ) -> f64 {
         let (i, k) = (i.min(k), i.max(k));
         let (n, sigma) = (v.n, self.sigma);
         let PointSlopes { j, g, r, d } = point;
@@ -208,6 +228,16 @@ impl PeakProgram {
         }
     }
 
+    /// The least of the margins of a form, in the lengths of the start.
+    #[must_use]
+    pub fn least_margin(&self, form: &FallingForm) -> f64 {
+        let d_e = positive(self.start[1], 1.0);
+        let d_x = positive(self.start[0], d_e);
+        let [c_x, c_e, c_y] = form.margins;
+        let [of_e, of_y] = [c_e * d_e * d_e, c_y * (self.sigma * d_e) * (self.sigma * d_e)];
+        if form.matrix.is_empty() { of_e.min(of_y) } else { of_e.min(of_y).min(c_x * d_x * d_x) }
+    }
+
     /// By how much the matrix (14.4a) of a form, less its margins, is not positive semidefinite at a point, in the lengths of the start.
     #[must_use]
     pub fn lack(&self, form: &FallingForm, point: &PointSlopes) -> f64 {
@@ -219,7 +249,15 @@ impl PeakProgram {
         let sigma = self.sigma;
         let of_state = |row: &[f64], column: usize| (0..n).map(|l| row[l] * j[l * n + column]).sum::<f64>();
         let of_error = |row: &[f64]| row.iter().zip(g).map(|(p, g)| p * g).sum::<f64>();
-        let unit = |i: usize| if i < n { d_x } else if i == n { d_e } else { sigma * d_e };
+        let unit = |i: usize| {
+            if i < n {
+                d_x
+            } else if i == n {
+                d_e
+            } else {
+                sigma * d_e
+            }
+        };
         let entry = |i: usize, k: usize| {
             let (i, k) = (i.min(k), i.max(k));
             let margin = |own: f64| if i == k { own } else { 0.0 };

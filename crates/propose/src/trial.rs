@@ -21,11 +21,12 @@ const MAX_HALVINGS: usize = 8;
 /// A step after which nothing gets better, relative to the unknowns.
 const SETTLED: f64 = 1e-13;
 
-/// The share of the largest coefficient that the last harmonics have at most, where there are enough of them.
-const RESOLVED: f64 = 1e-13;
+/// The share of the size of a solution that the last harmonics have at most, where there are enough of them; and with the most.
+const RESOLVED: f64 = 1e-15;
+const ACCEPTED: f64 = 1e-9;
 
-/// Coefficients that are smaller than this share of the largest one are left out, and others rounded to it.
-const GRAIN: f64 = 1e-17;
+/// Coefficients that are smaller than this share of the size of a solution are left out, and others rounded to it.
+const GRAIN: f64 = 1e-16;
 
 /// What a loop is.
 #[derive(Clone, Debug)]
@@ -94,8 +95,10 @@ impl TrialLoop<'_> {
             let found = self.collocate(&mut field, samples.into_iter().flatten().collect(), harmonics)?;
             let rows: Vec<Vec<f64>> = found.as_slice().chunks(n + 1).map(<[f64]>::to_vec).collect();
             let series = FloatSeries::from_samples(&rows, harmonics);
-            if is_resolved(&series, self.size(&mut field, &series)) {
-                return self.rounded(&mut field, &series);
+            let size = self.size(&mut field, &series);
+            let share = if harmonics == HARMONICS[HARMONICS.len() - 1] { ACCEPTED } else { RESOLVED };
+            if is_resolved(&series, share * size) {
+                return self.rounded(&mut field, &series, size);
             }
             start = Some(series);
         }
@@ -212,7 +215,7 @@ impl TrialLoop<'_> {
     }
 
     /// In short rationals: of a solution in the units of the field.
-    fn rounded(&self, field: &mut Field, series: &FloatSeries) -> Option<ProposedTrial> {
+    fn rounded(&self, field: &mut Field, series: &FloatSeries, size: f64) -> Option<ProposedTrial> {
         let n = field.states();
         let points = 4 * series.harmonics.len() + 1;
         let forcing: Vec<Vec<f64>> = (0..points)
@@ -224,8 +227,8 @@ impl TrialLoop<'_> {
             })
             .collect();
         let mut forcing = FloatSeries::from_samples(&forcing, series.harmonics.len());
-        let units: Vec<f64> = field.units().iter().copied().chain([1.0]).collect();
-        let mut error = component(&series.scaled(|i| units[i]), n);
+        let units: Vec<f64> = field.units().to_vec();
+        let mut error = component(series, n, 1.0, size);
         error.mean = Rational::new();
         for pair in error.harmonics.iter_mut().take(self.oscillators()) {
             *pair = Default::default();
@@ -241,35 +244,36 @@ impl TrialLoop<'_> {
         for part in forcing.harmonics.iter_mut().skip(error.harmonics.len().max(self.oscillators())) {
             (part[0][0], part[1][0]) = (0.0, 0.0);
         }
-        let written = series.scaled(|i| units[i]);
-        let waves: Vec<Wave> = (0..n).map(|i| component(&written, i)).collect();
+        let waves: Vec<Wave> = (0..n).map(|i| component(series, i, units[i], size)).collect();
         let degree = waves.iter().map(|wave| wave.harmonics.len()).max().unwrap_or(0);
         let part = |k: usize, which: usize| {
-            waves.iter().map(|wave| wave.harmonics.get(k).map_or_else(Rational::new, |pair| pair[which].clone())).collect()
+            waves
+                .iter()
+                .map(|wave| wave.harmonics.get(k).map_or_else(Rational::new, |pair| pair[which].clone()))
+                .collect()
         };
         let states = TrigonometricVector {
             mean: waves.iter().map(|wave| wave.mean.clone()).collect(),
             harmonics: (0..degree).map(|k| [part(k, 0), part(k, 1)]).collect(),
         };
-        Some(ProposedTrial { states, error, forcing: component(&forcing, 0) })
+        Some(ProposedTrial { states, error, forcing: component(&forcing, 0, 1.0, size * self.sigma) })
     }
 }
 
-/// Whether the last fourth of the harmonics is small beside a size.
+/// Whether the last fourth of the harmonics is not above a size.
 fn is_resolved(series: &FloatSeries, size: f64) -> bool {
     let mut last = series.harmonics.iter().skip(series.harmonics.len() * 3 / 4).flatten().flatten();
-    last.all(|part| part.abs() <= RESOLVED * size)
+    last.all(|part| part.abs() <= size)
 }
 
-/// A component, rounded to the largest power of ten that is at most [`GRAIN`] of its largest coefficient; without the last harmonics that are 0 then.
-fn component(series: &FloatSeries, i: usize) -> Wave {
-    let sizes = series.harmonics.iter().flatten().map(|part| part[i].abs());
-    let largest = sizes.fold(series.mean[i].abs(), f64::max);
-    let places = if largest > 0.0 { -libm::log10(largest * GRAIN).floor() } else { 0.0 };
+/// A component times a unit, rounded to the largest power of ten that is at most [`GRAIN`] of a size; without the last harmonics that are 0 then.
+fn component(series: &FloatSeries, i: usize, unit: f64, size: f64) -> Wave {
+    let places = if size > 0.0 { -libm::log10(size * unit * GRAIN).floor() } else { 0.0 };
     let power = Rational::from(Integer::from(Integer::u_pow_u(10, places.abs().min(330.0) as u32)));
     let power = if places >= 0.0 { power } else { power.recip() };
     let short = |value: f64| {
-        Rational::from_f64(value).map_or_else(Rational::new, |value| Rational::from(&value * &power).round() / &power)
+        let exact = Rational::from_f64(value * unit);
+        exact.map_or_else(Rational::new, |value| Rational::from(&value * &power).round() / &power)
     };
     let pair = |[a, b]: &[Vec<f64>; 2]| [short(a[i]), short(b[i])];
     let mut harmonics: Vec<[Rational; 2]> = series.harmonics.iter().map(pair).collect();

@@ -57,7 +57,10 @@ pub(super) fn fits(Metric { matrix, cross, k_p, c_x, c_e, c_y, .. }: &Metric, or
 }
 
 /// Whether a metric is strictly between what a level says.
-pub(super) fn lies_between(Metric { matrix, cross, weight, .. }: &Metric, Level { p_up, x_low, e_low }: &Level) -> bool {
+pub(super) fn lies_between(
+    Metric { matrix, cross, weight, .. }: &Metric,
+    Level { p_up, x_low, e_low }: &Level,
+) -> bool {
     let n = matrix.len();
     let less = |x: &Rational, e: &Rational| {
         let entry = |i: usize, j: usize| match (i < n, j < n) {

@@ -15,8 +15,8 @@ pub use falling::{Falling, Peak, Start};
 pub use largest::{Answers, sizes};
 pub use member::Member;
 pub use plant::{LinearPlant, MAX_LINES};
-pub(crate) use supremum::supremum;
 pub use steady::{Loop, Oscillators, Sizes};
+pub(crate) use supremum::supremum;
 
 /// Bits of the enclosures.
 pub const PRECISION: u32 = 53;

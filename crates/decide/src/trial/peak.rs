@@ -40,7 +40,8 @@ impl Peaks {
         };
         let levels: Vec<Enclosure> = proof.forms.iter().map(level).collect();
         let each = || proof.forms.iter().zip(&levels);
-        let of_error = |((_, Level { e_low, .. }), level): (&(Metric, Level), &Enclosure)| (level / exact(e_low)).sqrt();
+        let of_error =
+            |((_, Level { e_low, .. }), level): (&(Metric, Level), &Enclosure)| (level / exact(e_low)).sqrt();
         let of_control = |((Metric { k_p, .. }, Level { e_low, .. }), level): (&(Metric, Level), &Enclosure)| {
             (level * (own.sigma.sqr() / exact(e_low) + &own.mu * n_bar_squared * 2 / exact(k_p))).sqrt()
         };

@@ -12,6 +12,7 @@ use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{Bound, Parameters, PeriodicMatrix};
 use sigmastar_theory::evidence::of_table;
 use sigmastar_theory::input_gain::moves;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// The precision of the ends of an input gain, in bits.
@@ -20,8 +21,9 @@ const PRECISION: u32 = 53;
 /// Points of a period.
 const TIMES: usize = 64;
 
-/// Steps of the local search for the largest value, and how often its step is halved: roughly, and for a proof.
+/// How often the step of a local search is halved: roughly, from many points, and for a proof.
 const ROUGH: u32 = 3;
+const COARSE: u32 = 7;
 const FINE: u32 = 14;
 
 /// The best points from which a fine local search starts.
@@ -305,12 +307,45 @@ impl FloatSuprema {
         value: impl Fn(&Derivatives<'_>) -> f64 + Sync,
         of: impl Fn(&Derivatives<'_>) -> T,
     ) -> Vec<(f64, T)> {
-        let found =
-            self.climbed(at, (FINE, STARTS), Asked::FIRST, |pointwise, at| value(&pointwise.derivatives(at.outputs)));
+        let value = |pointwise: &mut Pointwise, at: Outputs<'_>| value(&pointwise.derivatives(at.outputs));
+        let found = self.climbed(at, (FINE, STARTS), Asked::FIRST, value);
+        self.seen(at, found.ends, of)
+    }
+
+    /// As [`FloatSuprema::refined_points`], with a search from the best place at every time: where a form was fitted to many points the best of all
+    /// are of a few times alone.
+    pub(super) fn refined_at_all_times<T>(
+        &self,
+        at: [f64; 2],
+        value: impl Fn(&Derivatives<'_>) -> f64 + Sync,
+        of: impl Fn(&Derivatives<'_>) -> T,
+    ) -> Vec<(f64, T)> {
+        let value = |pointwise: &mut Pointwise, at: Outputs<'_>| value(&pointwise.derivatives(at.outputs));
+        let pieces =
+            self.in_pieces(at, &Places::Stride(1), Asked::FIRST, BTreeMap::new, |best, pointwise, place, at| {
+                let found = value(pointwise, at);
+                let known = best.entry(place[0]).or_insert((f64::NEG_INFINITY, place));
+                if found > known.0 {
+                    *known = (found, place);
+                }
+            });
+        let mut best: BTreeMap<usize, (f64, Place)> = BTreeMap::new();
+        for (time, found) in pieces.into_iter().flatten() {
+            let known = best.entry(time).or_insert(found);
+            if found.0 > known.0 {
+                *known = found;
+            }
+        }
+        let starts: Vec<(f64, Place)> = best.into_values().collect();
+        let ends = self.climbed_from(at, (COARSE, &starts), Asked::FIRST, value);
+        self.seen(at, ends, of)
+    }
+
+    fn seen<T>(&self, at: [f64; 2], ends: Vec<(Point, f64)>, of: impl Fn(&Derivatives<'_>) -> T) -> Vec<(f64, T)> {
         let mut single = Single::new(self, at, Asked::FIRST);
         let seen =
             |(point, value)| (value, single.value(&point, |pointwise, at| of(&pointwise.derivatives(at.outputs))));
-        found.ends.into_iter().map(seen).collect()
+        ends.into_iter().map(seen).collect()
     }
 
     pub(super) fn pointwise(&self) -> Pointwise {
@@ -371,7 +406,7 @@ impl FloatSuprema {
     /// Where local searches from the best points of the grid end, and the least value on the grid.
     fn climbed(
         &self,
-        at @ [_, e]: [f64; 2],
+        at: [f64; 2],
         (halvings, starts): (u32, usize),
         asked: Asked,
         value_of: impl Fn(&mut Pointwise, Outputs<'_>) -> f64 + Sync,
@@ -384,6 +419,20 @@ impl FloatSuprema {
             keep(best, starts, value, place);
         });
         let (best, least): (Vec<_>, Vec<f64>) = pieces.into_iter().unzip();
+        Climbed {
+            ends: self.climbed_from(at, (halvings, &merged(best, starts)), asked, value_of),
+            least: least.into_iter().fold(f64::INFINITY, f64::min),
+        }
+    }
+
+    /// Where local searches from these places of the grid end, with the values there.
+    fn climbed_from(
+        &self,
+        at @ [_, e]: [f64; 2],
+        (halvings, starts): (u32, &[(f64, Place)]),
+        asked: Asked,
+        value_of: impl Fn(&mut Pointwise, Outputs<'_>) -> f64 + Sync,
+    ) -> Vec<(Point, f64)> {
         let from = |(value, place @ [i, j, _]): &(f64, Place)| {
             let share = if e > 0.0 { self.error(*place, e) / e } else { 0.0 };
             let Moment { time, member, .. } = self.moments[*i];
@@ -391,10 +440,7 @@ impl FloatSuprema {
             let mut single = Single::new(self, at, asked);
             climb(point, *value, halvings, e != 0.0, |point| single.value(point, &value_of))
         };
-        Climbed {
-            ends: parallel::map(&merged(best, starts), from),
-            least: least.into_iter().fold(f64::INFINITY, f64::min),
-        }
+        parallel::map(starts, from)
     }
 
     /// xb + (X + r) L y.

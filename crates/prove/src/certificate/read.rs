@@ -154,9 +154,18 @@ fn claim_part(
         let error = regulator.error(ErrorKind::UnknownField, message);
         return Err(errors.report(error.help("`certify --witness`, `controller` and `check` take it")));
     }
-    for unused in
-        ["verdict", "n_o", "mu", "period", "parameters", "periodic_solution", "control", "for_n_o", "by_n_o", "statement"]
-    {
+    for unused in [
+        "verdict",
+        "n_o",
+        "mu",
+        "period",
+        "parameters",
+        "periodic_solution",
+        "control",
+        "for_n_o",
+        "by_n_o",
+        "statement",
+    ] {
         let _ = claim.optional(unused);
     }
     let derivation = claim.required("derivation", errors).and_then(|value| match value.string(errors)? {

@@ -95,7 +95,14 @@ pub fn certificate_json(run: &Certification<'_>) -> Option<Value> {
     let said = ("statement", text(statement(spec, sigma, set) + &run.rates_in_words()));
     let of_actuator = input_gain_json(spec).into_iter().chain(actuator_json(spec));
     let names = of_actuator.chain(period).chain(parameters_json(spec)).chain(rest);
-    let claim = object(heading.into_iter().chain(names).chain(claimed_rates(&run.for_n_o)).chain(claimed_counts(run.by_count.as_ref())).chain([said]));
+    let claim = object(
+        heading
+            .into_iter()
+            .chain(names)
+            .chain(claimed_rates(&run.for_n_o))
+            .chain(claimed_counts(run.by_count.as_ref()))
+            .chain([said]),
+    );
     let regulation = run.exact.as_ref().map(|exact| {
         let numbers = exact.witness.json().into_iter().chain([paths_json(exact.witness.paths)]);
         ("exact_regulation", object(numbers))
@@ -105,7 +112,8 @@ pub fn certificate_json(run: &Certification<'_>) -> Option<Value> {
     let multipliers = multipliers_json(run).map(|value| ("lmi", value));
     let of_data = lyapunov_parts(spec).into_iter().chain(plant_parts(spec)).chain(multipliers);
     let parts = refined.into_iter().chain(regulation).chain([paths_json(proof.witness.paths)]).chain(of_data);
-    let witness = with_witness(proof, parts.chain(rate_witnesses(&run.for_n_o)).chain(count_witness(run.by_count.as_ref())));
+    let witness =
+        with_witness(proof, parts.chain(rate_witnesses(&run.for_n_o)).chain(count_witness(run.by_count.as_ref())));
     // The free numbers of the repaired derivation, without which its column of the constants could not be checked.
     let comparison = repaired.as_ref().and_then(Outcome::proved).map(|proof| {
         let RepairedWitness { sigma, set, .. } = &proof.witness;

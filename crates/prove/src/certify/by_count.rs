@@ -1,8 +1,8 @@
 //! Bounds for each number of oscillators, of plants that are linear in x and e (derivation, 14.3, 14.5).
 
 use super::certification::Certification;
-use super::trials::{Asked, by_trials};
 use super::gain_row::{ByCount, CountBounds, CountProof, GainRow, Largest, RowProof, SHOWN_N_O};
+use super::trials::{Asked, by_trials};
 use rug::Rational;
 use sigmastar_decide::conditions::SharpProof;
 use sigmastar_decide::linear::{Answers, Falling, LinearPlant, Loop, Oscillators, PRECISION, Sizes, Start, sizes};
@@ -89,11 +89,11 @@ fn form(
     let member = |values: Vec<Rational>| {
         let ends: Vec<[Rational; 2]> = values.into_iter().map(|value| [value.clone(), value]).collect();
         let rows = own.in_coordinates(&linear.member(&linear.enclosed(&ends))?.rows, coordinates);
-        let rows: Vec<Vec<f64>> =
-            rows.iter().map(|row| row.iter().map(Enclosure::midpoint_f64).collect()).collect();
+        let rows: Vec<Vec<f64>> = rows.iter().map(|row| row.iter().map(Enclosure::midpoint_f64).collect()).collect();
         let (last, states) = rows.split_last()?;
         let (d, r) = last.split_last()?;
-        let (j, g) = states.iter().filter_map(|row| row.split_last()).map(|(g, j)| (j, *g)).unzip::<_, _, Vec<_>, Vec<_>>();
+        let (j, g) =
+            states.iter().filter_map(|row| row.split_last()).map(|(g, j)| (j, *g)).unzip::<_, _, Vec<_>, Vec<_>>();
         Some(PointSlopes { j: j.concat(), g, r: r.to_vec(), d: *d })
     };
     let of_zeta = start

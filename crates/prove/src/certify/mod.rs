@@ -30,8 +30,8 @@ mod sampled;
 mod scale;
 mod sensitivity;
 mod smaller;
-mod trials;
 mod start;
+mod trials;
 mod verdict;
 
 pub use ball::{claimed_ball, covers_ball, inverse_norm, within_ball};

@@ -12,7 +12,7 @@ use sigmastar_exact::parallel;
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{Bound, Level, Metric, OfPlant, ProvedCell, Specification};
 use sigmastar_matrix::inverse;
-use sigmastar_propose::bounds::{FloatCurve, FloatSuprema};
+use sigmastar_propose::bounds::{FloatCurve, FloatSuprema, LookedAt};
 use sigmastar_propose::orbit::FloatSeries;
 use sigmastar_propose::peak_program::{FallingForm, PeakOf, PeakProgram};
 use sigmastar_propose::trial::{ProposedTrial, TrialLoop};
@@ -20,15 +20,16 @@ use sigmastar_theory::derivation::control::Control;
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
 use sigmastar_theory::evidence::Coordinates;
 
-/// The numbers of oscillators that are looked at.
-const COUNTS: [u64; 7] = [0, 1, 2, 3, 5, 10, 20];
+/// The numbers of oscillators that are looked at: with boxes and forms of their own, and then with those of the last of these where they serve.
+const COUNTS: [u64; 3] = [0, 1, 2];
+const LATER: [u64; 3] = [3, 5, 10];
 
 /// Digits of the numbers of a form, and of bounds.
 const DIGITS: u32 = 9;
 const SHORT: u32 = 4;
 
 /// By what share of the diagonal the matrices of a form are to be definite, and how much of that is claimed.
-const MARGIN: f64 = 1e-3;
+const MARGINS: [f64; 2] = [1e-3, 1e-5];
 const KEPT: f64 = 0.5;
 
 /// How far a metric is from what a level says of it.
@@ -41,12 +42,15 @@ const SMALL: f64 = 1e-10;
 const EFFORT: usize = 20_000;
 
 /// How far x may come from the periodic solution, in distances of the start, in turn; the first box of e in that of its start.
-const REACHES: [f64; 3] = [1.5, 4.0, 12.0];
+const REACHES: [f64; 5] = [1.5, 2.5, 4.0, 6.5, 12.0];
 const FIRST: f64 = 1.2;
 
 /// The share of a box up to which solutions may come, and how often the box is fitted to that.
 const FILLED: f64 = 0.985;
 const FITS: usize = 10;
+const LARGER: f64 = 1.04;
+const SMALLER: f64 = 1.002;
+const SETTLED: f64 = 0.99;
 
 /// The claim that such bounds are added to.
 pub(super) struct Asked<'a> {
@@ -64,8 +68,12 @@ pub(super) fn by_trials(asked: &Asked<'_>) -> Option<ByCount> {
     let Asked { plant, spec, .. } = asked;
     let of_plant = spec.plant()?;
     let known_gain = spec.input_gain.as_ref().is_none_or(|gain| gain.factors(PRECISION).is_none());
-    let cell = of_plant.undivided().filter(|_| !plant.is_family() && plant.period.interval().is_none() && known_gain)?;
-    let found = parallel::map(&COUNTS, |n_o| Around { asked, of_plant, cell, n_o: *n_o }.bounds());
+    let cell =
+        of_plant.undivided().filter(|_| !plant.is_family() && plant.period.interval().is_none() && known_gain)?;
+    let bounds = |n_o: &u64, known: Option<&TubeProof>| Around { asked, of_plant, cell, n_o: *n_o }.bounds(known);
+    let mut found = parallel::map(&COUNTS, |n_o| bounds(n_o, None));
+    let last = found.last().cloned().flatten().map(|(_, (_, proof))| proof);
+    found.extend(parallel::map(&LATER, |n_o| bounds(n_o, last.as_ref())));
     let (counts, trials): (Vec<_>, Vec<_>) = found.into_iter().flatten().unzip();
     (!counts.is_empty()).then_some(ByCount { counts, proof: CountProof::Trials(trials), checked: false })
 }
@@ -91,33 +99,41 @@ struct Prepared {
     distances: [f64; 3],
 }
 
+/// What is proved, what follows, and the peaks where they are known.
+type Proved = (TubeProof, Concluded, Option<Peaks>);
+
+/// The radii of a box in short numbers.
+fn short(radii: [f64; 2]) -> Option<[Rational; 2]> {
+    let [x, e] = radii.map(|radius| round_f64(radius, DIGITS, Direction::Down));
+    Some([x?, e?])
+}
+
 fn up(value: f64, digits: u32) -> Option<Rational> {
     // Of 0 too a bound that is above it: what is proved is strict.
     round_f64(value.max(f64::MIN_POSITIVE), digits, Direction::Up)
 }
 
 impl Around<'_> {
-    fn bounds(&self) -> Option<(CountBounds, (Trial, TubeProof))> {
+    /// The bounds; `other`: what is proved for another number of oscillators.
+    fn bounds(&self, other: Option<&TubeProof>) -> Option<(CountBounds, (Trial, TubeProof))> {
         let prepared = self.prepared()?;
         let nominal = self.asked.spec.input_gain.as_ref().map(|gain| gain.nominal.enclose(PRECISION));
-        let known = self.known(&prepared);
+        let of_other = || {
+            let TubeProof { radii, forms, .. } = other?;
+            self.with_peaks(&prepared, radii.clone(), forms.clone())
+        };
         let with_peaks = || {
-            let proof = self.peak_box(&prepared).and_then(|(radii, forms)| self.proof(&prepared, radii, &forms))?;
-            let concluded = Concluded::of(&prepared.trial, &proof, &known)?;
-            let peaks = Peaks::of(&proof, &concluded, &prepared.own, &prepared.start)?;
-            let inside = peaks.reach.iter().zip(&proof.radii).zip([proof.states.is_some(), true]);
-            let inside = inside.into_iter().all(|((reach, end), asked)| {
-                !asked || reach.lt(&Enclosure::from_rational(end, PRECISION)).is_true()
-            });
-            inside.then_some((proof, concluded, Some(peaks)))
+            let (radii, forms) = MARGINS.into_iter().find_map(|margin| self.peak_box(&prepared, margin))?;
+            let forms = forms.iter().map(rounded).collect::<Option<_>>()?;
+            self.with_peaks(&prepared, short(radii)?, forms)
         };
         let alone = || {
-            let (radii, forms) = self.small_box(&prepared)?;
-            let proof = self.proof(&prepared, radii, &forms)?;
-            let concluded = Concluded::of(&prepared.trial, &proof, &known)?;
+            let (radii, form) = self.small_box(&prepared)?;
+            let proof = self.proof(&prepared, short(radii)?, vec![rounded(&form)?])?;
+            let concluded = Concluded::of(&prepared.trial, &proof, &self.known(&prepared))?;
             self.is_of_the_claim(&concluded).then_some((proof, concluded, None))
         };
-        let (proof, concluded, peaks) = with_peaks().or_else(alone)?;
+        let (proof, concluded, peaks) = of_other().or_else(with_peaks).or_else(alone)?;
         let transient = peaks.as_ref().map_or_else(|| Enclosure::zero(PRECISION), |peaks| peaks.control.clone());
         let Control { steady, transient } =
             Control { steady: concluded.control.clone(), transient }.over(nominal.as_ref());
@@ -130,6 +146,18 @@ impl Around<'_> {
             largest: peaks.map(|peaks| Largest { error: &concluded.error + peaks.error, transient }),
         };
         Some((bounds, (prepared.trial, proof)))
+    }
+
+    /// What is proved with forms on a box that solutions from the set do not leave.
+    fn with_peaks(&self, prepared: &Prepared, radii: [Rational; 2], forms: Vec<(Metric, Level)>) -> Option<Proved> {
+        let proof = self.proof(prepared, radii, forms)?;
+        let concluded = Concluded::of(&prepared.trial, &proof, &self.known(prepared))?;
+        let peaks = Peaks::of(&proof, &concluded, &prepared.own, &prepared.start)?;
+        let inside = peaks.reach.iter().zip(&proof.radii).zip([proof.states.is_some(), true]);
+        let inside = inside
+            .into_iter()
+            .all(|((reach, end), asked)| !asked || reach.lt(&Enclosure::from_rational(end, PRECISION)).is_true());
+        inside.then_some((proof, concluded, Some(peaks)))
     }
 
     fn known<'p>(&'p self, prepared: &'p Prepared) -> Known<'p> {
@@ -146,7 +174,8 @@ impl Around<'_> {
     fn is_of_the_claim(&self, concluded: &Concluded) -> bool {
         let Asked { error_box, periodic, .. } = self.asked;
         let sizes = [&concluded.states, &concluded.error];
-        let within = |((size, periodic), end): ((&Enclosure, &Enclosure), &Enclosure)| (size + periodic).le(end).is_true();
+        let within =
+            |((size, periodic), end): ((&Enclosure, &Enclosure), &Enclosure)| (size + periodic).le(end).is_true();
         sizes.into_iter().zip(periodic).zip(error_box).all(within)
     }
 
@@ -216,63 +245,71 @@ impl Around<'_> {
     }
 
     /// The box that solutions from the set do not leave, with the smallest peak that is found, and forms on it.
-    fn peak_box(&self, prepared: &Prepared) -> Option<([f64; 2], Vec<FallingForm>)> {
+    fn peak_box(&self, prepared: &Prepared, margin: f64) -> Option<([f64; 2], Vec<FallingForm>)> {
         let [d_x, d_e, _] = prepared.distances;
         let has_states = self.asked.plant.states() > 0;
         let reaches = if has_states { &REACHES[..] } else { &REACHES[..1] };
         let mut best: Option<([f64; 2], FallingForm)> = None;
-        for reach in reaches {
-            let x = if has_states { reach * d_x } else { 0.0 };
-            let mut e = FIRST * d_e;
+        let fitted = |x: f64, mut e: f64, (margin, looked): (f64, LookedAt)| {
+            let mut kept: Option<([f64; 2], FallingForm)> = None;
             for _ in 0..FITS {
                 let mut program = self.program(prepared, has_states.then_some(FILLED * x));
-                let Some(found) = prepared.samples.propose_peak([x, e], &mut program, (PeakOf::Error, MARGIN)) else { break };
+                let asked = (PeakOf::Error, margin, looked);
+                let Some(found) = prepared.samples.propose_peak([x, e], &mut program, asked) else { break };
                 let peak = found.level.sqrt();
-                if peak <= FILLED * e {
-                    if best.as_ref().is_none_or(|(_, known)| found.level < known.level) {
-                        best = Some(([x, e], found));
-                    }
+                let fits = peak <= FILLED * e;
+                let settled = kept.as_ref().is_some_and(|(_, known)| !fits || found.level > SETTLED * known.level);
+                if fits {
+                    kept = Some(([x, e], found));
+                }
+                // A smaller box has a smaller peak.
+                e = if kept.is_some() { SMALLER * peak / FILLED } else { LARGER * peak };
+                if settled {
                     break;
                 }
-                e = 1.04 * peak;
+            }
+            kept
+        };
+        for reach in reaches {
+            let found = fitted(if has_states { reach * d_x } else { 0.0 }, FIRST * d_e, (margin, LookedAt::Grid));
+            let (known, found) = (best.take(), found);
+            // Once they are worse, those further out are too.
+            let worse = known.as_ref().zip(found.as_ref()).is_some_and(|(known, found)| found.1.level > known.1.level);
+            best = if worse { known } else { found.or(known) };
+            if worse {
+                break;
             }
         }
-        let (radii, first) = best?;
+        let ([x, e], _) = best?;
+        let (radii, first) = fitted(x, e, (margin, LookedAt::Between))?;
         let mut program = self.program(prepared, None);
-        let second = prepared.samples.propose_peak(radii, &mut program, (PeakOf::Control, MARGIN));
+        let asked = (PeakOf::Control, margin, LookedAt::Between);
+        let second = prepared.samples.propose_peak(radii, &mut program, asked);
         Some((radii, std::iter::once(first).chain(second).collect()))
     }
 
     /// A box that is small beside the trial, and a form on it.
-    fn small_box(&self, prepared: &Prepared) -> Option<([f64; 2], Vec<FallingForm>)> {
+    fn small_box(&self, prepared: &Prepared) -> Option<([f64; 2], FallingForm)> {
         let radii = [0, 1].map(|i| SMALL_BOX * prepared.distances[i]);
         let mut program = self.program(prepared, None);
-        let form = prepared.samples.propose_peak(radii, &mut program, (PeakOf::Error, MARGIN))?;
-        Some((radii, vec![form]))
+        let asked = (PeakOf::Error, MARGINS[0], LookedAt::Grid);
+        Some((radii, prepared.samples.propose_peak(radii, &mut program, asked)?))
     }
 
-    /// What is proved on a box.
-    fn proof(&self, prepared: &Prepared, radii: [f64; 2], forms: &[FallingForm]) -> Option<TubeProof> {
+    /// What is proved on a box: at least the first form.
+    fn proof(&self, prepared: &Prepared, [x, e]: [Rational; 2], mut forms: Vec<(Metric, Level)>) -> Option<TubeProof> {
         let Prepared { engine, samples, .. } = prepared;
         let has_states = self.asked.plant.states() > 0;
-        let [x, e] = radii.map(|radius| round_f64(radius, SHORT, Direction::Up));
-        let (x, e) = (x?, e?);
         self.in_domain(prepared, [&x, &e])?;
         engine.smooth(&x, &e).ok()?;
-        let forms: Vec<(Metric, Level)> = forms
-            .iter()
-            .map(|form| rounded(form, &x))
-            .collect::<Option<Vec<_>>>()?
-            .into_iter()
-            .map(|form| {
-                let decision = engine.decide_form((&form.0, &form.1), self.asked.sigma, [&x, &e], EFFORT);
-                decision.truth.is_true().then_some(form)
-            })
-            // The box is that of the first.
-            .enumerate()
-            .take_while(|(i, form)| *i > 0 || form.is_some())
-            .filter_map(|(_, form)| form)
-            .collect();
+        let decided = |(metric, level): &(Metric, Level)| {
+            engine.decide_form((metric, level), self.asked.sigma, [&x, &e], EFFORT).truth.is_true()
+        };
+        // The box is that of the first.
+        let holds: Vec<bool> = forms.iter().map(decided).collect();
+        holds.first().filter(|first| **first)?;
+        let mut holds = holds.into_iter();
+        forms.retain(|_| holds.next() == Some(true));
         let first = forms.first()?;
         let slope = |bound| prove_value(engine, samples, bound, &x, &e).map(|proved| proved.value);
         let slopes = [if has_states { slope(Bound::Qx)? } else { Rational::new() }, slope(Bound::Qe)?];
@@ -323,28 +360,26 @@ impl Around<'_> {
 /// The share of the distances of the start that a box has around a trial of which nothing is known further away.
 const SMALL_BOX: f64 = 1e-4;
 
-/// A form in short numbers, on a box up to this distance of x.
-fn rounded(form: &FallingForm, x: &Rational) -> Option<(Metric, Level)> {
-    let FallingForm { matrix, cross, weight, k_p, p_up, margins, level } = form;
+/// A form in short numbers.
+fn rounded(form: &FallingForm) -> Option<(Metric, Level)> {
+    let FallingForm { matrix, cross, weight, k_p, p_up, x_low, e_low, margins, .. } = form;
     let short = |value: f64| round_f64(value, DIGITS, Direction::Nearest);
     let row = |row: &Vec<f64>| row.iter().map(|entry| short(*entry)).collect::<Option<Vec<Rational>>>();
     let [c_x, c_e, c_y] = margins.map(|margin| round_f64(KEPT * margin, SHORT, Direction::Down));
     let has_states = !matrix.is_empty();
-    let reach = FILLED * x.to_f64();
-    let x_low = if has_states { level / (reach * reach) } else { 1.0 };
     let metric = Metric {
         matrix: matrix.iter().map(row).collect::<Option<_>>()?,
         cross: row(cross)?,
         weight: short(*weight)?,
         k_p: short(*k_p)?,
-        c_x: c_x.filter(|c| *c > 0)?,
+        c_x: if has_states { c_x? } else { Rational::from(1) },
         c_e: c_e?,
         c_y: c_y?,
     };
     let level = Level {
         p_up: round_f64(if has_states { p_up * (1.0 + ROOM) } else { 1.0 }, DIGITS, Direction::Up)?,
         x_low: round_f64(x_low * (1.0 - ROOM), DIGITS, Direction::Down)?,
-        e_low: round_f64(1.0 - ROOM, DIGITS, Direction::Down)?,
+        e_low: round_f64(e_low * (1.0 - ROOM), DIGITS, Direction::Down)?,
     };
     Some((metric, level))
 }

@@ -2,8 +2,8 @@
 
 use super::{Last, Prepared, Run, Start};
 use crate::certify::{
-    Alternatives, ByCount, Certification, Member, Options, Refusal, Wanted, certify_member, certify_sampled_within, recheck,
-    recheck_sampled,
+    Alternatives, ByCount, Certification, Member, Options, Refusal, Wanted, certify_member, certify_sampled_within,
+    recheck, recheck_sampled,
 };
 use crate::reduction::closer::closer;
 use crate::reduction::interval_costs::{costs_at_samples, interval_costs};
