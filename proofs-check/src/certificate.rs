@@ -5,6 +5,7 @@ use proofs_core::data::Data;
 use proofs_core::effort;
 use proofs_core::json::{Field, Json};
 use proofs_core::rules::bounding;
+use proofs_core::rules::by_n_o;
 use proofs_core::rules::claim::{Claim, reads};
 use proofs_core::rules::derivation::{Derivation, Inequalities};
 use proofs_core::rules::no_plant::NoPlant;
@@ -77,15 +78,17 @@ pub fn check(json: &Json, other: Option<&Json>, lines: &mut Vec<String>) -> Outc
         Some(_) => Kind::Slopes { states, corner: derivation.has_corner() && states > 0 },
     };
     let rates = Witness::read_all(witness.optional("for_n_o").as_ref(), &claim.rates, kind)?;
+    let by_n_o = by_n_o::Witness::read(witness.optional("by_n_o").as_ref(), &claim.by_n_o, states)?;
     witness.finish()?;
     file.finish()?;
+    by_n_o::demand_form(&spec, &claim.by_n_o)?;
 
     let mut precision = FIRST_PRECISION;
     let last = LAST_PRECISION.max(written_at);
     let (arguments, statement) = loop {
         let mut attempt = lines.clone();
         let d = Data::new(&spec, precision);
-        let result = prove(&d, &claim, (&derivation, &rates), &mut attempt)
+        let result = prove(&d, &claim, (&derivation, &rates, by_n_o.as_ref()), &mut attempt)
             .and_then(|proved| no_plant.as_ref().map_or(Ok(()), |part| part.prove(&d, &mut attempt)).map(|()| proved));
         // More bits do not help where the cutting of a box came to its end.
         let undecided = |finding: &Finding| finding.verdict == Verdict::Undecided && finding.rule != bounding::RULE;
@@ -102,6 +105,9 @@ pub fn check(json: &Json, other: Option<&Json>, lines: &mut Vec<String>) -> Outc
         let slopes = regions.map(|at| Asked { witnesses: &rates, at });
         let inequalities = Inequalities { list: Some(&derivation.inequalities), law: derivation.law(), slopes };
         proofs_plants::prove(&spec, cells, arguments.each_ref(), inequalities, lines)?;
+        if let Some(witness) = &by_n_o {
+            proofs_plants::by_n_o::prove(&spec, cells, &claim.sigma, (&claim.by_n_o, witness), lines)?;
+        }
     }
     if let Some((jacobian, witness)) = &spec.jacobian {
         for witness in [witness].into_iter().chain(spec.existence.iter().map(|(witness, _)| witness)) {
@@ -121,7 +127,7 @@ pub fn check(json: &Json, other: Option<&Json>, lines: &mut Vec<String>) -> Outc
 fn prove(
     d: &Data<'_>,
     claim: &Claim<'_>,
-    (derivation, rates): (&Derivation, &[Witness]),
+    (derivation, rates, by_n_o): (&Derivation, &[Witness], Option<&by_n_o::Witness>),
     lines: &mut Vec<String>,
 ) -> Outcome<([Float; 2], String)> {
     lines.push(format!("working precision: {} bits", d.precision));
@@ -141,6 +147,9 @@ fn prove(
         }
         let about = (free, &proved.sizes, &claim.sigma, derivation.law());
         rates::prove(d, about, (&claim.rates, rates), lines)?;
+    }
+    if let Some(witness) = by_n_o {
+        by_n_o::prove(d, (&free.set, &claim.sigma), (&claim.by_n_o, witness), lines)?;
     }
     lines.push("claim: verdict, n_o, mu, set, periodic solution and control follow from what is proved".to_owned());
     let mut largest = proved.arguments.each_ref().map(|argument| argument.hi().into_owned());

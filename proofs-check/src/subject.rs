@@ -2,6 +2,7 @@
 //! specification of somebody else's file.
 
 use proofs_core::bound::{BOUND_NAMES, Bound};
+use proofs_core::input_gain;
 use proofs_core::json::{Field, Json, join, rational};
 use proofs_core::plant::OfPlant;
 use proofs_core::plant::parameters::Parameter;
@@ -171,10 +172,8 @@ fn input(spec: &Specification) -> &'static str {
 
 /// What is put out where that is not u, and what becomes of it.
 fn output(gain: &Range) -> String {
-    let [low, high, nominal] = [&gain.low, &gain.high, &gain.nominal].map(|constant| &constant.words);
-    // Another quotient or product is one number.
-    let nominal = if nominal.parse::<f64>().is_ok() { nominal.clone() } else { format!("({nominal})") };
-    format!(" puts out v = u/{nominal}; g is one constant in [{low}, {high}]")
+    let [low, high] = [&gain.low, &gain.high].map(|constant| &constant.words);
+    format!(" puts out v = {}; g is one constant in [{low}, {high}]", input_gain::output(gain))
 }
 
 /// What is assumed where something is said of noise.

@@ -81,6 +81,13 @@ pub fn in_words(gain: Option<&Range>) -> String {
     )
 }
 
+/// What the regulator puts out, in words: u over the nominal gain.
+pub fn output(gain: &Range) -> String {
+    let nominal = &gain.nominal.words;
+    // Another quotient or product is one number.
+    if nominal.parse::<f64>().is_ok() { format!("u/{nominal}") } else { format!("u/({nominal})") }
+}
+
 /// b_lo and b_hi, which are not both 1.
 #[derive(Clone, Debug)]
 pub struct Gain {

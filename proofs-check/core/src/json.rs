@@ -234,6 +234,14 @@ impl<'a> Field<'a> {
         }
     }
 
+    /// `true` or `false`.
+    pub fn truth(&self) -> Outcome<bool> {
+        match self.json {
+            Json::Bool(value) => Ok(*value),
+            _ => bad(&self.pointer, "expected true or false"),
+        }
+    }
+
     /// A whole number of up to nine digits.
     pub fn whole(&self) -> Outcome<u32> {
         match self.json {

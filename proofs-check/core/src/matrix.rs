@@ -22,11 +22,21 @@ pub fn is_symmetric(rows: &Matrix) -> bool {
 }
 
 /// Whether a symmetric rational matrix is positive semidefinite: by its pivots, where a pivot of 0 stands alone.
-pub fn is_semidefinite(mut rows: Matrix) -> bool {
+pub fn is_semidefinite(rows: Matrix) -> bool {
+    by_exact_pivots(rows, true)
+}
+
+/// Whether a symmetric rational matrix is positive definite: by its pivots.
+pub fn is_definite(rows: Matrix) -> bool {
+    by_exact_pivots(rows, false)
+}
+
+fn by_exact_pivots(mut rows: Matrix, zero_may_stand: bool) -> bool {
     for k in 0..rows.len() {
         let above = rows[k].clone();
         let pivot = &above[k];
-        if *pivot < 0 || (*pivot == 0 && above[k + 1..].iter().any(|entry| *entry != 0)) {
+        let stands_alone = || zero_may_stand && above[k + 1..].iter().all(|entry| *entry == 0);
+        if *pivot < 0 || (*pivot == 0 && !stands_alone()) {
             return false;
         }
         for row in rows[k + 1..].iter_mut().filter(|_| *pivot != 0) {

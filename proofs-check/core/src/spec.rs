@@ -12,7 +12,7 @@ use crate::expr::{ARGUMENTS, Expr, Named, Written};
 use crate::input_gain;
 use crate::interval::Interval;
 use crate::jacobian::{self, Jacobian};
-use crate::json::{Field, Fields, Json};
+use crate::json::{Field, Fields};
 use crate::noise::Noise;
 use crate::period::{self, Period};
 use crate::plant::OfPlant;
@@ -237,11 +237,7 @@ impl InternalModel {
         let mut model = field.fields()?;
         let mut read = |name| positive_with(&model.required(name)?, name, constants);
         let (mu, base_frequency) = (read("mu")?, read("base_frequency")?);
-        let truth = |field: &Field<'_>| match field.json {
-            Json::Bool(value) => Ok(*value),
-            _ => bad(&field.pointer, "expected true or false"),
-        };
-        let matched = model.part("matched", truth)?.unwrap_or_default();
+        let matched = model.part("matched", Field::truth)?.unwrap_or_default();
         let weights = Weights::read(&model.required("weights")?)?;
         if matched {
             let pointer = format!("{}/matched", model.pointer);

@@ -2,10 +2,11 @@
 //!
 //! Guarantee of [`prove`]: f and q are periodic and smooth where they are used (P0); x_0 exists, near xb (P1); every entry of
 //! `bounds` is true (P2), and the forcing is as `forcing` says (P3). What the claim says of balls and domains is decided in
-//! `proofs_core::plant` (P4).
+//! `proofs_core::plant` (P4). What a claim says by the number of oscillators is decided after it, in [`by_n_o`].
 
 pub mod at_samples;
 pub mod bounds;
+pub mod by_n_o;
 pub mod cells;
 mod derivative;
 mod form;

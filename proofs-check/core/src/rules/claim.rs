@@ -1,5 +1,6 @@
 //! Rule: the claim says what the witness proves, and nothing that it does not.
 
+use super::by_n_o::claimed::Entry;
 use super::common::Evaluated;
 use super::control::NAMES;
 use super::rates::claimed::Rate;
@@ -40,6 +41,8 @@ pub struct Claim<'a> {
     control: Option<Field<'a>>,
     /// What it says besides of given numbers of oscillators.
     pub rates: Vec<Rate<'a>>,
+    /// What it says besides by the number of oscillators.
+    pub by_n_o: Vec<Entry<'a>>,
     /// The radius of the ball that the set of a plant contains, with its place and as it is written.
     ball: Option<(Rational, Field<'a>)>,
     /// The actuator that it keeps to, if it names one: then it is about `sigma` alone.
@@ -116,8 +119,13 @@ impl<'a> Claim<'a> {
             false => Rate::read_all(&field),
             true => bad(&field.pointer, "nothing is proved of given n_o of a law with a delay"),
         });
+        let by_n_o = fields.part("by_n_o", |field| match sampled {
+            None => Entry::read_all(field),
+            Some(_) => bad(&field.pointer, "nothing is proved by n_o of a regulator at samples"),
+        })?;
         let claim = Claim {
             rates: rates.transpose()?.unwrap_or_default(),
+            by_n_o: by_n_o.unwrap_or_default(),
             sigma,
             sampled,
             set: numbers,
@@ -211,7 +219,9 @@ impl<'a> Claim<'a> {
         let sigma = self.sampled.as_ref().map_or(self.sigma_text, Regulator::sigma_text);
         let kind = [self.sampled.is_some(), self.set.z0.is_none()];
         let besides: String = self.rates.iter().map(|rate| rate.in_words(sigma, kind, &spec.noise)).collect();
-        Ok(statement + &besides)
+        let output = spec.input_gain.as_ref().map_or_else(|| "u".to_owned(), input_gain::output);
+        let by_n_o: String = self.by_n_o.iter().map(|entry| entry.in_words(sigma, &output)).collect();
+        Ok(statement + &besides + &by_n_o)
     }
 
     /// The set contains the ball (docs/mathematics.md, section 11.5), and the ball is no smaller than the one that is asked for.

@@ -1,5 +1,6 @@
 //! The rules.
 pub mod bounding;
+pub mod by_n_o;
 pub mod claim;
 pub mod common;
 pub mod control;

@@ -1,0 +1,68 @@
+//! Rule: what a claim says by the number of oscillators, at its gain and no other, in continuous time and without noise (docs/mathematics.md, section
+//! 14): how large the error and the control are along the T-periodic solution, and at all times from the claimed set. Of a plant that is given by
+//! its formulas, with a matched base frequency.
+//!
+//! Guarantee of [`prove`]: `largest` of each entry follows from what `steady` and the witness say of the periodic solution. That these are true of
+//! the formulas is proved by the crate `proofs-plants`, whose part has the same name.
+
+pub mod claimed;
+pub mod linear;
+
+use crate::data::Data;
+use crate::json::Field;
+use crate::spec::Specification;
+use crate::verdict::{Outcome, Verdict, bad, finding};
+use claimed::{Entry, RULE};
+use linear::Linear;
+use rug::Rational;
+
+/// Where the witness stands in a file.
+const PLACE: &str = "/witness/by_n_o";
+
+/// What proves what is said by n_o: one of the kinds.
+pub enum Witness {
+    /// Of a plant that is linear in x and e (section 14.3).
+    Linear(Linear),
+}
+
+impl Witness {
+    /// Reads the part `by_n_o` of a witness, of a plant with so many states: there exactly if the claim has its part.
+    pub fn read(field: Option<&Field<'_>>, claimed: &[Entry<'_>], states: usize) -> Outcome<Option<Witness>> {
+        let field = match (field, claimed.is_empty()) {
+            (None, true) => return Ok(None),
+            (Some(field), false) => field,
+            (None, false) => return bad(PLACE, "it is missing: the claim says something by n_o"),
+            (Some(field), true) => return bad(&field.pointer, "the claim says nothing by n_o"),
+        };
+        let known = field.object(|fields| {
+            let linear = fields.part("linear", |field| field.object(|fields| Linear::take(fields, claimed, states)))?;
+            Ok(linear.map(Witness::Linear))
+        })?;
+        known.map_or_else(|| bad(&field.pointer, "expected `linear`"), |known| Ok(Some(known)))
+    }
+}
+
+/// What every kind demands of the file: the sections are about one period, its own oscillators, and one orbit.
+pub fn demand_form(spec: &Specification, claimed: &[Entry<'_>]) -> Outcome<()> {
+    let Some(first) = claimed.first() else { return Ok(()) };
+    let undecided = |message: &str| Err(finding(Verdict::Undecided, RULE, &first.pointer, message));
+    match &spec.plant {
+        None => undecided("it is proved of a plant that is given by its formulas, not of bounding functions"),
+        Some(_) if spec.period.exact().is_none() => undecided("it is proved of a period that is one number"),
+        Some(_) if !spec.regulator.matched => undecided("it is proved of a `matched` base frequency"),
+        Some(plant) if plant.in_cells => undecided("it is proved of parameters that are not cut into `cells`"),
+        Some(_) => Ok(()),
+    }
+}
+
+/// Proves of each entry that `largest` follows from the rest; `sigma`: the gain of the claim.
+pub fn prove(
+    d: &Data<'_>,
+    about: (&super::set::ClaimedSet, &Rational),
+    (claimed, witness): (&[Entry<'_>], &Witness),
+    lines: &mut Vec<String>,
+) -> Outcome<()> {
+    match witness {
+        Witness::Linear(linear) => linear.peaks(d, about, claimed, lines),
+    }
+}
