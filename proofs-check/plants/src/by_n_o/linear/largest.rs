@@ -1,0 +1,165 @@
+//! The largest value over t of a trigonometric polynomial whose coefficients are functions on a box (docs/mathematics.md, section 14.3).
+//!
+//! With harmonics up to K and M times of equal distance in a period, `m = sup|y|` is at most `max_j |y(t_j)|/(1 - (pi K/M)^2/2)`: where y is largest its
+//! derivative vanishes, the next of these times is at most T/(2M) away, and `|y''| <= (K Om)^2 m` (Bernstein's inequality, twice). For a vector the
+//! same holds of its part in every direction, hence of its length. The times do not depend on the box, so at each of them the mean value theorem bounds y.
+
+use super::complex::Complex;
+use super::jet::{Axes, Jet};
+use proofs_core::interval::Interval;
+
+/// How many times there are for each harmonic.
+const TIMES: usize = 64;
+
+/// What is known of a bound on a box.
+pub enum Judgement {
+    Proved,
+    /// In the middle of the box the number is certainly exceeded.
+    Refuted,
+    /// In the middle of the box what is shown exceeds the number; a smaller box shows no less.
+    Stuck,
+    /// A smaller box may show it.
+    Open,
+}
+
+/// That a function is at most a number, where what is computed is the function itself (`exact`) or a bound of it.
+pub fn at_most(axes: &Axes, bound: &Jet<Interval>, limit: &Interval, exact: bool) -> Judgement {
+    if axes.most(bound).le(limit) == Some(true) {
+        return Judgement::Proved;
+    }
+    match limit.lt(&bound.middle.floor()) {
+        Some(true) if exact => Judgement::Refuted,
+        Some(true) => Judgement::Stuck,
+        _ => Judgement::Open,
+    }
+}
+
+/// `sum over all k of y_k e^(i k Om t)` by its coefficients with `k >= 0`, each with its k: vectors.
+pub struct Signal(pub Vec<(usize, Vec<Jet<Complex>>)>);
+
+/// `e^(2 pi i j/M)` for all j.
+pub struct Times {
+    turns: Vec<Complex>,
+}
+
+impl Times {
+    /// For harmonics up to `most`.
+    pub fn new(most: usize, precision: u32) -> Times {
+        let count = most * TIMES;
+        let turn = |j: usize| {
+            let angle = Interval::pi(precision) * (2 * j) as i64 / count as i64;
+            Complex { re: angle.cos(), im: angle.sin() }
+        };
+        Times { turns: (0..count).map(turn).collect() }
+    }
+
+    /// `1 - (pi K/M)^2/2`.
+    fn share(&self, most: usize, precision: u32) -> Interval {
+        1 - (Interval::pi(precision) * most as i64 / self.turns.len() as i64).sqr() / 2
+    }
+}
+
+/// The factor of the harmonic k and -k together.
+fn both(k: usize) -> i64 {
+    if k == 0 { 1 } else { 2 }
+}
+
+impl Signal {
+    /// `|y_0| + 2 sum |y_k|`: a bound of |y|.
+    pub fn sum(&self, axes: &Axes, precision: u32) -> Jet<Interval> {
+        let zero = || Jet::constant(&Interval::int(0, precision));
+        let size = |(k, parts): &(usize, Vec<Jet<Complex>>)| {
+            let square = parts.iter().fold(zero(), |sum, part| sum.plus(&axes.square(part)));
+            axes.root(&square).mapped(|size| size * both(*k))
+        };
+        self.0.iter().fold(zero(), |sum, part| sum.plus(&size(part)))
+    }
+
+    /// That |y| is at most a number at all times.
+    pub fn at_most(&self, axes: &Axes, limit: &Interval, times: &Times) -> Judgement {
+        let p = limit.precision();
+        let sum = self.sum(axes, p);
+        let dimension = self.0.first().map_or(0, |(_, parts)| parts.len());
+        // Of one number with one harmonic the sum is the largest value.
+        let alone = dimension == 1 && self.0.len() == 1;
+        let by_sum = at_most(axes, &sum, limit, alone);
+        let most = self.0.iter().map(|(k, _)| *k).max().unwrap_or(0);
+        if alone || matches!(by_sum, Judgement::Proved) || most == 0 || times.turns.len() < most * TIMES {
+            return by_sum;
+        }
+        // What |y| may be at these times.
+        let allowed = limit * times.share(most, p);
+        let fastest: Vec<Interval> = (0..axes.count()).map(|axis| self.most_along(axis, p)).collect();
+        let reach = axes.reach(&fastest, p);
+        let mut open = false;
+        for j in 0..times.turns.len() {
+            let square = |parts: &[Interval]| parts.iter().fold(Interval::int(0, p), |sum, part| sum + part.sqr());
+            let middle: Vec<Interval> =
+                (0..dimension).map(|i| self.at(times, j, i, |jet| Some(&jet.middle), p)).collect();
+            let size = if dimension == 1 { middle[0].abs() } else { square(&middle).sqrt() };
+            if limit.lt(&size) == Some(true) {
+                return Judgement::Refuted;
+            }
+            if allowed.lt(&size.floor()) == Some(true) {
+                return Judgement::Stuck;
+            }
+            if open || (size.ceiling() + &reach).le(&allowed) == Some(true) {
+                continue;
+            }
+            let jet = |(i, middle): (usize, &Interval)| {
+                let slopes =
+                    (0..axes.count()).map(|axis| self.at(times, j, i, |jet| jet.slopes.get(axis), p)).collect();
+                let all = Interval::entire(p);
+                axes.narrowed(Jet { middle: middle.clone(), all, slopes })
+            };
+            let there: Vec<Jet<Interval>> = middle.iter().enumerate().map(jet).collect();
+            let most = match there.as_slice() {
+                [one] => one.all.abs(),
+                _ => {
+                    let zero = Jet::constant(&Interval::int(0, p));
+                    let square = there.iter().fold(zero, |sum, jet| sum.plus(&axes.times(jet, jet)));
+                    axes.most(&square).sqrt()
+                }
+            };
+            open = most.ceiling().le(&allowed) != Some(true);
+        }
+        if open { Judgement::Open } else { Judgement::Proved }
+    }
+
+    /// A part at the j-th time, or of its derivatives: of what each coefficient has in its place.
+    fn at<'s>(
+        &'s self,
+        times: &Times,
+        j: usize,
+        i: usize,
+        of: impl Fn(&'s Jet<Complex>) -> Option<&'s Complex>,
+        p: u32,
+    ) -> Interval {
+        let count = times.turns.len();
+        let term = |(k, parts): &'s (usize, Vec<Jet<Complex>>)| {
+            let (value, turn) = (of(parts.get(i)?)?, &times.turns[j * k % count]);
+            Some((&value.re * &turn.re - &value.im * &turn.im) * both(*k))
+        };
+        self.0.iter().filter_map(term).fold(Interval::int(0, p), |sum, term| sum + term)
+    }
+
+    /// A bound of the length of the derivative along an axis at all times.
+    fn most_along(&self, axis: usize, p: u32) -> Interval {
+        let size = |(k, parts): &(usize, Vec<Jet<Complex>>)| {
+            let slopes = parts.iter().filter_map(|part| part.slopes.get(axis));
+            slopes.fold(Interval::int(0, p), |sum, slope| sum + slope.square()).sqrt() * both(*k)
+        };
+        self.0.iter().map(size).fold(Interval::int(0, p), |sum, size| sum + size)
+    }
+
+    /// How much of each coefficient is not known along an axis; a hint.
+    pub fn spread(&self, axes: &Axes, axis: usize) -> f64 {
+        self.0.iter().flat_map(|(_, parts)| parts).map(|part| spread(part, axes, axis)).sum()
+    }
+}
+
+/// How much of a function is not known because its derivative along an axis is not; a hint.
+pub fn spread(jet: &Jet<Complex>, axes: &Axes, axis: usize) -> f64 {
+    let width = |slope: &Complex| slope.re.half_width().hi().to_f64() + slope.im.half_width().hi().to_f64();
+    jet.slopes.get(axis).map_or(0.0, width) * axes.width(axis)
+}
