@@ -16,9 +16,12 @@ use proofs_core::interval::Interval;
 use proofs_core::rules::by_n_o::claimed::RULE;
 use proofs_core::verdict::{Outcome, Verdict, demand, finding};
 use rug::Rational;
+use std::collections::VecDeque;
 
 /// The most boxes.
 const MOST_BOXES: usize = 20_000;
+/// How many more are looked at, for a refutation, where a number is too close to be proved.
+const MOST_AFTER_CLOSE: usize = 200;
 /// A side that is narrower in comparison with that of the first box is not halved.
 const LEAST_SHARE: f64 = 1e-9;
 
@@ -63,6 +66,16 @@ impl Whole<'_> {
     }
 }
 
+/// What is left of a box.
+struct Left {
+    /// What is open on it.
+    open: Vec<(usize, Vec<usize>)>,
+    /// How much each side that counts contributes; a hint.
+    scores: Vec<f64>,
+    /// Whether a number is so close that nothing will be proved of it.
+    close: bool,
+}
+
 /// What is computed on a box.
 pub struct Computation<'c, 's> {
     pub system: &'c System,
@@ -80,27 +93,30 @@ impl Computation<'_, '_> {
         self.system.parameters.iter().copied().chain(of_gain).collect()
     }
 
-    /// Proves every bound of all entries; by how many boxes.
+    /// Proves every bound of all entries; by how many boxes. The first that came are looked at first: what is refuted is seen on large boxes.
     pub fn prove(&mut self, entries: &[Entry], whole: &Whole<'_>) -> Outcome<usize> {
         let first = whole.piece(entries, self.regulator.om.precision());
-        let mut queue = vec![first.clone()];
-        let mut count = 0;
-        while let Some(piece) = queue.pop() {
+        let mut queue = VecDeque::from([first.clone()]);
+        let (mut count, mut allowed) = (0, MOST_BOXES);
+        while let Some(piece) = queue.pop_front() {
             count += 1;
             let asked =
                 |(entry, places): &(usize, Vec<usize>)| places.first().map(|place| &entries[*entry].asked[*place]);
             let Some(next) = piece.open.iter().find_map(asked) else { continue };
-            if count > MOST_BOXES || effort::exhausted() {
+            if count > allowed || effort::exhausted() {
                 return not_shown(next, &whole.place(&piece));
             }
-            let (open, scores) = self.judge(entries, whole, &piece)?;
-            let Some(next) = open.iter().find_map(asked) else { continue };
-            match self.widest(whole, [&piece, &first], &scores) {
+            let left = self.judge(entries, whole, &piece)?;
+            let Some(next) = left.open.iter().find_map(asked) else { continue };
+            if left.close {
+                allowed = allowed.min(count + MOST_AFTER_CLOSE);
+            }
+            match self.widest(whole, [&piece, &first], &left.scores) {
                 None => return not_shown(next, &whole.place(&piece)),
                 Some(side) => queue.extend(piece.sides[side].halves().map(|half| {
                     let mut sides = piece.sides.clone();
                     sides[side] = half;
-                    Piece { sides, open: open.clone() }
+                    Piece { sides, open: left.open.clone() }
                 })),
             }
         }
@@ -108,12 +124,7 @@ impl Computation<'_, '_> {
     }
 
     /// What is still open on a box, and how much each side that counts contributes.
-    fn judge(
-        &mut self,
-        entries: &[Entry],
-        whole: &Whole<'_>,
-        piece: &Piece,
-    ) -> Outcome<(Vec<(usize, Vec<usize>)>, Vec<f64>)> {
+    fn judge(&mut self, entries: &[Entry], whole: &Whole<'_>, piece: &Piece) -> Outcome<Left> {
         let count = whole.parameters.len();
         let sides = self.sides(whole);
         let half_widths: Vec<Interval> = sides.iter().map(|side| piece.sides[*side].half_width()).collect();
@@ -123,10 +134,10 @@ impl Computation<'_, '_> {
         let answers: Vec<Answer> =
             self.harmonics.iter().map(|k| on_box.answer(*k, &self.regulator.frequency(*k))).collect();
         let b = self.gain(&piece.sides[count..], axes.count());
-        let (mut open, mut scores) = (Vec::new(), vec![0.0; axes.count()]);
+        let mut left = Left { open: Vec::new(), scores: vec![0.0; axes.count()], close: false };
         for (place, asked) in &piece.open {
             let judged = entries[*place].judge(asked, (&axes, &answers, &b), (self.regulator, &self.times));
-            let mut left = Vec::new();
+            let mut open = Vec::new();
             for (which, (judgement, shares)) in asked.iter().zip(judged) {
                 let about = &entries[*place].asked[*which];
                 match judgement {
@@ -135,17 +146,18 @@ impl Computation<'_, '_> {
                         let what = format!("{}{}", about.what, whole.place(piece));
                         demand(Some(false), RULE, &about.pointer, what)?;
                     }
-                    Judgement::Stuck | Judgement::Refuted => return not_shown(about, &whole.place(piece)),
+                    Judgement::Stuck => return not_shown(about, &whole.place(piece)),
+                    Judgement::Close | Judgement::Refuted => left.close = true,
                     Judgement::Open => {}
                 }
-                left.push(*which);
-                scores.iter_mut().zip(&shares).for_each(|(score, share)| *score += share);
+                open.push(*which);
+                left.scores.iter_mut().zip(&shares).for_each(|(score, share)| *score += share);
             }
-            if !left.is_empty() {
-                open.push((*place, left));
+            if !open.is_empty() {
+                left.open.push((*place, open));
             }
         }
-        Ok((open, scores))
+        Ok(left)
     }
 
     /// b, the last axis; 1 where there is none.

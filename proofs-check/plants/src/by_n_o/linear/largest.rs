@@ -16,8 +16,10 @@ pub enum Judgement {
     Proved,
     /// In the middle of the box the number is certainly exceeded.
     Refuted,
-    /// In the middle of the box what is shown exceeds the number; a smaller box shows no less.
+    /// In the middle of the box the bound that is computed certainly exceeds the number: no box shows less.
     Stuck,
+    /// In the middle of the box too little is left of the number for what this way of computing gives away: some box may refute, none proves.
+    Close,
     /// A smaller box may show it.
     Open,
 }
@@ -91,7 +93,7 @@ impl Signal {
         let allowed = limit * times.share(most, p);
         let fastest: Vec<Interval> = (0..axes.count()).map(|axis| self.most_along(axis, p)).collect();
         let reach = axes.reach(&fastest, p);
-        let mut open = false;
+        let (mut open, mut close) = (false, false);
         for j in 0..times.turns.len() {
             let square = |parts: &[Interval]| parts.iter().fold(Interval::int(0, p), |sum, part| sum + part.sqr());
             let middle: Vec<Interval> =
@@ -101,9 +103,10 @@ impl Signal {
                 return Judgement::Refuted;
             }
             if allowed.lt(&size.floor()) == Some(true) {
-                return Judgement::Stuck;
+                close = true;
+                continue;
             }
-            if open || (size.ceiling() + &reach).le(&allowed) == Some(true) {
+            if open || close || (size.ceiling() + &reach).le(&allowed) == Some(true) {
                 continue;
             }
             let jet = |(i, middle): (usize, &Interval)| {
@@ -123,7 +126,11 @@ impl Signal {
             };
             open = most.ceiling().le(&allowed) != Some(true);
         }
-        if open { Judgement::Open } else { Judgement::Proved }
+        match (close, open) {
+            (true, _) => Judgement::Close,
+            (_, true) => Judgement::Open,
+            _ => Judgement::Proved,
+        }
     }
 
     /// A part at the j-th time, or of its derivatives: of what each coefficient has in its place.
