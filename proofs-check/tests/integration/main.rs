@@ -8,6 +8,7 @@ mod arguments;
 mod arithmetic;
 mod at_samples;
 mod at_samples_certificate;
+mod by_n_o;
 mod cells;
 mod claim;
 mod common;

@@ -72,9 +72,10 @@ pub fn of_claim(pointer: &str, mutant: &Value, report: &Report) -> Option<&'stat
     if pointer == "/claim/statement" {
         return Some("words for people, on which nothing depends");
     }
-    let numbers = ["/claim/sigma", "/claim/gain", "/claim/initial_set/", "/claim/for_n_o/"];
-    let number = mutant.pointer(pointer).and_then(Value::as_str)?;
-    let is_named = numbers.iter().any(|at| pointer.starts_with(at)) && said(report).contains(number);
+    let numbers = ["/claim/sigma", "/claim/gain", "/claim/initial_set/", "/claim/for_n_o/", "/claim/by_n_o/"];
+    let value = mutant.pointer(pointer)?;
+    let number = value.as_str().map_or_else(|| value.to_string(), str::to_owned);
+    let is_named = numbers.iter().any(|at| pointer.starts_with(at)) && said(report).contains(&number);
     is_named.then_some("another claim, which the sentence names, and for which every condition is proved")
 }
 

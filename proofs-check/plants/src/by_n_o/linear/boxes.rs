@@ -21,7 +21,7 @@ use std::collections::VecDeque;
 /// The most boxes.
 const MOST_BOXES: usize = 20_000;
 /// How many more are looked at, for a refutation, where a number is too close to be proved.
-const MOST_AFTER_CLOSE: usize = 200;
+const MOST_AFTER_CLOSE: usize = 100;
 /// A side that is narrower in comparison with that of the first box is not halved.
 const LEAST_SHARE: f64 = 1e-9;
 
@@ -46,6 +46,21 @@ impl Whole<'_> {
         let of_gain = self.gain.iter().map(|gain| gain.low.hull(&gain.high));
         let open = entries.iter().enumerate().map(|(place, entry)| (place, (0..entry.asked.len()).collect()));
         Piece { sides: of_parameters.chain(of_gain).collect(), open: open.collect() }
+    }
+
+    /// Its corners, moved inward a little, with everything open; at most 32, for there are at most four parameters.
+    fn corners(&self, entries: &[Entry], precision: u32) -> impl Iterator<Item = Piece> {
+        let piece = self.piece(entries, precision);
+        let inward = Interval::rational(&(Rational::from(1) >> 20), precision);
+        let corner = move |corner: usize| {
+            let end = |(place, side): (usize, &Interval)| {
+                let end = if corner >> place & 1 == 1 { side.ceiling() } else { side.floor() };
+                (&end + (side.middle() - &end) * &inward).middle()
+            };
+            Piece { sides: piece.sides.iter().enumerate().map(end).collect(), open: piece.open.clone() }
+        };
+        let sides = (self.parameters.len() + usize::from(self.gain.is_some())).min(5);
+        (0..1 << sides).map(corner)
     }
 
     /// Whether the middle of a box certainly belongs to it.
@@ -93,8 +108,23 @@ impl Computation<'_, '_> {
         self.system.parameters.iter().copied().chain(of_gain).collect()
     }
 
-    /// Proves every bound of all entries; by how many boxes. The first that came are looked at first: what is refuted is seen on large boxes.
+    /// Proves every bound of all entries; by how many boxes. What is not proved may be refuted near a corner.
     pub fn prove(&mut self, entries: &[Entry], whole: &Whole<'_>) -> Outcome<usize> {
+        let open = match self.cover(entries, whole) {
+            Err(finding) if finding.verdict == Verdict::Undecided && !effort::exhausted() => finding,
+            decided => return decided,
+        };
+        for corner in whole.corners(entries, self.regulator.om.precision()) {
+            self.judge(entries, whole, &corner).map(drop).or_else(|finding| match finding.verdict {
+                Verdict::Invalid => Err(finding),
+                _ => Ok(()),
+            })?;
+        }
+        Err(open)
+    }
+
+    /// Proves them on boxes that cover the whole. The first that came are looked at first: what is refuted is seen on large boxes.
+    fn cover(&mut self, entries: &[Entry], whole: &Whole<'_>) -> Outcome<usize> {
         let first = whole.piece(entries, self.regulator.om.precision());
         let mut queue = VecDeque::from([first.clone()]);
         let (mut count, mut allowed) = (0, MOST_BOXES);
