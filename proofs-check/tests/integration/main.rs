@@ -9,6 +9,8 @@ mod arithmetic;
 mod at_samples;
 mod at_samples_certificate;
 mod by_n_o;
+mod by_n_o_plants;
+mod by_n_o_support;
 mod cells;
 mod claim;
 mod common;

@@ -191,3 +191,96 @@ impl<V: Fn(Id) -> Interval> Reading<'_, V> {
         Some(Harmonics(all))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::machine::{At, Curves, Machine};
+    use proofs_core::expr::Expr;
+
+    const PRECISION: u32 = 128;
+
+    fn number(value: (i64, i64)) -> Interval {
+        Interval::rational(&Rational::from(value), PRECISION)
+    }
+
+    /// What a formula in t and one parameter, here 1/3, is with the period 1/2, and its values at two times.
+    fn read(text: &str) -> Option<(Harmonics, [Interval; 2])> {
+        let mut formulas = Formulas::default();
+        let variables = [Leaf::Time, Leaf::Parameter(0)].map(|leaf| formulas.leaf(leaf));
+        let root = formulas.read(&Expr::parse(text, &["t", "k"]).unwrap(), &variables, &mut Vec::new());
+        let machine = Machine::new(&formulas, &Curves { orbit: Vec::new(), lyapunov: Vec::new() }, &number((1, 1)));
+        let rest = [number((0, 1)), number((1, 3))];
+        let value = |id: Id, time: (i64, i64)| {
+            // The time is the middle of a cell.
+            let (cell, mut values) = (machine.period(&(number(time) * 2)), machine.values());
+            machine.run(&machine.program(&[id]), At::Middle, &cell, &[], &rest, &mut values);
+            machine.get(id, At::Middle, &cell, &values)
+        };
+        let period = Exact::rational(&Rational::from((1, 2))).unwrap();
+        let reading =
+            Reading { formulas: &formulas, period: &period, precision: PRECISION, value: |id| value(id, (1, 1)) };
+        let harmonics = reading.read(&[root])?.remove(0);
+        Some((harmonics, TIMES.map(|time| value(root, time))))
+    }
+
+    const TIMES: [(i64, i64); 2] = [(1, 7), (5, 13)];
+
+    #[test]
+    fn polynomials_have_the_values_of_their_formulas() {
+        for (text, most) in [
+            ("3 - k", 0),
+            ("cos(4*pi*t)", 1),
+            ("sin(4*pi*t)", 1),
+            ("cos(8*pi*t + k) - 2*sin(k - 4*pi*t)", 2),
+            ("sin(4*(pi*t) + 8*pi*t)", 3),
+            ("cos(-(t*4)*pi/k*(1/3 - 0*t)*0 + 2*t*(2*pi))", 1),
+            ("sin(4*pi*t)^2*cos(4*pi*t)*k", 3),
+            ("(1 + cos(4*pi*t)/k)^4", 4),
+            ("sin(4*pi*t)*cos(8*pi*t) - (k - sin(4*pi*t))*exp(k)", 3),
+            ("cos(t - t + 8*pi*t/(1 + 1))", 1),
+            ("sin(4*pi*(t - 1/8)) + -cos(12*pi*(1/8 - t))", 3),
+            ("sqrt(k)*sin(4*pi*t)/(1 + k^2)", 1),
+            ("cos(4*pi*t + 2)^0 + sin(4*pi*t)*0", 0),
+            ("cos(4*pi*t)^8*sin(480*pi*t)", 128),
+        ] {
+            let (harmonics, values) = read(text).unwrap_or_else(|| panic!("{text} is read"));
+            assert_eq!(harmonics.len(), most + 1, "{text}");
+            for (time, value) in TIMES.into_iter().zip(values) {
+                let sum = (0..harmonics.len()).fold(number((0, 1)), |sum, k| {
+                    let (c, angle) =
+                        (harmonics.at(k, PRECISION), Interval::pi(PRECISION) * (4 * k as i64) * number(time));
+                    sum + (c.re * angle.cos() - c.im * angle.sin()) * if k == 0 { 1 } else { 2 }
+                });
+                let apart = (&sum - &value).abs();
+                assert!(sum.intersect(&value).is_defined() && apart.hi().to_f64() < 1e-25, "{text}: {sum:?} {value:?}");
+            }
+        }
+    }
+
+    /// What has another form or another period is none, and what has too many harmonics.
+    #[test]
+    fn what_is_no_polynomial_by_its_form() {
+        for text in [
+            "t",
+            "t*cos(4*pi*t)",
+            "cos(2*pi*t)",
+            "cos(4*pi*t*k)",
+            "cos(4*t)",
+            "cos(4*pi*t)/(2 + cos(4*pi*t))",
+            "sqrt(2 + sin(4*pi*t))",
+            "exp(cos(4*pi*t))",
+            "cos(sin(4*pi*t))",
+            "tan(4*pi*t)",
+            "abs(2 + cos(4*pi*t))",
+            "sin(4*pi*t)^-1",
+            "cos(4*pi*t + cos(4*pi*t))",
+            "sin(516*pi*t)",
+            "cos(4*pi*t)^129",
+            "min(cos(4*pi*t), 0)",
+        ] {
+            assert!(read(text).is_none(), "{text}");
+        }
+        assert!(read("sin(512*pi*t) + cos(4*pi*t)^128").is_some());
+    }
+}
