@@ -196,3 +196,53 @@ impl<T: Number> Jet<T> {
         Jet { middle: map(&self.middle), all: map(&self.all), slopes: self.slopes.iter().map(map).collect() }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rug::Rational;
+
+    const PRECISION: u32 = 53;
+
+    fn number(value: f64) -> Interval {
+        Interval::rational(&Rational::from_f64(value).unwrap(), PRECISION)
+    }
+
+    /// A coordinate between `middle - w` and `middle + w`.
+    fn coordinate(axis: usize, middle: f64, w: f64) -> Jet<Complex> {
+        let one = Complex::real(number(1.0));
+        let slopes = (0..=axis).map(|i| if i == axis { one.clone() } else { Complex::zero(PRECISION) });
+        let all = number(middle - w).hull(&number(middle + w));
+        Jet { middle: Complex::real(number(middle)), all: Complex::real(all), slopes: slopes.collect() }
+    }
+
+    /// `|(x + i y)/(2 - x y) - i x|` on boxes: no value of it is larger, and the bound is near the largest one.
+    #[test]
+    fn values_of_a_function_stay_below_its_bound() {
+        let i = Jet::constant(&Complex { re: number(0.0), im: number(1.0) });
+        let two = Jet::constant(&Complex::real(number(2.0)));
+        for (x, y, w) in [(0.5, 0.25, 0.05), (-0.75, 0.5, 0.01), (1.0, -1.0, 0.1)] {
+            let axes = Axes::new(&[number(w), number(w)]);
+            let [a, b] = [coordinate(0, x, w), coordinate(1, y, w)];
+            let above = a.plus(&axes.times(&i, &b));
+            let below = two.minus(&axes.times(&a, &b));
+            let f = axes.over(&above, &below).minus(&axes.times(&i, &a));
+            let most = axes.most(&axes.root(&axes.square(&f))).hi().to_f64();
+            let value = |x: f64, y: f64| (x / (2.0 - x * y)).hypot(y / (2.0 - x * y) - x);
+            let ends = |middle: f64| (-8..=8).map(move |k| middle + w * f64::from(k) / 8.0);
+            let largest = ends(x).flat_map(|x| ends(y).map(move |y| value(x, y))).fold(0.0, f64::max);
+            assert!(largest <= most && most < largest * (1.0 + 10.0 * w * w), "{largest} {most}");
+        }
+    }
+
+    /// Where a divisor or a root may be 0 nothing is known of the derivatives.
+    #[test]
+    fn what_is_not_smooth_has_no_derivatives() {
+        let axes = Axes::new(&[number(0.5)]);
+        let x = coordinate(0, 0.25, 0.5);
+        let one = Jet::constant(&Complex::real(number(1.0)));
+        assert!(!axes.over(&one, &x).all.re.is_defined() && !axes.over(&one, &x).slopes[0].re.is_defined());
+        let size = axes.root(&axes.square(&x));
+        assert!(!size.slopes[0].is_defined() && axes.most(&size).hi().to_f64() < 0.751);
+    }
+}

@@ -186,3 +186,74 @@ pub fn spread(jet: &Jet<Complex>, axes: &Axes, axis: usize) -> f64 {
     let width = |slope: &Complex| slope.re.half_width().hi().to_f64() + slope.im.half_width().hi().to_f64();
     jet.slopes.get(axis).map_or(0.0, width) * axes.width(axis)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rug::Rational;
+
+    const PRECISION: u32 = 53;
+
+    fn number(value: f64) -> Interval {
+        Interval::rational(&Rational::from_f64(value).unwrap(), PRECISION)
+    }
+
+    /// `size cos(k Om t - phase)` for numbers between -w and w on one axis: they move the size by the derivative `slope`, and the phase by 1.
+    fn wave(k: usize, size: f64, phase: f64, [w, slope]: [f64; 2]) -> Jet<Complex> {
+        let at = |s: f64| Complex {
+            re: number(size / 2.0 * (phase + s).cos()),
+            im: number(-size / 2.0 * (phase + s).sin()),
+        };
+        let moved = if k == 0 { 0.0 } else { w };
+        let hull = |a: &Complex, b: &Complex| Complex { re: a.re.hull(&b.re), im: a.im.hull(&b.im) };
+        let turned = hull(&at(-moved), &at(moved));
+        let sized = turned.scaled(&number(1.0 - w * slope / size).hull(&number(1.0 + w * slope / size)));
+        // d/ds of both: -i times it, and slope/size times it.
+        let turning = if k == 0 { Complex::zero(PRECISION) } else { Complex { re: sized.im.clone(), im: -&sized.re } };
+        let growing = turned.scaled(&number(slope / size));
+        let slope = Complex { re: turning.re + growing.re, im: turning.im + growing.im };
+        let all = hull(&sized, &at(0.0));
+        Jet { middle: at(0.0), all, slopes: vec![slope] }
+    }
+
+    /// The largest value lies in the middle between two of the times, whichever are looked at.
+    #[test]
+    fn what_lies_between_the_times_counts() {
+        let times = Times::new(3, PRECISION);
+        let axes = Axes::new(&[number(0.0)]);
+        for stride in STRIDES {
+            let half = std::f64::consts::PI * stride as f64 / (3 * TIMES) as f64;
+            for near in [0.0, 1.0, 31.0] {
+                let (at, small) = (half * (1.0 + 2.0 * near), 1e-6);
+                let parts = [(3, 1.0), (1, small)].map(|(k, size)| (k, wave(k, size, k as f64 * at, [0.0, 0.0])));
+                for dimension in [1, 2] {
+                    // In two dimensions along the diagonal.
+                    let along = |(k, jet): &(usize, Jet<Complex>)| (*k, vec![jet.clone(); dimension]);
+                    let signal = Signal(parts.iter().map(along).collect());
+                    let largest = (1.0 + small) * (dimension as f64).sqrt();
+                    let judged = |limit: f64| signal.at_most(&axes, &number(limit), &times);
+                    assert!(matches!(judged(largest * (1.0 + 1e-4)), Judgement::Proved));
+                    assert!(!matches!(judged(largest * (1.0 - 1e-9)), Judgement::Proved));
+                    assert!(matches!(judged(largest * (1.0 - 3e-4)), Judgement::Refuted | Judgement::Close));
+                    assert!(matches!(judged(largest * (1.0 - 3e-2)), Judgement::Refuted));
+                }
+            }
+        }
+    }
+
+    /// On a box the largest value over it is bounded, and by little more.
+    #[test]
+    fn what_lies_in_the_box_counts() {
+        let times = Times::new(2, PRECISION);
+        let w = 1e-3;
+        let axes = Axes::new(&[number(w)]);
+        // cos(2 s' - 2 phase') (1 + 3 s) + (0.5 + s) with the phase moved by s: largest (1 + 3 w) + 0.5 + w.
+        let mean = wave(0, 0.5, 0.0, [w, 1.0]).mapped(|value| value.scaled(&number(2.0)));
+        let signal = Signal(vec![(0, vec![mean]), (2, vec![wave(2, 1.0, 0.3, [w, 3.0])])]);
+        let largest = (1.0 + 3.0 * w) + (0.5 + w);
+        let judged = |limit: f64| signal.at_most(&axes, &number(limit), &times);
+        assert!(matches!(judged(largest * (1.0 + 1e-4)), Judgement::Proved));
+        assert!(matches!(judged(largest * (1.0 - 1e-6)), Judgement::Open));
+        assert!(matches!(judged(1.5 * (1.0 - 1e-3)), Judgement::Refuted));
+    }
+}
