@@ -37,7 +37,7 @@ fn made(case: u64, states: usize) -> Loop {
             .collect::<Vec<_>>()
     };
     let f_0 = (0..states).map(&mut waves).collect();
-    let (q_0, mean) = (waves(0), if case % 2 == 0 { 0.0 } else { row(1, 0.1, 3.0)[0] });
+    let (q_0, mean) = (waves(0), if case.is_multiple_of(2) { 0.0 } else { row(1, 0.1, 3.0)[0] });
     let (sigma, mu) = (row(1, 8.0, 30.0)[0].abs(), row(1, 0.5, 5.0)[0].abs());
     Loop { a, b, c, d, f_0, q_0, mean, sigma, mu, factor: [0.9, 1.1], gain: [0.9, 1.2] }
 }

@@ -158,11 +158,11 @@ impl Loop {
         let order = n + 2 + 2 * n_o;
         let first = |l: usize| if l == 0 { n + 1 } else { n + 2 * l };
         let mut m = vec![vec![0.0; order]; order];
-        for i in 0..n {
-            for j in 0..n {
-                m[i][j] = k * self.a[i][j];
-            }
-            (m[i][n], m[n][i]) = (self.b[i], self.c[i]);
+        for (row, own) in m.iter_mut().zip(&self.a) {
+            row.iter_mut().zip(own).for_each(|(entry, a)| *entry = k * a);
+        }
+        for (i, (b, c)) in self.b.iter().zip(&self.c).enumerate() {
+            (m[i][n], m[n][i]) = (*b, *c);
         }
         let total: f64 = (0..=n_o).map(weight).sum();
         m[n][n] = self.d - g * (self.sigma + self.mu * total);
@@ -277,11 +277,10 @@ impl Loop {
                 let sizes: Vec<f64> = (0..n + 2).map(|i| f[i][i]).collect();
                 for step in 0..n + 2 {
                     worst = worst.min(f[step][step] / sizes[step]);
-                    for i in step + 1..n + 2 {
-                        let factor = f[i][step] / f[step][step];
-                        for j in step..n + 2 {
-                            f[i][j] -= factor * f[step][j];
-                        }
+                    let above = f[step].clone();
+                    for row in f.iter_mut().skip(step + 1) {
+                        let factor = row[step] / above[step];
+                        row.iter_mut().zip(&above).for_each(|(entry, other)| *entry -= factor * other);
                     }
                 }
             }
@@ -365,7 +364,9 @@ impl Loop {
             );
         let mut parts = parts.0;
         if moved == 0 {
-            ["orbit", "forcing"].map(|part| parts["witness"][part].as_object_mut().unwrap().remove("sensitivities"));
+            for part in ["orbit", "forcing"] {
+                parts["witness"][part].as_object_mut().unwrap().remove("sensitivities");
+            }
         }
         let (spec, plants) = read(&parts)?;
         let [e, e_rms, u, x, zeta] = numbers.0.map(|number| format!("{number:.15e}"));

@@ -37,7 +37,7 @@ impl<'a> Entry<'a> {
         }
         let mut entries: Vec<Entry<'a>> = Vec::new();
         for field in list {
-            let entry = field.object(|fields| Entry::take(fields))?;
+            let entry = field.object(Entry::take)?;
             if let Some(before) = entries.last() {
                 if before.or_more {
                     return bad(&format!("{}/or_more", before.pointer), "expected in the last entry alone");
