@@ -7,6 +7,7 @@ use proofs_core::json::{Field, Json};
 use proofs_core::rules::bounding;
 use proofs_core::rules::by_n_o;
 use proofs_core::rules::claim::{Claim, reads};
+use proofs_core::rules::common::Free;
 use proofs_core::rules::derivation::{Derivation, Inequalities};
 use proofs_core::rules::no_plant::NoPlant;
 use proofs_core::rules::rates::{self, Asked, Kind, Witness};
@@ -106,7 +107,9 @@ pub fn check(json: &Json, other: Option<&Json>, lines: &mut Vec<String>) -> Outc
         let inequalities = Inequalities { list: Some(&derivation.inequalities), law: derivation.law(), slopes };
         proofs_plants::prove(&spec, cells, arguments.each_ref(), inequalities, lines)?;
         if let Some(witness) = &by_n_o {
-            proofs_plants::by_n_o::prove(&spec, cells, &claim.sigma, (&claim.by_n_o, witness), lines)?;
+            let (Free { set, d_x, d_e, .. }, sigma) = (&derivation.free, &claim.sigma);
+            let about = by_n_o::About { sigma, set, error_box: [d_x, d_e], periodic: claim.sizes()? };
+            proofs_plants::by_n_o::prove(&spec, cells, &about, (&claim.by_n_o, witness), lines)?;
         }
     }
     if let Some((jacobian, witness)) = &spec.jacobian {

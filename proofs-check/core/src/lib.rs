@@ -27,4 +27,5 @@ pub mod rules;
 pub mod sha256;
 pub mod spec;
 pub mod verdict;
+pub mod wave;
 pub mod weights;

@@ -45,7 +45,7 @@ impl Step {
     /// `-k_p (1-b) sigma e_k y` is in it, for y has `(1-b) sigma e_k` in it.
     fn rows(&self, model: &mut Model, part: &Inequality, gain: &End, at_end: bool) -> Vec<Vec<Id>> {
         let Metric { least: [c_x, c_e, c_y], lambda, gamma, .. } = &part.metric;
-        let (mut rows, mut of_e) = of_states(model, &part.metric, c_x);
+        let (mut rows, mut of_e) = of_states(model, &part.metric.p, c_x);
         let (q, row, order, formulas) = (model.q, model.row.clone(), rows.len(), &mut model.formulas);
         let Step { h, sigma, rest, k_p } = *self;
         let [zero, one, two] = [0, 1, 2].map(|value| formulas.int(value));

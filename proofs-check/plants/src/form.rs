@@ -79,7 +79,7 @@ impl Form<'_> {
     /// The rows of x and y, and that of e.
     pub fn rows(&self, model: &mut Model) -> (Vec<Vec<Id>>, Vec<Id>) {
         let Metric { w, half, cross, least: [c_x, c_e, c_y], .. } = self.metric;
-        let (mut block, mut of_e) = of_states(model, self.metric, c_x);
+        let (mut block, mut of_e) = of_states(model, &self.metric.p, c_x);
         let (q, row, jacobian, column) = (model.q, model.row.clone(), model.jacobian.clone(), of_output(model));
         let formulas = &mut model.formulas;
         let minus_half = formulas.number(&Rational::from(-half));
@@ -111,11 +111,11 @@ impl Form<'_> {
 
 /// The rows of x, `-w_x (P' + P J_+ + J_+'P) - c_x I` with `J_+ = J + rate I`, and what stands beside e, `-w_x P g`; of a P of its own w_x is 1 and the
 /// rate 0.
-pub fn of_states(model: &mut Model, metric: &Metric, c_x: &Rational) -> (Vec<Vec<Id>>, Vec<Id>) {
+pub fn of_states(model: &mut Model, p: &P, c_x: &Rational) -> (Vec<Vec<Id>>, Vec<Id>) {
     let column = of_output(model);
     let (one, zero) = (Rational::from(1), Rational::new());
     let formulas = &mut model.formulas;
-    let (p, weight, value): (Vec<Vec<Id>>, _, _) = match &metric.p {
+    let (p, weight, value): (Vec<Vec<Id>>, _, _) = match p {
         P::Triple { w_x, rate } => (model.lyapunov[0].clone(), w_x, rate),
         P::Own(rows) => (rows.iter().map(|row| numbers(formulas, row)).collect(), &one, &zero),
     };

@@ -48,7 +48,12 @@ impl Model {
             formulas.dot(numbers.into_iter().zip(nodes.iter().copied()))
         };
         let states: Vec<Id> = (0..order).map(|j| formulas.leaf(Leaf::State(j))).collect();
-        let mut variables = vec![formulas.leaf(Leaf::Time), formulas.leaf(Leaf::Output)];
+        let mut output = formulas.leaf(Leaf::Output);
+        if plant.error.is_some() {
+            let error = wave(&mut formulas, plant, order + 1, 0);
+            output = formulas.make(error + output);
+        }
+        let mut variables = vec![formulas.leaf(Leaf::Time), output];
         for (i, row) in plant.known.coordinates.matrix.iter().enumerate() {
             let orbit = wave(&mut formulas, plant, i, 0);
             let moved = linear(&mut formulas, row, &states);
@@ -89,7 +94,7 @@ impl Model {
     }
 }
 
-/// A derivative along the axis of time of a component of xb(t;p), or after them of qb(t;p): the nominal one, and the parameters and the
+/// A derivative along the axis of time of a component of xb(t;p), or after them of qb(t;p), or of what e is measured from: the nominal one, and the parameters and the
 /// clock less their nominal values times those of the sensitivities. Numbers stand where nothing moves.
 pub fn wave(formulas: &mut Formulas, plant: &Plant, which: usize, order: usize) -> Id {
     let mut sum = formulas.int(0);

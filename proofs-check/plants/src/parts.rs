@@ -1,7 +1,6 @@
 //! The orbit and the forcing of a witness, as a file has them (docs/formats.md, "A certificate of a plant"): read and checked in form.
 
 use super::time::Wave;
-use proofs_core::jacobian::harmonics;
 use proofs_core::json::{Field, Fields};
 use proofs_core::verdict::{Outcome, bad, demand};
 use rug::Rational;
@@ -38,23 +37,14 @@ fn number(fields: &mut Fields<'_>, name: &str, positive: bool) -> Outcome<Ration
     Ok(value)
 }
 
-/// `mean` and `harmonics` of an object.
-fn curve<T>(fields: &mut Fields<'_>, read: impl Fn(&Field<'_>) -> Outcome<T>) -> Outcome<(T, Vec<[T; 2]>)> {
-    Ok((read(&fields.required("mean")?)?, harmonics(fields, MAX_HARMONICS, read)?))
-}
-
-/// A curve, `mean` and `harmonics` of an object, and after it that of each of the `sensitivities`, one for each number of the family.
-fn curves<T>(
-    fields: &mut Fields<'_>,
-    members: usize,
-    read: impl Fn(&Field<'_>) -> Outcome<T>,
-) -> Outcome<Vec<(T, Vec<[T; 2]>)>> {
-    let mut all = vec![curve(fields, &read)?];
+/// What is read of an object, and after it that of each of the `sensitivities`, one for each number of the family.
+fn curves<T>(fields: &mut Fields<'_>, members: usize, read: impl Fn(&mut Fields<'_>) -> Outcome<T>) -> Outcome<Vec<T>> {
+    let mut all = vec![read(fields)?];
     if members == 0 {
         return Ok(all);
     }
     let list = fields.required("sensitivities")?;
-    all.extend(list.list(|field| field.object(|fields| curve(fields, &read)))?);
+    all.extend(list.list(|field| field.object(&read))?);
     if all.len() == 1 + members {
         return Ok(all);
     }
@@ -64,21 +54,10 @@ fn curves<T>(
 
 pub fn orbit(field: &Field<'_>, order: usize, members: usize) -> Outcome<Orbit> {
     let mut fields = field.fields()?;
-    let vector = |field: &Field<'_>| {
-        let list = field.list(Field::rational)?;
-        let right = list.len() == order;
-        if right { Ok(list) } else { bad(&field.pointer, format!("expected {order} numbers, one for each state")) }
-    };
-    let waves = curves(&mut fields, members, vector)?.into_iter().map(|(mean, harmonics)| {
-        let of = |(i, mean): (usize, &Rational)| Wave {
-            mean: mean.clone(),
-            harmonics: harmonics.iter().map(|[cos, sin]| [cos[i].clone(), sin[i].clone()]).collect(),
-        };
-        mean.iter().enumerate().map(of).collect()
-    });
+    let waves = curves(&mut fields, members, |fields| Wave::read_all(fields, order, MAX_HARMONICS))?;
     let orbit = Orbit {
         pointer: field.pointer.clone(),
-        waves: waves.collect(),
+        waves,
         defect: number(&mut fields, "defect", false)?,
         tube: number(&mut fields, "tube", true)?,
         radius: number(&mut fields, "radius", false)?,
@@ -88,10 +67,10 @@ pub fn orbit(field: &Field<'_>, order: usize, members: usize) -> Outcome<Orbit> 
 
 pub fn forcing(field: &Field<'_>, members: usize) -> Outcome<Forcing> {
     let mut fields = field.fields()?;
-    let waves = curves(&mut fields, members, |field| field.rational())?;
+    let waves = curves(&mut fields, members, |fields| Wave::read(fields, MAX_HARMONICS))?;
     let forcing = Forcing {
         pointer: field.pointer.clone(),
-        waves: waves.into_iter().map(|(mean, harmonics)| Wave { mean, harmonics }).collect(),
+        waves,
         rest: number(&mut fields, "rest", false)?,
         rest_t: number(&mut fields, "rest_t", false)?,
     };

@@ -50,6 +50,8 @@ pub struct Plant {
     /// The P of stability and, if there is one, that of existence.
     pub lyapunov: Vec<jacobian::Witness>,
     pub forcing: Forcing,
+    /// What e is measured from, where that is not 0 (section 14.4): of a trial.
+    pub error: Option<Wave>,
     /// The numbers of which intervals are given: the parameters, and after them the clock where the period is an interval.
     pub family: Vec<Span>,
     has_clock: bool,
@@ -68,9 +70,9 @@ impl Plant {
         if self.has_clock { self.family.len().checked_sub(1) } else { None }
     }
 
-    /// The components of xb_0 and then qb_0, and the same of each sensitivity.
+    /// The components of xb_0 and then qb_0, and the same of each sensitivity; of a trial, which has none, also what e is measured from.
     pub fn waves(&self) -> impl Iterator<Item = Vec<Wave>> {
-        let with = |(x, q): (&Vec<Wave>, &Wave)| x.iter().chain([q]).cloned().collect();
+        let with = |(x, q): (&Vec<Wave>, &Wave)| x.iter().chain([q]).chain(&self.error).cloned().collect();
         self.orbit.waves.iter().zip(&self.forcing.waves).map(with)
     }
 }
@@ -156,6 +158,7 @@ pub fn read(field: &Field<'_>, witness: &mut Fields<'_>) -> Outcome<(Specificati
         orbit,
         lyapunov: lyapunov.clone(),
         forcing,
+        error: None,
         family,
         has_clock,
         known: known.clone(),

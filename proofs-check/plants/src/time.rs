@@ -1,22 +1,8 @@
 //! Trigonometric polynomials in t, enclosed at a time and around it (docs/mathematics.md, section 11.6).
 
 use proofs_core::interval::Interval;
+pub use proofs_core::wave::Wave;
 use rug::Rational;
-
-/// `mean + sum over k of a_k cos(k Om t) + b_k sin(k Om t)` with rational coefficients.
-#[derive(Clone, Debug)]
-pub struct Wave {
-    pub mean: Rational,
-    /// a_k, b_k for k = 1, 2, ...
-    pub harmonics: Vec<[Rational; 2]>,
-}
-
-impl Wave {
-    /// Whether it has no harmonics.
-    pub fn is_constant(&self) -> bool {
-        self.harmonics.iter().flatten().all(Rational::is_zero)
-    }
-}
 
 /// All numbers that are at most `size` in magnitude.
 pub fn around(size: &Interval) -> Interval {
@@ -54,6 +40,11 @@ impl Table {
             mean = Interval::int(0, p);
         }
         table
+    }
+
+    /// A bound of the magnitude of a derivative, at every t; undefined beyond the last order.
+    pub fn bound(&self, order: usize, precision: u32) -> Interval {
+        self.bounds.get(order).cloned().unwrap_or_else(|| Interval::undefined(precision))
     }
 
     /// A derivative at the time of these waves; undefined beyond the last order.

@@ -155,6 +155,11 @@ impl<'a> Claim<'a> {
         self.rates.iter().any(|rate| rate.noise.is_some())
     }
 
+    /// The bounds of |x| and |e| along the periodic solution as it states them: true where [`Claim::check`] accepts it.
+    pub fn sizes(&self) -> Outcome<[Rational; 2]> {
+        self.periodic.fields()?.numbers(["x", "e"])
+    }
+
     /// Compares every field with the specification, and demands that the stored sizes of the periodic solution bound those
     /// that are proved; `exact` are rational bounds of |x| and |e|.
     ///

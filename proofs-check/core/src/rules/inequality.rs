@@ -137,7 +137,7 @@ pub struct List {
 }
 
 /// The rows of a symmetric matrix of any order.
-fn symmetric(rows: &Field<'_>) -> Outcome<Matrix> {
+pub(super) fn symmetric(rows: &Field<'_>) -> Outcome<Matrix> {
     let matrix = rows.list(|row| row.list(Field::rational))?;
     let is_square = matrix.iter().all(|row| row.len() == matrix.len());
     if is_square && is_symmetric(&matrix) { Ok(matrix) } else { bad(&rows.pointer, "expected a symmetric matrix") }
@@ -149,7 +149,7 @@ fn place(fields: &mut Fields<'_>) -> Outcome<[Rational; 2]> {
 }
 
 /// A number above 0, or one that is not negative.
-fn number(fields: &mut Fields<'_>, name: &str, positive: bool) -> Outcome<Rational> {
+pub(super) fn number(fields: &mut Fields<'_>, name: &str, positive: bool) -> Outcome<Rational> {
     let field = fields.required(name)?;
     let value = field.rational()?;
     match value > 0 || (!positive && value == 0) {
@@ -165,7 +165,7 @@ pub(super) fn not_above(d: &Data<'_>, id: &'static str, what: String, [inner, ou
 
 impl Metric {
     /// Takes its numbers out of a part; `of_two`: whether it is the near one of two, or the far one. `weights`: w_x and h of the witness.
-    fn read(
+    pub(super) fn read(
         fields: &mut Fields<'_>,
         (kind, at_samples): (Kind, bool),
         of_two: Option<bool>,

@@ -21,7 +21,7 @@ pub type Pair<'i> = [(&'i Metric, &'i Extent); 2];
 
 impl Extent {
     /// Whether it is that of a metric, in exact arithmetic: the name of each of its numbers, and what that says.
-    fn is_of(&self, metric: &Metric) -> [(&'static str, &'static str, bool); 3] {
+    pub fn is_of(&self, metric: &Metric) -> [(&'static str, &'static str, bool); 3] {
         let P::Own(p) = &metric.p else { return [("P_up", "P is of its own", false); 3] };
         let (zero, one) = (Rational::new(), Rational::from(1));
         let below = shifted(p, &Rational::from(-1), &Rational::from(-&self.p_up));
@@ -58,18 +58,26 @@ impl Inequality {
     }
 }
 
+/// `P_up dX^2 + 2 |p| dX dE + w dE^2 + (k_p mu/2) dZ^2`: what V is at most that far from the periodic solution.
+pub fn start(d: &Data<'_>, (metric, extent): (&Metric, &Extent), [x, e, z]: &[Interval; 3]) -> Interval {
+    let [p_up, w, half] = [&extent.p_up, &metric.w, &metric.half].map(|value| d.number(value));
+    p_up * x.sqr() + size_of_cross(d, metric) * 2 * x * e + w * e.sqr() + half * &d.mu * z.sqr()
+}
+
+/// |p|.
+pub fn size_of_cross(d: &Data<'_>, metric: &Metric) -> Interval {
+    let square = metric.cross.iter().fold(Rational::new(), |sum, entry| sum + Rational::from(entry.square_ref()));
+    d.number(&square).sqrt()
+}
+
 /// C4 and C4f, of the near and the far metric, with dX, dE, dZ and the radii of the error box.
-pub fn levels(d: &Data<'_>, pair: Pair<'_>, [x, e, z]: &[Interval; 3], radii: [&Rational; 2]) -> [Condition; 2] {
+pub fn levels(d: &Data<'_>, pair: Pair<'_>, reach: &[Interval; 3], radii: [&Rational; 2]) -> [Condition; 2] {
     let [d_x, d_e] = radii.map(|value| d.number(value));
     let level = |id, name, (metric, extent): (&Metric, &Extent)| {
-        let [p_up, x_low, e_low, w, half] =
-            [&extent.p_up, &extent.x_low, &extent.e_low, &metric.w, &metric.half].map(|value| d.number(value));
-        let square = metric.cross.iter().fold(Rational::new(), |sum, entry| sum + Rational::from(entry.square_ref()));
-        let skew = d.number(&square).sqrt() * 2;
-        let start = p_up * x.sqr() + skew * x * e + w * e.sqr() + half * &d.mu * z.sqr();
+        let [x_low, e_low] = [&extent.x_low, &extent.e_low].map(|value| d.number(value));
         let exit = (x_low * d_x.sqr()).min(&(e_low * d_e.sqr()));
         let what = "P_up dX^2 + 2 |p| dX dE + w dE^2 + (k_p mu/2) dZ^2 < min{x_low D_x^2, e_low D_e^2}";
-        Condition::less(id, format!("{what}, {name}"), start, exit)
+        Condition::less(id, format!("{what}, {name}"), start(d, (metric, extent), reach), exit)
     };
     let [near, far] = pair;
     [level("C4", "near", near), level("C4f", "far", far)]

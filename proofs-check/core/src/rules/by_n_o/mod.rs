@@ -7,14 +7,18 @@
 
 pub mod claimed;
 pub mod linear;
+pub mod trials;
+pub mod tube;
 
 use crate::data::Data;
 use crate::json::Field;
+use crate::rules::set::ClaimedSet;
 use crate::spec::Specification;
 use crate::verdict::{Outcome, Verdict, bad, finding};
 use claimed::{Entry, RULE};
 use linear::Linear;
 use rug::Rational;
+use trials::Trial;
 
 /// Where the witness stands in a file.
 const PLACE: &str = "/witness/by_n_o";
@@ -23,6 +27,20 @@ const PLACE: &str = "/witness/by_n_o";
 pub enum Witness {
     /// Of a plant that is linear in x and e (section 14.3).
     Linear(Linear),
+    /// Of one plant at one gain (section 14.4): one for each entry of the claim.
+    Trials(Vec<Trial>),
+}
+
+/// What the claim says besides.
+pub struct About<'c> {
+    /// Its gain.
+    pub sigma: &'c Rational,
+    /// Its set.
+    pub set: &'c ClaimedSet,
+    /// D_x and D_e: in this box around its periodic solution errors decay.
+    pub error_box: [&'c Rational; 2],
+    /// Bounds of |x| and |e| along its periodic solution.
+    pub periodic: [Rational; 2],
 }
 
 impl Witness {
@@ -36,9 +54,15 @@ impl Witness {
         };
         let known = field.object(|fields| {
             let linear = fields.part("linear", |field| field.object(|fields| Linear::take(fields, claimed, states)))?;
-            Ok(linear.map(Witness::Linear))
+            match linear {
+                Some(linear) => Ok(Some(Witness::Linear(linear))),
+                None => {
+                    let trials = fields.part("trials", |field| trials::read_all(field, claimed, states))?;
+                    Ok(trials.map(Witness::Trials))
+                }
+            }
         })?;
-        known.map_or_else(|| bad(&field.pointer, "expected `linear`"), |known| Ok(Some(known)))
+        known.map_or_else(|| bad(&field.pointer, "expected `linear` or `trials`"), |known| Ok(Some(known)))
     }
 }
 
@@ -58,11 +82,13 @@ pub fn demand_form(spec: &Specification, claimed: &[Entry<'_>]) -> Outcome<()> {
 /// Proves of each entry that `largest` follows from the rest; `sigma`: the gain of the claim.
 pub fn prove(
     d: &Data<'_>,
-    about: (&super::set::ClaimedSet, &Rational),
+    about: (&ClaimedSet, &Rational),
     (claimed, witness): (&[Entry<'_>], &Witness),
     lines: &mut Vec<String>,
 ) -> Outcome<()> {
     match witness {
         Witness::Linear(linear) => linear.peaks(d, about, claimed, lines),
+        // That rests on what is known of the curves of the trials: the crate `proofs-plants`.
+        Witness::Trials(_) => Ok(()),
     }
 }

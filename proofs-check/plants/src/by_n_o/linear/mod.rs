@@ -6,12 +6,12 @@
 
 mod answers;
 mod boxes;
-mod complex;
+pub(super) mod complex;
 mod entry;
 mod falls;
-mod jet;
+pub(super) mod jet;
 mod largest;
-mod oscillators;
+pub(super) mod oscillators;
 mod ring;
 mod system;
 

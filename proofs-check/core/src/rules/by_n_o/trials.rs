@@ -1,0 +1,149 @@
+//! What proves the numbers by n_o of one plant at one gain: a trial for each entry, near which the periodic solution is (docs/mathematics.md, section
+//! 14.4), with the forms that say so. Read, and of the numbers that stand alone it is decided that they are right.
+//!
+//! Guarantee of [`Trial`]: ehat has no mean and no harmonic up to n_o. Of each form `P <= P_up I`, `Pi >= diag(x_low I, 0)` and
+//! `Pi >= diag(0, e_low)` with x_low, e_low > 0, so that Pi is positive definite. `Q_low I <= Q <= Q_up I`, and k_p, c_x, c_e, c_y, Q_low, c, gamma, D_x
+//! and D_e are above 0. What is said of the formulas is proved by the crate `proofs-plants`.
+
+use super::claimed::{Entry, RULE};
+use crate::json::{Field, Fields};
+use crate::matrix::{is_semidefinite, shifted};
+use crate::rules::inequality::{Extent, Kind, Metric, P, number, symmetric};
+use crate::spec::Specification;
+use crate::verdict::{Outcome, Verdict, bad, demand, finding};
+use crate::wave::Wave;
+use rug::Rational;
+
+/// The most harmonics of a curve.
+const MOST_HARMONICS: usize = 64;
+/// The most forms.
+const MOST_FORMS: usize = 3;
+
+/// A trial of one n_o.
+#[derive(Clone, Debug)]
+pub struct Trial {
+    /// Where it stands in the file.
+    pub pointer: String,
+    /// The components of xhat.
+    pub x: Vec<Wave>,
+    /// ehat.
+    pub e: Wave,
+    /// qhat.
+    pub q: Wave,
+    /// d_x and d_q.
+    pub defects: [Rational; 2],
+    /// D_x and D_e.
+    pub radii: [Rational; 2],
+    /// b_x and b_e.
+    pub slopes: [Rational; 2],
+    /// One or more, each with its extent.
+    pub forms: Vec<(Metric, Extent)>,
+    /// Of a plant with states.
+    pub states: Option<States>,
+}
+
+/// By what the states answer the error: (14.4b).
+#[derive(Clone, Debug)]
+pub struct States {
+    /// Q.
+    pub matrix: P,
+    /// `Q_low I <= Q <= Q_up I`.
+    pub low: Rational,
+    /// See there.
+    pub up: Rational,
+    /// c and gamma.
+    pub decay: [Rational; 2],
+}
+
+/// Reads the list `trials`, of a plant with so many states: one for each entry of the claim.
+pub fn read_all(field: &Field<'_>, claimed: &[Entry<'_>], states: usize) -> Outcome<Vec<Trial>> {
+    let list = field.elements()?;
+    if list.len() != claimed.len() {
+        return bad(&field.pointer, format!("expected {}, one for each entry of the claim", claimed.len()));
+    }
+    if let Some(entry) = claimed.iter().find(|entry| entry.or_more) {
+        return bad(&format!("{}/or_more", entry.pointer), "a trial is about one number of oscillators");
+    }
+    let read = |(field, entry): (&Field<'_>, &Entry<'_>)| field.object(|fields| Trial::take(fields, entry, states));
+    list.iter().zip(claimed).map(read).collect()
+}
+
+/// What section 14.4 demands of the file besides: nothing is known to an interval alone.
+pub fn demand_form(spec: &Specification, claimed: &[Entry<'_>]) -> Outcome<()> {
+    let Some(first) = claimed.first() else { return Ok(()) };
+    let undecided = |message: &str| Err(finding(Verdict::Undecided, RULE, &first.pointer, message));
+    match &spec.plant {
+        Some(plant) if !plant.parameters.is_empty() => undecided("a trial is about parameters that are numbers"),
+        _ if spec.input_gain.as_ref().is_some_and(|gain| !gain.is_nominal()) => {
+            undecided("a trial is about an input gain that is one number")
+        }
+        _ => Ok(()),
+    }
+}
+
+/// A number of a plant with states that is not negative, or above 0; else 0, and no such field.
+fn of_states(fields: &mut Fields<'_>, name: &str, positive: bool, states: usize) -> Outcome<Rational> {
+    if states > 0 { number(fields, name, positive) } else { Ok(Rational::new()) }
+}
+
+impl Trial {
+    fn take(fields: &mut Fields<'_>, entry: &Entry<'_>, states: usize) -> Outcome<Trial> {
+        let x = match states {
+            0 => Vec::new(),
+            _ => fields.required("x")?.object(|fields| Wave::read_all(fields, states, MOST_HARMONICS))?,
+        };
+        let e = fields.required("e")?;
+        let e = (e.object(|fields| Wave::read_without_mean(fields, MOST_HARMONICS))?, e.pointer);
+        let q = fields.required("q")?.object(|fields| Wave::read(fields, MOST_HARMONICS))?;
+        let silent = (1..=entry.n_o as usize).all(|k| e.0.harmonic(k).iter().all(Rational::is_zero));
+        demand(Some(silent), RULE, &e.1, format!("no harmonic up to that of {}", entry.about()))?;
+        let defects = [of_states(fields, "defect_x", false, states)?, number(fields, "defect_q", false)?];
+        let radii = fields
+            .required("box")?
+            .object(|fields| Ok([of_states(fields, "x", true, states)?, number(fields, "e", true)?]))?;
+        let slopes = [of_states(fields, "q_x", false, states)?, number(fields, "q_e", false)?];
+        let list = fields.required("forms")?;
+        let forms = list.list(|field| field.object(|fields| form(fields, states)))?;
+        if forms.is_empty() || forms.len() > MOST_FORMS {
+            return bad(&list.pointer, format!("expected 1 to {MOST_FORMS} forms"));
+        }
+        let states = match states {
+            0 => None,
+            _ => Some(fields.required("states")?.object(|fields| States::take(fields, states))?),
+        };
+        Ok(Trial { pointer: fields.pointer.clone(), x, e: e.0, q, defects, radii, slopes, forms, states })
+    }
+}
+
+/// A form, whose numbers have the names of a near metric.
+fn form(fields: &mut Fields<'_>, states: usize) -> Outcome<(Metric, Extent)> {
+    let pointer = fields.pointer.clone();
+    let none = Rational::new();
+    let metric = Metric::read(fields, (Kind::Joint, false), Some(true), [&none; 2])?;
+    if metric.cross.len() != states {
+        return bad(&format!("{pointer}/P"), "expected a row for each state");
+    }
+    let Some(extent) = metric.extent.clone() else { return bad(&pointer, "expected its extent") };
+    for (name, what, holds) in extent.is_of(&metric) {
+        demand(Some(holds), RULE, &format!("{pointer}/{name}"), what)?;
+    }
+    Ok((metric, extent))
+}
+
+impl States {
+    fn take(fields: &mut Fields<'_>, states: usize) -> Outcome<States> {
+        let pointer = fields.pointer.clone();
+        let field = fields.required("Q")?;
+        let matrix = symmetric(&field)?;
+        if matrix.len() != states {
+            return bad(&field.pointer, "expected a row for each state");
+        }
+        let [low, up, c, gamma] =
+            fields.each(["Q_low", "Q_up", "c", "gamma"], |fields, name| number(fields, name, true))?;
+        for (name, what, sign, end) in [("Q_low", "Q_low I <= Q", 1, &low), ("Q_up", "Q <= Q_up I", -1, &up)] {
+            let rows = shifted(&matrix, &Rational::from(sign), &Rational::from(end * sign));
+            demand(Some(is_semidefinite(rows)), RULE, &format!("{pointer}/{name}"), what)?;
+        }
+        Ok(States { matrix: P::Own(matrix), low, up, decay: [c, gamma] })
+    }
+}

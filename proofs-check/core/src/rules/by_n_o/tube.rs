@@ -1,0 +1,150 @@
+//! What follows from a trial: Theorem T of section 14.4 of docs/mathematics.md, which solution it is, and the second corollary of section 14.5.
+//!
+//! Guarantee of [`prove`], with the trial's inequalities and defects proved of the formulas on its box, which lies in the domain of the plant, and with
+//! [`Curves`] as they are: the loop with n_o oscillators and the gain sigma has exactly one T-periodic solution in the box, it is that of the claim, and
+//! `steady` of the entry is true of it. `largest`, where it is there, is true of every solution from the claimed set.
+
+use super::About;
+use super::claimed::{Entry, RULE};
+use super::trials::{States, Trial};
+use crate::data::Data;
+use crate::interval::Interval;
+use crate::rules::control::{by_parts, put_out, transient};
+use crate::rules::inequality::{Extent, Metric};
+use crate::rules::joint::{size_of_cross, start};
+use crate::rules::stability::distances;
+use crate::verdict::{Condition, Outcome};
+use rug::Rational;
+
+/// What is known of the curves of a trial.
+pub struct Curves {
+    /// `sup|L^-1 (xhat - xb)| + r`: how far xhat is from x_0. 0 without states.
+    pub x: Interval,
+    /// sup|ehat|.
+    pub e: Interval,
+    /// The root mean square of ehat.
+    pub e_rms: Interval,
+    /// `sup|ehat' - qhat| + kappa`.
+    pub u: Interval,
+    /// zhat.
+    pub zeta: Interval,
+}
+
+/// How far the periodic solution is from the trial.
+struct Tube {
+    x: Interval,
+    e: Interval,
+    e_rms: Interval,
+    zeta: Interval,
+}
+
+impl Tube {
+    /// The numbers of Theorem T.
+    fn new(d: &Data<'_>, (sigma, n_o): (&Interval, u32), trial: &Trial) -> Tube {
+        let [[d_x, d_q], [b_x, b_e]] =
+            [&trial.defects, &trial.slopes].map(|pair| pair.each_ref().map(|of| d.number(of)));
+        let [rho_x, rho_e, rho_y] = match trial.forms.first() {
+            Some(first) => means(d, (sigma, n_o), first, [&d_x, &d_q]),
+            // A trial has a form.
+            None => [(); 3].map(|()| Interval::undefined(d.precision)),
+        };
+        let e = (d.period.only() * &rho_e * rho_y).sqrt();
+        let of_states = |States { low, up, decay, .. }: &States| {
+            let [low, up, c, gamma] = [low, up, &decay[0], &decay[1]].map(|value| d.number(value));
+            (&up / (low * &c) * (gamma * e.sqr() + (&up * &d_x).sqr() / c)).sqrt()
+        };
+        let x = trial.states.as_ref().map_or_else(|| d.int(0), of_states);
+        let input = b_x * rho_x + b_e * &rho_e + d_q;
+        let zeta = (d.period.only() / (&d.mu * 2) + swing(d, n_o)).sqrt() * input;
+        Tube { x, e, e_rms: rho_e, zeta }
+    }
+}
+
+/// rho_x, rho_e and rho_y.
+fn means(
+    d: &Data<'_>,
+    (sigma, n_o): (&Interval, u32),
+    (metric, extent): &(Metric, Extent),
+    [d_x, d_q]: [&Interval; 2],
+) -> [Interval; 3] {
+    let [c_x, c_e, c_y] = metric.least.each_ref().map(|value| d.number(value));
+    let (p_up, k_p) = (d.number(&extent.p_up), d.number(&metric.half) * 2);
+    let of_x = p_up.sqr() / &c_x + size_of_cross(d, metric).sqr() / &c_e;
+    let g = d_x.sqr() * of_x * 4 + (k_p * d_q).sqr() / &c_y;
+    let [rho_x, rho_e, rho_y] = [c_x, c_e, c_y].map(|c| (&g / c).sqrt());
+    let next = d.period.slowest() * (i64::from(n_o) + 1);
+    let by_y = &rho_y / (sigma.sqr() + next.sqr()).sqrt();
+    [rho_x, rho_e.min(&by_y), rho_y]
+}
+
+/// kappa_N.
+fn swing(d: &Data<'_>, n_o: u32) -> Interval {
+    let own = (i64::from(n_o) + 1) / d.weight(0);
+    let of = |k: u32| 2 / d.weight(u64::from(k));
+    (1..=n_o).fold(own, |most, k| most.max(&of(k))) / d.mu.sqr()
+}
+
+/// Proves an entry with its trial.
+pub fn prove(d: &Data<'_>, about: &About<'_>, (entry, trial): (&Entry<'_>, &Trial), curves: &Curves) -> Outcome<()> {
+    let sigma = d.number(about.sigma);
+    let tube = Tube::new(d, (&sigma, entry.n_o), trial);
+    let has_states = trial.states.is_some();
+    let [d_x, d_e] = trial.radii.each_ref().map(|value| d.number(value));
+    let less = |what: &str, left: Interval, right: &Interval, place: String| {
+        Condition::less("T", format!("{what}, {}", entry.about()), left, right.clone()).demand(RULE, &place)
+    };
+    let of_trial = |name: &str| format!("{}/{name}", trial.pointer);
+    if has_states {
+        less("s_x < D_x", tube.x.clone(), &d_x, of_trial("box/x"))?;
+    }
+    less("s_e < D_e", tube.e.clone(), &d_e, of_trial("box/e"))?;
+
+    let [x, e] = [&curves.x + &tube.x, &curves.e + &tube.e];
+    let zeta = &curves.zeta + &tube.zeta;
+    let u = &curves.u + by_parts(d, [&sigma, &d.mu], [&tube.e, &tube.zeta]);
+    let at_most = |what: &str, bound: Interval, claimed: &Rational, place: &str| {
+        let what = format!("{what} <= {place}, {}", entry.about());
+        Condition::at_most("T", what, bound, d.number(claimed)).demand(RULE, &format!("{}/{place}", entry.pointer))
+    };
+    let [put, _] = put_out(d, [u.clone(), d.int(0)]);
+    let [claimed_e, claimed_rms, claimed_u] = &entry.steady;
+    at_most("sup|ehat| + s_e", e.clone(), claimed_e, "steady/e")?;
+    at_most("rms(ehat) + rho_e", &curves.e_rms + &tube.e_rms, claimed_rms, "steady/e_rms")?;
+    at_most("sup|ehat' - qhat| + kappa + sigma s_e + mu Nbar s_z", put, claimed_u, "steady/u")?;
+
+    let Some([largest_e, largest_u]) = &entry.largest else {
+        // (ii): the difference of both solutions stays in the error box of the claim.
+        let within = |what: &str, size: Interval, which: usize| {
+            let (of_claim, radius) = (d.number(&about.periodic[which]), d.number(about.error_box[which]));
+            let what = format!("{what} of the claim, or the solution need not be that of the claim, {}", entry.about());
+            Condition::at_most("T", what, size + of_claim, radius).demand(RULE, &trial.pointer)
+        };
+        if has_states {
+            within("X_N + x_per <= D_x", x, 0)?;
+        }
+        return within("E_N + e_per <= D_e", e, 1);
+    };
+    let mut reach = distances(d, about.set, [&x, &e, &zeta]);
+    if !has_states {
+        reach[0] = d.int(0);
+    }
+    let [mut best_e, mut best_u] = [(); 2].map(|()| Interval::undefined(d.precision));
+    for (place, (metric, extent)) in trial.forms.iter().enumerate() {
+        let level = start(d, (metric, extent), &reach);
+        let [x_low, e_low, half] = [&extent.x_low, &extent.e_low, &metric.half].map(|value| d.number(value));
+        let farthest = (&level / &e_low).sqrt();
+        if place == 0 {
+            if has_states {
+                let out = (&level / x_low).sqrt() + &tube.x;
+                less("sqrt(V_0/x_low) + s_x < D_x", out, &d_x, of_trial("box/x"))?;
+            }
+            less("sqrt(V_0/e_low) + s_e < D_e", &farthest + &tube.e, &d_e, of_trial("box/e"))?;
+        }
+        let of_u = transient(d, [&sigma, &d.mu], [&e_low, &(half * &d.mu)], (&level, &d.int(0)));
+        best_e = best_e.least(&farthest);
+        best_u = best_u.least(&of_u);
+    }
+    let [put, _] = put_out(d, [u + best_u, d.int(0)]);
+    at_most("E_N + sqrt(V_0/e_low)", e + best_e, largest_e, "largest/e")?;
+    at_most("that of u + sqrt(V_0 (sigma^2/e_low + 2 mu Nbar^2/k_p))", put, largest_u, "largest/u")
+}

@@ -1,0 +1,155 @@
+//! The formulas around a trial (docs/mathematics.md, section 14.4): on the box of all `x = xhat(t) + L v`, `e = ehat(t) + h` with `|v| <= D_x`,
+//! `|h| <= D_e`. They are those of a plant whose orbit is xhat and whose error is measured from ehat.
+
+use crate::bounds::norm;
+use crate::form::{Form, numbers, of_states};
+use crate::formula::{Axis, Id};
+use crate::machine::{Curves, Machine};
+use crate::model::{self, Frame, Model, wave};
+use crate::path::{Expanded, Judged, Path, bound, bound_of_norm, everywhere};
+use crate::question::{Answer, MAX_PIECES, Question};
+use crate::read::Plant;
+use crate::region::{Piece, Region, Shape};
+use crate::{PRECISION, smooth, too_large};
+use proofs_core::interval::Interval;
+use proofs_core::rules::by_n_o::claimed::RULE;
+use proofs_core::rules::by_n_o::trials::Trial;
+use proofs_core::verdict::{Outcome, demand};
+use rug::Rational;
+
+/// A question about the box, with its place and what it is about.
+struct Asked {
+    question: Question,
+    pointer: String,
+    what: String,
+}
+
+/// The formulas around a trial.
+pub struct Around<'t> {
+    trial: &'t Trial,
+    plant: Plant,
+    model: Model,
+    curves: Curves,
+    asked: Vec<Asked>,
+    /// The components of `L^-1 (f - xhat')`, and `q - qhat`.
+    defects: Vec<Id>,
+}
+
+impl<'t> Around<'t> {
+    /// From a plant; `sigma`: the gain of the claim.
+    pub fn new(plant: &Plant, sigma: &Rational, trial: &'t Trial) -> Outcome<Around<'t>> {
+        let mut near = plant.clone();
+        near.orbit.waves = vec![trial.x.clone()];
+        near.forcing.waves = vec![trial.q.clone()];
+        near.error = Some(trial.e.clone());
+        near.lyapunov.clear();
+        let mut model = Model::new(&near, Frame::Moving);
+        let input = wave(&mut model.formulas, &near, near.states(), 0);
+        let apart = model.formulas.make(model.q - input);
+        let defects = model.defect.iter().copied().chain([apart]).collect();
+        let asked = questions(&mut model, sigma, trial);
+        if model.formulas.is_too_large() {
+            return too_large(RULE, "/plant");
+        }
+        Ok(Around { trial, curves: model::curves(&near), plant: near, model, asked, defects })
+    }
+
+    /// Proves on the box that the formulas are smooth, (14.4a) of each form, (14.4b), and the bounds of r and d; by how many boxes.
+    pub fn on_box(&self, [om, period]: [&Interval; 2], about: &str) -> Outcome<usize> {
+        let machine = Machine::new(&self.model.formulas, &self.curves, om);
+        let (root, mut values) = (machine.period(period), machine.values());
+        let [d_x, d_e] = self.trial.radii.each_ref().map(|radius| Interval::rational(radius, PRECISION));
+        let family = Region::of_family(&self.plant, PRECISION);
+        let region = Region { states: self.plant.states(), shape: Shape::Ball(d_x), output: d_e, ..family };
+        let place = format!("{}/box", self.trial.pointer);
+        let demands = &self.model.demands;
+        let mut boxes = smooth::prove(&self.model.formulas, demands, &place, &machine, &root, &region, &mut values)?;
+        for Asked { question, pointer, what } in &self.asked {
+            let what = |place| {
+                format!("{what} on the box of the trial for {about}, with xhat for xb and e - ehat for e at {place}")
+            };
+            match question.decide(&machine, &root, &region, MAX_PIECES, &mut values) {
+                Answer::Proved(count) => boxes += count,
+                Answer::Refuted(place) => demand(Some(false), RULE, pointer, what(place))?,
+                Answer::Open(place) => demand(None, RULE, pointer, what(place))?,
+            }
+        }
+        Ok(boxes)
+    }
+
+    /// Proves `|L^-1 (f(t,xhat,ehat) - xhat')| <= d_x` and `|q(t,xhat,ehat) - qhat| + kappa <= d_q` at every t, at the precision of Om; by how
+    /// many cells of t.
+    pub fn defects(&self, [om, period]: [&Interval; 2], kappa: &Interval, about: &str) -> Outcome<usize> {
+        let p = om.precision();
+        let machine = Machine::new(&self.model.formulas, &self.curves, om);
+        let values = machine.values();
+        let path = Path::new(&machine, &self.curves, om, std::slice::from_ref(&self.defects));
+        let [d_x, d_q] = self.trial.defects.each_ref().map(|defect| Interval::rational(defect, p));
+        let most = [d_x, d_q - kappa];
+        let states = self.plant.states();
+        // Which of the two is open on the last cell.
+        let mut open = 0;
+        let judge = |piece: &Piece| {
+            let (expanded, half) = (Expanded::new(&path, piece, &values), piece.cell.all.half_width());
+            let (of_f, of_q) = expanded.at_middle.split_at(states);
+            let sizes =
+                [bound_of_norm(of_f, &half), of_q.iter().fold(Interval::int(0, p), |sum, q| sum + bound(q, &half))];
+            let Some(which) = (0..2).find(|i| sizes[*i].le(&most[*i]) != Some(true)) else { return Judged::Proved };
+            open = which;
+            let parts = if which == 0 { of_f } else { of_q };
+            let at_middle = parts.iter().fold(Interval::int(0, p), |sum, part| sum + part.coefficients[0].sqr()).sqrt();
+            match most[which].lt(&at_middle) {
+                Some(true) => Judged::Refuted,
+                _ => Judged::Halve(vec![1.0]),
+            }
+        };
+        let whole = Region::of_family(&self.plant, p).whole(&machine, machine.period(period));
+        everywhere(whole, judge).or_else(|(t, refuted)| {
+            let (name, what) = [
+                ("defect_x", "|L^-1 (f(t,xhat,ehat) - xhat')| <= defect_x"),
+                ("defect_q", "|q(t,xhat,ehat) - qhat| + kappa <= defect_q"),
+            ][open];
+            let what = format!("{what} for {about}, near t = {t:.6}");
+            demand(refuted.then_some(false), RULE, &format!("{}/{name}", self.trial.pointer), what).map(|()| 0)
+        })
+    }
+}
+
+/// (14.4a) of each form, (14.4b), and the bounds of r and d.
+fn questions(model: &mut Model, sigma: &Rational, trial: &Trial) -> Vec<Asked> {
+    let states = model.states();
+    let mut asked = Vec::new();
+    let unit = model.formulas.int(1);
+    for (place, (metric, _)) in trial.forms.iter().enumerate() {
+        let corner = Rational::from(sigma * &metric.w) * 2u32;
+        let pull: Vec<Rational> = metric.cross.iter().map(|entry| Rational::from(entry * sigma)).collect();
+        let (mut rows, of_e) = Form { metric, unit, corner: &corner, shift: None, pull: &pull }.rows(model);
+        rows.push(of_e);
+        asked.push(Asked {
+            question: Question::new(&mut model.formulas, rows, states),
+            pointer: format!("{}/forms/{place}", trial.pointer),
+            what: "F >= diag(c_x I, c_e, c_y)".to_owned(),
+        });
+    }
+    let mut ask = |model: &mut Model, rows, name: &str, what: &str| {
+        asked.push(Asked {
+            question: Question::new(&mut model.formulas, rows, states),
+            pointer: format!("{}/{name}", trial.pointer),
+            what: what.to_owned(),
+        });
+    };
+    if let Some(of) = &trial.states {
+        let [c, gamma] = &of.decay;
+        let (mut rows, mut last) = of_states(model, &of.matrix, &Rational::from(c * 2u32));
+        last.extend(numbers(&mut model.formulas, std::slice::from_ref(gamma)));
+        rows.push(last);
+        ask(model, rows, "states", "[[-(Q J + J'Q) - 2 c I, -Q g], [., gamma]] >= 0");
+        let row = model.row.clone();
+        let rows = norm(&mut model.formulas, &trial.slopes[0], &row);
+        ask(model, rows, "q_x", "|q_x L| <= q_x");
+    }
+    let slope = model.formulas.derivative(model.q, Axis::Output);
+    let rows = norm(&mut model.formulas, &trial.slopes[1], &[slope]);
+    ask(model, rows, "q_e", "|q_e| <= q_e");
+    asked
+}
