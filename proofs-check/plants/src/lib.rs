@@ -111,7 +111,7 @@ fn prove_in(
     said.extend(inequality::questions(&mut model, inequalities, spec)?);
     let used = largest(arguments, &said);
     asked.extend(said.into_iter().map(|said| on_region(plant, said)));
-    let still = still::Still::new(plant, inequalities, spec)?;
+    let still = still::Still::new(plant, |model| in_states(model, plant, inequalities, spec))?;
     if model.formulas.is_too_large() {
         return too_large("formulas", "/plant");
     }
@@ -140,10 +140,10 @@ fn prove_in(
     })?;
     lines.push(format!("forcing: harmonics and rest by {cells} cells of t"));
     machine.drift = drift(plant, &model, &machine, &root, &mut values);
-    let mut in_states = still.prepared(plant, &curves, &om, &period);
+    let mut prepared = still.prepared(plant, &curves, &om, &period);
     for (at, Asked { question, region, rule, pointer, what }) in asked.into_iter().enumerate() {
         let which = at.checked_sub(of_the_orbit);
-        if let Some(count) = which.and_then(|which| in_states.proves(plant, which)) {
+        if let Some(count) = which.and_then(|which| prepared.proves(plant, which, &region)) {
             lines.push(format!("{rule}: {what}, by {count} boxes of the states"));
             continue;
         }
@@ -177,6 +177,20 @@ fn of_orbit(plant: &Plant, model: &mut Model) -> Outcome<Vec<Asked>> {
         });
     }
     Ok(asked)
+}
+
+/// The questions of all entries, but for those about the motion of the frame, and of the inequalities that there are.
+fn in_states(
+    model: &mut Model,
+    plant: &Plant,
+    inequalities: Inequalities<'_>,
+    spec: &Specification,
+) -> Outcome<Vec<Option<Question>>> {
+    let of = |entry: &entries::Entry| (!entry.name.is_of_motion()).then(|| bounds::question(model, entry));
+    let mut questions: Vec<Option<Question>> = plant.known.entries.list.iter().map(of).collect();
+    let said = inequality::questions(model, inequalities, spec)?;
+    questions.extend(said.into_iter().map(|said| Some(said.question)));
+    Ok(questions)
 }
 
 fn tube(plant: &Plant) -> Interval {

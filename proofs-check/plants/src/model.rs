@@ -10,7 +10,7 @@ use proofs_core::jacobian::Witness;
 /// What the states of the formulas are.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Frame {
-    /// v, with `x = xb(t) + L v`.
+    /// v, with `x = xb(t) + L v`; and of a trial e, from what it is measured from.
     Moving,
     /// x.
     Still,
@@ -49,7 +49,7 @@ impl Model {
         };
         let states: Vec<Id> = (0..order).map(|j| formulas.leaf(Leaf::State(j))).collect();
         let mut output = formulas.leaf(Leaf::Output);
-        if plant.error.is_some() {
+        if frame == Frame::Moving && plant.error.is_some() {
             let error = wave(&mut formulas, plant, order + 1, 0);
             output = formulas.make(error + output);
         }

@@ -1,25 +1,18 @@
-//! Bounds, and the matrix inequalities, decided in the states themselves (docs/mathematics.md, section 11.6).
+//! Bounds, and matrix inequalities, decided in the states themselves (docs/mathematics.md, section 11.6).
 //!
 //! A derivative that t enters through the orbit alone is a function of those states and e that it names: where three coordinates
 //! and t move one state, one side is to be cut in the place of four. The set is larger than G(X,E), each state over all that it is
 //! there, so what is not proved on it says nothing.
 
-use super::form::Said;
 use super::formula::Id;
-use super::inequality;
 use super::machine::{At, Cell, Curves, Machine, Values};
 use super::model::{self, Frame, Model};
 use super::question::{Answer, Question};
 use super::read::Plant;
 use super::region::{Around, Region, Shape};
 use super::time::around;
-use super::{PRECISION, end, of_entry, radius};
 use proofs_core::interval::Interval;
-use proofs_core::plant::entries;
-use proofs_core::rules::derivation::Inequalities;
-use proofs_core::spec::Specification;
 use proofs_core::verdict::Outcome;
-use rug::Float;
 use std::rc::Rc;
 
 /// The most boxes that an attempt may take.
@@ -27,12 +20,12 @@ const MAX_PIECES: usize = 20_000;
 /// How many cells of t there are for the range of the orbit.
 const RANGE_CELLS_LOG: u32 = 8;
 
-/// The entries and the parts of the inequalities as questions in x; `None` where one moves with t.
+/// Questions in x; `None` where one moves with t.
 pub struct Still {
     model: Model,
     /// The components of xb.
     orbit: Vec<Id>,
-    questions: Vec<Option<Said>>,
+    questions: Vec<Option<Question>>,
 }
 
 /// The questions of [`Still`] with what is needed for deciding them.
@@ -46,17 +39,12 @@ pub struct Prepared<'s> {
 }
 
 impl Still {
-    /// For all entries of a plant, and for the inequalities that there are, with mu and the period.
-    pub fn new(plant: &Plant, inequalities: Inequalities<'_>, spec: &Specification) -> Outcome<Still> {
+    /// For what `ask` makes of a model in x.
+    pub fn new(plant: &Plant, ask: impl FnOnce(&mut Model) -> Outcome<Vec<Option<Question>>>) -> Outcome<Still> {
         let mut model = Model::new(plant, Frame::Still);
         let orbit = (0..plant.states()).map(|state| model::wave(&mut model.formulas, plant, state, 0)).collect();
-        let question = |entry: &entries::Entry| {
-            let moves = entry.name.is_of_motion();
-            (!moves).then(|| of_entry(&mut model, entry))
-        };
-        let mut questions: Vec<_> = plant.known.entries.list.iter().map(question).collect();
-        questions.extend(inequality::questions(&mut model, inequalities, spec)?.into_iter().map(Some));
-        let questions = questions.into_iter().map(|said| said.filter(|said| !said.question.moves())).collect();
+        let still = |question: Option<Question>| question.filter(|question| !question.moves());
+        let questions = ask(&mut model)?.into_iter().map(still).collect();
         Ok(Still { model, orbit, questions })
     }
 
@@ -81,14 +69,16 @@ impl Still {
 }
 
 impl Prepared<'_> {
-    /// Whether one of them is proved on all states that G(X,E) has; by how many boxes. `None` says nothing.
-    pub fn proves(&mut self, plant: &Plant, which: usize) -> Option<usize> {
-        let Said { question, at: [x, e], .. } = self.still.questions.get(which)?.as_ref()?;
+    /// Whether one of them is proved on all states that a region in v around xb has, whose e is that of the model in x; by how many boxes. `None`
+    /// says nothing.
+    pub fn proves(&mut self, plant: &Plant, which: usize, region: &Region) -> Option<usize> {
+        let question = self.still.questions.get(which)?.as_ref()?;
+        let Shape::Ball(radius) = &region.shape else { return None };
         if self.still.model.formulas.is_too_large() {
             return None;
         }
-        let shape = Shape::Sides(self.sides(plant, x)?, self.around(plant, x, question)?);
-        let region = Region { states: plant.states(), shape, output: end(e), ..Region::of_family(plant, PRECISION) };
+        let shape = Shape::Sides(self.sides(plant, radius)?, self.around(plant, radius, question)?);
+        let region = Region { shape, ..region.clone() };
         match question.decide(&self.machine, &self.root, &region, MAX_PIECES, &mut self.values) {
             Answer::Proved(count) => Some(count),
             Answer::Refuted(_) | Answer::Open(_) => None,
@@ -96,20 +86,20 @@ impl Prepared<'_> {
     }
 
     /// What is known of the components that a question names, together.
-    fn around(&self, plant: &Plant, x: &Float, question: &Question) -> Option<Around> {
+    fn around(&self, plant: &Plant, radius: &Interval, question: &Question) -> Option<Around> {
         let named = (0..plant.states()).filter(|state| question.names(*state));
         let rows =
             named.map(|state| (state, plant.known.coordinates.matrix[state].as_slice(), self.ranges[state].clone()));
-        Around::new(rows.collect(), radius(plant, x))
+        Around::new(rows.collect(), radius.clone())
     }
 
-    /// `|x_i - xb_i| <= |row i of L| (X + r)`.
-    fn sides(&self, plant: &Plant, x: &Float) -> Option<Vec<Interval>> {
-        let (p, radius) = (self.machine.precision, radius(plant, x));
+    /// `|x_i - xb_i| <= |row i of L| radius`.
+    fn sides(&self, plant: &Plant, radius: &Interval) -> Option<Vec<Interval>> {
+        let p = self.machine.precision;
         let side = |(range, row): (&Interval, &Vec<rug::Rational>)| {
             let number = |value: &rug::Rational| Interval::rational(value, p);
             let size = row.iter().fold(Interval::int(0, p), |sum, value| sum + number(value).sqr()).sqrt();
-            let side = range + around(&(size * &radius));
+            let side = range + around(&(size * radius));
             side.is_bounded().then_some(side)
         };
         self.ranges.iter().zip(&plant.known.coordinates.matrix).map(side).collect()

@@ -10,12 +10,16 @@ use crate::path::{Expanded, Judged, Path, bound, bound_of_norm, everywhere};
 use crate::question::{Answer, MAX_PIECES, Question};
 use crate::read::Plant;
 use crate::region::{Piece, Region, Shape};
+use crate::still::Still;
 use crate::{PRECISION, smooth, too_large};
 use proofs_core::interval::Interval;
 use proofs_core::rules::by_n_o::claimed::RULE;
 use proofs_core::rules::by_n_o::trials::Trial;
 use proofs_core::verdict::{Outcome, demand};
 use rug::Rational;
+
+/// By so many boxes each question is tried at first.
+const FEW_PIECES: usize = 1_000;
 
 /// A question about the box, with its place and what it is about.
 struct Asked {
@@ -31,6 +35,8 @@ pub struct Around<'t> {
     model: Model,
     curves: Curves,
     asked: Vec<Asked>,
+    /// The same questions in x and e.
+    still: Still,
     /// The components of `L^-1 (f - xhat')`, and `q - qhat`.
     defects: Vec<Id>,
 }
@@ -51,11 +57,17 @@ impl<'t> Around<'t> {
         if model.formulas.is_too_large() {
             return too_large(RULE, "/plant");
         }
-        Ok(Around { trial, curves: model::curves(&near), plant: near, model, asked, defects })
+        let in_states = |model: &mut Model| {
+            let all = questions(model, sigma, trial).into_iter();
+            Ok(all.map(|asked| Some(asked.question)).collect())
+        };
+        let still = Still::new(&near, in_states)?;
+        Ok(Around { trial, curves: model::curves(&near), plant: near, model, asked, still, defects })
     }
 
-    /// Proves on the box that the formulas are smooth, (14.4a) of each form, (14.4b), and the bounds of r and d; by how many boxes.
-    pub fn on_box(&self, [om, period]: [&Interval; 2], about: &str) -> Outcome<usize> {
+    /// Proves on the box that the formulas are smooth, (14.4a) of each form, (14.4b), and the bounds of r and d; by how many boxes. `farthest`: the
+    /// largest |e| of it, rounded up.
+    pub fn on_box(&self, [om, period]: [&Interval; 2], farthest: &Interval, about: &str) -> Outcome<usize> {
         let machine = Machine::new(&self.model.formulas, &self.curves, om);
         let (root, mut values) = (machine.period(period), machine.values());
         let [d_x, d_e] = self.trial.radii.each_ref().map(|radius| Interval::rational(radius, PRECISION));
@@ -64,11 +76,21 @@ impl<'t> Around<'t> {
         let place = format!("{}/box", self.trial.pointer);
         let demands = &self.model.demands;
         let mut boxes = smooth::prove(&self.model.formulas, demands, &place, &machine, &root, &region, &mut values)?;
-        for Asked { question, pointer, what } in &self.asked {
+        // A wide box may be one of the states themselves, which has fewer sides.
+        let wide = Region { output: farthest.clone(), ..region.clone() };
+        let mut still = None;
+        for (which, Asked { question, pointer, what }) in self.asked.iter().enumerate() {
+            let mut decide = |most: usize| question.decide(&machine, &root, &region, most, &mut values);
+            let mut answer = decide(FEW_PIECES);
+            if matches!(answer, Answer::Open(_)) {
+                let still = still.get_or_insert_with(|| self.still.prepared(&self.plant, &self.curves, om, period));
+                let proved = still.proves(&self.plant, which, &wide);
+                answer = proved.map_or_else(|| decide(MAX_PIECES), Answer::Proved);
+            }
             let what = |place| {
                 format!("{what} on the box of the trial for {about}, with xhat for xb and e - ehat for e at {place}")
             };
-            match question.decide(&machine, &root, &region, MAX_PIECES, &mut values) {
+            match answer {
                 Answer::Proved(count) => boxes += count,
                 Answer::Refuted(place) => demand(Some(false), RULE, pointer, what(place))?,
                 Answer::Open(place) => demand(None, RULE, pointer, what(place))?,

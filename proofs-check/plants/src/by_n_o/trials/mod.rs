@@ -54,7 +54,7 @@ pub fn prove(
 
         let (around, name) = (Around::new(plant, about.sigma, trial)?, entry.about());
         let cells = at_rising_precision(|p| around.defects(circle(p).each_ref(), &answer.kappa, &name))?;
-        let boxes = around.on_box(in_short.each_ref(), &name)?;
+        let boxes = around.on_box(in_short.each_ref(), &e.ceiling().round(PRECISION).ceiling(), &name)?;
         lines.push(format!(
             "{RULE}: {name}: the periodic solution near the trial, by {boxes} boxes and {cells} cells of t"
         ));
