@@ -9,7 +9,8 @@ use sigmastar_decide::bounds::StatesForm;
 use sigmastar_decide::linear::Falling;
 use sigmastar_decide::trial::{Trial, TubeProof};
 use sigmastar_exact::enclosure::Enclosure;
-use sigmastar_lang::spec::{Level, Metric, TrigonometricVector, Wave};
+use sigmastar_exact::number::write_exact;
+use sigmastar_lang::spec::{Level, Metric, Specification, TrigonometricVector, Wave};
 
 /// The name of both parts.
 pub(super) const BY_N_O: &str = "by_n_o";
@@ -32,6 +33,36 @@ pub(super) fn claimed_counts(found: Option<&ByCount>) -> Option<(&'static str, V
         part
     };
     found.filter(|found| found.checked).map(|found| (BY_N_O, found.counts.iter().map(one).collect()))
+}
+
+/// The sentences of the claim about them, each with a space before it, from that part of it.
+pub(super) fn counts_in_words(spec: &Specification, sigma: &Rational, part: &Value) -> String {
+    let output = spec.input_gain.as_ref().map_or_else(
+        || "u".to_owned(),
+        |gain| {
+            let nominal = gain.nominal.words();
+            // Another quotient or product is one number.
+            if nominal.parse::<f64>().is_ok() { format!("u/{nominal}") } else { format!("u/({nominal})") }
+        },
+    );
+    let one = |entry: &Value| {
+        let [every, n_o] = [if entry["or_more"] == true { "every n_o >=" } else { "n_o =" }, &entry["n_o"].to_string()];
+        let number = |part: &str, name: &str| {
+            let text = entry[part][name].as_str().unwrap_or_default();
+            if text.contains('/') { format!("({text})") } else { text.to_owned() }
+        };
+        let [e, rms, u] = ["e", "e_rms", "u"].map(|name| number("steady", name));
+        let largest = entry.get("largest").map_or_else(String::new, |_| {
+            let [e, u] = ["e", "u"].map(|name| number("largest", name));
+            format!(", and |e| <= {e} and |{output}| <= {u} at all times for these solutions")
+        });
+        format!(
+            " With {every} {n_o} and sigma = {} exactly, |e| <= {e} (root mean square <= {rms}) and |{output}| <= {u} along the T-periodic \
+             solution{largest}.",
+            write_exact(sigma)
+        )
+    };
+    part.as_array().into_iter().flatten().map(one).collect()
 }
 
 /// The part of the witness.

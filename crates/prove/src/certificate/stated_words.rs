@@ -1,5 +1,6 @@
 //! The claim of a certificate in words of this program: what it holds as its statement is for people, and anybody may have written it.
 
+use super::by_count::counts_in_words;
 use super::fields::{exact_rational, rational};
 use super::read::{each, small_integer};
 use super::stated::{StatedClaim, read_claim};
@@ -30,7 +31,8 @@ pub fn claim_in_words(certificate: &Document) -> Result<String, SpecErrors> {
             (&witness.sigma, false, in_continuous_time(&spec, &witness.sigma, &witness.set, ball.as_ref()))
         }
     };
-    Ok(words + &rates_in_words(&spec, sigma, is_sampled, said))
+    let counts = certificate.at("/claim/by_n_o").map(|part| part.to_json()).unwrap_or_default();
+    Ok(words + &rates_in_words(&spec, sigma, is_sampled, said) + &counts_in_words(&spec, sigma, &counts))
 }
 
 /// What a certificate states of one number of oscillators.

@@ -1,6 +1,6 @@
 //! The certificate file: self-contained, the same bytes for the same input.
 
-use super::by_count::{claimed_counts, count_witness};
+use super::by_count::{claimed_counts, count_witness, counts_in_words};
 use super::fields::{NumberFields, paths_json, set_fields};
 use super::json::{exact, object, rows, text};
 use super::of_plant::plant_parts;
@@ -92,7 +92,9 @@ pub fn certificate_json(run: &Certification<'_>) -> Option<Value> {
         ("periodic_solution", periodic_json(&run.periodic_solution()?)),
         ("control", control_json(run.control()?)),
     ];
-    let said = ("statement", text(statement(spec, sigma, set) + &run.rates_in_words()));
+    let counts = claimed_counts(run.by_count.as_ref());
+    let of_counts = counts.as_ref().map_or_else(String::new, |(_, part)| counts_in_words(spec, sigma, part));
+    let said = ("statement", text(statement(spec, sigma, set) + &run.rates_in_words() + &of_counts));
     let of_actuator = input_gain_json(spec).into_iter().chain(actuator_json(spec));
     let names = of_actuator.chain(period).chain(parameters_json(spec)).chain(rest);
     let claim = object(

@@ -432,7 +432,7 @@ impl Certification<'_> {
     /// Takes the claim back, with all that was said beside it.
     pub(crate) fn take_back(&mut self, reason: Failing) {
         (self.sharp, self.verdict) = (Outcome::NotFound(reason.into()), Verdict::Undecided);
-        (self.exact, self.gains, self.for_n_o) = (None, Vec::new(), Vec::new());
+        (self.exact, self.gains, self.for_n_o, self.by_count) = (None, Vec::new(), Vec::new(), None);
     }
 }
 
