@@ -23,7 +23,7 @@ const LEAST: [(&str, usize); 18] = [
     ("bounding-spec-part", 10),
     ("plant", 2),
     ("controller", 1),
-    ("certificate-fragment", 11),
+    ("certificate-fragment", 12),
     ("report-fragment", 4),
     ("sampling-fragment", 1),
     ("study", 1),

@@ -94,6 +94,7 @@ mod table;
 mod transfer;
 mod transfer_sums;
 mod transfer_table;
+mod trials;
 mod tune;
 mod undefined;
 mod validator;

@@ -1,0 +1,266 @@
+//! Bounds for given numbers of oscillators by trials, against simulations that share nothing with them; and what proves them, broken.
+
+use super::support::{assert_valid, certified_in, checked, number, read, stored};
+use rug::Rational;
+use serde_json::{Value, json};
+use sigmastar_decide::bounds::{Engine, Region, StatesForm};
+use sigmastar_decide::linear::{Loop, PRECISION, Start};
+use sigmastar_decide::trial::{Concluded, Known, Peaks, Trial, TubeProof};
+use sigmastar_exact::enclosure::{Enclosure, Truth};
+use sigmastar_lang::plant::Plant;
+use sigmastar_lang::spec::{Document, Level, Metric, TrigonometricVector};
+use sigmastar_propose::orbit::FloatSeries;
+use sigmastar_propose::trial::{ProposedTrial, TrialLoop};
+use sigmastar_theory::evidence::Coordinates;
+use std::f64::consts::PI;
+
+const WEIGHTS: [f64; 2] = [2.0, 1.5];
+const MU: f64 = 1.0;
+const OMEGA: f64 = PI;
+
+fn weight(l: usize) -> f64 {
+    if l == 0 { WEIGHTS[0] } else { (l as f64).powf(-WEIGHTS[1]) }
+}
+
+/// `x' = -2 x - x^3/3 + e + cos(phase)`, `e' = x/2 - atan(e) + sin(phase) + sin(2 phase)/2 + u`, period 2.
+fn document() -> Value {
+    json!({
+        "format": "sigmastar/plant", "version": 1, "name": "one state", "period": 2, "states": ["v"],
+        "f": ["-2*v - v^3/3 + e + cos(phase)"], "q": "v/2 - atan(e) + sin(phase) + sin(2*phase)/2",
+        "initial_set": { "kind": "aligned", "X0": "1/2", "E0": "1/2" },
+        "internal_model": {
+            "mu": 1, "base_frequency": "pi", "matched": true, "weights": { "family": "power", "n0": 2, "epsilon": "1/2" },
+        },
+    })
+}
+
+fn plant() -> Plant {
+    Plant::from_value(&Document::parse("one state", &document().to_string()).unwrap().root()).unwrap()
+}
+
+/// The right side of the loop with n oscillators at (x, e, z), and u: z' = Phi z + Gamma e, u = -sigma e + mu M'N (z - M e).
+fn right_side(sigma: f64, n: usize, t: f64, y: &[f64]) -> (Vec<f64>, f64) {
+    let (x, e) = (y[0], y[1]);
+    let phase = OMEGA * t;
+    let of_z: f64 = (0..=n).map(|l| weight(l) * (y[2 + if l == 0 { 0 } else { 2 * l - 1 }] - e)).sum();
+    let u = -sigma * e + MU * of_z;
+    let mut slopes = vec![
+        -2.0 * x - x.powi(3) / 3.0 + e + phase.cos(),
+        x / 2.0 - e.atan() + phase.sin() + (2.0 * phase).sin() / 2.0 + u,
+        // Gamma = -(Phi + sigma I) M.
+        -sigma * e,
+    ];
+    for l in 1..=n {
+        let (frequency, at) = (l as f64 * OMEGA, 2 * l + 1);
+        slopes.push(frequency * y[at + 1] - sigma * e);
+        slopes.push(-frequency * y[at] + frequency * e);
+    }
+    (slopes, u)
+}
+
+/// The largest |e| and |u| over all times, and over the last of so many periods, with the root mean square of e there.
+fn simulated(sigma: f64, n: usize, [x, e]: [f64; 2], periods: usize) -> [f64; 5] {
+    let (steps, mut y) = (2000, vec![x, e]);
+    y.extend((0..=2 * n).map(|i| if i == 0 || i % 2 == 1 { e } else { 0.0 }));
+    let h = 2.0 / steps as f64;
+    let mut found = [0.0_f64; 5];
+    for step in 0..steps * periods {
+        let t = step as f64 * h;
+        let (k_1, u) = right_side(sigma, n, t, &y);
+        found[0] = found[0].max(y[1].abs());
+        found[1] = found[1].max(u.abs());
+        if step >= steps * (periods - 1) {
+            found[2] = found[2].max(y[1].abs());
+            found[3] = found[3].max(u.abs());
+            found[4] += y[1] * y[1] / steps as f64;
+        }
+        let moved = |k: &[f64], by: f64| y.iter().zip(k).map(|(y, k)| y + by * k).collect::<Vec<f64>>();
+        let k_2 = right_side(sigma, n, t + h / 2.0, &moved(&k_1, h / 2.0)).0;
+        let k_3 = right_side(sigma, n, t + h / 2.0, &moved(&k_2, h / 2.0)).0;
+        let k_4 = right_side(sigma, n, t + h, &moved(&k_3, h)).0;
+        for (i, y) in y.iter_mut().enumerate() {
+            *y += h / 6.0 * (k_1[i] + 2.0 * k_2[i] + 2.0 * k_3[i] + k_4[i]);
+        }
+    }
+    found[4] = found[4].sqrt();
+    found
+}
+
+#[test]
+fn simulations_meet_the_bounds_and_do_not_exceed_them() {
+    let folder = tempfile::tempdir().unwrap();
+    let (file, report) = certified_in(folder.path(), &document(), &[]);
+    assert_valid(&file);
+    let certificate = read(&file);
+    let sigma = number(&report["sigma_star"]);
+    let orbit = &certificate["witness"]["orbit"];
+    let cosines = orbit["harmonics"].as_array().unwrap().iter().map(|pair| number(&pair["cos"][0]));
+    let at_0 = number(&orbit["mean"][0]) + cosines.sum::<f64>();
+    let x_0 = number(&certificate["claim"]["initial_set"]["ball"]);
+    let entries = certificate["claim"]["by_n_o"].as_array().unwrap();
+    assert_eq!(entries.iter().map(|entry| entry["n_o"].as_u64().unwrap()).collect::<Vec<_>>(), [0, 1, 2, 3, 5, 10]);
+    for entry in &entries[..4] {
+        let n = entry["n_o"].as_u64().unwrap() as usize;
+        let bound = |part: &str, name: &str| number(&entry[part][name]);
+        for start in [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]] {
+            let [e, u, steady, steady_u, rms] = simulated(sigma, n, [at_0 + start[0] * x_0, start[1] * 0.5], 200);
+            assert!(e <= bound("largest", "e") && u <= bound("largest", "u"), "{n}: {e} {u} {entry}");
+            let meets =
+                |value: f64, bound: f64| value <= bound * (1.0 + 1e-6) + 1e-9 && bound <= value * (1.0 + 1e-5) + 1e-5;
+            assert!(meets(steady, bound("steady", "e")), "{n}: {steady} {entry}");
+            assert!(meets(rms, bound("steady", "e_rms")), "{n}: {rms} {entry}");
+            assert!(meets(steady_u, bound("steady", "u")), "{n}: {steady_u} {entry}");
+        }
+        assert!(bound("largest", "e") < 3.0, "{entry}");
+    }
+    // A bound that is a millionth too small is no bound, and the sentence has the numbers.
+    let mut forged = certificate.clone();
+    forged["claim"]["by_n_o"][0]["steady"]["e"] =
+        (number(&entries[0]["steady"]["e"]) * (1.0 - 4e-6)).to_string().into();
+    let answer = checked(&stored(folder.path(), "forged.json", &forged));
+    assert_ne!(answer["verdict"], "valid", "{answer}");
+    let sentence = certificate["claim"]["statement"].as_str().unwrap();
+    let said = format!(
+        "With n_o = 1 and sigma = {} exactly, |e| <= {}",
+        report["sigma_star"].as_str().unwrap(),
+        entries[1]["steady"]["e"].as_str().unwrap()
+    );
+    assert!(sentence.contains(&said), "{sentence}");
+}
+
+/// What is decided around a trial for one oscillator at sigma = 3.
+struct Case {
+    trial: Trial,
+    proof: TubeProof,
+    own: Loop,
+    period: Enclosure,
+}
+
+fn rational(a: i32, b: i32) -> Rational {
+    Rational::from((a, b))
+}
+
+fn case() -> Case {
+    let plant = plant();
+    let program = TrialLoop { plant: &plant, sigma: 3.0, mu: MU, weights: vec![weight(0), weight(1)] };
+    let zero = FloatSeries { mean: vec![0.0], harmonics: Vec::new() };
+    let ProposedTrial { states, error, forcing } = program.propose(&zero).unwrap();
+    let trial = Trial { n_o: 1, states, error, forcing };
+    let identity = vec![vec![Rational::from(1)]];
+    let lines = trial.error.harmonics.len();
+    let own = Loop::new(&Rational::from(3), &plant.internal_model, lines, None, identity);
+    let metric = Metric {
+        matrix: vec![vec![rational(1, 2)]],
+        cross: vec![Rational::new()],
+        weight: Rational::from(1),
+        k_p: rational(1, 2),
+        c_x: rational(1, 10),
+        c_e: rational(1, 10),
+        c_y: rational(1, 100),
+    };
+    let level = Level { p_up: rational(51, 100), x_low: rational(49, 100), e_low: rational(99, 100) };
+    let states = StatesForm {
+        matrix: vec![vec![Rational::from(1)]],
+        q_low: rational(99, 100),
+        q_up: rational(101, 100),
+        c: Rational::from(1),
+        gamma: Rational::from(1),
+    };
+    let proof = TubeProof {
+        defects: [rational(1, 100_000_000), rational(1, 100_000_000)],
+        radii: [rational(1, 10), rational(1, 10)],
+        slopes: [rational(51, 100), rational(101, 100)],
+        forms: vec![(metric, level)],
+        states: Some(states),
+    };
+    Case { trial, proof, own, period: Enclosure::from_integer(2, PRECISION) }
+}
+
+fn orbit() -> TrigonometricVector {
+    TrigonometricVector::constant(vec![Rational::new()])
+}
+
+#[test]
+fn what_is_broken_proves_nothing() {
+    let plant = plant();
+    let Case { trial, proof, own, period } = case();
+    let identity = vec![vec![Rational::from(1)]];
+    let none = sigmastar_lang::spec::PeriodicMatrix { mean: identity.clone(), harmonics: Vec::new() };
+    let coordinates = Coordinates { l: identity.clone(), p: none };
+    // The defects of the trial are small; off by a thousandth they are not.
+    let small = |trial: &Trial| {
+        let [of_x, of_q] = trial.defects(&plant, &coordinates, [1e-12; 2]).unwrap();
+        (of_x.upper_f64().max(of_q.upper_f64()), trial.mismatch(&own).upper_f64())
+    };
+    let (of_formulas, of_loop) = small(&trial);
+    assert!(of_formulas < 1e-10 && of_loop < 1e-10, "{of_formulas} {of_loop}");
+    let mut off = trial.clone();
+    off.states.harmonics[0][0][0] += rational(1, 1000);
+    assert!(small(&off).0 > 1e-3);
+    let mut off = trial.clone();
+    off.error.harmonics[1][0] += rational(1, 1000);
+    assert!(small(&off).1 > 1e-3);
+    // y_k of another number of oscillators.
+    assert!(small(&Trial { n_o: 0, ..trial.clone() }).1 > 1e-3);
+
+    // Both inequalities, and what nearly is one.
+    let moved = plant.with_error_moved(&trial.error);
+    let region = Region::new(identity, trial.states.clone(), Rational::new()).unwrap();
+    let engine = Engine::new(&moved, region, None, None).unwrap();
+    let (sigma, at) = (Rational::from(3), [&proof.radii[0], &proof.radii[1]]);
+    let (metric, level) = &proof.forms[0];
+    let truth = |metric: &Metric, level: &Level| engine.decide_form((metric, level), &sigma, at, 2000).truth;
+    assert_eq!(truth(metric, level), Truth::True);
+    for (what, metric, level) in [
+        ("c_y", Metric { c_y: rational(2, 5), ..metric.clone() }, level.clone()),
+        ("c_x", Metric { c_x: Rational::new(), ..metric.clone() }, level.clone()),
+        ("k_p", Metric { k_p: rational(1, 20), ..metric.clone() }, level.clone()),
+        ("w", Metric { weight: rational(98, 100), ..metric.clone() }, level.clone()),
+        ("P", Metric { matrix: vec![vec![rational(-1, 2)]], ..metric.clone() }, level.clone()),
+        ("p", Metric { cross: Vec::new(), ..metric.clone() }, level.clone()),
+        ("P_up", metric.clone(), Level { p_up: rational(49, 100), ..level.clone() }),
+        ("e_low", metric.clone(), Level { e_low: Rational::from(1), ..level.clone() }),
+    ] {
+        assert_ne!(truth(&metric, &level), Truth::True, "{what}");
+    }
+    let states = proof.states.clone().unwrap();
+    assert_eq!(engine.decide_states(&states, at, 2000).truth, Truth::True);
+    for (what, broken) in [
+        ("c", StatesForm { c: Rational::from(2), ..states.clone() }),
+        ("gamma", StatesForm { gamma: rational(1, 10), ..states.clone() }),
+        ("Q_low", StatesForm { q_low: Rational::from(1), ..states.clone() }),
+        ("Q_up", StatesForm { q_up: Rational::from(1), ..states.clone() }),
+    ] {
+        assert_ne!(engine.decide_states(&broken, at, 2000).truth, Truth::True, "{what}");
+    }
+
+    // The conclusion: closer than the box, and only of a trial that the regulator answers.
+    let (orbit, radius) = (orbit(), Rational::new());
+    let known = Known { own: &own, period: &period, orbit: &orbit, radius: &radius };
+    let found = Concluded::of(&trial, &proof, &known).unwrap();
+    let [s_x, s_e] = found.distances.each_ref().map(Enclosure::upper_f64);
+    assert!(s_x < 1e-6 && s_e < 1e-6 && found.error.upper_f64() > 0.05, "{found:?}");
+    let touching = |i: usize| {
+        let mut radii = proof.radii.clone();
+        radii[i] = found.distances[i].lower_rational().unwrap();
+        Concluded::of(&trial, &TubeProof { radii, ..proof.clone() }, &known).is_none()
+    };
+    assert!(touching(0) && touching(1));
+    let mut met = trial.clone();
+    met.error.harmonics[0][1] = rational(1, 1_000_000);
+    assert!(Concluded::of(&met, &proof, &known).is_none());
+    met = trial.clone();
+    met.error.mean = rational(1, 1_000_000);
+    assert!(Concluded::of(&met, &proof, &known).is_none());
+    assert!(Concluded::of(&trial, &TubeProof { forms: Vec::new(), ..proof.clone() }, &known).is_none());
+
+    // Peaks grow with the start, and start from the periodic solution.
+    let start = |x: i32, e: i32| Start {
+        x0: Enclosure::from_integer(i64::from(x), PRECISION),
+        e0: Enclosure::from_integer(i64::from(e), PRECISION),
+        z0: None,
+    };
+    let [near, far] = [start(0, 1), start(1, 1)].map(|start| Peaks::of(&proof, &found, &own, &start).unwrap());
+    assert!(near.error.upper_f64() > 1.0 && far.error.lower_f64() > near.error.upper_f64());
+    assert!(far.control.lower_f64() > near.control.upper_f64() && far.reach[0].lower_f64() > 1.0);
+}
