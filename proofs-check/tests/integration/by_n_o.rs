@@ -298,14 +298,20 @@ fn of_what_it_is_proved() {
             json!({ "linear": { "forms": [{ "P": p, "p_up": "1", "w": "1", "k_p": "1" }], "sizes": [size] } });
         certificate
     };
-    refused(parts(certificate("linear.sharp"), 0), Undecided, RULE, CLAIM);
-    refused(parts(parsed("plants", "converter-samples.certificate"), 2), BadInput, "format", CLAIM);
-    refused(parts(parsed("plants", "family-gain.certificate"), 1), Undecided, RULE, CLAIM);
-    refused(parts(parsed("periods", "motor-axis"), 1), Undecided, RULE, CLAIM);
     let mut unmatched = stored();
     unmatched["plant"]["internal_model"]["matched"] = false.into();
     rehash(&mut unmatched);
-    refused(unmatched, Undecided, RULE, CLAIM);
+    for (certificate, cause) in [
+        (parts(certificate("linear.sharp"), 0), "formulas"),
+        (parts(parsed("plants", "family-gain.certificate"), 1), "`cells`"),
+        (parts(parsed("periods", "motor-axis"), 1), "a period that is one number"),
+        (unmatched, "a `matched` base frequency"),
+    ] {
+        let report = judged(&certificate);
+        assert_refused(&report, Undecided, RULE, CLAIM);
+        assert!(report.finding.unwrap().message.contains(cause), "{cause}");
+    }
+    refused(parts(parsed("plants", "converter-samples.certificate"), 2), BadInput, "format", CLAIM);
 }
 
 #[test]

@@ -146,6 +146,20 @@ fn forms_of_other_loops() {
     }
 }
 
+/// Each end of the gain counts.
+#[test]
+fn forms_fall_at_both_ends_of_the_gain() {
+    let mut of = made(4, 1);
+    of.d = 0.4 * of.sigma;
+    let form = of.form();
+    assert!(of.judged(&form, 0, false, &Numbers::large()).is_ok());
+    for (gain, end) in [([0.02, 1.2], "at b_lo"), ([0.9, 9.0], "at b_hi")] {
+        of.gain = gain;
+        let finding = of.judged(&form, 0, false, &Numbers::large()).expect_err("it does not fall");
+        assert!(finding.verdict == Invalid && finding.message.contains(end), "{finding:?}");
+    }
+}
+
 #[test]
 fn plants_that_are_not_linear() {
     let of = made(4, 1);
