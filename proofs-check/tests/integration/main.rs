@@ -66,4 +66,6 @@ mod slopes_formulas;
 mod specification;
 mod splitting;
 mod transfer;
+mod trials;
+mod trials_support;
 mod words;

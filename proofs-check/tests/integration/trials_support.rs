@@ -1,0 +1,276 @@
+//! A plant of one state whose loop has a known periodic solution, with the trial that is this solution (docs/mathematics.md, section 14.4).
+//!
+//! x and e are trigonometric polynomials, e without mean and without harmonics up to n_o. The q that the regulator answers with that e has free
+//! harmonics up to n_o, and those of the theory beyond. What f and q need besides of t follows, and is a polynomial again.
+
+use crate::plant_support::{Parts, read};
+use proofs_check::json::{Field, Json, decimal, parse};
+use proofs_check::plants as plant;
+use proofs_check::rules::by_n_o::claimed::Entry;
+use proofs_check::rules::by_n_o::{About, Witness};
+use proofs_check::rules::set::ClaimedSet;
+use proofs_check::verdict::{Outcome, Verdict};
+use rug::Rational;
+use serde_json::{Value, json};
+use std::f64::consts::TAU;
+
+pub const SIGMA: f64 = 4.0;
+/// n_0 and n_1, and the root of the sum of all weights `n_0 = 2`, `n_l = l^-1.5`.
+pub const WEIGHTS: [f64; 2] = [2.0, 1.0];
+pub const N_BAR: f64 = 2.147644139210565;
+/// The period is 1, and mu too: nu.
+const NU: f64 = 1.0 / TAU;
+/// L.
+pub const L: f64 = 2.0;
+/// At so many times.
+const TIMES: usize = 64;
+/// Harmonics of what f and q need of t.
+const HARMONICS: usize = 12;
+
+/// By its mean and `[a_k, b_k]`.
+#[derive(Clone)]
+pub struct Wave(pub f64, pub Vec<[f64; 2]>);
+
+impl Wave {
+    /// A derivative, the wave itself or the first one.
+    pub fn at(&self, t: f64, order: usize) -> f64 {
+        let of = |(k, [a, b]): (usize, &[f64; 2])| {
+            let om = TAU * (k + 1) as f64;
+            let (sin, cos) = (om * t).sin_cos();
+            if order == 0 { a * cos + b * sin } else { om * (b * cos - a * sin) }
+        };
+        let mean = if order == 0 { self.0 } else { 0.0 };
+        mean + self.1.iter().enumerate().map(of).sum::<f64>()
+    }
+
+    /// Of a function with no more than these harmonics.
+    fn of(value: impl Fn(f64) -> f64) -> Wave {
+        let count = TIMES as f64;
+        let sum = |of: &dyn Fn(f64) -> f64| {
+            (0..TIMES).map(|j| j as f64 / count).map(|t| value(t) * of(t)).sum::<f64>() / count
+        };
+        let pair = |k: usize| {
+            let om = TAU * k as f64;
+            [sum(&|t| 2.0 * (om * t).cos()), sum(&|t| 2.0 * (om * t).sin())]
+        };
+        Wave(sum(&|_| 1.0), (1..=HARMONICS).map(pair).collect())
+    }
+
+    /// As an expression in t.
+    fn text(&self) -> String {
+        let part = |(k, [a, b]): (usize, &[f64; 2])| {
+            let k = 2 * (k + 1);
+            format!(" + {}*cos({k}*pi*t) + {}*sin({k}*pi*t)", number(*a), number(*b))
+        };
+        let parts: String = self.1.iter().enumerate().map(part).collect();
+        number(self.0) + &parts
+    }
+
+    /// As a file has it, its mean with it or not, in lists of one number or not.
+    fn json(&self, with_mean: bool, of_states: bool) -> Value {
+        let value = |x: f64| if of_states { json!([format!("{x:e}")]) } else { json!(format!("{x:e}")) };
+        let harmonics: Vec<Value> = self.1.iter().map(|[a, b]| json!({ "cos": value(*a), "sin": value(*b) })).collect();
+        if with_mean {
+            json!({ "mean": value(self.0), "harmonics": harmonics })
+        } else {
+            json!({ "harmonics": harmonics })
+        }
+    }
+}
+
+fn number(value: f64) -> String {
+    format!("({value:.18})")
+}
+
+/// The largest size of a function of the period 1.
+pub fn largest(value: impl Fn(f64) -> f64) -> f64 {
+    let size = |t: f64| value(t).abs();
+    let (mut best, mut step) =
+        ((0..20_000).map(|j| f64::from(j) / 2e4).max_by(|a, b| size(*a).total_cmp(&size(*b))).unwrap(), 5e-5);
+    while step > 1e-10 {
+        best = [best - step, best, best + step].into_iter().max_by(|a, b| size(*a).total_cmp(&size(*b))).unwrap();
+        step /= 2.0;
+    }
+    size(best)
+}
+
+/// The harmonics of e, beyond n_o, and those of q up to n_o.
+const OF_ERROR: [[f64; 2]; 3] = [[0.1, 0.2], [0.3, 0.0], [0.0, -0.1]];
+const FREE: [[f64; 2]; 3] = [[0.2, -0.1], [0.05, 0.1], [0.0, 0.0]];
+
+/// `|i om_k + sigma|` and, with n_o oscillators, y_k and `sqrt(g_N'(k))`.
+pub fn oscillators(n_o: usize, k: usize) -> [f64; 3] {
+    let poles = (0..=n_o).flat_map(|l| if l == 0 { vec![0.0] } else { vec![l as f64, -(l as f64)] });
+    let (mut g, mut slope) = (0.0, 0.0);
+    for l in poles {
+        let (c, from) = (if l == 0.0 { WEIGHTS[0] } else { l.abs().powf(-1.5) / 2.0 }, l - k as f64);
+        (g, slope) = (g + c / from, slope + c / (from * from));
+    }
+    [(TAU * k as f64).hypot(SIGMA), NU * g, slope.sqrt()]
+}
+
+/// `(i om_k + sigma)(1 + i y_k)` times the harmonic `(a - i b)/2` of e, of q.
+fn answered(n_o: usize, k: usize, [a, b]: [f64; 2]) -> [f64; 2] {
+    let [_, y, _] = oscillators(n_o, k);
+    let om = TAU * k as f64;
+    let (re, im) = (SIGMA - om * y, om + SIGMA * y);
+    [re * a + im * b, re * b - im * a]
+}
+
+/// f and q without what they need of t besides, as texts and as functions of x and e.
+#[derive(Clone, Copy)]
+pub struct Formulas {
+    pub f: &'static str,
+    pub q: &'static str,
+    pub values: fn(f64, f64) -> [f64; 2],
+}
+
+pub const FORMULAS: Formulas = Formulas {
+    f: "-2*x - x^3/60 + e/2",
+    q: "x/2 - e^3/50 + x*e/10",
+    values: |x, e| [-2.0 * x - x.powi(3) / 60.0 + e / 2.0, x / 2.0 - e.powi(3) / 50.0 + x * e / 10.0],
+};
+
+/// A claim about one n_o with its witness.
+#[derive(Clone)]
+pub struct Case {
+    pub parts: Parts,
+    pub entry: Value,
+    pub trial: Value,
+    pub sigma: &'static str,
+    pub error_box: [String; 2],
+    pub periodic: [&'static str; 2],
+    pub x: Wave,
+    pub e: Wave,
+    pub q: Wave,
+    pub n_o: usize,
+}
+
+/// Of the set: X0, E0, Z0.
+pub const SET: [f64; 3] = [0.05, 0.04, 0.1];
+/// xb is xhat less this, and this is its radius.
+pub const OFF: [f64; 2] = [0.3, 0.01];
+
+impl Case {
+    /// With the defects 1e-12, the box 2 and 2, and numbers of the claim that are far too large.
+    pub fn new(n_o: usize, formulas: Formulas) -> Case {
+        let e = Wave(0.0, (1..=3).map(|k| if k <= n_o { [0.0; 2] } else { OF_ERROR[k - 1] }).collect());
+        let x = Wave(0.1, [[0.4, 0.2], [0.0, 0.05]].to_vec());
+        let of_q = (1..=3).map(|k| if k <= n_o { FREE[k - 1] } else { answered(n_o, k, e.1[k - 1]) });
+        let q = Wave(0.3, of_q.collect());
+        let along = |t: f64| (formulas.values)(x.at(t, 0), e.at(t, 0));
+        let of_f = Wave::of(|t| x.at(t, 1) - along(t)[0]);
+        let of_q = Wave::of(|t| q.at(t, 0) - along(t)[1]);
+        let f = format!("{} + {}", formulas.f, of_f.text());
+        let parts = Parts::scalar(&f, &format!("{} + {}", formulas.q, of_q.text()));
+        let (orbit, forcing) = (Wave(x.0 - OFF[0], x.1.clone()), Wave(0.0, Vec::new()));
+        let mut orbit = orbit.json(true, true);
+        for (name, value) in [("defect", "0"), ("tube", "0.1"), ("radius", "0.01")] {
+            orbit[name] = value.into();
+        }
+        let mut forcing = forcing.json(true, false);
+        forcing["rest"] = "0".into();
+        forcing["rest_t"] = "0".into();
+        let parts = parts
+            .with("/witness/coordinates", json!([["2"]]))
+            .with("/witness/orbit", orbit)
+            .with("/witness/forcing", forcing);
+        let trial = json!({
+            "x": x.json(true, true), "e": e.json(false, false), "q": q.json(true, false),
+            "defect_x": "1e-12", "defect_q": "1e-12",
+            "box": { "x": "2", "e": "2" },
+            "q_x": "1.5", "q_e": "0.9",
+            "forms": [{
+                "P": [["1"]], "p": ["0.05"], "w": "1", "k_p": "0.8", "c_x": "1.5", "c_e": "2", "c_y": "0.15",
+                "P_up": "1", "x_low": "0.9975", "e_low": "0.9975",
+            }],
+            "states": { "Q": [["1"]], "Q_low": "1", "Q_up": "1", "c": "1", "gamma": "0.05" },
+        });
+        let entry = json!({
+            "n_o": n_o,
+            "steady": { "e": "9", "e_rms": "9", "u": "99" },
+            "largest": { "e": "9", "u": "99" },
+        });
+        let (error_box, periodic) = (["1", "1"].map(str::to_owned), ["0.1", "0.1"]);
+        Case { parts, entry, trial, sigma: "4", error_box, periodic, x, e, q, n_o }
+    }
+
+    /// Of a plant without states, with this q; its trial has nothing of states.
+    pub fn without_states(n_o: usize, formulas: Formulas) -> Case {
+        let mut case = Case::new(n_o, formulas)
+            .part("/plant/states", json!([]))
+            .part("/plant/f", json!([]))
+            .part("/witness/coordinates", json!([]))
+            .part("/witness/orbit", json!({ "mean": [], "defect": "0", "tube": "0.1", "radius": "0" }))
+            .part("/witness/lyapunov/P", json!([]));
+        for (object, name) in [("", "x"), ("", "defect_x"), ("/box", "x"), ("", "q_x"), ("", "states")] {
+            case.trial.pointer_mut(object).unwrap().as_object_mut().unwrap().remove(name);
+        }
+        case.trial("/forms/0/P", json!([])).trial("/forms/0/p", json!([]))
+    }
+
+    /// Another value in the trial.
+    pub fn trial(&self, at: &str, value: impl Into<Value>) -> Case {
+        let mut case = self.clone();
+        *case.trial.pointer_mut(at).unwrap_or_else(|| panic!("{at} exists")) = value.into();
+        case
+    }
+
+    /// Another number in the entry of the claim.
+    pub fn entry(&self, at: &str, value: impl Into<Value>) -> Case {
+        let mut case = self.clone();
+        *case.entry.pointer_mut(at).unwrap_or_else(|| panic!("{at} exists")) = value.into();
+        case
+    }
+
+    /// Without `largest`.
+    pub fn steady_alone(&self) -> Case {
+        let mut case = self.clone();
+        case.entry.as_object_mut().unwrap().remove("largest");
+        case
+    }
+
+    /// Another value in the plant, or the parts of its witness.
+    pub fn part(&self, at: &str, value: impl Into<Value>) -> Case {
+        Case { parts: self.parts.clone().with(at, value.into()), ..self.clone() }
+    }
+
+    /// The lines of the argument.
+    pub fn judged(&self) -> Outcome<Vec<String>> {
+        let parsed = |value: Value| -> Json { parse(value.to_string().as_bytes()).unwrap() };
+        let (claim, witness) = (parsed(json!([self.entry])), parsed(json!({ "trials": [self.trial] })));
+        let (spec, cells) = read(&self.parts.0)?;
+        let claimed = Entry::read_all(&Field { json: &claim, pointer: "/claim/by_n_o".to_owned() })?;
+        let field = Field { json: &witness, pointer: "/witness/by_n_o".to_owned() };
+        let states = cells[0].states();
+        let witness = Witness::read(Some(&field), &claimed, states)?.unwrap();
+        let value = |text: &str| decimal(text).unwrap();
+        let [x0, e0, z0] = SET.map(|size| value(&size.to_string()));
+        let set = ClaimedSet { x0, e0, z0: Some(z0) };
+        let ([d_x, d_e], sigma): ([Rational; 2], _) =
+            (self.error_box.each_ref().map(|text| value(text)), value(self.sigma));
+        let about = About { sigma: &sigma, set: &set, error_box: [&d_x, &d_e], periodic: self.periodic.map(value) };
+        let mut lines = Vec::new();
+        plant::by_n_o::prove(&spec, &cells, &about, (&claimed, &witness), &mut lines).map(|()| lines)
+    }
+
+    #[track_caller]
+    pub fn accepted(&self) {
+        if let Err(finding) = self.judged() {
+            panic!("{finding:?}");
+        }
+    }
+
+    /// Refused with this verdict, at this place below the trial, or of the claim.
+    #[track_caller]
+    pub fn refused(&self, verdict: Verdict, place: &str) {
+        let place = match place.split_once(':') {
+            Some((_, whole)) => whole.to_owned(),
+            None => format!("/witness/by_n_o/trials/0{place}"),
+        };
+        match self.judged() {
+            Ok(_) => panic!("accepted: {}", self.trial),
+            Err(finding) => assert!(finding.verdict == verdict && finding.pointer == place, "{finding:?}"),
+        }
+    }
+}
