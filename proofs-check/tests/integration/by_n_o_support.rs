@@ -4,8 +4,9 @@ use crate::plant_support::{Parts, read};
 use proofs_check::effort;
 use proofs_check::json::{Field, parse};
 use proofs_check::plants::by_n_o;
-use proofs_check::rules::by_n_o::Witness;
 use proofs_check::rules::by_n_o::claimed::Entry;
+use proofs_check::rules::by_n_o::{About, Witness};
+use proofs_check::rules::set::ClaimedSet;
 use proofs_check::verdict::Outcome;
 use rug::Rational;
 use serde_json::{Value, json};
@@ -387,7 +388,12 @@ impl Loop {
             Witness::read(Some(&Field { json: &witness, pointer: place("witness") }), &claimed, states)?.unwrap();
         let sigma = Rational::from_f64(self.sigma).unwrap();
         let mut lines = Vec::new();
-        let prove = || by_n_o::prove(&spec, &plants, &sigma, (&claimed, &witness), &mut lines);
+        // The set and the error box say something of trials alone.
+        let zero = Rational::new();
+        let set = ClaimedSet { x0: zero.clone(), e0: zero.clone(), z0: None };
+        let periodic = [zero.clone(), zero.clone()];
+        let about = About { sigma: &sigma, set: &set, error_box: [&zero; 2], periodic };
+        let prove = || by_n_o::prove(&spec, &plants, &about, (&claimed, &witness), &mut lines);
         effort::limited(effort::LIMIT, prove).0.map(|()| lines)
     }
 }

@@ -67,5 +67,6 @@ mod specification;
 mod splitting;
 mod transfer;
 mod trials;
+mod trials_certificate;
 mod trials_support;
 mod words;

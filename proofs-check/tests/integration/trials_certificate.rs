@@ -1,0 +1,91 @@
+//! A certificate with trials (docs/mathematics.md, sections 14.4 and 14.5): one entry with what is said of the periodic solution alone, one with the
+//! peaks besides. Its plant has a state, a domain, and an input gain that is known.
+
+use super::plant_mutations::mutate;
+use crate::common::{accepted, assert_words_are_ignored, deleted, edited, every, parsed};
+use crate::rates::refused;
+use proofs_check::json::decimal;
+use proofs_check::verdict::Verdict::{BadInput, Invalid};
+use serde_json::{Value, json};
+
+const RULE: &str = "by n_o";
+const CLAIM: &str = "/claim/by_n_o";
+const TRIALS: &str = "/witness/by_n_o/trials";
+
+fn stored() -> Value {
+    parsed("by-n-o", "trials")
+}
+
+#[test]
+fn a_stored_one_is_accepted() {
+    let stored = stored();
+    let report = accepted(&stored);
+    let statement = &report.subject.as_ref().unwrap().statement;
+    let [e, u] = ["/1/largest/e", "/1/largest/u"].map(|at| stored.pointer(&format!("{CLAIM}{at}")).unwrap());
+    let peaks = format!("and |e| <= {} and |u/2| <= {} at all times", e.as_str().unwrap(), u.as_str().unwrap());
+    assert!(statement.contains(&peaks) && statement.matches("at all times").count() == 1, "{statement}");
+    for n_o in 0..2 {
+        let line = format!("by n_o: n_o = {n_o}: the periodic solution near the trial, by ");
+        assert!(report.lines.iter().any(|found| found.starts_with(&line)), "{:?}", report.lines);
+    }
+    assert_words_are_ignored(&stored, "With one oscillator the error is 0.");
+}
+
+/// The error of the periodic solution is known to five digits and more, what rests on forms to the two that were given.
+#[test]
+fn smaller_numbers_are_refused() {
+    for (at, factor) in [
+        ("/0/steady/e", 0.99999),
+        ("/0/steady/e_rms", 0.99999),
+        ("/0/steady/u", 0.99999),
+        ("/1/steady/e", 0.99999),
+        ("/1/steady/e_rms", 0.99999),
+        ("/1/steady/u", 0.99999),
+        ("/1/largest/e", 0.98),
+        ("/1/largest/u", 0.98),
+    ] {
+        let place = format!("{CLAIM}{at}");
+        let number = decimal(stored().pointer(&place).unwrap().as_str().unwrap()).unwrap().to_f64();
+        refused(edited(stored(), &[(&place, format!("{:e}", number * factor).into())]), Invalid, RULE, &place);
+    }
+}
+
+#[test]
+fn each_entry_has_its_own_trial() {
+    let trials = stored().pointer(TRIALS).unwrap().clone();
+    let place = |at: &str| format!("{TRIALS}/{at}");
+    refused(edited(stored(), &[(TRIALS, json!([trials[1], trials[0]]))]), Invalid, RULE, &place("1/e"));
+    // That of one oscillator answers another q without it: kappa counts in the control.
+    let of_u = format!("{CLAIM}/0/steady/u");
+    refused(edited(stored(), &[(TRIALS, json!([trials[1], trials[1]]))]), Invalid, RULE, &of_u);
+    for list in [json!([]), json!([trials[0]]), json!([trials[0], trials[1], trials[1]])] {
+        refused(edited(stored(), &[(TRIALS, list)]), BadInput, "format", TRIALS);
+    }
+    refused(deleted(&stored(), "/witness/by_n_o"), BadInput, "format", "/witness/by_n_o");
+    refused(deleted(&stored(), CLAIM), BadInput, "format", "/witness/by_n_o");
+    refused(deleted(&stored(), TRIALS), BadInput, "format", "/witness/by_n_o");
+    let linear = parsed("by-n-o", "family-gain").pointer("/witness/by_n_o/linear").unwrap().clone();
+    let mut both = stored();
+    both["witness"]["by_n_o"]["linear"] = linear;
+    refused(both, BadInput, "format", "/witness/by_n_o/linear/sizes");
+}
+
+/// The error box of the claim is that of its witness: the two periodic solutions have to be in it together.
+#[test]
+fn the_error_box_is_that_of_the_claim() {
+    let of = |name: &str| decimal(stored()["claim"]["periodic_solution"][name].as_str().unwrap()).unwrap().to_f64();
+    let [x, e] = ["x", "e"].map(of);
+    // Larger bounds of the periodic solution are true, too, and say less.
+    let with = |x: f64, e: f64| {
+        let places = [("/claim/periodic_solution/x", x), ("/claim/periodic_solution/e", e)];
+        places.iter().fold(stored(), |all, (at, size)| edited(all, &[(at, format!("{size:e}").into())]))
+    };
+    accepted(&with(x + 0.01, e + 0.01));
+    refused(with(1.0, e), Invalid, RULE, &format!("{TRIALS}/0"));
+    refused(with(x, 1.0), Invalid, RULE, &format!("{TRIALS}/0"));
+}
+
+#[test]
+fn leaves_of_it() {
+    mutate("by-n-o/trials", every(17));
+}
