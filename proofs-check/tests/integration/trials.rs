@@ -249,6 +249,22 @@ fn a_form_holds_on_all_of_the_box() {
     with(bump).steady_alone().trial("/box/x", "0.5").accepted();
 }
 
+/// The box of the states themselves has every e of the box, those of ehat besides: here the slope of q is wrong where e is near -2.39 alone, which
+/// takes many boxes to find, so that the states are asked before.
+#[test]
+fn a_form_holds_for_every_error_of_the_box() {
+    let with = |q: &'static str, values: fn(f64, f64) -> [f64; 2]| {
+        let formulas = Formulas { f: "-2*x - x^3/60 + e/2", q, values };
+        // The largest c_y, at x = 0 and where d = 0, is 0.55460746568.
+        Case::new(1, formulas).trial("/q_e", "30").trial("/q_x", "3").trial("/forms/0/c_y", "0.5546073657")
+    };
+    with("x/2 + 1/100", |x, e| [-2.0 * x - x.powi(3) / 60.0 + e / 2.0, x / 2.0 + 0.01]).accepted();
+    let bump = "x/2 + tanh(2000*(e + 2.39))/100";
+    let values =
+        |x: f64, e: f64| [-2.0 * x - x.powi(3) / 60.0 + e / 2.0, x / 2.0 + (2000.0 * (e + 2.39)).tanh() / 100.0];
+    with(bump, values).refused(Invalid, "/forms/0");
+}
+
 #[test]
 fn bounds_of_the_slopes_of_q_hold_on_the_box() {
     let Case { x, e, .. } = case();

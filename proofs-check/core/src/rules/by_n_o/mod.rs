@@ -2,8 +2,9 @@
 //! 14): how large the error and the control are along the T-periodic solution, and at all times from the claimed set. Of a plant that is given by
 //! its formulas, with a matched base frequency.
 //!
-//! Guarantee of [`prove`]: `largest` of each entry follows from what `steady` and the witness say of the periodic solution. That these are true of
-//! the formulas is proved by the crate `proofs-plants`, whose part has the same name.
+//! Guarantee of [`prove`]: of a plant that is linear in x and e, `largest` of each entry follows from what `steady` and the witness say of the periodic
+//! solution. That these are true of the formulas is proved by the crate `proofs-plants`, whose part has the same name; with trials all that an entry
+//! says is, by what follows from a trial in [`tube`].
 
 pub mod claimed;
 pub mod linear;
