@@ -148,7 +148,7 @@ fn case() -> Case {
     let trial = Trial { n_o: 1, states, error, forcing };
     let identity = vec![vec![Rational::from(1)]];
     let lines = trial.error.harmonics.len();
-    let own = Loop::new(&Rational::from(3), &plant.internal_model, lines, None, identity);
+    let own = Loop::new(&Rational::from(3), &plant.internal_model, lines, None, identity).with_oscillators(1);
     let metric = Metric {
         matrix: vec![vec![rational(1, 2)]],
         cross: vec![Rational::new()],

@@ -28,7 +28,7 @@ pub struct Loop {
     pub fundamental: Enclosure,
     /// n_0, n_1, ..., as far as there are lines.
     pub weights: Vec<Enclosure>,
-    /// The square of Nbar, the sum of all weights.
+    /// The square of Nbar, the sum of all weights; or of those of so many oscillators ([`Loop::with_oscillators`]).
     pub n_bar_squared: Enclosure,
     /// The interval `[b_lo, b_hi]`; `[1, 1]` without an input gain.
     pub gain: [Enclosure; 2],
@@ -56,6 +56,14 @@ impl Loop {
             gain: gain.unwrap_or([one.clone(), one]),
             inverse,
         }
+    }
+
+    /// The loop of so many oscillators alone, of whose weights Nbar is the sum.
+    #[must_use]
+    pub fn with_oscillators(self, count: usize) -> Loop {
+        let weights = self.weights.iter().take(count.saturating_add(1));
+        let n_bar_squared = weights.fold(Enclosure::zero(PRECISION), |sum, weight| sum + weight);
+        Loop { n_bar_squared, ..self }
     }
 
     /// `sum_{|l| <= N} c_l/(l - k)^power`, c_0 = n_0 and else n_|l|/2, for k > N: g_N(k) and its derivative.

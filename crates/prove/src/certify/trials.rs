@@ -200,7 +200,7 @@ impl Around<'_> {
         let trial = Trial { n_o: self.n_o, states, error, forcing };
         let l = &self.of_plant.coordinates;
         let lines = met.max(trial.error.harmonics.len());
-        let own = Loop::new(sigma, model, lines, None, inverse(l)?);
+        let own = Loop::new(sigma, model, lines, None, inverse(l)?).with_oscillators(met);
         let coordinates = Coordinates { l: l.clone(), p: self.of_plant.matrix.clone() };
         let q = trial.forcing.parts().map(|part| part.to_f64().abs()).sum::<f64>();
         let frequency = own.fundamental.upper_f64();

@@ -86,6 +86,7 @@ fn swing(d: &Data<'_>, n_o: u32) -> Interval {
 
 /// Proves an entry with its trial.
 pub fn prove(d: &Data<'_>, about: &About<'_>, (entry, trial): (&Entry<'_>, &Trial), curves: &Curves) -> Outcome<()> {
+    let d = &Data::of_oscillators(d.spec, d.precision, entry.n_o);
     let sigma = d.number(about.sigma);
     let tube = Tube::new(d, (&sigma, entry.n_o), trial);
     let has_states = trial.states.is_some();
@@ -110,7 +111,7 @@ pub fn prove(d: &Data<'_>, about: &About<'_>, (entry, trial): (&Entry<'_>, &Tria
     let [claimed_e, claimed_rms, claimed_u] = &entry.steady;
     at_most("sup|ehat| + s_e", e.clone(), claimed_e, "steady/e")?;
     at_most("rms(ehat) + rho_e", &curves.e_rms + &tube.e_rms, claimed_rms, "steady/e_rms")?;
-    at_most("sup|ehat' - qhat| + kappa + sigma s_e + mu Nbar s_z", put, claimed_u, "steady/u")?;
+    at_most("sup|ehat' - qhat| + kappa + sigma s_e + mu Nbar_N s_z", put, claimed_u, "steady/u")?;
 
     let Some([largest_e, largest_u]) = &entry.largest else {
         // (ii): the difference of both solutions stays in the error box of the claim.
@@ -146,5 +147,5 @@ pub fn prove(d: &Data<'_>, about: &About<'_>, (entry, trial): (&Entry<'_>, &Tria
     }
     let [put, _] = put_out(d, [u + best_u, d.int(0)]);
     at_most("E_N + sqrt(V_0/e_low)", e + best_e, largest_e, "largest/e")?;
-    at_most("that of u + sqrt(V_0 (sigma^2/e_low + 2 mu Nbar^2/k_p))", put, largest_u, "largest/u")
+    at_most("that of u + sqrt(V_0 (sigma^2/e_low + 2 mu Nbar_N^2/k_p))", put, largest_u, "largest/u")
 }
