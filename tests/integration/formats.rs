@@ -270,6 +270,7 @@ fn certificates() -> Vec<Value> {
         all.push(none);
     }
     all.push(sampled_certificate());
+    all.extend(["family-gain", "trials"].map(|name| read(format!("{ROOT}/proofs-check/tests/by-n-o/{name}.json"))));
     all
 }
 

@@ -22,8 +22,7 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
         table.push([name, upper(steady_error), largest_error, upper(steady_control), largest_control]);
     }
     let all = counts.last().is_some_and(|bounds| bounds.or_more);
-    let says = "At this gain, by the number of oscillators. Steady is along the periodic solution, largest is at all times from the initial set. \
-                Both are proved";
+    let says = "Proved at this gain by the number of oscillators: steady along the periodic solution, largest at all times from the initial set";
     let of = if all { ", for every plant and gain of the actuator of the claim" } else { "" };
     let who = if *checked { "; they are in the certificate." } else { "; no independent program checks them." };
     vec![Block::says(format!("{says}{of}{who}")), Block::Table(table)]

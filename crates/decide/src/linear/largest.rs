@@ -4,6 +4,7 @@ use super::PRECISION;
 use super::member::Line;
 use super::plant::LinearPlant;
 use super::steady::{Loop, Oscillators, Sizes};
+use super::supremum::Fineness;
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use std::collections::HashMap;
@@ -11,10 +12,6 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 /// By what share a bound may be above what is met: of e and u, and of what only the transient rests on.
 const ROOMS: [f64; 5] = [0.005, 0.005, 0.005, 0.05, 0.05];
-
-/// By what share the bound of a curve may be above what an instant has: of a family, and of a single member.
-const OF_INSTANTS: f64 = 1e-3;
-const OF_ONE_MEMBER: f64 = 1e-8;
 
 /// The ends of the parameters.
 type Ends = Vec<[Rational; 2]>;
@@ -64,11 +61,12 @@ pub fn sizes(answers: &Answers<'_>, own: &Loop, oscillators: Oscillators, effort
     let mut whole = answers.plant.whole().to_vec();
     whole.push([low, high]);
     // Of a single member nothing but the instants is uncertain.
-    let room = if whole.iter().all(|[low, high]| low == high) { OF_ONE_MEMBER } else { OF_INSTANTS };
+    let single = whole.iter().all(|[low, high]| low == high);
+    let fineness = if single { Fineness::FINE } else { Fineness::COARSE };
     let at = |ends: &[[Rational; 2]]| {
         let (gain, parameters) = ends.split_last()?;
         let gain = Enclosure::between(&gain[0], &gain[1], PRECISION);
-        own.sizes(&answers.lines(parameters)?, &gain, oscillators, room)
+        own.sizes(&answers.lines(parameters)?, &gain, oscillators, fineness)
     };
     let mut open = vec![whole.clone()];
     let mut known: Option<Sizes<Enclosure>> = None;

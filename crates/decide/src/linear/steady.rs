@@ -2,7 +2,7 @@
 
 use super::PRECISION;
 use super::member::Line;
-use super::supremum::supremum;
+use super::supremum::{Fineness, supremum};
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_lang::spec::InternalModel;
@@ -112,7 +112,7 @@ impl<T> Sizes<T> {
 
 impl Loop {
     /// Bounds of the periodic solution of every member whose lines are these, with a gain of the actuator in `gain`. `None` where the answer
-    /// to a line may have no bound. What is below them some instant has, of |e| and |u|, but for `room`, a share of them.
+    /// to a line may have no bound. What is below them some instant has, of |e| and |u|, as closely as `fineness` says.
     ///
     /// Line k meets an oscillator where k <= N: then `e_k = 0`, `u_k = -c_k/b`, and `|zeta_k|_N = sqrt(2/n_k) |c_k|/(b mu)`. Else
     /// `e_k = c_k/D`, `D = i om_k - W_k + b (sigma + i y_k (i om_k + sigma))`, `y_k = nu g_N(k)`, `u_k = ((i om_k - W_k) e_k - c_k)/b`, and
@@ -122,7 +122,7 @@ impl Loop {
         lines: &[Line],
         gain: &Enclosure,
         oscillators: Oscillators,
-        room: f64,
+        fineness: Fineness,
     ) -> Option<Sizes<Enclosure>> {
         let zero = || Enclosure::zero(PRECISION);
         let met = match oscillators {
@@ -161,7 +161,7 @@ impl Loop {
         // Both of k and -k; the mean is 0.
         sizes.mean_square = (errors.iter().fold(zero(), |sum, error| sum + error.norm_squared()) * 2).sqrt();
         let largest =
-            |waves: Vec<Complex>| supremum(&waves.into_iter().map(|wave| vec![wave]).collect::<Vec<_>>(), room);
+            |waves: Vec<Complex>| supremum(&waves.into_iter().map(|wave| vec![wave]).collect::<Vec<_>>(), fineness);
         sizes.error = largest(errors);
         sizes.control = largest(controls);
         let bounded = sizes.each().into_iter().all(Enclosure::is_bounded);

@@ -5,10 +5,25 @@ use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_theory::transfer::Complex;
 use std::sync::LazyLock;
 
-/// In how many parts the period is cut at first; of up to so many the cosines are known, and there are at most so many: powers of two.
+/// In how many parts the period is cut at first; of up to so many the cosines are known: powers of two.
 const FIRST_PARTS: usize = 8;
 const KNOWN_PARTS: usize = 256;
-const PARTS: usize = 1 << 17;
+
+/// How close a bound is to come: by what share it may be above what an instant has, and the most parts of the period, a power of two.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Fineness {
+    pub(crate) room: f64,
+    parts: usize,
+}
+
+impl Fineness {
+    /// Of many members of a family.
+    pub(crate) const COARSE: Fineness = Fineness { room: 1e-3, parts: KNOWN_PARTS };
+    /// Of the states of one.
+    pub(crate) const OF_STATES: Fineness = Fineness { room: 1e-3, parts: 1 << 14 };
+    /// Of what is claimed of one.
+    pub(crate) const FINE: Fineness = Fineness { room: 1e-8, parts: 1 << 17 };
+}
 
 /// `cos(m pi/KNOWN_PARTS)` for m = 0, ..., 2 KNOWN_PARTS - 1.
 static COSINES: LazyLock<Vec<Enclosure>> = LazyLock::new(|| {
@@ -29,11 +44,11 @@ fn turned(m: usize, parts: usize) -> [Enclosure; 2] {
 }
 
 /// The largest Euclidean norm of `sum_k w_k e^{i k s}`, over -K..K with `w_-k = conj(w_k)`: w_k is a vector, the same for all k in length, and w_0 is
-/// real. Its lower end is not above what some instant has, the upper one not below what any has; they are a share of `room` apart but for the
+/// real. Its lower end is not above what some instant has, the upper one not below what any has; they are a share apart that the fineness says but for the
 /// width of the coefficients, where the parts of the period suffice for that.
 ///
 /// About its middle a part of the period has the second Taylor polynomial as a bound.
-pub(crate) fn supremum(harmonics: &[Vec<Complex>], room: f64) -> Enclosure {
+pub(crate) fn supremum(harmonics: &[Vec<Complex>], fineness: Fineness) -> Enclosure {
     // Numbers in the middle of the coefficients, and how far the sum may be from that with these.
     let exact = |value: &Enclosure| Enclosure::exactly(value.midpoint_f64());
     let middle = |w: &Complex| Complex { re: exact(&w.re), im: exact(&w.im) };
@@ -59,9 +74,12 @@ pub(crate) fn supremum(harmonics: &[Vec<Complex>], room: f64) -> Enclosure {
             }
         }
         let half = Enclosure::pi(PRECISION) / parts as i64;
-        let [value, slope] = [values, slopes].map(|all| length(&mut all.iter().map(Enclosure::sqr)));
-        let bound = &value + slope * &half + half.sqr() / 2 * &bent;
-        (value, bound)
+        let square = |all: &[Enclosure]| all.iter().fold(zero(), |sum, part| sum + part.sqr());
+        let along = values.iter().zip(&slopes).fold(zero(), |sum, (value, slope)| sum + value * slope);
+        let own = square(&values);
+        // |v + s v'|^2 for |s| <= half.
+        let linear = (&own + along.abs() * &half * 2 + square(&slopes) * half.sqr()).sqrt();
+        (own.sqrt(), linear + half.sqr() / 2 * &bent)
     };
     let mut open: Vec<(usize, usize, Enclosure)> = Vec::new();
     let mut met = zero();
@@ -73,7 +91,7 @@ pub(crate) fn supremum(harmonics: &[Vec<Complex>], room: f64) -> Enclosure {
     open.extend((0..FIRST_PARTS).map(|part| look(part, FIRST_PARTS, &mut met)));
     let mut above = zero();
     while let Some((part, parts, bound)) = open.pop() {
-        if bound.upper_f64() <= met.lower_f64() * (1.0 + room) || parts == PARTS {
+        if bound.upper_f64() <= met.lower_f64() * (1.0 + fineness.room) || parts == fineness.parts {
             above = above.max(&bound);
         } else {
             let halves = [2 * part, 2 * part + 1].map(|half| look(half, 2 * parts, &mut met));
@@ -104,15 +122,15 @@ mod tests {
             (vec![vec![number(1.0, 0.0), zero()], vec![zero(), number(0.5, 0.0)]], 2.0_f64.sqrt()),
         ];
         for (harmonics, expected) in cases {
-            for room in [1e-2, 1e-8] {
-                let found = supremum(&harmonics, room);
+            for fineness in [Fineness::COARSE, Fineness::FINE] {
+                let (found, room) = (supremum(&harmonics, fineness), fineness.room);
                 assert!(found.lower_f64() <= expected && expected <= found.upper_f64(), "{expected}: {found:?}");
                 assert!(found.upper_f64() <= expected * (1.0 + 1.1 * room), "{expected}, {room}: {found:?}");
             }
         }
         // Nothing is nothing, and what is not known exactly is not below what it may be.
-        assert_eq!(supremum(&[vec![zero()], vec![zero()]], 1e-3).upper_f64(), 0.0);
+        assert_eq!(supremum(&[vec![zero()], vec![zero()]], Fineness::COARSE).upper_f64(), 0.0);
         let wide = Complex { re: Enclosure::exactly(1.0).hull(&Enclosure::exactly(2.0)), im: Enclosure::exactly(0.0) };
-        assert!(supremum(&[vec![zero()], vec![wide]], 1e-3).upper_f64() >= 4.0);
+        assert!(supremum(&[vec![zero()], vec![wide]], Fineness::COARSE).upper_f64() >= 4.0);
     }
 }

@@ -2,15 +2,11 @@
 
 use super::defects::Trial;
 use crate::bounds::StatesForm;
-use crate::linear::{Loop, PRECISION, supremum};
+use crate::linear::{Fineness, Loop, PRECISION, supremum};
 use rug::Rational;
 use sigmastar_exact::enclosure::{Enclosure, Truth};
 use sigmastar_lang::spec::{Level, Metric, TrigonometricVector};
 use sigmastar_theory::transfer::Complex;
-
-/// By what share bounds of curves may be above what an instant has: of e and u, and of the states.
-const OF_ERROR: f64 = 1e-9;
-const OF_STATES: f64 = 1e-3;
 
 /// What is proved around a trial, each number a bound.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -125,7 +121,7 @@ impl Concluded {
             })
             .collect();
         let n_bar = own.n_bar_squared.sqrt();
-        let control = supremum(&alone(&moved), OF_ERROR) + &mismatch + &own.sigma * &s_e + &own.mu * n_bar * &s_z;
+        let control = supremum(&alone(&moved), Fineness::FINE) + &mismatch + &own.sigma * &s_e + &own.mu * n_bar * &s_z;
         let zero = || Enclosure::zero(PRECISION);
         let square = of_error.iter().fold(zero(), |sum, wave| sum + wave.norm_squared()) * 2;
         let [states, error, zeta] = Concluded::sizes_of(trial, known)?;
@@ -150,8 +146,8 @@ impl Concluded {
         let (of_error, of_forcing) = (trial.of_error(), trial.of_forcing());
         let alone: Vec<Vec<Complex>> = of_error.iter().map(|wave| vec![wave.clone()]).collect();
         Some([
-            supremum(&difference(&trial.states, orbit, own), OF_STATES) + exact(radius),
-            supremum(&alone, OF_ERROR),
+            supremum(&difference(&trial.states, orbit, own), Fineness::OF_STATES) + exact(radius),
+            supremum(&alone, Fineness::FINE),
             of_zeta(trial, own, &of_error, &of_forcing)?,
         ])
     }

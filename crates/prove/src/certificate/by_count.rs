@@ -1,7 +1,6 @@
 //! What a certificate says of each number of oscillators, and what proves it (derivation, 14).
 
-use super::json::{exact, object, rows, series, vector};
-use super::write::with_room;
+use super::json::{exact, object, rows, series, vector, with_room};
 use crate::certify::{ByCount, CountBounds, CountProof};
 use rug::Rational;
 use serde_json::{Value, json};
@@ -11,16 +10,26 @@ use sigmastar_decide::trial::{Trial, TubeProof};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::write_exact;
 use sigmastar_lang::spec::{Level, Metric, Specification, TrigonometricVector, Wave};
+use std::sync::LazyLock;
 
 /// The name of both parts.
 pub(super) const BY_N_O: &str = "by_n_o";
 
+/// By what share the numbers of a claim are above what is found: the size of a curve is bounded in another way by the checker.
+static OF_LINEAR: LazyLock<Rational> = LazyLock::new(|| Rational::from((1, 10_000)));
+static OF_TRIALS: LazyLock<Rational> = LazyLock::new(|| Rational::from((1, 5_000_000)));
+
 /// The part of the claim; none where nothing is claimed.
 pub(super) fn claimed_counts(found: Option<&ByCount>) -> Option<(&'static str, Value)> {
+    let found = found.filter(|found| found.checked)?;
+    let room = match &found.proof {
+        CountProof::Linear { .. } => &*OF_LINEAR,
+        CountProof::Trials(_) => &*OF_TRIALS,
+    };
     let one = |bounds: &CountBounds| {
         let CountBounds { n_o, or_more, steady_error, mean_square, steady_control, largest } = bounds;
         let numbers = |numbers: &[(&'static str, &Enclosure)]| {
-            object(numbers.iter().map(|(name, value)| (*name, with_room(value))))
+            object(numbers.iter().map(|(name, value)| (*name, with_room(value, room))))
         };
         let mut part = json!({ "n_o": n_o });
         if *or_more {
@@ -32,7 +41,7 @@ pub(super) fn claimed_counts(found: Option<&ByCount>) -> Option<(&'static str, V
         }
         part
     };
-    found.filter(|found| found.checked).map(|found| (BY_N_O, found.counts.iter().map(one).collect()))
+    Some((BY_N_O, found.counts.iter().map(one).collect()))
 }
 
 /// The sentences of the claim about them, each with a space before it, from that part of it.
@@ -80,8 +89,8 @@ fn linear(forms: &[Falling], sizes: &[[Enclosure; 2]]) -> Value {
     };
     let has_states = forms.iter().any(|form| !form.matrix.is_empty());
     let size = |[states, zeta]: &[_; 2]| {
-        let states = has_states.then(|| ("x", with_room(states)));
-        object(states.into_iter().chain([("zeta", with_room(zeta))]))
+        let states = has_states.then(|| ("x", with_room(states, &OF_LINEAR)));
+        object(states.into_iter().chain([("zeta", with_room(zeta, &OF_LINEAR))]))
     };
     object([("forms", forms.iter().map(form).collect()), ("sizes", sizes.iter().map(size).collect())])
 }

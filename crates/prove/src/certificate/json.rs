@@ -1,9 +1,11 @@
 //! JSON with exact numbers.
 
-use rug::Rational;
+use rug::{Integer, Rational};
 use serde_json::Value;
-use sigmastar_exact::number::write_exact;
+use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_exact::number::{Direction, round_rational, write_exact};
 use sigmastar_lang::expr::Fourier;
+use std::sync::LazyLock;
 
 /// An object from pairs, in their order.
 #[must_use]
@@ -47,3 +49,25 @@ pub(super) fn vector(values: &[Rational]) -> Value {
 pub fn rows(matrix: &[Vec<Rational>]) -> Value {
     matrix.iter().map(|row| vector(row)).collect()
 }
+
+/// Significant digits of the upper ends in a claim.
+const CLAIM_DIGITS: u32 = 12;
+
+/// An upper end, rounded up; the text "inf" when there is none.
+pub(super) fn upper_end(value: &Enclosure) -> Value {
+    match value.upper_rational() {
+        // A bound of what is smaller still, which no reader of exact numerals need take: `f_e` of exp(-1e12) gives one.
+        Some(upper) if upper > 0 && upper < *LEAST_WRITTEN => exact(&LEAST_WRITTEN),
+        Some(upper) => exact(&round_rational(&upper, CLAIM_DIGITS, Direction::Up)),
+        None => text("inf"),
+    }
+}
+
+/// An upper end that is enlarged by a share of itself, so that whoever finds it in another way comes to it; exactly 0 stays 0.
+pub(super) fn with_room(value: &Enclosure, share: &Rational) -> Value {
+    upper_end(&(value * (Enclosure::from_rational(share, value.precision()) + Enclosure::one(value.precision()))))
+}
+
+/// The least positive upper bound that a claim writes.
+static LEAST_WRITTEN: LazyLock<Rational> =
+    LazyLock::new(|| Rational::from((Integer::from(1), Integer::from(Integer::u_pow_u(10, 1000)))));

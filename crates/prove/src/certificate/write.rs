@@ -2,17 +2,16 @@
 
 use super::by_count::{claimed_counts, count_witness, counts_in_words};
 use super::fields::{NumberFields, paths_json, set_fields};
-use super::json::{exact, object, rows, text};
+use super::json::{exact, object, rows, text, upper_end};
 use super::of_plant::plant_parts;
 use super::rates::{claimed_rates, rate_witnesses};
 use super::triple::lyapunov_parts;
 use super::words::statement;
 use crate::certify::{Certification, Constants, Outcome, claimed_ball};
-use rug::{Integer, Rational};
 use serde_json::{Map, Value};
 use sigmastar_decide::conditions::{Decided, ExceededBy, NoPlant, Proof, Witness};
 use sigmastar_exact::enclosure::Enclosure;
-use sigmastar_exact::number::{Direction, round_rational, write_exact};
+use sigmastar_exact::number::write_exact;
 use sigmastar_lang::spec::{Actuator, Constant, Interval, Specification};
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::condition::Condition;
@@ -21,15 +20,11 @@ use sigmastar_theory::derivation::initial_set::ClaimedSet;
 use sigmastar_theory::derivation::repaired::RepairedWitness;
 use sigmastar_theory::derivation::table::{At, Entry, Row, Value as Cell};
 use sigmastar_theory::transfer::{TransferProof, closed_form_pair};
-use std::sync::LazyLock;
 
 /// The format of a certificate file.
 pub const FORMAT: &str = "sigmastar/certificate";
 /// The version that is written and read.
 pub const VERSION: u64 = 1;
-
-/// Significant digits of the upper ends in a claim.
-const CLAIM_DIGITS: u32 = 12;
 
 fn interval(value: &Enclosure) -> Value {
     Value::Array(value.decimals().into_iter().map(Value::String).collect())
@@ -39,28 +34,6 @@ fn interval(value: &Enclosure) -> Value {
 fn constant(value: &Constant) -> String {
     value.as_rational().map_or_else(|| value.text.clone(), write_exact)
 }
-
-/// An upper end, rounded up; the text "inf" when there is none.
-pub(super) fn upper_end(value: &Enclosure) -> Value {
-    match value.upper_rational() {
-        // A bound of what is smaller still, which no reader of exact numerals need take: `f_e` of exp(-1e12) gives one.
-        Some(upper) if upper > 0 && upper < *LEAST_WRITTEN => exact(&LEAST_WRITTEN),
-        Some(upper) => exact(&round_rational(&upper, CLAIM_DIGITS, Direction::Up)),
-        None => text("inf"),
-    }
-}
-
-/// An upper end with a little room, so that whoever finds it in another way comes to it; exactly 0 stays 0.
-pub(super) fn with_room(value: &Enclosure) -> Value {
-    upper_end(&(value * Enclosure::from_rational(&ROOM, value.precision())))
-}
-
-/// By what factor such an end is enlarged.
-static ROOM: LazyLock<Rational> = LazyLock::new(|| Rational::from((1_000_001, 1_000_000)));
-
-/// The least positive upper bound that a claim writes.
-static LEAST_WRITTEN: LazyLock<Rational> =
-    LazyLock::new(|| Rational::from((Integer::from(1), Integer::from(Integer::u_pow_u(10, 1000)))));
 
 /// The certificate of a certified run; `None` when nothing was certified.
 ///

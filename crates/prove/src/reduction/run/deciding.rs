@@ -13,6 +13,7 @@ use crate::reduction::subject::{Sought, SoughtAtSamples};
 use crate::reduction::{FreeNumbers, RestsOn, Stage, Unwatched, Watch, reduce_sampled};
 use rug::Rational;
 use sigmastar_exact::parallel;
+use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{Sampling, SpecErrors, Specification};
 use sigmastar_propose::search::SharpProposal;
 
@@ -63,13 +64,21 @@ impl Prepared {
             Start::Continuous(start) => {
                 let pool = self.pool(start.as_deref(), options, watch);
                 let claims = |batch: Batch| self.claims(&pool, options, batch, watch);
-                let counted = |run: &mut Run<'_>| self.set_counts(run, options);
+                let counted = |run: &mut Run<'_>| {
+                    if let Some(plant) = self.plant.as_deref().filter(|_| options.compare) {
+                        run.set_counts(plant);
+                    }
+                };
                 let run = first_decided(claims, &counted, check);
                 run.map(|run| self.compared(run, &pool, start.as_deref(), options, watch))
             }
             Start::Sampled(sampling, start) => {
                 let claims = |batch: Batch| self.claims_at_samples(sampling, start.as_ref(), options, batch, watch);
-                let counted = |run: &mut Run<'_>| self.set_counts(run, options);
+                let counted = |run: &mut Run<'_>| {
+                    if let Some(plant) = self.plant.as_deref().filter(|_| options.compare) {
+                        run.set_counts(plant);
+                    }
+                };
                 let run = first_decided(claims, &counted, check);
                 run.map(|run| self.compared_at_samples(run, sampling, start.as_ref(), options, watch))
             }
@@ -78,13 +87,6 @@ impl Prepared {
             }
         };
         run.map_err(|refusal: Refusal| refusal.errors(&self.spec))
-    }
-
-    /// Bounds for each number of oscillators, which the certificate of the run then has.
-    fn set_counts(&self, run: &mut Run<'_>, options: Options) {
-        if let (Run::Continuous(run), Some(plant), true) = (run, self.plant.as_deref(), options.compare) {
-            run.set_counts(plant);
-        }
     }
 
     /// Whether it is the smallest gain that is sought: figures about it say nothing about another one.
@@ -312,10 +314,9 @@ fn first_decided<'s>(
                 continue;
             }
             counted(&mut run);
-            let known = run.by_count_mut().map(|found| found.checked = true).is_some();
             let mut answer_of = check(&run);
-            if known && answer_of != Checked::Decided {
-                let _ = run.by_count_mut().map(|found| found.checked = false);
+            if let Some(found) = run.by_count_mut().filter(|_| answer_of != Checked::Decided) {
+                found.checked = false;
                 answer_of = check(&run);
             }
             match answer_of {
@@ -347,6 +348,17 @@ fn best_first(runs: &mut [Run<'_>]) {
 }
 
 impl Run<'_> {
+    /// Finds bounds by the number of oscillators at the gain of the claim, where the plant has some: the certificate of the run then has them, for a checker
+    /// to decide.
+    pub fn set_counts(&mut self, plant: &Plant) {
+        if let Run::Continuous(run) = self {
+            run.set_counts(plant);
+            if let Some(found) = &mut run.by_count {
+                found.checked = true;
+            }
+        }
+    }
+
     fn by_count_mut(&mut self) -> Option<&mut ByCount> {
         match self {
             Run::Continuous(run) => run.by_count.as_mut(),
