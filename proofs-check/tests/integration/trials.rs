@@ -1,6 +1,6 @@
 //! Numbers by n_o by a trial (docs/mathematics.md, sections 14.4 and 14.5): what is accepted and refused of a loop whose periodic solution is known.
 
-use crate::trials_support::{Case, FORMULAS, Formulas, L, N_BAR, OFF, SET, SIGMA, WEIGHTS, largest, oscillators};
+use crate::trials_support::{Case, FORMULAS, Formulas, L, OFF, SET, SIGMA, WEIGHTS, largest, n_bar, oscillators};
 use proofs_check::verdict::Verdict;
 use serde_json::{Value, json};
 use std::f64::consts::TAU;
@@ -56,16 +56,17 @@ fn expected(case: &Case) -> Expected {
     let z_n = first + (case.n_o + 1..=3).map(beyond).sum::<f64>() + s_z;
     let e_n = largest(|t| case.e.at(t, 0)) + s_e;
     let rms = (case.e.1.iter().map(|pair| size(*pair).powi(2)).sum::<f64>() / 2.0).sqrt();
-    let u = largest(|t| case.e.at(t, 1) - case.q.at(t, 0)) + SIGMA * s_e + N_BAR * s_z;
+    let n_bar = n_bar(case.n_o);
+    let u = largest(|t| case.e.at(t, 1) - case.q.at(t, 0)) + SIGMA * s_e + n_bar * s_z;
     let x_n = OFF[0] / L + OFF[1] + s_x;
-    let [d_x, d_e, d_z] = [SET[0] + x_n, SET[1] + e_n, SET[2] + N_BAR * SET[1] + z_n];
+    let [d_x, d_e, d_z] = [SET[0] + x_n, SET[1] + e_n, SET[2] + n_bar * SET[1] + z_n];
     let v_0 = p_up * d_x * d_x + 2.0 * p * d_x * d_e + w * d_e * d_e + k_p / 2.0 * d_z * d_z;
     Expected {
         s_x,
         s_e,
         steady: [e_n, rms + rho_e, u],
         sizes: [x_n, e_n],
-        largest: [e_n + (v_0 / e_low).sqrt(), u + (v_0 * (SIGMA * SIGMA / e_low + 2.0 * N_BAR * N_BAR / k_p)).sqrt()],
+        largest: [e_n + (v_0 / e_low).sqrt(), u + (v_0 * (SIGMA * SIGMA / e_low + 2.0 * n_bar * n_bar / k_p)).sqrt()],
         v_0,
     }
 }

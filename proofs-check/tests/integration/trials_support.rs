@@ -15,9 +15,8 @@ use serde_json::{Value, json};
 use std::f64::consts::TAU;
 
 pub const SIGMA: f64 = 4.0;
-/// n_0 and n_1, and the root of the sum of all weights `n_0 = 2`, `n_l = l^-1.5`.
+/// n_0 and n_1; n_l is `l^-1.5`.
 pub const WEIGHTS: [f64; 2] = [2.0, 1.0];
-pub const N_BAR: f64 = 2.147644139210565;
 /// The period is 1, and mu too: nu.
 const NU: f64 = 1.0 / TAU;
 /// L.
@@ -26,6 +25,11 @@ pub const L: f64 = 2.0;
 const TIMES: usize = 64;
 /// Harmonics of what f and q need of t.
 const HARMONICS: usize = 12;
+
+/// The root of the sum of the weights of so many oscillators.
+pub fn n_bar(n_o: usize) -> f64 {
+    (WEIGHTS[0] + (1..=n_o).map(|l| (l as f64).powf(-1.5)).sum::<f64>()).sqrt()
+}
 
 /// By its mean and `[a_k, b_k]`.
 #[derive(Clone)]
