@@ -8,7 +8,6 @@
 pub mod bounds;
 pub mod lyapunov;
 pub mod orbit;
-pub mod peak_program;
 pub mod rates;
 pub mod search;
 pub mod semidefinite;

@@ -3,6 +3,7 @@
 //! - [`FloatSuprema`]: the bounds of the table on samples of a tube;
 //! - [`FloatWeights`], [`EnergyWeights`], [`SampledEnergy`]: the free numbers of (M), (E) and their forms at samples;
 //! - [`FloatMetric`], [`FloatLevel`]: joint metrics by semidefinite programs;
+//! - [`PeakProgram`], [`FallingForm`]: quadratic forms that fall, for small peaks;
 //! - [`FloatSlopes`]: the matrix ball of all derivatives together;
 //! - [`Directions`]: the directions along which the derivatives change.
 //!
@@ -16,6 +17,7 @@ mod float_waves;
 mod joint_program;
 mod narrow;
 mod peak_points;
+mod peak_program;
 mod place;
 mod points;
 mod pointwise;
@@ -31,6 +33,7 @@ mod weights;
 pub use directions::Directions;
 pub use float_waves::FloatCurve;
 pub use joint_program::{FloatLevel, FloatMetric, LevelAsked, LookedAt};
+pub use peak_program::{FallingForm, PeakOf, PeakProgram};
 pub use place::{Place, Places};
 pub use pointwise::{Asked, Derivatives, MatrixAt, Slopes as PointSlopes};
 pub use sampled_pairs::{Corners, MatrixArguments};

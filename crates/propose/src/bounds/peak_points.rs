@@ -1,10 +1,10 @@
 //! The points for a form with a small peak (derivation, 14.4, 14.5): where the derivatives are extreme, and where what was found does not hold.
 
 use super::joint_program::LookedAt;
+use super::peak_program::{FallingForm, PeakOf, PeakProgram};
 use super::place::{Place, Places};
 use super::pointwise::{Derivatives, Slopes};
 use super::suprema::FloatSuprema;
-use crate::peak_program::{FallingForm, PeakOf, PeakProgram};
 use sigmastar_lang::spec::Bound;
 
 /// Points that are added where what was found does not hold, and how often.

@@ -13,8 +13,7 @@ use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::Specification;
 use sigmastar_matrix::doubles::largest;
 use sigmastar_matrix::inverse;
-use sigmastar_propose::bounds::PointSlopes;
-use sigmastar_propose::peak_program::{FallingForm, PeakOf, PeakProgram};
+use sigmastar_propose::bounds::{FallingForm, PeakOf, PeakProgram, PointSlopes};
 use sigmastar_theory::derivation::control::Control;
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
 

@@ -1,7 +1,7 @@
 //! Quadratic forms that fall along the differences of solutions, for small peaks (derivation, 14.4, 14.5): semidefinite programs over a few
 //! points at which the derivatives are known.
 
-use crate::bounds::PointSlopes;
+use super::pointwise::Slopes;
 use crate::semidefinite::propose;
 use sigmastar_matrix::AffineMatrix;
 use sigmastar_matrix::doubles::largest;
@@ -20,7 +20,7 @@ pub enum PeakOf {
 #[derive(Clone, Debug)]
 pub struct PeakProgram {
     /// J, g, r, d at some points, in the coordinates of the norms of x.
-    pub points: Vec<PointSlopes>,
+    pub points: Vec<Slopes>,
     /// b at both ends of the input gain.
     pub gain: [f64; 2],
     /// sigma.
@@ -198,18 +198,10 @@ impl PeakProgram {
     }
 
     /// The coefficient of a variable in an entry of the matrix (14.4a) over sigma, in (xi, eps, up).
-    fn entry(
-        &self,
-        v: Variables,
-        (point, b): (&PointSlopes, f64),
-        ratio: f64,
-        variable: usize,
-        i: usize,
-        k: usize,
-    ) -> f64 {
+    fn entry(&self, v: Variables, (point, b): (&Slopes, f64), ratio: f64, variable: usize, i: usize, k: usize) -> f64 {
         let (i, k) = (i.min(k), i.max(k));
         let (n, sigma) = (v.n, self.sigma);
-        let PointSlopes { j, g, r, d } = point;
+        let Slopes { j, g, r, d } = point;
         // A row of P or p, by which a column is multiplied.
         let times = |row: usize, column: &dyn Fn(usize) -> f64| -> f64 {
             (0..n).map(|l| v.in_metric(variable, row, l) * column(l)).sum()
@@ -240,12 +232,12 @@ impl PeakProgram {
 
     /// By how much the matrix (14.4a) of a form, less its margins, is not positive semidefinite at a point, in the lengths of the start.
     #[must_use]
-    pub fn lack(&self, form: &FallingForm, point: &PointSlopes) -> f64 {
+    pub fn lack(&self, form: &FallingForm, point: &Slopes) -> f64 {
         let n = point.r.len();
         let d_e = positive(self.start[1], 1.0);
         let d_x = positive(self.start[0], d_e);
         let FallingForm { matrix: p, cross, weight, k_p, margins, .. } = form;
-        let PointSlopes { j, g, r, d } = point;
+        let Slopes { j, g, r, d } = point;
         let sigma = self.sigma;
         let of_state = |row: &[f64], column: usize| (0..n).map(|l| row[l] * j[l * n + column]).sum::<f64>();
         let of_error = |row: &[f64]| row.iter().zip(g).map(|(p, g)| p * g).sum::<f64>();
