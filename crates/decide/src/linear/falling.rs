@@ -35,6 +35,17 @@ pub struct Start {
     pub z0: Option<Enclosure>,
 }
 
+impl Start {
+    /// d_X, d_E and d_Z: how far the starts are at most from a periodic solution of these sizes X_N, E_N and Z_N, as `zeta = z - M e` (derivation,
+    /// 14.5).
+    #[must_use]
+    pub fn distances(&self, own: &Loop, [states, error, zeta]: [&Enclosure; 3]) -> [Enclosure; 3] {
+        let Start { x0, e0, z0 } = self;
+        let of_start = z0.as_ref().map(|z0| z0 + own.n_bar_squared.sqrt() * e0);
+        [x0 + states, e0 + error, of_start.map_or_else(|| zeta.clone(), |of_start| of_start + zeta)]
+    }
+}
+
 /// Bounds for every solution from the set, at all times.
 #[derive(Clone, Debug)]
 pub struct Peak {
@@ -116,9 +127,7 @@ impl Falling {
     pub fn peak(&self, own: &Loop, start: &Start, sizes: &Sizes<Enclosure>) -> Peak {
         let exact = |value: &Rational| Enclosure::from_rational(value, PRECISION);
         let (weight, k_p) = (exact(&self.weight), exact(&self.k_p));
-        let [x, e] = [&start.x0 + &sizes.states, &start.e0 + &sizes.error];
-        let of_start = start.z0.as_ref().map(|z0| z0 + own.n_bar_squared.sqrt() * &start.e0);
-        let z = of_start.map_or_else(|| sizes.zeta.clone(), |of_start| of_start + &sizes.zeta);
+        let [x, e, z] = start.distances(own, [&sizes.states, &sizes.error, &sizes.zeta]);
         let plain = exact(&self.p_up) * x.sqr() + &weight * e.sqr();
         let level = |b: &Enclosure| &plain + b * &own.mu * &k_p / 2 * z.sqr();
         let of_control =

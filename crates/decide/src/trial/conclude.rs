@@ -72,7 +72,9 @@ impl Concluded {
     pub fn of(trial: &Trial, proof: &TubeProof, known: &Known<'_>) -> Option<Concluded> {
         let Known { own, period, .. } = known;
         let (Metric { cross, k_p, c_x, c_e, c_y, .. }, Level { p_up, .. }) = proof.forms.first()?;
-        if !trial.is_admissible() {
+        // Without (14.4b) nothing is known of states.
+        let has_states = !trial.states.mean.is_empty();
+        if !trial.is_admissible() || has_states != proof.states.is_some() {
             return None;
         }
         let [d_x, d_q] = proof.defects.each_ref().map(exact);

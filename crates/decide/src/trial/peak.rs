@@ -27,10 +27,8 @@ impl Peaks {
     pub fn of(proof: &TubeProof, concluded: &Concluded, own: &Loop, start: &Start) -> Option<Peaks> {
         let exact = |value: &Rational| Enclosure::from_rational(value, PRECISION);
         let has_states = proof.states.is_some();
-        let [x, e] = [&start.x0 + &concluded.states, &start.e0 + &concluded.error];
+        let [x, e, z] = start.distances(own, [&concluded.states, &concluded.error, &concluded.zeta]);
         let n_bar_squared = &own.n_bar_squared;
-        let of_start = start.z0.as_ref().map(|z0| z0 + n_bar_squared.sqrt() * &start.e0);
-        let z = of_start.map_or_else(|| concluded.zeta.clone(), |of_start| of_start + &concluded.zeta);
         let level = |(Metric { cross, weight, k_p, .. }, Level { p_up, .. }): &(Metric, Level)| {
             let of_states = match has_states {
                 true => exact(p_up) * x.sqr() + length(cross) * &x * &e * 2,

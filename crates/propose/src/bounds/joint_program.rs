@@ -2,7 +2,7 @@
 
 use super::place::{Place, Places};
 use super::pointwise::{Derivatives, Slopes};
-use super::suprema::FloatSuprema;
+use super::suprema::{FloatSuprema, Starts};
 use super::weights::Root;
 use crate::semidefinite::propose;
 use sigmastar_lang::spec::Bound;
@@ -157,7 +157,7 @@ impl FloatSuprema {
         for _ in 0..if looked == LookedAt::Between { ROUNDS } else { 0 } {
             let (variables, margins) = &found;
             let lack = |derivatives: &Derivatives<'_>| program.lack(&program.point(derivatives), variables, margins);
-            let mut worst = self.refined_points(at, lack, |derivatives| program.point(derivatives));
+            let mut worst = self.refined_points((at, Starts::Best), lack, |derivatives| program.point(derivatives));
             worst.retain(|(below, _)| *below > 0.0);
             if worst.is_empty() {
                 break;

@@ -4,7 +4,7 @@ use super::joint_program::LookedAt;
 use super::peak_program::{FallingForm, PeakOf, PeakProgram};
 use super::place::{Place, Places};
 use super::pointwise::{Derivatives, Slopes};
-use super::suprema::FloatSuprema;
+use super::suprema::{FloatSuprema, Starts};
 use sigmastar_lang::spec::Bound;
 
 /// Points that are added where what was found does not hold, and how often.
@@ -55,7 +55,8 @@ impl FloatSuprema {
         for _ in 0..if looked == LookedAt::Between { ROUNDS } else { 0 } {
             let least = TOLERANCE * program.least_margin(&found);
             let lack = |derivatives: &Derivatives<'_>| program.lack(&found, &Slopes::from(derivatives));
-            let mut worst = self.refined_at_all_times(at, lack, |derivatives| Slopes::from(derivatives));
+            let mut worst =
+                self.refined_points((at, Starts::AtEachTime), lack, |derivatives| Slopes::from(derivatives));
             worst.retain(|(lack, _)| *lack > least);
             if worst.is_empty() {
                 break;

@@ -32,6 +32,15 @@ const STARTS: usize = 6;
 /// The shares of E that are looked at.
 const ERRORS: [f64; 3] = [-1.0, 0.0, 1.0];
 
+/// Where local searches start.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Starts {
+    /// At the best places of the grid.
+    Best,
+    /// At the best place at each time: where a form was fitted to many points, the best of all are of a few times alone.
+    AtEachTime,
+}
+
 /// A sampled supremum.
 #[derive(Clone, Copy, Debug)]
 pub struct Sampled {
@@ -300,27 +309,33 @@ impl FloatSuprema {
         found.largest()
     }
 
-    /// The points where that search ends, with the values there, and what a function makes of the first derivatives there.
+    /// The points where searches from these starts end, with the values there, and what a function makes of the first derivatives there.
     pub(super) fn refined_points<T>(
         &self,
-        at: [f64; 2],
+        (at, starts): ([f64; 2], Starts),
         value: impl Fn(&Derivatives<'_>) -> f64 + Sync,
         of: impl Fn(&Derivatives<'_>) -> T,
     ) -> Vec<(f64, T)> {
         let value = |pointwise: &mut Pointwise, at: Outputs<'_>| value(&pointwise.derivatives(at.outputs));
-        let found = self.climbed(at, (FINE, STARTS), Asked::FIRST, value);
-        self.seen(at, found.ends, of)
+        let ends = match starts {
+            Starts::Best => self.climbed(at, (FINE, STARTS), Asked::FIRST, value).ends,
+            Starts::AtEachTime => {
+                let starts = self.best_at_each_time(at, value);
+                self.climbed_from(at, (COARSE, &starts), Asked::FIRST, value)
+            }
+        };
+        let mut single = Single::new(self, at, Asked::FIRST);
+        let seen =
+            |(point, value)| (value, single.value(&point, |pointwise, at| of(&pointwise.derivatives(at.outputs))));
+        ends.into_iter().map(seen).collect()
     }
 
-    /// As [`FloatSuprema::refined_points`], with a search from the best place at every time: where a form was fitted to many points the best of all
-    /// are of a few times alone.
-    pub(super) fn refined_at_all_times<T>(
+    /// The best place of the grid at each of its times, with its value.
+    fn best_at_each_time(
         &self,
         at: [f64; 2],
-        value: impl Fn(&Derivatives<'_>) -> f64 + Sync,
-        of: impl Fn(&Derivatives<'_>) -> T,
-    ) -> Vec<(f64, T)> {
-        let value = |pointwise: &mut Pointwise, at: Outputs<'_>| value(&pointwise.derivatives(at.outputs));
+        value: impl Fn(&mut Pointwise, Outputs<'_>) -> f64 + Sync,
+    ) -> Vec<(f64, Place)> {
         let pieces =
             self.in_pieces(at, &Places::Stride(1), Asked::FIRST, BTreeMap::new, |best, pointwise, place, at| {
                 let found = value(pointwise, at);
@@ -336,16 +351,7 @@ impl FloatSuprema {
                 *known = found;
             }
         }
-        let starts: Vec<(f64, Place)> = best.into_values().collect();
-        let ends = self.climbed_from(at, (COARSE, &starts), Asked::FIRST, value);
-        self.seen(at, ends, of)
-    }
-
-    fn seen<T>(&self, at: [f64; 2], ends: Vec<(Point, f64)>, of: impl Fn(&Derivatives<'_>) -> T) -> Vec<(f64, T)> {
-        let mut single = Single::new(self, at, Asked::FIRST);
-        let seen =
-            |(point, value)| (value, single.value(&point, |pointwise, at| of(&pointwise.derivatives(at.outputs))));
-        ends.into_iter().map(seen).collect()
+        best.into_values().collect()
     }
 
     pub(super) fn pointwise(&self) -> Pointwise {

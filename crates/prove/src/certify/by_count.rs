@@ -95,21 +95,13 @@ fn form(
             states.iter().filter_map(|row| row.split_last()).map(|(g, j)| (j, *g)).unzip::<_, _, Vec<_>, Vec<_>>();
         Some(PointSlopes { j: j.concat(), g, r: r.to_vec(), d: *d })
     };
-    let of_zeta = start
-        .z0
-        .as_ref()
-        .map_or(0.0, |z0| z0.upper_f64() + own.n_bar_squared.sqrt().upper_f64() * start.e0.upper_f64());
     let program = PeakProgram {
         points: plant.parameters.looked_at().into_iter().map(member).collect::<Option<_>>()?,
         gain: own.gain.each_ref().map(Enclosure::midpoint_f64),
         sigma: own.sigma.midpoint_f64(),
         mu: own.mu.midpoint_f64(),
         n_bar_squared: own.n_bar_squared.midpoint_f64(),
-        start: [
-            start.x0.upper_f64() + sizes.states.upper_f64(),
-            start.e0.upper_f64() + sizes.error.upper_f64(),
-            of_zeta + sizes.zeta.upper_f64(),
-        ],
+        start: start.distances(own, [&sizes.states, &sizes.error, &sizes.zeta]).map(|size| size.upper_f64()),
         joint: false,
         reach: None,
     };
@@ -199,10 +191,12 @@ impl Certification<'_> {
     pub fn set_counts_of_rows(&mut self, plant: &Plant) {
         let Some(linear) = LinearPlant::of(plant).filter(|_| self.by_count.is_some()) else { return };
         let answers = Answers::new(&linear, plant.internal_model.base_frequency.enclose(PRECISION));
-        let sigma = self.sigma_star();
+        let claim = self.claim();
         let at = |row: &GainRow| {
             let RowProof::Continuous(proof, other) = &row.proof else { return None };
-            if sigma == Some(&row.sigma) {
+            // What is known is about the set of the claim; a row may have another one.
+            let own = claim.as_ref().filter(|claim| *claim.sigma == row.sigma && *claim.set == proof.witness.set);
+            if own.is_some() && other.is_none() {
                 return self.by_count.clone();
             }
             let spec = other.as_deref().unwrap_or(self.spec);

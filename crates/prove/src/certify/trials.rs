@@ -221,11 +221,8 @@ impl Around<'_> {
         let defects = [up(d_x.upper_f64(), SHORT)?, up(d_q.upper_f64(), SHORT)?];
         let mut prepared = Prepared { trial, own, period, start, engine, samples, defects, distances: [0.0; 3] };
         let sizes = Concluded::sizes_of(&prepared.trial, &self.known(&prepared))?;
-        let Prepared { own, start, .. } = &prepared;
-        let n_bar = own.n_bar_squared.sqrt().upper_f64();
-        let of_zeta = start.z0.as_ref().map_or(0.0, |z0| z0.upper_f64() + n_bar * start.e0.upper_f64());
-        let [x, e, zeta] = sizes.map(|size| size.upper_f64());
-        prepared.distances = [start.x0.upper_f64() + x, start.e0.upper_f64() + e, of_zeta + zeta];
+        let distances = prepared.start.distances(&prepared.own, sizes.each_ref());
+        prepared.distances = distances.map(|size| size.upper_f64());
         Some(prepared)
     }
 

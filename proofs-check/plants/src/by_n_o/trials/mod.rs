@@ -1,4 +1,4 @@
-//! Kind (b): trials of one plant at one gain (docs/mathematics.md, sections 14.4 and 14.5).
+//! Trials of one plant at one gain (docs/mathematics.md, sections 14.4 and 14.5).
 //!
 //! Guarantee of [`prove`]: for each entry Theorem T holds of its trial, the solution is that of the claim, and what the entry says is true. The
 //! formulas are proved on the box around the trial (`around`), the sizes of its curves are bounded (`largest`, `answer`), and what follows is in
