@@ -39,6 +39,8 @@ pub struct TrialLoop<'a> {
     pub mu: f64,
     /// n_0, n_1, ..., n_N: of N oscillators.
     pub weights: Vec<f64>,
+    /// Whether the trial is for every larger number, too: without an error, and qhat without harmonics above N.
+    pub or_more: bool,
 }
 
 /// xhat, ehat and qhat; ehat has neither a mean nor harmonics up to N.
@@ -82,7 +84,7 @@ impl TrialLoop<'_> {
         let mut start: Option<FloatSeries> = None;
         for harmonics in HARMONICS {
             let points = 2 * harmonics + 1;
-            if harmonics <= self.oscillators() {
+            if harmonics <= self.oscillators() && !self.or_more {
                 continue;
             }
             if (n + 1) * points > MAX_UNKNOWNS {
@@ -140,7 +142,8 @@ impl TrialLoop<'_> {
                     // 2 Re(e^{i a}/(re + i im)).
                     2.0 * (cos * re + sin * im) / (re * re + im * im)
                 };
-                (self.oscillators() + 1..=harmonics).map(of).sum::<f64>() / points as f64
+                let answered = if self.or_more { harmonics } else { self.oscillators() };
+                (answered + 1..=harmonics).map(of).sum::<f64>() / points as f64
             })
             .collect();
         let answer = |j: usize, l: usize| answers[(j + points - l) % points];
@@ -217,7 +220,8 @@ impl TrialLoop<'_> {
     /// In short rationals: of a solution in the units of the field.
     fn rounded(&self, field: &mut Field, series: &FloatSeries, size: f64) -> Option<ProposedTrial> {
         let n = field.states();
-        let points = 4 * series.harmonics.len() + 1;
+        let harmonics = series.harmonics.len().max(if self.or_more { self.oscillators() } else { 0 });
+        let points = 4 * harmonics + 1;
         let forcing: Vec<Vec<f64>> = (0..points)
             .map(|j| {
                 let s = j as f64 / points as f64;
@@ -226,7 +230,7 @@ impl TrialLoop<'_> {
                 vec![field.q()]
             })
             .collect();
-        let mut forcing = FloatSeries::from_samples(&forcing, series.harmonics.len());
+        let mut forcing = FloatSeries::from_samples(&forcing, harmonics);
         let units: Vec<f64> = field.units().to_vec();
         let mut error = component(series, n, 1.0, size);
         error.mean = Rational::new();

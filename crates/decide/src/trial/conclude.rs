@@ -21,6 +21,19 @@ pub struct TubeProof {
     pub forms: Vec<(Metric, Level)>,
     /// (14.4b); none without states.
     pub states: Option<StatesForm>,
+    /// For the trial of every larger number of oscillators, too.
+    pub or_more: Option<OrMore>,
+}
+
+/// What the corollary of 14.4 asks for besides, of the box around a trial: bounds, each at least 0.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct OrMore {
+    /// d_t.
+    pub defect_t: Rational,
+    /// b_qtx and b_qte.
+    pub in_time: [Rational; 2],
+    /// b_fx and b_fe.
+    pub states: [Rational; 2],
 }
 
 /// What is known besides.
@@ -34,6 +47,8 @@ pub struct Known<'a> {
     pub orbit: &'a TrigonometricVector,
     /// r.
     pub radius: &'a Rational,
+    /// kappa_0 and kappa_1, proved for every number of oscillators.
+    pub kappas: &'a [Enclosure; 2],
 }
 
 /// Bounds of the periodic solution.
@@ -74,7 +89,7 @@ impl Concluded {
         let (Metric { cross, k_p, c_x, c_e, c_y, .. }, Level { p_up, .. }) = proof.forms.first()?;
         // Without (14.4b) nothing is known of states.
         let has_states = !trial.states.mean.is_empty();
-        if !trial.is_admissible() || has_states != proof.states.is_some() {
+        if !trial.is_admissible() || has_states != proof.states.is_some() || trial.or_more != proof.or_more.is_some() {
             return None;
         }
         let [d_x, d_q] = proof.defects.each_ref().map(exact);
@@ -104,13 +119,18 @@ impl Concluded {
             return None;
         }
         let [b_x, b_e] = proof.slopes.each_ref().map(exact);
-        let of_q = b_x * of_x + b_e * &of_e + d_q;
-        let met = trial.met();
-        let one = |weight: &Enclosure, times: i64| Enclosure::from_integer(times, PRECISION) / weight;
-        let first = one(own.weights.first()?, i64::try_from(met).ok()?.checked_add(1)?);
-        let weights = own.weights.get(1..=met)?;
-        let kappa = weights.iter().fold(first, |largest, weight| largest.max(&one(weight, 2))) / own.mu.sqr();
-        let s_z = (*period / (&own.mu * 2) + kappa).sqrt() * of_q;
+        let of_q = &b_x * &of_x + &b_e * &of_e + d_q;
+        let swing = *period / (&own.mu * 2);
+        let s_z = match &proof.or_more {
+            None => (swing + largest_answer(trial, own)?).sqrt() * of_q,
+            Some(OrMore { defect_t, in_time, states }) => {
+                let [[b_qtx, b_qte], [b_fx, b_fe]] = [in_time, states].map(|pair| pair.each_ref().map(exact));
+                let slope = b_qtx * &of_x + b_qte * &of_e + b_x * (b_fx * &of_x + b_fe * &of_e + d_x);
+                let slope = slope + b_e * &of_y + exact(defect_t);
+                let [kappa_0, kappa_1] = known.kappas;
+                ((swing + kappa_0) * of_q.sqr() + kappa_1 * slope.sqr()).sqrt()
+            }
+        };
 
         let (of_error, of_forcing) = (trial.of_error(), trial.of_forcing());
         let mismatch = trial.mismatch(own);
@@ -153,6 +173,15 @@ impl Concluded {
             of_zeta(trial, own, &of_error, &of_forcing)?,
         ])
     }
+}
+
+/// kappa_N.
+fn largest_answer(trial: &Trial, own: &Loop) -> Option<Enclosure> {
+    let met = trial.met();
+    let one = |weight: &Enclosure, times: i64| Enclosure::from_integer(times, PRECISION) / weight;
+    let first = one(own.weights.first()?, i64::try_from(met).ok()?.checked_add(1)?);
+    let weights = own.weights.get(1..=met)?;
+    Some(weights.iter().fold(first, |largest, weight| largest.max(&one(weight, 2))) / own.mu.sqr())
 }
 
 /// zhat.

@@ -14,6 +14,8 @@ use sigmastar_theory::transfer::Complex;
 pub struct Trial {
     /// N.
     pub n_o: u64,
+    /// Whether it is the trial of every larger number, too.
+    pub or_more: bool,
     /// xhat, in the plant's own coordinates.
     pub states: TrigonometricVector,
     /// ehat, without a mean and harmonics up to N.
@@ -38,11 +40,15 @@ impl Trial {
         usize::try_from(self.n_o).unwrap_or(usize::MAX)
     }
 
-    /// Whether ehat has neither a mean nor harmonics that an oscillator meets.
+    /// Whether ehat has neither a mean nor harmonics that an oscillator meets; for every larger number no harmonics at all, and qhat only those that all
+    /// of them meet.
     #[must_use]
     pub fn is_admissible(&self) -> bool {
         let Wave { mean, harmonics } = &self.error;
-        *mean == 0 && harmonics.iter().take(self.met()).flatten().all(|part| *part == 0)
+        let met = if self.or_more { usize::MAX } else { self.met() };
+        let mut beyond = self.forcing.harmonics.iter().skip(self.met()).flatten();
+        let forcing_is_met = !self.or_more || beyond.all(|part| *part == 0);
+        *mean == 0 && harmonics.iter().take(met).flatten().all(|part| *part == 0) && forcing_is_met
     }
 
     /// K.
@@ -76,8 +82,8 @@ impl Trial {
         (self.met().saturating_add(1)..=self.degree()).fold(zero, |sum, k| sum + of(k))
     }
 
-    /// Upper bounds of `|f(t,xhat,ehat) - xhat'|` in the norm of `L^-1 x` and of `|q(t,xhat,ehat) - qhat|` over all t; kappa is not in the
-    /// second. Cells of time are halved while they are not at most `enough`.
+    /// Upper bounds of `|f(t,xhat,ehat) - xhat'|` in the norm of `L^-1 x`, of `|q(t,xhat,ehat) - qhat|` and of the derivative of that difference over all t;
+    /// kappa is not in the second. Cells of time are halved while they are not at most `enough`.
     ///
     /// # Errors
     /// The formulas are not seen to be smooth along the trial, or shapes do not fit.
@@ -85,8 +91,8 @@ impl Trial {
         &self,
         plant: &Plant,
         coordinates: &Coordinates,
-        enough: [f64; 2],
-    ) -> Result<[Enclosure; 2], OrbitNotProved> {
+        enough: [f64; 3],
+    ) -> Result<[Enclosure; 3], OrbitNotProved> {
         let moved = plant.with_error_moved(&self.error);
         let around = Around::new(&moved, &self.states.clone().into(), coordinates)?;
         let of_states = match plant.states() {
@@ -106,7 +112,7 @@ impl Trial {
         };
         let Wave { mean, harmonics } = self.forcing.clone();
         let forcing = ProvedForcing { mean, harmonics, sensitivities: Vec::new(), rest: zero(), rest_t: zero() };
-        let [of_error, _] = rests(&around, &forcing, &on_curve, [enough[1], f64::INFINITY])?;
-        Ok([of_states, of_error])
+        let [of_error, in_time] = rests(&around, &forcing, &on_curve, [enough[1], enough[2]])?;
+        Ok([of_states, of_error, in_time])
     }
 }

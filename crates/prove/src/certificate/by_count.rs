@@ -6,7 +6,7 @@ use rug::Rational;
 use serde_json::{Value, json};
 use sigmastar_decide::bounds::StatesForm;
 use sigmastar_decide::linear::Falling;
-use sigmastar_decide::trial::{Trial, TubeProof};
+use sigmastar_decide::trial::{OrMore, Trial, TubeProof};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::write_exact;
 use sigmastar_lang::spec::{Level, Metric, Specification, TrigonometricVector, Wave};
@@ -96,7 +96,7 @@ fn linear(forms: &[Falling], sizes: &[[Enclosure; 2]]) -> Value {
 }
 
 fn of_trial(Trial { states: curve, error, forcing, .. }: &Trial, proof: &TubeProof) -> Value {
-    let TubeProof { defects: [d_x, d_q], radii, slopes, forms, states } = proof;
+    let TubeProof { defects: [d_x, d_q], radii, slopes, forms, states, or_more } = proof;
     let has_states = states.is_some();
     let wave = |wave: &Wave| object(series("mean", wave, exact));
     let of_error = object(series("mean", error, exact).into_iter().filter(|(name, _)| *name != "mean"));
@@ -122,5 +122,11 @@ fn of_trial(Trial { states: curve, error, forcing, .. }: &Trial, proof: &TubePro
     let numbers = pair(&[d_x.clone(), d_q.clone()], ["defect_x", "defect_q"]).into_iter();
     let numbers = numbers.chain([("box", object(pair(radii, ["x", "e"])))]).chain(pair(slopes, ["q_x", "q_e"]));
     let forms = [("forms", forms.iter().map(form).collect())];
-    object(curves.chain(numbers).chain(forms).chain(states.as_ref().map(|form| ("states", bound(form)))))
+    let more = or_more.iter().flat_map(|OrMore { defect_t, in_time, states: [f_x, f_e] }| {
+        let of_states = has_states.then(|| [("f_x", exact(f_x)), ("f_e", exact(f_e))]);
+        let numbers = pair(in_time, ["q_tx", "q_te"]).into_iter().chain(of_states.into_iter().flatten());
+        std::iter::once(("defect_q_t", exact(defect_t))).chain(numbers)
+    });
+    let states = states.as_ref().map(|form| ("states", bound(form)));
+    object(curves.chain(numbers).chain(forms).chain(states).chain(more))
 }

@@ -14,6 +14,7 @@ use sigmastar_lang::spec::Specification;
 use sigmastar_matrix::doubles::largest;
 use sigmastar_matrix::inverse;
 use sigmastar_propose::bounds::{FallingForm, PeakOf, PeakProgram, PointSlopes};
+use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::control::Control;
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
 
@@ -171,6 +172,7 @@ impl Certification<'_> {
             None => {
                 let exact = |value: &Rational| Enclosure::from_rational(value, PRECISION);
                 let periodic = &evaluation.periodic;
+                let numbers = Data::new(self.spec, PRECISION);
                 by_trials(&Asked {
                     plant,
                     spec: self.spec,
@@ -178,6 +180,7 @@ impl Certification<'_> {
                     set: &witness.set,
                     error_box: [exact(&witness.d_x), exact(&witness.d_e)],
                     periodic: [periodic.x_per.clone(), periodic.e_per.clone()],
+                    kappas: numbers.kappas(&exact(&witness.k0), &exact(&witness.k1)),
                 })
             }
         };

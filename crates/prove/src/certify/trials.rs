@@ -5,7 +5,7 @@ use crate::attempt::prove_value;
 use rug::Rational;
 use sigmastar_decide::bounds::{Engine, Region, StatesForm};
 use sigmastar_decide::linear::{Loop, PRECISION, Start};
-use sigmastar_decide::trial::{Concluded, Known, Peaks, Trial, TubeProof};
+use sigmastar_decide::trial::{Concluded, Known, OrMore, Peaks, Trial, TubeProof};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, round_f64, round_rational};
 use sigmastar_exact::parallel;
@@ -22,6 +22,9 @@ use sigmastar_theory::evidence::Coordinates;
 /// The numbers of oscillators that are looked at: with boxes and forms of their own, and then with those of the last of these where they serve.
 const COUNTS: [u64; 3] = [0, 1, 2];
 const LATER: [u64; 3] = [3, 5, 10];
+
+/// From here on all of them at once.
+const OR_MORE: u64 = 20;
 
 /// Digits of the numbers of a form, and of bounds.
 const DIGITS: u32 = 9;
@@ -60,6 +63,8 @@ pub(super) struct Asked<'a> {
     /// D_x and D_e of the claim, and `x_per`, `e_per`: the error box around its periodic solution, in which stability is proved.
     pub(super) error_box: [Enclosure; 2],
     pub(super) periodic: [Enclosure; 2],
+    /// kappa_0 and kappa_1 of the claim.
+    pub(super) kappas: [Enclosure; 2],
 }
 
 /// The bounds that are found; `None` without any.
@@ -69,10 +74,12 @@ pub(super) fn by_trials(asked: &Asked<'_>) -> Option<ByCount> {
     let known_gain = spec.input_gain.as_ref().is_none_or(|gain| gain.factors(PRECISION).is_none());
     let cell =
         of_plant.undivided().filter(|_| !plant.is_family() && plant.period.interval().is_none() && known_gain)?;
-    let bounds = |n_o: &u64, known: Option<&TubeProof>| Around { asked, of_plant, cell, n_o: *n_o }.bounds(known);
-    let mut found = parallel::map(&COUNTS, |n_o| bounds(n_o, None));
+    let around = |n_o: u64, or_more: bool| Around { asked, of_plant, cell, n_o, or_more };
+    let mut found = parallel::map(&COUNTS, |n_o| around(*n_o, false).bounds(None));
     let last = found.last().cloned().flatten().map(|(_, (_, proof))| proof);
-    found.extend(parallel::map(&LATER, |n_o| bounds(n_o, last.as_ref())));
+    let later: Vec<Around<'_>> =
+        LATER.iter().map(|n_o| around(*n_o, false)).chain([around(OR_MORE, true)]).collect();
+    found.extend(parallel::map(&later, |around| around.bounds(last.as_ref())));
     let (counts, trials): (Vec<_>, Vec<_>) = found.into_iter().flatten().unzip();
     (!counts.is_empty()).then_some(ByCount { counts, proof: CountProof::Trials(trials), checked: false })
 }
@@ -83,6 +90,7 @@ struct Around<'a> {
     of_plant: &'a OfPlant,
     cell: &'a ProvedCell,
     n_o: u64,
+    or_more: bool,
 }
 
 /// A trial with everything that is evaluated around it.
@@ -93,7 +101,8 @@ struct Prepared {
     start: Start,
     engine: Engine,
     samples: FloatSuprema,
-    defects: [Rational; 2],
+    /// d_x, d_q and d_t.
+    defects: [Rational; 3],
     /// The distances of the start from the periodic solution: of x, e, zeta.
     distances: [f64; 3],
 }
@@ -138,7 +147,7 @@ impl Around<'_> {
             Control { steady: concluded.control.clone(), transient }.over(nominal.as_ref());
         let bounds = CountBounds {
             n_o: self.n_o,
-            or_more: false,
+            or_more: self.or_more,
             steady_error: concluded.error.clone(),
             mean_square: concluded.mean_square.clone(),
             steady_control: steady,
@@ -166,6 +175,7 @@ impl Around<'_> {
             period: &prepared.period,
             orbit: &orbit.approximation.centre,
             radius: &orbit.radius,
+            kappas: &self.asked.kappas,
         }
     }
 
@@ -188,6 +198,7 @@ impl Around<'_> {
             sigma: sigma.to_f64(),
             mu: model.mu.enclose(PRECISION).midpoint_f64(),
             weights: (0..=self.n_o).map(weight).collect(),
+            or_more: self.or_more,
         };
         let orbit = &self.cell.orbit.approximation.centre;
         let doubles = |vector: &Vec<Rational>| vector.iter().map(Rational::to_f64).collect();
@@ -196,10 +207,11 @@ impl Around<'_> {
             harmonics: orbit.harmonics.iter().map(|pair| pair.each_ref().map(doubles)).collect(),
         };
         let ProposedTrial { states, error, forcing } = program.propose(&curve)?;
-        let trial = Trial { n_o: self.n_o, states, error, forcing };
+        let trial = Trial { n_o: self.n_o, or_more: self.or_more, states, error, forcing };
         let l = &self.of_plant.coordinates;
         let lines = met.max(trial.error.harmonics.len());
-        let own = Loop::new(sigma, model, lines, None, inverse(l)?).with_oscillators(met);
+        let own = Loop::new(sigma, model, lines, None, inverse(l)?);
+        let own = if self.or_more { own } else { own.with_oscillators(met) };
         let coordinates = Coordinates { l: l.clone(), p: self.of_plant.matrix.clone() };
         let q = trial.forcing.parts().map(|part| part.to_f64().abs()).sum::<f64>();
         let frequency = own.fundamental.upper_f64();
@@ -208,7 +220,9 @@ impl Around<'_> {
         };
         let velocity = trial.states.harmonics.iter().enumerate().map(speed).sum::<f64>();
         let scale = own.inverse.iter().flatten().map(|entry| entry.to_f64().abs()).fold(0.0, f64::max);
-        let [d_x, d_q] = trial.defects(plant, &coordinates, [SMALL * velocity * scale, SMALL * q]).ok()?;
+        let of_slope = if self.or_more { SMALL * q * frequency } else { f64::INFINITY };
+        let enough = [SMALL * velocity * scale, SMALL * q, of_slope];
+        let [d_x, d_q, d_t] = trial.defects(plant, &coordinates, enough).ok()?;
         let d_q = d_q + trial.mismatch(&own);
         let moved = plant.with_error_moved(&trial.error);
         let region = Region::new(l.clone(), trial.states.clone(), Rational::new()).ok()?;
@@ -218,7 +232,8 @@ impl Around<'_> {
         let exact = |value: &Rational| Enclosure::from_rational(value, PRECISION);
         let start = Start { x0: exact(&set.x0), e0: exact(&set.e0), z0: set.z0.as_ref().map(exact) };
         let period = plant.period.nominal().enclose(PRECISION);
-        let defects = [up(d_x.upper_f64(), SHORT)?, up(d_q.upper_f64(), SHORT)?];
+        let short = |defect: &Enclosure| up(defect.upper_f64(), SHORT);
+        let defects = [short(&d_x)?, short(&d_q)?, short(&d_t)?];
         let mut prepared = Prepared { trial, own, period, start, engine, samples, defects, distances: [0.0; 3] };
         let sizes = Concluded::sizes_of(&prepared.trial, &self.known(&prepared))?;
         let distances = prepared.start.distances(&prepared.own, sizes.each_ref());
@@ -308,7 +323,17 @@ impl Around<'_> {
         forms.retain(|_| holds.next() == Some(true));
         let first = forms.first()?;
         let slope = |bound| prove_value(engine, samples, bound, &x, &e).map(|proved| proved.value);
-        let slopes = [if has_states { slope(Bound::Qx)? } else { Rational::new() }, slope(Bound::Qe)?];
+        let of_states = |bound| if has_states { slope(bound) } else { Some(Rational::new()) };
+        let slopes = [of_states(Bound::Qx)?, slope(Bound::Qe)?];
+        let [d_x, d_q, d_t] = prepared.defects.clone();
+        let or_more = match self.or_more {
+            false => None,
+            true => Some(OrMore {
+                defect_t: d_t,
+                in_time: [of_states(Bound::Qtx)?, slope(Bound::Qte)?],
+                states: [of_states(Bound::Fx)?, of_states(Bound::Fe)?],
+            }),
+        };
         let states = match has_states {
             false => None,
             true => {
@@ -317,7 +342,7 @@ impl Around<'_> {
                 Some(form)
             }
         };
-        Some(TubeProof { defects: prepared.defects.clone(), radii: [x, e], slopes, forms, states })
+        Some(TubeProof { defects: [d_x, d_q], radii: [x, e], slopes, forms, states, or_more })
     }
 
     /// That the box lies where the model holds.
