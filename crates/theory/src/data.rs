@@ -235,6 +235,14 @@ impl<'s> Data<'s> {
         Enclosure::from_rational(value, self.precision)
     }
 
+    /// With the square of the Nbar of given oscillators in the place of that of all of them.
+    #[must_use]
+    pub fn with_oscillators(&self, n_bar_squared: &Enclosure) -> Data<'s> {
+        let numbers =
+            Numbers { n_bar: n_bar_squared.sqrt(), n_bar_squared: n_bar_squared.clone(), ..self.numbers.clone() };
+        Data { numbers, ..self.clone() }
+    }
+
     /// Exactly 0.
     #[must_use]
     pub fn zero(&self) -> Enclosure {

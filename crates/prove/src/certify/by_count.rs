@@ -172,15 +172,16 @@ impl Certification<'_> {
             None => {
                 let exact = |value: &Rational| Enclosure::from_rational(value, PRECISION);
                 let periodic = &evaluation.periodic;
-                let numbers = Data::new(self.spec, PRECISION);
+                let data = Data::new(self.spec, PRECISION);
                 by_trials(&Asked {
                     plant,
                     spec: self.spec,
                     sigma: &witness.sigma,
                     set: &witness.set,
-                    error_box: [exact(&witness.d_x), exact(&witness.d_e)],
+                    witness,
                     periodic: [periodic.x_per.clone(), periodic.e_per.clone()],
-                    kappas: numbers.kappas(&exact(&witness.k0), &exact(&witness.k1)),
+                    kappas: data.kappas(&exact(&witness.k0), &exact(&witness.k1)),
+                    data,
                 })
             }
         };

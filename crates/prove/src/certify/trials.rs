@@ -15,8 +15,10 @@ use sigmastar_matrix::inverse;
 use sigmastar_propose::bounds::{FallingForm, FloatCurve, FloatSuprema, LookedAt, PeakOf, PeakProgram};
 use sigmastar_propose::orbit::FloatSeries;
 use sigmastar_propose::trial::{ProposedTrial, TrialLoop};
-use sigmastar_theory::derivation::control::Control;
+use sigmastar_theory::data::Data;
+use sigmastar_theory::derivation::control::{Control, Reach};
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
+use sigmastar_theory::derivation::sharp::SharpWitness;
 use sigmastar_theory::evidence::Coordinates;
 
 /// The numbers of oscillators that are looked at: with boxes and forms of their own, and then with those of the last of these where they serve.
@@ -60,10 +62,13 @@ pub(super) struct Asked<'a> {
     pub(super) spec: &'a Specification,
     pub(super) sigma: &'a Rational,
     pub(super) set: &'a ClaimedSet,
-    /// D_x and D_e of the claim, and `x_per`, `e_per`: the error box around its periodic solution, in which stability is proved.
-    pub(super) error_box: [Enclosure; 2],
+    /// What proves it.
+    pub(super) witness: &'a SharpWitness,
+    /// Its `x_per` and `e_per`.
     pub(super) periodic: [Enclosure; 2],
-    /// kappa_0 and kappa_1 of the claim.
+    /// The numbers of its formulas.
+    pub(super) data: Data<'a>,
+    /// kappa_0 and kappa_1.
     pub(super) kappas: [Enclosure; 2],
 }
 
@@ -142,16 +147,23 @@ impl Around<'_> {
             self.is_of_the_claim(&concluded).then_some((proof, concluded, None))
         };
         let (proof, concluded, peaks) = of_other().or_else(with_peaks).or_else(alone)?;
-        let transient = peaks.as_ref().map_or_else(|| Enclosure::zero(PRECISION), |peaks| peaks.control.clone());
+        // The solution is that of the claim: its function falls along the differences, too.
+        let own = self.reach_by_the_claim(&prepared, &concluded);
+        let reach = match peaks {
+            Some(Peaks { error, control, .. }) => {
+                Reach { error: own.error.min(&error), transient: own.transient.min(&control) }
+            }
+            None => own,
+        };
         let Control { steady, transient } =
-            Control { steady: concluded.control.clone(), transient }.over(nominal.as_ref());
+            Control { steady: concluded.control.clone(), transient: reach.transient }.over(nominal.as_ref());
         let bounds = CountBounds {
             n_o: self.n_o,
             or_more: self.or_more,
             steady_error: concluded.error.clone(),
             mean_square: concluded.mean_square.clone(),
             steady_control: steady,
-            largest: peaks.map(|peaks| Largest { error: &concluded.error + peaks.error, transient }),
+            largest: Some(Largest { error: &concluded.error + reach.error, transient }),
         };
         Some((bounds, (prepared.trial, proof)))
     }
@@ -181,11 +193,20 @@ impl Around<'_> {
 
     /// (ii) of 14.4.
     fn is_of_the_claim(&self, concluded: &Concluded) -> bool {
-        let Asked { error_box, periodic, .. } = self.asked;
+        let Asked { witness, periodic, .. } = self.asked;
+        let error_box = [&witness.d_x, &witness.d_e].map(|radius| Enclosure::from_rational(radius, PRECISION));
         let sizes = [&concluded.states, &concluded.error];
         let within =
             |((size, periodic), end): ((&Enclosure, &Enclosure), &Enclosure)| (size + periodic).le(end).is_true();
-        sizes.into_iter().zip(periodic).zip(error_box).all(within)
+        sizes.into_iter().zip(periodic).zip(&error_box).all(within)
+    }
+
+    /// How far solutions from the set are from the periodic one by what proves the claim, with the sizes for this number of oscillators.
+    fn reach_by_the_claim(&self, prepared: &Prepared, concluded: &Concluded) -> Reach<Enclosure> {
+        let Asked { witness, data, .. } = self.asked;
+        let own = &prepared.own;
+        let distances = prepared.start.distances(own, [&concluded.states, &concluded.error, &concluded.zeta]);
+        witness.reach(&data.with_oscillators(&own.n_bar_squared), distances.each_ref())
     }
 
     fn prepared(&self) -> Option<Prepared> {

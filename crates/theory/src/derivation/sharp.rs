@@ -3,7 +3,7 @@
 use super::condition::{self, Condition, Relation};
 use super::consequences::Excitation;
 use super::contraction::ContractionMatrix;
-use super::control::{self, Control};
+use super::control::{self, Control, Reach};
 use super::energy;
 use super::harmonics::AtOrigin;
 use super::initial_set::{ClaimedSet, claimed_distances, set_conditions};
@@ -77,6 +77,28 @@ impl SharpWitness {
             None => self.squares(),
         }
     }
+
+    /// How far |e| and the control are from those of the periodic solution, of every solution that begins at these distances from it in x, e and
+    /// zeta: by the function that falls along their differences (section 5; 13.7, (M) and (Jm)).
+    ///
+    /// Hypotheses: the conditions of stability are proved for this witness, and solutions that begin so stay in the error box. Guarantee: the bounds hold at
+    /// all times, at the gain of the witness, for every number of oscillators whose Nbar is at most that of `data`.
+    #[must_use]
+    pub fn reach(&self, data: &Data<'_>, distances: [&Enclosure; 3]) -> Reach<Enclosure> {
+        let number = |value: &Rational| data.rational(value);
+        if let Some(joint) = &data.spec.bounds.proved_values().joint_stability {
+            return control::joint_reach(data, joint, number, &self.sigma, distances);
+        }
+        let [sigma, w_x, h, d_x, d_e] = [&self.sigma, &self.w_x, &self.h, &self.d_x, &self.d_e].map(number);
+        let (start, _) = level_condition(data, distances, [&d_x, &d_e, &w_x, &h]);
+        // At the gain b the weight of zeta is b h, by (M) tau/sigma times that (Theorem G3), and the level no larger than at b_hi.
+        let share = match matrix_inequality::proved_for(data, &self.w_x, &self.h) {
+            Some(known) => number(&known.value) / &sigma,
+            None => Enclosure::one(data.precision),
+        };
+        let least = data.input_gain.as_ref().map_or_else(|| h.clone(), |gain| &gain.low * &h * &share);
+        control::reach(data, [&sigma, &data.mu], &least, (&start, None))
+    }
 }
 
 /// Everything the sharp derivation computes from a witness.
@@ -148,7 +170,8 @@ impl SharpEvaluation {
         let distances = [&dist_x, &dist_e, &dist_z];
         let inequality = matrix_inequality::proved_for(data, &witness.w_x, &witness.h);
         let joint = data.spec.bounds.proved_values().joint_stability.as_ref();
-        let reach = if let Some(joint) = joint {
+        let reach = witness.reach(data, distances);
+        if let Some(joint) = joint {
             conditions.extend(joint::conditions(
                 data,
                 joint,
@@ -157,14 +180,8 @@ impl SharpEvaluation {
                 &error_box,
                 (&witness.sigma, ""),
             ));
-            control::joint_reach(data, joint, number, &witness.sigma, distances)
         } else {
             let (start, exit) = level_condition(data, distances, [&d_x, &d_e, &w_x, &h]);
-            // At the gain b the weight of zeta is b h, by (M) tau/sigma times that (Theorem G3), and the level no larger than at b_hi.
-            let share =
-                inequality.map_or_else(|| Enclosure::one(data.precision), |known| number(&known.value) / &sigma);
-            let least = data.input_gain.as_ref().map_or_else(|| h.clone(), |gain| &gain.low * &h * &share);
-            let reach = control::reach(data, [&sigma, &data.mu], &least, (&start, None));
             conditions.push(Condition::less("C4", level_words(data), start, exit));
             match inequality {
                 Some(inequality) => {
@@ -176,8 +193,7 @@ impl SharpEvaluation {
                     conditions.extend(by_norms_conditions(&decay, &sigma, ""));
                 }
             }
-            reach
-        };
+        }
         let peak = &periodic.e_per + reach.error;
         let by_parts = control::by_parts(data, [&sigma, &data.mu], [&periodic.e_per, &z]);
         let steady = control::Answer::continuous(data).steady(&origin, &periodic.forcing, &by_parts);
