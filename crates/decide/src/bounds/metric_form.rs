@@ -55,4 +55,38 @@ impl MetricForm {
         entries.push((n + 1, n + 1, frame.rational(&Rational::from(k_p - c_y))));
         Some(SymmetricValues { order: n + 2, entries })
     }
+
+    /// The first of (14.5a) less S, `[[-(P J + J'P) - c_x I, -(k_p/2) r'], [., k_p - c_y]] - S` in (x, y), from (J, r).
+    pub(super) fn beyond(&self, s: &[Vec<Rational>], values: &Values<'_>) -> Option<SymmetricValues> {
+        let Metric { matrix: p, k_p, c_x, c_y, .. } = &self.metric;
+        let frame = values.frame;
+        let half_k_p = Enclosure::from_rational(k_p, PRECISION) / 2;
+        let InY { jacobian, row, .. } = values.in_y(Part::States)?;
+        let n = row.len();
+        let mut entries = values.steady_decay(p, &jacobian, c_x);
+        entries.extend(row.iter().enumerate().map(|(i, slope)| (i, n, negated(&frame.scale(slope, &half_k_p)))));
+        entries.push((n, n, frame.rational(&Rational::from(k_p - c_y))));
+        for (i, j, value) in &mut entries {
+            *value = frame.sub(value, &frame.rational(&s[*i][*j]));
+        }
+        Some(SymmetricValues { order: n + 1, entries })
+    }
+
+    /// The second of (14.5a), `[[S, v], [v', of_e - c_e]]` in the order (x, e, y), from (g, d).
+    pub(super) fn beside(&self, s: &[Vec<Rational>], values: &Values<'_>) -> Option<SymmetricValues> {
+        let MetricForm { metric: Metric { matrix: p, weight, k_p, c_e, .. }, of_e, moved, .. } = self;
+        let frame = values.frame;
+        let half_k_p = Enclosure::from_rational(k_p, PRECISION) / 2;
+        let InY { column, slope, .. } = values.in_y(Part::Error)?;
+        let n = column.len();
+        let slope = moved_by(frame, slope?, moved);
+        let place = |index: usize| if index == n { n + 1 } else { index };
+        let upper = (0..=n).flat_map(|i| (i..=n).map(move |j| (i, j)));
+        let mut entries: Vec<_> = upper.map(|(i, j)| (place(i), place(j), frame.rational(&s[i][j]))).collect();
+        let driven = values.product(p, &column, false).concat();
+        entries.extend(driven.iter().enumerate().map(|(i, value)| (i, n, negated(value))));
+        entries.push((n, n, frame.rational(&Rational::from(of_e - c_e))));
+        entries.push((n, n + 1, negated(&frame.add(&frame.rational(weight), &frame.scale(&slope, &half_k_p)))));
+        Some(SymmetricValues { order: n + 2, entries })
+    }
 }

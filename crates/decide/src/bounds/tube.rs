@@ -28,6 +28,16 @@ pub struct StatesForm {
     pub gamma: Rational,
 }
 
+/// The form of a metric at a gain.
+fn form_of(metric: &Metric, sigma: &Rational) -> MetricForm {
+    MetricForm {
+        metric: metric.clone(),
+        pulled: metric.cross.iter().map(|entry| Rational::from(entry * sigma)).collect(),
+        of_e: Rational::from(&metric.weight * sigma) * 2,
+        moved: Rational::new(),
+    }
+}
+
 impl Engine {
     /// Decides (14.4a) at a gain, with so many boxes at most.
     ///
@@ -49,13 +59,33 @@ impl Engine {
         if *x < 0 || *e < 0 || self.moves().is_some() {
             return Decision::UNDECIDED;
         }
-        let form = MetricForm {
-            metric: metric.clone(),
-            pulled: metric.cross.iter().map(|entry| Rational::from(entry * sigma)).collect(),
-            of_e: Rational::from(&metric.weight * sigma) * 2,
-            moved: Rational::new(),
-        };
+        let form = form_of(metric, sigma);
         self.decide_part(Part::All, [x, e], effort, |values| form.matrix(values))
+    }
+
+    /// Decides (14.5a) at a gain, with so many boxes for each of its parts at most; `s` is S.
+    ///
+    /// Guarantee: `True` only if with J and r at every point of `|y| <= X`, `|e| <= eta` around the orbit of the region, and with g and d at every point of
+    /// `|y| <= X`, `|e| <= E`, both matrices are positive definite, the margins and k_p are positive, p is 0, and the metric is strictly between what the
+    /// level says. For the caller to prove: what [`Engine::decide`] leaves to him. Hypothesis: the gain of the actuator is known; else it is undecided.
+    #[must_use]
+    pub fn decide_form_x_first(
+        &self,
+        (metric, level, s): (&Metric, &Level, &[Vec<Rational>]),
+        sigma: &Rational,
+        ([x, e], eta): ([&Rational; 2], &Rational),
+        effort: usize,
+    ) -> Decision {
+        let alone = metric.cross.iter().all(|entry| *entry == 0) && is_symmetric(s, self.states() + 1);
+        if !fits(metric, self.states()) || !lies_between(metric, level) || *sigma <= 0 || !alone {
+            return Decision::FALSE;
+        }
+        if *x < 0 || *eta < 0 || eta > e || self.moves().is_some() {
+            return Decision::UNDECIDED;
+        }
+        let form = form_of(metric, sigma);
+        let first = self.decide_part(Part::States, [x, eta], effort, |values| form.beyond(s, values));
+        first.and(|| self.decide_part(Part::Error, [x, e], effort, |values| form.beside(s, values)))
     }
 
     /// Decides (14.4b), with so many boxes at most; of a plant without states it says nothing, and is true.

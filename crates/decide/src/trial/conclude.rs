@@ -23,6 +23,21 @@ pub struct TubeProof {
     pub states: Option<StatesForm>,
     /// For the trial of every larger number of oscillators, too.
     pub or_more: Option<OrMore>,
+    /// What falls on a larger box.
+    pub x_first: Option<XFirst>,
+}
+
+/// Forms with (14.5a) on a larger box.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct XFirst {
+    /// D_x' and D_e'.
+    pub radii: [Rational; 2],
+    /// eta.
+    pub eta: Rational,
+    /// The forms; the first keeps solutions in the box.
+    pub forms: Vec<(Metric, Level)>,
+    /// S of each.
+    pub splittings: Vec<Vec<Vec<Rational>>>,
 }
 
 /// What the corollary of 14.4 asks for besides, of the box around a trial: bounds, each at least 0.

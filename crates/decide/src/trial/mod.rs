@@ -8,6 +8,6 @@ mod conclude;
 mod defects;
 mod peak;
 
-pub use conclude::{Concluded, Known, OrMore, TubeProof};
+pub use conclude::{Concluded, Known, OrMore, TubeProof, XFirst};
 pub use defects::Trial;
 pub use peak::Peaks;

@@ -1,12 +1,12 @@
 //! How far solutions from the initial set may be from the periodic one near a trial (derivation, 14.5).
 
-use super::conclude::{Concluded, TubeProof, length};
+use super::conclude::{Concluded, length};
 use crate::linear::{Loop, PRECISION, Start};
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_lang::spec::{Level, Metric};
 
-/// What the second corollary of 14.5 says.
+/// What the corollaries of 14.5 about forms on a box around a trial say.
 #[derive(Clone, Debug)]
 pub struct Peaks {
     /// For each form `V_0` of the level.
@@ -22,11 +22,15 @@ pub struct Peaks {
 impl Peaks {
     /// The bounds, for solutions from the start. They hold if `reach` is below the radii of the box; then these solutions converge to the periodic one.
     ///
-    /// Hypotheses: those of [`Concluded::of`], for each form of `proof`. `None` without a form.
+    /// Hypotheses: those of [`Concluded::of`], and each form has (14.4a) on the box, or (14.5a), with eta not below the distance of e. `None` without a form.
     #[must_use]
-    pub fn of(proof: &TubeProof, concluded: &Concluded, own: &Loop, start: &Start) -> Option<Peaks> {
+    pub fn of(
+        (forms, has_states): (&[(Metric, Level)], bool),
+        concluded: &Concluded,
+        own: &Loop,
+        start: &Start,
+    ) -> Option<Peaks> {
         let exact = |value: &Rational| Enclosure::from_rational(value, PRECISION);
-        let has_states = proof.states.is_some();
         let [x, e, z] = start.distances(own, [&concluded.states, &concluded.error, &concluded.zeta]);
         let n_bar_squared = &own.n_bar_squared;
         let level = |(Metric { cross, weight, k_p, .. }, Level { p_up, .. }): &(Metric, Level)| {
@@ -36,8 +40,8 @@ impl Peaks {
             };
             of_states + exact(weight) * e.sqr() + exact(k_p) * &own.mu / 2 * z.sqr()
         };
-        let levels: Vec<Enclosure> = proof.forms.iter().map(level).collect();
-        let each = || proof.forms.iter().zip(&levels);
+        let levels: Vec<Enclosure> = forms.iter().map(level).collect();
+        let each = || forms.iter().zip(&levels);
         let of_error =
             |((_, Level { e_low, .. }), level): (&(Metric, Level), &Enclosure)| (level / exact(e_low)).sqrt();
         let of_control = |((Metric { k_p, .. }, Level { e_low, .. }), level): (&(Metric, Level), &Enclosure)| {

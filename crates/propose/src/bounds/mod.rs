@@ -33,6 +33,7 @@ mod weights;
 pub use directions::Directions;
 pub use float_waves::FloatCurve;
 pub use joint_program::{FloatLevel, FloatMetric, LevelAsked, LookedAt};
+pub use peak_points::PeakBox;
 pub use peak_program::{FallingForm, PeakOf, PeakProgram};
 pub use place::{Place, Places};
 pub use pointwise::{Asked, Derivatives, MatrixAt, Slopes as PointSlopes};

@@ -6,6 +6,7 @@ use super::place::{Place, Places};
 use super::pointwise::{Derivatives, Slopes};
 use super::suprema::{FloatSuprema, Starts};
 use sigmastar_lang::spec::Bound;
+use sigmastar_theory::evidence::Part;
 
 /// Points that are added where what was found does not hold, and how often.
 const POINTS: usize = 6;
@@ -17,34 +18,55 @@ const SHARES: [[f64; 2]; 5] = [[1.0, 1.0], [1.0, 0.75], [1.0, 0.5], [1.0, 0.25],
 /// The share of its margins that a form may miss at a point that was not looked at.
 const TOLERANCE: f64 = 0.2;
 
+/// Where a form is to fall.
+#[derive(Clone, Copy, Debug)]
+pub struct PeakBox {
+    /// X and E.
+    pub at: [f64; 2],
+    /// Along x first, the E of J and r.
+    pub x_first: Option<f64>,
+}
+
+impl PeakBox {
+    /// The derivatives that are taken at the same point, and their X and E.
+    fn parts(&self) -> Vec<(Part, [f64; 2])> {
+        match self.x_first {
+            None => vec![(Part::All, self.at)],
+            Some(e) => vec![(Part::States, [self.at[0], e]), (Part::Error, self.at)],
+        }
+    }
+}
+
 impl FloatSuprema {
-    /// A form with a small peak on `|y| <= X`, `|e| <= E` around the orbit of the samples; `program` says what the loop is, and keeps the points that
-    /// were needed. `None` where none is found.
+    /// A form with a small peak on a box around the orbit of the samples; `program` says what the loop is, and keeps the points that were needed. `None` where
+    /// none is found.
     pub fn propose_peak(
         &self,
-        at: [f64; 2],
+        place: PeakBox,
         program: &mut PeakProgram,
         (of, margin, looked): (PeakOf, f64, LookedAt),
     ) -> Option<FallingForm> {
         let all = Places::Stride(1);
-        let points = |at: [f64; 2], places: Vec<Place>| {
-            self.of_derivatives(at, &Places::listed(places), |derivatives, _| Slopes::from(derivatives))
+        let points = |(part, at): (Part, [f64; 2]), places: Vec<Place>| {
+            self.of_derivatives(at, &Places::listed(places), |derivatives, _| (part, Slopes::from(derivatives)))
         };
-        program.points.extend(points(
-            at,
-            self.where_largest(at, &all, [Bound::Fx, Bound::Qx, Bound::Fe, Bound::QeMax, Bound::Qe]),
-        ));
+        let extremes = [Bound::Fx, Bound::Qx, Bound::Fe, Bound::QeMax, Bound::Qe];
+        for (part, at) in place.parts() {
+            program.points.extend(points((part, at), self.where_largest(at, &all, extremes)));
+        }
         let mut found = program.propose(of, margin)?;
         for _ in 0..ROUNDS {
             let least = TOLERANCE * program.least_margin(&found);
             let mut more = Vec::new();
-            for [of_x, of_e] in SHARES {
+            for ([of_x, of_e], (part, at)) in
+                SHARES.into_iter().flat_map(|share| place.parts().into_iter().map(move |part| (share, part)))
+            {
                 let at = [of_x * at[0], of_e * at[1]];
                 let mut worst = self.largest_of_derivatives(at, &all, POINTS, |derivatives, _| {
-                    program.lack(&found, &Slopes::from(derivatives))
+                    program.lack(&found, (part, &Slopes::from(derivatives)))
                 });
                 worst.retain(|(lack, _)| *lack > least);
-                more.extend(points(at, worst.into_iter().map(|(_, place)| place).collect()));
+                more.extend(points((part, at), worst.into_iter().map(|(_, place)| place).collect()));
             }
             if more.is_empty() {
                 break;
@@ -54,14 +76,18 @@ impl FloatSuprema {
         }
         for _ in 0..if looked == LookedAt::Between { ROUNDS } else { 0 } {
             let least = TOLERANCE * program.least_margin(&found);
-            let lack = |derivatives: &Derivatives<'_>| program.lack(&found, &Slopes::from(derivatives));
-            let mut worst =
-                self.refined_points((at, Starts::AtEachTime), lack, |derivatives| Slopes::from(derivatives));
-            worst.retain(|(lack, _)| *lack > least);
-            if worst.is_empty() {
+            let mut more = Vec::new();
+            for (part, at) in place.parts() {
+                let lack = |derivatives: &Derivatives<'_>| program.lack(&found, (part, &Slopes::from(derivatives)));
+                let mut worst = self
+                    .refined_points((at, Starts::AtEachTime), lack, |derivatives| (part, Slopes::from(derivatives)));
+                worst.retain(|(lack, _)| *lack > least);
+                more.extend(worst.into_iter().map(|(_, point)| point));
+            }
+            if more.is_empty() {
                 break;
             }
-            program.points.extend(worst.into_iter().map(|(_, point)| point));
+            program.points.extend(more);
             found = program.propose(of, margin)?;
         }
         Some(found)

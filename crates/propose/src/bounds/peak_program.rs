@@ -6,6 +6,7 @@ use crate::semidefinite::propose;
 use sigmastar_matrix::AffineMatrix;
 use sigmastar_matrix::doubles::largest;
 use sigmastar_matrix::symmetric::{Symmetric, triangle};
+use sigmastar_theory::evidence::Part;
 
 /// What is to be small.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,8 +20,9 @@ pub enum PeakOf {
 /// A loop, and how far from its periodic solution it starts.
 #[derive(Clone, Debug)]
 pub struct PeakProgram {
-    /// J, g, r, d at some points, in the coordinates of the norms of x.
-    pub points: Vec<Slopes>,
+    /// J, g, r, d at some points, in the coordinates of the norms of x: all of them at once, or J and r at some and g and d at others, which
+    /// gives a form along x first.
+    pub points: Vec<(Part, Slopes)>,
     /// b at both ends of the input gain.
     pub gain: [f64; 2],
     /// sigma.
@@ -31,7 +33,7 @@ pub struct PeakProgram {
     pub n_bar_squared: f64,
     /// The distances of the start from the periodic solution: of x, e, and zeta.
     pub start: [f64; 3],
-    /// Whether x and e are joined.
+    /// Whether x and e are joined; they are not along x first.
     pub joint: bool,
     /// How far x may come from the periodic solution, where that is limited.
     pub reach: Option<f64>,
@@ -54,6 +56,8 @@ pub struct FallingForm {
     pub x_low: f64,
     /// `Pi >= diag(0, e_low)`.
     pub e_low: f64,
+    /// S of (14.5a), along x first.
+    pub splitting: Option<Vec<Vec<f64>>>,
     /// c_x, c_e and c_y of (14.4a) at the points.
     pub margins: [f64; 3],
     /// A bound of V at the start.
@@ -67,6 +71,8 @@ struct Variables {
     /// The entries of P come first, then those of p.
     m: usize,
     cross: usize,
+    /// Whether those of S come last.
+    split: bool,
 }
 
 impl Variables {
@@ -86,8 +92,17 @@ impl Variables {
     fn of_error(self) -> usize {
         self.w() + 4
     }
-    fn count(self) -> usize {
+    fn splitting(self) -> usize {
         self.w() + 5
+    }
+    fn count(self) -> usize {
+        self.splitting() + if self.split { triangle(self.n + 1).count() } else { 0 }
+    }
+
+    /// The coefficient of a variable in an entry of S.
+    fn in_splitting(self, variable: usize, i: usize, k: usize) -> f64 {
+        let place = triangle(self.n + 1).position(|(p, q)| (p.min(q), p.max(q)) == (i.min(k), i.max(k)));
+        f64::from(place.is_some_and(|place| self.splitting() + place == variable))
     }
 
     /// The coefficient of a variable in an entry of `[P p; p' w]`.
@@ -107,16 +122,19 @@ impl PeakProgram {
     /// where none is found.
     #[must_use]
     pub fn propose(&self, of: PeakOf, margin: f64) -> Option<FallingForm> {
-        let n = self.points.first()?.r.len();
+        let n = self.points.first()?.1.r.len();
         let m = triangle(n).count();
-        let v = Variables { n, m, cross: if self.joint { n } else { 0 } };
+        let split = self.points.iter().any(|(part, _)| *part != Part::All);
+        let joint = self.joint && !split;
+        let v = Variables { n, m, cross: if joint { n } else { 0 }, split };
         // Lengths of x, e and y, so that the distances of the start are 1: x = d_x xi, e = d_e eps, y = sigma d_e up.
         let d_e = positive(self.start[1], 1.0);
         let d_x = positive(self.start[0], d_e);
         let ratio = d_e / d_x;
         let mut constraints: Vec<AffineMatrix<f64>> = Vec::new();
-        for point in &self.points {
+        for (part, point) in &self.points {
             for b in self.gain {
+                // In the order (x, e, y).
                 let term = |variable: usize, i: usize, k: usize| {
                     let kept = f64::from(i == k)
                         * match (i < n, i == n) {
@@ -124,9 +142,25 @@ impl PeakProgram {
                             (_, true) => f64::from(variable == v.w()),
                             _ => f64::from(variable == v.kappa()),
                         };
-                    self.entry(v, (point, b), ratio, variable, i, k) - margin * kept
+                    let of_error = i == n || k == n;
+                    let own = || self.entry(v, (point, b), ratio, variable, i, k);
+                    let in_splitting = || v.in_splitting(variable, i.min(n), k.min(n));
+                    let value = match part {
+                        Part::All => own(),
+                        Part::States => own() - in_splitting(),
+                        Part::Error if of_error => own(),
+                        Part::Error => in_splitting(),
+                    };
+                    value - margin * kept
                 };
-                constraints.push(AffineMatrix::from_fn(n + 2, v.count(), |_, _| 0.0, term));
+                constraints.push(match part {
+                    Part::States => {
+                        let skip = |i: usize| if i == n { n + 1 } else { i };
+                        let term = |variable: usize, i: usize, k: usize| term(variable, skip(i), skip(k));
+                        AffineMatrix::from_fn(n + 1, v.count(), |_, _| 0.0, term)
+                    }
+                    _ => AffineMatrix::from_fn(n + 2, v.count(), |_, _| 0.0, term),
+                });
             }
         }
         let is = |variable: usize, other: usize| f64::from(variable == other);
@@ -186,7 +220,7 @@ impl PeakProgram {
         // In units of e^2.
         let matrix = Symmetric::from_entries(n, &found).map(|_, _, value| value * ratio * ratio).rows();
         let cross: Vec<f64> =
-            if self.joint { found[m..m + n].iter().map(|value| value * ratio).collect() } else { vec![0.0; n] };
+            if joint { found[m..m + n].iter().map(|value| value * ratio).collect() } else { vec![0.0; n] };
         let [w, kappa, above] = [v.w(), v.kappa(), v.above()].map(|variable| found[variable]);
         let p_up = above * ratio * ratio;
         let margins = [margin * self.sigma * p_up, margin * self.sigma * w, margin * kappa / self.sigma];
@@ -194,7 +228,12 @@ impl PeakProgram {
         let less = |i: usize| (0..n).map(|k| cross[i] * cross[k] / w - matrix[i][k]).collect::<Vec<f64>>();
         let x_low = if n > 0 { -largest((0..n).map(less).collect()) } else { 1.0 };
         let e_low = found[v.of_error()];
-        Some(FallingForm { matrix, cross, weight: w, k_p: kappa / self.sigma, p_up, x_low, e_low, margins, level })
+        // Over sigma, and in the lengths of x and y.
+        let length = |i: usize| if i < n { ratio } else { self.sigma.recip() };
+        let of_splitting = |i: usize, k: usize, value: &f64| value * self.sigma * length(i) * length(k);
+        let splitting = split.then(|| Symmetric::from_entries(n + 1, &found[v.splitting()..]).map(of_splitting).rows());
+        let k_p = kappa / self.sigma;
+        Some(FallingForm { matrix, cross, weight: w, k_p, p_up, x_low, e_low, splitting, margins, level })
     }
 
     /// The coefficient of a variable in an entry of the matrix (14.4a) over sigma, in (xi, eps, up).
@@ -230,15 +269,17 @@ impl PeakProgram {
         if form.matrix.is_empty() { of_e.min(of_y) } else { of_e.min(of_y).min(c_x * d_x * d_x) }
     }
 
-    /// By how much the matrix (14.4a) of a form, less its margins, is not positive semidefinite at a point, in the lengths of the start.
+    /// By how much the matrix (14.4a) of a form, less its margins, is not positive semidefinite at a point, in the lengths of the start; along x first
+    /// the one of (14.5a) that is about this part of the derivatives.
     #[must_use]
-    pub fn lack(&self, form: &FallingForm, point: &Slopes) -> f64 {
+    pub fn lack(&self, form: &FallingForm, (part, point): (Part, &Slopes)) -> f64 {
         let n = point.r.len();
         let d_e = positive(self.start[1], 1.0);
         let d_x = positive(self.start[0], d_e);
-        let FallingForm { matrix: p, cross, weight, k_p, margins, .. } = form;
+        let FallingForm { matrix: p, cross, weight, k_p, splitting, margins, .. } = form;
         let Slopes { j, g, r, d } = point;
         let sigma = self.sigma;
+        let in_splitting = |i: usize, k: usize| splitting.as_ref().map_or(0.0, |s| s[i.min(k).min(n)][i.max(k).min(n)]);
         let of_state = |row: &[f64], column: usize| (0..n).map(|l| row[l] * j[l * n + column]).sum::<f64>();
         let of_error = |row: &[f64]| row.iter().zip(g).map(|(p, g)| p * g).sum::<f64>();
         let unit = |i: usize| {
@@ -261,9 +302,15 @@ impl PeakProgram {
                 (_, _, true, _) => -weight - 0.5 * k_p * d,
                 _ => k_p - margins[2],
             };
+            let value = match part {
+                Part::States => value - in_splitting(i, k),
+                Part::Error if i != n && k != n => in_splitting(i, k),
+                _ => value,
+            };
             -value * unit(i) * unit(k)
         };
-        largest((0..n + 2).map(|i| (0..n + 2).map(|k| entry(i, k)).collect()).collect())
+        let places: Vec<usize> = (0..n + 2).filter(|place| part != Part::States || *place != n).collect();
+        largest(places.iter().map(|i| places.iter().map(|k| entry(*i, *k)).collect()).collect())
     }
 }
 

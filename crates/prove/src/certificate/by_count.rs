@@ -6,7 +6,7 @@ use rug::Rational;
 use serde_json::{Value, json};
 use sigmastar_decide::bounds::StatesForm;
 use sigmastar_decide::linear::Falling;
-use sigmastar_decide::trial::{OrMore, Trial, TubeProof};
+use sigmastar_decide::trial::{OrMore, Trial, TubeProof, XFirst};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::write_exact;
 use sigmastar_lang::spec::{Level, Metric, Specification, TrigonometricVector, Wave};
@@ -96,7 +96,7 @@ fn linear(forms: &[Falling], sizes: &[[Enclosure; 2]]) -> Value {
 }
 
 fn of_trial(Trial { states: curve, error, forcing, .. }: &Trial, proof: &TubeProof) -> Value {
-    let TubeProof { defects: [d_x, d_q], radii, slopes, forms, states, or_more } = proof;
+    let TubeProof { defects: [d_x, d_q], radii, slopes, forms, states, or_more, x_first } = proof;
     let has_states = states.is_some();
     let wave = |wave: &Wave| object(series("mean", wave, exact));
     let of_error = object(series("mean", error, exact).into_iter().filter(|(name, _)| *name != "mean"));
@@ -128,5 +128,14 @@ fn of_trial(Trial { states: curve, error, forcing, .. }: &Trial, proof: &TubePro
         std::iter::once(("defect_q_t", exact(defect_t))).chain(numbers)
     });
     let states = states.as_ref().map(|form| ("states", bound(form)));
-    object(curves.chain(numbers).chain(forms).chain(states).chain(more))
+    let x_first = x_first.as_ref().map(|XFirst { radii, eta, forms, splittings }| {
+        let with_splitting = |(metric_and_level, s): (&(Metric, Level), &Vec<Vec<Rational>>)| {
+            let mut part = form(metric_and_level);
+            part["S"] = rows(s);
+            part
+        };
+        let forms = ("forms", forms.iter().zip(splittings).map(with_splitting).collect());
+        ("x_first", object([("box", object(pair(radii, ["x", "e"]))), ("E", exact(eta)), forms]))
+    });
+    object(curves.chain(numbers).chain(forms).chain(states).chain(more).chain(x_first))
 }

@@ -17,6 +17,7 @@ use sigmastar_propose::bounds::{FallingForm, PeakOf, PeakProgram, PointSlopes};
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::control::Control;
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
+use sigmastar_theory::evidence::Part;
 
 /// By what share of the diagonal the matrices of a form are to be definite, in turn.
 const MARGINS: [f64; 2] = [1e-6, 1e-4];
@@ -97,7 +98,12 @@ fn form(
         Some(PointSlopes { j: j.concat(), g, r: r.to_vec(), d: *d })
     };
     let program = PeakProgram {
-        points: plant.parameters.looked_at().into_iter().map(member).collect::<Option<_>>()?,
+        points: plant
+            .parameters
+            .looked_at()
+            .into_iter()
+            .map(|values| Some((Part::All, member(values)?)))
+            .collect::<Option<_>>()?,
         gain: own.gain.each_ref().map(Enclosure::midpoint_f64),
         sigma: own.sigma.midpoint_f64(),
         mu: own.mu.midpoint_f64(),

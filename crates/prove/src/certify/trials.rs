@@ -5,14 +5,14 @@ use crate::attempt::prove_value;
 use rug::Rational;
 use sigmastar_decide::bounds::{Engine, Region, StatesForm};
 use sigmastar_decide::linear::{Loop, PRECISION, Start};
-use sigmastar_decide::trial::{Concluded, Known, OrMore, Peaks, Trial, TubeProof};
+use sigmastar_decide::trial::{Concluded, Known, OrMore, Peaks, Trial, TubeProof, XFirst};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, round_f64, round_rational};
 use sigmastar_exact::parallel;
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{Bound, Level, Metric, OfPlant, ProvedCell, Specification};
 use sigmastar_matrix::inverse;
-use sigmastar_propose::bounds::{FallingForm, FloatCurve, FloatSuprema, LookedAt, PeakOf, PeakProgram};
+use sigmastar_propose::bounds::{FallingForm, FloatCurve, FloatSuprema, LookedAt, PeakBox, PeakOf, PeakProgram};
 use sigmastar_propose::orbit::FloatSeries;
 use sigmastar_propose::trial::{ProposedTrial, TrialLoop};
 use sigmastar_theory::data::Data;
@@ -82,8 +82,7 @@ pub(super) fn by_trials(asked: &Asked<'_>) -> Option<ByCount> {
     let around = |n_o: u64, or_more: bool| Around { asked, of_plant, cell, n_o, or_more };
     let mut found = parallel::map(&COUNTS, |n_o| around(*n_o, false).bounds(None));
     let last = found.last().cloned().flatten().map(|(_, (_, proof))| proof);
-    let later: Vec<Around<'_>> =
-        LATER.iter().map(|n_o| around(*n_o, false)).chain([around(OR_MORE, true)]).collect();
+    let later: Vec<Around<'_>> = LATER.iter().map(|n_o| around(*n_o, false)).chain([around(OR_MORE, true)]).collect();
     found.extend(parallel::map(&later, |around| around.bounds(last.as_ref())));
     let (counts, trials): (Vec<_>, Vec<_>) = found.into_iter().flatten().unzip();
     (!counts.is_empty()).then_some(ByCount { counts, proof: CountProof::Trials(trials), checked: false })
@@ -135,8 +134,11 @@ impl Around<'_> {
             let TubeProof { radii, forms, .. } = other?;
             self.with_peaks(&prepared, radii.clone(), forms.clone())
         };
+        // Where they do not fall with all derivatives at one point for another number, they do not for this one.
+        let is_split = other.is_some_and(|other| other.x_first.is_some());
         let with_peaks = || {
-            let (radii, forms) = MARGINS.into_iter().find_map(|margin| self.peak_box(&prepared, margin))?;
+            let margins = MARGINS.into_iter().filter(|_| !is_split);
+            let (radii, forms) = margins.into_iter().find_map(|margin| self.peak_box(&prepared, margin, None))?;
             let forms = forms.iter().map(rounded).collect::<Option<_>>()?;
             self.with_peaks(&prepared, short(radii)?, forms)
         };
@@ -144,9 +146,16 @@ impl Around<'_> {
             let (radii, form) = self.small_box(&prepared)?;
             let proof = self.proof(&prepared, short(radii)?, vec![rounded(&form)?])?;
             let concluded = Concluded::of(&prepared.trial, &proof, &self.known(&prepared))?;
-            self.is_of_the_claim(&concluded).then_some((proof, concluded, None))
+            Some((proof, concluded, None))
         };
-        let (proof, concluded, peaks) = of_other().or_else(with_peaks).or_else(alone)?;
+        let (mut proof, concluded, mut peaks) = of_other().or_else(with_peaks).or_else(alone)?;
+        if peaks.is_none() {
+            let found = self.along_x_first(&prepared, &concluded, other.and_then(|other| other.x_first.as_ref()));
+            (proof.x_first, peaks) = found.unzip();
+        }
+        if peaks.is_none() && !self.is_of_the_claim(&concluded) {
+            return None;
+        }
         // The solution is that of the claim: its function falls along the differences, too.
         let own = self.reach_by_the_claim(&prepared, &concluded);
         let reach = match peaks {
@@ -172,12 +181,71 @@ impl Around<'_> {
     fn with_peaks(&self, prepared: &Prepared, radii: [Rational; 2], forms: Vec<(Metric, Level)>) -> Option<Proved> {
         let proof = self.proof(prepared, radii, forms)?;
         let concluded = Concluded::of(&prepared.trial, &proof, &self.known(prepared))?;
-        let peaks = Peaks::of(&proof, &concluded, &prepared.own, &prepared.start)?;
-        let inside = peaks.reach.iter().zip(&proof.radii).zip([proof.states.is_some(), true]);
-        let inside = inside
-            .into_iter()
-            .all(|((reach, end), asked)| !asked || reach.lt(&Enclosure::from_rational(end, PRECISION)).is_true());
-        inside.then_some((proof, concluded, Some(peaks)))
+        let peaks = self.peaks(prepared, &concluded, (&proof.radii, &proof.forms))?;
+        Some((proof, concluded, Some(peaks)))
+    }
+
+    /// The peaks by forms on a box, if solutions from the set do not leave it.
+    fn peaks(
+        &self,
+        prepared: &Prepared,
+        concluded: &Concluded,
+        (radii, forms): (&[Rational; 2], &[(Metric, Level)]),
+    ) -> Option<Peaks> {
+        let has_states = self.asked.plant.states() > 0;
+        let peaks = Peaks::of((forms, has_states), concluded, &prepared.own, &prepared.start)?;
+        let mut inside = peaks.reach.iter().zip(radii).zip([has_states, true]);
+        inside
+            .all(|((reach, end), asked)| !asked || reach.lt(&Enclosure::from_rational(end, PRECISION)).is_true())
+            .then_some(peaks)
+    }
+
+    /// What falls along x first on a box that solutions from the set do not leave; `other`: that of another number of oscillators.
+    fn along_x_first(
+        &self,
+        prepared: &Prepared,
+        concluded: &Concluded,
+        other: Option<&XFirst>,
+    ) -> Option<(XFirst, Peaks)> {
+        let eta = round_f64(SMALL_BOX * prepared.distances[1], SHORT, Direction::Up)?;
+        if !concluded.distances[1].le(&Enclosure::from_rational(&eta, PRECISION)).is_true() {
+            return None;
+        }
+        let of_other = || self.decided_x_first(prepared, concluded, XFirst { eta: eta.clone(), ..other?.clone() });
+        let found = |margin: f64| {
+            let (radii, forms) = self.peak_box(prepared, margin, Some(eta.to_f64()))?;
+            let splitting = |form: &FallingForm| form.splitting.as_ref()?.iter().map(short_row).collect();
+            let splittings = forms.iter().map(splitting).collect::<Option<_>>()?;
+            let forms = forms.iter().map(rounded).collect::<Option<_>>()?;
+            let x_first = XFirst { radii: short(radii)?, eta: eta.clone(), forms, splittings };
+            self.decided_x_first(prepared, concluded, x_first)
+        };
+        of_other().or_else(|| MARGINS.into_iter().find_map(found))
+    }
+
+    /// What is proved of it: at least the first form.
+    fn decided_x_first(
+        &self,
+        prepared: &Prepared,
+        concluded: &Concluded,
+        mut x_first: XFirst,
+    ) -> Option<(XFirst, Peaks)> {
+        let Prepared { engine, .. } = prepared;
+        let [x, e] = x_first.radii.each_ref();
+        self.in_domain(prepared, [x, e])?;
+        engine.smooth(x, e).ok()?;
+        let decided = |((metric, level), s): (&(Metric, Level), &Vec<Vec<Rational>>)| {
+            let place = ([x, e], &x_first.eta);
+            engine.decide_form_x_first((metric, level, s), self.asked.sigma, place, EFFORT).truth.is_true()
+        };
+        let holds: Vec<bool> = x_first.forms.iter().zip(&x_first.splittings).map(decided).collect();
+        holds.first().filter(|first| **first)?;
+        let mut each = holds.iter();
+        x_first.forms.retain(|_| each.next() == Some(&true));
+        let mut each = holds.iter();
+        x_first.splittings.retain(|_| each.next() == Some(&true));
+        let peaks = self.peaks(prepared, concluded, (&x_first.radii, &x_first.forms))?;
+        Some((x_first, peaks))
     }
 
     fn known<'p>(&'p self, prepared: &'p Prepared) -> Known<'p> {
@@ -276,8 +344,8 @@ impl Around<'_> {
         }
     }
 
-    /// The box that solutions from the set do not leave, with the smallest peak that is found, and forms on it.
-    fn peak_box(&self, prepared: &Prepared, margin: f64) -> Option<([f64; 2], Vec<FallingForm>)> {
+    /// The box that solutions from the set do not leave, with the smallest peak that is found, and forms on it; along x first with that eta.
+    fn peak_box(&self, prepared: &Prepared, margin: f64, x_first: Option<f64>) -> Option<([f64; 2], Vec<FallingForm>)> {
         let [d_x, d_e, _] = prepared.distances;
         let has_states = self.asked.plant.states() > 0;
         let reaches = if has_states { &REACHES[..] } else { &REACHES[..1] };
@@ -287,7 +355,10 @@ impl Around<'_> {
             for _ in 0..FITS {
                 let mut program = self.program(prepared, has_states.then_some(FILLED * x));
                 let asked = (PeakOf::Error, margin, looked);
-                let Some(found) = prepared.samples.propose_peak([x, e], &mut program, asked) else { break };
+                let Some(found) = prepared.samples.propose_peak(PeakBox { at: [x, e], x_first }, &mut program, asked)
+                else {
+                    break;
+                };
                 let peak = found.level.sqrt();
                 let fits = peak <= FILLED * e;
                 let settled = kept.as_ref().is_some_and(|(_, known)| !fits || found.level > SETTLED * known.level);
@@ -316,7 +387,7 @@ impl Around<'_> {
         let (radii, first) = fitted(x, e, (margin, LookedAt::Between))?;
         let mut program = self.program(prepared, None);
         let asked = (PeakOf::Control, margin, LookedAt::Between);
-        let second = prepared.samples.propose_peak(radii, &mut program, asked);
+        let second = prepared.samples.propose_peak(PeakBox { at: radii, x_first }, &mut program, asked);
         Some((radii, std::iter::once(first).chain(second).collect()))
     }
 
@@ -325,7 +396,8 @@ impl Around<'_> {
         let radii = [0, 1].map(|i| SMALL_BOX * prepared.distances[i]);
         let mut program = self.program(prepared, None);
         let asked = (PeakOf::Error, MARGINS[0], LookedAt::Grid);
-        Some((radii, prepared.samples.propose_peak(radii, &mut program, asked)?))
+        let place = PeakBox { at: radii, x_first: None };
+        Some((radii, prepared.samples.propose_peak(place, &mut program, asked)?))
     }
 
     /// What is proved on a box: at least the first form.
@@ -363,7 +435,7 @@ impl Around<'_> {
                 Some(form)
             }
         };
-        Some(TubeProof { defects: [d_x, d_q], radii: [x, e], slopes, forms, states, or_more })
+        Some(TubeProof { defects: [d_x, d_q], radii: [x, e], slopes, forms, states, or_more, x_first: None })
     }
 
     /// That the box lies where the model holds.
@@ -402,16 +474,20 @@ impl Around<'_> {
 /// The share of the distances of the start that a box has around a trial of which nothing is known further away.
 const SMALL_BOX: f64 = 1e-4;
 
+/// A row of a matrix in short numbers.
+fn short_row(row: &Vec<f64>) -> Option<Vec<Rational>> {
+    row.iter().map(|entry| round_f64(*entry, DIGITS, Direction::Nearest)).collect()
+}
+
 /// A form in short numbers.
 fn rounded(form: &FallingForm) -> Option<(Metric, Level)> {
     let FallingForm { matrix, cross, weight, k_p, p_up, x_low, e_low, margins, .. } = form;
     let short = |value: f64| round_f64(value, DIGITS, Direction::Nearest);
-    let row = |row: &Vec<f64>| row.iter().map(|entry| short(*entry)).collect::<Option<Vec<Rational>>>();
     let [c_x, c_e, c_y] = margins.map(|margin| round_f64(KEPT * margin, SHORT, Direction::Down));
     let has_states = !matrix.is_empty();
     let metric = Metric {
-        matrix: matrix.iter().map(row).collect::<Option<_>>()?,
-        cross: row(cross)?,
+        matrix: matrix.iter().map(short_row).collect::<Option<_>>()?,
+        cross: short_row(cross)?,
         weight: short(*weight)?,
         k_p: short(*k_p)?,
         c_x: if has_states { c_x? } else { Rational::from(1) },
