@@ -50,9 +50,13 @@ impl FloatSuprema {
         let points = |(part, at): (Part, [f64; 2]), places: Vec<Place>| {
             self.of_derivatives(at, &Places::listed(places), |derivatives, _| (part, Slopes::from(derivatives)))
         };
-        let extremes = [Bound::Fx, Bound::Qx, Bound::Fe, Bound::QeMax, Bound::Qe];
         for (part, at) in place.parts() {
-            program.points.extend(points((part, at), self.where_largest(at, &all, extremes)));
+            let extreme = match part {
+                Part::All => self.where_largest(at, &all, [Bound::Fx, Bound::Qx, Bound::Fe, Bound::QeMax, Bound::Qe]),
+                Part::States => self.where_largest(at, &all, [Bound::Fx, Bound::Qx]),
+                Part::Error => self.where_largest(at, &all, [Bound::Fe, Bound::QeMax, Bound::Qe]),
+            };
+            program.points.extend(points((part, at), extreme));
         }
         let mut found = program.propose(of, margin)?;
         for _ in 0..ROUNDS {

@@ -56,6 +56,10 @@ const LARGER: f64 = 1.04;
 const SMALLER: f64 = 1.002;
 const SETTLED: f64 = 0.99;
 
+/// Along x first the peak hardly depends on how far the box goes in e: the box of e in the search, in that of its start, and in peaks.
+const FAR: f64 = 2.0;
+const ROOMY: f64 = 1.08;
+
 /// The claim that such bounds are added to.
 pub(super) struct Asked<'a> {
     pub(super) plant: &'a Plant,
@@ -350,15 +354,20 @@ impl Around<'_> {
         let has_states = self.asked.plant.states() > 0;
         let reaches = if has_states { &REACHES[..] } else { &REACHES[..1] };
         let mut best: Option<([f64; 2], FallingForm)> = None;
-        let fitted = |x: f64, mut e: f64, (margin, looked): (f64, LookedAt)| {
+        let found_on = |at: [f64; 2], asked: (f64, LookedAt)| {
+            let share = if x_first.is_some() { 1.0 / ROOMY } else { FILLED };
+            let mut program = self.program(prepared, has_states.then_some(share * at[0]));
+            let asked = (PeakOf::Error, asked.0, asked.1);
+            prepared.samples.propose_peak(PeakBox { at, x_first }, &mut program, asked)
+        };
+        let fitted = |x: f64, mut e: f64, asked: (f64, LookedAt)| {
+            if x_first.is_some() {
+                let found = found_on([x, e], asked)?;
+                return Some(([x, ROOMY * found.level.sqrt()], found));
+            }
             let mut kept: Option<([f64; 2], FallingForm)> = None;
             for _ in 0..FITS {
-                let mut program = self.program(prepared, has_states.then_some(FILLED * x));
-                let asked = (PeakOf::Error, margin, looked);
-                let Some(found) = prepared.samples.propose_peak(PeakBox { at: [x, e], x_first }, &mut program, asked)
-                else {
-                    break;
-                };
+                let Some(found) = found_on([x, e], asked) else { break };
                 let peak = found.level.sqrt();
                 let fits = peak <= FILLED * e;
                 let settled = kept.as_ref().is_some_and(|(_, known)| !fits || found.level > SETTLED * known.level);
@@ -373,8 +382,9 @@ impl Around<'_> {
             }
             kept
         };
+        let first = if x_first.is_some() { FAR } else { FIRST };
         for reach in reaches {
-            let found = fitted(if has_states { reach * d_x } else { 0.0 }, FIRST * d_e, (margin, LookedAt::Grid));
+            let found = fitted(if has_states { reach * d_x } else { 0.0 }, first * d_e, (margin, LookedAt::Grid));
             let (known, found) = (best.take(), found);
             // Once they are worse, those further out are too.
             let worse = known.as_ref().zip(found.as_ref()).is_some_and(|(known, found)| found.1.level > known.1.level);
