@@ -21,12 +21,13 @@ use sigmastar_theory::derivation::initial_set::ClaimedSet;
 use sigmastar_theory::derivation::sharp::SharpWitness;
 use sigmastar_theory::evidence::Coordinates;
 
-/// The numbers of oscillators that are looked at: with boxes and forms of their own, and then with those of the last of these where they serve.
-const COUNTS: [u64; 3] = [0, 1, 2];
-const LATER: [u64; 3] = [3, 5, 10];
-
-/// From here on all of them at once.
+/// The numbers of oscillators that are looked at where they are not looked at one by one, and from where on all of them at once.
+const COUNTS: [u64; 6] = [0, 1, 2, 3, 5, 10];
 const OR_MORE: u64 = 20;
+
+/// From where on all of them may be looked at once, each number before by itself; the share of q that they leave then.
+const ONE_BY_ONE: usize = 12;
+const LEFT: f64 = 1e-9;
 
 /// Digits of the numbers of a form, and of bounds.
 const DIGITS: u32 = 9;
@@ -34,10 +35,15 @@ const SHORT: u32 = 4;
 
 /// By what share of the diagonal the matrices of a form are to be definite, and how much of that is claimed.
 const MARGINS: [f64; 2] = [1e-3, 1e-5];
+const WIDE_MARGINS: [f64; 2] = [0.1, 1e-2];
 const KEPT: f64 = 0.5;
 
 /// How far a metric is from what a level says of it.
 const ROOM: f64 = 1e-5;
+
+/// For so few oscillators a box and forms of their own are looked for where others serve, and proved if the peak is less than this share of the other.
+const OWN: u64 = 2;
+const WORTH: f64 = 0.97;
 
 /// Defects that are small enough, beside q, and the velocity of the states.
 const SMALL: f64 = 1e-10;
@@ -84,10 +90,15 @@ pub(super) fn by_trials(asked: &Asked<'_>) -> Option<ByCount> {
     let cell =
         of_plant.undivided().filter(|_| !plant.is_family() && plant.period.interval().is_none() && known_gain)?;
     let around = |n_o: u64, or_more: bool| Around { asked, of_plant, cell, n_o, or_more };
-    let mut found = parallel::map(&COUNTS, |n_o| around(*n_o, false).bounds(None));
-    let last = found.last().cloned().flatten().map(|(_, (_, proof))| proof);
-    let later: Vec<Around<'_>> = LATER.iter().map(|n_o| around(*n_o, false)).chain([around(OR_MORE, true)]).collect();
-    found.extend(parallel::map(&later, |around| around.bounds(last.as_ref())));
+    let (counts, from) = match around(OR_MORE, true).met_by() {
+        Some(from) => ((0..from).collect(), from),
+        None => (COUNTS.to_vec(), OR_MORE),
+    };
+    // What it is proved with serves the others in many cases.
+    let last = around(from, true).bounds(None);
+    let known = last.as_ref().map(|(_, (_, proof))| proof);
+    let mut found = parallel::map(&counts, |n_o| around(*n_o, false).bounds(known));
+    found.push(last);
     let (counts, trials): (Vec<_>, Vec<_>) = found.into_iter().flatten().unzip();
     (!counts.is_empty()).then_some(ByCount { counts, proof: CountProof::Trials(trials), checked: false })
 }
@@ -134,25 +145,27 @@ impl Around<'_> {
     fn bounds(&self, other: Option<&TubeProof>) -> Option<(CountBounds, (Trial, TubeProof))> {
         let prepared = self.prepared()?;
         let nominal = self.asked.spec.input_gain.as_ref().map(|gain| gain.nominal.enclose(PRECISION));
-        let of_other = || {
-            let TubeProof { radii, forms, .. } = other?;
-            self.with_peaks(&prepared, radii.clone(), forms.clone())
-        };
-        // Where they do not fall with all derivatives at one point for another number, they do not for this one.
-        let is_split = other.is_some_and(|other| other.x_first.is_some());
-        let with_peaks = || {
-            let margins = MARGINS.into_iter().filter(|_| !is_split);
-            let (radii, forms) = margins.into_iter().find_map(|margin| self.peak_box(&prepared, margin, None))?;
-            let forms = forms.iter().map(rounded).collect::<Option<_>>()?;
-            self.with_peaks(&prepared, short(radii)?, forms)
-        };
-        let alone = || {
-            let (radii, form) = self.small_box(&prepared)?;
-            let proof = self.proof(&prepared, short(radii)?, vec![rounded(&form)?])?;
+        let alone = |(radii, forms): ([Rational; 2], Vec<(Metric, Level)>)| {
+            let proof = self.proof(&prepared, radii, forms)?;
             let concluded = Concluded::of(&prepared.trial, &proof, &self.known(&prepared))?;
             Some((proof, concluded, None))
         };
-        let (mut proof, concluded, mut peaks) = of_other().or_else(with_peaks).or_else(alone)?;
+        let small = || {
+            let (radii, form) = self.small_box(&prepared)?;
+            alone((short(radii)?, vec![rounded(&form)?]))
+        };
+        let of_other = other.map(|TubeProof { radii, forms, x_first, .. }| ((radii.clone(), forms.clone()), x_first));
+        let (mut proof, concluded, mut peaks) = match of_other {
+            // Where they do not fall with all derivatives at one point for another number, they do not for this one.
+            Some((known, Some(_))) => alone(known).or_else(small)?,
+            Some(((radii, forms), None)) => {
+                let known = self.with_peaks(&prepared, radii, forms);
+                let own = || self.with_own_peaks(&prepared, known.as_ref().and_then(|known| known.2.as_ref()));
+                let own = if known.is_none() || self.n_o < OWN { own() } else { None };
+                own.or(known).or_else(small)?
+            }
+            None => self.with_own_peaks(&prepared, None).or_else(small)?,
+        };
         if peaks.is_none() {
             let found = self.along_x_first(&prepared, &concluded, other.and_then(|other| other.x_first.as_ref()));
             (proof.x_first, peaks) = found.unzip();
@@ -179,6 +192,17 @@ impl Around<'_> {
             largest: Some(Largest { error: &concluded.error + reach.error, transient }),
         };
         Some((bounds, (prepared.trial, proof)))
+    }
+
+    /// What is proved with forms of its own, if the peak is expected to be well below those that are known.
+    fn with_own_peaks(&self, prepared: &Prepared, known: Option<&Peaks>) -> Option<Proved> {
+        let (radii, forms) = MARGINS.into_iter().find_map(|margin| self.peak_box(prepared, margin, None))?;
+        let expected = forms.first()?.level.sqrt();
+        if known.is_some_and(|known| expected > WORTH * known.error.upper_f64()) {
+            return None;
+        }
+        let forms = forms.iter().map(rounded).collect::<Option<_>>()?;
+        self.with_peaks(prepared, short(radii)?, forms)
     }
 
     /// What is proved with forms on a box that solutions from the set do not leave.
@@ -281,10 +305,19 @@ impl Around<'_> {
         witness.reach(&data.with_oscillators(&own.n_bar_squared), distances.each_ref())
     }
 
-    fn prepared(&self) -> Option<Prepared> {
-        let Asked { plant, spec, sigma, set, .. } = self.asked;
+    /// From which number of oscillators on what they leave of q is as small as nothing, of a loop in which they leave no error; `None` where that is
+    /// not soon.
+    fn met_by(&self) -> Option<u64> {
+        let forcing = self.proposed()?.forcing;
+        let sizes = forcing.harmonics.iter().map(|[cos, sin]| cos.to_f64().hypot(sin.to_f64())).collect::<Vec<f64>>();
+        let all = forcing.mean.to_f64().abs() + sizes.iter().sum::<f64>();
+        let left = |met: usize| sizes.iter().skip(met).sum::<f64>();
+        (0..=ONE_BY_ONE).find(|met| left(*met) <= LEFT * all).map(|met| met as u64)
+    }
+
+    fn proposed(&self) -> Option<ProposedTrial> {
+        let Asked { plant, spec, sigma, .. } = self.asked;
         let model = &spec.internal_model;
-        let met = usize::try_from(self.n_o).ok()?;
         let weight = |l: u64| model.weights.weight(l, PRECISION).midpoint_f64();
         let program = TrialLoop {
             plant,
@@ -299,7 +332,14 @@ impl Around<'_> {
             mean: doubles(&orbit.mean),
             harmonics: orbit.harmonics.iter().map(|pair| pair.each_ref().map(doubles)).collect(),
         };
-        let ProposedTrial { states, error, forcing } = program.propose(&curve)?;
+        program.propose(&curve)
+    }
+
+    fn prepared(&self) -> Option<Prepared> {
+        let Asked { plant, spec, sigma, set, .. } = self.asked;
+        let model = &spec.internal_model;
+        let met = usize::try_from(self.n_o).ok()?;
+        let ProposedTrial { states, error, forcing } = self.proposed()?;
         let trial = Trial { n_o: self.n_o, or_more: self.or_more, states, error, forcing };
         let l = &self.of_plant.coordinates;
         let lines = met.max(trial.error.harmonics.len());
@@ -404,10 +444,13 @@ impl Around<'_> {
     /// A box that is small beside the trial, and a form on it.
     fn small_box(&self, prepared: &Prepared) -> Option<([f64; 2], FallingForm)> {
         let radii = [0, 1].map(|i| SMALL_BOX * prepared.distances[i]);
-        let mut program = self.program(prepared, None);
-        let asked = (PeakOf::Error, MARGINS[0], LookedAt::Grid);
         let place = PeakBox { at: radii, x_first: None };
-        Some((radii, prepared.samples.propose_peak(place, &mut program, asked)?))
+        // The larger the margins are, the nearer is the solution to the trial.
+        let found = |margin: f64| {
+            let asked = (PeakOf::Error, margin, LookedAt::Grid);
+            prepared.samples.propose_peak(place, &mut self.program(prepared, None), asked)
+        };
+        Some((radii, WIDE_MARGINS.into_iter().chain(MARGINS).find_map(found)?))
     }
 
     /// What is proved on a box: at least the first form.
