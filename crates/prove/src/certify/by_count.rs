@@ -197,10 +197,14 @@ impl Certification<'_> {
         self.spec.internal_model.matched && !self.spec.disturbances.any() && self.claim().is_some()
     }
 
-    /// The rows with such bounds: that of the claim with those that are known, and the others.
+    /// The rows with such bounds: that of the claim with those that are known, and the others where the plant is linear in x and e.
     pub fn set_counts_of_rows(&mut self, plant: &Plant) {
-        let Some(linear) = LinearPlant::of(plant).filter(|_| self.by_count.is_some()) else { return };
-        let answers = Answers::new(&linear, plant.internal_model.base_frequency.enclose(PRECISION));
+        if self.by_count.is_none() {
+            return;
+        }
+        let linear = LinearPlant::of(plant);
+        let frequency = plant.internal_model.base_frequency.enclose(PRECISION);
+        let answers = linear.as_ref().map(|linear| Answers::new(linear, frequency));
         let claim = self.claim();
         let at = |row: &GainRow| {
             let RowProof::Continuous(proof, other) = &row.proof else { return None };
@@ -210,7 +214,7 @@ impl Certification<'_> {
                 return self.by_count.clone();
             }
             let spec = other.as_deref().unwrap_or(self.spec);
-            by_count((plant, &answers), spec, (&row.sigma, EFFORTS[1]), &proof.witness.set)
+            by_count((plant, answers.as_ref()?), spec, (&row.sigma, EFFORTS[1]), &proof.witness.set)
         };
         let found = parallel::map(&self.gains, at);
         for (row, found) in self.gains.iter_mut().zip(&found) {
