@@ -109,8 +109,9 @@ impl CertifyOptions {
         self
     }
 
-    /// Prove for each of these numbers of oscillators (at most 8, up to 120), at the gain of the claim alone, a rate and a factor with
-    /// `|e - e_per| <= factor exp(-rate (t - t_0))` in the undisturbed loop, and put them into the certificate; at samples at the sampling instants, of a claim by norms.
+    /// Prove for each of these numbers of oscillators (at most 8, up to 100), at the gain of the claim alone, a rate and a factor with
+    /// `|e - e_per| <= factor exp(-rate (t - t_0))` in the undisturbed loop, and put them into the certificate; at samples at the sampling instants, of a claim by norms. Bounds by
+    /// the number of oscillators, where there are some, are for these too.
     ///
     /// ```
     /// use sigmastar::CertifyOptions;

@@ -6,7 +6,7 @@ use super::error::{Error, ErrorKind};
 use super::json_text;
 use super::subject::Subject;
 use sigmastar_lang::spec::{self, Document};
-use sigmastar_prove::certificate::{embedded, is_stated, read_for, says_by_count, stated_counts};
+use sigmastar_prove::certificate::{embedded, is_stated, read_for, stated_by_count, stated_counts};
 use sigmastar_prove::certify::{Options, rate_counts};
 use sigmastar_prove::reduction::{self as prove, Prepared, Run};
 
@@ -56,8 +56,8 @@ pub(super) fn decided_again<T>(
     let mut run = prepared.certify(options).map_err(|all| Error::documents(&all))?;
     let no_rates = |reason| Error::no_rates(reason, "`n_o`");
     run.prove_rates(&rate_counts(&stated_counts(document)).map_err(no_rates)?).map_err(no_rates)?;
-    if let (true, prove::Subject::Plant(plant)) = (says_by_count(document), &subject.read) {
-        run.set_counts(plant);
+    if let (Some(counts), prove::Subject::Plant(plant)) = (stated_by_count(document), &subject.read) {
+        run.set_counts(plant, &counts);
     }
     then(&run, &subject, !of_another && is_stated(&run, document))
 }

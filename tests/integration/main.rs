@@ -7,6 +7,7 @@ mod actuator;
 mod agreement;
 mod aligned;
 mod architecture;
+mod asked_counts;
 mod bound;
 mod causes;
 mod cells;

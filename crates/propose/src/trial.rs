@@ -82,12 +82,13 @@ impl TrialLoop<'_> {
         let n = self.plant.states();
         let own = field.own(orbit);
         let mut start: Option<FloatSeries> = None;
-        for harmonics in HARMONICS {
+        let fits = |harmonics: usize| (n + 1) * (2 * harmonics + 1) <= MAX_UNKNOWNS;
+        let is_beyond = |harmonics: usize| harmonics > self.oscillators();
+        // Where none of these harmonics is beyond the oscillators e vanishes.
+        let vanishes = self.or_more || !HARMONICS.into_iter().any(|harmonics| is_beyond(harmonics) && fits(harmonics));
+        for harmonics in HARMONICS.into_iter().filter(|harmonics| vanishes || is_beyond(*harmonics)) {
             let points = 2 * harmonics + 1;
-            if harmonics <= self.oscillators() && !self.or_more {
-                continue;
-            }
-            if (n + 1) * points > MAX_UNKNOWNS {
+            if !fits(harmonics) {
                 return None;
             }
             let samples = match &start {

@@ -6,14 +6,16 @@ use sigmastar_document::{Block, Table};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_prove::certify::{ByCount, Certification, CountBounds, Largest};
 
-/// The numbers of oscillators of which the short report has a row, with the last one, from which on nothing changes.
+/// The numbers of oscillators of which the report has a row, with those that are asked about, and the last one, from which on nothing changes.
 const SHOWN: [u64; 6] = [0, 1, 2, 3, 5, 10];
 
 /// The table; nothing where there are no such bounds.
 pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
     let Some(ByCount { counts, checked, .. }) = &run.by_count else { return Vec::new() };
     let mut table = Table::new(&["n_o", "steady |e|", "largest |e|", "steady |u|", "largest |u|"]);
-    for bounds in counts.iter().filter(|bounds| bounds.or_more || SHOWN.contains(&bounds.n_o)) {
+    let is_asked = |n_o: u64| run.for_n_o.iter().any(|asked| u64::from(asked.n_o) == n_o);
+    let is_shown = |bounds: &&CountBounds| bounds.or_more || SHOWN.contains(&bounds.n_o) || is_asked(bounds.n_o);
+    for bounds in counts.iter().filter(is_shown) {
         let CountBounds { n_o, or_more, steady_error, steady_control, largest, .. } = bounds;
         let name = if *or_more { format!("{n_o} or more") } else { n_o.to_string() };
         let shown = |value: Option<&Enclosure>| value.map_or_else(|| "not proved".to_owned(), upper);

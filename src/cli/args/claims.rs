@@ -76,7 +76,8 @@ pub struct CertifyArgs {
 
     /// Prove for each of these numbers of oscillators (at most 8, up to 100), at the gain of the claim alone, a rate and a factor with
     /// |e - e_per| <= factor exp(-rate (t - t_0)) in the undisturbed loop, and with `measurement`, `disturbance` or, at samples, `arithmetic` in FILE what these do
-    /// to e in the limit and in the transient, and put them into the certificate; e.g. `0,4,10`
+    /// to e in the limit and in the transient, and put them into the certificate; e.g. `0,4,10`. Where the report has bounds by the number of
+    /// oscillators, these are among them
     #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
     pub n_o: Option<String>,
 

@@ -100,7 +100,8 @@ def certify(
 
     - `sigma`: certify this gain instead of the smallest one that is found;
     - `sampling_period`: certify the regulator that a computer runs at samples this far apart;
-    - `n_o`: numbers of oscillators (at most 8, up to 100) for each of which a rate and a factor are proved and claimed, at this gain;
+    - `n_o`: numbers of oscillators (at most 8, up to 100) for each of which a rate and a factor are proved and claimed, at this gain, and bounds by the
+      number of oscillators where there are some;
     - `steady_error`, `peak_error`, `max_control`: certify the smallest gain that is found with which |e| along the periodic solution, |e|
       on the way, or what is put out stays within this;
     - `rate`: certify the smallest gain that is found with which the rates for the numbers of `n_o` are at least this, in 1/time;

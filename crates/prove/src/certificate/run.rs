@@ -5,6 +5,7 @@ use super::read_plant::read_plant_witness;
 use super::read_sampled::{is_sampled, read_sampled_witness};
 use super::sampled::sampled_certificate_json;
 use super::write::certificate_json;
+use crate::rate::bound::MAX_OSCILLATORS;
 use crate::reduction::{FreeNumbers, Run, Subject, Witness, WitnessData};
 use serde_json::Value;
 use sigmastar_lang::spec::{Document, SpecErrors};
@@ -32,15 +33,23 @@ pub fn is_stated(run: &Run<'_>, certificate: &Document) -> bool {
 /// The numbers of oscillators of which a certificate states rates.
 #[must_use]
 pub fn stated_counts(certificate: &Document) -> Vec<u32> {
-    let rates = certificate.at("/claim/for_n_o").map(|rates| rates.to_json()).unwrap_or_default();
-    let counts = rates.as_array().into_iter().flatten().filter_map(|one| one["n_o"].as_u64());
-    counts.filter_map(|n_o| u32::try_from(n_o).ok()).collect()
+    numbers_in(certificate, "/claim/for_n_o").unwrap_or_default()
 }
 
-/// Whether a certificate says something by the number of oscillators.
+/// The numbers of oscillators of which a certificate states bounds; none where it states nothing by these numbers.
 #[must_use]
-pub fn says_by_count(certificate: &Document) -> bool {
-    certificate.at("/claim/by_n_o").is_some()
+pub fn stated_by_count(certificate: &Document) -> Option<Vec<u32>> {
+    let mut counts = numbers_in(certificate, "/claim/by_n_o")?;
+    counts.retain(|n_o| *n_o <= MAX_OSCILLATORS);
+    Some(counts)
+}
+
+/// The numbers of oscillators in a list of a claim.
+fn numbers_in(certificate: &Document, pointer: &str) -> Option<Vec<u32>> {
+    let list = certificate.at(pointer)?.to_json();
+    // Of each larger number something is said without one of its own.
+    let own = list.as_array().into_iter().flatten().filter(|one| one["or_more"] != true);
+    Some(own.filter_map(|one| one["n_o"].as_u64()).filter_map(|n_o| u32::try_from(n_o).ok()).collect())
 }
 
 /// Reads the free numbers of a certificate about either regulator.

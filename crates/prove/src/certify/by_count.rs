@@ -164,9 +164,9 @@ impl Certification<'_> {
         Some((steady, peak.clone(), control.clone()))
     }
 
-    /// Bounds by the number of oscillators at the gain of the claim: for every number where the plant is linear in x and e, for some of them where
-    /// nothing of it is an interval; nothing where the base frequency is not matched, or the document has noise or a disturbance.
-    pub fn set_counts(&mut self, plant: &Plant) {
+    /// Bounds by the number of oscillators at the gain of the claim: for every number where the plant is linear in x and e, for some of them, `counts`
+    /// among them, where nothing of it is an interval; nothing where the base frequency is not matched, or the document has noise or a disturbance.
+    pub fn set_counts(&mut self, plant: &Plant, counts: &[u32]) {
         let Some(SharpProof { witness, evaluation, .. }) = self.sharp.proved().filter(|_| self.has_counts()) else {
             return;
         };
@@ -188,6 +188,7 @@ impl Certification<'_> {
                     periodic: [periodic.x_per.clone(), periodic.e_per.clone()],
                     kappas: data.kappas(&exact(&witness.k0), &exact(&witness.k1)),
                     data,
+                    counts,
                 })
             }
         };

@@ -20,6 +20,7 @@ use sigmastar_theory::derivation::control::{Control, Reach};
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
 use sigmastar_theory::derivation::sharp::SharpWitness;
 use sigmastar_theory::evidence::Coordinates;
+use std::collections::BTreeSet;
 
 /// The numbers of oscillators that are looked at where they are not looked at one by one, and from where on all of them at once.
 const COUNTS: [u64; 6] = [0, 1, 2, 3, 5, 10];
@@ -80,6 +81,8 @@ pub(super) struct Asked<'a> {
     pub(super) data: Data<'a>,
     /// kappa_0 and kappa_1.
     pub(super) kappas: [Enclosure; 2],
+    /// Numbers of oscillators that are looked at besides.
+    pub(super) counts: &'a [u32],
 }
 
 /// The bounds that are found; `None` without any.
@@ -90,13 +93,16 @@ pub(super) fn by_trials(asked: &Asked<'_>) -> Option<ByCount> {
     let cell =
         of_plant.undivided().filter(|_| !plant.is_family() && plant.period.interval().is_none() && known_gain)?;
     let around = |n_o: u64, or_more: bool| Around { asked, of_plant, cell, n_o, or_more };
-    let (counts, from) = match around(OR_MORE, true).met_by() {
+    let (mut counts, from): (BTreeSet<u64>, u64) = match around(OR_MORE, true).met_by() {
         Some(from) => ((0..from).collect(), from),
-        None => (COUNTS.to_vec(), OR_MORE),
+        None => (BTreeSet::from(COUNTS), OR_MORE),
     };
     // What it is proved with serves the others in many cases.
     let last = around(from, true).bounds(None);
     let known = last.as_ref().map(|(_, (_, proof))| proof);
+    let besides = asked.counts.iter().copied().map(u64::from);
+    counts.extend(besides.filter(|n_o| *n_o < from || last.is_none()));
+    let counts: Vec<u64> = counts.into_iter().collect();
     let mut found = parallel::map(&counts, |n_o| around(*n_o, false).bounds(known));
     found.push(last);
     let (counts, trials): (Vec<_>, Vec<_>) = found.into_iter().flatten().unzip();

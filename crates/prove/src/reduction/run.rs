@@ -37,6 +37,8 @@ pub struct Prepared {
     start: Start,
     gain: Option<Rational>,
     limits: Limits,
+    /// The numbers of oscillators that are asked about.
+    counts: Vec<u32>,
     /// About the smallest gain, where `gain` was not given but found above it.
     found_above: Option<f64>,
     /// The plant, where it is one and the claim need not rest on norms.
@@ -159,6 +161,7 @@ impl Prepared {
             start,
             gain,
             limits: Limits::default(),
+            counts: Vec::new(),
             found_above: None,
             plant: None,
             by_norms: None,

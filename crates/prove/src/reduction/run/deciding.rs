@@ -60,30 +60,27 @@ impl Prepared {
         watch: &dyn Watch,
     ) -> Result<Run<'_>, Vec<SpecErrors>> {
         watch.enter(Stage::Witness);
+        let counted = |run: &mut Run<'_>, counts: &[u32]| {
+            if let Some(plant) = self.plant.as_deref().filter(|_| options.compare) {
+                run.set_counts(plant, counts);
+            }
+        };
+        let counts = Counts { of: &counted, asked: &self.counts };
         let run = match &self.start {
             Start::Continuous(start) => {
                 let pool = self.pool(start.as_deref(), options, watch);
                 let claims = |batch: Batch| self.claims(&pool, options, batch, watch);
-                let counted = |run: &mut Run<'_>| {
-                    if let Some(plant) = self.plant.as_deref().filter(|_| options.compare) {
-                        run.set_counts(plant);
-                    }
-                };
-                let run = first_decided(claims, &counted, check);
+                let run = first_decided(claims, &counts, check);
                 run.map(|run| self.compared(run, &pool, start.as_deref(), options, watch))
             }
             Start::Sampled(sampling, start) => {
                 let claims = |batch: Batch| self.claims_at_samples(sampling, start.as_ref(), options, batch, watch);
-                let counted = |run: &mut Run<'_>| {
-                    if let Some(plant) = self.plant.as_deref().filter(|_| options.compare) {
-                        run.set_counts(plant);
-                    }
-                };
-                let run = first_decided(claims, &counted, check);
+                let run = first_decided(claims, &counts, check);
                 run.map(|run| self.compared_at_samples(run, sampling, start.as_ref(), options, watch))
             }
             Start::Given(numbers) => {
-                first_decided(|batch| Ok(self.given(numbers, options, batch)?.into_iter().collect()), &|_| (), check)
+                let claims = |batch: Batch| Ok(self.given(numbers, options, batch)?.into_iter().collect());
+                first_decided(claims, &Counts { of: &|_, _| (), asked: &[] }, check)
             }
         };
         run.map_err(|refusal: Refusal| refusal.errors(&self.spec))
@@ -294,11 +291,17 @@ impl Prepared {
     }
 }
 
-/// The first claim that the checker decides; where there is none, the best run with its claim taken back. `counted` adds to a claim what its
-/// certificate says of each number of oscillators; where the checker does not decide that, it is no part of it.
+/// What adds to a claim what its certificate says by the number of oscillators, of given numbers besides, and those that are asked for.
+struct Counts<'c, 's> {
+    of: &'c dyn Fn(&mut Run<'s>, &[u32]),
+    asked: &'c [u32],
+}
+
+/// The first claim that the checker decides; where there is none, the best run with its claim taken back. What a certificate says by the number of
+/// oscillators is no part of it where the checker does not decide that: first what is asked for, then all of it.
 fn first_decided<'s>(
     claims: impl Fn(Batch) -> Result<Vec<Run<'s>>, Refusal>,
-    counted: &dyn Fn(&mut Run<'s>),
+    counts: &Counts<'_, 's>,
     check: &dyn Fn(&Run<'_>) -> Checked,
 ) -> Result<Run<'s>, Refusal> {
     let mut best: Option<Run<'s>> = None;
@@ -313,8 +316,12 @@ fn first_decided<'s>(
                 best = best.or(Some(run));
                 continue;
             }
-            counted(&mut run);
+            (counts.of)(&mut run, counts.asked);
             let mut answer_of = check(&run);
+            if answer_of != Checked::Decided && run.by_count_mut().is_some() && !counts.asked.is_empty() {
+                (counts.of)(&mut run, &[]);
+                answer_of = check(&run);
+            }
             if let Some(found) = run.by_count_mut().filter(|_| answer_of != Checked::Decided) {
                 found.checked = false;
                 answer_of = check(&run);
@@ -348,11 +355,11 @@ fn best_first(runs: &mut [Run<'_>]) {
 }
 
 impl Run<'_> {
-    /// Finds bounds by the number of oscillators at the gain of the claim, where the plant has some: the certificate of the run then has them, for a checker
-    /// to decide.
-    pub fn set_counts(&mut self, plant: &Plant) {
+    /// Finds bounds by the number of oscillators at the gain of the claim, of `counts` besides, where the plant has some
+    /// ([`Certification::set_counts`]): the certificate of the run then has them, for a checker to decide.
+    pub fn set_counts(&mut self, plant: &Plant, counts: &[u32]) {
         if let Run::Continuous(run) = self {
-            run.set_counts(plant);
+            run.set_counts(plant, counts);
             if let Some(found) = &mut run.by_count {
                 found.checked = true;
             }

@@ -56,15 +56,16 @@ impl Prepared {
     ) -> Result<Prepared, Vec<SpecErrors>> {
         let rows = options.compare || !limits.is_empty() || subject.actuator().is_some();
         let search = Search { subject, limits, counts, options: Options { compare: false, ..options }, rows, watch };
-        match (&limits.rate, gain) {
+        let prepared = match (&limits.rate, gain) {
             (_, Some(gain)) => {
                 let prepared = search.at(Some(gain))?;
                 let norms_from = search.norms_from(&prepared);
-                Ok(Prepared { norms_from, ..prepared.within(limits.clone(), watch) })
+                Prepared { norms_from, ..prepared.within(limits.clone(), watch) }
             }
-            (None, None) => search.within_limits(),
-            (Some(least), None) => search.with_rate(least),
-        }
+            (None, None) => search.within_limits()?,
+            (Some(least), None) => search.with_rate(least)?,
+        };
+        Ok(Prepared { counts: counts.to_vec(), ..prepared })
     }
 }
 
