@@ -124,7 +124,8 @@ impl CertifyOptions {
     }
 
     /// Certify the smallest gain that is found with which |e| of the periodic solution is at most this, a positive rational number, for
-    /// every number of oscillators; with [`CertifyOptions::sigma`] refuse a gain with which that is not proved.
+    /// every number of oscillators, or, in continuous time and without [`CertifyOptions::rate`], for those of [`CertifyOptions::n_o`], where there are
+    /// some, which often needs a far smaller gain; with [`CertifyOptions::sigma`] refuse a gain with which that is not proved.
     #[must_use]
     pub fn steady_error(self, limit: impl Into<String>) -> CertifyOptions {
         self.limited(0, limit.into())
@@ -189,6 +190,7 @@ impl CertifyOptions {
             peak_error: limit("peak_error", peak)?,
             control: limit("max_control", control)?,
             rate: limit("rate", rate)?,
+            ..Limits::default()
         };
         if limits.rate.is_some() && counts.is_empty() {
             let help = "say with n_o for which numbers of oscillators";

@@ -204,6 +204,7 @@ fn limits(args: &CertifyArgs) -> Result<Limits, Failure> {
         peak_error: limit("--peak-error", &args.peak_error)?,
         control: limit("--max-control", &args.max_control)?,
         rate: limit("--rate", &args.rate)?,
+        ..Limits::default()
     })
 }
 

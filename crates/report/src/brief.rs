@@ -51,9 +51,9 @@ pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences
                  larger one, too, whose bounds are others; the same for every $`n_o`${least}{}",
                 // The limit holds for every n_o, so without oscillators too.
                 match run.limits.steady_error {
-                    Some(_) =>
-                        "; with oscillators a smaller gain may keep the steady error: `--target-sup` says with how many",
-                    None => "",
+                    Some(_) if run.for_n_o.is_empty() =>
+                        "; with N oscillators a smaller gain may keep the steady error: `--n-o N` seeks it",
+                    _ => "",
                 }
             )
         }

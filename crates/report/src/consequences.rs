@@ -130,6 +130,12 @@ fn answer(target: &Target, outcome: TargetOutcome, most: u64) -> String {
         TargetOutcome::Reached(n_o) => {
             format!("Target {wanted}: certified with $`n_o = {n_o}`$ oscillators, the least for these bounds")
         }
+        TargetOutcome::ReachedAtGain(n_o, larger) => {
+            let larger = larger.map_or_else(String::new, |larger| format!("; with {larger} at every larger gain, too"));
+            format!(
+                "Target {wanted}: certified with $`n_o = {n_o}`$ oscillators at this gain alone, the least for these bounds{larger}"
+            )
+        }
         TargetOutcome::NotReached => {
             format!("Target {wanted}: not certified with any number of oscillators up to {most}")
         }

@@ -149,10 +149,14 @@ pub(super) fn targets_json(targets: &[(Target, TargetOutcome)]) -> Value {
             TargetKind::Rms => "rms",
         };
         let (answer, n_o) = match outcome {
-            TargetOutcome::Reached(n_o) => ("reached", Some(n_o)),
+            TargetOutcome::Reached(n_o) | TargetOutcome::ReachedAtGain(n_o, _) => ("reached", Some(n_o)),
             TargetOutcome::NotReached => ("not reached", None),
         };
-        json!({ "norm": norm, "target": target.value.text, "answer": answer, "n_o": n_o })
+        let mut value = json!({ "norm": norm, "target": target.value.text, "answer": answer, "n_o": n_o });
+        if let TargetOutcome::ReachedAtGain(_, larger) = outcome {
+            value["n_o_at_larger_gains"] = json!(larger);
+        }
+        value
     };
     targets.iter().map(one).collect()
 }

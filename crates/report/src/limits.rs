@@ -15,8 +15,8 @@ use sigmastar_theory::derivation::sampled::SampledEvaluation;
 struct Bounds<'r> {
     /// The rates for the numbers of oscillators that were asked about.
     rates: Vec<(u32, Option<&'r Rational>)>,
-    /// |e| along the periodic solution.
-    steady: &'r Enclosure,
+    /// |e| along the periodic solution, with the numbers of oscillators that are asked about, or with every one.
+    steady: Enclosure,
     /// |e| in the transient.
     peak: &'r Enclosure,
     /// What is put out.
@@ -27,13 +27,14 @@ impl<'r> Bounds<'r> {
     /// Those of a claim in continuous time.
     fn of_run(run: &'r Certification<'_>) -> Option<Bounds<'r>> {
         let (steady, peak, control) = run.bounds()?;
+        let steady = run.steady_error_with(&run.limits.steady_with).unwrap_or_else(|| steady.clone());
         Some(Bounds { rates: run.rates().collect(), steady, peak, control })
     }
 
     /// Those of a claim at samples.
     fn of_samples(run: &'r SampledCertification<'_>) -> Option<Bounds<'r>> {
         let SampledEvaluation { size, peak, control, .. } = &run.claim()?.evaluation;
-        Some(Bounds { rates: run.rates().collect(), steady: &size.e_per, peak, control })
+        Some(Bounds { rates: run.rates().collect(), steady: size.e_per.clone(), peak, control })
     }
 }
 
@@ -55,11 +56,18 @@ fn in_words(sigma: Option<&Rational>, kept: Option<String>) -> String {
 
 /// "|e| <= 0.1 (proved: 0.0997) in the transient, ..."; nothing where nothing was asked for.
 fn kept(limits: &Limits, bounds: &Bounds<'_>) -> Option<String> {
-    let named = named(limits, bounds).into_iter().filter_map(|(_, [size, place], limit, bound)| {
-        limit.map(|limit| format!("$`{size} <= {limit}`$ (proved: {}) {place}", upper(&bound)))
+    let named = named(limits, bounds).into_iter().filter_map(|(name, [size, place], limit, bound)| {
+        let with = if name == STEADY { with_counts(&limits.steady_with) } else { String::new() };
+        limit.map(|limit| format!("$`{size} <= {limit}`$ (proved: {}) {place}{with}", upper(&bound)))
     });
     let all: Vec<String> = named.chain(rate_kept(limits, bounds)).collect();
     (!all.is_empty()).then(|| all.join(", "))
+}
+
+/// " with n_o = 4, 10", where a bound is one with these; empty where it is for every number.
+fn with_counts(counts: &[u32]) -> String {
+    let counts: Vec<String> = counts.iter().map(u32::to_string).collect();
+    if counts.is_empty() { String::new() } else { format!(" with $`n_o = {}`$", counts.join(", ")) }
 }
 
 /// "a rate of at least 2 for n_o = 0, 4 (proved: 2.3)"
@@ -75,6 +83,9 @@ fn slowest<'r>(bounds: &Bounds<'r>) -> Option<&'r Rational> {
     bounds.rates.iter().map(|(_, rate)| *rate).min()?
 }
 
+/// The field of |e| along the periodic solution.
+const STEADY: &str = "steady_error";
+
 /// What may be limited: its field, what is bounded and where, the limit that was asked for, and what is proved.
 type Named = (&'static str, [&'static str; 2], Option<String>, Enclosure);
 
@@ -82,7 +93,7 @@ fn named(limits: &Limits, bounds: &Bounds<'_>) -> [Named; 3] {
     let text = |limit: &Option<Rational>| limit.as_ref().map(write_exact);
     let largest = &bounds.control.steady + &bounds.control.transient;
     [
-        ("steady_error", ["|e|", "along the periodic solution"], text(&limits.steady_error), bounds.steady.clone()),
+        (STEADY, ["|e|", "along the periodic solution"], text(&limits.steady_error), bounds.steady.clone()),
         ("peak_error", ["|e|", "in the transient"], text(&limits.peak_error), bounds.peak.clone()),
         ("control", ["|u|", "in the transient"], text(&limits.control), largest),
     ]
@@ -105,7 +116,11 @@ fn kept_json(limits: &Limits, bounds: &Bounds<'_>) -> Option<Value> {
     let named = named(limits, bounds).into_iter();
     let fields: Map<String, Value> = named
         .filter_map(|(name, _, limit, bound)| {
-            Some((name.to_owned(), json!({ "asked": limit?, "proved": full(&bound) })))
+            let mut kept = json!({ "asked": limit?, "proved": full(&bound) });
+            if name == STEADY && !limits.steady_with.is_empty() {
+                kept["n_o"] = json!(limits.steady_with);
+            }
+            Some((name.to_owned(), kept))
         })
         .chain(rate)
         .collect();

@@ -22,7 +22,8 @@ pub struct CertifyArgs {
     #[arg(long, value_name = "V", allow_hyphen_values = true)]
     pub sigma: Option<String>,
 
-    /// Certify the smallest gain that is found with which |e| of the periodic solution is at most V for every n_o
+    /// Certify the smallest gain that is found with which |e| of the periodic solution is at most V for every n_o; with --n-o, without --rate
+    /// and in continuous time for those of LIST, which often needs a far smaller gain
     #[arg(long, value_name = "V", allow_hyphen_values = true)]
     pub steady_error: Option<String>,
 
@@ -66,11 +67,11 @@ pub struct CertifyArgs {
     #[command(flatten)]
     pub replace: Replace,
 
-    /// Find the smallest n_o that certifies sup|e| <= V, an exact constant such as `1e-3` or `1/1000`
+    /// Find the smallest n_o that certifies sup|e| <= V, of all bounds by the number of oscillators, an exact constant such as `1e-3` or `1/1000`
     #[arg(long, value_name = "V", allow_hyphen_values = true)]
     pub target_sup: Option<String>,
 
-    /// Find the smallest n_o that certifies rms(e) <= V, an exact constant such as `1e-3` or `1/1000`
+    /// Find the smallest n_o that certifies rms(e) <= V, of all bounds by the number of oscillators, an exact constant such as `1e-3` or `1/1000`
     #[arg(long, value_name = "V", allow_hyphen_values = true)]
     pub target_rms: Option<String>,
 

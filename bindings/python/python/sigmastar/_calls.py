@@ -103,7 +103,8 @@ def certify(
     - `n_o`: numbers of oscillators (at most 8, up to 100) for each of which a rate and a factor are proved and claimed, at this gain, and bounds by the
       number of oscillators where there are some;
     - `steady_error`, `peak_error`, `max_control`: certify the smallest gain that is found with which |e| along the periodic solution, |e|
-      on the way, or what is put out stays within this;
+      on the way, or what is put out stays within this; the first with every number of oscillators, or, in continuous time and without `rate`, with
+      those of `n_o`;
     - `rate`: certify the smallest gain that is found with which the rates for the numbers of `n_o` are at least this, in 1/time;
     - `transfer`: the proof of the transfer bound, `best`, `boxes` or `closed-form`;
     - `precision_limit`: the precision in bits at which an undecided condition is given up;

@@ -8,6 +8,7 @@ use sigmastar_decide::trial::{Trial, TubeProof};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_lang::spec::Specification;
 use sigmastar_theory::derivation::control::Control;
+use sigmastar_theory::derivation::targets::{Target, TargetKind};
 use std::sync::Arc;
 
 /// The numbers of oscillators of which the steady error is bounded in continuous time.
@@ -98,6 +99,18 @@ impl ByCount {
     #[must_use]
     pub fn at(&self, n_o: u64) -> Option<&CountBounds> {
         self.counts.iter().rev().find(|bounds| bounds.n_o <= n_o).filter(|bounds| bounds.or_more || bounds.n_o == n_o)
+    }
+
+    /// The smallest number of oscillators whose bound is certainly at most a target.
+    pub(super) fn reaching(&self, target: &Target) -> Option<u64> {
+        let reaches = |bounds: &&CountBounds| {
+            let bound = match target.kind {
+                TargetKind::Sup => &bounds.steady_error,
+                TargetKind::Rms => &bounds.mean_square,
+            };
+            bound.le(&target.value.enclose(bound.precision())).is_true()
+        };
+        self.counts.iter().find(reaches).map(|bounds| bounds.n_o)
     }
 
     /// The largest of a bound over all numbers of oscillators; none where not all are known.

@@ -54,8 +54,10 @@ impl Options {
 /// What a claim is to keep to, at its gain; each where it is asked for.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Limits {
-    /// Of |e| along the periodic solution, for every n_o.
+    /// Of |e| along the periodic solution, for every n_o, or for those of `steady_with`.
     pub steady_error: Option<Rational>,
+    /// The numbers of oscillators with which the steady error is meant; empty for every one.
+    pub steady_with: Vec<u32>,
     /// Of |e| on the way from the initial set, at all times.
     pub peak_error: Option<Rational>,
     /// Of what is put out, on the way from the initial set, at all times.
@@ -68,19 +70,24 @@ impl Limits {
     /// Whether nothing is asked for.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.rate.is_none() && self.named().all(|(_, limit)| limit.is_none())
+        self.rate.is_none() && self.steady_error.is_none() && self.named().all(|(_, limit)| limit.is_none())
+    }
+
+    /// That of |e| along the periodic solution for every n_o.
+    pub(super) fn steady_for_every(&self) -> Option<&Rational> {
+        self.steady_error.as_ref().filter(|_| self.steady_with.is_empty())
     }
 
     fn named(&self) -> impl Iterator<Item = (Limited, Option<&Rational>)> {
         [
-            (Limited::SteadyError, self.steady_error.as_ref()),
+            (Limited::SteadyError, self.steady_for_every()),
             (Limited::PeakError, self.peak_error.as_ref()),
             (Limited::Control, self.control.as_ref()),
         ]
         .into_iter()
     }
 
-    /// Whether the bounds at the gain of a proof are certainly not above, rates apart: of |e| along the periodic solution and on the way, and of the
+    /// Whether the bounds at the gain of a proof are certainly not above, rates and the steady error with some n_o apart: of |e| along the periodic solution and on the way, and of the
     /// control.
     #[must_use]
     pub fn kept(&self, [steady, peak]: [&Enclosure; 2], control: &Control<Enclosure>) -> bool {

@@ -2,6 +2,7 @@
 
 mod deciding;
 mod seeking;
+mod steady;
 
 pub use deciding::Checked;
 
@@ -209,7 +210,7 @@ fn around_again(spec: &Specification) -> Option<(Engine, FloatSuprema)> {
 impl Run<'_> {
     /// Proves rates for these numbers of oscillators at the gain of the claim, by norms or from the derivatives of the plant
     /// ([`Certification::prove_rates`], [`Certification::prove_rates_around`], [`SampledCertification::prove_rates`]). Where a least rate is to be
-    /// kept and one of them is not proved to be as large there is no claim any more.
+    /// kept and one of them is not proved to be as large there is no claim any more; nor where the steady error with some of them is not kept.
     ///
     /// # Errors
     /// Theirs.
@@ -223,7 +224,10 @@ impl Run<'_> {
             Run::Sampled(run) => run.prove_rates(counts),
         }?;
         match self {
-            Run::Continuous(run) => run.keep_to_rate(),
+            Run::Continuous(run) => {
+                run.keep_to_rate();
+                run.keep_to_steady_error();
+            }
             Run::Sampled(run) => run.keep_to_rate(),
         }
         Ok(())

@@ -44,8 +44,24 @@ pub struct Target {
 pub enum TargetOutcome {
     /// The certified bound reaches the target at this number of oscillators, and not below it.
     Reached(u64),
+    /// One of the gain of the claim alone does at the first number; those that hold for every larger gain, too, do at the second one, if at any.
+    ReachedAtGain(u64, Option<u64>),
     /// It does not up to [`MAX_OSCILLATORS`](super::consequences::MAX_OSCILLATORS).
     NotReached,
+}
+
+impl TargetOutcome {
+    /// The answer of these bounds and of others, which are about the gain of the claim alone, as all of them may be.
+    #[must_use]
+    pub fn or_at_gain(self, own: Option<u64>, all_alone: bool) -> TargetOutcome {
+        match (self, own) {
+            (TargetOutcome::Reached(known), Some(own)) if own >= known => self,
+            (_, Some(own)) if all_alone => TargetOutcome::Reached(own),
+            (TargetOutcome::Reached(known), Some(own)) => TargetOutcome::ReachedAtGain(own, Some(known)),
+            (TargetOutcome::NotReached, Some(own)) => TargetOutcome::ReachedAtGain(own, None),
+            _ => self,
+        }
+    }
 }
 
 /// What oscillators are worth whose frequencies are not exactly those of the harmonics (derivation, 13.3).

@@ -61,7 +61,9 @@ impl Prepared {
     ) -> Result<Run<'_>, Vec<SpecErrors>> {
         watch.enter(Stage::Witness);
         let counted = |run: &mut Run<'_>, counts: &[u32]| {
-            if let Some(plant) = self.plant.as_deref().filter(|_| options.compare) {
+            if let Some(plant) =
+                self.plant.as_deref().filter(|_| options.compare || !self.limits.steady_with.is_empty())
+            {
                 run.set_counts(plant, counts);
             }
         };

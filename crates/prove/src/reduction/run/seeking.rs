@@ -21,15 +21,15 @@ const STEPS: usize = 6;
 const DIGITS: u32 = 5;
 
 /// What is asked of a claim.
-struct Search<'q> {
-    subject: &'q Subject,
-    limits: &'q Limits,
-    counts: &'q [u32],
+pub(super) struct Search<'q> {
+    pub(super) subject: &'q Subject,
+    pub(super) limits: &'q Limits,
+    pub(super) counts: &'q [u32],
     /// Without comparisons.
-    options: Options,
+    pub(super) options: Options,
     /// Whether data for larger gains are wanted beside those of the smallest one.
     rows: bool,
-    watch: &'q dyn Watch,
+    pub(super) watch: &'q dyn Watch,
 }
 
 /// A gain that is certified, and the slowest of its rates; none where one of them is not proved.
@@ -43,7 +43,8 @@ impl Prepared {
     /// The data of a subject for the smallest gain that is found with which the limits are kept, the least rate among them, of these numbers
     /// of oscillators; where no gain has it, for the one with the largest rate that is found. A run with it whose rates are proved
     /// decides anew ([`Run::prove_rates`]). A claim of a plant rests on norms where it can and what is asked needs them: rates at samples, what
-    /// noise does, and limits at samples that are kept with them alone. At the gain that is given nothing is sought.
+    /// noise does, and limits at samples that are kept with them alone. At the gain that is given nothing is sought. In continuous time, and without a
+    /// least rate, the steady error is one with these numbers of oscillators, where there are some.
     ///
     /// # Errors
     /// Those of [`Prepared::new`].
@@ -65,6 +66,7 @@ impl Prepared {
             (None, None) => search.within_limits()?,
             (Some(least), None) => search.with_rate(least)?,
         };
+        let prepared = if limits.rate.is_some() { prepared } else { search.with_these_counts(prepared) };
         Ok(Prepared { counts: counts.to_vec(), ..prepared })
     }
 }
@@ -100,7 +102,7 @@ impl Search<'_> {
         }
     }
 
-    fn at(&self, gain: Option<Rational>) -> Result<Prepared, Vec<SpecErrors>> {
+    pub(super) fn at(&self, gain: Option<Rational>) -> Result<Prepared, Vec<SpecErrors>> {
         let by_norms = || self.by_norms(gain.clone()).ok().filter(|prepared| prepared.reaches(gain.as_ref()));
         match self.asks_for_norms().then(by_norms).flatten() {
             Some(prepared) => Ok(prepared),
