@@ -1,9 +1,9 @@
-//! The questions that decide the entries of `bounds` (docs/mathematics.md, section 11.3, P2).
+//! The questions that decide the entries of `bounds` (docs/mathematics.md, section 11.3, P2), and the same bounds around a trial (section 14.4).
 
 use super::formula::{Axis, Formulas, Id, Leaf};
 use super::model::Model;
 use super::question::Question;
-use proofs_core::plant::entries::{Entry, Name};
+use proofs_core::plant::entries::Name;
 use rug::Rational;
 
 /// `value^2 - |row|^2 >= 0`.
@@ -39,12 +39,11 @@ pub fn rate(formulas: &mut Formulas, value: &Rational, p: &[Vec<Id>], jacobian: 
     (0..order).map(|i| (0..=i).map(|j| entry(i, j, formulas)).collect()).collect()
 }
 
-/// The question that decides an entry.
-pub fn question(model: &mut Model, entry: &Entry) -> Question {
-    let states = model.states();
-    let (value, q) = (&entry.value, model.q);
+/// The question that decides whether this value bounds it. Those of states are of a plant that has some.
+pub fn question(model: &mut Model, name: Name, value: &Rational) -> Question {
+    let (states, q) = (model.states(), model.q);
     let (formulas, row) = (&mut model.formulas, &model.row);
-    let rows = match entry.name {
+    let rows = match name {
         Name::Fx => spectral_norm(formulas, value, &model.jacobian),
         Name::Fe => {
             let column: Vec<Id> = model.f.iter().map(|f| formulas.derivative(*f, Axis::Output)).collect();
@@ -66,7 +65,7 @@ pub fn question(model: &mut Model, entry: &Entry) -> Question {
             let drift: Vec<Id> = (0..states).map(|j| formulas.leaf(Leaf::Drift(j))).collect();
             let moved = formulas.dot(row.iter().copied().zip(drift));
             let rate = formulas.make(along + moved);
-            let slopes: Vec<Id> = match entry.name {
+            let slopes: Vec<Id> = match name {
                 Name::Qte => vec![formulas.derivative(rate, Axis::Output)],
                 _ => (0..states).map(|j| formulas.derivative(rate, Axis::State(j))).collect(),
             };

@@ -186,7 +186,9 @@ fn in_states(
     inequalities: Inequalities<'_>,
     spec: &Specification,
 ) -> Outcome<Vec<Option<Question>>> {
-    let of = |entry: &entries::Entry| (!entry.name.is_of_motion()).then(|| bounds::question(model, entry));
+    let of = |entry: &entries::Entry| {
+        (!entry.name.is_of_motion()).then(|| bounds::question(model, entry.name, &entry.value))
+    };
     let mut questions: Vec<Option<Question>> = plant.known.entries.list.iter().map(of).collect();
     let said = inequality::questions(model, inequalities, spec)?;
     questions.extend(said.into_iter().map(|said| Some(said.question)));
@@ -203,7 +205,7 @@ fn of_entry(model: &mut Model, entry: &entries::Entry) -> Said {
         pointer: format!("{}/value", entry.pointer),
         what: entry.label.to_owned(),
         at: entry.arguments.clone(),
-        question: bounds::question(model, entry),
+        question: bounds::question(model, entry.name, &entry.value),
     }
 }
 

@@ -68,5 +68,6 @@ mod splitting;
 mod transfer;
 mod trials;
 mod trials_certificate;
+mod trials_or_more;
 mod trials_support;
 mod words;

@@ -1,9 +1,8 @@
 //! Numbers by n_o by a trial (docs/mathematics.md, sections 14.4 and 14.5): what is accepted and refused of a loop whose periodic solution is known.
 
-use crate::trials_support::{Case, FORMULAS, Formulas, L, OFF, SET, SIGMA, WEIGHTS, largest, n_bar, oscillators};
+use crate::trials_support::{Case, Expected, FORMULAS, Formulas, expected, largest, text};
 use proofs_check::verdict::Verdict;
 use serde_json::{Value, json};
-use std::f64::consts::TAU;
 
 use Verdict::{BadInput, Invalid, Undecided};
 
@@ -14,65 +13,6 @@ fn case() -> Case {
 /// With defects of a size that counts.
 fn coarse() -> Case {
     case().trial("/defect_x", "1e-3").trial("/defect_q", "2e-3")
-}
-
-/// What section 14.4 says with the numbers of a trial of [`Case`], computed apart.
-struct Expected {
-    s_x: f64,
-    s_e: f64,
-    /// steady: e, its root mean square, u.
-    steady: [f64; 3],
-    /// X_N and E_N.
-    sizes: [f64; 2],
-    v_0: f64,
-    /// largest: e, u.
-    largest: [f64; 2],
-}
-
-fn expected(case: &Case) -> Expected {
-    let value = |at: &str| {
-        let text = case.trial.pointer(at).unwrap_or_else(|| panic!("{at}")).as_str().unwrap();
-        text.parse::<f64>().unwrap()
-    };
-    let of_form = |name: &str| value(&format!("/forms/0/{name}"));
-    let [d_x, d_q, b_x, b_e] = ["/defect_x", "/defect_q", "/q_x", "/q_e"].map(value);
-    let [w, k_p, c_x, c_e, c_y, p_up, e_low] = ["w", "k_p", "c_x", "c_e", "c_y", "P_up", "e_low"].map(of_form);
-    let p = value("/forms/0/p/0");
-    let [q_low, q_up, c, gamma] = ["Q_low", "Q_up", "c", "gamma"].map(|name| value(&format!("/states/{name}")));
-    let g = 4.0 * d_x * d_x * (p_up * p_up / c_x + p * p / c_e) + k_p * k_p * d_q * d_q / c_y;
-    let (rho_x, rho_y) = ((g / c_x).sqrt(), (g / c_y).sqrt());
-    let rho_e = (g / c_e).sqrt().min(rho_y / SIGMA.hypot(TAU * (case.n_o + 1) as f64));
-    let s_e = (rho_e * rho_y).sqrt();
-    let s_x = (q_up / (q_low * c) * (gamma * s_e * s_e + q_up * q_up * d_x * d_x / c)).sqrt();
-    let kappa = (1..=case.n_o).map(|k| 2.0 * (k as f64).powf(1.5)).fold((case.n_o + 1) as f64 / WEIGHTS[0], f64::max);
-    let s_z = (0.5 + kappa).sqrt() * (b_x * rho_x + b_e * rho_e + d_q);
-    let size = |[a, b]: [f64; 2]| a.hypot(b);
-    let within = |k: usize| size(case.q.1[k - 1]).powi(2) / (k as f64).powf(-1.5);
-    let first = (case.q.0 * case.q.0 / WEIGHTS[0] + (1..=case.n_o).map(within).sum::<f64>()).sqrt();
-    let beyond = |k: usize| {
-        let [both, _, slope] = oscillators(case.n_o, k);
-        slope * both * size(case.e.1[k - 1]) / TAU
-    };
-    let z_n = first + (case.n_o + 1..=3).map(beyond).sum::<f64>() + s_z;
-    let e_n = largest(|t| case.e.at(t, 0)) + s_e;
-    let rms = (case.e.1.iter().map(|pair| size(*pair).powi(2)).sum::<f64>() / 2.0).sqrt();
-    let n_bar = n_bar(case.n_o);
-    let u = largest(|t| case.e.at(t, 1) - case.q.at(t, 0)) + SIGMA * s_e + n_bar * s_z;
-    let x_n = OFF[0] / L + OFF[1] + s_x;
-    let [d_x, d_e, d_z] = [SET[0] + x_n, SET[1] + e_n, SET[2] + n_bar * SET[1] + z_n];
-    let v_0 = p_up * d_x * d_x + 2.0 * p * d_x * d_e + w * d_e * d_e + k_p / 2.0 * d_z * d_z;
-    Expected {
-        s_x,
-        s_e,
-        steady: [e_n, rms + rho_e, u],
-        sizes: [x_n, e_n],
-        largest: [e_n + (v_0 / e_low).sqrt(), u + (v_0 * (SIGMA * SIGMA / e_low + 2.0 * n_bar * n_bar / k_p)).sqrt()],
-        v_0,
-    }
-}
-
-fn text(value: f64) -> Value {
-    format!("{value:e}").into()
 }
 
 #[test]
@@ -372,9 +312,6 @@ fn the_form_of_a_trial() {
     }
     changed(&|trial| trial["more"] = "1".into()).refused(BadInput, "/more");
     changed(&|trial| trial["q"]["harmonics"] = json!([many(3), many(61)].concat())).refused(Invalid, "/defect_q");
-    let mut more = case();
-    more.entry["or_more"] = true.into();
-    more.refused(BadInput, ":/claim/by_n_o/0/or_more");
 }
 
 #[test]

@@ -31,6 +31,9 @@ pub fn n_bar(n_o: usize) -> f64 {
     (WEIGHTS[0] + (1..=n_o).map(|l| (l as f64).powf(-1.5)).sum::<f64>()).sqrt()
 }
 
+/// The root of the sum of all weights: n_0 and zeta(3/2).
+const N_BAR: f64 = 2.147_644_139_210_565;
+
 /// By its mean and `[a_k, b_k]`.
 #[derive(Clone)]
 pub struct Wave(pub f64, pub Vec<[f64; 2]>);
@@ -61,7 +64,7 @@ impl Wave {
     }
 
     /// As an expression in t.
-    fn text(&self) -> String {
+    pub fn text(&self) -> String {
         let part = |(k, [a, b]): (usize, &[f64; 2])| {
             let k = 2 * (k + 1);
             format!(" + {}*cos({k}*pi*t) + {}*sin({k}*pi*t)", number(*a), number(*b))
@@ -144,6 +147,8 @@ pub struct Case {
     pub sigma: &'static str,
     pub error_box: [String; 2],
     pub periodic: [&'static str; 2],
+    /// k0 and k1.
+    pub transfer: [&'static str; 2],
     pub x: Wave,
     pub e: Wave,
     pub q: Wave,
@@ -159,9 +164,23 @@ impl Case {
     /// With the defects 1e-12, the box 2 and 2, and numbers of the claim that are far too large.
     pub fn new(n_o: usize, formulas: Formulas) -> Case {
         let e = Wave(0.0, (1..=3).map(|k| if k <= n_o { [0.0; 2] } else { OF_ERROR[k - 1] }).collect());
-        let x = Wave(0.1, [[0.4, 0.2], [0.0, 0.05]].to_vec());
         let of_q = (1..=3).map(|k| if k <= n_o { FREE[k - 1] } else { answered(n_o, k, e.1[k - 1]) });
         let q = Wave(0.3, of_q.collect());
+        Case::of(n_o, formulas, [e, q])
+    }
+
+    /// Of two oscillators or more, without an error; the bounds of derivatives are far too large.
+    pub fn or_more(formulas: Formulas) -> Case {
+        let mut case = Case::of(2, formulas, [Wave(0.0, Vec::new()), Wave(0.3, FREE[..2].to_vec())]);
+        case.entry["or_more"] = true.into();
+        let more = [("defect_q_t", "1e-10"), ("q_tx", "2"), ("q_te", "1.5"), ("f_x", "5"), ("f_e", "1")];
+        more.iter().for_each(|(name, value)| case.trial[*name] = (*value).into());
+        case
+    }
+
+    /// With these e and q.
+    fn of(n_o: usize, formulas: Formulas, [e, q]: [Wave; 2]) -> Case {
+        let x = Wave(0.1, [[0.4, 0.2], [0.0, 0.05]].to_vec());
         let along = |t: f64| (formulas.values)(x.at(t, 0), e.at(t, 0));
         let of_f = Wave::of(|t| x.at(t, 1) - along(t)[0]);
         let of_q = Wave::of(|t| q.at(t, 0) - along(t)[1]);
@@ -196,12 +215,17 @@ impl Case {
             "largest": { "e": "9", "u": "99" },
         });
         let (error_box, periodic) = (["1", "1"].map(str::to_owned), ["0.1", "0.1"]);
-        Case { parts, entry, trial, sigma: "4", error_box, periodic, x, e, q, n_o }
+        Case { parts, entry, trial, sigma: "4", error_box, periodic, transfer: ["19.8", "79.1"], x, e, q, n_o }
     }
 
     /// Of a plant without states, with this q; its trial has nothing of states.
     pub fn without_states(n_o: usize, formulas: Formulas) -> Case {
-        let mut case = Case::new(n_o, formulas)
+        Case::new(n_o, formulas).stateless()
+    }
+
+    /// Its plant without its states, on which q may not depend.
+    pub fn stateless(&self) -> Case {
+        let mut case = self
             .part("/plant/states", json!([]))
             .part("/plant/f", json!([]))
             .part("/witness/coordinates", json!([]))
@@ -210,7 +234,15 @@ impl Case {
         for (object, name) in [("", "x"), ("", "defect_x"), ("/box", "x"), ("", "q_x"), ("", "states")] {
             case.trial.pointer_mut(object).unwrap().as_object_mut().unwrap().remove(name);
         }
+        for name in ["q_tx", "f_x", "f_e"] {
+            case.trial.as_object_mut().unwrap().remove(name);
+        }
         case.trial("/forms/0/P", json!([])).trial("/forms/0/p", json!([]))
+    }
+
+    /// Whether its entry is about so many oscillators or more.
+    pub fn is_or_more(&self) -> bool {
+        self.entry.get("or_more").is_some()
     }
 
     /// Another value in the trial.
@@ -253,7 +285,8 @@ impl Case {
         let set = ClaimedSet { x0, e0, z0: Some(z0) };
         let ([d_x, d_e], sigma): ([Rational; 2], _) =
             (self.error_box.each_ref().map(|text| value(text)), value(self.sigma));
-        let about = About { sigma: &sigma, set: &set, error_box: [&d_x, &d_e], periodic: self.periodic.map(value) };
+        let (error_box, periodic, pair) = ([&d_x, &d_e], self.periodic.map(value), self.transfer.map(value));
+        let about = About { sigma: &sigma, set: &set, error_box, periodic, transfer: pair.each_ref() };
         let mut lines = Vec::new();
         plant::by_n_o::prove(&spec, &cells, &about, (&claimed, &witness), &mut lines).map(|()| lines)
     }
@@ -277,4 +310,76 @@ impl Case {
             Err(finding) => assert!(finding.verdict == verdict && finding.pointer == place, "{finding:?}"),
         }
     }
+}
+
+/// What section 14.4 says with the numbers of a trial of [`Case`], computed apart.
+pub struct Expected {
+    pub s_x: f64,
+    pub s_e: f64,
+    /// steady: e, its root mean square, u.
+    pub steady: [f64; 3],
+    /// X_N and E_N.
+    pub sizes: [f64; 2],
+    pub v_0: f64,
+    /// largest: e, u.
+    pub largest: [f64; 2],
+}
+
+pub fn expected(case: &Case) -> Expected {
+    expected_with(case, if case.is_or_more() { N_BAR } else { n_bar(case.n_o) })
+}
+
+/// With this root of the sum of the weights.
+pub fn expected_with(case: &Case, n_bar: f64) -> Expected {
+    let value = |at: &str| {
+        let text = case.trial.pointer(at).unwrap_or_else(|| panic!("{at}")).as_str().unwrap();
+        text.parse::<f64>().unwrap()
+    };
+    let of_form = |name: &str| value(&format!("/forms/0/{name}"));
+    let [d_x, d_q, b_x, b_e] = ["/defect_x", "/defect_q", "/q_x", "/q_e"].map(value);
+    let [w, k_p, c_x, c_e, c_y, p_up, e_low] = ["w", "k_p", "c_x", "c_e", "c_y", "P_up", "e_low"].map(of_form);
+    let p = value("/forms/0/p/0");
+    let [q_low, q_up, c, gamma] = ["Q_low", "Q_up", "c", "gamma"].map(|name| value(&format!("/states/{name}")));
+    let g = 4.0 * d_x * d_x * (p_up * p_up / c_x + p * p / c_e) + k_p * k_p * d_q * d_q / c_y;
+    let (rho_x, rho_y) = ((g / c_x).sqrt(), (g / c_y).sqrt());
+    let rho_e = (g / c_e).sqrt().min(rho_y / SIGMA.hypot(TAU * (case.n_o + 1) as f64));
+    let s_e = (rho_e * rho_y).sqrt();
+    let s_x = (q_up / (q_low * c) * (gamma * s_e * s_e + q_up * q_up * d_x * d_x / c)).sqrt();
+    let input = b_x * rho_x + b_e * rho_e + d_q;
+    let (kappa, other) = if case.is_or_more() {
+        let [d_t, q_tx, q_te, f_x, f_e] = ["/defect_q_t", "/q_tx", "/q_te", "/f_x", "/f_e"].map(value);
+        let rate = q_tx * rho_x + q_te * rho_e + b_x * (f_x * rho_x + f_e * rho_e + d_x) + b_e * rho_y + d_t;
+        let [k0, k1] = case.transfer.map(|text| text.parse::<f64>().unwrap());
+        (k0 / TAU.powi(2), k1 / TAU.powi(4) * rate * rate)
+    } else {
+        let own = (case.n_o + 1) as f64 / WEIGHTS[0];
+        ((1..=case.n_o).map(|k| 2.0 * (k as f64).powf(1.5)).fold(own, f64::max), 0.0)
+    };
+    let s_z = ((0.5 + kappa) * input * input + other).sqrt();
+    let size = |[a, b]: [f64; 2]| a.hypot(b);
+    let within = |k: usize| size(case.q.1[k - 1]).powi(2) / (k as f64).powf(-1.5);
+    let first = (case.q.0 * case.q.0 / WEIGHTS[0] + (1..=case.n_o.min(case.q.1.len())).map(within).sum::<f64>()).sqrt();
+    let beyond = |k: usize| {
+        let [both, _, slope] = oscillators(case.n_o, k);
+        slope * both * size(case.e.1[k - 1]) / TAU
+    };
+    let z_n = first + (case.n_o + 1..=case.e.1.len()).map(beyond).sum::<f64>() + s_z;
+    let e_n = largest(|t| case.e.at(t, 0)) + s_e;
+    let rms = (case.e.1.iter().map(|pair| size(*pair).powi(2)).sum::<f64>() / 2.0).sqrt();
+    let u = largest(|t| case.e.at(t, 1) - case.q.at(t, 0)) + SIGMA * s_e + n_bar * s_z;
+    let x_n = OFF[0] / L + OFF[1] + s_x;
+    let [d_x, d_e, d_z] = [SET[0] + x_n, SET[1] + e_n, SET[2] + n_bar * SET[1] + z_n];
+    let v_0 = p_up * d_x * d_x + 2.0 * p * d_x * d_e + w * d_e * d_e + k_p / 2.0 * d_z * d_z;
+    Expected {
+        s_x,
+        s_e,
+        steady: [e_n, rms + rho_e, u],
+        sizes: [x_n, e_n],
+        largest: [e_n + (v_0 / e_low).sqrt(), u + (v_0 * (SIGMA * SIGMA / e_low + 2.0 * n_bar * n_bar / k_p)).sqrt()],
+        v_0,
+    }
+}
+
+pub fn text(value: f64) -> Value {
+    format!("{value:e}").into()
 }

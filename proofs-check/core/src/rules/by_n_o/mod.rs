@@ -42,6 +42,8 @@ pub struct About<'c> {
     pub error_box: [&'c Rational; 2],
     /// Bounds of |x| and |e| along its periodic solution.
     pub periodic: [Rational; 2],
+    /// k0 and k1, proved for every number of oscillators (section 2).
+    pub transfer: [&'c Rational; 2],
 }
 
 impl Witness {

@@ -1,7 +1,8 @@
 //! What proves the numbers by n_o of one plant at one gain: a trial for each entry, near which the periodic solution is (docs/mathematics.md, section
 //! 14.4), with the forms that say so. Read, and of the numbers that stand alone it is decided that they are right.
 //!
-//! Guarantee of [`Trial`]: ehat has no mean and no harmonic up to n_o. Of each form `P <= P_up I`, `Pi >= diag(x_low I, 0)` and
+//! Guarantee of [`Trial`]: ehat has no mean and no harmonic up to n_o; of an entry about so many oscillators or more ehat = 0, and qhat has no harmonic
+//! above n_o. A harmonic that is written with 0 for both of its numbers is none. Of each form `P <= P_up I`, `Pi >= diag(x_low I, 0)` and
 //! `Pi >= diag(0, e_low)` with x_low, e_low > 0, so that Pi is positive definite. `Q_low I <= Q <= Q_up I`, and k_p, c_x, c_e, c_y, Q_low, c, gamma, D_x
 //! and D_e are above 0. What is said of the formulas is proved by the crate `proofs-plants`.
 
@@ -13,6 +14,7 @@ use crate::spec::Specification;
 use crate::verdict::{Outcome, Verdict, bad, demand, finding};
 use crate::wave::Wave;
 use rug::Rational;
+use std::ops::RangeInclusive;
 
 /// The most harmonics of a curve.
 const MOST_HARMONICS: usize = 64;
@@ -40,6 +42,19 @@ pub struct Trial {
     pub forms: Vec<(Metric, Extent)>,
     /// Of a plant with states.
     pub states: Option<States>,
+    /// There exactly if the entry is about so many oscillators or more.
+    pub or_more: Option<OrMore>,
+}
+
+/// What the corollary about so many oscillators or more asks for besides.
+#[derive(Clone, Debug)]
+pub struct OrMore {
+    /// d_t.
+    pub defect: Rational,
+    /// b_qtx and b_qte.
+    pub rates: [Rational; 2],
+    /// b_fx and b_fe.
+    pub slopes: [Rational; 2],
 }
 
 /// By what the states answer the error: (14.4b).
@@ -60,9 +75,6 @@ pub fn read_all(field: &Field<'_>, claimed: &[Entry<'_>], states: usize) -> Outc
     let list = field.elements()?;
     if list.len() != claimed.len() {
         return bad(&field.pointer, format!("expected {}, one for each entry of the claim", claimed.len()));
-    }
-    if let Some(entry) = claimed.iter().find(|entry| entry.or_more) {
-        return bad(&format!("{}/or_more", entry.pointer), "a trial is about one number of oscillators");
     }
     let read = |(field, entry): (&Field<'_>, &Entry<'_>)| field.object(|fields| Trial::take(fields, entry, states));
     list.iter().zip(claimed).map(read).collect()
@@ -94,9 +106,19 @@ impl Trial {
         };
         let e = fields.required("e")?;
         let e = (e.object(|fields| Wave::read_without_mean(fields, MOST_HARMONICS))?, e.pointer);
-        let q = fields.required("q")?.object(|fields| Wave::read(fields, MOST_HARMONICS))?;
-        let silent = (1..=entry.n_o as usize).all(|k| e.0.harmonic(k).iter().all(Rational::is_zero));
-        demand(Some(silent), RULE, &e.1, format!("no harmonic up to that of {}", entry.about()))?;
+        let q = fields.required("q")?;
+        let q = (q.object(|fields| Wave::read(fields, MOST_HARMONICS))?, q.pointer);
+        let n_o = entry.n_o as usize;
+        let silent =
+            |wave: &Wave, mut k: RangeInclusive<usize>| k.all(|k| wave.harmonic(k).iter().all(Rational::is_zero));
+        if entry.or_more {
+            demand(Some(e.0.is_constant()), RULE, &e.1, format!("no harmonic, for {}", entry.about()))?;
+            let within = silent(&q.0, n_o + 1..=q.0.harmonics.len());
+            demand(Some(within), RULE, &q.1, format!("no harmonic above n_o, for {}", entry.about()))?;
+        } else {
+            let what = format!("no harmonic up to that of {}", entry.about());
+            demand(Some(silent(&e.0, 1..=n_o)), RULE, &e.1, what)?;
+        }
         let defects = [of_states(fields, "defect_x", false, states)?, number(fields, "defect_q", false)?];
         let radii = fields
             .required("box")?
@@ -107,11 +129,13 @@ impl Trial {
         if forms.is_empty() || forms.len() > MOST_FORMS {
             return bad(&list.pointer, format!("expected 1 to {MOST_FORMS} forms"));
         }
+        let or_more = entry.or_more.then(|| OrMore::take(fields, states)).transpose()?;
         let states = match states {
             0 => None,
             _ => Some(fields.required("states")?.object(|fields| States::take(fields, states))?),
         };
-        Ok(Trial { pointer: fields.pointer.clone(), x, e: e.0, q, defects, radii, slopes, forms, states })
+        let (pointer, e, q) = (fields.pointer.clone(), e.0, q.0);
+        Ok(Trial { pointer, x, e, q, defects, radii, slopes, forms, states, or_more })
     }
 }
 
@@ -128,6 +152,15 @@ fn form(fields: &mut Fields<'_>, states: usize) -> Outcome<(Metric, Extent)> {
         demand(Some(holds), RULE, &format!("{pointer}/{name}"), what)?;
     }
     Ok((metric, extent))
+}
+
+impl OrMore {
+    fn take(fields: &mut Fields<'_>, states: usize) -> Outcome<OrMore> {
+        let defect = number(fields, "defect_q_t", false)?;
+        let rates = [of_states(fields, "q_tx", false, states)?, number(fields, "q_te", false)?];
+        let mut slope = |name| of_states(fields, name, false, states);
+        Ok(OrMore { defect, rates, slopes: [slope("f_x")?, slope("f_e")?] })
+    }
 }
 
 impl States {

@@ -1,15 +1,18 @@
-//! What follows from a trial: Theorem T of section 14.4 of docs/mathematics.md, which solution it is, and the second corollary of section 14.5.
+//! What follows from a trial: Theorem T of section 14.4 of docs/mathematics.md and its corollary, which solution it is, and the second corollary of section
+//! 14.5.
 //!
 //! Guarantee of [`prove`], with the trial's inequalities and defects proved of the formulas on its box, which lies in the domain of the plant, and with
 //! [`Curves`] as they are: the loop with n_o oscillators and the gain sigma has exactly one T-periodic solution in the box, it is that of the claim, and
-//! `steady` of the entry is true of it. `largest`, where it is there, is true of every solution from the claimed set.
+//! `steady` of the entry is true of it. `largest`, where it is there, is true of every solution from the claimed set. With an entry about so many
+//! oscillators or more that is so for each number of them: then `k0` and `k1` have to be proved, too, and what the trial has for it.
 
 use super::About;
 use super::claimed::{Entry, RULE};
-use super::trials::{States, Trial};
+use super::trials::{OrMore, States, Trial};
 use crate::data::Data;
 use crate::interval::Interval;
 use crate::rules::control::{by_parts, put_out, transient};
+use crate::rules::gains::kappas;
 use crate::rules::inequality::{Extent, Metric};
 use crate::rules::joint::{size_of_cross, start};
 use crate::rules::stability::distances;
@@ -39,8 +42,8 @@ struct Tube {
 }
 
 impl Tube {
-    /// The numbers of Theorem T.
-    fn new(d: &Data<'_>, (sigma, n_o): (&Interval, u32), trial: &Trial) -> Tube {
+    /// The numbers of Theorem T, or of its corollary with k0 and k1: n_o is the least number of oscillators.
+    fn new(d: &Data<'_>, (sigma, n_o): (&Interval, u32), trial: &Trial, pair: [&Rational; 2]) -> Tube {
         let [[d_x, d_q], [b_x, b_e]] =
             [&trial.defects, &trial.slopes].map(|pair| pair.each_ref().map(|of| d.number(of)));
         let [rho_x, rho_e, rho_y] = match trial.forms.first() {
@@ -48,15 +51,28 @@ impl Tube {
             // A trial has a form.
             None => [(); 3].map(|()| Interval::undefined(d.precision)),
         };
-        let e = (d.period.only() * &rho_e * rho_y).sqrt();
+        let e = (d.period.only() * &rho_e * &rho_y).sqrt();
         let of_states = |States { low, up, decay, .. }: &States| {
             let [low, up, c, gamma] = [low, up, &decay[0], &decay[1]].map(|value| d.number(value));
             (&up / (low * &c) * (gamma * e.sqr() + (&up * &d_x).sqr() / c)).sqrt()
         };
         let x = trial.states.as_ref().map_or_else(|| d.int(0), of_states);
-        let input = b_x * rho_x + b_e * &rho_e + d_q;
-        let zeta = (d.period.only() / (&d.mu * 2) + swing(d, n_o)).sqrt() * input;
-        Tube { x, e, e_rms: rho_e, zeta }
+        let input = &b_x * &rho_x + &b_e * &rho_e + d_q;
+        let of_swing = d.period.only() / (&d.mu * 2);
+        let square = match &trial.or_more {
+            None => (of_swing + swing(d, n_o)) * input.sqr(),
+            Some(OrMore { defect, rates, slopes }) => {
+                let [q_tx, q_te, f_x, f_e] =
+                    [&rates[0], &rates[1], &slopes[0], &slopes[1]].map(|value| d.number(value));
+                let velocity = f_x * &rho_x + f_e * &rho_e + d_x;
+                // R_1.
+                let rate = q_tx * rho_x + q_te * &rho_e + b_x * velocity + b_e * rho_y + d.number(defect);
+                let [k0, k1] = pair.map(|value| d.number(value));
+                let [kappa_0, kappa_1] = kappas(d, &k0, &k1);
+                (of_swing + kappa_0) * input.sqr() + kappa_1 * rate.sqr()
+            }
+        };
+        Tube { x, e, e_rms: rho_e, zeta: square.sqrt() }
     }
 }
 
@@ -84,11 +100,13 @@ fn swing(d: &Data<'_>, n_o: u32) -> Interval {
     (1..=n_o).fold(own, |most, k| most.max(&of(k))) / d.mu.sqr()
 }
 
-/// Proves an entry with its trial.
+/// Proves an entry with its trial; `d` has the sum of all weights.
 pub fn prove(d: &Data<'_>, about: &About<'_>, (entry, trial): (&Entry<'_>, &Trial), curves: &Curves) -> Outcome<()> {
-    let d = &Data::of_oscillators(d.spec, d.precision, entry.n_o);
+    // Of so many oscillators or more the sum of all weights counts.
+    let alone = trial.or_more.is_none().then(|| Data::of_oscillators(d.spec, d.precision, entry.n_o));
+    let (d, n_bar) = alone.as_ref().map_or((d, "Nbar"), |d| (d, "Nbar_N"));
     let sigma = d.number(about.sigma);
-    let tube = Tube::new(d, (&sigma, entry.n_o), trial);
+    let tube = Tube::new(d, (&sigma, entry.n_o), trial, about.transfer);
     let has_states = trial.states.is_some();
     let [d_x, d_e] = trial.radii.each_ref().map(|value| d.number(value));
     let less = |what: &str, left: Interval, right: &Interval, place: String| {
@@ -111,7 +129,8 @@ pub fn prove(d: &Data<'_>, about: &About<'_>, (entry, trial): (&Entry<'_>, &Tria
     let [claimed_e, claimed_rms, claimed_u] = &entry.steady;
     at_most("sup|ehat| + s_e", e.clone(), claimed_e, "steady/e")?;
     at_most("rms(ehat) + rho_e", &curves.e_rms + &tube.e_rms, claimed_rms, "steady/e_rms")?;
-    at_most("sup|ehat' - qhat| + kappa + sigma s_e + mu Nbar_N s_z", put, claimed_u, "steady/u")?;
+    let what = format!("sup|ehat' - qhat| + kappa + sigma s_e + mu {n_bar} s_z");
+    at_most(&what, put, claimed_u, "steady/u")?;
 
     let Some([largest_e, largest_u]) = &entry.largest else {
         // (ii): the difference of both solutions stays in the error box of the claim.
@@ -147,5 +166,6 @@ pub fn prove(d: &Data<'_>, about: &About<'_>, (entry, trial): (&Entry<'_>, &Tria
     }
     let [put, _] = put_out(d, [u + best_u, d.int(0)]);
     at_most("E_N + sqrt(V_0/e_low)", e + best_e, largest_e, "largest/e")?;
-    at_most("that of u + sqrt(V_0 (sigma^2/e_low + 2 mu Nbar_N^2/k_p))", put, largest_u, "largest/u")
+    let what = format!("that of u + sqrt(V_0 (sigma^2/e_low + 2 mu {n_bar}^2/k_p))");
+    at_most(&what, put, largest_u, "largest/u")
 }

@@ -1,20 +1,22 @@
 //! The formulas around a trial (docs/mathematics.md, section 14.4): on the box of all `x = xhat(t) + L v`, `e = ehat(t) + h` with `|v| <= D_x`,
 //! `|h| <= D_e`. They are those of a plant whose orbit is xhat and whose error is measured from ehat.
 
-use crate::bounds::norm;
+use crate::bounds;
 use crate::form::{Form, numbers, of_states};
-use crate::formula::{Axis, Id};
+use crate::formula::Id;
 use crate::machine::{Curves, Machine};
 use crate::model::{self, Frame, Model, wave};
-use crate::path::{Expanded, Judged, Path, bound, bound_of_norm, everywhere};
+use crate::path::{Expanded, Judged, Path, Polynomial, bound, bound_of_derivative, bound_of_norm, everywhere};
 use crate::question::{Answer, MAX_PIECES, Question};
 use crate::read::Plant;
 use crate::region::{Piece, Region, Shape};
 use crate::still::Still;
+use crate::time::around;
 use crate::{PRECISION, smooth, too_large};
 use proofs_core::interval::Interval;
+use proofs_core::plant::entries::Name;
 use proofs_core::rules::by_n_o::claimed::RULE;
-use proofs_core::rules::by_n_o::trials::Trial;
+use proofs_core::rules::by_n_o::trials::{OrMore, Trial};
 use proofs_core::verdict::{Outcome, demand};
 use rug::Rational;
 
@@ -26,6 +28,8 @@ struct Asked {
     question: Question,
     pointer: String,
     what: String,
+    /// Whether it has the velocity of the frame, so that it is asked in the moving one alone.
+    is_of_motion: bool,
 }
 
 /// The formulas around a trial.
@@ -59,16 +63,19 @@ impl<'t> Around<'t> {
         }
         let in_states = |model: &mut Model| {
             let all = questions(model, sigma, trial).into_iter();
-            Ok(all.map(|asked| Some(asked.question)).collect())
+            Ok(all.map(|asked| (!asked.is_of_motion).then_some(asked.question)).collect())
         };
         let still = Still::new(&near, in_states)?;
         Ok(Around { trial, curves: model::curves(&near), plant: near, model, asked, still, defects })
     }
 
-    /// Proves on the box that the formulas are smooth, (14.4a) of each form, (14.4b), and the bounds of r and d; by how many boxes. `farthest`: the
+    /// Proves on the box that the formulas are smooth, (14.4a) of each form, (14.4b), and the bounds of r and d, and of an entry about so many
+    /// oscillators or more those of the other derivatives, with the defects as they are ([`Around::defects`]); by how many boxes. `farthest`: the
     /// largest |e| of it, rounded up.
     pub fn on_box(&self, [om, period]: [&Interval; 2], farthest: &Interval, about: &str) -> Outcome<usize> {
-        let machine = Machine::new(&self.model.formulas, &self.curves, om);
+        let mut machine = Machine::new(&self.model.formulas, &self.curves, om);
+        // `|L^-1 (fhat - xhat')| <= d_x`, for ehat is 0 where fhat is asked for.
+        machine.drift = around(&Interval::rational(&self.trial.defects[0], PRECISION));
         let (root, mut values) = (machine.period(period), machine.values());
         let [d_x, d_e] = self.trial.radii.each_ref().map(|radius| Interval::rational(radius, PRECISION));
         let family = Region::of_family(&self.plant, PRECISION);
@@ -79,7 +86,7 @@ impl<'t> Around<'t> {
         // A wide box may be one of the states themselves, which has fewer sides.
         let wide = Region { output: farthest.clone(), ..region.clone() };
         let mut still = None;
-        for (which, Asked { question, pointer, what }) in self.asked.iter().enumerate() {
+        for (which, Asked { question, pointer, what, .. }) in self.asked.iter().enumerate() {
             let mut decide = |most: usize| question.decide(&machine, &root, &region, most, &mut values);
             let mut answer = decide(FEW_PIECES);
             if matches!(answer, Answer::Open(_)) {
@@ -99,27 +106,35 @@ impl<'t> Around<'t> {
         Ok(boxes)
     }
 
-    /// Proves `|L^-1 (f(t,xhat,ehat) - xhat')| <= d_x` and `|q(t,xhat,ehat) - qhat| + kappa <= d_q` at every t, at the precision of Om; by how
-    /// many cells of t.
+    /// Proves `|L^-1 (f(t,xhat,ehat) - xhat')| <= d_x` and `|q(t,xhat,ehat) - qhat| + kappa <= d_q` at every t, and of an entry about so many
+    /// oscillators or more `|(q(t,xhat,0) - qhat)'| <= d_t`, at the precision of Om; by how many cells of t.
     pub fn defects(&self, [om, period]: [&Interval; 2], kappa: &Interval, about: &str) -> Outcome<usize> {
         let p = om.precision();
         let machine = Machine::new(&self.model.formulas, &self.curves, om);
         let values = machine.values();
         let path = Path::new(&machine, &self.curves, om, std::slice::from_ref(&self.defects));
-        let [d_x, d_q] = self.trial.defects.each_ref().map(|defect| Interval::rational(defect, p));
-        let most = [d_x, d_q - kappa];
+        let number = |defect: &Rational| Interval::rational(defect, p);
+        let [d_x, d_q] = self.trial.defects.each_ref().map(number);
+        let of_rate = self.trial.or_more.as_ref().map(|more| number(&more.defect));
+        let most: Vec<Interval> = [d_x, d_q - kappa].into_iter().chain(of_rate).collect();
         let states = self.plant.states();
-        // Which of the two is open on the last cell.
+        // Which of them is open on the last cell.
         let mut open = 0;
         let judge = |piece: &Piece| {
             let (expanded, half) = (Expanded::new(&path, piece, &values), piece.cell.all.half_width());
-            let (of_f, of_q) = expanded.at_middle.split_at(states);
-            let sizes =
-                [bound_of_norm(of_f, &half), of_q.iter().fold(Interval::int(0, p), |sum, q| sum + bound(q, &half))];
-            let Some(which) = (0..2).find(|i| sizes[*i].le(&most[*i]) != Some(true)) else { return Judged::Proved };
+            let (of_f, q) = expanded.at_middle.split_at(states);
+            let zero = Interval::int(0, p);
+            let of_q = |bound: fn(&Polynomial, &Interval) -> Interval| {
+                q.iter().fold(zero.clone(), |sum, q| sum + bound(q, &half))
+            };
+            let sizes = [bound_of_norm(of_f, &half), of_q(bound), of_q(bound_of_derivative)];
+            let wrong = |(size, most): (&Interval, &Interval)| size.le(most) != Some(true);
+            let Some(which) = sizes.iter().zip(&most).position(wrong) else { return Judged::Proved };
             open = which;
-            let parts = if which == 0 { of_f } else { of_q };
-            let at_middle = parts.iter().fold(Interval::int(0, p), |sum, part| sum + part.coefficients[0].sqr()).sqrt();
+            // The value, or the slope, at the middle.
+            let (parts, order) = [(of_f, 0), (q, 0), (q, 1)][which];
+            let square = |part: &Polynomial| part.coefficients.get(order).unwrap_or(&zero).sqr();
+            let at_middle = parts.iter().fold(zero.clone(), |sum, part| sum + square(part)).sqrt();
             match most[which].lt(&at_middle) {
                 Some(true) => Judged::Refuted,
                 _ => Judged::Halve(vec![1.0]),
@@ -130,6 +145,7 @@ impl<'t> Around<'t> {
             let (name, what) = [
                 ("defect_x", "|L^-1 (f(t,xhat,ehat) - xhat')| <= defect_x"),
                 ("defect_q", "|q(t,xhat,ehat) - qhat| + kappa <= defect_q"),
+                ("defect_q_t", "|(q(t,xhat,0) - qhat)'| <= defect_q_t"),
             ][open];
             let what = format!("{what} for {about}, near t = {t:.6}");
             demand(refuted.then_some(false), RULE, &format!("{}/{name}", self.trial.pointer), what).map(|()| 0)
@@ -137,7 +153,7 @@ impl<'t> Around<'t> {
     }
 }
 
-/// (14.4a) of each form, (14.4b), and the bounds of r and d.
+/// (14.4a) of each form, (14.4b), and the bounds of r and d, and of the derivatives that the corollary asks for.
 fn questions(model: &mut Model, sigma: &Rational, trial: &Trial) -> Vec<Asked> {
     let states = model.states();
     let mut asked = Vec::new();
@@ -151,27 +167,41 @@ fn questions(model: &mut Model, sigma: &Rational, trial: &Trial) -> Vec<Asked> {
             question: Question::new(&mut model.formulas, rows, states),
             pointer: format!("{}/forms/{place}", trial.pointer),
             what: "F >= diag(c_x I, c_e, c_y)".to_owned(),
+            is_of_motion: false,
         });
     }
-    let mut ask = |model: &mut Model, rows, name: &str, what: &str| {
-        asked.push(Asked {
-            question: Question::new(&mut model.formulas, rows, states),
-            pointer: format!("{}/{name}", trial.pointer),
-            what: what.to_owned(),
-        });
-    };
     if let Some(of) = &trial.states {
         let [c, gamma] = &of.decay;
         let (mut rows, mut last) = of_states(model, &of.matrix, &Rational::from(c * 2u32));
         last.extend(numbers(&mut model.formulas, std::slice::from_ref(gamma)));
         rows.push(last);
-        ask(model, rows, "states", "[[-(Q J + J'Q) - 2 c I, -Q g], [., gamma]] >= 0");
-        let row = model.row.clone();
-        let rows = norm(&mut model.formulas, &trial.slopes[0], &row);
-        ask(model, rows, "q_x", "|q_x L| <= q_x");
+        asked.push(Asked {
+            question: Question::new(&mut model.formulas, rows, states),
+            pointer: format!("{}/states", trial.pointer),
+            what: "[[-(Q J + J'Q) - 2 c I, -Q g], [., gamma]] >= 0".to_owned(),
+            is_of_motion: false,
+        });
     }
-    let slope = model.formulas.derivative(model.q, Axis::Output);
-    let rows = norm(&mut model.formulas, &trial.slopes[1], &[slope]);
-    ask(model, rows, "q_e", "|q_e| <= q_e");
+    let [q_x, q_e] = &trial.slopes;
+    let mut of_states = vec![(Name::Qx, q_x, "q_x", "|q_x L| <= q_x")];
+    let mut of_output = vec![(Name::Qe, q_e, "q_e", "|q_e| <= q_e")];
+    if let Some(OrMore { rates: [q_tx, q_te], slopes: [f_x, f_e], .. }) = &trial.or_more {
+        of_states.extend([
+            (Name::Fx, f_x, "f_x", "|L^-1 f_x L| <= f_x"),
+            (Name::Fe, f_e, "f_e", "|L^-1 f_e| <= f_e"),
+            (Name::Qtx, q_tx, "q_tx", "|(q_tx + q_xx fhat) L| <= q_tx"),
+        ]);
+        of_output.push((Name::Qte, q_te, "q_te", "|q_te + q_xe fhat| <= q_te"));
+    }
+    if states == 0 {
+        of_states.clear();
+    }
+    let bound = |(name, value, label, what): (Name, &Rational, &str, &str)| Asked {
+        question: bounds::question(model, name, value),
+        pointer: format!("{}/{label}", trial.pointer),
+        what: what.to_owned(),
+        is_of_motion: name.is_of_motion(),
+    };
+    asked.extend(of_states.into_iter().chain(of_output).map(bound));
     asked
 }
