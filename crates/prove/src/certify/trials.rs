@@ -157,8 +157,10 @@ impl Around<'_> {
             Some((proof, concluded, None))
         };
         let small = || {
-            let (radii, form) = self.small_box(&prepared)?;
-            alone((short(radii)?, vec![rounded(&form)?]))
+            SMALL_BOXES.into_iter().find_map(|share| {
+                let (radii, form) = self.small_box(&prepared, share)?;
+                alone((short(radii)?, vec![rounded(&form)?]))
+            })
         };
         let of_other = other.map(|TubeProof { radii, forms, x_first, .. }| ((radii.clone(), forms.clone()), x_first));
         let (mut proof, concluded, mut peaks) = match of_other {
@@ -202,13 +204,18 @@ impl Around<'_> {
 
     /// What is proved with forms of its own, if the peak is expected to be well below those that are known.
     fn with_own_peaks(&self, prepared: &Prepared, known: Option<&Peaks>) -> Option<Proved> {
-        let (radii, forms) = MARGINS.into_iter().find_map(|margin| self.peak_box(prepared, margin, None))?;
-        let expected = forms.first()?.level.sqrt();
-        if known.is_some_and(|known| expected > WORTH * known.error.upper_f64()) {
-            return None;
-        }
-        let forms = forms.iter().map(rounded).collect::<Option<_>>()?;
-        self.with_peaks(prepared, short(radii)?, forms)
+        // What many oscillators leave may be more than rounding: with small margins the solution could be anywhere.
+        let [first, last] = MARGINS;
+        let wide = WIDE_MARGINS.last().filter(|_| self.or_more).copied();
+        std::iter::once(first).chain(wide).chain([last]).find_map(|margin| {
+            let (radii, forms) = self.peak_box(prepared, margin, None)?;
+            let expected = forms.first()?.level.sqrt();
+            if known.is_some_and(|known| expected > WORTH * known.error.upper_f64()) {
+                return None;
+            }
+            let forms = forms.iter().map(rounded).collect::<Option<_>>()?;
+            self.with_peaks(prepared, short(radii)?, forms)
+        })
     }
 
     /// What is proved with forms on a box that solutions from the set do not leave.
@@ -241,7 +248,7 @@ impl Around<'_> {
         concluded: &Concluded,
         other: Option<&XFirst>,
     ) -> Option<(XFirst, Peaks)> {
-        let eta = round_f64(SMALL_BOX * prepared.distances[1], SHORT, Direction::Up)?;
+        let eta = round_f64(SMALL_ETA * prepared.distances[1], SHORT, Direction::Up)?;
         if !concluded.distances[1].le(&Enclosure::from_rational(&eta, PRECISION)).is_true() {
             return None;
         }
@@ -448,8 +455,8 @@ impl Around<'_> {
     }
 
     /// A box that is small beside the trial, and a form on it.
-    fn small_box(&self, prepared: &Prepared) -> Option<([f64; 2], FallingForm)> {
-        let radii = [0, 1].map(|i| SMALL_BOX * prepared.distances[i]);
+    fn small_box(&self, prepared: &Prepared, share: f64) -> Option<([f64; 2], FallingForm)> {
+        let radii = [0, 1].map(|i| share * prepared.distances[i]);
         let place = PeakBox { at: radii, x_first: None };
         // The larger the margins are, the nearer is the solution to the trial.
         let found = |margin: f64| {
@@ -530,8 +537,11 @@ impl Around<'_> {
     }
 }
 
-/// The share of the distances of the start that a box has around a trial of which nothing is known further away.
-const SMALL_BOX: f64 = 1e-4;
+/// The shares of the distances of the start that a box has around a trial of which nothing is known further away, in turn.
+const SMALL_BOXES: [f64; 2] = [1e-4, 1e-2];
+
+/// The share of that of e that eta is.
+const SMALL_ETA: f64 = 1e-4;
 
 /// A row of a matrix in short numbers.
 fn short_row(row: &Vec<f64>) -> Option<Vec<Rational>> {
