@@ -1,0 +1,161 @@
+//! Bounds for given numbers of oscillators of any plant of which nothing is an interval, by trials (derivation, 14.4, 14.5).
+//!
+//! - `around`: a trial with everything that is evaluated around it;
+//! - `boxes`: boxes around it and forms that fall there, proposed;
+//! - `proved`: what is proved there.
+
+mod around;
+mod boxes;
+mod proved;
+
+use super::gain_row::{ByCount, CountBounds, CountProof, Largest};
+use around::{Around, Prepared};
+use boxes::{MARGINS, WIDE_MARGINS};
+use proved::{rounded, short};
+use rug::Rational;
+use sigmastar_decide::linear::PRECISION;
+use sigmastar_decide::trial::{Concluded, Peaks, Trial, TubeProof};
+use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_exact::parallel;
+use sigmastar_lang::spec::{Level, Metric};
+use sigmastar_theory::derivation::control::{Control, Reach};
+use std::collections::BTreeSet;
+
+pub(super) use around::Asked;
+
+/// The numbers of oscillators that are looked at where they are not looked at one by one, and from where on all of them at once.
+const COUNTS: [u64; 6] = [0, 1, 2, 3, 5, 10];
+const OR_MORE: u64 = 20;
+
+/// For so few oscillators a box and forms of their own are looked for where others serve, and proved if the peak is less than this share of the other.
+const OWN: u64 = 2;
+const WORTH: f64 = 0.97;
+
+/// The shares of the distances of the start that a box has around a trial of which nothing is known further away, in turn.
+const SMALL_BOXES: [f64; 2] = [1e-4, 1e-2];
+
+/// What is proved, what follows, and the peaks where they are known.
+type Proved = (TubeProof, Concluded, Option<Peaks>);
+
+/// The bounds that are found; `None` without any.
+pub(super) fn by_trials(asked: &Asked<'_>) -> Option<ByCount> {
+    let Asked { plant, spec, .. } = asked;
+    let of_plant = spec.plant()?;
+    let known_gain = spec.input_gain.as_ref().is_none_or(|gain| gain.factors(PRECISION).is_none());
+    let cell =
+        of_plant.undivided().filter(|_| !plant.is_family() && plant.period.interval().is_none() && known_gain)?;
+    let around = |n_o: u64, or_more: bool| Around { asked, of_plant, cell, n_o, or_more };
+    let (mut counts, from): (BTreeSet<u64>, u64) = match around(OR_MORE, true).met_by() {
+        Some(from) => ((0..from).collect(), from),
+        None => (BTreeSet::from(COUNTS), OR_MORE),
+    };
+    // What it is proved with serves the others in many cases.
+    let last = around(from, true).bounds(None);
+    let known = last.as_ref().map(|(_, (_, proof))| proof);
+    let besides = asked.counts.iter().copied().map(u64::from);
+    counts.extend(besides.filter(|n_o| *n_o < from || last.is_none()));
+    let counts: Vec<u64> = counts.into_iter().collect();
+    let mut found = parallel::map(&counts, |n_o| around(*n_o, false).bounds(known));
+    found.push(last);
+    let (counts, trials): (Vec<_>, Vec<_>) = found.into_iter().flatten().unzip();
+    (!counts.is_empty()).then_some(ByCount { counts, proof: CountProof::Trials(trials), checked: false })
+}
+
+impl Around<'_> {
+    /// The bounds; `other`: what is proved for another number of oscillators.
+    fn bounds(&self, other: Option<&TubeProof>) -> Option<(CountBounds, (Trial, TubeProof))> {
+        let prepared = self.prepared()?;
+        let nominal = self.asked.spec.input_gain.as_ref().map(|gain| gain.nominal.enclose(PRECISION));
+        let alone = |(radii, forms): ([Rational; 2], Vec<(Metric, Level)>)| {
+            let proof = self.proof(&prepared, radii, forms)?;
+            let concluded = Concluded::of(&prepared.trial, &proof, &self.known(&prepared))?;
+            Some((proof, concluded, None))
+        };
+        let small = || {
+            SMALL_BOXES.into_iter().find_map(|share| {
+                let (radii, form) = self.small_box(&prepared, share)?;
+                alone((short(radii)?, vec![rounded(&form)?]))
+            })
+        };
+        let of_other = other.map(|TubeProof { radii, forms, x_first, .. }| ((radii.clone(), forms.clone()), x_first));
+        let (mut proof, concluded, mut peaks) = match of_other {
+            // Where they do not fall with all derivatives at one point for another number, they do not for this one.
+            Some((known, Some(_))) => alone(known).or_else(small)?,
+            Some(((radii, forms), None)) => {
+                let known = self.with_peaks(&prepared, radii, forms);
+                let own = || self.with_own_peaks(&prepared, known.as_ref().and_then(|known| known.2.as_ref()));
+                let own = if known.is_none() || self.n_o < OWN { own() } else { None };
+                own.or(known).or_else(small)?
+            }
+            None => self.with_own_peaks(&prepared, None).or_else(small)?,
+        };
+        if peaks.is_none() {
+            let found = self.along_x_first(&prepared, &concluded, other.and_then(|other| other.x_first.as_ref()));
+            (proof.x_first, peaks) = found.unzip();
+        }
+        if peaks.is_none() && !self.is_of_the_claim(&concluded) {
+            return None;
+        }
+        // The solution is that of the claim: its function falls along the differences, too.
+        let own = self.reach_by_the_claim(&prepared, &concluded);
+        let reach = match peaks {
+            Some(Peaks { error, control, .. }) => {
+                Reach { error: own.error.min(&error), transient: own.transient.min(&control) }
+            }
+            None => own,
+        };
+        let Control { steady, transient } =
+            Control { steady: concluded.control.clone(), transient: reach.transient }.over(nominal.as_ref());
+        let bounds = CountBounds {
+            n_o: self.n_o,
+            or_more: self.or_more,
+            steady_error: concluded.error.clone(),
+            mean_square: concluded.mean_square.clone(),
+            steady_control: steady,
+            largest: Some(Largest { error: &concluded.error + reach.error, transient }),
+        };
+        Some((bounds, (prepared.trial, proof)))
+    }
+
+    /// What is proved with forms of its own, if the peak is expected to be well below those that are known.
+    fn with_own_peaks(&self, prepared: &Prepared, known: Option<&Peaks>) -> Option<Proved> {
+        // What many oscillators leave may be more than rounding: with small margins the solution could be anywhere.
+        let [first, last] = MARGINS;
+        let wide = WIDE_MARGINS.last().filter(|_| self.or_more).copied();
+        std::iter::once(first).chain(wide).chain([last]).find_map(|margin| {
+            let (radii, forms) = self.peak_box(prepared, margin, None)?;
+            let expected = forms.first()?.level.sqrt();
+            if known.is_some_and(|known| expected > WORTH * known.error.upper_f64()) {
+                return None;
+            }
+            let forms = forms.iter().map(rounded).collect::<Option<_>>()?;
+            self.with_peaks(prepared, short(radii)?, forms)
+        })
+    }
+
+    /// What is proved with forms on a box that solutions from the set do not leave.
+    fn with_peaks(&self, prepared: &Prepared, radii: [Rational; 2], forms: Vec<(Metric, Level)>) -> Option<Proved> {
+        let proof = self.proof(prepared, radii, forms)?;
+        let concluded = Concluded::of(&prepared.trial, &proof, &self.known(prepared))?;
+        let peaks = self.peaks(prepared, &concluded, (&proof.radii, &proof.forms))?;
+        Some((proof, concluded, Some(peaks)))
+    }
+
+    /// (ii) of 14.4.
+    fn is_of_the_claim(&self, concluded: &Concluded) -> bool {
+        let Asked { witness, periodic, .. } = self.asked;
+        let error_box = [&witness.d_x, &witness.d_e].map(|radius| Enclosure::from_rational(radius, PRECISION));
+        let sizes = [&concluded.states, &concluded.error];
+        let within =
+            |((size, periodic), end): ((&Enclosure, &Enclosure), &Enclosure)| (size + periodic).le(end).is_true();
+        sizes.into_iter().zip(periodic).zip(&error_box).all(within)
+    }
+
+    /// How far solutions from the set are from the periodic one by what proves the claim, with the sizes for this number of oscillators.
+    fn reach_by_the_claim(&self, prepared: &Prepared, concluded: &Concluded) -> Reach<Enclosure> {
+        let Asked { witness, data, .. } = self.asked;
+        let own = &prepared.own;
+        let distances = prepared.start.distances(own, [&concluded.states, &concluded.error, &concluded.zeta]);
+        witness.reach(&data.with_oscillators(&own.n_bar_squared), distances.each_ref())
+    }
+}

@@ -1,0 +1,202 @@
+//! What is proved on a box around a trial (derivation, 14.4, 14.5).
+
+use super::around::{Around, Prepared, SHORT, up};
+use super::boxes::MARGINS;
+use crate::attempt::prove_value;
+use rug::Rational;
+use sigmastar_decide::bounds::StatesForm;
+use sigmastar_decide::linear::PRECISION;
+use sigmastar_decide::trial::{Concluded, OrMore, Peaks, TubeProof, XFirst};
+use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_exact::number::{Direction, round_f64, round_rational};
+use sigmastar_lang::spec::{Bound, Level, Metric};
+use sigmastar_propose::bounds::{FallingForm, FloatSuprema};
+
+/// Digits of the numbers of a form.
+const DIGITS: u32 = 9;
+
+/// How much of the margins of a form is claimed.
+const KEPT: f64 = 0.5;
+
+/// How far a metric is from what a level says of it.
+const ROOM: f64 = 1e-5;
+
+/// Boxes of the proof of a form.
+const EFFORT: usize = 20_000;
+
+/// The share of the distance of e that eta is.
+const SMALL_ETA: f64 = 1e-4;
+
+/// The radii of a box in short numbers.
+pub(super) fn short(radii: [f64; 2]) -> Option<[Rational; 2]> {
+    let [x, e] = radii.map(|radius| round_f64(radius, DIGITS, Direction::Down));
+    Some([x?, e?])
+}
+
+impl Around<'_> {
+    /// The peaks by forms on a box, if solutions from the set do not leave it.
+    pub(super) fn peaks(
+        &self,
+        prepared: &Prepared,
+        concluded: &Concluded,
+        (radii, forms): (&[Rational; 2], &[(Metric, Level)]),
+    ) -> Option<Peaks> {
+        let has_states = self.asked.plant.states() > 0;
+        let peaks = Peaks::of((forms, has_states), concluded, &prepared.own, &prepared.start)?;
+        let mut inside = peaks.reach.iter().zip(radii).zip([has_states, true]);
+        inside
+            .all(|((reach, end), asked)| !asked || reach.lt(&Enclosure::from_rational(end, PRECISION)).is_true())
+            .then_some(peaks)
+    }
+
+    /// What falls along x first on a box that solutions from the set do not leave; `other`: that of another number of oscillators.
+    pub(super) fn along_x_first(
+        &self,
+        prepared: &Prepared,
+        concluded: &Concluded,
+        other: Option<&XFirst>,
+    ) -> Option<(XFirst, Peaks)> {
+        let eta = round_f64(SMALL_ETA * prepared.distances[1], SHORT, Direction::Up)?;
+        if !concluded.distances[1].le(&Enclosure::from_rational(&eta, PRECISION)).is_true() {
+            return None;
+        }
+        let of_other = || self.decided_x_first(prepared, concluded, XFirst { eta: eta.clone(), ..other?.clone() });
+        let found = |margin: f64| {
+            let (radii, forms) = self.peak_box(prepared, margin, Some(eta.to_f64()))?;
+            let splitting = |form: &FallingForm| form.splitting.as_ref()?.iter().map(|row| short_row(row)).collect();
+            let splittings = forms.iter().map(splitting).collect::<Option<_>>()?;
+            let forms = forms.iter().map(rounded).collect::<Option<_>>()?;
+            let x_first = XFirst { radii: short(radii)?, eta: eta.clone(), forms, splittings };
+            self.decided_x_first(prepared, concluded, x_first)
+        };
+        of_other().or_else(|| MARGINS.into_iter().find_map(found))
+    }
+
+    /// What is proved of it: at least the first form.
+    fn decided_x_first(
+        &self,
+        prepared: &Prepared,
+        concluded: &Concluded,
+        mut x_first: XFirst,
+    ) -> Option<(XFirst, Peaks)> {
+        let Prepared { engine, .. } = prepared;
+        let [x, e] = x_first.radii.each_ref();
+        self.in_domain(prepared, [x, e])?;
+        engine.smooth(x, e).ok()?;
+        let decided = |((metric, level), s): (&(Metric, Level), &Vec<Vec<Rational>>)| {
+            let place = ([x, e], &x_first.eta);
+            engine.decide_form_x_first((metric, level, s), self.asked.sigma, place, EFFORT).truth.is_true()
+        };
+        let holds: Vec<bool> = x_first.forms.iter().zip(&x_first.splittings).map(decided).collect();
+        holds.first().filter(|first| **first)?;
+        let mut each = holds.iter();
+        x_first.forms.retain(|_| each.next() == Some(&true));
+        let mut each = holds.iter();
+        x_first.splittings.retain(|_| each.next() == Some(&true));
+        let peaks = self.peaks(prepared, concluded, (&x_first.radii, &x_first.forms))?;
+        Some((x_first, peaks))
+    }
+
+    /// What is proved on a box: at least the first form.
+    pub(super) fn proof(
+        &self,
+        prepared: &Prepared,
+        [x, e]: [Rational; 2],
+        mut forms: Vec<(Metric, Level)>,
+    ) -> Option<TubeProof> {
+        let Prepared { engine, samples, .. } = prepared;
+        let has_states = self.asked.plant.states() > 0;
+        self.in_domain(prepared, [&x, &e])?;
+        engine.smooth(&x, &e).ok()?;
+        let decided = |(metric, level): &(Metric, Level)| {
+            engine.decide_form((metric, level), self.asked.sigma, [&x, &e], EFFORT).truth.is_true()
+        };
+        // The box is that of the first.
+        let holds: Vec<bool> = forms.iter().map(decided).collect();
+        holds.first().filter(|first| **first)?;
+        let mut holds = holds.into_iter();
+        forms.retain(|_| holds.next() == Some(true));
+        let first = forms.first()?;
+        let slope = |bound| prove_value(engine, samples, bound, &x, &e).map(|proved| proved.value);
+        let of_states = |bound| if has_states { slope(bound) } else { Some(Rational::new()) };
+        let slopes = [of_states(Bound::Qx)?, slope(Bound::Qe)?];
+        let [d_x, d_q, d_t] = prepared.defects.clone();
+        let or_more = match self.or_more {
+            false => None,
+            true => Some(OrMore {
+                defect_t: d_t,
+                in_time: [of_states(Bound::Qtx)?, slope(Bound::Qte)?],
+                states: [of_states(Bound::Fx)?, of_states(Bound::Fe)?],
+            }),
+        };
+        let states = match has_states {
+            false => None,
+            true => {
+                let form = self.states_form(samples, first, [&x, &e])?;
+                engine.decide_states(&form, [&x, &e], EFFORT).truth.is_true().then_some(())?;
+                Some(form)
+            }
+        };
+        Some(TubeProof { defects: [d_x, d_q], radii: [x, e], slopes, forms, states, or_more, x_first: None })
+    }
+
+    /// That the box lies where the model holds.
+    fn in_domain(&self, prepared: &Prepared, [x, e]: [&Rational; 2]) -> Option<()> {
+        let Some(domain) = &self.asked.spec.domain else { return Some(()) };
+        let [of_x, of_e, _] = Concluded::sizes_of(&prepared.trial, &self.known(prepared))?;
+        let reach = [(of_x, x, &domain.x), (of_e, e, &domain.e)];
+        let within = |(size, radius, end): &(Enclosure, &Rational, &sigmastar_lang::spec::Constant)| {
+            (size + Enclosure::from_rational(radius, PRECISION)).le(&end.enclose(PRECISION)).is_true()
+        };
+        reach.iter().all(within).then_some(())
+    }
+
+    /// (14.4b) with the P of a form.
+    fn states_form(
+        &self,
+        samples: &FloatSuprema,
+        (metric, level): &(Metric, Level),
+        [x, e]: [&Rational; 2],
+    ) -> Option<StatesForm> {
+        let pushed = samples.refined(Bound::Fe, x.to_f64(), e.to_f64()).value;
+        let c_x = metric.c_x.to_f64();
+        let p_up = level.p_up.to_f64();
+        // |P g|^2 <= gamma (c_x - 2 c).
+        let gamma = 2.2 * (p_up * pushed) * (p_up * pushed) / c_x;
+        Some(StatesForm {
+            matrix: metric.matrix.clone(),
+            q_low: level.x_low.clone(),
+            q_up: level.p_up.clone(),
+            c: round_rational(&Rational::from(&metric.c_x / 4u32), DIGITS, Direction::Down),
+            gamma: up(gamma, SHORT)?,
+        })
+    }
+}
+
+/// A row of a matrix in short numbers.
+fn short_row(row: &[f64]) -> Option<Vec<Rational>> {
+    row.iter().map(|entry| round_f64(*entry, DIGITS, Direction::Nearest)).collect()
+}
+
+/// A form in short numbers.
+pub(super) fn rounded(form: &FallingForm) -> Option<(Metric, Level)> {
+    let FallingForm { matrix, cross, weight, k_p, p_up, x_low, e_low, margins, .. } = form;
+    let short = |value: f64| round_f64(value, DIGITS, Direction::Nearest);
+    let [c_x, c_e, c_y] = margins.map(|margin| round_f64(KEPT * margin, SHORT, Direction::Down));
+    let has_states = !matrix.is_empty();
+    let metric = Metric {
+        matrix: matrix.iter().map(|row| short_row(row)).collect::<Option<_>>()?,
+        cross: short_row(cross)?,
+        weight: short(*weight)?,
+        k_p: short(*k_p)?,
+        c_x: if has_states { c_x? } else { Rational::from(1) },
+        c_e: c_e?,
+        c_y: c_y?,
+    };
+    let level = Level {
+        p_up: round_f64(if has_states { p_up * (1.0 + ROOM) } else { 1.0 }, DIGITS, Direction::Up)?,
+        x_low: round_f64(x_low * (1.0 - ROOM), DIGITS, Direction::Down)?,
+        e_low: round_f64(e_low * (1.0 - ROOM), DIGITS, Direction::Down)?,
+    };
+    Some((metric, level))
+}
