@@ -107,10 +107,12 @@ pub fn check(json: &Json, other: Option<&Json>, lines: &mut Vec<String>) -> Outc
         let inequalities = Inequalities { list: Some(&derivation.inequalities), law: derivation.law(), slopes };
         proofs_plants::prove(&spec, cells, arguments.each_ref(), inequalities, lines)?;
         if let Some(witness) = &by_n_o {
-            let (Free { set, d_x, d_e, k0, k1, .. }, sigma) = (&derivation.free, &claim.sigma);
+            let (Free { set, d_x, d_e, w_x, h, k0, k1, .. }, sigma) = (&derivation.free, &claim.sigma);
             let (error_box, periodic) = ([d_x, d_e], claim.sizes()?);
+            let (weights, stability) = ([w_x, h], derivation.inequalities.stability.as_ref());
             // Of k0 and k1 the transfer bound is proved with the claim, by its derivation.
-            let about = by_n_o::About { sigma, set, error_box, periodic, transfer: [k0, k1] };
+            let transfer = [k0, k1];
+            let about = by_n_o::About { sigma, set, error_box, periodic, transfer, weights, stability };
             proofs_plants::by_n_o::prove(&spec, cells, &about, (&claim.by_n_o, witness), lines)?;
         }
     }

@@ -8,6 +8,7 @@ use super::model::Model;
 use super::question::Question;
 use proofs_core::constant::Constant;
 use proofs_core::interval::above;
+use proofs_core::matrix::Matrix;
 use proofs_core::rules::inequality::{Inequality, Metric, P};
 use proofs_core::spec::Specification;
 use rug::{Float, Rational};
@@ -132,6 +133,28 @@ pub fn of_states(model: &mut Model, p: &P, c_x: &Rational) -> (Vec<Vec<Id>>, Vec
     };
     let beside = p.iter().take(column.len()).map(beside).collect();
     (block, beside)
+}
+
+/// Both matrices of a splitting by S in (x, y), of the rows of x and y and of that of e: the first without S, and S with the row of e. The rows are in
+/// (x, y/unit, e).
+pub fn split(
+    formulas: &mut Formulas,
+    (mut block, of_e): (Vec<Vec<Id>>, Vec<Id>),
+    matrix: &Matrix,
+    unit: Id,
+) -> [Vec<Vec<Id>>; 2] {
+    let last = matrix.len().saturating_sub(1);
+    let units: Vec<Id> = (0..matrix.len()).map(|i| if i < last { formulas.int(1) } else { unit }).collect();
+    let mut s = Vec::new();
+    for (i, line) in matrix.iter().enumerate() {
+        let line = numbers(formulas, &line[..=i]).into_iter().zip(&units);
+        s.push(line.map(|(value, of)| formulas.make(*of * (units[i] * value))).collect::<Vec<_>>());
+    }
+    for (entry, least) in block.iter_mut().flatten().zip(s.iter().flatten()) {
+        *entry = formulas.make(*entry - *least);
+    }
+    s.push(of_e);
+    [block, s]
 }
 
 /// g = df/de.

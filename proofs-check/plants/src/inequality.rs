@@ -1,7 +1,7 @@
 //! The questions of all matrix inequalities that a claim rests on (docs/mathematics.md, section 13.7), with those of its rates (13.6).
 
 use super::at_samples;
-use super::form::{Form, Said, constant, ends, numbers, of_output};
+use super::form::{Form, Said, constant, ends, numbers, of_output, split};
 use super::formula::{Axis, Id};
 use super::model::Model;
 use super::question::Question;
@@ -51,20 +51,11 @@ fn in_continuous_time(model: &mut Model, part: &Inequality, spec: &Specification
             let said = |what, at, question| Said::of(part, format!("{what}{}", end.at), at, question);
             if let Some(splitting) = &part.splitting {
                 // y = mu (y/mu).
-                let units: Vec<Id> = (0..=order).map(|i| if i < order { formulas.int(1) } else { unit }).collect();
-                let mut s = Vec::new();
-                for (i, line) in splitting.matrix.iter().enumerate() {
-                    let line = numbers(formulas, &line[..=i]).into_iter().zip(&units);
-                    s.push(line.map(|(value, of)| formulas.make(*of * (units[i] * value))).collect::<Vec<_>>());
-                }
+                let [block, s] = split(formulas, (block, of_e), &splitting.matrix, unit);
                 // S is asked for once: b has no part in it.
                 if all.is_empty() {
-                    for (entry, least) in block.iter_mut().flatten().zip(s.iter().flatten()) {
-                        *entry = formulas.make(*entry - *least);
-                    }
                     all.push(said("F without e >= S", of_states, Question::new(formulas, block, order)));
                 }
-                s.push(of_e);
                 all.push(said("S with e >= 0", of_error, Question::new(formulas, s, order)));
                 continue;
             }

@@ -388,11 +388,12 @@ impl Loop {
             Witness::read(Some(&Field { json: &witness, pointer: place("witness") }), &claimed, states)?.unwrap();
         let sigma = Rational::from_f64(self.sigma).unwrap();
         let mut lines = Vec::new();
-        // The set, the error box and k0, k1 say something of trials alone.
+        // The set, the error box, k0, k1 and the function of the claim say something of trials alone.
         let zero = Rational::new();
         let set = ClaimedSet { x0: zero.clone(), e0: zero.clone(), z0: None };
         let periodic = [zero.clone(), zero.clone()];
-        let about = About { sigma: &sigma, set: &set, error_box: [&zero; 2], periodic, transfer: [&zero; 2] };
+        let [error_box, transfer, weights] = [[&zero; 2]; 3];
+        let about = About { sigma: &sigma, set: &set, error_box, periodic, transfer, weights, stability: None };
         let prove = || by_n_o::prove(&spec, &plants, &about, (&claimed, &witness), &mut lines);
         effort::limited(effort::LIMIT, prove).0.map(|()| lines)
     }

@@ -69,5 +69,7 @@ mod transfer;
 mod trials;
 mod trials_certificate;
 mod trials_or_more;
+mod trials_peaks;
 mod trials_support;
+mod trials_x_first;
 mod words;

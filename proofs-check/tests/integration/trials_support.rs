@@ -8,6 +8,7 @@ use proofs_check::json::{Field, Json, decimal, parse};
 use proofs_check::plants as plant;
 use proofs_check::rules::by_n_o::claimed::Entry;
 use proofs_check::rules::by_n_o::{About, Witness};
+use proofs_check::rules::inequality::Inequality;
 use proofs_check::rules::set::ClaimedSet;
 use proofs_check::verdict::{Outcome, Verdict};
 use rug::Rational;
@@ -149,6 +150,9 @@ pub struct Case {
     pub periodic: [&'static str; 2],
     /// k0 and k1.
     pub transfer: [&'static str; 2],
+    /// w_x and h.
+    pub weights: [&'static str; 2],
+    pub stability: Option<Inequality>,
     pub x: Wave,
     pub e: Wave,
     pub q: Wave,
@@ -215,7 +219,9 @@ impl Case {
             "largest": { "e": "9", "u": "99" },
         });
         let (error_box, periodic) = (["1", "1"].map(str::to_owned), ["0.1", "0.1"]);
-        Case { parts, entry, trial, sigma: "4", error_box, periodic, transfer: ["19.8", "79.1"], x, e, q, n_o }
+        // A function that is too large to be of use.
+        let (transfer, weights) = (["19.8", "79.1"], ["1e9", "1e9"]);
+        Case { parts, entry, trial, sigma: "4", error_box, periodic, transfer, weights, stability: None, x, e, q, n_o }
     }
 
     /// Of a plant without states, with this q; its trial has nothing of states.
@@ -286,7 +292,9 @@ impl Case {
         let ([d_x, d_e], sigma): ([Rational; 2], _) =
             (self.error_box.each_ref().map(|text| value(text)), value(self.sigma));
         let (error_box, periodic, pair) = ([&d_x, &d_e], self.periodic.map(value), self.transfer.map(value));
-        let about = About { sigma: &sigma, set: &set, error_box, periodic, transfer: pair.each_ref() };
+        let (weights, transfer) = (self.weights.map(value), pair.each_ref());
+        let (weights, stability) = (weights.each_ref(), self.stability.as_ref());
+        let about = About { sigma: &sigma, set: &set, error_box, periodic, transfer, weights, stability };
         let mut lines = Vec::new();
         plant::by_n_o::prove(&spec, &cells, &about, (&claimed, &witness), &mut lines).map(|()| lines)
     }
@@ -320,6 +328,8 @@ pub struct Expected {
     pub steady: [f64; 3],
     /// X_N and E_N.
     pub sizes: [f64; 2],
+    /// d_X, d_E, d_Z.
+    pub distances: [f64; 3],
     pub v_0: f64,
     /// largest: e, u.
     pub largest: [f64; 2],
@@ -375,9 +385,17 @@ pub fn expected_with(case: &Case, n_bar: f64) -> Expected {
         s_e,
         steady: [e_n, rms + rho_e, u],
         sizes: [x_n, e_n],
+        distances: [d_x, d_e, d_z],
         largest: [e_n + (v_0 / e_low).sqrt(), u + (v_0 * (SIGMA * SIGMA / e_low + 2.0 * n_bar * n_bar / k_p)).sqrt()],
         v_0,
     }
+}
+
+/// `largest` by a function that is at most `level` at the start, and never below `weight e^2 + h |zeta|_N^2`.
+pub fn peaks(case: &Case, level: f64, [weight, h]: [f64; 2]) -> [f64; 2] {
+    let n_bar = if case.is_or_more() { N_BAR } else { n_bar(case.n_o) };
+    let Expected { steady: [e, _, u], .. } = expected(case);
+    [e + (level / weight).sqrt(), u + (level * (SIGMA * SIGMA / weight + n_bar * n_bar / h)).sqrt()]
 }
 
 pub fn text(value: f64) -> Value {

@@ -83,14 +83,14 @@ pub fn levels(d: &Data<'_>, pair: Pair<'_>, reach: &[Interval; 3], radii: [&Rati
     [level("C4", "near", near), level("C4f", "far", far)]
 }
 
-/// How far the control goes at sigma, with the threshold sigma_0: of the metric between the two, at the share `l = sigma_0/sigma` of the near one, V
-/// at the start is at most that share of the left sides of C4 and C4f, and not below that of `e_low e^2 + (k_p mu/2)|zeta|_N^2`.
-pub fn transient(
+/// Of the metric between the two at sigma, with the threshold sigma_0 and the share `l = sigma_0/sigma` of the near one: what V at the start is at most,
+/// that share of the left sides of C4 and C4f, and the e_low and `k_p mu/2` of which V is not below `e_low e^2 + (k_p mu/2)|zeta|_N^2`.
+pub fn between(
     d: &Data<'_>,
     pair: Pair<'_>,
-    [near, far]: &[Condition; 2],
+    [near, far]: [&Interval; 2],
     [threshold, sigma]: [&Rational; 2],
-) -> Interval {
+) -> [Interval; 3] {
     let share = Rational::from(threshold / sigma);
     let (of_near, of_far) = (d.number(&share), d.number(&(1 - share)));
     let between = |near: &Interval, far: &Interval| &of_near * near + &of_far * far;
@@ -99,6 +99,11 @@ pub fn transient(
         between(&near, &far)
     };
     let [e_low, half] = [of(|_, extent| extent.e_low.clone()), of(|metric, _| metric.half.clone())];
-    let start = between(&near.lhs, &far.lhs);
-    control::transient(d, [&d.number(sigma), &d.mu], [&e_low, &(half * &d.mu)], (&start, &d.int(0)))
+    [between(near, far), e_low, half * &d.mu]
+}
+
+/// How far the control goes at sigma, with the threshold sigma_0 and the left sides of C4 and C4f.
+pub fn transient(d: &Data<'_>, pair: Pair<'_>, [near, far]: &[Condition; 2], gains: [&Rational; 2]) -> Interval {
+    let [start, e_low, h] = between(d, pair, [&near.lhs, &far.lhs], gains);
+    control::transient(d, [&d.number(gains[1]), &d.mu], [&e_low, &h], (&start, &d.int(0)))
 }

@@ -4,15 +4,18 @@
 //!
 //! Guarantee of [`prove`]: of a plant that is linear in x and e, `largest` of each entry follows from what `steady` and the witness say of the periodic
 //! solution. That these are true of the formulas is proved by the crate `proofs-plants`, whose part has the same name; with trials all that an entry
-//! says is, by what follows from a trial in [`tube`].
+//! says is, by what follows from a trial in [`tube`] and [`peaks`].
 
 pub mod claimed;
 pub mod linear;
+pub mod peaks;
 pub mod trials;
 pub mod tube;
+pub mod x_first;
 
 use crate::data::Data;
 use crate::json::Field;
+use crate::rules::inequality::Inequality;
 use crate::rules::set::ClaimedSet;
 use crate::spec::Specification;
 use crate::verdict::{Outcome, Verdict, bad, finding};
@@ -32,7 +35,7 @@ pub enum Witness {
     Trials(Vec<Trial>),
 }
 
-/// What the claim says besides.
+/// What the claim says besides, and by what it is proved.
 pub struct About<'c> {
     /// Its gain.
     pub sigma: &'c Rational,
@@ -44,6 +47,10 @@ pub struct About<'c> {
     pub periodic: [Rational; 2],
     /// k0 and k1, proved for every number of oscillators (section 2).
     pub transfer: [&'c Rational; 2],
+    /// w_x and h, by which its error decays where no joint metrics say that it does.
+    pub weights: [&'c Rational; 2],
+    /// The inequality by which it does, where there is one.
+    pub stability: Option<&'c Inequality>,
 }
 
 impl Witness {

@@ -7,6 +7,7 @@
 //! and D_e are above 0. What is said of the formulas is proved by the crate `proofs-plants`.
 
 use super::claimed::{Entry, RULE};
+use super::x_first::XFirst;
 use crate::json::{Field, Fields};
 use crate::matrix::{is_semidefinite, shifted};
 use crate::rules::inequality::{Extent, Kind, Metric, P, number, symmetric};
@@ -19,7 +20,7 @@ use std::ops::RangeInclusive;
 /// The most harmonics of a curve.
 const MOST_HARMONICS: usize = 64;
 /// The most forms.
-const MOST_FORMS: usize = 3;
+pub(super) const MOST_FORMS: usize = 3;
 
 /// A trial of one n_o.
 #[derive(Clone, Debug)]
@@ -44,6 +45,8 @@ pub struct Trial {
     pub states: Option<States>,
     /// There exactly if the entry is about so many oscillators or more.
     pub or_more: Option<OrMore>,
+    /// Where peaks are proved along x first, too.
+    pub x_first: Option<XFirst>,
 }
 
 /// What the corollary about so many oscillators or more asks for besides.
@@ -120,9 +123,7 @@ impl Trial {
             demand(Some(silent(&e.0, 1..=n_o)), RULE, &e.1, what)?;
         }
         let defects = [of_states(fields, "defect_x", false, states)?, number(fields, "defect_q", false)?];
-        let radii = fields
-            .required("box")?
-            .object(|fields| Ok([of_states(fields, "x", true, states)?, number(fields, "e", true)?]))?;
+        let radii = radii(fields, states)?;
         let slopes = [of_states(fields, "q_x", false, states)?, number(fields, "q_e", false)?];
         let list = fields.required("forms")?;
         let forms = list.list(|field| field.object(|fields| form(fields, states)))?;
@@ -130,17 +131,24 @@ impl Trial {
             return bad(&list.pointer, format!("expected 1 to {MOST_FORMS} forms"));
         }
         let or_more = entry.or_more.then(|| OrMore::take(fields, states)).transpose()?;
+        let x_first = fields.part("x_first", |field| field.object(|fields| XFirst::take(fields, states)))?;
         let states = match states {
             0 => None,
             _ => Some(fields.required("states")?.object(|fields| States::take(fields, states))?),
         };
         let (pointer, e, q) = (fields.pointer.clone(), e.0, q.0);
-        Ok(Trial { pointer, x, e, q, defects, radii, slopes, forms, states, or_more })
+        Ok(Trial { pointer, x, e, q, defects, radii, slopes, forms, states, or_more, x_first })
     }
 }
 
+/// D_x, 0 without states, and D_e of the part `box`.
+pub(super) fn radii(fields: &mut Fields<'_>, states: usize) -> Outcome<[Rational; 2]> {
+    let field = fields.required("box")?;
+    field.object(|fields| Ok([of_states(fields, "x", true, states)?, number(fields, "e", true)?]))
+}
+
 /// A form, whose numbers have the names of a near metric.
-fn form(fields: &mut Fields<'_>, states: usize) -> Outcome<(Metric, Extent)> {
+pub(super) fn form(fields: &mut Fields<'_>, states: usize) -> Outcome<(Metric, Extent)> {
     let pointer = fields.pointer.clone();
     let none = Rational::new();
     let metric = Metric::read(fields, (Kind::Joint, false), Some(true), [&none; 2])?;

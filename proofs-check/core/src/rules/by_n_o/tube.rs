@@ -1,5 +1,4 @@
-//! What follows from a trial: Theorem T of section 14.4 of docs/mathematics.md and its corollary, which solution it is, and the second corollary of section
-//! 14.5.
+//! What follows from a trial: Theorem T of section 14.4 of docs/mathematics.md and its corollary. Which solution it is and the peaks are in [`peaks`].
 //!
 //! Guarantee of [`prove`], with the trial's inequalities and defects proved of the formulas on its box, which lies in the domain of the plant, and with
 //! [`Curves`] as they are: the loop with n_o oscillators and the gain sigma has exactly one T-periodic solution in the box, it is that of the claim, and
@@ -8,14 +7,14 @@
 
 use super::About;
 use super::claimed::{Entry, RULE};
+use super::peaks::{self, Solution};
 use super::trials::{OrMore, States, Trial};
 use crate::data::Data;
 use crate::interval::Interval;
-use crate::rules::control::{by_parts, put_out, transient};
+use crate::rules::control::{by_parts, put_out};
 use crate::rules::gains::kappas;
 use crate::rules::inequality::{Extent, Metric};
-use crate::rules::joint::{size_of_cross, start};
-use crate::rules::stability::distances;
+use crate::rules::joint::size_of_cross;
 use crate::verdict::{Condition, Outcome};
 use rug::Rational;
 
@@ -132,40 +131,6 @@ pub fn prove(d: &Data<'_>, about: &About<'_>, (entry, trial): (&Entry<'_>, &Tria
     let what = format!("sup|ehat' - qhat| + kappa + sigma s_e + mu {n_bar} s_z");
     at_most(&what, put, claimed_u, "steady/u")?;
 
-    let Some([largest_e, largest_u]) = &entry.largest else {
-        // (ii): the difference of both solutions stays in the error box of the claim.
-        let within = |what: &str, size: Interval, which: usize| {
-            let (of_claim, radius) = (d.number(&about.periodic[which]), d.number(about.error_box[which]));
-            let what = format!("{what} of the claim, or the solution need not be that of the claim, {}", entry.about());
-            Condition::at_most("T", what, size + of_claim, radius).demand(RULE, &trial.pointer)
-        };
-        if has_states {
-            within("X_N + x_per <= D_x", x, 0)?;
-        }
-        return within("E_N + e_per <= D_e", e, 1);
-    };
-    let mut reach = distances(d, about.set, [&x, &e, &zeta]);
-    if !has_states {
-        reach[0] = d.int(0);
-    }
-    let [mut best_e, mut best_u] = [(); 2].map(|()| Interval::undefined(d.precision));
-    for (place, (metric, extent)) in trial.forms.iter().enumerate() {
-        let level = start(d, (metric, extent), &reach);
-        let [x_low, e_low, half] = [&extent.x_low, &extent.e_low, &metric.half].map(|value| d.number(value));
-        let farthest = (&level / &e_low).sqrt();
-        if place == 0 {
-            if has_states {
-                let out = (&level / x_low).sqrt() + &tube.x;
-                less("sqrt(V_0/x_low) + s_x < D_x", out, &d_x, of_trial("box/x"))?;
-            }
-            less("sqrt(V_0/e_low) + s_e < D_e", &farthest + &tube.e, &d_e, of_trial("box/e"))?;
-        }
-        let of_u = transient(d, [&sigma, &d.mu], [&e_low, &(half * &d.mu)], (&level, &d.int(0)));
-        best_e = best_e.least(&farthest);
-        best_u = best_u.least(&of_u);
-    }
-    let [put, _] = put_out(d, [u + best_u, d.int(0)]);
-    at_most("E_N + sqrt(V_0/e_low)", e + best_e, largest_e, "largest/e")?;
-    let what = format!("that of u + sqrt(V_0 (sigma^2/e_low + 2 mu {n_bar}^2/k_p))");
-    at_most(&what, put, largest_u, "largest/u")
+    let solution = Solution { sizes: [x, e, zeta], off: [tube.x, tube.e], u };
+    peaks::prove(d, about, (entry, trial), &solution, n_bar)
 }

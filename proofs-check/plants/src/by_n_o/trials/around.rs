@@ -1,8 +1,8 @@
 //! The formulas around a trial (docs/mathematics.md, section 14.4): on the box of all `x = xhat(t) + L v`, `e = ehat(t) + h` with `|v| <= D_x`,
-//! `|h| <= D_e`. They are those of a plant whose orbit is xhat and whose error is measured from ehat.
+//! `|h| <= D_e`, and on the larger one of `x_first` (14.5). They are those of a plant whose orbit is xhat and whose error is measured from ehat.
 
 use crate::bounds;
-use crate::form::{Form, numbers, of_states};
+use crate::form::{Form, numbers, of_states, split};
 use crate::formula::Id;
 use crate::machine::{Curves, Machine};
 use crate::model::{self, Frame, Model, wave};
@@ -17,19 +17,22 @@ use proofs_core::interval::Interval;
 use proofs_core::plant::entries::Name;
 use proofs_core::rules::by_n_o::claimed::RULE;
 use proofs_core::rules::by_n_o::trials::{OrMore, Trial};
+use proofs_core::rules::by_n_o::x_first::{Split, XFirst};
 use proofs_core::verdict::{Outcome, demand};
 use rug::Rational;
 
 /// By so many boxes each question is tried at first.
 const FEW_PIECES: usize = 1_000;
 
-/// A question about the box, with its place and what it is about.
-struct Asked {
+/// A question about a box, with its place and what it is about.
+struct Asked<'t> {
     question: Question,
     pointer: String,
     what: String,
     /// Whether it has the velocity of the frame, so that it is asked in the moving one alone.
     is_of_motion: bool,
+    /// Those of the box.
+    radii: [&'t Rational; 2],
 }
 
 /// The formulas around a trial.
@@ -38,7 +41,7 @@ pub struct Around<'t> {
     plant: Plant,
     model: Model,
     curves: Curves,
-    asked: Vec<Asked>,
+    asked: Vec<Asked<'t>>,
     /// The same questions in x and e.
     still: Still,
     /// The components of `L^-1 (f - xhat')`, and `q - qhat`.
@@ -70,23 +73,31 @@ impl<'t> Around<'t> {
     }
 
     /// Proves on the box that the formulas are smooth, (14.4a) of each form, (14.4b), and the bounds of r and d, and of an entry about so many
-    /// oscillators or more those of the other derivatives, with the defects as they are ([`Around::defects`]); by how many boxes. `farthest`: the
-    /// largest |e| of it, rounded up.
-    pub fn on_box(&self, [om, period]: [&Interval; 2], farthest: &Interval, about: &str) -> Outcome<usize> {
+    /// oscillators or more those of the other derivatives, with the defects as they are ([`Around::defects`]); and on that of `x_first`, where it is
+    /// there, that they are smooth, and (14.5a). By how many boxes. `error`: sup|ehat|.
+    pub fn on_box(&self, [om, period]: [&Interval; 2], error: &Interval, about: &str) -> Outcome<usize> {
         let mut machine = Machine::new(&self.model.formulas, &self.curves, om);
         // `|L^-1 (fhat - xhat')| <= d_x`, for ehat is 0 where fhat is asked for.
         machine.drift = around(&Interval::rational(&self.trial.defects[0], PRECISION));
         let (root, mut values) = (machine.period(period), machine.values());
-        let [d_x, d_e] = self.trial.radii.each_ref().map(|radius| Interval::rational(radius, PRECISION));
         let family = Region::of_family(&self.plant, PRECISION);
-        let region = Region { states: self.plant.states(), shape: Shape::Ball(d_x), output: d_e, ..family };
-        let place = format!("{}/box", self.trial.pointer);
-        let demands = &self.model.demands;
-        let mut boxes = smooth::prove(&self.model.formulas, demands, &place, &machine, &root, &region, &mut values)?;
-        // A wide box may be one of the states themselves, which has fewer sides.
-        let wide = Region { output: farthest.clone(), ..region.clone() };
+        let region = |radii: [&Rational; 2]| {
+            let [d_x, output] = radii.map(|radius| Interval::rational(radius, PRECISION));
+            Region { states: self.plant.states(), shape: Shape::Ball(d_x), output, ..family.clone() }
+        };
+        let larger = self.trial.x_first.iter().map(|first| (&first.pointer, &first.radii));
+        let mut boxes = 0;
+        for (pointer, radii) in [(&self.trial.pointer, &self.trial.radii)].into_iter().chain(larger) {
+            let (demands, place) = (&self.model.demands, format!("{pointer}/box"));
+            let region = region(radii.each_ref());
+            boxes += smooth::prove(&self.model.formulas, demands, &place, &machine, &root, &region, &mut values)?;
+        }
         let mut still = None;
-        for (which, Asked { question, pointer, what, .. }) in self.asked.iter().enumerate() {
+        for (which, Asked { question, pointer, what, radii, .. }) in self.asked.iter().enumerate() {
+            let region = region(*radii);
+            // A wide box may be one of the states themselves, which has fewer sides.
+            let farthest = (error.round(PRECISION) + &region.output).ceiling();
+            let wide = Region { output: farthest, ..region.clone() };
             let mut decide = |most: usize| question.decide(&machine, &root, &region, most, &mut values);
             let mut answer = decide(FEW_PIECES);
             if matches!(answer, Answer::Open(_)) {
@@ -153,11 +164,11 @@ impl<'t> Around<'t> {
     }
 }
 
-/// (14.4a) of each form, (14.4b), and the bounds of r and d, and of the derivatives that the corollary asks for.
-fn questions(model: &mut Model, sigma: &Rational, trial: &Trial) -> Vec<Asked> {
+/// (14.4a) of each form, (14.4b), and the bounds of r and d, and of the derivatives that the corollary asks for; then (14.5a).
+fn questions<'t>(model: &mut Model, sigma: &Rational, trial: &'t Trial) -> Vec<Asked<'t>> {
     let states = model.states();
     let mut asked = Vec::new();
-    let unit = model.formulas.int(1);
+    let (unit, radii) = (model.formulas.int(1), trial.radii.each_ref());
     for (place, (metric, _)) in trial.forms.iter().enumerate() {
         let corner = Rational::from(sigma * &metric.w) * 2u32;
         let pull: Vec<Rational> = metric.cross.iter().map(|entry| Rational::from(entry * sigma)).collect();
@@ -168,6 +179,7 @@ fn questions(model: &mut Model, sigma: &Rational, trial: &Trial) -> Vec<Asked> {
             pointer: format!("{}/forms/{place}", trial.pointer),
             what: "F >= diag(c_x I, c_e, c_y)".to_owned(),
             is_of_motion: false,
+            radii,
         });
     }
     if let Some(of) = &trial.states {
@@ -180,6 +192,7 @@ fn questions(model: &mut Model, sigma: &Rational, trial: &Trial) -> Vec<Asked> {
             pointer: format!("{}/states", trial.pointer),
             what: "[[-(Q J + J'Q) - 2 c I, -Q g], [., gamma]] >= 0".to_owned(),
             is_of_motion: false,
+            radii,
         });
     }
     let [q_x, q_e] = &trial.slopes;
@@ -201,7 +214,31 @@ fn questions(model: &mut Model, sigma: &Rational, trial: &Trial) -> Vec<Asked> {
         pointer: format!("{}/{label}", trial.pointer),
         what: what.to_owned(),
         is_of_motion: name.is_of_motion(),
+        radii,
     };
     asked.extend(of_states.into_iter().chain(of_output).map(bound));
+    asked.extend(trial.x_first.iter().flat_map(|first| along_x_first(model, sigma, first)));
+    asked
+}
+
+/// (14.5a) of each form: that F without e is not below S where e is within eta of ehat, and that S with e is not below 0.
+fn along_x_first<'t>(model: &mut Model, sigma: &Rational, first: &'t XFirst) -> Vec<Asked<'t>> {
+    let (states, unit) = (model.states(), model.formulas.int(1));
+    let XFirst { pointer, radii: [d_x, d_e], slice, forms } = first;
+    let mut asked = Vec::new();
+    for (place, Split { metric, matrix, .. }) in forms.iter().enumerate() {
+        let corner = Rational::from(sigma * &metric.w) * 2u32;
+        let rows = Form { metric, unit, corner: &corner, shift: None, pull: &[] }.rows(model);
+        let both = split(&mut model.formulas, rows, matrix, unit);
+        let kinds =
+            [("F without e >= S, along x first up to E,", [d_x, slice]), ("S with e >= 0, along x first,", [d_x, d_e])];
+        asked.extend(both.into_iter().zip(kinds).map(|(rows, (what, radii))| Asked {
+            question: Question::new(&mut model.formulas, rows, states),
+            pointer: format!("{pointer}/forms/{place}"),
+            what: what.to_owned(),
+            is_of_motion: false,
+            radii,
+        }));
+    }
     asked
 }

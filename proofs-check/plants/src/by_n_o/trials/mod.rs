@@ -47,14 +47,17 @@ pub fn prove(
     for (entry, trial) in claimed.iter().zip(trials) {
         let answer = Answer::new(&regulator, entry.n_o as usize, trial);
         let curves = curves(&d, plant, trial, &answer, in_short.each_ref());
-        let [d_x, d_e] = trial.radii.each_ref().map(|radius| d.number(radius));
-        let [x, e] = [&curves.x + d_x, &curves.e + d_e];
-        plant.known.lies_within([&*x.hi(), &*e.hi()], &format!("{}/box", trial.pointer))?;
+        let larger = trial.x_first.iter().map(|first| (&first.pointer, &first.radii));
+        for (pointer, radii) in [(&trial.pointer, &trial.radii)].into_iter().chain(larger) {
+            let [d_x, d_e] = radii.each_ref().map(|radius| d.number(radius));
+            let [x, e] = [&curves.x + d_x, &curves.e + d_e];
+            plant.known.lies_within([&*x.hi(), &*e.hi()], &format!("{pointer}/box"))?;
+        }
         tube::prove(&d, about, (entry, trial), &curves)?;
 
         let (around, name) = (Around::new(plant, about.sigma, trial)?, entry.about());
         let cells = at_rising_precision(|p| around.defects(circle(p).each_ref(), &answer.kappa, &name))?;
-        let boxes = around.on_box(in_short.each_ref(), &e.ceiling().round(PRECISION).ceiling(), &name)?;
+        let boxes = around.on_box(in_short.each_ref(), &curves.e, &name)?;
         lines.push(format!(
             "{RULE}: {name}: the periodic solution near the trial, by {boxes} boxes and {cells} cells of t"
         ));

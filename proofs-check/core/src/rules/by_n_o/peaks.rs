@@ -1,0 +1,189 @@
+//! Which solution that of a trial is, and how far solutions from the claimed set go: sections 14.4 and 14.5 of docs/mathematics.md.
+//!
+//! Guarantee of [`prove`], with [`Solution`] as it is, the claim proved, and the inequalities of the trial proved of the formulas on its boxes, which lie in
+//! the domain of the plant: the solution is that of the claim, and `largest` of the entry, where it is there, is true of every solution from the
+//! claimed set.
+//!
+//! The solution is that of the claim if all solutions from the set converge to it, in the box of the trial or in that of `x_first`, or if the
+//! difference to the one of the claim lies in the error box of the claim. Then the function of the claim falls along differences, too: each
+//! function that does gives a bound at all times, and the least counts.
+
+use super::About;
+use super::claimed::{Entry, RULE};
+use super::trials::Trial;
+use super::x_first::Split;
+use crate::data::Data;
+use crate::interval::Interval;
+use crate::rules::control::{put_out, transient};
+use crate::rules::inequality::{Extent, Metric};
+use crate::rules::joint::{between, start};
+use crate::rules::stability::{distances, level};
+use crate::verdict::{Condition, Finding, Outcome, Verdict};
+use rug::Rational;
+
+/// What is known of the periodic solution.
+pub struct Solution {
+    /// X_N, E_N and Z_N.
+    pub sizes: [Interval; 3],
+    /// s_x and s_e: how far it is from the trial.
+    pub off: [Interval; 2],
+    /// Of its u.
+    pub u: Interval,
+}
+
+/// What a function that falls is at most at the start; it is never below `weight e^2 + h |zeta|_N^2`.
+struct Level {
+    start: Interval,
+    weight: Interval,
+    h: Interval,
+    /// What the weight is.
+    name: &'static str,
+}
+
+impl Level {
+    /// V of a form. The weight is e_low, or w of a form without p.
+    fn of_form(
+        d: &Data<'_>,
+        form: (&Metric, &Extent),
+        (name, weight): (&'static str, &Rational),
+        reach: &[Interval; 3],
+    ) -> Level {
+        let h = d.number(&form.0.half) * &d.mu;
+        Level { start: start(d, form, reach), weight: d.number(weight), h, name }
+    }
+
+    /// The function of the claim: V of its joint metrics, or else `w_x x'Px + e^2 + h |zeta|_N^2`. An input gain is nominal here.
+    fn of_claim(d: &Data<'_>, about: &About<'_>, reach: &[Interval; 3]) -> Level {
+        if let Some((part, pair)) = about.stability.and_then(|part| part.pair().map(|pair| (part, pair))) {
+            let starts = pair.map(|form| start(d, form, reach));
+            let [start, weight, h] = between(d, pair, starts.each_ref(), [&part.sigma, about.sigma]);
+            return Level { start, weight, h, name: "e_low" };
+        }
+        let [[d_x, d_e], [w_x, h]] = [&about.error_box, &about.weights].map(|pair| pair.map(|of| d.number(of)));
+        let [start, _] = level(d, reach, [&d_x, &d_e, &w_x, &h]);
+        Level { start, weight: d.int(1), h, name: "1" }
+    }
+
+    /// How far e and u go from those of the periodic solution.
+    fn moves(&self, d: &Data<'_>, sigma: &Interval) -> [Interval; 2] {
+        let of_u = transient(d, [sigma, &d.mu], [&self.weight, &self.h], (&self.start, &d.int(0)));
+        [(&self.start / &self.weight).sqrt(), of_u]
+    }
+
+    /// That no difference leaves a box around the trial; `place`: of the box in the file. x_low is that of the form, where there are states.
+    fn stays(
+        &self,
+        d: &Data<'_>,
+        (radii, x_low): (&[Rational; 2], Option<&Rational>),
+        off: &[Interval; 2],
+        (place, about): (&str, &str),
+    ) -> Outcome<()> {
+        let less = |weight: &str, at: &str, low: &Interval, which: usize| {
+            let what = format!("sqrt(V_0/{weight}) + s_{at} < D_{at} of the box, {about}");
+            let left = (&self.start / low).sqrt() + &off[which];
+            Condition::less("T", what, left, d.number(&radii[which])).demand(RULE, &format!("{place}/{at}"))
+        };
+        if let Some(x_low) = x_low {
+            less("x_low", "x", &d.number(x_low), 0)?;
+        }
+        less(self.name, "e", &self.weight, 1)
+    }
+}
+
+/// Proves which solution it is, and `largest`; `d` has the sum of the weights of the entry, whose root has the name `n_bar`.
+pub fn prove(
+    d: &Data<'_>,
+    about: &About<'_>,
+    (entry, trial): (&Entry<'_>, &Trial),
+    solution: &Solution,
+    n_bar: &str,
+) -> Outcome<()> {
+    let (has_states, words) = (trial.states.is_some(), entry.about());
+    let mut reach = distances(d, about.set, solution.sizes.each_ref());
+    if !has_states {
+        reach[0] = d.int(0);
+    }
+    let stays = |levels: &[Level], radii, extent: Option<&Extent>, place: &str| {
+        let x_low = extent.filter(|_| has_states).map(|extent| &extent.x_low);
+        // A trial has a form, and x_first too.
+        levels.first().map_or(Ok(()), |first| first.stays(d, (radii, x_low), &solution.off, (place, &words)))
+    };
+    let of_form =
+        |(metric, extent): &(Metric, Extent)| Level::of_form(d, (metric, extent), ("e_low", &extent.e_low), &reach);
+    let forms: Vec<Level> = trial.forms.iter().map(of_form).collect();
+    let extent = trial.forms.first().map(|(_, extent)| extent);
+    let near = stays(&forms, &trial.radii, extent, &format!("{}/box", trial.pointer));
+
+    let mut levels = vec![Level::of_claim(d, about, &reach)];
+    let mut sources = "the function of the claim".to_owned();
+    match &near {
+        Ok(()) => {
+            levels.extend(forms);
+            sources += " and the forms";
+        }
+        Err(finding) => sources += &format!(" (of the forms nothing is known: {})", finding.message),
+    }
+    match (&trial.x_first, near) {
+        (Some(first), _) => {
+            let what = format!("s_e <= E, {words}");
+            let within = Condition::at_most("T", what, solution.off[1].clone(), d.number(&first.slice));
+            within.demand(RULE, &format!("{}/E", first.pointer))?;
+            let of_form =
+                |Split { metric, extent, .. }: &Split| Level::of_form(d, (metric, extent), ("w", &metric.w), &reach);
+            let own: Vec<Level> = first.forms.iter().map(of_form).collect();
+            let extent = first.forms.first().map(|form| &form.extent);
+            stays(&own, &first.radii, extent, &format!("{}/box", first.pointer))?;
+            levels.extend(own);
+            sources += ", and x_first";
+        }
+        (None, Err(left)) => {
+            let apart = in_error_box(d, about, (entry, trial), solution);
+            apart.map_err(|apart| neither(entry.largest.is_some(), left, apart))?;
+        }
+        (None, Ok(())) => {}
+    }
+
+    let Some([largest_e, largest_u]) = &entry.largest else { return Ok(()) };
+    let sigma = d.number(about.sigma);
+    let undefined = || Interval::undefined(d.precision);
+    let least = |[e, u]: [Interval; 2], [of_e, of_u]: [Interval; 2]| [e.least(&of_e), u.least(&of_u)];
+    let [of_e, of_u] = levels.iter().map(|of| of.moves(d, &sigma)).fold([undefined(), undefined()], least);
+    let [put, _] = put_out(d, [&solution.u + of_u, d.int(0)]);
+    for (place, what, bound, claimed) in [
+        ("e", "E_N + sqrt(V_0/e_low)".to_owned(), &solution.sizes[1] + of_e, largest_e),
+        ("u", format!("that of u + sqrt(V_0 (sigma^2/e_low + mu^2 {n_bar}^2/h))"), put, largest_u),
+    ] {
+        let what = format!("{what} <= largest {place}, {words}: the least by {sources}");
+        let condition = Condition::at_most("T", what, bound, d.number(claimed));
+        condition.demand(RULE, &format!("{}/largest/{place}", entry.pointer))?;
+    }
+    Ok(())
+}
+
+/// The difference to the periodic solution of the claim stays in its error box: `X_N + x_per <= D_x`, `E_N + e_per <= D_e`.
+fn in_error_box(
+    d: &Data<'_>,
+    about: &About<'_>,
+    (entry, trial): (&Entry<'_>, &Trial),
+    solution: &Solution,
+) -> Outcome<()> {
+    let within = |what: &str, which: usize| {
+        let (of_claim, radius) = (d.number(&about.periodic[which]), d.number(about.error_box[which]));
+        let what = format!("{what} of the claim, or the solution need not be that of the claim, {}", entry.about());
+        Condition::at_most("T", what, &solution.sizes[which] + of_claim, radius).demand(RULE, &trial.pointer)
+    };
+    if trial.states.is_some() {
+        within("X_N + x_per <= D_x", 0)?;
+    }
+    within("E_N + e_per <= D_e", 1)
+}
+
+/// That it is not known which solution it is: both ways that failed, at the place of the box where `largest` is asked for.
+fn neither(largest: bool, left: Box<Finding>, apart: Box<Finding>) -> Box<Finding> {
+    let (mut finding, other) = if largest { (left, apart) } else { (apart, left) };
+    if other.verdict == Verdict::Undecided {
+        finding.verdict = Verdict::Undecided;
+    }
+    finding.message = format!("{}; and {}", finding.message, other.message);
+    finding
+}
