@@ -348,10 +348,14 @@ fn a_plant_without_states() {
         ("/forms/0/c_y", "0.7", "/forms/0"),
         ("/q/mean", "0.301", "/defect_q"),
         ("/q_e", "0.2", "/q_e"),
-        ("/box/e", "0.5", "/box/e"),
     ] {
         case.trial(at, value).refused(Invalid, place);
     }
+    let small = Case { error_box: ["0.1", "0.1"].map(str::to_owned), ..case.clone() };
+    small.trial("/box/e", "0.5").refused(Invalid, "/box/e");
+    // Of the claim's function and its error box x says nothing.
+    let function = Case { error_box: ["1e-9", "1"].map(str::to_owned), weights: ["1e9", "0.4"], ..case.clone() };
+    function.trial("/box/e", "0.5").accepted();
     let e = largest(|t| case.e.at(t, 0));
     case.entry("/steady/e", text(e * (1.0 + 1e-7))).accepted();
     case.entry("/steady/e", text(e * (1.0 - 1e-7))).refused(Invalid, ":/claim/by_n_o/0/steady/e");

@@ -116,11 +116,45 @@ fn the_error_box_is_that_of_the_claim() {
         places.iter().fold(stored(), |all, (at, size)| edited(all, &[(at, format!("{size:e}").into())]))
     };
     accepted(&with(x + 0.01, e + 0.01));
-    refused(with(1.0, e), Invalid, RULE, &format!("{TRIALS}/0"));
-    refused(with(x, 1.0), Invalid, RULE, &format!("{TRIALS}/0"));
+    // Where solutions from the set may leave the box of the trial nothing else says which solution it is.
+    let small = |x: f64, e: f64| edited(with(x, e), &[(&format!("{TRIALS}/0/box/e"), "0.05".into())]);
+    accepted(&small(x + 0.01, e + 0.01));
+    for claim in [small(1.0, e), small(x, 1.0)] {
+        refused(claim, Invalid, RULE, &format!("{TRIALS}/0"));
+    }
+    accepted(&with(1.0, e));
+}
+
+/// The example of the paper, whose solutions from the set leave the boxes of their trials: with `x_first`, of one oscillator and of eight or more.
+#[test]
+fn one_along_x_first() {
+    let stored = || parsed("by-n-o", "x-first");
+    accepted(&stored());
+    let number = |at: &str| decimal(stored().pointer(at).unwrap().as_str().unwrap()).unwrap().to_f64();
+    let scaled = |at: &str, factor: f64| edited(stored(), &[(at, format!("{:e}", number(at) * factor).into())]);
+    for entry in 0..2 {
+        for name in ["largest/e", "largest/u"] {
+            let at = format!("{CLAIM}/{entry}/{name}");
+            refused(scaled(&at, 0.99999), Invalid, RULE, &at);
+        }
+        let first = format!("{TRIALS}/{entry}/x_first");
+        // Without it the function of the claim says less.
+        refused(deleted(&stored(), &first), Invalid, RULE, &format!("{CLAIM}/{entry}/largest/e"));
+        for (name, factor) in
+            [("box/x", 0.9), ("box/e", 0.9), ("E", 1e6), ("forms/1/P_up", 0.99), ("forms/0/x_low", 1.01)]
+        {
+            let at = format!("{first}/{name}");
+            refused(scaled(&at, factor), Invalid, RULE, &at);
+        }
+    }
+    let form = format!("{TRIALS}/0/x_first/forms/0");
+    for factor in [0.95, 1.02] {
+        refused(scaled(&format!("{form}/S/2/2"), factor), Invalid, RULE, &form);
+    }
 }
 
 #[test]
 fn leaves_of_it() {
     mutate("by-n-o/trials", every(23));
+    mutate("by-n-o/x-first", every(211));
 }

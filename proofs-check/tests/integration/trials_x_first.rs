@@ -61,7 +61,7 @@ fn the_peaks_are_bounded() {
     // Without it nothing is known.
     let mut without = case.clone();
     without.trial.as_object_mut().unwrap().remove("x_first");
-    without.refused(Invalid, "/box/e");
+    without.refused(Invalid, "/box/x");
     without.steady_alone().refused(Invalid, "");
     // Of so many oscillators or more with the sum of all weights.
     let case = along(&Case::or_more(GROWING).trial("/defect_q", "2e-3"));
@@ -84,6 +84,14 @@ fn the_peaks_are_bounded() {
     both.trial("/x_first/forms/1/S/1/1", "0.6").refused(Invalid, "/x_first/forms/1");
 }
 
+/// One of both inequalities is not proved; boxes along a border may hide a place where it is wrong.
+#[track_caller]
+fn unproved(case: &Case) {
+    let finding = case.judged().expect_err(&case.trial["x_first"].to_string());
+    assert!(matches!(finding.verdict, Invalid | Undecided), "{finding:?}");
+    assert_eq!(finding.pointer, "/witness/by_n_o/trials/0/x_first/forms/0", "{finding:?}");
+}
+
 /// S is between what J and r leave, where e is within eta of ehat, and what g and d take, in all of the box.
 #[test]
 fn s_is_between() {
@@ -95,22 +103,22 @@ fn s_is_between() {
     assert!(least < S[1] && S[1] < most, "{least} {most}");
     let with = |s: f64| case().trial("/x_first/forms/0/S/1/1", text(s));
     with(most - 1e-6).accepted();
-    with(most + 1e-6).refused(Invalid, "/x_first/forms/0");
+    unproved(&with(most + 1e-6));
     with(least + 1e-5).accepted();
-    with(least - 1e-5).refused(Invalid, "/x_first/forms/0");
+    unproved(&with(least - 1e-5));
+    unproved(&with(least - 1e-2));
     // J and r are not asked about in all of the box, and g and d are.
-    let wide = largest(|t| 1.0 + (e.at(t, 0) + BOX[1]) / 5.0);
-    assert!(0.65 - (0.4 * wide).powi(2) / (2.5 - S[0]) < S[1] - 1e-3);
     let near = largest(|t| 0.06 * (e.at(t, 0).abs() + BOX[2]).powi(2) + (x.at(t, 0) + 2.0 * BOX[0]) / 10.0);
     assert!((1.0 + 0.4 * near).powi(2) / (6.0 - 0.0625 / S[0]) < least - 1e-3);
-    case().trial("/x_first/E", BOX[1].to_string()).refused(Invalid, "/x_first/forms/0");
+    with(0.53).trial("/x_first/E", "0.5").accepted();
+    unproved(&with(0.53).trial("/x_first/E", BOX[1].to_string()));
     // Every number stands in them, and an S with signs of its own is as the columns have them: here `-w - k_p d/2` and `-k_p r/2` are below 0.
-    for (at, value) in [("c_x", "2.1"), ("c_e", "3.3"), ("c_y", "0.25"), ("k_p", "0.5"), ("w", "1.5")] {
-        case().trial(&format!("/x_first/forms/0/{at}"), value).refused(Invalid, "/x_first/forms/0");
+    for (at, value) in [("c_x", "2.1"), ("c_e", "5.5"), ("c_y", "0.25"), ("k_p", "0.5"), ("w", "4")] {
+        unproved(&case().trial(&format!("/x_first/forms/0/{at}"), value));
     }
     let turned = |s: &str| case().trial("/x_first/forms/0/S/0/1", s).trial("/x_first/forms/0/S/1/0", s);
     turned("-0.1").accepted();
-    turned("0.1").refused(Invalid, "/x_first/forms/0");
+    unproved(&turned("0.1"));
 }
 
 /// A derivative that is wrong somewhere in the larger box alone.
