@@ -90,7 +90,8 @@ impl Around<'_> {
     /// not soon.
     pub(super) fn met_by(&self) -> Option<u64> {
         let forcing = self.proposed()?.forcing;
-        let sizes = forcing.harmonics.iter().map(|[cos, sin]| libm::hypot(cos.to_f64(), sin.to_f64())).collect::<Vec<f64>>();
+        let sizes =
+            forcing.harmonics.iter().map(|[cos, sin]| libm::hypot(cos.to_f64(), sin.to_f64())).collect::<Vec<f64>>();
         let all = forcing.mean.to_f64().abs() + sizes.iter().sum::<f64>();
         let left = |met: usize| sizes.iter().skip(met).sum::<f64>();
         (0..=ONE_BY_ONE).find(|met| left(*met) <= LEFT * all).map(|met| met as u64)

@@ -7,6 +7,7 @@
 //! says is, by what follows from a trial in [`tube`] and [`peaks`].
 
 pub mod claimed;
+mod form;
 pub mod linear;
 pub mod peaks;
 pub mod trials;

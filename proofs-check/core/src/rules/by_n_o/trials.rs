@@ -7,10 +7,11 @@
 //! and D_e are above 0. What is said of the formulas is proved by the crate `proofs-plants`.
 
 use super::claimed::{Entry, RULE};
+use super::form::{MOST_FORMS, form, of_states, radii};
 use super::x_first::XFirst;
 use crate::json::{Field, Fields};
 use crate::matrix::{is_semidefinite, shifted};
-use crate::rules::inequality::{Extent, Kind, Metric, P, number, symmetric};
+use crate::rules::inequality::{Extent, Metric, P, number, symmetric};
 use crate::spec::Specification;
 use crate::verdict::{Outcome, Verdict, bad, demand, finding};
 use crate::wave::Wave;
@@ -19,9 +20,6 @@ use std::ops::RangeInclusive;
 
 /// The most harmonics of a curve.
 const MOST_HARMONICS: usize = 64;
-/// The most forms.
-pub(super) const MOST_FORMS: usize = 3;
-
 /// A trial of one n_o.
 #[derive(Clone, Debug)]
 pub struct Trial {
@@ -96,11 +94,6 @@ pub fn demand_form(spec: &Specification, claimed: &[Entry<'_>]) -> Outcome<()> {
     }
 }
 
-/// A number of a plant with states that is not negative, or above 0; else 0, and no such field.
-fn of_states(fields: &mut Fields<'_>, name: &str, positive: bool, states: usize) -> Outcome<Rational> {
-    if states > 0 { number(fields, name, positive) } else { Ok(Rational::new()) }
-}
-
 impl Trial {
     fn take(fields: &mut Fields<'_>, entry: &Entry<'_>, states: usize) -> Outcome<Trial> {
         let x = match states {
@@ -139,27 +132,6 @@ impl Trial {
         let (pointer, e, q) = (fields.pointer.clone(), e.0, q.0);
         Ok(Trial { pointer, x, e, q, defects, radii, slopes, forms, states, or_more, x_first })
     }
-}
-
-/// D_x, 0 without states, and D_e of the part `box`.
-pub(super) fn radii(fields: &mut Fields<'_>, states: usize) -> Outcome<[Rational; 2]> {
-    let field = fields.required("box")?;
-    field.object(|fields| Ok([of_states(fields, "x", true, states)?, number(fields, "e", true)?]))
-}
-
-/// A form, whose numbers have the names of a near metric.
-pub(super) fn form(fields: &mut Fields<'_>, states: usize) -> Outcome<(Metric, Extent)> {
-    let pointer = fields.pointer.clone();
-    let none = Rational::new();
-    let metric = Metric::read(fields, (Kind::Joint, false), Some(true), [&none; 2])?;
-    if metric.cross.len() != states {
-        return bad(&format!("{pointer}/P"), "expected a row for each state");
-    }
-    let Some(extent) = metric.extent.clone() else { return bad(&pointer, "expected its extent") };
-    for (name, what, holds) in extent.is_of(&metric) {
-        demand(Some(holds), RULE, &format!("{pointer}/{name}"), what)?;
-    }
-    Ok((metric, extent))
 }
 
 impl OrMore {

@@ -5,7 +5,7 @@
 //! for e_low is, and S is symmetric with a row for each state and one for y. (14.5a) is proved by the crate `proofs-plants`.
 
 use super::claimed::RULE;
-use super::trials::{MOST_FORMS, form, radii};
+use super::form::{MOST_FORMS, form, radii};
 use crate::json::Fields;
 use crate::matrix::Matrix;
 use crate::rules::inequality::{Extent, Metric, number, symmetric};
