@@ -17,7 +17,7 @@ fn run(arguments: &[&str]) -> (String, String, i32) {
 fn fits(report: &str) {
     let is_row = |line: &str| line.split_whitespace().next().is_some_and(|first| first.parse::<u64>().is_ok());
     let is_of_table = |line: &&str| {
-        line.contains("n_o  steady |e|") || line.starts_with("  ---") || (line.starts_with("   ") && is_row(line))
+        line.contains("n_o  steady |e|") || line.starts_with("  ---") || (line.starts_with("  ") && is_row(line))
     };
     let table = report.lines().filter(is_of_table).count();
     assert!(table <= 8, "{report}");
