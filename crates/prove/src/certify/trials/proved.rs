@@ -125,7 +125,7 @@ impl Around<'_> {
             false => None,
             true => Some(OrMore {
                 defect_t: d_t,
-                in_time: [of_states(Bound::Qtx)?, slope(Bound::Qte)?],
+                in_time: [of_states(Bound::Qtx).map(roomy)?, slope(Bound::Qte).map(roomy)?],
                 states: [of_states(Bound::Fx)?, of_states(Bound::Fe)?],
             }),
         };
@@ -171,6 +171,11 @@ impl Around<'_> {
             gamma: up(gamma, SHORT)?,
         })
     }
+}
+
+/// With room for a velocity of the states that is known to d_x alone; what follows hardly depends on it.
+fn roomy(value: Rational) -> Rational {
+    round_rational(&(value * Rational::from((51, 50))), DIGITS, Direction::Up)
 }
 
 /// A row of a matrix in short numbers.
