@@ -125,7 +125,7 @@ impl Around<'_> {
             false => None,
             true => Some(OrMore {
                 defect_t: d_t,
-                in_time: [of_states(Bound::Qtx).map(roomy)?, slope(Bound::Qte).map(roomy)?],
+                in_time: [roomy(of_states(Bound::Qtx)?, &slopes[0]), roomy(slope(Bound::Qte)?, &slopes[1])],
                 states: [of_states(Bound::Fx)?, of_states(Bound::Fe)?],
             }),
         };
@@ -173,9 +173,10 @@ impl Around<'_> {
     }
 }
 
-/// With room for a velocity of the states that is known to d_x alone; what follows hardly depends on it.
-fn roomy(value: Rational) -> Rational {
-    round_rational(&(value * Rational::from((51, 50))), DIGITS, Direction::Up)
+/// With room for a velocity of the states that is known to d_x alone, also where the value is 0; what follows hardly depends on it.
+fn roomy(value: Rational, slope: &Rational) -> Rational {
+    let more = Rational::from(slope / 1_000_000);
+    round_rational(&(value * Rational::from((51, 50)) + more), DIGITS, Direction::Up)
 }
 
 /// A row of a matrix in short numbers.
