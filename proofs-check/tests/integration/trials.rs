@@ -1,6 +1,8 @@
 //! Numbers by n_o by a trial (docs/mathematics.md, sections 14.4 and 14.5): what is accepted and refused of a loop whose periodic solution is known.
 
-use crate::trials_support::{Case, Expected, FORMULAS, Formulas, expected, largest, text};
+use crate::trials_support::{
+    Case, Expected, FORMULAS, Formulas, asks_for_a_domain, asks_for_a_tube_inside, expected, largest, text,
+};
 use proofs_check::verdict::Verdict;
 use serde_json::{Value, json};
 
@@ -82,12 +84,7 @@ fn the_control_is_what_is_put_out() {
 /// A tube that touches the box is no tube.
 #[test]
 fn the_solution_lies_inside_of_the_box() {
-    let case = coarse().steady_alone();
-    let Expected { s_x, s_e, .. } = expected(&case);
-    for (at, size) in [("/box/x", s_x), ("/box/e", s_e)] {
-        case.trial(at, text(size * (1.0 + 1e-9))).accepted();
-        case.trial(at, text(size * (1.0 - 1e-9))).refused(Invalid, at);
-    }
+    asks_for_a_tube_inside(&coarse().steady_alone());
     // No solution from the set leaves it, where nothing else says which solution it is.
     let coarse = Case { error_box: ["0.1", "0.1"].map(str::to_owned), ..coarse() };
     let Expected { s_x, s_e, v_0, .. } = expected(&coarse);
@@ -227,10 +224,7 @@ fn bounds_of_the_slopes_of_q_hold_on_the_box() {
 fn the_box_lies_in_the_domain() {
     // |x - x_0| <= 2 (0.3/2 + 0.01 + 2), |e| <= sup|ehat| + 2.
     let [x, e] = [4.32, expected(&case()).steady[0] + 2.0];
-    let with = |x: f64, e: f64| case().part("/plant/domain", json!({ "x": format!("{x:.9}"), "e": format!("{e:.9}") }));
-    with(x * (1.0 + 1e-6), e * (1.0 + 1e-6)).accepted();
-    with(x * (1.0 - 1e-6), e * (1.0 + 1e-6)).refused(Invalid, "/box");
-    with(x * (1.0 + 1e-6), e * (1.0 - 1e-6)).refused(Invalid, "/box");
+    asks_for_a_domain(case, [x, e], [1e-6, 1e-6], "/box");
 }
 
 /// 1/(e + 3) is smooth as long as the box does not reach e = -3.

@@ -1,6 +1,8 @@
 //! So many oscillators or more by a trial (docs/mathematics.md, section 14.4): what is accepted and refused of a loop whose periodic solution has e = 0.
 
-use crate::trials_support::{Case, Expected, FORMULAS, Formulas, L, expected, expected_with, largest, n_bar, text};
+use crate::trials_support::{
+    Case, Expected, FORMULAS, Formulas, L, asks_for_a_tube_inside, expected, expected_with, largest, n_bar, text,
+};
 use proofs_check::verdict::Verdict;
 use serde_json::{Value, json};
 use std::f64::consts::TAU;
@@ -213,12 +215,7 @@ fn the_form_of_a_trial() {
 /// Only of a box on which it is one.
 #[test]
 fn the_solution_lies_inside_of_the_box() {
-    let case = coarse().steady_alone();
-    let Expected { s_x, s_e, .. } = expected(&case);
-    for (at, size) in [("/box/x", s_x), ("/box/e", s_e)] {
-        case.trial(at, text(size * (1.0 + 1e-9))).accepted();
-        case.trial(at, text(size * (1.0 - 1e-9))).refused(Invalid, at);
-    }
+    asks_for_a_tube_inside(&coarse().steady_alone());
 }
 
 #[test]

@@ -401,3 +401,21 @@ pub fn peaks(case: &Case, level: f64, [weight, h]: [f64; 2]) -> [f64; 2] {
 pub fn text(value: f64) -> Value {
     format!("{value:e}").into()
 }
+
+/// A domain of these sizes is just large enough for the box at a place of the trial; smaller by such a share in x or in e it is not.
+pub fn asks_for_a_domain(case: impl Fn() -> Case, [x, e]: [f64; 2], less: [f64; 2], at: &str) {
+    let with = |x: f64, e: f64| case().part("/plant/domain", json!({ "x": format!("{x:.9}"), "e": format!("{e:.9}") }));
+    let more = 1.0 + 1e-6;
+    with(x * more, e * more).accepted();
+    with(x * (1.0 - less[0]), e * more).refused(Verdict::Invalid, at);
+    with(x * more, e * (1.0 - less[1])).refused(Verdict::Invalid, at);
+}
+
+/// A tube that touches the box is no tube.
+pub fn asks_for_a_tube_inside(case: &Case) {
+    let Expected { s_x, s_e, .. } = expected(case);
+    for (at, size) in [("/box/x", s_x), ("/box/e", s_e)] {
+        case.trial(at, text(size * (1.0 + 1e-9))).accepted();
+        case.trial(at, text(size * (1.0 - 1e-9))).refused(Verdict::Invalid, at);
+    }
+}

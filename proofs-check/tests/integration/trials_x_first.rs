@@ -1,6 +1,6 @@
 //! The peaks of a trial along x first (docs/mathematics.md, section 14.5, (14.5a)).
 
-use crate::trials_support::{Case, Expected, FORMULAS, Formulas, expected, largest, peaks, text};
+use crate::trials_support::{Case, Expected, FORMULAS, Formulas, asks_for_a_domain, expected, largest, peaks, text};
 use proofs_check::verdict::Verdict::{BadInput, Invalid, Undecided};
 use serde_json::{Value, json};
 
@@ -177,10 +177,7 @@ fn a_form_is_what_it_says() {
 #[test]
 fn the_larger_box_lies_in_the_domain() {
     let [x, e] = [2.0 * (0.16 + BOX[0]), expected(&case()).sizes[1] + BOX[1]];
-    let with = |x: f64, e: f64| case().part("/plant/domain", json!({ "x": format!("{x:.9}"), "e": format!("{e:.9}") }));
-    with(x * (1.0 + 1e-6), e * (1.0 + 1e-6)).accepted();
-    with(x * (1.0 - 1e-6), e * (1.0 + 1e-6)).refused(Invalid, "/x_first/box");
-    with(x * (1.0 + 1e-6), e * (1.0 - 1e-2)).refused(Invalid, "/x_first/box");
+    asks_for_a_domain(case, [x, e], [1e-6, 1e-2], "/x_first/box");
 }
 
 /// 1/(e + 2) is smooth as long as the box does not reach e = -2.

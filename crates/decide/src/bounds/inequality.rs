@@ -89,6 +89,21 @@ pub(super) fn moved_by(frame: &Frame, slope: Centred, moved: &Rational) -> Centr
     if *moved == 0 { slope } else { frame.add(&slope, &frame.rational(moved)) }
 }
 
+/// Subtracts S from a matrix in (x, y).
+pub(super) fn subtract(frame: &Frame, entries: &mut Entries, s: &[Vec<Rational>]) {
+    for (i, j, value) in entries {
+        *value = frame.sub(value, &frame.rational(&s[*i][*j]));
+    }
+}
+
+/// S in (x, y) as a part of a matrix in (x, e, y).
+pub(super) fn in_x_and_y(frame: &Frame, s: &[Vec<Rational>]) -> Entries {
+    let n = s.len() - 1;
+    let place = |index: usize| if index == n { n + 1 } else { index };
+    let upper = (0..=n).flat_map(|i| (i..=n).map(move |j| (i, j)));
+    upper.map(|(i, j)| (place(i), place(j), frame.rational(&s[i][j]))).collect()
+}
+
 /// The numbers of F.
 struct Form {
     w_x: Enclosure,
@@ -98,7 +113,7 @@ struct Form {
 }
 
 /// Entries (row, column, value) on and above the diagonal.
-type Entries = Vec<(usize, usize, Centred)>;
+pub(super) type Entries = Vec<(usize, usize, Centred)>;
 
 impl Form {
     fn new(MatrixInequality { w_x, h, rate, value, .. }: &MatrixInequality, mu: &Constant) -> Form {
@@ -122,9 +137,7 @@ impl Form {
         let of_states = values.in_y(Part::States)?;
         let n = of_states.row.len();
         let mut entries = self.of_states(values, &of_states, n)?;
-        for (i, j, value) in &mut entries {
-            *value = frame.sub(value, &frame.rational(&s[*i][*j]));
-        }
+        subtract(frame, &mut entries, s);
         Some(SymmetricValues { order: n + 1, entries })
     }
 
@@ -134,9 +147,7 @@ impl Form {
         let of_error = values.in_y(Part::Error)?;
         let n = of_error.column.len();
         let mut entries = self.of_error(values, &of_error, moved)?;
-        let place = |index: usize| if index == n { n + 1 } else { index };
-        let upper = (0..=n).flat_map(|i| (i..=n).map(move |j| (i, j)));
-        entries.extend(upper.map(|(i, j)| (place(i), place(j), frame.rational(&s[i][j]))));
+        entries.extend(in_x_and_y(frame, s));
         Some(SymmetricValues { order: n + 2, entries })
     }
 

@@ -4,7 +4,7 @@ use super::PRECISION;
 use super::centred::{Centred, negated};
 use super::decide::{InY, Values};
 use super::definite::SymmetricValues;
-use super::inequality::moved_by;
+use super::inequality::{in_x_and_y, moved_by, subtract};
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_lang::spec::Metric;
@@ -66,9 +66,7 @@ impl MetricForm {
         let mut entries = values.steady_decay(p, &jacobian, c_x);
         entries.extend(row.iter().enumerate().map(|(i, slope)| (i, n, negated(&frame.scale(slope, &half_k_p)))));
         entries.push((n, n, frame.rational(&Rational::from(k_p - c_y))));
-        for (i, j, value) in &mut entries {
-            *value = frame.sub(value, &frame.rational(&s[*i][*j]));
-        }
+        subtract(frame, &mut entries, s);
         Some(SymmetricValues { order: n + 1, entries })
     }
 
@@ -80,9 +78,7 @@ impl MetricForm {
         let InY { column, slope, .. } = values.in_y(Part::Error)?;
         let n = column.len();
         let slope = moved_by(frame, slope?, moved);
-        let place = |index: usize| if index == n { n + 1 } else { index };
-        let upper = (0..=n).flat_map(|i| (i..=n).map(move |j| (i, j)));
-        let mut entries: Vec<_> = upper.map(|(i, j)| (place(i), place(j), frame.rational(&s[i][j]))).collect();
+        let mut entries = in_x_and_y(frame, s);
         let driven = values.product(p, &column, false).concat();
         entries.extend(driven.iter().enumerate().map(|(i, value)| (i, n, negated(value))));
         entries.push((n, n, frame.rational(&Rational::from(of_e - c_e))));

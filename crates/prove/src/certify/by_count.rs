@@ -164,8 +164,8 @@ impl Certification<'_> {
         Some((steady, peak.clone(), control.clone()))
     }
 
-    /// Bounds by the number of oscillators at the gain of the claim: for every number where the plant is linear in x and e, for some of them, `counts`
-    /// among them, where nothing of it is an interval; nothing where the base frequency is not matched, or the document has noise or a disturbance.
+    /// Bounds by the number of oscillators at the gain of the claim: for every number where the plant is linear in x and e; where nothing of it is an
+    /// interval for every number if a few oscillators meet all that counts, and else for some of them, `counts` among them; nothing where the base frequency is not matched, or the document has noise or a disturbance.
     pub fn set_counts(&mut self, plant: &Plant, counts: &[u32]) {
         let Some(SharpProof { witness, evaluation, .. }) = self.sharp.proved().filter(|_| self.has_counts()) else {
             return;

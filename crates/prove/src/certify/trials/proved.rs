@@ -88,11 +88,10 @@ impl Around<'_> {
             engine.decide_form_x_first((metric, level, s), self.asked.sigma, place, EFFORT).truth.is_true()
         };
         let holds: Vec<bool> = x_first.forms.iter().zip(&x_first.splittings).map(decided).collect();
+        // The box is that of the first.
         holds.first().filter(|first| **first)?;
-        let mut each = holds.iter();
-        x_first.forms.retain(|_| each.next() == Some(&true));
-        let mut each = holds.iter();
-        x_first.splittings.retain(|_| each.next() == Some(&true));
+        let all = x_first.forms.into_iter().zip(x_first.splittings).zip(holds);
+        (x_first.forms, x_first.splittings) = all.filter(|(_, holds)| *holds).map(|(form, _)| form).unzip();
         let peaks = self.peaks(prepared, concluded, (&x_first.radii, &x_first.forms))?;
         Some((x_first, peaks))
     }

@@ -20,6 +20,7 @@ use std::ops::RangeInclusive;
 
 /// The most harmonics of a curve.
 const MOST_HARMONICS: usize = 64;
+
 /// A trial of one n_o.
 #[derive(Clone, Debug)]
 pub struct Trial {
