@@ -28,13 +28,13 @@ pub struct StatesForm {
     pub gamma: Rational,
 }
 
-/// The form of a metric at a gain.
-fn form_of(metric: &Metric, sigma: &Rational) -> MetricForm {
+/// The form of a metric at sigma, and one end of the gain of the actuator.
+fn form_of(metric: &Metric, sigma: &Rational, moved: &Rational) -> MetricForm {
     MetricForm {
         metric: metric.clone(),
         pulled: metric.cross.iter().map(|entry| Rational::from(entry * sigma)).collect(),
         of_e: Rational::from(&metric.weight * sigma) * 2,
-        moved: Rational::new(),
+        moved: moved.clone(),
     }
 }
 
@@ -43,8 +43,7 @@ impl Engine {
     ///
     /// Guarantee: `True` only if at every t and every point of `|y| <= X`, `|e| <= E` around the orbit of the region, with the derivatives of f and q
     /// there in the coordinates y, the matrix (14.4a) of the metric is positive definite, its margins and k_p are positive, and the metric is
-    /// strictly between what the level says. For the caller to prove: what [`Engine::decide`] leaves to him. Hypothesis: the gain of the
-    /// actuator is known; else it is undecided.
+    /// strictly between what the level says, for every member and gain of the actuator. For the caller to prove: what [`Engine::decide`] leaves to him.
     #[must_use]
     pub fn decide_form(
         &self,
@@ -56,18 +55,19 @@ impl Engine {
         if !fits(metric, self.states()) || !lies_between(metric, level) || *sigma <= 0 {
             return Decision::FALSE;
         }
-        if *x < 0 || *e < 0 || self.moves().is_some() {
+        if *x < 0 || *e < 0 {
             return Decision::UNDECIDED;
         }
-        let form = form_of(metric, sigma);
-        self.decide_part(Part::All, [x, e], effort, |values| form.matrix(values))
+        let form = |moved: &Rational| form_of(metric, sigma, moved);
+        let ends = self.moved_slopes(sigma);
+        self.decide_ends(&ends, (Part::All, [x, e]), effort, |values, moved| form(moved).matrix(values))
     }
 
     /// Decides (14.5a) at a gain, with so many boxes for each of its parts at most; `s` is S.
     ///
     /// Guarantee: `True` only if with J and r at every point of `|y| <= X`, `|e| <= eta` around the orbit of the region, and with g and d at every point of
     /// `|y| <= X`, `|e| <= E`, both matrices are positive definite, the margins and k_p are positive, p is 0, and the metric is strictly between what the
-    /// level says. For the caller to prove: what [`Engine::decide`] leaves to him. Hypothesis: the gain of the actuator is known; else it is undecided.
+    /// level says, for every member and gain of the actuator. For the caller to prove: what [`Engine::decide`] leaves to him.
     #[must_use]
     pub fn decide_form_x_first(
         &self,
@@ -80,12 +80,16 @@ impl Engine {
         if !fits(metric, self.states()) || !lies_between(metric, level) || *sigma <= 0 || !alone {
             return Decision::FALSE;
         }
-        if *x < 0 || *eta < 0 || eta > e || self.moves().is_some() {
+        if *x < 0 || *eta < 0 || eta > e {
             return Decision::UNDECIDED;
         }
-        let form = form_of(metric, sigma);
-        let first = self.decide_part(Part::States, [x, eta], effort, |values| form.beyond(s, values));
-        first.and(|| self.decide_part(Part::Error, [x, e], effort, |values| form.beside(s, values)))
+        let form = |moved: &Rational| form_of(metric, sigma, moved);
+        // J and r do not have the gain.
+        let own = form(&Rational::new());
+        let first = self.decide_part(Part::States, [x, eta], effort, |values| own.beyond(s, values));
+        let ends = self.moved_slopes(sigma);
+        let beside = |values: &Values<'_>, moved: &Rational| form(moved).beside(s, values);
+        first.and(|| self.decide_ends(&ends, (Part::Error, [x, e]), effort, beside))
     }
 
     /// Decides (14.4b), with so many boxes at most; of a plant without states it says nothing, and is true.

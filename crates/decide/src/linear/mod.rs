@@ -16,7 +16,7 @@ pub use largest::{Answers, sizes};
 pub use member::Member;
 pub use plant::{LinearPlant, MAX_LINES};
 pub use steady::{Loop, Oscillators, Sizes};
-pub(crate) use supremum::{Fineness, supremum};
+pub(crate) use supremum::{Fineness, Harmonics, supremum};
 
 /// Bits of the enclosures.
 pub const PRECISION: u32 = 53;

@@ -160,8 +160,7 @@ impl Loop {
         sizes.zeta = sizes.zeta + within.sqrt();
         // Both of k and -k; the mean is 0.
         sizes.mean_square = (errors.iter().fold(zero(), |sum, error| sum + error.norm_squared()) * 2).sqrt();
-        let largest =
-            |waves: Vec<Complex>| supremum(&waves.into_iter().map(|wave| vec![wave]).collect::<Vec<_>>(), fineness);
+        let largest = |waves: Vec<Complex>| supremum(&[waves.into_iter().map(|wave| vec![wave]).collect()], fineness);
         sizes.error = largest(errors);
         sizes.control = largest(controls);
         let bounded = sizes.each().into_iter().all(Enclosure::is_bounded);

@@ -43,30 +43,42 @@ fn turned(m: usize, parts: usize) -> [Enclosure; 2] {
     [angle.cos(), angle.sin()]
 }
 
-/// The largest Euclidean norm of `sum_k w_k e^{i k s}`, over -K..K with `w_-k = conj(w_k)`: w_k is a vector, the same for all k in length, and w_0 is
-/// real. Its lower end is not above what some instant has, the upper one not below what any has; they are a share apart that the fineness says but for the
-/// width of the coefficients, where the parts of the period suffice for that.
-///
-/// About its middle a part of the period has the second Taylor polynomial as a bound.
-pub(crate) fn supremum(harmonics: &[Vec<Complex>], fineness: Fineness) -> Enclosure {
-    // Numbers in the middle of the coefficients, and how far the sum may be from that with these.
-    let exact = |value: &Enclosure| Enclosure::exactly(value.midpoint_f64());
-    let middle = |w: &Complex| Complex { re: exact(&w.re), im: exact(&w.im) };
-    let middles: Vec<Vec<Complex>> = harmonics.iter().map(|part| part.iter().map(middle).collect()).collect();
-    let both = |k: usize| if k == 0 { 1 } else { 2 };
-    let zero = || Enclosure::zero(PRECISION);
-    let length = |squares: &mut dyn Iterator<Item = Enclosure>| squares.fold(zero(), |sum, square| sum + square).sqrt();
-    let apart = harmonics.iter().zip(&middles).enumerate().fold(zero(), |sum, (k, (part, middles))| {
-        sum + length(&mut part.iter().zip(middles).map(|(w, middle)| w.sub(middle).norm_squared())) * both(k)
-    });
-    let bent = middles.iter().enumerate().fold(zero(), |sum, (k, part)| {
-        sum + length(&mut part.iter().map(Complex::norm_squared)) * (both(k) * (k * k) as i64)
-    });
-    let components = middles.first().map_or(0, Vec::len);
-    // Bounds of the length in the middle of a part, and on all of it.
-    let on_part = |part: usize, parts: usize| {
+/// The harmonics `w_k`, k = 0, 1, ..., K, of a vector `sum_k w_k e^{i k s}`, over -K..K with `w_-k = conj(w_k)`: they are the same in length, and w_0 is
+/// real.
+pub(crate) type Harmonics = Vec<Vec<Complex>>;
+
+/// A vector with numbers in the middle of its coefficients.
+struct Middles {
+    /// These.
+    middles: Harmonics,
+    /// How far the vector may be from that with these, and a bound of the second derivative of the latter.
+    apart: Enclosure,
+    bent: Enclosure,
+}
+
+impl Middles {
+    fn new(harmonics: &Harmonics) -> Middles {
+        let exact = |value: &Enclosure| Enclosure::exactly(value.midpoint_f64());
+        let middle = |w: &Complex| Complex { re: exact(&w.re), im: exact(&w.im) };
+        let middles: Harmonics = harmonics.iter().map(|part| part.iter().map(middle).collect()).collect();
+        let zero = || Enclosure::zero(PRECISION);
+        let length =
+            |squares: &mut dyn Iterator<Item = Enclosure>| squares.fold(zero(), |sum, square| sum + square).sqrt();
+        let apart = harmonics.iter().zip(&middles).enumerate().fold(zero(), |sum, (k, (part, middles))| {
+            sum + length(&mut part.iter().zip(middles).map(|(w, middle)| w.sub(middle).norm_squared())) * both(k)
+        });
+        let bent = middles.iter().enumerate().fold(zero(), |sum, (k, part)| {
+            sum + length(&mut part.iter().map(Complex::norm_squared)) * (both(k) * (k * k) as i64)
+        });
+        Middles { middles, apart, bent }
+    }
+
+    /// Bounds of the length in the middle of a part of the period, and on all of it.
+    fn on_part(&self, part: usize, parts: usize) -> [Enclosure; 2] {
+        let zero = || Enclosure::zero(PRECISION);
+        let components = self.middles.first().map_or(0, Vec::len);
         let (mut values, mut slopes) = (vec![zero(); components], vec![zero(); components]);
-        for (k, part_of) in middles.iter().enumerate() {
+        for (k, part_of) in self.middles.iter().enumerate() {
             let [cos, sin] = turned(k * (2 * part + 1), parts);
             for ((value, slope), w) in values.iter_mut().zip(&mut slopes).zip(part_of) {
                 *value = &*value + (&w.re * &cos - &w.im * &sin) * both(k);
@@ -79,12 +91,33 @@ pub(crate) fn supremum(harmonics: &[Vec<Complex>], fineness: Fineness) -> Enclos
         let own = square(&values);
         // |v + s v'|^2 for |s| <= half.
         let linear = (&own + along.abs() * &half * 2 + square(&slopes) * half.sqr()).sqrt();
-        (own.sqrt(), linear + half.sqr() / 2 * &bent)
+        [own.sqrt(), linear + half.sqr() / 2 * &self.bent]
+    }
+}
+
+/// Of k and -k.
+fn both(k: usize) -> i64 {
+    if k == 0 { 1 } else { 2 }
+}
+
+/// The largest sum of the Euclidean norms of such vectors at one s. Its lower end is not above what some instant has, the upper one not below what any
+/// has; they are a share apart that the fineness says but for the width of the coefficients, where the parts of the period suffice for that.
+///
+/// About its middle a part of the period has the second Taylor polynomial as a bound.
+pub(crate) fn supremum(vectors: &[Harmonics], fineness: Fineness) -> Enclosure {
+    let vectors: Vec<Middles> = vectors.iter().map(Middles::new).collect();
+    let zero = || Enclosure::zero(PRECISION);
+    let apart = vectors.iter().fold(zero(), |sum, vector| sum + &vector.apart);
+    let on_part = |part: usize, parts: usize| {
+        vectors
+            .iter()
+            .map(|vector| vector.on_part(part, parts))
+            .fold([zero(), zero()], |[value, bound], [of_value, of_bound]| [value + of_value, bound + of_bound])
     };
     let mut open: Vec<(usize, usize, Enclosure)> = Vec::new();
     let mut met = zero();
     let look = |part: usize, parts: usize, met: &mut Enclosure| {
-        let (value, bound) = on_part(part, parts);
+        let [value, bound] = on_part(part, parts);
         *met = met.max(&value);
         (part, parts, bound)
     };
@@ -123,14 +156,27 @@ mod tests {
         ];
         for (harmonics, expected) in cases {
             for fineness in [Fineness::COARSE, Fineness::FINE] {
-                let (found, room) = (supremum(&harmonics, fineness), fineness.room);
+                let (found, room) = (supremum(std::slice::from_ref(&harmonics), fineness), fineness.room);
                 assert!(found.lower_f64() <= expected && expected <= found.upper_f64(), "{expected}: {found:?}");
                 assert!(found.upper_f64() <= expected * (1.0 + 1.1 * room), "{expected}, {room}: {found:?}");
             }
         }
         // Nothing is nothing, and what is not known exactly is not below what it may be.
-        assert_eq!(supremum(&[vec![zero()], vec![zero()]], Fineness::COARSE).upper_f64(), 0.0);
+        assert_eq!(supremum(&[vec![vec![zero()], vec![zero()]]], Fineness::COARSE).upper_f64(), 0.0);
         let wide = Complex { re: Enclosure::exactly(1.0).hull(&Enclosure::exactly(2.0)), im: Enclosure::exactly(0.0) };
-        assert!(supremum(&[vec![zero()], vec![wide]], Fineness::COARSE).upper_f64() >= 4.0);
+        assert!(supremum(&[vec![vec![zero()], vec![wide]]], Fineness::COARSE).upper_f64() >= 4.0);
+    }
+    /// 3 |cos s| + 4 |sin s| is 5 at the most, and not 7; 1 + |cos s| is 2.
+    #[test]
+    fn the_sum_is_taken_at_one_instant() {
+        let zero = || number(0.0, 0.0);
+        let (cos, sin) = (vec![vec![zero()], vec![number(1.5, 0.0)]], vec![vec![zero()], vec![number(0.0, -2.0)]]);
+        let (one, half) = (vec![vec![number(1.0, 0.0)]], vec![vec![zero()], vec![number(0.5, 0.0)]]);
+        for (vectors, expected) in [([cos, sin], 5.0), ([one, half], 2.0)] {
+            let found = supremum(&vectors, Fineness::FINE);
+            assert!(found.lower_f64() <= expected && expected <= found.upper_f64(), "{expected}: {found:?}");
+            assert!(found.upper_f64() <= expected * (1.0 + 2e-8), "{expected}: {found:?}");
+        }
+        assert_eq!(supremum(&[], Fineness::FINE).upper_f64(), 0.0);
     }
 }

@@ -16,6 +16,7 @@ mod defect;
 mod forcing;
 mod linear;
 mod members;
+pub(crate) mod model;
 mod not_proved;
 mod rate;
 mod recurrences;

@@ -1,11 +1,12 @@
 //! The tube theorem (derivation, 14.4): what (14.4a), (14.4b) and the defects say of the periodic solution.
 
-use super::defects::Trial;
+use super::curves::{Trial, of_wave};
 use crate::bounds::StatesForm;
-use crate::linear::{Fineness, Loop, PRECISION, supremum};
+use crate::linear::{Fineness, Harmonics, Loop, PRECISION, supremum};
 use rug::Rational;
 use sigmastar_exact::enclosure::{Enclosure, Truth};
-use sigmastar_lang::spec::{Level, Metric, TrigonometricVector};
+use sigmastar_lang::plant::CurveTerm;
+use sigmastar_lang::spec::{Level, Metric, OrbitCurve, TrigonometricVector};
 use sigmastar_theory::transfer::Complex;
 
 /// What is proved around a trial, each number a bound.
@@ -58,8 +59,8 @@ pub struct Known<'a> {
     pub own: &'a Loop,
     /// T.
     pub period: &'a Enclosure,
-    /// xb.
-    pub orbit: &'a TrigonometricVector,
+    /// xb, of each member.
+    pub orbit: &'a OrbitCurve,
     /// r.
     pub radius: &'a Rational,
     /// kappa_0 and kappa_1, proved for every number of oscillators.
@@ -96,14 +97,14 @@ pub(super) fn length(vector: &[Rational]) -> Enclosure {
 impl Concluded {
     /// The bounds of Theorem T; `None` where it says nothing: the box may be too small for them, or the trial is none.
     ///
-    /// Hypotheses: the numbers of `proof` are decided, for this trial, gain and plant, of which nothing is an interval; the formulas are smooth on the
-    /// box. Guarantee: the loop has exactly one T-periodic solution in the box, and it has these bounds.
+    /// Hypotheses: the numbers of `proof` are decided, for this trial, sigma and every member of the plant, whose period is known; the formulas are smooth
+    /// on the box. Guarantee: the loop of every member has exactly one T-periodic solution in its box, and that has these bounds.
     #[must_use]
     pub fn of(trial: &Trial, proof: &TubeProof, known: &Known<'_>) -> Option<Concluded> {
         let Known { own, period, .. } = known;
         let (Metric { cross, k_p, c_x, c_e, c_y, .. }, Level { p_up, .. }) = proof.forms.first()?;
         // Without (14.4b) nothing is known of states.
-        let has_states = !trial.states.mean.is_empty();
+        let has_states = !trial.states().mean.is_empty();
         if !trial.is_admissible() || has_states != proof.states.is_some() || trial.or_more != proof.or_more.is_some() {
             return None;
         }
@@ -133,38 +134,39 @@ impl Concluded {
         if !inside.into_iter().all(is_inside) {
             return None;
         }
+        let [low, high] = &own.gain;
+        let one = || Enclosure::one(PRECISION);
         let [b_x, b_e] = proof.slopes.each_ref().map(exact);
+        let b_e = b_e + &own.sigma * (high - one()).max(&(one() - low));
         let of_q = &b_x * &of_x + &b_e * &of_e + d_q;
-        let swing = *period / (&own.mu * 2);
+        let swing = *period / (low * &own.mu * 2);
         let s_z = match &proof.or_more {
-            None => (swing + largest_answer(trial, own)?).sqrt() * of_q,
+            None => (swing + largest_answer(trial, own)? / low.sqr()).sqrt() * of_q,
             Some(OrMore { defect_t, in_time, states }) => {
                 let [[b_qtx, b_qte], [b_fx, b_fe]] = [in_time, states].map(|pair| pair.each_ref().map(exact));
                 let slope = b_qtx * &of_x + b_qte * &of_e + b_x * (b_fx * &of_x + b_fe * &of_e + d_x);
                 let slope = slope + b_e * &of_y + exact(defect_t);
-                let [kappa_0, kappa_1] = known.kappas;
+                let [kappa_0, kappa_1] = known.kappas.each_ref().map(|kappa| kappa / low.sqr());
                 ((swing + kappa_0) * of_q.sqr() + kappa_1 * slope.sqr()).sqrt()
             }
         };
 
-        let (of_error, of_forcing) = (trial.of_error(), trial.of_forcing());
-        let mismatch = trial.mismatch(own);
-        let alone = |waves: &[Complex]| waves.iter().map(|wave| vec![wave.clone()]).collect::<Vec<_>>();
-        let moved: Vec<Complex> = (0_i64..)
-            .zip(of_error.iter().zip(&of_forcing))
-            .map(|(k, (e, q))| {
-                let frequency = &own.fundamental * k;
-                Complex { re: (&e.im * &frequency).negate(), im: &e.re * &frequency }.sub(q)
-            })
-            .collect();
         let n_bar = own.n_bar_squared.sqrt();
-        let control = supremum(&alone(&moved), Fineness::FINE) + &mismatch + &own.sigma * &s_e + &own.mu * n_bar * &s_z;
+        let control = supremum(&trial.scaled(|term| &term.control), Fineness::FINE)
+            + trial.mismatch(own)
+            + &own.sigma * &s_e
+            + &own.mu * n_bar * &s_z;
         let zero = || Enclosure::zero(PRECISION);
-        let square = of_error.iter().fold(zero(), |sum, wave| sum + wave.norm_squared()) * 2;
+        let mean_square = |harmonics: &Harmonics| {
+            let squares = harmonics.iter().flatten().fold(zero(), |sum, wave| sum + wave.norm_squared());
+            (squares * 2).sqrt()
+        };
+        let of_error = trial.scaled(|term| &term.error);
+        let square = of_error.iter().fold(zero(), |sum, harmonics| sum + mean_square(harmonics));
         let [states, error, zeta] = Concluded::sizes_of(trial, known)?;
         let concluded = Concluded {
             error: error + &s_e,
-            mean_square: square.sqrt() + of_e,
+            mean_square: square + of_e,
             control,
             states: states + &s_x,
             zeta: zeta + s_z,
@@ -177,20 +179,21 @@ impl Concluded {
 }
 
 impl Concluded {
-    /// Bounds of `|L^-1 (xhat - x_0)|`, `|ehat|` and zhat, of a trial alone; `None` where it has more oscillators than the loop has weights.
+    /// Bounds of `|L^-1 (xhat - x_0)|`, `|ehat|` and zhat, of a trial alone and all its members; `None` where it has more oscillators than the loop has
+    /// weights.
     #[must_use]
     pub fn sizes_of(trial: &Trial, Known { own, orbit, radius, .. }: &Known<'_>) -> Option<[Enclosure; 3]> {
-        let (of_error, of_forcing) = (trial.of_error(), trial.of_forcing());
-        let alone: Vec<Vec<Complex>> = of_error.iter().map(|wave| vec![wave.clone()]).collect();
+        let zeta = |term: &CurveTerm| Some(of_zeta(trial, own, term)? * trial.scale(term));
+        let zero = Enclosure::zero(PRECISION);
         Some([
-            supremum(&difference(&trial.states, orbit, own), Fineness::OF_STATES) + exact(radius),
-            supremum(&alone, Fineness::FINE),
-            of_zeta(trial, own, &of_error, &of_forcing)?,
+            supremum(&from_orbit(trial, orbit, own), Fineness::OF_STATES) + exact(radius),
+            supremum(&trial.scaled(|term| &term.error), Fineness::FINE),
+            trial.terms.iter().try_fold(zero, |sum, term| Some(sum + zeta(term)?))?,
         ])
     }
 }
 
-/// kappa_N.
+/// kappa_N at b_lo = 1.
 fn largest_answer(trial: &Trial, own: &Loop) -> Option<Enclosure> {
     let met = trial.met();
     let one = |weight: &Enclosure, times: i64| Enclosure::from_integer(times, PRECISION) / weight;
@@ -199,37 +202,58 @@ fn largest_answer(trial: &Trial, own: &Loop) -> Option<Enclosure> {
     Some(weights.iter().fold(first, |largest, weight| largest.max(&one(weight, 2))) / own.mu.sqr())
 }
 
-/// zhat.
-fn of_zeta(trial: &Trial, own: &Loop, of_error: &[Complex], of_forcing: &[Complex]) -> Option<Enclosure> {
+/// zhat of one term.
+fn of_zeta(trial: &Trial, own: &Loop, CurveTerm { error, control, .. }: &CurveTerm) -> Option<Enclosure> {
     let met = trial.met();
-    let mut within = Enclosure::zero(PRECISION);
-    let mut beyond = Enclosure::zero(PRECISION);
-    for (k, (e, q)) in of_error.iter().zip(of_forcing).enumerate() {
-        if k <= met {
-            let both = if k == 0 { 1 } else { 4 };
-            within = within + q.norm_squared() / own.mu.sqr() / own.weights.get(k)? * both;
-        } else {
-            let of_y = ((&own.fundamental * k as i64).sqr() + own.sigma.sqr()).sqrt() * e.norm();
-            beyond = beyond + own.poles(met, k, 2).sqrt() * of_y / &own.fundamental * 2;
-        }
+    let (mut within, mut beyond) = (Enclosure::zero(PRECISION), Enclosure::zero(PRECISION));
+    for (k, u) in of_wave(control).iter().enumerate().take(met.saturating_add(1)) {
+        let both = if k == 0 { 1 } else { 4 };
+        within = within + u.norm_squared() / own.mu.sqr() / own.weights.get(k)? * both;
+    }
+    for (k, e) in of_wave(error).iter().enumerate().skip(met.saturating_add(1)) {
+        let of_y = ((&own.fundamental * k as i64).sqr() + own.sigma.sqr()).sqrt() * e.norm();
+        beyond = beyond + own.poles(met, k, 2).sqrt() * of_y / &own.fundamental * 2;
     }
     Some(within.sqrt() + beyond)
 }
 
-/// The harmonics of `L^-1 (xhat - xb)`.
-fn difference(trial: &TrigonometricVector, orbit: &TrigonometricVector, own: &Loop) -> Vec<Vec<Complex>> {
+/// The harmonics of `L^-1 (xhat - xb)`: what stands beside each power of delta, times the largest value of that.
+fn from_orbit(trial: &Trial, orbit: &OrbitCurve, own: &Loop) -> Vec<Harmonics> {
     let zeros = vec![Rational::new(); own.inverse.len()];
     let minus = |a: &Vec<Rational>, b: &Vec<Rational>| -> Vec<Rational> {
-        let apart: Vec<Rational> = a.iter().zip(b).map(|(a, b)| Rational::from(a - b)).collect();
-        let row = |row: &Vec<Rational>| {
-            row.iter().zip(&apart).fold(Rational::new(), |sum, (l, x)| sum + Rational::from(l * x))
+        a.iter().zip(b).map(|(a, b)| Rational::from(a - b)).collect()
+    };
+    // The powers of the nominal curve, and of each sensitivity.
+    let count = orbit.sensitivities.len();
+    let powers = (0..=count).map(|which| (1..=count).map(|i| u32::from(i == which)).collect::<Vec<u32>>());
+    let mut apart: Vec<CurveTerm> = trial.terms.clone();
+    for (powers, part) in powers.zip(orbit.parts()) {
+        // After those of the parameters there may be one of the gain.
+        let is_that = |term: &&mut CurveTerm| {
+            let own = term.powers.iter().copied().chain(std::iter::repeat(0));
+            own.zip(powers.iter().copied().chain([0])).all(|(own, power)| own == power)
         };
-        own.inverse.iter().map(row).collect()
+        match apart.iter_mut().find(is_that) {
+            Some(term) => term.states = term.states.with(part, &zeros, minus),
+            None => {
+                let nothing = sigmastar_lang::spec::Wave::constant(Rational::new());
+                let states = TrigonometricVector::constant(zeros.clone()).with(part, &zeros, minus);
+                apart.push(CurveTerm { powers, states, error: nothing.clone(), control: nothing });
+            }
+        }
+    }
+    let harmonics = |term: &CurveTerm| {
+        let scale = trial.scale(term);
+        let row = |apart: &Vec<Rational>, row: &Vec<Rational>| {
+            let sum = row.iter().zip(apart).fold(Rational::new(), |sum, (l, x)| sum + Rational::from(l * x));
+            exact(&sum) * &scale
+        };
+        let all = term.states.map(|apart| own.inverse.iter().map(|of| row(apart, of)).collect::<Vec<_>>());
+        let mean = all.mean.into_iter().map(Complex::real).collect();
+        let pair = |[cos, sin]: [Vec<Enclosure>; 2]| {
+            cos.into_iter().zip(sin).map(|(cos, sin)| Complex { re: cos / 2, im: sin / -2 }).collect()
+        };
+        std::iter::once(mean).chain(all.harmonics.into_iter().map(pair)).collect()
     };
-    let apart = trial.with(orbit, &zeros, minus);
-    let mean = apart.mean.iter().map(|value| Complex::real(exact(value))).collect();
-    let pair = |[cos, sin]: &[Vec<Rational>; 2]| {
-        cos.iter().zip(sin).map(|(cos, sin)| Complex { re: exact(cos) / 2, im: exact(sin) / -2 }).collect()
-    };
-    std::iter::once(mean).chain(apart.harmonics.iter().map(pair)).collect()
+    apart.iter().map(harmonics).collect()
 }

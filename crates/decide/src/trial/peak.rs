@@ -9,7 +9,7 @@ use sigmastar_lang::spec::{Level, Metric};
 /// What the corollaries of 14.5 about forms on a box around a trial say.
 #[derive(Clone, Debug)]
 pub struct Peaks {
-    /// For each form `V_0` of the level.
+    /// For each form `V_0` of the level, at the largest gain of the actuator.
     pub levels: Vec<Enclosure>,
     /// How far the solutions come from the trial, in x and in e.
     pub reach: [Enclosure; 2],
@@ -33,19 +33,25 @@ impl Peaks {
         let exact = |value: &Rational| Enclosure::from_rational(value, PRECISION);
         let [x, e, z] = start.distances(own, [&concluded.states, &concluded.error, &concluded.zeta]);
         let n_bar_squared = &own.n_bar_squared;
-        let level = |(Metric { cross, weight, k_p, .. }, Level { p_up, .. }): &(Metric, Level)| {
+        let [low, high] = &own.gain;
+        let level = |b: &Enclosure, (Metric { cross, weight, k_p, .. }, Level { p_up, .. }): &(Metric, Level)| {
             let of_states = match has_states {
                 true => exact(p_up) * x.sqr() + length(cross) * &x * &e * 2,
                 false => Enclosure::zero(PRECISION),
             };
-            of_states + exact(weight) * e.sqr() + exact(k_p) * &own.mu / 2 * z.sqr()
+            of_states + exact(weight) * e.sqr() + exact(k_p) * b * &own.mu / 2 * z.sqr()
         };
-        let levels: Vec<Enclosure> = forms.iter().map(level).collect();
+        let levels: Vec<Enclosure> = forms.iter().map(|form| level(high, form)).collect();
         let each = || forms.iter().zip(&levels);
         let of_error =
             |((_, Level { e_low, .. }), level): (&(Metric, Level), &Enclosure)| (level / exact(e_low)).sqrt();
-        let of_control = |((Metric { k_p, .. }, Level { e_low, .. }), level): (&(Metric, Level), &Enclosure)| {
-            (level * (own.sigma.sqr() / exact(e_low) + &own.mu * n_bar_squared * 2 / exact(k_p))).sqrt()
+        // Convex in b.
+        let of_control = |form @ (Metric { k_p, .. }, Level { e_low, .. }): &(Metric, Level)| {
+            let at = |b: &Enclosure| {
+                let factor = own.sigma.sqr() / exact(e_low) + &own.mu * n_bar_squared * 2 / (b * exact(k_p));
+                level(b, form) * factor
+            };
+            at(low).max(&at(high)).sqrt()
         };
         let least = |a: Enclosure, b: Enclosure| a.min(&b);
         let (Level { x_low, .. }, first) = each().next().map(|((_, level), value)| (level, value))?;
@@ -55,7 +61,7 @@ impl Peaks {
         Some(Peaks {
             reach: [of_x + s_x, of_e + s_e],
             error: each().map(of_error).reduce(least)?,
-            control: each().map(of_control).reduce(least)?,
+            control: forms.iter().map(of_control).reduce(least)?,
             levels,
         })
     }

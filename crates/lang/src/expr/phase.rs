@@ -30,6 +30,11 @@ impl Phase {
         Phase { turn: turn.into_iter().chain(divided).collect(), exact }
     }
 
+    /// The nodes of `2 pi/T`.
+    pub(super) fn turn(&self) -> &[Node] {
+        &self.turn
+    }
+
     /// The operations of `2 pi/T * t`.
     pub(super) fn nodes<V: Clone>(&self, time: V) -> Vec<NodeKind<V>> {
         let product = [NodeKind::Variable(time), NodeKind::Binary(Binary::Mul)];

@@ -5,8 +5,8 @@ use super::exact::{Constants, sign};
 use super::names::Scope;
 use super::parse::parse;
 use super::phase::{INSTEAD_OF_TIME, PHASE, Phase};
-use super::syntax::{Binary, Node, NodeKind, Unary, step};
-use super::{ExprError, ExprErrorKind, Fourier};
+use super::syntax::{Binary, Node, NodeKind, step};
+use super::{ExprError, ExprErrorKind};
 use rug::Rational;
 use std::cmp::Ordering;
 use std::fmt;
@@ -258,29 +258,9 @@ impl PlantExpr {
         PlantExpr { text: self.text.clone(), nodes: self.nodes.iter().flat_map(timed).collect() }
     }
 
-    /// The expression with `e + wave` in the place of e, where the wave runs with `phase`: its text stays.
-    #[must_use]
-    pub fn with_error_moved(&self, wave: &Fourier<Rational>, phase: &Phase) -> PlantExpr {
-        let term = |factor: &Rational, k: usize, function: Unary| {
-            let angle = phase.nodes(PlantVariable::Time).into_iter();
-            let angle = angle.chain([NodeKind::Number(k.into()), NodeKind::Binary(Binary::Mul)]);
-            let value = [NodeKind::Unary(function), NodeKind::Number(factor.clone()), NodeKind::Binary(Binary::Mul)];
-            angle.chain(value).chain([NodeKind::Binary(Binary::Add)])
-        };
-        let mean = [NodeKind::Number(wave.mean.clone()), NodeKind::Binary(Binary::Add)];
-        let mut moves: Vec<NodeKind<PlantVariable>> = mean.into_iter().filter(|_| wave.mean != 0).collect();
-        for ([cos, sin], k) in wave.harmonics.iter().zip(1..) {
-            for (factor, function) in [(cos, Unary::Cos), (sin, Unary::Sin)] {
-                moves.extend(term(factor, k, function).filter(|_| *factor != 0));
-            }
-        }
-        let moved = |node: &Node<PlantVariable>| {
-            let is_error = matches!(node.kind, NodeKind::Variable(PlantVariable::Error));
-            let more: &[NodeKind<PlantVariable>] = if is_error { &moves } else { &[] };
-            let more = more.iter().map(|kind| Node { kind: kind.clone(), span: node.span.clone() });
-            std::iter::once(node.clone()).chain(more).collect::<Vec<_>>()
-        };
-        PlantExpr { text: self.text.clone(), nodes: self.nodes.iter().flat_map(moved).collect() }
+    /// The expression with other operations: its text stays.
+    pub(super) fn with_nodes(&self, nodes: Vec<Node<PlantVariable>>) -> PlantExpr {
+        PlantExpr { text: self.text.clone(), nodes: nodes.into() }
     }
 
     /// The source text, exactly as it was parsed.
@@ -317,32 +297,6 @@ impl fmt::Display for PlantExpr {
 mod tests {
     use super::super::{Expr, Variables};
     use super::*;
-
-    #[test]
-    fn a_moved_error_is_the_error_and_a_wave() {
-        let period = Expr::parse("3", Variables::None).unwrap();
-        let phase = Phase::new(&period, true);
-        let names = names(&["v"]).unwrap().with_phase(phase.clone());
-        let number = |a: i32, b: i32| Rational::from((a, b));
-        let wave = Fourier {
-            mean: number(1, 4),
-            harmonics: vec![[number(2, 1), Rational::new()], [Rational::new(), number(-1, 3)]],
-        };
-        let moved = PlantExpr::parse("v*e - e^2", &names).unwrap().with_error_moved(&wave, &phase);
-        let by_hand = "(e + 1/4 + 2*cos(phase) - 1/3*sin(2*phase))";
-        let by_hand = PlantExpr::parse(&format!("v*{by_hand} - {by_hand}^2"), &names).unwrap();
-        let programs = [moved, by_hand].map(|expr| Arc::new(super::super::Program::values(&[&expr], 1)));
-        for (t, v, e) in [(0.0, 1.0, 0.5), (0.7, -2.0, 0.1), (2.9, 3.0, -4.0)] {
-            let values = programs.each_ref().map(|program| {
-                let mut evaluator = super::super::Evaluator::new(program.clone());
-                let mut out = [0.0];
-                evaluator.set_time(t);
-                evaluator.evaluate(&[v], e, &mut out);
-                out[0]
-            });
-            assert!((values[0] - values[1]).abs() < 1e-12 * (1.0 + values[1].abs()), "{t}: {values:?}");
-        }
-    }
 
     fn names(states: &[&str]) -> Result<PlantNames, NameError> {
         PlantNames::new(states.iter().map(|name| (*name).to_owned()).collect())

@@ -1,12 +1,14 @@
 //! Plants by their formulas: x' = f(t, x, e), e' = q(t, x, e) + u, to certify and to simulate.
 
+mod about;
 mod periodicity;
 mod read;
 
+pub use about::CurveTerm;
 pub use periodicity::PeriodicityFailure;
 pub use read::{FORMAT, VERSIONS};
 
-use crate::expr::{Formula, Formulas, Fourier, PlantExpr, PlantNames, PlantVariable, Program};
+use crate::expr::{Formula, Formulas, PlantExpr, PlantNames, PlantVariable, Program};
 use crate::spec::{
     Actuator, Constant, Disturbances, Document, Domain, ErrorKind, InitialSet, InputGain, InternalModel, Parameters,
     Period, SpecErrors,
@@ -135,14 +137,6 @@ impl Plant {
             parameters: self.parameters.clone().with_clock(None),
             ..self.clone()
         }
-    }
-
-    /// The plant of the error less a wave of its period: `e + wave` stands in the place of e. Its document is that of this one.
-    #[must_use]
-    pub fn with_error_moved(&self, wave: &Fourier<Rational>) -> Plant {
-        let phase = self.period.phase();
-        let moved = |expr: &PlantExpr| expr.with_error_moved(wave, &phase);
-        Plant { f: self.f.iter().map(moved).collect(), q: moved(&self.q), ..self.clone() }
     }
 
     /// The plant of the same file with other values of some parameters, as exact constants by their names.

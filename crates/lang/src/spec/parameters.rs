@@ -66,6 +66,14 @@ impl Parameters {
         Parameters { clock, ..self }
     }
 
+    /// These parameters with one more of which an interval is known, after the others, that has no name in formulas. Hypothesis: there is no clock.
+    #[must_use]
+    pub fn and(mut self, interval: Interval) -> Parameters {
+        let value = Constant::rational(&interval.nominal);
+        self.list.push(Parameter { name: String::new(), value, interval: Some(interval) });
+        self
+    }
+
     /// The parameter of formulas that is the clock, which is 1 nominally.
     #[must_use]
     pub fn clock(&self) -> Option<usize> {

@@ -1,5 +1,7 @@
 //! Fourier series of vectors in doubles, with the unit of time one period. They propose; nothing here decides.
 
+use rug::Rational;
+use sigmastar_lang::spec::TrigonometricVector;
 use std::f64::consts::TAU;
 
 /// `mean + sum_k (cos_k cos(2 pi k s) + sin_k sin(2 pi k s))` with s = t/T.
@@ -36,6 +38,14 @@ impl Turn {
     }
 }
 
+impl From<&TrigonometricVector> for FloatSeries {
+    fn from(curve: &TrigonometricVector) -> FloatSeries {
+        let doubles = |vector: &Vec<Rational>| vector.iter().map(Rational::to_f64).collect();
+        let harmonics = curve.harmonics.iter().map(|pair| pair.each_ref().map(doubles)).collect();
+        FloatSeries { mean: doubles(&curve.mean), harmonics }
+    }
+}
+
 impl FloatSeries {
     /// The zero series of a dimension.
     pub(super) fn zero(dimension: usize) -> FloatSeries {
@@ -47,6 +57,20 @@ impl FloatSeries {
         let scale = |values: &Vec<f64>| values.iter().enumerate().map(|(i, value)| value * factor(i)).collect();
         let harmonics = self.harmonics.iter().map(|pair| pair.each_ref().map(scale)).collect();
         FloatSeries { mean: scale(&self.mean), harmonics }
+    }
+
+    /// The sum of series of one dimension, each with its weight; without any it has no components.
+    pub(crate) fn combined(all: &[&FloatSeries], weights: &[f64]) -> FloatSeries {
+        let dimension = all.first().map_or(0, |series| series.dimension());
+        let count = all.iter().map(|series| series.harmonics.len()).max().unwrap_or(0);
+        let sum = |of: &dyn Fn(&FloatSeries, usize) -> f64| {
+            (0..dimension)
+                .map(|i| all.iter().zip(weights).map(|(series, weight)| of(series, i) * weight).sum())
+                .collect()
+        };
+        let harmonic =
+            |k: usize| [0, 1].map(|which| sum(&|series, i| series.harmonics.get(k).map_or(0.0, |pair| pair[which][i])));
+        FloatSeries { mean: sum(&|series, i| series.mean[i]), harmonics: (0..count).map(harmonic).collect() }
     }
 
     /// A series that is constant.

@@ -9,7 +9,8 @@ use sigmastar_decide::linear::Falling;
 use sigmastar_decide::trial::{OrMore, Trial, TubeProof, XFirst};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::write_exact;
-use sigmastar_lang::spec::{Level, Metric, Specification, TrigonometricVector, Wave};
+use sigmastar_lang::plant::CurveTerm;
+use sigmastar_lang::spec::{Level, Metric, Specification};
 use std::sync::LazyLock;
 
 /// The name of both parts.
@@ -95,12 +96,17 @@ fn linear(forms: &[Falling], sizes: &[[Enclosure; 2]]) -> Value {
     object([("forms", forms.iter().map(form).collect()), ("sizes", sizes.iter().map(size).collect())])
 }
 
-fn of_trial(Trial { states: curve, error, forcing, .. }: &Trial, proof: &TubeProof) -> Value {
+fn of_trial(trial: &Trial, proof: &TubeProof) -> Value {
     let TubeProof { defects: [d_x, d_q], radii, slopes, forms, states, or_more, x_first } = proof;
     let has_states = states.is_some();
-    let wave = |wave: &Wave| object(series("mean", wave, exact));
-    let of_error = object(series("mean", error, exact).into_iter().filter(|(name, _)| *name != "mean"));
-    let of_states = |curve: &TrigonometricVector| object(series("mean", curve, |part| vector(part)));
+    let curves = |CurveTerm { states, error, control, .. }: &CurveTerm| {
+        let states = has_states.then(|| ("x", object(series("mean", states, |part| vector(part)))));
+        let error = object(series("mean", error, exact).into_iter().filter(|(name, _)| *name != "mean"));
+        states.into_iter().chain([("e", error), ("u", object(series("mean", control, exact)))])
+    };
+    let member = |term: &CurveTerm| object([("powers", json!(term.powers))].into_iter().chain(curves(term)));
+    let members: Vec<Value> = trial.terms.iter().skip(1).map(member).collect();
+    let members = (!members.is_empty()).then(|| ("members", Value::from(members)));
     let pair = |[x, e]: &[Rational; 2], names: [&'static str; 2]| {
         let x = has_states.then(|| (names[0], exact(x)));
         x.into_iter().chain([(names[1], exact(e))]).collect::<Vec<_>>()
@@ -117,8 +123,7 @@ fn of_trial(Trial { states: curve, error, forcing, .. }: &Trial, proof: &TubePro
         let numbers = [("Q_low", q_low), ("Q_up", q_up), ("c", c), ("gamma", gamma)];
         object([("Q", rows(matrix))].into_iter().chain(numbers.map(|(name, value)| (name, exact(value)))))
     };
-    let curve = has_states.then(|| ("x", of_states(curve)));
-    let curves = curve.into_iter().chain([("e", of_error), ("q", wave(forcing))]);
+    let curves = trial.terms.first().into_iter().flat_map(curves).chain(members);
     let numbers = pair(&[d_x.clone(), d_q.clone()], ["defect_x", "defect_q"]).into_iter();
     let numbers = numbers.chain([("box", object(pair(radii, ["x", "e"])))]).chain(pair(slopes, ["q_x", "q_e"]));
     let forms = [("forms", forms.iter().map(form).collect())];

@@ -6,16 +6,16 @@ use sigmastar_decide::linear::{Loop, PRECISION, Start};
 use sigmastar_decide::trial::{Concluded, Known, Trial};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, round_f64};
-use sigmastar_lang::plant::Plant;
-use sigmastar_lang::spec::{OfPlant, ProvedCell, Specification};
+use sigmastar_lang::plant::{CurveTerm, Plant};
+use sigmastar_lang::spec::{Interval, OfPlant, ProvedCell, Specification};
 use sigmastar_matrix::inverse;
 use sigmastar_propose::bounds::{FloatCurve, FloatSuprema};
 use sigmastar_propose::orbit::FloatSeries;
-use sigmastar_propose::trial::{ProposedTrial, TrialLoop};
+use sigmastar_propose::trial::{Members, TrialLoop, sampled_defects};
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
 use sigmastar_theory::derivation::sharp::SharpWitness;
-use sigmastar_theory::evidence::Coordinates;
+use sigmastar_theory::input_gain::moves;
 
 /// From where on all of them may be looked at once, each number before by itself; the share of q that they leave then.
 const ONE_BY_ONE: usize = 12;
@@ -23,6 +23,13 @@ const LEFT: f64 = 1e-9;
 
 /// Defects that are small enough, beside q, and the velocity of the states.
 const SMALL: f64 = 1e-10;
+
+/// By how much a defect of a family may be above what is met of it: the parts of the box of its members are made smaller up to that.
+const DEFECT_ROOM: f64 = 1.5;
+
+/// What harmonics that are left out have at most, as a share of the whole; of families, whose trials are polynomials in the parameters.
+const SMALL_OF_ONE: f64 = 1e-15;
+const SMALL_OF_FAMILY: f64 = 1e-6;
 
 /// Digits of bounds.
 pub(super) const SHORT: u32 = 4;
@@ -80,7 +87,7 @@ impl Around<'_> {
         Known {
             own: &prepared.own,
             period: &prepared.period,
-            orbit: &orbit.approximation.centre,
+            orbit: &orbit.approximation,
             radius: &orbit.radius,
             kappas: &self.asked.kappas,
         }
@@ -89,32 +96,42 @@ impl Around<'_> {
     /// From which number of oscillators on what they leave of q is as small as nothing, of a loop in which they leave no error; `None` where that is
     /// not soon.
     pub(super) fn met_by(&self) -> Option<u64> {
-        let forcing = self.proposed()?.forcing;
+        let control = self.proposed()?.into_iter().next()?.control;
         let sizes =
-            forcing.harmonics.iter().map(|[cos, sin]| libm::hypot(cos.to_f64(), sin.to_f64())).collect::<Vec<f64>>();
-        let all = forcing.mean.to_f64().abs() + sizes.iter().sum::<f64>();
+            control.harmonics.iter().map(|[cos, sin]| libm::hypot(cos.to_f64(), sin.to_f64())).collect::<Vec<f64>>();
+        let all = control.mean.to_f64().abs() + sizes.iter().sum::<f64>();
         let left = |met: usize| sizes.iter().skip(met).sum::<f64>();
         (0..=ONE_BY_ONE).find(|met| left(*met) <= LEFT * all).map(|met| met as u64)
     }
 
-    fn proposed(&self) -> Option<ProposedTrial> {
+    /// Where b lies, if that is an interval: outwards.
+    fn gain(&self) -> Option<Interval> {
+        let [low, high] = moves(self.asked.plant, PRECISION)?.map(|moved| Rational::from(1) - moved);
+        Some(Interval { nominal: Rational::from(1), low, high })
+    }
+
+    /// Whether something is an interval.
+    pub(super) fn is_family(&self) -> bool {
+        self.asked.plant.is_family() || self.gain().is_some()
+    }
+
+    fn proposed(&self) -> Option<Vec<CurveTerm>> {
         let Asked { plant, spec, sigma, .. } = self.asked;
         let model = &spec.internal_model;
         let weight = |l: u64| model.weights.weight(l, PRECISION).midpoint_f64();
-        let program = TrialLoop {
+        let weights: Vec<f64> = (0..=self.n_o).map(weight).collect();
+        let mu = model.mu.enclose(PRECISION).midpoint_f64();
+        let gain = self.gain();
+        let members = Members { plant, orbit: &self.cell.orbit.approximation, gain: gain.as_ref() };
+        members.propose(|plant, gain| TrialLoop {
             plant,
+            gain,
             sigma: sigma.to_f64(),
-            mu: model.mu.enclose(PRECISION).midpoint_f64(),
-            weights: (0..=self.n_o).map(weight).collect(),
+            mu,
+            weights: weights.clone(),
+            resolved: if self.is_family() { SMALL_OF_FAMILY } else { SMALL_OF_ONE },
             or_more: self.or_more,
-        };
-        let orbit = &self.cell.orbit.approximation.centre;
-        let doubles = |vector: &Vec<Rational>| vector.iter().map(Rational::to_f64).collect();
-        let curve = FloatSeries {
-            mean: doubles(&orbit.mean),
-            harmonics: orbit.harmonics.iter().map(|pair| pair.each_ref().map(doubles)).collect(),
-        };
-        program.propose(&curve)
+        })
     }
 
     /// The trial, and what is evaluated around it; `None` where there is none.
@@ -122,29 +139,39 @@ impl Around<'_> {
         let Asked { plant, spec, sigma, set, .. } = self.asked;
         let model = &spec.internal_model;
         let met = usize::try_from(self.n_o).ok()?;
-        let ProposedTrial { states, error, forcing } = self.proposed()?;
-        let trial = Trial { n_o: self.n_o, or_more: self.or_more, states, error, forcing };
+        let parameters = plant.parameters.intervals().cloned().collect();
+        let (terms, gain) = (self.proposed()?, self.gain());
+        let trial = Trial { n_o: self.n_o, or_more: self.or_more, terms, parameters, gain };
         let l = &self.of_plant.coordinates;
-        let lines = met.max(trial.error.harmonics.len());
-        let own = Loop::new(sigma, model, lines, None, inverse(l)?);
+        let degree = trial.terms.iter().map(|term| term.error.harmonics.len()).max()?;
+        let gain = spec.input_gain.as_ref().and_then(|gain| gain.factors(PRECISION));
+        let own = Loop::new(sigma, model, met.max(degree), gain, inverse(l)?);
         let own = if self.or_more { own } else { own.with_oscillators(met) };
-        let coordinates = Coordinates { l: l.clone(), p: self.of_plant.matrix.clone() };
-        let q = trial.forcing.parts().map(|part| part.to_f64().abs()).sum::<f64>();
+        let states = trial.states();
+        let control = &trial.terms.first()?.control;
+        let q = control.parts().map(|part| part.to_f64().abs()).sum::<f64>();
         let frequency = own.fundamental.upper_f64();
         let speed = |(k, [a, b]): (usize, &[Vec<Rational>; 2])| {
             (k + 1) as f64 * frequency * a.iter().chain(b).map(|part| part.to_f64().abs()).sum::<f64>()
         };
-        let velocity = trial.states.harmonics.iter().enumerate().map(speed).sum::<f64>();
+        let velocity = states.harmonics.iter().enumerate().map(speed).sum::<f64>();
         let scale = own.inverse.iter().flatten().map(|entry| entry.to_f64().abs()).fold(0.0, f64::max);
-        let of_slope = if self.or_more { SMALL * q * frequency } else { f64::INFINITY };
-        let enough = [SMALL * velocity * scale, SMALL * q, of_slope];
-        let [d_x, d_q, d_t] = trial.defects(plant, &coordinates, enough).ok()?;
-        let d_q = d_q + trial.mismatch(&own);
-        let moved = plant.with_error_moved(&trial.error);
-        let region = Region::new(l.clone(), trial.states.clone(), Rational::new()).ok()?;
+        let small = if self.is_family() { SMALL_OF_FAMILY } else { SMALL };
+        let of_slope = if self.or_more { small * q * frequency } else { f64::INFINITY };
+        let about = trial.about(plant);
+        let doubles = own.inverse.iter().map(|row| row.iter().map(Rational::to_f64).collect()).collect::<Vec<_>>();
+        let met_there = match self.is_family() {
+            true => sampled_defects(&about, &FloatSeries::from(&states), &doubles).map(|defect| DEFECT_ROOM * defect),
+            false => [0.0; 3],
+        };
+        let enough = [small * velocity * scale, small * q, of_slope];
+        let enough = [0, 1, 2].map(|i| enough[i].max(met_there[i]));
+        let [d_x, d_q, d_t] = trial.defects(plant, &own.inverse, enough).ok()?;
+        let d_q = d_q + trial.mismatch(&own) * &own.gain[1];
+        let region = Region::new(l.clone(), trial.centre(), Rational::new()).ok()?;
         let rows = l.iter().map(|row| row.iter().map(Rational::to_f64).collect()).collect();
-        let samples = FloatSuprema::new(&moved, FloatCurve::from(&trial.states), rows, [None; 2]);
-        let engine = Engine::new(&moved, region, None, None).ok()?;
+        let samples = FloatSuprema::new(&about, FloatCurve::from(&states), rows, [None; 2]);
+        let engine = Engine::new(&about, region, None, None).ok()?;
         let exact = |value: &Rational| Enclosure::from_rational(value, PRECISION);
         let start = Start { x0: exact(&set.x0), e0: exact(&set.e0), z0: set.z0.as_ref().map(exact) };
         let period = plant.period.nominal().enclose(PRECISION);

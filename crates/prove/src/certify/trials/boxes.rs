@@ -6,6 +6,7 @@ use sigmastar_propose::bounds::{FallingForm, LookedAt, PeakBox, PeakOf, PeakProg
 /// By what share of the diagonal the matrices of a form are to be definite.
 pub(super) const MARGINS: [f64; 2] = [1e-3, 1e-5];
 pub(super) const WIDE_MARGINS: [f64; 2] = [0.1, 1e-2];
+pub(super) const FAMILY_MARGINS: [f64; 3] = [0.3, 0.1, 1e-2];
 
 /// How far x may come from the periodic solution, in distances of the start, in turn; the first box of e in that of its start.
 const REACHES: [f64; 5] = [1.5, 2.5, 4.0, 6.5, 12.0];
@@ -27,7 +28,7 @@ impl Around<'_> {
         let own = &prepared.own;
         PeakProgram {
             points: Vec::new(),
-            gain: [1.0; 2],
+            gain: own.gain.each_ref().map(sigmastar_exact::enclosure::Enclosure::midpoint_f64),
             sigma: own.sigma.midpoint_f64(),
             mu: own.mu.midpoint_f64(),
             n_bar_squared: own.n_bar_squared.midpoint_f64(),
@@ -89,10 +90,14 @@ impl Around<'_> {
         }
         let ([x, e], _) = best?;
         let (radii, first) = fitted(x, e, (margin, LookedAt::Between))?;
-        let mut program = self.program(prepared, None);
-        let asked = (PeakOf::Control, margin, LookedAt::Between);
-        let second = prepared.samples.propose_peak(PeakBox { at: radii, x_first }, &mut program, asked);
-        Some((radii, std::iter::once(first).chain(second).collect()))
+        // On this box forms with small margins have smaller peaks.
+        let [small, _] = MARGINS;
+        let more = |of: PeakOf| {
+            let asked = (of, margin.min(small), LookedAt::Between);
+            prepared.samples.propose_peak(PeakBox { at: radii, x_first }, &mut self.program(prepared, None), asked)
+        };
+        let of_error = if margin > small { more(PeakOf::Error) } else { None };
+        Some((radii, std::iter::once(first).chain(of_error).chain(more(PeakOf::Control)).collect()))
     }
 
     /// A box that is small beside the trial, and a form on it.

@@ -1,4 +1,4 @@
-//! Bounds for given numbers of oscillators of any plant of which nothing is an interval, by trials (derivation, 14.4, 14.5).
+//! Bounds for given numbers of oscillators of any plant whose period is known, by trials (derivation, 14.4, 14.5).
 //!
 //! - `around`: a trial with everything that is evaluated around it;
 //! - `boxes`: boxes around it and forms that fall there, proposed;
@@ -10,7 +10,7 @@ mod proved;
 
 use super::gain_row::{ByCount, CountBounds, CountProof, Largest};
 use around::{Around, Prepared};
-use boxes::{MARGINS, WIDE_MARGINS};
+use boxes::{FAMILY_MARGINS, MARGINS, WIDE_MARGINS};
 use proved::{rounded, short};
 use rug::Rational;
 use sigmastar_decide::linear::PRECISION;
@@ -32,7 +32,7 @@ const OWN: u64 = 2;
 const WORTH: f64 = 0.97;
 
 /// The shares of the distances of the start that a box has around a trial of which nothing is known further away, in turn.
-const SMALL_BOXES: [f64; 2] = [1e-4, 1e-2];
+const SMALL_BOXES: [f64; 3] = [1e-4, 1e-2, 0.1];
 
 /// What is proved, what follows, and the peaks where they are known.
 type Proved = (TubeProof, Concluded, Option<Peaks>);
@@ -41,9 +41,7 @@ type Proved = (TubeProof, Concluded, Option<Peaks>);
 pub(super) fn by_trials(asked: &Asked<'_>) -> Option<ByCount> {
     let Asked { plant, spec, .. } = asked;
     let of_plant = spec.plant()?;
-    let known_gain = spec.input_gain.as_ref().is_none_or(|gain| gain.factors(PRECISION).is_none());
-    let cell =
-        of_plant.undivided().filter(|_| !plant.is_family() && plant.period.interval().is_none() && known_gain)?;
+    let cell = of_plant.undivided().filter(|_| plant.period.interval().is_none())?;
     let around = |n_o: u64, or_more: bool| Around { asked, of_plant, cell, n_o, or_more };
     let (mut counts, from): (BTreeSet<u64>, u64) = match around(OR_MORE, true).met_by() {
         Some(from) => ((0..from).collect(), from),
@@ -122,7 +120,9 @@ impl Around<'_> {
         // What many oscillators leave may be more than rounding: with small margins the solution could be anywhere.
         let [first, last] = MARGINS;
         let wide = WIDE_MARGINS.last().filter(|_| self.or_more).copied();
-        std::iter::once(first).chain(wide).chain([last]).find_map(|margin| {
+        // What a family leaves is far more than rounding: the wider the margins, the nearer is the solution to the trial.
+        let of_family = FAMILY_MARGINS.into_iter().filter(|_| self.is_family());
+        of_family.chain([first]).chain(wide).chain([last]).find_map(|margin| {
             let (radii, forms) = self.peak_box(prepared, margin, None)?;
             let expected = forms.first()?.level.sqrt();
             if known.is_some_and(|known| expected > WORTH * known.error.upper_f64()) {

@@ -1,15 +1,24 @@
-//! Trials (derivation, 14.4): the periodic solution of a loop with a given number of oscillators, by Fourier collocation and Newton's method, in
-//! doubles and then in short rationals. Nothing is claimed of them.
+//! Trials (derivation, 14.4), in doubles: nothing is claimed of them.
+//!
+//! - here: the periodic solution of one loop with a given number of oscillators, by Fourier collocation and Newton's method;
+//! - `fitted`: polynomials in the parameters through those of several members of a family;
+//! - `rounded`: in short rationals;
+//! - `sampled`: how good they are.
+
+mod fitted;
+mod rounded;
+mod sampled;
+
+pub use fitted::Members;
+pub use sampled::sampled_defects;
 
 use crate::orbit::{Field, FloatSeries};
 use nalgebra::{DMatrix, DVector};
-use rug::{Integer, Rational};
 use sigmastar_lang::plant::Plant;
-use sigmastar_lang::spec::{TrigonometricVector, Wave};
 use std::f64::consts::{PI, TAU};
 
 /// The numbers of harmonics, in turn.
-const HARMONICS: [usize; 4] = [8, 16, 32, 60];
+const HARMONICS: [usize; 5] = [8, 16, 24, 32, 60];
 
 /// Unknowns of Newton's method; its effort grows with their cube.
 const MAX_UNKNOWNS: usize = 500;
@@ -21,37 +30,35 @@ const MAX_HALVINGS: usize = 8;
 /// A step after which nothing gets better, relative to the unknowns.
 const SETTLED: f64 = 1e-13;
 
-/// The share of the size of a solution that the last harmonics have at most, where there are enough of them; and with the most.
-const RESOLVED: f64 = 1e-15;
+/// The share of the size of a solution that the last harmonics have at most where there are the most of them.
 const ACCEPTED: f64 = 1e-9;
-
-/// Coefficients that are smaller than this share of the size of a solution are left out, and others rounded to it.
-const GRAIN: f64 = 1e-16;
 
 /// What a loop is.
 #[derive(Clone, Debug)]
 pub struct TrialLoop<'a> {
-    /// The plant, of which nothing is an interval.
+    /// The plant, one member of a family.
     pub plant: &'a Plant,
+    /// b, the gain of the actuator over its nominal value.
+    pub gain: f64,
     /// sigma.
     pub sigma: f64,
     /// mu.
     pub mu: f64,
     /// n_0, n_1, ..., n_N: of N oscillators.
     pub weights: Vec<f64>,
-    /// Whether the trial is for every larger number, too: without an error, and qhat without harmonics above N.
+    /// The share of the size of a solution that the last harmonics have at most, where there are enough of them.
+    pub resolved: f64,
+    /// Whether the trial is for every larger number, too: without an error, and uhat without harmonics above N.
     pub or_more: bool,
 }
 
-/// xhat, ehat and qhat; ehat has neither a mean nor harmonics up to N.
+/// xhat, in the plant's own coordinates, ehat and uhat, one after the other.
 #[derive(Clone, Debug)]
-pub struct ProposedTrial {
-    /// xhat, in the plant's own coordinates.
-    pub states: TrigonometricVector,
-    /// ehat.
-    pub error: Wave,
-    /// qhat.
-    pub forcing: Wave,
+pub struct FloatTrial {
+    /// The curves.
+    pub series: FloatSeries,
+    /// What each component is small beside.
+    pub sizes: Vec<f64>,
 }
 
 impl TrialLoop<'_> {
@@ -59,8 +66,8 @@ impl TrialLoop<'_> {
         self.weights.len() - 1
     }
 
-    /// `(i om_k + sigma)(1 + i y_k)`, by which the regulator multiplies e_k; k > N.
-    fn inverse_answer(&self, k: usize, period: f64) -> [f64; 2] {
+    /// `sigma + i y_k (i om_k + sigma)`, by which the regulator multiplies -e_k; k > N.
+    fn answer(&self, k: usize, period: f64) -> [f64; 2] {
         let omega = TAU / period;
         let at = |l: f64| (l - k as f64).recip();
         let poles: f64 = self
@@ -70,14 +77,19 @@ impl TrialLoop<'_> {
             .map(|(l, weight)| weight * if l == 0 { at(0.0) } else { (at(l as f64) + at(-(l as f64))) / 2.0 })
             .sum();
         let y = self.mu / omega * poles;
-        let frequency = omega * k as f64;
-        [self.sigma - y * frequency, frequency + y * self.sigma]
+        [self.sigma - y * omega * k as f64, y * self.sigma]
+    }
+
+    /// `i om_k + b (sigma + i y_k (i om_k + sigma))`, by which e_k is multiplied where q is answered; k > N.
+    fn inverse_answer(&self, k: usize, period: f64) -> [f64; 2] {
+        let [re, im] = self.answer(k, period);
+        [self.gain * re, TAU / period * k as f64 + self.gain * im]
     }
 
     /// The trial from the orbit of the zero dynamics, with as many harmonics as it needs; `None` where Newton's method does not converge, or they
     /// are too many.
     #[must_use]
-    pub fn propose(&self, orbit: &FloatSeries) -> Option<ProposedTrial> {
+    pub fn propose(&self, orbit: &FloatSeries) -> Option<FloatTrial> {
         let mut field = Field::new(self.plant);
         let n = self.plant.states();
         let own = field.own(orbit);
@@ -99,9 +111,9 @@ impl TrialLoop<'_> {
             let rows: Vec<Vec<f64>> = found.as_slice().chunks(n + 1).map(<[f64]>::to_vec).collect();
             let series = FloatSeries::from_samples(&rows, harmonics);
             let size = self.size(&mut field, &series);
-            let share = if harmonics == HARMONICS[HARMONICS.len() - 1] { ACCEPTED } else { RESOLVED };
+            let share = if harmonics == HARMONICS[HARMONICS.len() - 1] { ACCEPTED } else { self.resolved };
             if is_resolved(&series, share * size) {
-                return self.rounded(&mut field, &series, size);
+                return Some(self.with_control(&mut field, &series, size));
             }
             start = Some(series);
         }
@@ -218,50 +230,23 @@ impl TrialLoop<'_> {
         None
     }
 
-    /// In short rationals: of a solution in the units of the field.
-    fn rounded(&self, field: &mut Field, series: &FloatSeries, size: f64) -> Option<ProposedTrial> {
+    /// The trial of a solution in the units of the field.
+    fn with_control(&self, field: &mut Field, series: &FloatSeries, size: f64) -> FloatTrial {
         let n = field.states();
         let harmonics = series.harmonics.len().max(if self.or_more { self.oscillators() } else { 0 });
         let points = 4 * harmonics + 1;
-        let forcing: Vec<Vec<f64>> = (0..points)
-            .map(|j| {
-                let s = j as f64 / points as f64;
-                let (at, _) = series.at(s);
-                field.set(s, &at[..n], at[n]);
-                vec![field.q()]
-            })
-            .collect();
-        let mut forcing = FloatSeries::from_samples(&forcing, harmonics);
-        let units: Vec<f64> = field.units().to_vec();
-        let mut error = component(series, n, 1.0, size);
-        error.mean = Rational::new();
-        for pair in error.harmonics.iter_mut().take(self.oscillators()) {
-            *pair = Default::default();
-        }
-        // Beyond the oscillators qhat is what ehat answers: (re + i im)(a - i b) = (a re + b im) - i (b re - a im).
-        let period = field.period;
-        for (k, [cos, sin]) in (1..).zip(&error.harmonics).skip(self.oscillators()) {
-            let [re, im] = self.inverse_answer(k, period);
-            let [a, b] = [cos, sin].map(Rational::to_f64);
-            let part = forcing.harmonics.get_mut(k - 1)?;
-            (part[0][0], part[1][0]) = (a * re + b * im, b * re - a * im);
-        }
-        for part in forcing.harmonics.iter_mut().skip(error.harmonics.len().max(self.oscillators())) {
-            (part[0][0], part[1][0]) = (0.0, 0.0);
-        }
-        let waves: Vec<Wave> = (0..n).map(|i| component(series, i, units[i], size)).collect();
-        let degree = waves.iter().map(|wave| wave.harmonics.len()).max().unwrap_or(0);
-        let part = |k: usize, which: usize| {
-            waves
-                .iter()
-                .map(|wave| wave.harmonics.get(k).map_or_else(Rational::new, |pair| pair[which].clone()))
-                .collect()
+        // Up to N the harmonics of u are those of -q/b; beyond they follow from those of e.
+        let sample = |j: usize| {
+            let s = j as f64 / points as f64;
+            let (mut at, _) = series.at(s);
+            field.set(s, &at[..n], at[n]);
+            at.iter_mut().zip(field.units()).for_each(|(x, unit)| *x *= unit);
+            at.push(-field.q() / self.gain);
+            at
         };
-        let states = TrigonometricVector {
-            mean: waves.iter().map(|wave| wave.mean.clone()).collect(),
-            harmonics: (0..degree).map(|k| [part(k, 0), part(k, 1)]).collect(),
-        };
-        Some(ProposedTrial { states, error, forcing: component(&forcing, 0, 1.0, size * self.sigma) })
+        let samples: Vec<Vec<f64>> = (0..points).map(sample).collect();
+        let sizes = field.units().iter().map(|unit| unit * size).chain([size, size * self.sigma]).collect();
+        FloatTrial { series: FloatSeries::from_samples(&samples, harmonics), sizes }
     }
 }
 
@@ -269,21 +254,4 @@ impl TrialLoop<'_> {
 fn is_resolved(series: &FloatSeries, size: f64) -> bool {
     let mut last = series.harmonics.iter().skip(series.harmonics.len() * 3 / 4).flatten().flatten();
     last.all(|part| part.abs() <= size)
-}
-
-/// A component times a unit, rounded to the largest power of ten that is at most [`GRAIN`] of a size; without the last harmonics that are 0 then.
-fn component(series: &FloatSeries, i: usize, unit: f64, size: f64) -> Wave {
-    let places = if size > 0.0 { -libm::log10(size * unit * GRAIN).floor() } else { 0.0 };
-    let power = Rational::from(Integer::from(Integer::u_pow_u(10, places.abs().min(330.0) as u32)));
-    let power = if places >= 0.0 { power } else { power.recip() };
-    let short = |value: f64| {
-        let exact = Rational::from_f64(value * unit);
-        exact.map_or_else(Rational::new, |value| Rational::from(&value * &power).round() / &power)
-    };
-    let pair = |[a, b]: &[Vec<f64>; 2]| [short(a[i]), short(b[i])];
-    let mut harmonics: Vec<[Rational; 2]> = series.harmonics.iter().map(pair).collect();
-    while harmonics.last().is_some_and(|[cos, sin]| *cos == 0 && *sin == 0) {
-        harmonics.pop();
-    }
-    Wave { mean: short(series.mean[i]), harmonics }
 }

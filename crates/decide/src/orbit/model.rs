@@ -1,0 +1,351 @@
+//! Polynomials with a rest (Taylor models): functions of the time and of parameters on a box, for what all but cancels there, such as the defect of a
+//! trial of a family (derivation, 14.4). Mean values in the parameters would need far smaller boxes.
+//!
+//! The variables are x_0, x_1, ..., each from -1 to 1. A [`Model`] is a polynomial in them of a degree that is the same for all and a number that the
+//! function is from it at most; what a product has beyond that degree goes there.
+
+use super::taylor::{Taylor, TaylorAlgebra};
+use rug::Rational;
+use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_lang::expr::{Binary, Operations, PlantVariable, Unary, enclosed_step};
+use std::collections::HashMap;
+
+/// Bits of the enclosures.
+pub(crate) const PRECISION: u32 = 96;
+
+/// A function on the box.
+///
+/// Guarantee of [`Models`]: where the models of the variables are those of smooth functions and the rest of the result is bounded, the formula is smooth at
+/// every point of the box and its value is, with some number in each coefficient, the polynomial up to the rest.
+#[derive(Clone, Debug)]
+pub(crate) struct Model {
+    /// Of the monomials in the order of [`Space`]; those that are left out are 0.
+    coefficients: Vec<Enclosure>,
+    /// How far the function is from the polynomial at most.
+    rest: Enclosure,
+}
+
+/// All monomials up to a degree.
+#[derive(Debug)]
+pub(crate) struct Space {
+    degree: usize,
+    /// By rising degree, that of 1 first.
+    monomials: Vec<Vec<u8>>,
+    /// Where each of them stands.
+    places: HashMap<Vec<u8>, usize>,
+    /// For each i the pairs (j, k) with `monomial i * monomial j = monomial k`.
+    products: Vec<Vec<(usize, usize)>>,
+}
+
+fn zero() -> Enclosure {
+    Enclosure::zero(PRECISION)
+}
+
+fn is_nothing(value: &Enclosure) -> bool {
+    value.is_exact() && value.contains_zero()
+}
+
+fn degree_of(powers: &[u8]) -> usize {
+    powers.iter().map(|power| usize::from(*power)).sum()
+}
+
+impl Space {
+    /// Of so many variables, at least one.
+    pub(crate) fn new(variables: usize, degree: usize) -> Space {
+        let mut monomials: Vec<Vec<u8>> = vec![Vec::new()];
+        for _ in 0..variables {
+            let longer = |powers: &Vec<u8>| {
+                let left = degree - degree_of(powers);
+                (0..=left).map(|power| powers.iter().copied().chain([power as u8]).collect()).collect::<Vec<_>>()
+            };
+            monomials = monomials.iter().flat_map(longer).collect();
+        }
+        monomials.sort_by_key(|powers| degree_of(powers));
+        let places: HashMap<Vec<u8>, usize> = monomials.iter().cloned().zip(0..).collect();
+        let products = monomials.iter().map(|own| {
+            let times = |(j, other): (usize, &Vec<u8>)| {
+                let sum: Vec<u8> = own.iter().zip(other).map(|(a, b)| a + b).collect();
+                Some((j, *places.get(&sum)?))
+            };
+            monomials.iter().enumerate().filter_map(times).collect()
+        });
+        let products = products.collect();
+        Space { degree, monomials, places, products }
+    }
+
+    /// That up to which polynomials go.
+    pub(crate) fn degree(&self) -> usize {
+        self.degree
+    }
+
+    /// A number.
+    pub(crate) fn constant(&self, value: Enclosure) -> Model {
+        Model { coefficients: vec![value], rest: zero() }
+    }
+
+    /// `middle + reach x_i`.
+    pub(crate) fn variable(&self, i: usize, middle: Enclosure, reach: Enclosure) -> Model {
+        let mut powers = vec![0; self.monomials.first().map_or(0, Vec::len)];
+        let mut model = self.constant(middle);
+        if let Some(power) = powers.get_mut(i) {
+            *power = 1;
+        }
+        match self.places.get(&powers).copied() {
+            Some(place) => {
+                model.coefficients.resize(place + 1, zero());
+                model.coefficients[place] = reach;
+            }
+            // Of degree 0.
+            None => model.rest = reach.abs(),
+        }
+        model
+    }
+
+    /// `sum_j values_j x_0^j`, up to the rest.
+    pub(crate) fn in_time(&self, values: &[Enclosure], rest: Enclosure) -> Model {
+        let mut model = Model { coefficients: Vec::new(), rest };
+        for (place, powers) in self.monomials.iter().enumerate() {
+            let alone = powers.iter().skip(1).all(|power| *power == 0);
+            if let Some(value) = powers.first().filter(|_| alone).and_then(|power| values.get(usize::from(*power))) {
+                model.coefficients.resize(place + 1, zero());
+                model.coefficients[place] = value.clone();
+            }
+        }
+        model
+    }
+
+    /// What the coefficients of each degree are at most.
+    fn by_degree(&self, model: &Model) -> Vec<Enclosure> {
+        let mut sums = vec![zero(); self.degree + 1];
+        for (value, powers) in model.coefficients.iter().zip(&self.monomials) {
+            let degree = degree_of(powers);
+            sums[degree] = &sums[degree] + value.abs();
+        }
+        sums
+    }
+
+    /// Of |model| on the box.
+    pub(crate) fn bound(&self, model: &Model) -> Enclosure {
+        model.coefficients.iter().fold(model.rest.clone(), |sum, value| sum + value.abs())
+    }
+
+    pub(crate) fn sum(&self, a: &Model, b: &Model) -> Model {
+        let count = a.coefficients.len().max(b.coefficients.len());
+        let entry = |i: usize| match (a.coefficients.get(i), b.coefficients.get(i)) {
+            (Some(a), Some(b)) => a + b,
+            (Some(one), None) | (None, Some(one)) => one.clone(),
+            (None, None) => zero(),
+        };
+        Model { coefficients: (0..count).map(entry).collect(), rest: &a.rest + &b.rest }
+    }
+
+    pub(crate) fn scaled(&self, a: &Model, factor: &Enclosure) -> Model {
+        let coefficients = a.coefficients.iter().map(|value| value * factor).collect();
+        Model { coefficients, rest: &a.rest * factor.abs() }
+    }
+
+    pub(crate) fn product(&self, a: &Model, b: &Model) -> Model {
+        let (of_a, of_b) = (self.by_degree(a), self.by_degree(b));
+        let all = |sums: &[Enclosure]| sums.iter().fold(zero(), |sum, value| sum + value);
+        let mut rest = &a.rest * (all(&of_b) + &b.rest) + &b.rest * all(&of_a);
+        for (i, a) in of_a.iter().enumerate() {
+            for b in of_b.iter().skip(self.degree + 1 - i) {
+                rest = rest + a * b;
+            }
+        }
+        let is_there: Vec<bool> = b.coefficients.iter().map(|value| !is_nothing(value)).collect();
+        let mut coefficients: Vec<Enclosure> = Vec::new();
+        for (value, products) in a.coefficients.iter().zip(&self.products).filter(|(value, _)| !is_nothing(value)) {
+            for (j, k) in products {
+                if is_there.get(*j) == Some(&true) {
+                    if coefficients.len() <= *k {
+                        coefficients.resize(*k + 1, zero());
+                    }
+                    coefficients[*k] = &coefficients[*k] + value * &b.coefficients[*j];
+                }
+            }
+        }
+        Model { coefficients, rest }
+    }
+
+    /// A function of one number of a model, from its series at numbers: by Taylor's formula about the value in the middle of the box, with Lagrange's
+    /// form of the rest.
+    fn composed(&self, a: &Model, series: impl Fn(&Taylor, usize) -> Taylor) -> Model {
+        let (middle, apart) = self.about_middle(a);
+        let reach = self.bound(&apart);
+        let at = |value: Enclosure, order: usize| series(&vec![value, Enclosure::one(PRECISION)], order);
+        let about = at(middle.clone(), self.degree);
+        let over = at(&middle + reach.negate().hull(&reach), self.degree + 1);
+        let smooth = over.iter().chain(&about).all(Enclosure::is_defined);
+        let mut result = Model { coefficients: Vec::new(), rest: zero() };
+        for value in about.iter().rev() {
+            result = self.sum(&self.product(&result, &apart), &self.constant(value.clone()));
+        }
+        let last = match (smooth, over.get(self.degree + 1)) {
+            (false, _) => Enclosure::undefined(PRECISION),
+            (true, None) => zero(),
+            (true, Some(last)) => (0..=self.degree).fold(last.abs(), |rest, _| rest * &reach),
+        };
+        result.rest = result.rest + last;
+        result
+    }
+
+    /// Where the values of a model are: the one in the middle of the box, and how far the others are from it.
+    fn about_middle(&self, a: &Model) -> (Enclosure, Model) {
+        let mut apart = a.clone();
+        let middle = apart.coefficients.first_mut().map(|first| std::mem::replace(first, zero()));
+        (middle.unwrap_or_else(zero), apart)
+    }
+
+    fn range(&self, a: &Model) -> Enclosure {
+        let (middle, apart) = self.about_middle(a);
+        let reach = self.bound(&apart);
+        middle + reach.negate().hull(&reach)
+    }
+
+    /// The model on the half of the box where x_i is below 0, or above.
+    fn half(&self, a: &Model, i: usize, above: bool) -> Model {
+        // x = (y - 1)/2 or (y + 1)/2, by the binomials, a power of two at a time.
+        let mut result = Model { coefficients: vec![zero(); a.coefficients.len()], rest: a.rest.clone() };
+        for (value, powers) in a.coefficients.iter().zip(&self.monomials).filter(|(value, _)| !is_nothing(value)) {
+            let power = powers.get(i).copied().unwrap_or(0);
+            let scaled = value / Enclosure::from_rational(&(Rational::from(1) << u32::from(power)), PRECISION);
+            let mut binomial = Rational::from(1);
+            let mut own = powers.clone();
+            for left in (0..=power).rev() {
+                if let Some(entry) = own.get_mut(i) {
+                    *entry = left;
+                }
+                let Some(place) = self.places.get(&own).copied() else { continue };
+                let sign = if above || (power - left) % 2 == 0 { 1 } else { -1 };
+                let factor = Enclosure::from_rational(&(Rational::from(&binomial) * sign), PRECISION);
+                result.coefficients[place] = &result.coefficients[place] + &scaled * factor;
+                // The next binomial coefficient.
+                binomial = binomial * u32::from(left) / u32::from(power - left + 1);
+            }
+        }
+        result
+    }
+
+    /// An upper bound of |model| on the box, by halves of it while it is not at most `enough` and they help, up to so many times.
+    pub(crate) fn largest(&self, model: &Model, enough: f64, times: u32) -> Enclosure {
+        let bound = self.bound(model);
+        if times == 0 || bound.upper_f64() <= enough || model.rest.upper_f64() > enough {
+            return bound;
+        }
+        let variables = self.monomials.first().map_or(0, Vec::len);
+        let weight = |i: usize| {
+            let with = model.coefficients.iter().zip(&self.monomials).filter(|(_, powers)| powers[i] > 0);
+            with.map(|(value, _)| value.abs().upper_f64()).sum::<f64>()
+        };
+        let Some(widest) = (0..variables).max_by(|i, j| weight(*i).total_cmp(&weight(*j))) else { return bound };
+        let halves = [false, true].map(|above| self.largest(&self.half(model, widest, above), enough, times - 1));
+        halves[0].max(&halves[1]).min(&bound)
+    }
+}
+
+/// The algebra of models.
+pub(crate) struct Models<'a> {
+    /// The monomials.
+    pub(crate) space: &'a Space,
+    /// t.
+    pub(crate) time: Model,
+    /// The states.
+    pub(crate) states: Vec<Model>,
+    /// e.
+    pub(crate) error: Model,
+    /// The parameters of which intervals are known.
+    pub(crate) parameters: Vec<Model>,
+}
+
+impl Models<'_> {
+    fn undefined(&self) -> Model {
+        Model { coefficients: Vec::new(), rest: Enclosure::undefined(PRECISION) }
+    }
+
+    fn by_series(&self, a: &Model, of: impl Fn(&mut TaylorAlgebra<'_>, &Taylor) -> Taylor) -> Model {
+        self.space.composed(a, |series, order| {
+            let time = Taylor::new();
+            let mut algebra = TaylorAlgebra { time: &time, states: &[], parameters: &[], order, precision: PRECISION };
+            of(&mut algebra, series)
+        })
+    }
+}
+
+impl Operations for Models<'_> {
+    type Value = Model;
+
+    fn number(&mut self, value: &Rational) -> Model {
+        self.space.constant(Enclosure::from_rational(value, PRECISION))
+    }
+
+    fn pi(&mut self) -> Model {
+        self.space.constant(Enclosure::pi(PRECISION))
+    }
+
+    fn variable(&mut self, variable: PlantVariable) -> Model {
+        let known = match variable {
+            PlantVariable::Time => Some(&self.time),
+            PlantVariable::Error => Some(&self.error),
+            PlantVariable::State(index) => self.states.get(index),
+            PlantVariable::Parameter(index) => self.parameters.get(index),
+        };
+        known.cloned().unwrap_or_else(|| self.undefined())
+    }
+
+    fn unary(&mut self, operation: Unary, a: &Model) -> Model {
+        match operation {
+            Unary::Neg => self.space.scaled(a, &Enclosure::from_integer(-1, PRECISION)),
+            Unary::Abs => {
+                let range = self.space.range(a);
+                if range.is_positive().is_true() {
+                    a.clone()
+                } else if range.negate().is_positive().is_true() {
+                    self.space.scaled(a, &Enclosure::from_integer(-1, PRECISION))
+                } else {
+                    self.undefined()
+                }
+            }
+            _ => self.by_series(a, |algebra, series| algebra.unary(operation, series)),
+        }
+    }
+
+    fn binary(&mut self, operation: Binary, a: &Model, b: &Model) -> Model {
+        let minus = |b: &Model| self.space.scaled(b, &Enclosure::from_integer(-1, PRECISION));
+        match operation {
+            Binary::Add => self.space.sum(a, b),
+            Binary::Sub => self.space.sum(a, &minus(b)),
+            Binary::Mul => self.space.product(a, b),
+            Binary::Div => {
+                let over = self.by_series(b, |algebra, series| algebra.power(series, -1));
+                self.space.product(a, &over)
+            }
+            Binary::Pow => {
+                // Smooth where the base is positive: where it is not, the logarithm is undefined.
+                let logarithm = self.by_series(a, |algebra, series| algebra.unary(Unary::Log, series));
+                let exponent = self.space.product(b, &logarithm);
+                self.by_series(&exponent, |algebra, series| algebra.unary(Unary::Exp, series))
+            }
+            Binary::Min | Binary::Max => {
+                let apart = self.space.range(&self.space.sum(a, &minus(b)));
+                // What is not chosen must exist as well.
+                let defined = a.rest.is_defined() && b.rest.is_defined();
+                let (above, below) = (apart.is_positive().is_true(), apart.negate().is_positive().is_true());
+                match (defined && (above || below), above == (operation == Binary::Max)) {
+                    (false, _) => self.undefined(),
+                    (true, true) => a.clone(),
+                    (true, false) => b.clone(),
+                }
+            }
+        }
+    }
+
+    fn power(&mut self, base: &Model, exponent: i32) -> Model {
+        self.by_series(base, |algebra, series| algebra.power(series, exponent))
+    }
+
+    /// A constant where it is known.
+    fn step(&mut self, a: &Model) -> Model {
+        self.space.constant(enclosed_step(&self.space.range(a)))
+    }
+}

@@ -1,0 +1,65 @@
+//! Trials in short rationals.
+
+use super::{FloatTrial, TrialLoop};
+use crate::orbit::FloatSeries;
+use rug::{Integer, Rational};
+use sigmastar_lang::plant::CurveTerm;
+use sigmastar_lang::spec::{TrigonometricVector, Wave};
+
+/// Coefficients that are smaller than this share of the size of a solution are left out, and others rounded to it.
+const GRAIN: f64 = 1e-16;
+
+impl TrialLoop<'_> {
+    /// The term with these powers, whose product is at most `scale` for all members: ehat has neither a mean nor harmonics up to N, and uhat is what the
+    /// regulator answers it with beyond them.
+    #[must_use]
+    pub fn term(&self, trial: &FloatTrial, powers: Vec<u32>, scale: f64) -> CurveTerm {
+        let FloatTrial { series, sizes } = trial;
+        let n = sizes.len() - 2;
+        let own = |series: &FloatSeries, i: usize| component(series, i, sizes[i] / scale);
+        let mut error = own(series, n);
+        error.mean = Rational::new();
+        for pair in error.harmonics.iter_mut().take(self.oscillators()) {
+            *pair = Default::default();
+        }
+        if self.or_more {
+            error.harmonics.clear();
+        }
+        // (re + i im)(a - i b) = (a re + b im) - i (b re - a im).
+        let period = self.plant.period.nominal().to_f64();
+        let mut answered = series.clone();
+        for (k, pair) in answered.harmonics.iter_mut().enumerate().skip(self.oscillators()) {
+            let [a, b] = error.harmonics.get(k).map_or([0.0; 2], |pair| pair.each_ref().map(Rational::to_f64));
+            let [re, im] = self.answer(k + 1, period);
+            (pair[0][n + 1], pair[1][n + 1]) = (-(a * re + b * im), a * im - b * re);
+        }
+        let waves: Vec<Wave> = (0..n).map(|i| own(series, i)).collect();
+        let degree = waves.iter().map(|wave| wave.harmonics.len()).max().unwrap_or(0);
+        let part = |k: usize, which: usize| {
+            let of = |wave: &Wave| wave.harmonics.get(k).map_or_else(Rational::new, |pair| pair[which].clone());
+            waves.iter().map(of).collect()
+        };
+        let states = TrigonometricVector {
+            mean: waves.iter().map(|wave| wave.mean.clone()).collect(),
+            harmonics: (0..degree).map(|k| [part(k, 0), part(k, 1)]).collect(),
+        };
+        CurveTerm { powers, states, error, control: own(&answered, n + 1) }
+    }
+}
+
+/// A component, rounded to the largest power of ten that is at most [`GRAIN`] of a size; without the last harmonics that are 0 then.
+fn component(series: &FloatSeries, i: usize, size: f64) -> Wave {
+    let places = if size > 0.0 { -libm::log10(size * GRAIN).floor() } else { 0.0 };
+    let power = Rational::from(Integer::from(Integer::u_pow_u(10, places.abs().min(330.0) as u32)));
+    let power = if places >= 0.0 { power } else { power.recip() };
+    let short = |value: f64| {
+        let exact = Rational::from_f64(value);
+        exact.map_or_else(Rational::new, |value| Rational::from(&value * &power).round() / &power)
+    };
+    let pair = |[a, b]: &[Vec<f64>; 2]| [short(a[i]), short(b[i])];
+    let mut harmonics: Vec<[Rational; 2]> = series.harmonics.iter().map(pair).collect();
+    while harmonics.last().is_some_and(|[cos, sin]| *cos == 0 && *sin == 0) {
+        harmonics.pop();
+    }
+    Wave { mean: short(series.mean[i]), harmonics }
+}
