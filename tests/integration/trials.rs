@@ -7,11 +7,9 @@ use sigmastar_decide::bounds::{Engine, Region, StatesForm};
 use sigmastar_decide::linear::{Loop, PRECISION, Start};
 use sigmastar_decide::trial::{Concluded, Known, OrMore, Peaks, Trial, TubeProof};
 use sigmastar_exact::enclosure::{Enclosure, Truth};
-use sigmastar_lang::plant::Plant;
-use sigmastar_lang::spec::{Document, Level, Metric, TrigonometricVector};
-use sigmastar_propose::orbit::FloatSeries;
-use sigmastar_propose::trial::{ProposedTrial, TrialLoop};
-use sigmastar_theory::evidence::Coordinates;
+use sigmastar_lang::plant::{CurveTerm, Plant};
+use sigmastar_lang::spec::{Document, Interval, Level, Metric, OrbitCurve, TrigonometricVector};
+use sigmastar_propose::trial::{Members, TrialLoop};
 use std::f64::consts::PI;
 
 const WEIGHTS: [f64; 2] = [2.0, 1.5];
@@ -58,15 +56,21 @@ fn right_side(sigma: f64, n: usize, t: f64, y: &[f64]) -> (Vec<f64>, f64) {
     (slopes, u)
 }
 
-/// The largest |e| and |u| over all times, and over the last of so many periods, with the root mean square of e there.
-fn simulated(sigma: f64, n: usize, [x, e]: [f64; 2], periods: usize) -> [f64; 5] {
+/// The largest |e| and |u| over all times, and over the last of so many periods, with the root mean square of e there; of the member of the family with
+/// the coefficient `of_x` of v in q, and the gain of the actuator `gain`.
+fn simulated(sigma: f64, n: usize, [of_x, gain]: [f64; 2], [x, e]: [f64; 2], periods: usize) -> [f64; 5] {
+    let slopes = |t: f64, y: &[f64]| {
+        let (mut slopes, u) = right_side(sigma, n, t, y);
+        slopes[1] += (of_x - 0.5) * y[0] + (gain - 1.0) * u;
+        (slopes, u)
+    };
     let (steps, mut y) = (2000, vec![x, e]);
     y.extend((0..=2 * n).map(|i| if i == 0 || i % 2 == 1 { e } else { 0.0 }));
     let h = 2.0 / steps as f64;
     let mut found = [0.0_f64; 5];
     for step in 0..steps * periods {
         let t = step as f64 * h;
-        let (k_1, u) = right_side(sigma, n, t, &y);
+        let (k_1, u) = slopes(t, &y);
         found[0] = found[0].max(y[1].abs());
         found[1] = found[1].max(u.abs());
         if step >= steps * (periods - 1) {
@@ -75,9 +79,9 @@ fn simulated(sigma: f64, n: usize, [x, e]: [f64; 2], periods: usize) -> [f64; 5]
             found[4] += y[1] * y[1] / steps as f64;
         }
         let moved = |k: &[f64], by: f64| y.iter().zip(k).map(|(y, k)| y + by * k).collect::<Vec<f64>>();
-        let k_2 = right_side(sigma, n, t + h / 2.0, &moved(&k_1, h / 2.0)).0;
-        let k_3 = right_side(sigma, n, t + h / 2.0, &moved(&k_2, h / 2.0)).0;
-        let k_4 = right_side(sigma, n, t + h, &moved(&k_3, h)).0;
+        let k_2 = slopes(t + h / 2.0, &moved(&k_1, h / 2.0)).0;
+        let k_3 = slopes(t + h / 2.0, &moved(&k_2, h / 2.0)).0;
+        let k_4 = slopes(t + h, &moved(&k_3, h)).0;
         for (i, y) in y.iter_mut().enumerate() {
             *y += h / 6.0 * (k_1[i] + 2.0 * k_2[i] + 2.0 * k_3[i] + k_4[i]);
         }
@@ -110,7 +114,8 @@ fn simulations_meet_the_bounds_and_do_not_exceed_them() {
         for start in [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]] {
             // The more oscillators, the longer they take.
             let periods = if n > 3 { 1500 } else { 200 };
-            let [e, u, steady, steady_u, rms] = simulated(sigma, n, [at_0 + start[0] * x_0, start[1] * 0.5], periods);
+            let [e, u, steady, steady_u, rms] =
+                simulated(sigma, n, [0.5, 1.0], [at_0 + start[0] * x_0, start[1] * 0.5], periods);
             assert!(e <= bound("largest", "e") && u <= bound("largest", "u"), "{n}: {e} {u} {entry}");
             let meets =
                 |value: f64, bound: f64| value <= bound * (1.0 + 1e-6) + 1e-9 && bound <= value * (1.0 + 1e-5) + 1e-5;
@@ -147,14 +152,28 @@ fn rational(a: i32, b: i32) -> Rational {
     Rational::from((a, b))
 }
 
+/// The trial for one oscillator at sigma = 3.
+fn trial_of(plant: &Plant, orbit: &OrbitCurve, gain: Option<Interval>) -> Trial {
+    let members = Members { plant, orbit, gain: gain.as_ref() };
+    let weights = vec![weight(0), weight(1)];
+    let terms = members.propose(|plant, gain| TrialLoop {
+        plant,
+        gain,
+        sigma: 3.0,
+        mu: MU,
+        weights: weights.clone(),
+        resolved: if plant.is_family() { 1e-6 } else { 1e-15 },
+        or_more: false,
+    });
+    let parameters = plant.parameters.intervals().cloned().collect();
+    Trial { n_o: 1, or_more: false, terms: terms.unwrap(), parameters, gain }
+}
+
 fn case() -> Case {
     let plant = plant();
-    let program = TrialLoop { plant: &plant, sigma: 3.0, mu: MU, weights: vec![weight(0), weight(1)], or_more: false };
-    let zero = FloatSeries { mean: vec![0.0], harmonics: Vec::new() };
-    let ProposedTrial { states, error, forcing } = program.propose(&zero).unwrap();
-    let trial = Trial { n_o: 1, or_more: false, states, error, forcing };
+    let trial = trial_of(&plant, &orbit(), None);
     let identity = vec![vec![Rational::from(1)]];
-    let lines = trial.error.harmonics.len();
+    let lines = trial.terms[0].error.harmonics.len();
     let own = Loop::new(&Rational::from(3), &plant.internal_model, lines, None, identity).with_oscillators(1);
     let metric = Metric {
         matrix: vec![vec![rational(1, 2)]],
@@ -185,8 +204,8 @@ fn case() -> Case {
     Case { trial, proof, own, period: Enclosure::from_integer(2, PRECISION) }
 }
 
-fn orbit() -> TrigonometricVector {
-    TrigonometricVector::constant(vec![Rational::new()])
+fn orbit() -> OrbitCurve {
+    TrigonometricVector::constant(vec![Rational::new()]).into()
 }
 
 #[test]
@@ -194,28 +213,28 @@ fn what_is_broken_proves_nothing() {
     let plant = plant();
     let Case { trial, proof, own, period } = case();
     let identity = vec![vec![Rational::from(1)]];
-    let none = sigmastar_lang::spec::PeriodicMatrix { mean: identity.clone(), harmonics: Vec::new() };
-    let coordinates = Coordinates { l: identity.clone(), p: none };
     // The defects of the trial are small; off by a thousandth they are not.
     let small = |trial: &Trial| {
-        let [of_x, of_q, _] = trial.defects(&plant, &coordinates, [1e-12; 3]).unwrap();
+        let [of_x, of_q, _] = trial.defects(&plant, &identity, [1e-12; 3]).unwrap();
         (of_x.upper_f64().max(of_q.upper_f64()), trial.mismatch(&own).upper_f64())
     };
     let (of_formulas, of_loop) = small(&trial);
     assert!(of_formulas < 1e-10 && of_loop < 1e-10, "{of_formulas} {of_loop}");
     let mut off = trial.clone();
-    off.states.harmonics[0][0][0] += rational(1, 1000);
+    off.terms[0].states.harmonics[0][0][0] += rational(1, 1000);
     assert!(small(&off).0 > 1e-3);
     let mut off = trial.clone();
-    off.error.harmonics[1][0] += rational(1, 1000);
+    off.terms[0].error.harmonics[1][0] += rational(1, 1000);
     assert!(small(&off).1 > 1e-3);
+    let mut off = trial.clone();
+    off.terms[0].control.harmonics[0][1] += rational(1, 1000);
+    assert!(small(&off).0 > 0.99e-3);
     // y_k of another number of oscillators.
     assert!(small(&Trial { n_o: 0, ..trial.clone() }).1 > 1e-3);
 
     // Both inequalities, and what nearly is one.
-    let moved = plant.with_error_moved(&trial.error);
-    let region = Region::new(identity, trial.states.clone(), Rational::new()).unwrap();
-    let engine = Engine::new(&moved, region, None, None).unwrap();
+    let region = Region::new(identity, trial.centre(), Rational::new()).unwrap();
+    let engine = Engine::new(&trial.about(&plant), region, None, None).unwrap();
     let (sigma, at) = (Rational::from(3), [&proof.radii[0], &proof.radii[1]]);
     let (metric, level) = &proof.forms[0];
     let truth = |metric: &Metric, level: &Level| engine.decide_form((metric, level), &sigma, at, 2000).truth;
@@ -257,10 +276,10 @@ fn what_is_broken_proves_nothing() {
     };
     assert!(touching(0) && touching(1));
     let mut met = trial.clone();
-    met.error.harmonics[0][1] = rational(1, 1_000_000);
+    met.terms[0].error.harmonics[0][1] = rational(1, 1_000_000);
     assert!(Concluded::of(&met, &proof, &known).is_none());
     met = trial.clone();
-    met.error.mean = rational(1, 1_000_000);
+    met.terms[0].error.mean = rational(1, 1_000_000);
     assert!(Concluded::of(&met, &proof, &known).is_none());
     assert!(Concluded::of(&trial, &TubeProof { forms: Vec::new(), ..proof.clone() }, &known).is_none());
 
@@ -280,8 +299,8 @@ fn what_is_broken_proves_nothing() {
 fn every_number_that_more_oscillators_need_counts() {
     let Case { trial, proof, own, period } = case();
     let mut trial = Trial { or_more: true, ..trial };
-    trial.error = sigmastar_lang::spec::Wave { mean: Rational::new(), harmonics: Vec::new() };
-    trial.forcing.harmonics.truncate(1);
+    trial.terms[0].error = sigmastar_lang::spec::Wave { mean: Rational::new(), harmonics: Vec::new() };
+    trial.terms[0].control.harmonics.truncate(1);
     let more = OrMore {
         defect_t: rational(1, 10_000_000),
         in_time: [rational(1, 10), rational(1, 5)],
@@ -329,14 +348,15 @@ fn every_number_that_more_oscillators_need_counts() {
         assert!(with(&trial, &proof, &kappas).unwrap().zeta.lower_f64() > found.zeta.upper_f64());
     }
 
-    // Such a trial has no error, qhat no harmonics that not all of them meet, and what it needs is there.
+    // Such a trial has no error, uhat no harmonics that not all of them meet, and what it needs is there.
     assert!(with(&trial, &TubeProof { or_more: None, ..proof.clone() }, &kappas).is_none());
     assert!(with(&Trial { or_more: false, ..trial.clone() }, &proof, &kappas).is_none());
     let mut with_error = trial.clone();
-    with_error.error.harmonics = vec![[0, 0].map(Rational::from), [rational(1, 1_000_000_000), Rational::new()]];
+    with_error.terms[0].error.harmonics =
+        vec![[0, 0].map(Rational::from), [rational(1, 1_000_000_000), Rational::new()]];
     assert!(with(&with_error, &proof, &kappas).is_none());
     let mut beyond = trial.clone();
-    beyond.forcing.harmonics.push([Rational::new(), rational(1, 1_000_000_000)]);
+    beyond.terms[0].control.harmonics.push([Rational::new(), rational(1, 1_000_000_000)]);
     assert!(with(&beyond, &proof, &kappas).is_none());
 }
 
@@ -345,8 +365,8 @@ fn along_x_first_both_inequalities_are_asked_for() {
     let plant = plant();
     let Case { trial, proof, .. } = case();
     let identity = vec![vec![Rational::from(1)]];
-    let region = Region::new(identity, trial.states.clone(), Rational::new()).unwrap();
-    let engine = Engine::new(&plant.with_error_moved(&trial.error), region, None, None).unwrap();
+    let region = Region::new(identity, trial.centre(), Rational::new()).unwrap();
+    let engine = Engine::new(&trial.about(&plant), region, None, None).unwrap();
     let (metric, level) = &proof.forms[0];
     // J and r at ehat: -(P J + J'P) - c_x is 1.9 or more, r = 1/2; g = 1, d between -1 and -1/2 or so.
     let s = vec![vec![rational(3, 2), rational(-1, 10)], vec![rational(-1, 10), rational(2, 5)]];
@@ -443,5 +463,179 @@ fn simulations_of_the_papers_plant_do_not_exceed_the_bounds() {
             assert!(n > 3 || steady <= known * (1.0 + 1e-6) + 1e-9, "{n} {j}: {steady} {entry}");
         }
         assert!(most_e < 1.4, "{entry}");
+    }
+}
+
+/// The plant of one state with a coefficient between 0.4 and 0.6 and a gain of the actuator between 0.9 and 1.1.
+fn family() -> Value {
+    let mut document = document();
+    document["q"] = "a*v - atan(e) + sin(phase) + sin(2*phase)/2".into();
+    document["parameters"] = json!({ "a": { "nominal": "1/2", "low": "2/5", "high": "3/5" } });
+    document["input_gain"] = json!({ "nominal": 1, "low": "9/10", "high": "11/10" });
+    document
+}
+
+fn family_case() -> (Plant, Trial, Loop) {
+    let plant = Plant::from_value(&Document::parse("family", &family().to_string()).unwrap().root()).unwrap();
+    let gain = Interval { nominal: Rational::from(1), low: rational(9, 10), high: rational(11, 10) };
+    let still = TrigonometricVector::constant(vec![Rational::new()]);
+    let orbit = OrbitCurve { centre: still.clone(), sensitivities: vec![still] };
+    let trial = trial_of(&plant, &orbit, Some(gain));
+    let ends = [rational(9, 10), rational(11, 10)].map(|end| Enclosure::from_rational(&end, PRECISION));
+    let lines = trial.terms.iter().map(|term| term.error.harmonics.len()).max().unwrap();
+    let identity = vec![vec![Rational::from(1)]];
+    let own = Loop::new(&Rational::from(3), &plant.internal_model, lines, Some(ends), identity).with_oscillators(1);
+    (plant, trial, own)
+}
+
+#[test]
+fn the_defects_of_a_family_are_those_of_its_worst_member() {
+    let (plant, trial, own) = family_case();
+    let identity = vec![vec![Rational::from(1)]];
+    let of = |trial: &Trial| {
+        let [of_x, of_q, _] = trial.defects(&plant, &identity, [1e-7, 1e-4, 1.0]).unwrap();
+        of_x.upper_f64().max(of_q.upper_f64())
+    };
+    let all = of(&trial);
+    assert!(all < 2e-4 && trial.mismatch(&own).upper_f64() < 1e-10, "{all}");
+    // Each member has at most that; a corner has it nearly.
+    let curve = |term: &dyn Fn(&CurveTerm) -> sigmastar_lang::spec::Wave, by: [f64; 2], t: f64| {
+        let wave_at = |wave: &sigmastar_lang::spec::Wave| {
+            let (mut value, mut slope) = (wave.mean.to_f64(), 0.0);
+            for (k, [a, b]) in (1..).zip(&wave.harmonics) {
+                let (frequency, [a, b]) = (OMEGA * f64::from(k), [a.to_f64(), b.to_f64()]);
+                let (sin, cos) = (frequency * t).sin_cos();
+                value += a * cos + b * sin;
+                slope += frequency * (b * cos - a * sin);
+            }
+            [value, slope]
+        };
+        trial.terms.iter().fold([0.0; 2], |[value, slope], own| {
+            let scale = by[0].powi(own.powers[0] as i32) * by[1].powi(own.powers[1] as i32);
+            let [more, more_slope] = wave_at(&term(own));
+            [value + scale * more, slope + scale * more_slope]
+        })
+    };
+    let mut largest = 0.0_f64;
+    for i in -4..=4 {
+        for j in -4..=4 {
+            let by = [f64::from(i) / 40.0, f64::from(j) / 40.0];
+            for step in 0..100 {
+                let t = f64::from(step) / 50.0;
+                let [[x, x_slope], [e, e_slope], [u, _]] = [
+                    curve(&|term| term.state(0), by, t),
+                    curve(&|term| term.error.clone(), by, t),
+                    curve(&|term| term.control.clone(), by, t),
+                ];
+                let phase = OMEGA * t;
+                let of_x = -2.0 * x - x.powi(3) / 3.0 + e + phase.cos() - x_slope;
+                let q = (0.5 + by[0]) * x - e.atan() + phase.sin() + (2.0 * phase).sin() / 2.0;
+                let of_q = q + (1.0 + by[1]) * u - e_slope;
+                largest = largest.max(of_x.abs()).max(of_q.abs());
+            }
+        }
+    }
+    assert!(largest <= all && all < 4.0 * largest + 1e-7, "{largest} {all}");
+    // Without the members, without the gain in a term, or with one that is off.
+    let alone = Trial { terms: trial.terms[..1].to_vec(), ..trial.clone() };
+    assert!(of(&alone) > 1e-2);
+    for (which, left_out) in [("gain", [0, 1]), ("parameter", [1, 0])] {
+        let terms = trial.terms.iter().filter(|term| term.powers != left_out).cloned().collect();
+        assert!(of(&Trial { terms, ..trial.clone() }) > 1e-3, "{which}");
+    }
+    let mut off = trial.clone();
+    let term = off.terms.iter_mut().find(|term| term.powers == [1, 0]).unwrap();
+    term.control.mean += rational(1, 100);
+    assert!(of(&off) > 0.9e-3);
+    // Powers of another length are of another family, and a mean of one term is one.
+    let (orbit, radius) = (orbit(), Rational::new());
+    let period = Enclosure::from_integer(2, PRECISION);
+    let kappas = [2, 3].map(|value| Enclosure::from_integer(value, PRECISION));
+    let known = Known { own: &own, period: &period, orbit: &orbit, radius: &radius, kappas: &kappas };
+    let proof = case().proof;
+    assert!(Concluded::of(&trial, &proof, &known).is_some());
+    let mut broken = trial.clone();
+    broken.terms[1].powers.push(0);
+    assert!(Concluded::of(&broken, &proof, &known).is_none());
+    let mut broken = trial.clone();
+    broken.terms[2].error.mean += 1;
+    assert!(Concluded::of(&broken, &proof, &known).is_none());
+}
+
+#[test]
+fn the_gain_of_the_actuator_counts_at_both_ends() {
+    let (plant, trial, own) = family_case();
+    let proof = case().proof;
+    let identity = vec![vec![Rational::from(1)]];
+    let region = Region::new(identity, trial.centre(), Rational::new()).unwrap();
+    let (metric, level) = &proof.forms[0];
+    let sigma = Rational::from(3);
+    // d is between -1 and -0.9 near the trial; (1 - b) sigma moves it by 0.3 up and down.
+    let truth = |plant: &Plant, metric: &Metric| {
+        let engine = Engine::new(&trial.about(plant), region.clone(), None, None).unwrap();
+        engine.decide_form((metric, level), &sigma, [&proof.radii[0], &proof.radii[1]], 20_000).truth
+    };
+    assert_eq!(truth(&plant, metric), Truth::True);
+    let nominal = Plant { input_gain: None, ..plant.clone() };
+    let stiff = Metric { k_p: rational(2, 7), ..metric.clone() };
+    assert_eq!(truth(&nominal, &stiff), Truth::True);
+    assert_ne!(truth(&plant, &stiff), Truth::True, "at b = 9/10 it does not hold");
+
+    let (orbit, radius) = (orbit(), Rational::new());
+    let period = Enclosure::from_integer(2, PRECISION);
+    let kappas = [2, 3].map(|value| Enclosure::from_integer(value, PRECISION));
+    let known = |own| Known { own, period: &period, orbit: &orbit, radius: &radius, kappas: &kappas };
+    let found = Concluded::of(&trial, &proof, &known(&own)).unwrap();
+    let of_curve = Concluded::sizes_of(&trial, &known(&own)).unwrap()[2].clone();
+    // s_z by the formula, in doubles, with b_lo = 0.9 and sigma max|1 - b| = 0.3.
+    let d = 1e-8_f64;
+    let all = 4.0 * d * d * 0.51 * 0.51 / 0.1 + 0.25 * d * d / 0.01;
+    let [of_x, of_y] = [0.1, 0.01].map(|c: f64| (all / c).sqrt());
+    let of_e = of_x.min(of_y / (9.0 + 4.0 * PI * PI).sqrt());
+    let of_q = 0.51 * of_x + 1.31 * of_e + d;
+    let right = (2.0 / (2.0 * 0.9) + 2.0 / (0.9 * 0.9)).sqrt() * of_q;
+    let s_z = (&found.zeta - &of_curve).upper_f64();
+    assert!((s_z / right - 1.0).abs() < 1e-5, "{s_z} {right}");
+    // V_0 at 1.1, and the control at the worse end.
+    let start =
+        Start { x0: Enclosure::one(PRECISION), e0: Enclosure::one(PRECISION), z0: Some(Enclosure::one(PRECISION)) };
+    let peaks = Peaks::of((&proof.forms, true), &found, &own, &start).unwrap();
+    let [x, e, z] =
+        start.distances(&own, [&found.states, &found.error, &found.zeta]).map(|distance| distance.upper_f64());
+    let level_at = |b: f64| 0.51 * x * x + e * e + 0.25 * b * z * z;
+    let n_bar_squared = own.n_bar_squared.upper_f64();
+    let control = |b: f64| level_at(b) * (9.0 / 0.99 + 4.0 * n_bar_squared / b);
+    let right = [(level_at(1.1) / 0.99).sqrt(), control(0.9).max(control(1.1)).sqrt()];
+    for (found, right) in [&peaks.error, &peaks.control].into_iter().zip(right) {
+        assert!((found.upper_f64() / right - 1.0).abs() < 1e-9, "{found:?} {right}");
+    }
+}
+
+#[test]
+fn members_of_a_family_do_not_exceed_its_bounds() {
+    let folder = tempfile::tempdir().unwrap();
+    let (file, report) = certified_in(folder.path(), &family(), &["--n-o", "0,1,2"]);
+    assert_valid(&file);
+    let certificate = read(&file);
+    let sigma = number(&report["sigma_star"]);
+    let entries = certificate["claim"]["by_n_o"].as_array().unwrap();
+    let trial = &certificate["witness"]["by_n_o"]["trials"][0];
+    assert!(trial["members"].as_array().is_some_and(|members| members.len() > 5), "{trial}");
+    for n in [0_usize, 1, 2] {
+        let entry = entries.iter().find(|entry| entry["n_o"] == n).unwrap();
+        let bound = |part: &str, name: &str| number(&entry[part][name]);
+        let mut worst = [0.0_f64; 5];
+        for (a, b) in [(0.4, 0.9), (0.4, 1.1), (0.6, 0.9), (0.6, 1.1), (0.5, 1.0)] {
+            for start in [[0.4, 0.5], [-0.4, -0.5]] {
+                let found = simulated(sigma, n, [a, b], start, 300);
+                worst = [0, 1, 2, 3, 4].map(|i| worst[i].max(found[i]));
+            }
+        }
+        let [e, u, steady, steady_u, rms] = worst;
+        assert!(e <= bound("largest", "e") && u <= bound("largest", "u"), "{n}: {worst:?} {entry}");
+        for (found, name) in [(steady, "e"), (rms, "e_rms"), (steady_u, "u")] {
+            let bound = bound("steady", name);
+            assert!(found <= bound && bound <= 1.1 * found + 1e-3, "{n}, {name}: {found} {entry}");
+        }
     }
 }
