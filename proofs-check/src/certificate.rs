@@ -79,7 +79,7 @@ pub fn check(json: &Json, other: Option<&Json>, lines: &mut Vec<String>) -> Outc
         Some(_) => Kind::Slopes { states, corner: derivation.has_corner() && states > 0 },
     };
     let rates = Witness::read_all(witness.optional("for_n_o").as_ref(), &claim.rates, kind)?;
-    let by_n_o = by_n_o::Witness::read(witness.optional("by_n_o").as_ref(), &claim.by_n_o, states)?;
+    let by_n_o = by_n_o::Witness::read(witness.optional("by_n_o").as_ref(), &claim.by_n_o, &spec)?;
     witness.finish()?;
     file.finish()?;
     by_n_o::demand_form(&spec, &claim.by_n_o)?;

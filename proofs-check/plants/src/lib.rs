@@ -14,6 +14,7 @@ pub mod formula;
 pub mod harmonics;
 pub mod inequality;
 pub mod jacobian;
+mod jet;
 mod linear;
 pub mod machine;
 pub mod model;

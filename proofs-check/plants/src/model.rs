@@ -5,7 +5,9 @@ use super::formula::{Axis, Demand, Formulas, Id, Leaf};
 use super::machine::Curves;
 use super::read::Plant;
 use super::time::Wave;
+use proofs_core::expr::Op;
 use proofs_core::jacobian::Witness;
+use proofs_core::range::Span;
 
 /// What the states of the formulas are.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -49,7 +51,7 @@ impl Model {
         };
         let states: Vec<Id> = (0..order).map(|j| formulas.leaf(Leaf::State(j))).collect();
         let mut output = formulas.leaf(Leaf::Output);
-        if frame == Frame::Moving && plant.error.is_some() {
+        if frame == Frame::Moving && !plant.error.is_empty() {
             let error = wave(&mut formulas, plant, order + 1, 0);
             output = formulas.make(error + output);
         }
@@ -94,8 +96,9 @@ impl Model {
     }
 }
 
-/// A derivative along the axis of time of a component of xb(t;p), or after them of qb(t;p), or of what e is measured from: the nominal one, and the parameters and the
-/// clock less their nominal values times those of the sensitivities. Numbers stand where nothing moves.
+/// A derivative along the axis of time of a component of xb(t;p), or after them of qb(t;p), or of what e is measured from: the nominal one, and powers of
+/// the numbers of the family less their nominal values, which of an orbit are of degree 1, times those of the sensitivities. Numbers stand where nothing
+/// moves.
 pub fn wave(formulas: &mut Formulas, plant: &Plant, which: usize, order: usize) -> Id {
     let mut sum = formulas.int(0);
     for (member, waves) in plant.waves().enumerate() {
@@ -106,16 +109,27 @@ pub fn wave(formulas: &mut Formulas, plant: &Plant, which: usize, order: usize) 
         };
         let part = match member.checked_sub(1) {
             None => part,
-            Some(parameter) => {
-                let nominal = formulas.number(&plant.family[parameter].nominal);
-                let value = formulas.leaf(Leaf::Parameter(parameter));
-                let apart = formulas.make(value - nominal);
-                formulas.product(apart, part)
+            Some(member) => {
+                let factor = power(formulas, plant, &plant.powers[member]);
+                formulas.product(factor, part)
             }
         };
         sum = formulas.make(sum + part);
     }
     sum
+}
+
+/// The product of these powers of the numbers of the family less their nominal values.
+fn power(formulas: &mut Formulas, plant: &Plant, powers: &[u32]) -> Id {
+    let mut product = formulas.int(1);
+    for (i, (Span { nominal, .. }, n)) in plant.family.iter().zip(powers).enumerate() {
+        let (nominal, value) = (formulas.number(nominal), formulas.leaf(Leaf::Parameter(i)));
+        let apart = formulas.make(value - nominal);
+        // Exponents are small.
+        let factor = formulas.apply(&Op::Power(*n as i32), [apart, Id::NONE]);
+        product = formulas.make(product * factor);
+    }
+    product
 }
 
 /// P(t): numbers where it is constant.

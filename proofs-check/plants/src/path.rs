@@ -51,33 +51,67 @@ impl<'m, 'f> Path<'m, 'f> {
         }
     }
 
-    fn formulas(&self) -> &'f Formulas {
-        self.machine.formulas
+    /// What of t is known on a cell.
+    pub fn on_cell<'c>(&'c self, cell: &'c Cell) -> OnCell<'c> {
+        let waves = waves(&self.om, &cell.middle, self.count);
+        let of = |table: &Table| {
+            (0..=ORDER + 2 + TERMS).map(|order| table.at(order, &waves, self.machine.precision)).collect()
+        };
+        OnCell {
+            orbit: &self.orbit,
+            cell,
+            half: cell.all.half_width(),
+            derivatives: self.orbit.iter().map(of).collect(),
+        }
     }
 
     /// The nodes of each group on a cell, each with its own parameters.
     pub fn expand(&self, cell: &Cell, parameters: &[&[Interval]], values: &Values) -> Vec<Vec<Polynomial>> {
-        let p = self.machine.precision;
-        let (middle, half) = (cell.middle.clone(), cell.all.half_width());
-        let waves = waves(&self.om, &middle, self.count);
-        let derivatives: Vec<Vec<Interval>> = self
-            .orbit
-            .iter()
-            .map(|table| (0..=ORDER + 2 + TERMS).map(|order| table.at(order, &waves, p)).collect())
-            .collect();
+        let (p, on_cell, formulas) = (self.machine.precision, self.on_cell(cell), self.machine.formulas);
+        let number = |id: Id| self.machine.number(id, values);
+        let group = |((order, roots), parameters): (&(Vec<Id>, Vec<Id>), &&[Interval])| {
+            let series = |on_all: bool, length: usize| {
+                expand(formulas, order, number, |leaf| on_cell.series(leaf, parameters, on_all, length), length)
+            };
+            let (thin, thick) = (series(false, ORDER + 1), series(true, ORDER + 2));
+            let polynomial = |root: &Id| Polynomial {
+                coefficients: thin[root.0].clone(),
+                remainder: coefficient(&thick[root.0], ORDER + 1, p),
+            };
+            roots.iter().map(polynomial).collect()
+        };
+        self.groups.iter().zip(parameters).map(group).collect()
+    }
+}
+
+/// The functions of t alone on a cell.
+pub struct OnCell<'c> {
+    orbit: &'c [Table],
+    cell: &'c Cell,
+    half: Interval,
+    /// Of each wave at the middle.
+    derivatives: Vec<Vec<Interval>>,
+}
+
+impl OnCell<'_> {
+    /// The series of a leaf in t, with these parameters, at the middle of the cell, or at every point of it. Of v and e it is 0.
+    pub fn series(&self, leaf: Leaf, parameters: &[Interval], on_all: bool, length: usize) -> Series {
+        let p = self.half.precision();
         let none = || vec![Interval::undefined(p)];
-        let leaf = |leaf: Leaf, parameters: &[Interval], on_cell: bool, length: usize| match leaf {
-            Leaf::Time if on_cell => vec![cell.all.clone(), Interval::int(1, p)],
-            Leaf::Time => vec![middle.clone(), Interval::int(1, p)],
+        match leaf {
+            Leaf::Time if on_all => vec![self.cell.all.clone(), Interval::int(1, p)],
+            Leaf::Time => vec![self.cell.middle.clone(), Interval::int(1, p)],
             Leaf::State(_) | Leaf::Output => vec![Interval::int(0, p)],
             Leaf::Parameter(i) => parameters.get(i).map_or_else(none, |value| vec![value.clone()]),
             Leaf::Orbit { state, order } => {
-                let (Some(table), Some(all)) = (self.orbit.get(state), derivatives.get(state)) else { return none() };
+                let (Some(table), Some(all)) = (self.orbit.get(state), self.derivatives.get(state)) else {
+                    return none();
+                };
                 let mut factorial = Interval::int(1, p);
                 let coefficient = |k: usize| {
                     factorial = if k > 1 { &factorial * k as i64 } else { factorial.clone() };
                     let value = match all.get(order + k..order + k + TERMS) {
-                        Some(values) if on_cell => table.around(order + k, values, &half),
+                        Some(values) if on_all => table.around(order + k, values, &self.half),
                         Some(values) => values[0].clone(),
                         None => Interval::undefined(p),
                     };
@@ -86,22 +120,13 @@ impl<'m, 'f> Path<'m, 'f> {
                 (0..length).map(coefficient).collect()
             }
             Leaf::Lyapunov { .. } | Leaf::Drift(_) => none(),
-        };
-        let number = |id: Id| self.machine.number(id, values);
-        let group = |((order, roots), parameters): (&(Vec<Id>, Vec<Id>), &&[Interval])| {
-            let series = |on_cell: bool, length: usize| {
-                expand(self.formulas(), order, number, |kind| leaf(kind, parameters, on_cell, length), length)
-            };
-            let (thin, thick) = (series(false, ORDER + 1), series(true, ORDER + 2));
-            let last = |root: Id| thick[root.0].get(ORDER + 1).cloned();
-            let polynomial = |root: &Id| Polynomial {
-                coefficients: thin[root.0].clone(),
-                remainder: last(*root).unwrap_or_else(|| undefined_or_zero(&thick[root.0], p)),
-            };
-            roots.iter().map(polynomial).collect()
-        };
-        self.groups.iter().zip(parameters).map(group).collect()
+        }
     }
+}
+
+/// A coefficient of a series, 0 where a short one does not list it.
+pub fn coefficient(series: &Series, k: usize, precision: u32) -> Interval {
+    series.get(k).cloned().unwrap_or_else(|| undefined_or_zero(series, precision))
 }
 
 /// The coefficient that a short series does not list.
@@ -116,6 +141,8 @@ pub enum Judged {
     Refuted,
     /// How much t (the first) and each parameter add to what is bounded: a hint.
     Halve(Vec<f64>),
+    /// What is known at one point is not known well enough: smaller boxes do not help.
+    Open,
 }
 
 /// Decides something on boxes that cover `whole`, a period and all parameters; else where that fails, and whether it is refuted there.
@@ -141,7 +168,7 @@ pub fn everywhere(whole: Piece, mut judge: impl FnMut(&Piece) -> Judged) -> Resu
                 let largest = shares.into_iter().map(known).enumerate().rev().max_by(|a, b| a.1.total_cmp(&b.1));
                 queue.extend(piece.halves(largest.map(|(side, _)| side).filter(|side| *side > 0)));
             }
-            Judged::Halve(_) => return Err((at, false)),
+            Judged::Halve(_) | Judged::Open => return Err((at, false)),
         }
     }
     Ok(count)
@@ -164,7 +191,7 @@ pub fn bound_of_derivative(polynomial: &Polynomial, half: &Interval) -> Interval
 }
 
 /// A bound of the Euclidean norm of several: by the polynomial of its square, without the remainders.
-pub fn bound_of_norm(polynomials: &[Polynomial], half: &Interval) -> Interval {
+pub fn bound_of_norm<'p>(polynomials: impl IntoIterator<Item = &'p Polynomial>, half: &Interval) -> Interval {
     let p = half.precision();
     let zero = || Interval::int(0, p);
     let mut square = vec![zero(); 2 * ORDER + 1];

@@ -50,10 +50,13 @@ pub struct Plant {
     /// The P of stability and, if there is one, that of existence.
     pub lyapunov: Vec<jacobian::Witness>,
     pub forcing: Forcing,
-    /// What e is measured from, where that is not 0 (section 14.4): of a trial.
-    pub error: Option<Wave>,
-    /// The numbers of which intervals are given: the parameters, and after them the clock where the period is an interval.
+    /// What e is measured from, where that is not 0 (section 14.4): of a trial, the nominal one and the others.
+    pub error: Vec<Wave>,
+    /// The numbers of which intervals are given: the parameters, and after them the clock where the period is an interval, or of a trial the gain of the
+    /// actuator over its nominal value where that is one.
     pub family: Vec<Span>,
+    /// By which powers of these numbers, less their nominal values, each of the waves but the nominal ones is multiplied.
+    pub powers: Vec<Vec<u32>>,
     has_clock: bool,
     /// What a claim needs of it.
     pub known: OfPlant,
@@ -70,10 +73,10 @@ impl Plant {
         if self.has_clock { self.family.len().checked_sub(1) } else { None }
     }
 
-    /// The components of xb_0 and then qb_0, and the same of each sensitivity; of a trial, which has none, also what e is measured from.
+    /// The components of xb_0 and then qb_0, and the same of each sensitivity; of a trial uhat for qb, and after it what e is measured from.
     pub fn waves(&self) -> impl Iterator<Item = Vec<Wave>> {
-        let with = |(x, q): (&Vec<Wave>, &Wave)| x.iter().chain([q]).chain(&self.error).cloned().collect();
-        self.orbit.waves.iter().zip(&self.forcing.waves).map(with)
+        let all = self.orbit.waves.iter().zip(&self.forcing.waves).enumerate();
+        all.map(|(member, (x, q))| x.iter().chain([q]).chain(self.error.get(member)).cloned().collect())
     }
 }
 
@@ -152,13 +155,15 @@ pub fn read(field: &Field<'_>, witness: &mut Fields<'_>) -> Outcome<(Specificati
         noise,
         plant: Some(Box::new(known.clone())),
     };
+    let unit = |i: usize, count: usize| (0..count).map(|j| u32::from(i == j)).collect();
     let of_cell = |Cell { family, orbit, forcing }| Plant {
         f: f.clone(),
         q: q.clone(),
         orbit,
         lyapunov: lyapunov.clone(),
         forcing,
-        error: None,
+        error: Vec::new(),
+        powers: (0..family.len()).map(|i| unit(i, family.len())).collect(),
         family,
         has_clock,
         known: known.clone(),

@@ -385,7 +385,7 @@ impl Loop {
         let place = |of: &str| format!("/{of}/by_n_o");
         let claimed = Entry::read_all(&Field { json: &claim, pointer: place("claim") })?;
         let witness =
-            Witness::read(Some(&Field { json: &witness, pointer: place("witness") }), &claimed, states)?.unwrap();
+            Witness::read(Some(&Field { json: &witness, pointer: place("witness") }), &claimed, &spec)?.unwrap();
         let sigma = Rational::from_f64(self.sigma).unwrap();
         let mut lines = Vec::new();
         // The set, the error box, k0, k1 and the function of the claim say something of trials alone.

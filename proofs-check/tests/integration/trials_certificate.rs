@@ -95,7 +95,7 @@ fn so_many_oscillators_or_more() {
     let [entry, trial] = [CLAIM, TRIALS].map(|list| json!([stored().pointer(&format!("{list}/2")).unwrap()]));
     let alone = edited(stored(), &[(CLAIM, entry), (TRIALS, trial)]);
     accepted(&alone);
-    refused(edited(alone, &[(&format!("{CLAIM}/0/n_o"), 1.into())]), Invalid, RULE, &format!("{TRIALS}/0/q"));
+    refused(edited(alone, &[(&format!("{CLAIM}/0/n_o"), 1.into())]), Invalid, RULE, &format!("{TRIALS}/0/u"));
     // No entry comes after it.
     let mut before = stored();
     before["claim"]["by_n_o"][1]["or_more"] = true.into();

@@ -41,10 +41,10 @@ fn the_solution_itself_is_a_trial() {
     // Of more oscillators it is one, too.
     case().entry("/n_o", 7).accepted();
     // With one oscillator the second harmonic of q has an answer.
-    case().entry("/n_o", 1).refused(Invalid, "/q");
+    case().entry("/n_o", 1).refused(Invalid, "/u");
     case().trial("/x/mean/0", "0.101").refused(Invalid, "/defect_x");
-    case().trial("/q/mean", "0.301").refused(Invalid, "/defect_q");
-    case().trial("/q/harmonics/1/cos", "0.051").refused(Invalid, "/defect_q");
+    case().trial("/u/mean", "-0.301").refused(Invalid, "/defect_q");
+    case().trial("/u/harmonics/1/cos", "-0.051").refused(Invalid, "/defect_q");
 }
 
 #[test]
@@ -59,14 +59,14 @@ fn there_is_no_harmonic_that_some_number_would_answer() {
         with("e", json!([first])).refused(Invalid, "/e");
         // Above n_o, too, where a trial of one number has them.
         with("e", json!([pair("0", "0"), pair("0", "0"), first])).refused(Invalid, "/e");
-        let mut of_q = case().trial["q"]["harmonics"].as_array().unwrap().clone();
-        of_q.push(first);
-        with("q", json!(of_q)).refused(Invalid, "/q");
+        let mut of_u = case().trial["u"]["harmonics"].as_array().unwrap().clone();
+        of_u.push(first);
+        with("u", json!(of_u)).refused(Invalid, "/u");
     }
     // Those that are 0 are none.
-    let mut of_q = case().trial["q"]["harmonics"].as_array().unwrap().clone();
-    of_q.push(pair("0", "0"));
-    with("q", json!(of_q)).accepted();
+    let mut of_u = case().trial["u"]["harmonics"].as_array().unwrap().clone();
+    of_u.push(pair("0", "0"));
+    with("u", json!(of_u)).accepted();
     with("e", json!([pair("0", "0"), pair("0", "0"), pair("0", "0")])).accepted();
     with("e", json!([])).accepted();
 }
@@ -163,12 +163,12 @@ fn the_velocity_is_that_of_the_formulas() {
 /// The derivative of what is left of q along the curve.
 #[test]
 fn the_defect_of_the_derivative() {
-    let off = case().trial("/q/harmonics/1/cos", "0.051").trial("/defect_q", "0.0010001");
+    let off = case().trial("/u/harmonics/1/cos", "-0.051").trial("/defect_q", "0.0010001");
     let rate = 0.001 * 2.0 * TAU;
     off.trial("/defect_q_t", text(rate * (1.0 + 1e-6))).accepted();
     off.trial("/defect_q_t", text(rate * (1.0 - 1e-6))).refused(Invalid, "/defect_q_t");
     // A mean has none.
-    case().trial("/q/mean", "0.301").trial("/defect_q", "0.0010001").accepted();
+    case().trial("/u/mean", "-0.301").trial("/defect_q", "0.0010001").accepted();
     // The curve moves by its own velocity: with another one beside f, the same q is left.
     let f = case().parts.0["plant"]["f"][0].as_str().unwrap().to_owned() + " + 1/100";
     case()
@@ -228,7 +228,7 @@ fn a_plant_without_states() {
     let q_te = TAU / 20.0;
     case.trial("/q_te", text(q_te * (1.0 + 1e-6))).accepted();
     case.trial("/q_te", text(q_te * (1.0 - 1e-6))).refused(Invalid, "/q_te");
-    case.trial("/q/mean", "0.301").refused(Invalid, "/defect_q");
+    case.trial("/u/mean", "-0.301").refused(Invalid, "/defect_q");
     for name in ["q_tx", "f_x", "f_e"] {
         let mut of_states = case.clone();
         of_states.trial[name] = "1".into();

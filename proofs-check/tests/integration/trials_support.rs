@@ -1,7 +1,7 @@
 //! A plant of one state whose loop has a known periodic solution, with the trial that is this solution (docs/mathematics.md, section 14.4).
 //!
 //! x and e are trigonometric polynomials, e without mean and without harmonics up to n_o. The q that the regulator answers with that e has free
-//! harmonics up to n_o, and those of the theory beyond. What f and q need besides of t follows, and is a polynomial again.
+//! harmonics up to n_o, and those of the theory beyond; the trial has u = e' - q. What f and q need besides of t follows, and is a polynomial again.
 
 use crate::plant_support::{Parts, read};
 use proofs_check::json::{Field, Json, decimal, parse};
@@ -202,8 +202,11 @@ impl Case {
             .with("/witness/coordinates", json!([["2"]]))
             .with("/witness/orbit", orbit)
             .with("/witness/forcing", forcing);
+        // u = e' - q.
+        let u = Wave::of(|t| e.at(t, 1) - q.at(t, 0));
+        let u = Wave(u.0, u.1[..q.1.len()].to_vec());
         let trial = json!({
-            "x": x.json(true, true), "e": e.json(false, false), "q": q.json(true, false),
+            "x": x.json(true, true), "e": e.json(false, false), "u": u.json(true, false),
             "defect_x": "1e-12", "defect_q": "1e-12",
             "box": { "x": "2", "e": "2" },
             "q_x": "1.5", "q_e": "0.9",
@@ -284,8 +287,7 @@ impl Case {
         let (spec, cells) = read(&self.parts.0)?;
         let claimed = Entry::read_all(&Field { json: &claim, pointer: "/claim/by_n_o".to_owned() })?;
         let field = Field { json: &witness, pointer: "/witness/by_n_o".to_owned() };
-        let states = cells[0].states();
-        let witness = Witness::read(Some(&field), &claimed, states)?.unwrap();
+        let witness = Witness::read(Some(&field), &claimed, &spec)?.unwrap();
         let value = |text: &str| decimal(text).unwrap();
         let [x0, e0, z0] = SET.map(|size| value(&size.to_string()));
         let set = ClaimedSet { x0, e0, z0: Some(z0) };

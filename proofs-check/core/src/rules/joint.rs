@@ -58,10 +58,10 @@ impl Inequality {
     }
 }
 
-/// `P_up dX^2 + 2 |p| dX dE + w dE^2 + (k_p mu/2) dZ^2`: what V is at most that far from the periodic solution.
-pub fn start(d: &Data<'_>, (metric, extent): (&Metric, &Extent), [x, e, z]: &[Interval; 3]) -> Interval {
+/// `P_up dX^2 + 2 |p| dX dE + w dE^2 + (k_p b mu/2) dZ^2`: what V is at most that far from the periodic solution, at the gain b of the actuator.
+pub fn start(d: &Data<'_>, (metric, extent): (&Metric, &Extent), [x, e, z]: &[Interval; 3], b: &Interval) -> Interval {
     let [p_up, w, half] = [&extent.p_up, &metric.w, &metric.half].map(|value| d.number(value));
-    p_up * x.sqr() + size_of_cross(d, metric) * 2 * x * e + w * e.sqr() + half * &d.mu * z.sqr()
+    p_up * x.sqr() + size_of_cross(d, metric) * 2 * x * e + w * e.sqr() + half * b * &d.mu * z.sqr()
 }
 
 /// |p|.
@@ -77,7 +77,7 @@ pub fn levels(d: &Data<'_>, pair: Pair<'_>, reach: &[Interval; 3], radii: [&Rati
         let [x_low, e_low] = [&extent.x_low, &extent.e_low].map(|value| d.number(value));
         let exit = (x_low * d_x.sqr()).min(&(e_low * d_e.sqr()));
         let what = "P_up dX^2 + 2 |p| dX dE + w dE^2 + (k_p mu/2) dZ^2 < min{x_low D_x^2, e_low D_e^2}";
-        Condition::less(id, format!("{what}, {name}"), start(d, (metric, extent), reach), exit)
+        Condition::less(id, format!("{what}, {name}"), start(d, (metric, extent), reach, &d.int(1)), exit)
     };
     let [near, far] = pair;
     [level("C4", "near", near), level("C4f", "far", far)]

@@ -10,6 +10,7 @@ use super::gains::kappas;
 use super::inequality::{Inequality, List};
 use super::joint;
 use super::mean_squares;
+use super::stability::share;
 use super::transfer::{self, Proof};
 use crate::data::Data;
 use crate::json::Fields;
@@ -71,10 +72,7 @@ pub fn evaluate(d: &Data<'_>, (free, inequalities): (&Free, &List), w: &Witness)
             (levels.to_vec(), transient)
         }
         None => {
-            let share = match stability {
-                Some(part) if d.gain.is_some() => d.number(&part.sigma) / &sigma,
-                _ => d.int(1),
-            };
+            let share = share(d, stability.as_ref(), &w.sigma);
             let (level, transient) = free.level(d, &reach, [&sigma, &d.mu], (false, &share, None));
             (vec![level], transient)
         }

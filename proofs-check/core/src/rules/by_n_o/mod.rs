@@ -7,6 +7,7 @@
 //! says is, by what follows from a trial in [`tube`] and [`peaks`].
 
 pub mod claimed;
+pub mod curves;
 mod form;
 pub mod linear;
 pub mod peaks;
@@ -32,7 +33,7 @@ const PLACE: &str = "/witness/by_n_o";
 pub enum Witness {
     /// Of a plant that is linear in x and e (section 14.3).
     Linear(Linear),
-    /// Of one plant at one gain (section 14.4): one for each entry of the claim.
+    /// At one gain of the law (section 14.4): one for each entry of the claim.
     Trials(Vec<Trial>),
 }
 
@@ -55,20 +56,22 @@ pub struct About<'c> {
 }
 
 impl Witness {
-    /// Reads the part `by_n_o` of a witness, of a plant with so many states: there exactly if the claim has its part.
-    pub fn read(field: Option<&Field<'_>>, claimed: &[Entry<'_>], states: usize) -> Outcome<Option<Witness>> {
+    /// Reads the part `by_n_o` of a witness: there exactly if the claim has its part.
+    pub fn read(field: Option<&Field<'_>>, claimed: &[Entry<'_>], spec: &Specification) -> Outcome<Option<Witness>> {
         let field = match (field, claimed.is_empty()) {
             (None, true) => return Ok(None),
             (Some(field), false) => field,
             (None, false) => return bad(PLACE, "it is missing: the claim says something by n_o"),
             (Some(field), true) => return bad(&field.pointer, "the claim says nothing by n_o"),
         };
+        let states = spec.plant.as_ref().map_or(0, |plant| plant.states);
+        let sizes = [states, curves::intervals(spec)];
         let known = field.object(|fields| {
             let linear = fields.part("linear", |field| field.object(|fields| Linear::take(fields, claimed, states)))?;
             match linear {
                 Some(linear) => Ok(Some(Witness::Linear(linear))),
                 None => {
-                    let trials = fields.part("trials", |field| trials::read_all(field, claimed, states))?;
+                    let trials = fields.part("trials", |field| trials::read_all(field, claimed, sizes))?;
                     Ok(trials.map(Witness::Trials))
                 }
             }

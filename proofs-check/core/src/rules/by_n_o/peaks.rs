@@ -1,8 +1,8 @@
 //! Which solution that of a trial is, and how far solutions from the claimed set go: sections 14.4 and 14.5 of docs/mathematics.md.
 //!
 //! Guarantee of [`prove`], with [`Solution`] as it is, the claim proved, and the inequalities of the trial proved of the formulas on its boxes, which lie in
-//! the domain of the plant: the solution is that of the claim, and `largest` of the entry, where it is there, is true of every solution from the
-//! claimed set.
+//! the domain of the plant: the solution of every member is that of the claim, and `largest` of the entry, where it is there, is true of every solution
+//! from the claimed set. At the gain b of the actuator the weight of `|zeta|_N^2` in these functions is b times that at 1.
 //!
 //! The solution is that of the claim if all solutions from the set converge to it, in the box of the trial or in that of `x_first`, or if the
 //! difference to the one of the claim lies in the error box of the claim. Then the function of the claim falls along differences, too: each
@@ -17,7 +17,7 @@ use crate::interval::Interval;
 use crate::rules::control::{put_out, transient};
 use crate::rules::inequality::{Extent, Metric};
 use crate::rules::joint::{between, start};
-use crate::rules::stability::{distances, level};
+use crate::rules::stability::{distances, level, share};
 use crate::verdict::{Condition, Finding, Outcome, Verdict};
 use rug::Rational;
 
@@ -33,9 +33,11 @@ pub struct Solution {
 
 /// What a function that falls is at most at the start; it is never below `weight e^2 + h |zeta|_N^2`.
 struct Level {
+    /// What it is at most for every b.
     start: Interval,
     weight: Interval,
-    h: Interval,
+    /// What it is at most, with that h: of a member at each end of b; what is between is not larger.
+    ends: Vec<[Interval; 2]>,
     /// What the weight is.
     name: &'static str,
 }
@@ -49,24 +51,31 @@ impl Level {
         reach: &[Interval; 3],
     ) -> Level {
         let h = d.number(&form.0.half) * &d.mu;
-        Level { start: start(d, form, reach), weight: d.number(weight), h, name }
+        let of = |b: &Interval| [start(d, form, reach, b), &h * b];
+        let ends = bounds(d).each_ref().map(of);
+        Level { start: ends[1][0].clone(), weight: d.number(weight), ends: ends.to_vec(), name }
     }
 
-    /// The function of the claim: V of its joint metrics, or else `w_x x'Px + e^2 + h |zeta|_N^2`. An input gain is nominal here.
+    /// The function of the claim: V of its joint metrics, or else `w_x x'Px + e^2 + b h |zeta|_N^2`, or by a matrix inequality with the threshold tau,
+    /// where there is an input gain, that with `tau/sigma` times this weight of zeta (section 13.1, Theorem G3).
     fn of_claim(d: &Data<'_>, about: &About<'_>, reach: &[Interval; 3]) -> Level {
         if let Some((part, pair)) = about.stability.and_then(|part| part.pair().map(|pair| (part, pair))) {
-            let starts = pair.map(|form| start(d, form, reach));
+            // A claim by joint metrics is about b = 1 alone.
+            let starts = pair.map(|form| start(d, form, reach, &d.int(1)));
             let [start, weight, h] = between(d, pair, starts.each_ref(), [&part.sigma, about.sigma]);
-            return Level { start, weight, h, name: "e_low" };
+            return Level { start: start.clone(), weight, ends: vec![[start, h]], name: "e_low" };
         }
         let [[d_x, d_e], [w_x, h]] = [&about.error_box, &about.weights].map(|pair| pair.map(|of| d.number(of)));
-        let [start, _] = level(d, reach, [&d_x, &d_e, &w_x, &h]);
-        Level { start, weight: d.int(1), h, name: "1" }
+        let [low, high] = bounds(d).map(|b| b * &h);
+        let [start, _] = level(d, reach, [&d_x, &d_e, &w_x, &high]);
+        let share = share(d, about.stability, about.sigma);
+        Level { start: start.clone(), weight: d.int(1), ends: vec![[start, low * share]], name: "1" }
     }
 
     /// How far e and u go from those of the periodic solution.
     fn moves(&self, d: &Data<'_>, sigma: &Interval) -> [Interval; 2] {
-        let of_u = transient(d, [sigma, &d.mu], [&self.weight, &self.h], (&self.start, &d.int(0)));
+        let at = |[start, h]: &[Interval; 2]| transient(d, [sigma, &d.mu], [&self.weight, h], (start, &d.int(0)));
+        let of_u = self.ends.iter().map(at).fold(d.int(0), |most, of_u| most.max(&of_u));
         [(&self.start / &self.weight).sqrt(), of_u]
     }
 
@@ -88,6 +97,11 @@ impl Level {
         }
         less(self.name, "e", &self.weight, 1)
     }
+}
+
+/// b_lo and b_hi.
+fn bounds(d: &Data<'_>) -> [Interval; 2] {
+    [d.by_gain(|gain| &gain.low, &d.int(1)), d.by_gain(|gain| &gain.high, &d.int(1))]
 }
 
 /// Proves which solution it is, and `largest`; `d` has the sum of the weights of the entry, whose root has the name `n_bar`.

@@ -1,37 +1,28 @@
-//! What proves the numbers by n_o of one plant at one gain: a trial for each entry, near which the periodic solution is (docs/mathematics.md, section
+//! What proves the numbers by n_o at one gain of the law: a trial for each entry, near which the periodic solution is (docs/mathematics.md, section
 //! 14.4), with the forms that say so. Read, and of the numbers that stand alone it is decided that they are right.
 //!
-//! Guarantee of [`Trial`]: ehat has no mean and no harmonic up to n_o; of an entry about so many oscillators or more ehat = 0, and qhat has no harmonic
-//! above n_o. A harmonic that is written with 0 for both of its numbers is none. Of each form `P <= P_up I`, `Pi >= diag(x_low I, 0)` and
+//! Guarantee of [`Trial`]: no coefficient of ehat has a mean or a harmonic up to n_o; of an entry about so many oscillators or more ehat = 0, and no
+//! coefficient of uhat has a harmonic above n_o. A harmonic that is written with 0 for both of its numbers is none. Of each form `P <= P_up I`, `Pi >= diag(x_low I, 0)` and
 //! `Pi >= diag(0, e_low)` with x_low, e_low > 0, so that Pi is positive definite. `Q_low I <= Q <= Q_up I`, and k_p, c_x, c_e, c_y, Q_low, c, gamma, D_x
 //! and D_e are above 0. What is said of the formulas is proved by the crate `proofs-plants`.
 
 use super::claimed::{Entry, RULE};
+use super::curves::{Curves, MEMBERS};
 use super::form::{MOST_FORMS, form, of_states, radii};
 use super::x_first::XFirst;
 use crate::json::{Field, Fields};
 use crate::matrix::{is_semidefinite, shifted};
 use crate::rules::inequality::{Extent, Metric, P, number, symmetric};
-use crate::spec::Specification;
-use crate::verdict::{Outcome, Verdict, bad, demand, finding};
-use crate::wave::Wave;
+use crate::verdict::{Outcome, bad, demand};
 use rug::Rational;
-use std::ops::RangeInclusive;
-
-/// The most harmonics of a curve.
-const MOST_HARMONICS: usize = 64;
 
 /// A trial of one n_o.
 #[derive(Clone, Debug)]
 pub struct Trial {
     /// Where it stands in the file.
     pub pointer: String,
-    /// The components of xhat.
-    pub x: Vec<Wave>,
-    /// ehat.
-    pub e: Wave,
-    /// qhat.
-    pub q: Wave,
+    /// xhat, ehat and uhat: the nominal curves first, and then those of each power of delta.
+    pub curves: Vec<Curves>,
     /// d_x and d_q.
     pub defects: [Rational; 2],
     /// D_x and D_e.
@@ -72,50 +63,23 @@ pub struct States {
     pub decay: [Rational; 2],
 }
 
-/// Reads the list `trials`, of a plant with so many states: one for each entry of the claim.
-pub fn read_all(field: &Field<'_>, claimed: &[Entry<'_>], states: usize) -> Outcome<Vec<Trial>> {
+/// Reads the list `trials`, of a plant with so many states and so many numbers of which intervals are known: one for each entry of the claim.
+pub fn read_all(field: &Field<'_>, claimed: &[Entry<'_>], sizes: [usize; 2]) -> Outcome<Vec<Trial>> {
     let list = field.elements()?;
     if list.len() != claimed.len() {
         return bad(&field.pointer, format!("expected {}, one for each entry of the claim", claimed.len()));
     }
-    let read = |(field, entry): (&Field<'_>, &Entry<'_>)| field.object(|fields| Trial::take(fields, entry, states));
+    let read = |(field, entry): (&Field<'_>, &Entry<'_>)| field.object(|fields| Trial::take(fields, entry, sizes));
     list.iter().zip(claimed).map(read).collect()
 }
 
-/// What section 14.4 demands of the file besides: nothing is known to an interval alone.
-pub fn demand_form(spec: &Specification, claimed: &[Entry<'_>]) -> Outcome<()> {
-    let Some(first) = claimed.first() else { return Ok(()) };
-    let undecided = |message: &str| Err(finding(Verdict::Undecided, RULE, &first.pointer, message));
-    match &spec.plant {
-        Some(plant) if !plant.parameters.is_empty() => undecided("a trial is about parameters that are numbers"),
-        _ if spec.input_gain.as_ref().is_some_and(|gain| !gain.is_nominal()) => {
-            undecided("a trial is about an input gain that is one number")
-        }
-        _ => Ok(()),
-    }
-}
-
 impl Trial {
-    fn take(fields: &mut Fields<'_>, entry: &Entry<'_>, states: usize) -> Outcome<Trial> {
-        let x = match states {
-            0 => Vec::new(),
-            _ => fields.required("x")?.object(|fields| Wave::read_all(fields, states, MOST_HARMONICS))?,
+    fn take(fields: &mut Fields<'_>, entry: &Entry<'_>, [states, intervals]: [usize; 2]) -> Outcome<Trial> {
+        let nominal = Curves::take(fields, entry, states, vec![0; intervals])?;
+        let curves = match fields.optional(MEMBERS) {
+            Some(field) => Curves::read_members(&field, entry, states, nominal)?,
+            None => vec![nominal],
         };
-        let e = fields.required("e")?;
-        let e = (e.object(|fields| Wave::read_without_mean(fields, MOST_HARMONICS))?, e.pointer);
-        let q = fields.required("q")?;
-        let q = (q.object(|fields| Wave::read(fields, MOST_HARMONICS))?, q.pointer);
-        let n_o = entry.n_o as usize;
-        let silent =
-            |wave: &Wave, mut k: RangeInclusive<usize>| k.all(|k| wave.harmonic(k).iter().all(Rational::is_zero));
-        if entry.or_more {
-            demand(Some(e.0.is_constant()), RULE, &e.1, format!("no harmonic, for {}", entry.about()))?;
-            let within = silent(&q.0, n_o + 1..=q.0.harmonics.len());
-            demand(Some(within), RULE, &q.1, format!("no harmonic above n_o, for {}", entry.about()))?;
-        } else {
-            let what = format!("no harmonic up to that of {}", entry.about());
-            demand(Some(silent(&e.0, 1..=n_o)), RULE, &e.1, what)?;
-        }
         let defects = [of_states(fields, "defect_x", false, states)?, number(fields, "defect_q", false)?];
         let radii = radii(fields, states)?;
         let slopes = [of_states(fields, "q_x", false, states)?, number(fields, "q_e", false)?];
@@ -130,8 +94,8 @@ impl Trial {
             0 => None,
             _ => Some(fields.required("states")?.object(|fields| States::take(fields, states))?),
         };
-        let (pointer, e, q) = (fields.pointer.clone(), e.0, q.0);
-        Ok(Trial { pointer, x, e, q, defects, radii, slopes, forms, states, or_more, x_first })
+        let pointer = fields.pointer.clone();
+        Ok(Trial { pointer, curves, defects, radii, slopes, forms, states, or_more, x_first })
     }
 }
 

@@ -1,8 +1,8 @@
 //! What follows from a trial: Theorem T of section 14.4 of docs/mathematics.md and its corollary. Which solution it is and the peaks are in [`peaks`].
 //!
-//! Guarantee of [`prove`], with the trial's inequalities and defects proved of the formulas on its box, which lies in the domain of the plant, and with
-//! [`Curves`] as they are: the loop with n_o oscillators and the gain sigma has exactly one T-periodic solution in the box, it is that of the claim, and
-//! `steady` of the entry is true of it. `largest`, where it is there, is true of every solution from the claimed set. With an entry about so many
+//! Guarantee of [`prove`], with the trial's inequalities and defects proved of the formulas on its box for every member, the boxes in the domain of the
+//! plant, and with [`Sizes`] as they are: the loop of every member with n_o oscillators and the gain sigma has exactly one T-periodic solution in its
+//! box, it is that of the claim, and `steady` of the entry is true of it. `largest`, where it is there, is true of every solution from the claimed set. With an entry about so many
 //! oscillators or more that is so for each number of them: then `k0` and `k1` have to be proved, too, and what the trial has for it.
 
 use super::About;
@@ -18,15 +18,15 @@ use crate::rules::joint::size_of_cross;
 use crate::verdict::{Condition, Outcome};
 use rug::Rational;
 
-/// What is known of the curves of a trial.
-pub struct Curves {
+/// What is known of the curves of a trial, for all members.
+pub struct Sizes {
     /// `sup|L^-1 (xhat - xb)| + r`: how far xhat is from x_0. 0 without states.
     pub x: Interval,
     /// sup|ehat|.
     pub e: Interval,
     /// The root mean square of ehat.
     pub e_rms: Interval,
-    /// `sup|ehat' - qhat| + kappa`.
+    /// `sup|uhat| + kappa`.
     pub u: Interval,
     /// zhat.
     pub zeta: Interval,
@@ -56,10 +56,13 @@ impl Tube {
             (&up / (low * &c) * (gamma * e.sqr() + (&up * &d_x).sqr() / c)).sqrt()
         };
         let x = trial.states.as_ref().map_or_else(|| d.int(0), of_states);
+        // That of `d_b = d + (1-b) sigma`.
+        let b_e = b_e + shift(d, sigma);
         let input = &b_x * &rho_x + &b_e * &rho_e + d_q;
-        let of_swing = d.period.only() / (&d.mu * 2);
+        let low = d.by_gain(|gain| &gain.low, &d.int(1));
+        let of_swing = d.period.only() / (&low * &d.mu * 2);
         let square = match &trial.or_more {
-            None => (of_swing + swing(d, n_o)) * input.sqr(),
+            None => (of_swing + swing(d, n_o) / low.sqr()) * input.sqr(),
             Some(OrMore { defect, rates, slopes }) => {
                 let [q_tx, q_te, f_x, f_e] =
                     [&rates[0], &rates[1], &slopes[0], &slopes[1]].map(|value| d.number(value));
@@ -68,7 +71,7 @@ impl Tube {
                 let rate = q_tx * rho_x + q_te * &rho_e + b_x * velocity + b_e * rho_y + d.number(defect);
                 let [k0, k1] = pair.map(|value| d.number(value));
                 let [kappa_0, kappa_1] = kappas(d, &k0, &k1);
-                (of_swing + kappa_0) * input.sqr() + kappa_1 * rate.sqr()
+                (of_swing + kappa_0 / low.sqr()) * input.sqr() + kappa_1 / low.sqr() * rate.sqr()
             }
         };
         Tube { x, e, e_rms: rho_e, zeta: square.sqrt() }
@@ -92,7 +95,14 @@ fn means(
     [rho_x, rho_e.min(&by_y), rho_y]
 }
 
-/// kappa_N.
+/// `sigma max{b_hi - 1, 1 - b_lo}`.
+fn shift(d: &Data<'_>, sigma: &Interval) -> Interval {
+    let Some(gain) = &d.gain else { return d.int(0) };
+    let [low, high] = gain.shifts(sigma).map(|shift| shift.abs());
+    low.max(&high)
+}
+
+/// kappa_N where b is 1.
 fn swing(d: &Data<'_>, n_o: u32) -> Interval {
     let own = (i64::from(n_o) + 1) / d.weight(0);
     let of = |k: u32| 2 / d.weight(u64::from(k));
@@ -100,7 +110,7 @@ fn swing(d: &Data<'_>, n_o: u32) -> Interval {
 }
 
 /// Proves an entry with its trial; `d` has the sum of all weights.
-pub fn prove(d: &Data<'_>, about: &About<'_>, (entry, trial): (&Entry<'_>, &Trial), curves: &Curves) -> Outcome<()> {
+pub fn prove(d: &Data<'_>, about: &About<'_>, (entry, trial): (&Entry<'_>, &Trial), curves: &Sizes) -> Outcome<()> {
     // Of so many oscillators or more the sum of all weights counts.
     let alone = trial.or_more.is_none().then(|| Data::of_oscillators(d.spec, d.precision, entry.n_o));
     let (d, n_bar) = alone.as_ref().map_or((d, "Nbar"), |d| (d, "Nbar_N"));
@@ -128,7 +138,7 @@ pub fn prove(d: &Data<'_>, about: &About<'_>, (entry, trial): (&Entry<'_>, &Tria
     let [claimed_e, claimed_rms, claimed_u] = &entry.steady;
     at_most("sup|ehat| + s_e", e.clone(), claimed_e, "steady/e")?;
     at_most("rms(ehat) + rho_e", &curves.e_rms + &tube.e_rms, claimed_rms, "steady/e_rms")?;
-    let what = format!("sup|ehat' - qhat| + kappa + sigma s_e + mu {n_bar} s_z");
+    let what = format!("sup|uhat| + kappa + sigma s_e + mu {n_bar} s_z");
     at_most(&what, put, claimed_u, "steady/u")?;
 
     let solution = Solution { sizes: [x, e, zeta], off: [tube.x, tube.e], u };

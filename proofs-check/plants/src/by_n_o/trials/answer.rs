@@ -1,17 +1,17 @@
-//! What the linear regulator with n_o oscillators answers to the q of a trial, harmonic by harmonic (docs/mathematics.md, section 14.4).
+//! What the regulator with n_o oscillators puts out with the e of a trial, harmonic by harmonic (docs/mathematics.md, section 14.4).
 
 use crate::by_n_o::linear::complex::Complex;
 use crate::by_n_o::linear::jet::Number;
 use crate::by_n_o::linear::oscillators::Regulator;
 use proofs_core::interval::Interval;
-use proofs_core::rules::by_n_o::trials::Trial;
+use proofs_core::rules::by_n_o::curves::Curves;
 use proofs_core::wave::Wave;
 
-/// Of a trial with n_o oscillators.
+/// Of curves with n_o oscillators.
 pub struct Answer {
-    /// `kappa = 2 sum_(k > n_o) |qhat_k - (i om_k + sigma)(1 + i y_k) ehat_k|`.
+    /// `2 sum_(k > n_o) |uhat_k - uhat*_k|`, `uhat*_k = -(sigma + i y_k (i om_k + sigma)) ehat_k`.
     pub kappa: Interval,
-    /// zhat, a bound of the part of `|zeta|_N` that answers `qhat*`.
+    /// zhat, a bound of the part of `|zeta|_N` with the output `uhat*`.
     pub zeta: Interval,
 }
 
@@ -22,20 +22,18 @@ fn twice(wave: &Wave, k: usize, precision: u32) -> Complex {
 }
 
 impl Answer {
-    /// `zhat^2` is at first `qhat_0^2/(mu^2 n_0) + sum_(1 <= k <= n_o) 4 |qhat_k|^2/(mu^2 n_k)`.
-    pub fn new(regulator: &Regulator<'_>, n_o: usize, trial: &Trial) -> Answer {
+    /// `zhat^2` is at first `uhat_0^2/(mu^2 n_0) + sum_(1 <= k <= n_o) 4 |uhat_k|^2/(mu^2 n_k)`.
+    pub fn new(regulator: &Regulator<'_>, n_o: usize, Curves { e, u, .. }: &Curves) -> Answer {
         let p = regulator.om.precision();
         let zero = || Interval::int(0, p);
         let over = |square: Interval, k: usize| square / (regulator.mu.sqr() * regulator.weight(k));
-        let first = over(Interval::rational(&trial.q.mean, p).sqr(), 0);
-        let within = (1..=n_o).fold(first, |sum, k| sum + over(twice(&trial.q, k, p).square(), k));
+        let first = over(Interval::rational(&u.mean, p).sqr(), 0);
+        let within = (1..=n_o).fold(first, |sum, k| sum + over(twice(u, k, p).square(), k));
         let (mut kappa, mut beyond) = (zero(), zero());
-        for k in n_o + 1..=trial.e.harmonics.len().max(trial.q.harmonics.len()) {
-            let [error, input] = [&trial.e, &trial.q].map(|wave| twice(wave, k, p));
+        for k in n_o + 1..=e.harmonics.len().max(u.harmonics.len()) {
+            let [error, output] = [e, u].map(|wave| twice(wave, k, p));
             let of_k = regulator.beyond(n_o, k);
-            // (i om_k + sigma)(1 + i y_k) = i om_k + turn.
-            let turned = Complex { re: of_k.turn.re, im: of_k.turn.im + regulator.frequency(k) }.times(&error);
-            kappa = kappa + input.plus(&turned.opposite()).square().sqrt();
+            kappa = kappa + output.plus(&of_k.turn.times(&error)).square().sqrt();
             beyond = beyond + of_k.size * error.square().sqrt();
         }
         Answer { kappa, zeta: within.sqrt() + beyond }

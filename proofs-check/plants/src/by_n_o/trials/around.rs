@@ -1,24 +1,30 @@
 //! The formulas around a trial (docs/mathematics.md, section 14.4): on the box of all `x = xhat(t) + L v`, `e = ehat(t) + h` with `|v| <= D_x`,
-//! `|h| <= D_e`, and on the larger one of `x_first` (14.5). They are those of a plant whose orbit is xhat and whose error is measured from ehat.
+//! `|h| <= D_e`, of every member, and on the larger one of `x_first` (14.5). They are those of a plant whose orbit is xhat and whose error is measured
+//! from ehat, and which has the gain b of the actuator for one more parameter, if that is an interval. Where d_b stands it is asked about at both ends of
+//! b, in which the inequalities are affine; that is more than is needed, for the curves move with b besides.
 
 use crate::bounds;
-use crate::form::{Form, numbers, of_states, split};
-use crate::formula::Id;
+use crate::form::{End, Form, ends, numbers, of_states, split};
+use crate::formula::{Id, Leaf};
 use crate::machine::{Curves, Machine};
 use crate::model::{self, Frame, Model, wave};
-use crate::path::{Expanded, Judged, Path, Polynomial, bound, bound_of_derivative, bound_of_norm, everywhere};
 use crate::question::{Answer, MAX_PIECES, Question};
 use crate::read::Plant;
-use crate::region::{Piece, Region, Shape};
+use crate::region::{Region, Shape};
 use crate::still::Still;
 use crate::time::around;
-use crate::{PRECISION, smooth, too_large};
+use crate::{ARGUMENT_PRECISION, PRECISION, smooth, too_large};
+use proofs_core::constant::Constant;
+use proofs_core::input_gain;
 use proofs_core::interval::Interval;
 use proofs_core::plant::entries::Name;
+use proofs_core::range::{Range, Span};
 use proofs_core::rules::by_n_o::claimed::RULE;
+use proofs_core::rules::by_n_o::curves::moves;
 use proofs_core::rules::by_n_o::trials::{OrMore, Trial};
 use proofs_core::rules::by_n_o::x_first::{Split, XFirst};
-use proofs_core::verdict::{Outcome, demand};
+use proofs_core::spec::Specification;
+use proofs_core::verdict::{Outcome, bad, demand};
 use rug::Rational;
 
 /// By so many boxes each question is tried at first.
@@ -37,35 +43,45 @@ struct Asked<'t> {
 
 /// The formulas around a trial.
 pub struct Around<'t> {
-    trial: &'t Trial,
-    plant: Plant,
-    model: Model,
-    curves: Curves,
+    pub(super) trial: &'t Trial,
+    pub(super) plant: Plant,
+    pub(super) model: Model,
+    pub(super) curves: Curves,
     asked: Vec<Asked<'t>>,
     /// The same questions in x and e.
     still: Still,
-    /// The components of `L^-1 (f - xhat')`, and `q - qhat`.
-    defects: Vec<Id>,
+    /// The components of `L^-1 (f - xhat')`, and `q + b uhat - ehat'`.
+    pub(super) defects: Vec<Id>,
 }
 
 impl<'t> Around<'t> {
     /// From a plant; `sigma`: the gain of the claim.
-    pub fn new(plant: &Plant, sigma: &Rational, trial: &'t Trial) -> Outcome<Around<'t>> {
+    pub fn new(spec: &Specification, plant: &Plant, sigma: &Rational, trial: &'t Trial) -> Outcome<Around<'t>> {
         let mut near = plant.clone();
-        near.orbit.waves = vec![trial.x.clone()];
-        near.forcing.waves = vec![trial.q.clone()];
-        near.error = Some(trial.e.clone());
+        near.orbit.waves = trial.curves.iter().map(|curves| curves.x.clone()).collect();
+        near.forcing.waves = trial.curves.iter().map(|curves| curves.u.clone()).collect();
+        near.error = trial.curves.iter().map(|curves| curves.e.clone()).collect();
+        near.powers = trial.curves.iter().skip(1).map(|curves| curves.powers.clone()).collect();
         near.lyapunov.clear();
+        let gain = spec.input_gain.as_ref().filter(|_| moves(spec)).map(factor).transpose()?;
+        let place = near.family.len();
+        near.family.extend(gain);
         let mut model = Model::new(&near, Frame::Moving);
-        let input = wave(&mut model.formulas, &near, near.states(), 0);
-        let apart = model.formulas.make(model.q - input);
+        let states = near.states();
+        let mut input = wave(&mut model.formulas, &near, states, 0);
+        if near.family.len() > place {
+            let b = model.formulas.leaf(Leaf::Parameter(place));
+            input = model.formulas.make(b * input);
+        }
+        let velocity = wave(&mut model.formulas, &near, states + 1, 1);
+        let apart = model.formulas.make(model.q + input - velocity);
         let defects = model.defect.iter().copied().chain([apart]).collect();
-        let asked = questions(&mut model, sigma, trial);
+        let asked = questions(&mut model, spec, sigma, trial);
         if model.formulas.is_too_large() {
             return too_large(RULE, "/plant");
         }
         let in_states = |model: &mut Model| {
-            let all = questions(model, sigma, trial).into_iter();
+            let all = questions(model, spec, sigma, trial).into_iter();
             Ok(all.map(|asked| (!asked.is_of_motion).then_some(asked.question)).collect())
         };
         let still = Still::new(&near, in_states)?;
@@ -116,71 +132,40 @@ impl<'t> Around<'t> {
         }
         Ok(boxes)
     }
+}
 
-    /// Proves `|L^-1 (f(t,xhat,ehat) - xhat')| <= d_x` and `|q(t,xhat,ehat) - qhat| + kappa <= d_q` at every t, and of an entry about so many
-    /// oscillators or more `|(q(t,xhat,0) - qhat)'| <= d_t`, at the precision of Om; by how many cells of t.
-    pub fn defects(&self, [om, period]: [&Interval; 2], kappa: &Interval, about: &str) -> Outcome<usize> {
-        let p = om.precision();
-        let machine = Machine::new(&self.model.formulas, &self.curves, om);
-        let values = machine.values();
-        let path = Path::new(&machine, &self.curves, om, std::slice::from_ref(&self.defects));
-        let number = |defect: &Rational| Interval::rational(defect, p);
-        let [d_x, d_q] = self.trial.defects.each_ref().map(number);
-        let of_rate = self.trial.or_more.as_ref().map(|more| number(&more.defect));
-        let most: Vec<Interval> = [d_x, d_q - kappa].into_iter().chain(of_rate).collect();
-        let states = self.plant.states();
-        // Which of them is open on the last cell.
-        let mut open = 0;
-        let judge = |piece: &Piece| {
-            let (expanded, half) = (Expanded::new(&path, piece, &values), piece.cell.all.half_width());
-            let (of_f, q) = expanded.at_middle.split_at(states);
-            let zero = Interval::int(0, p);
-            let of_q = |bound: fn(&Polynomial, &Interval) -> Interval| {
-                q.iter().fold(zero.clone(), |sum, q| sum + bound(q, &half))
-            };
-            let sizes = [bound_of_norm(of_f, &half), of_q(bound), of_q(bound_of_derivative)];
-            let wrong = |(size, most): (&Interval, &Interval)| size.le(most) != Some(true);
-            let Some(which) = sizes.iter().zip(&most).position(wrong) else { return Judged::Proved };
-            open = which;
-            // The value, or the slope, at the middle.
-            let (parts, order) = [(of_f, 0), (q, 0), (q, 1)][which];
-            let square = |part: &Polynomial| part.coefficients.get(order).unwrap_or(&zero).sqr();
-            let at_middle = parts.iter().fold(zero.clone(), |sum, part| sum + square(part)).sqrt();
-            match most[which].lt(&at_middle) {
-                Some(true) => Judged::Refuted,
-                _ => Judged::Halve(vec![1.0]),
-            }
-        };
-        let whole = Region::of_family(&self.plant, p).whole(&machine, machine.period(period));
-        everywhere(whole, judge).or_else(|(t, refuted)| {
-            let (name, what) = [
-                ("defect_x", "|L^-1 (f(t,xhat,ehat) - xhat')| <= defect_x"),
-                ("defect_q", "|q(t,xhat,ehat) - qhat| + kappa <= defect_q"),
-                ("defect_q_t", "|(q(t,xhat,0) - qhat)'| <= defect_q_t"),
-            ][open];
-            let what = format!("{what} for {about}, near t = {t:.6}");
-            demand(refuted.then_some(false), RULE, &format!("{}/{name}", self.trial.pointer), what).map(|()| 0)
-        })
+/// b between its ends, which are exact where they and the nominal gain are rational, and else a little apart.
+fn factor(gain: &Range) -> Outcome<Span> {
+    let exact = |end: &Constant| Some(end.rational()? / gain.nominal.rational()?);
+    let [low, high] = input_gain::factors(gain, ARGUMENT_PRECISION);
+    let ends = exact(&gain.low).or_else(|| low.lower()).zip(exact(&gain.high).or_else(|| high.upper()));
+    match ends {
+        Some((low, high)) => Ok(Span { nominal: Rational::from(1), ends: [low, high] }),
+        None => bad("/plant/input_gain", "expected moderate numbers"),
     }
 }
 
 /// (14.4a) of each form, (14.4b), and the bounds of r and d, and of the derivatives that the corollary asks for; then (14.5a).
-fn questions<'t>(model: &mut Model, sigma: &Rational, trial: &'t Trial) -> Vec<Asked<'t>> {
+fn questions<'t>(model: &mut Model, spec: &Specification, sigma: &Rational, trial: &'t Trial) -> Vec<Asked<'t>> {
     let states = model.states();
     let mut asked = Vec::new();
     let (unit, radii) = (model.formulas.int(1), trial.radii.each_ref());
+    let ends = ends(&mut model.formulas, spec, sigma);
     for (place, (metric, _)) in trial.forms.iter().enumerate() {
         let corner = Rational::from(sigma * &metric.w) * 2u32;
         let pull: Vec<Rational> = metric.cross.iter().map(|entry| Rational::from(entry * sigma)).collect();
-        let (mut rows, of_e) = Form { metric, unit, corner: &corner, shift: None, pull: &pull }.rows(model);
-        rows.push(of_e);
-        asked.push(Asked {
-            question: Question::new(&mut model.formulas, rows, states),
-            pointer: format!("{}/forms/{place}", trial.pointer),
-            what: "F >= diag(c_x I, c_e, c_y)".to_owned(),
-            is_of_motion: false,
-            radii,
-        });
+        for End { at, shift } in &ends {
+            let form = Form { metric, unit, corner: &corner, shift: *shift, pull: &pull };
+            let (mut rows, of_e) = form.rows(model);
+            rows.push(of_e);
+            asked.push(Asked {
+                question: Question::new(&mut model.formulas, rows, states),
+                pointer: format!("{}/forms/{place}", trial.pointer),
+                what: format!("F >= diag(c_x I, c_e, c_y){at}"),
+                is_of_motion: false,
+                radii,
+            });
+        }
     }
     if let Some(of) = &trial.states {
         let [c, gamma] = &of.decay;
@@ -217,28 +202,34 @@ fn questions<'t>(model: &mut Model, sigma: &Rational, trial: &'t Trial) -> Vec<A
         radii,
     };
     asked.extend(of_states.into_iter().chain(of_output).map(bound));
-    asked.extend(trial.x_first.iter().flat_map(|first| along_x_first(model, sigma, first)));
+    asked.extend(trial.x_first.iter().flat_map(|first| along_x_first(model, &ends, sigma, first)));
     asked
 }
 
-/// (14.5a) of each form: that F without e is not below S where e is within eta of ehat, and that S with e is not below 0.
-fn along_x_first<'t>(model: &mut Model, sigma: &Rational, first: &'t XFirst) -> Vec<Asked<'t>> {
+/// (14.5a) of each form: that F without e is not below S where e is within eta of ehat, which is asked once, as b has no part in it, and that S with e
+/// is not below 0.
+fn along_x_first<'t>(model: &mut Model, ends: &[End], sigma: &Rational, first: &'t XFirst) -> Vec<Asked<'t>> {
     let (states, unit) = (model.states(), model.formulas.int(1));
     let XFirst { pointer, radii: [d_x, d_e], slice, forms } = first;
     let mut asked = Vec::new();
     for (place, Split { metric, matrix, .. }) in forms.iter().enumerate() {
         let corner = Rational::from(sigma * &metric.w) * 2u32;
-        let rows = Form { metric, unit, corner: &corner, shift: None, pull: &[] }.rows(model);
-        let both = split(&mut model.formulas, rows, matrix, unit);
-        let kinds =
-            [("F without e >= S, along x first up to E,", [d_x, slice]), ("S with e >= 0, along x first,", [d_x, d_e])];
-        asked.extend(both.into_iter().zip(kinds).map(|(rows, (what, radii))| Asked {
-            question: Question::new(&mut model.formulas, rows, states),
-            pointer: format!("{pointer}/forms/{place}"),
-            what: what.to_owned(),
-            is_of_motion: false,
-            radii,
-        }));
+        for (which, End { at, shift }) in ends.iter().enumerate() {
+            let rows = Form { metric, unit, corner: &corner, shift: *shift, pull: &[] }.rows(model);
+            let both = split(&mut model.formulas, rows, matrix, unit);
+            let kinds = [
+                ("F without e >= S, along x first up to E,", "", [d_x, slice]),
+                ("S with e >= 0, along x first,", *at, [d_x, d_e]),
+            ];
+            let kinds = both.into_iter().zip(kinds).skip(usize::from(which > 0));
+            asked.extend(kinds.map(|(rows, (what, at, radii))| Asked {
+                question: Question::new(&mut model.formulas, rows, states),
+                pointer: format!("{pointer}/forms/{place}"),
+                what: format!("{what}{at}"),
+                is_of_motion: false,
+                radii,
+            }));
+        }
     }
     asked
 }

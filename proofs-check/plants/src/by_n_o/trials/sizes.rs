@@ -1,0 +1,135 @@
+//! How large the curves of a trial are, over t and over all members (docs/mathematics.md, section 14.4): each is a sum over powers of delta, and the size
+//! of a power is its largest one. What is at one time is added up there, and then the largest is taken over t; a root mean square of a sum is at most
+//! the sum of those of its parts (Minkowski).
+
+use super::answer::Answer;
+use super::largest::{Part, largest};
+use crate::by_n_o::linear::oscillators::Regulator;
+use crate::read::Plant;
+use crate::time::Wave;
+use proofs_core::data::Data;
+use proofs_core::interval::Interval;
+use proofs_core::rules::by_n_o::curves::Curves;
+use proofs_core::rules::by_n_o::trials::Trial;
+use proofs_core::rules::by_n_o::tube::Sizes;
+use rug::Rational;
+
+/// The sizes of the curves are known to this share of themselves, in bits.
+const SHARE: u32 = 30;
+
+/// A trial of a plant.
+pub struct Of<'t> {
+    d: &'t Data<'t>,
+    plant: &'t Plant,
+    trial: &'t Trial,
+    /// kappa.
+    pub kappa: Interval,
+    /// zhat.
+    zeta: Interval,
+}
+
+impl<'t> Of<'t> {
+    /// With n_o oscillators.
+    pub fn new(
+        d: &'t Data<'t>,
+        plant: &'t Plant,
+        regulator: &Regulator<'_>,
+        (n_o, trial): (usize, &'t Trial),
+    ) -> Of<'t> {
+        let mut of = Of { d, plant, trial, kappa: d.int(0), zeta: d.int(0) };
+        for curves in &trial.curves {
+            let (answer, size) = (Answer::new(regulator, n_o, curves), of.size(&curves.powers));
+            of.kappa = of.kappa + answer.kappa * &size;
+            of.zeta = of.zeta + answer.zeta * size;
+        }
+        of
+    }
+
+    /// `sup|delta^alpha|`.
+    fn size(&self, powers: &[u32]) -> Interval {
+        let parameters = self.plant.family.iter().map(|span| {
+            let apart = span.ends.each_ref().map(|end| Rational::from(end - &span.nominal).abs());
+            let [low, high] = apart.each_ref().map(|end| self.d.number(end));
+            low.max(&high)
+        });
+        let gain = self.d.gain.iter().map(|gain| (1 - &gain.low).max(&(&gain.high - 1)));
+        let all = parameters.chain(gain).zip(powers);
+        // Exponents are small.
+        all.fold(self.d.int(1), |size, (most, exponent)| size * most.powi(*exponent as i32))
+    }
+
+    /// Those of all curves.
+    pub fn sizes(&self, circle: [&Interval; 2]) -> Sizes {
+        let of = |size: Interval| size.round(self.d.precision);
+        let sum = |vector: &dyn Fn(&Curves) -> Vec<Wave>| {
+            let part = |curves: &Curves| Part { factor: self.size(&curves.powers), vector: vector(curves) };
+            of(largest(&self.trial.curves.iter().map(part).collect::<Vec<_>>(), circle, SHARE))
+        };
+        let rms = |curves: &Curves| {
+            let parts = curves.e.harmonics.iter().flatten();
+            let square = parts.fold(Rational::new(), |sum, part| sum + Rational::from(part.square_ref()));
+            self.size(&curves.powers) * self.d.number(&(square / 2u32)).sqrt()
+        };
+        let x = match self.plant.states() {
+            0 => self.d.int(0),
+            _ => of(largest(&self.from_orbit(), circle, SHARE)) + self.d.number(&self.plant.orbit.radius),
+        };
+        Sizes {
+            x,
+            e: sum(&|curves| vec![curves.e.clone()]),
+            e_rms: self.trial.curves.iter().map(rms).fold(self.d.int(0), |sum, part| sum + part),
+            u: sum(&|curves| vec![curves.u.clone()]) + &self.kappa,
+            zeta: self.zeta.clone(),
+        }
+    }
+
+    /// `L^-1 (xhat - xb)`, of each power: the orbit moves with each parameter by its sensitivity.
+    fn from_orbit(&self) -> Vec<Part> {
+        let orbit = &self.plant.orbit.waves;
+        let numbers = self.trial.curves.first().map_or(0, |curves| curves.powers.len());
+        let of_member = |member: usize| {
+            let mut powers = vec![0; numbers];
+            // The first is the nominal one, and the others are those of the parameters in their order.
+            if let Some(own) = member.checked_sub(1).and_then(|i| powers.get_mut(i)) {
+                *own = 1;
+            }
+            powers
+        };
+        let mut all: Vec<(Vec<u32>, Vec<(&Wave, i32)>)> = Vec::new();
+        let mut add = |powers: Vec<u32>, waves: &'t [Wave], sign: i32| {
+            let signed = waves.iter().map(|wave| (wave, sign));
+            match all.iter_mut().find(|(known, _)| *known == powers) {
+                Some((_, parts)) => parts.extend(signed),
+                None => all.push((powers, signed.collect())),
+            }
+        };
+        for curves in &self.trial.curves {
+            add(curves.powers.clone(), &curves.x, 1);
+        }
+        for (member, waves) in orbit.iter().enumerate() {
+            add(of_member(member), waves, -1);
+        }
+        let states = self.plant.states();
+        let of = |(powers, parts): (Vec<u32>, Vec<(&Wave, i32)>)| {
+            let waves: Vec<&Wave> = parts.iter().map(|(wave, _)| *wave).collect();
+            let component = |row: &Vec<Rational>| {
+                // The components of one curve, and then those of the other, if there are both.
+                let factors = parts.iter().enumerate().map(|(i, (_, sign))| Rational::from(&row[i % states] * *sign));
+                combined(&factors.collect::<Vec<_>>(), &waves)
+            };
+            let vector = self.plant.known.coordinates.inverse.iter().map(component).collect();
+            Part { factor: self.size(&powers), vector }
+        };
+        all.into_iter().map(of).collect()
+    }
+}
+
+/// A sum of waves with these factors.
+fn combined(factors: &[Rational], waves: &[&Wave]) -> Wave {
+    let count = waves.iter().map(|wave| wave.harmonics.len()).max().unwrap_or(0);
+    let sum = |of: &dyn Fn(&Wave) -> Rational| {
+        factors.iter().zip(waves).fold(Rational::new(), |sum, (factor, wave)| sum + of(wave) * factor)
+    };
+    let harmonic = |k: usize| [0, 1].map(|part| sum(&|wave| wave.harmonic(k)[part].clone()));
+    Wave { mean: sum(&|wave| wave.mean.clone()), harmonics: (1..=count).map(harmonic).collect() }
+}
