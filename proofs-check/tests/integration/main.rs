@@ -68,6 +68,8 @@ mod splitting;
 mod transfer;
 mod trials;
 mod trials_certificate;
+mod trials_families;
+mod trials_gain;
 mod trials_or_more;
 mod trials_peaks;
 mod trials_support;

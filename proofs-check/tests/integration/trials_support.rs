@@ -52,7 +52,7 @@ impl Wave {
     }
 
     /// Of a function with no more than these harmonics.
-    fn of(value: impl Fn(f64) -> f64) -> Wave {
+    pub fn of(value: impl Fn(f64) -> f64) -> Wave {
         let count = TIMES as f64;
         let sum = |of: &dyn Fn(f64) -> f64| {
             (0..TIMES).map(|j| j as f64 / count).map(|t| value(t) * of(t)).sum::<f64>() / count
@@ -75,7 +75,7 @@ impl Wave {
     }
 
     /// As a file has it, its mean with it or not, in lists of one number or not.
-    fn json(&self, with_mean: bool, of_states: bool) -> Value {
+    pub fn json(&self, with_mean: bool, of_states: bool) -> Value {
         let value = |x: f64| if of_states { json!([format!("{x:e}")]) } else { json!(format!("{x:e}")) };
         let harmonics: Vec<Value> = self.1.iter().map(|[a, b]| json!({ "cos": value(*a), "sin": value(*b) })).collect();
         if with_mean {
@@ -118,7 +118,7 @@ pub fn oscillators(n_o: usize, k: usize) -> [f64; 3] {
 }
 
 /// `(i om_k + sigma)(1 + i y_k)` times the harmonic `(a - i b)/2` of e, of q.
-fn answered(n_o: usize, k: usize, [a, b]: [f64; 2]) -> [f64; 2] {
+pub fn answered(n_o: usize, k: usize, [a, b]: [f64; 2]) -> [f64; 2] {
     let [_, y, _] = oscillators(n_o, k);
     let om = TAU * k as f64;
     let (re, im) = (SIGMA - om * y, om + SIGMA * y);
@@ -157,6 +157,10 @@ pub struct Case {
     pub e: Wave,
     pub q: Wave,
     pub n_o: usize,
+    /// b_lo and b_hi.
+    pub gain: [f64; 2],
+    /// By what the size of u, and zhat, is larger than that of the nominal member.
+    pub of_u: f64,
 }
 
 /// Of the set: X0, E0, Z0.
@@ -183,7 +187,7 @@ impl Case {
     }
 
     /// With these e and q.
-    fn of(n_o: usize, formulas: Formulas, [e, q]: [Wave; 2]) -> Case {
+    pub fn of(n_o: usize, formulas: Formulas, [e, q]: [Wave; 2]) -> Case {
         let x = Wave(0.1, [[0.4, 0.2], [0.0, 0.05]].to_vec());
         let along = |t: f64| (formulas.values)(x.at(t, 0), e.at(t, 0));
         let of_f = Wave::of(|t| x.at(t, 1) - along(t)[0]);
@@ -224,7 +228,8 @@ impl Case {
         let (error_box, periodic) = (["1", "1"].map(str::to_owned), ["0.1", "0.1"]);
         // A function that is too large to be of use.
         let (transfer, weights) = (["19.8", "79.1"], ["1e9", "1e9"]);
-        Case { parts, entry, trial, sigma: "4", error_box, periodic, transfer, weights, stability: None, x, e, q, n_o }
+        let (sigma, stability, gain, of_u) = ("4", None, [1.0; 2], 1.0);
+        Case { parts, entry, trial, sigma, error_box, periodic, transfer, weights, stability, x, e, q, n_o, gain, of_u }
     }
 
     /// Of a plant without states, with this q; its trial has nothing of states.
@@ -357,6 +362,8 @@ pub fn expected_with(case: &Case, n_bar: f64) -> Expected {
     let rho_e = (g / c_e).sqrt().min(rho_y / SIGMA.hypot(TAU * (case.n_o + 1) as f64));
     let s_e = (rho_e * rho_y).sqrt();
     let s_x = (q_up / (q_low * c) * (gamma * s_e * s_e + q_up * q_up * d_x * d_x / c)).sqrt();
+    let [low, high] = case.gain;
+    let b_e = b_e + SIGMA * (high - 1.0).max(1.0 - low);
     let input = b_x * rho_x + b_e * rho_e + d_q;
     let (kappa, other) = if case.is_or_more() {
         let [d_t, q_tx, q_te, f_x, f_e] = ["/defect_q_t", "/q_tx", "/q_te", "/f_x", "/f_e"].map(value);
@@ -367,7 +374,7 @@ pub fn expected_with(case: &Case, n_bar: f64) -> Expected {
         let own = (case.n_o + 1) as f64 / WEIGHTS[0];
         ((1..=case.n_o).map(|k| 2.0 * (k as f64).powf(1.5)).fold(own, f64::max), 0.0)
     };
-    let s_z = ((0.5 + kappa) * input * input + other).sqrt();
+    let s_z = ((0.5 / low + kappa / (low * low)) * input * input + other / (low * low)).sqrt();
     let size = |[a, b]: [f64; 2]| a.hypot(b);
     let within = |k: usize| size(case.q.1[k - 1]).powi(2) / (k as f64).powf(-1.5);
     let first = (case.q.0 * case.q.0 / WEIGHTS[0] + (1..=case.n_o.min(case.q.1.len())).map(within).sum::<f64>()).sqrt();
@@ -375,20 +382,22 @@ pub fn expected_with(case: &Case, n_bar: f64) -> Expected {
         let [both, _, slope] = oscillators(case.n_o, k);
         slope * both * size(case.e.1[k - 1]) / TAU
     };
-    let z_n = first + (case.n_o + 1..=case.e.1.len()).map(beyond).sum::<f64>() + s_z;
+    let z_n = case.of_u * first + (case.n_o + 1..=case.e.1.len()).map(beyond).sum::<f64>() + s_z;
     let e_n = largest(|t| case.e.at(t, 0)) + s_e;
     let rms = (case.e.1.iter().map(|pair| size(*pair).powi(2)).sum::<f64>() / 2.0).sqrt();
-    let u = largest(|t| case.e.at(t, 1) - case.q.at(t, 0)) + SIGMA * s_e + n_bar * s_z;
+    let u = case.of_u * largest(|t| case.e.at(t, 1) - case.q.at(t, 0)) + SIGMA * s_e + n_bar * s_z;
     let x_n = OFF[0] / L + OFF[1] + s_x;
     let [d_x, d_e, d_z] = [SET[0] + x_n, SET[1] + e_n, SET[2] + n_bar * SET[1] + z_n];
-    let v_0 = p_up * d_x * d_x + 2.0 * p * d_x * d_e + w * d_e * d_e + k_p / 2.0 * d_z * d_z;
+    let at = |b: f64| p_up * d_x * d_x + 2.0 * p * d_x * d_e + w * d_e * d_e + k_p * b / 2.0 * d_z * d_z;
+    let of_u = |b: f64| (at(b) * (SIGMA * SIGMA / e_low + 2.0 * n_bar * n_bar / (b * k_p))).sqrt();
+    let v_0 = at(high);
     Expected {
         s_x,
         s_e,
         steady: [e_n, rms + rho_e, u],
         sizes: [x_n, e_n],
         distances: [d_x, d_e, d_z],
-        largest: [e_n + (v_0 / e_low).sqrt(), u + (v_0 * (SIGMA * SIGMA / e_low + 2.0 * n_bar * n_bar / k_p)).sqrt()],
+        largest: [e_n + (v_0 / e_low).sqrt(), u + of_u(low).max(of_u(high))],
         v_0,
     }
 }

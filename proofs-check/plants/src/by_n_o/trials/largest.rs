@@ -1,8 +1,9 @@
 //! The largest over t of a sum of lengths of vectors of trigonometric polynomials (docs/mathematics.md, section 14.4).
 //!
 //! On a cell with the middle c and the half width h, `v(t) = v(c) + v'(c) (t - c) + rest`, and the rest is at most `sup|v''| h^2/2`. So |v| is at most
-//! `sqrt(|v(c)|^2 + 2 |v(c) v'(c)| h + |v'(c)|^2 h^2) + sup|v''| h^2/2`. Cells on which the sum of these is not above what the sum is somewhere else are
-//! done; the others are halved.
+//! `sqrt(|v(c)|^2 + 2 |v(c) v'(c)| h + |v'(c)|^2 h^2) + sup|v''| h^2/2`; and, as `sqrt(a + b) <= sqrt(a) + b/(2 sqrt(a))`, where v(c) is not 0 at most
+//! `|v(c)| + s (t - c) + |v'(c)|^2 h^2/(2 |v(c)|) + sup|v''| h^2/2` with the slope `s = v(c) v'(c)/|v(c)|`: slopes of several vectors are added up with
+//! their signs. Cells on which the sum of these is not above what the sum is somewhere else are done; the others are halved.
 
 use crate::time::{Table, Wave, waves};
 use proofs_core::interval::Interval;
@@ -45,19 +46,23 @@ pub fn largest(parts: &[Part], [om, period]: [&Interval; 2], share: u32) -> Inte
         let mut open: Vec<(i64, Interval)> = Vec::new();
         for j in cells {
             let there = waves(om, &(&half * (2 * j + 1)), count);
-            let (mut there_all, mut reach_all) = (zero(), &bend * half.sqr() / 2);
+            let (mut there_all, mut reach_all, mut slope_all, mut curve_all) = (zero(), zero(), zero(), zero());
             for (factor, vector) in &tables {
                 let (mut square, mut moved, mut speed) = (zero(), zero(), zero());
                 for table in vector {
                     let [value, slope] = [0, 1].map(|order| table.at(order, &there, p));
                     (square, moved, speed) = (square + value.sqr(), moved + &value * &slope, speed + slope.sqr());
                 }
-                let reach = &square + moved.abs() * &half * 2 + speed * half.sqr();
-                there_all = there_all + factor * square.sqrt();
+                let reach = &square + moved.abs() * &half * 2 + &speed * half.sqr();
+                let length = square.sqrt();
+                slope_all = slope_all + factor * moved / &length;
+                curve_all = curve_all + factor * speed / &length;
+                there_all = there_all + factor * length;
                 reach_all = reach_all + factor * reach.sqrt();
             }
+            let by_slope = &there_all + slope_all.abs() * &half + curve_all * half.sqr() / 2;
             least = least.max(&there_all.floor());
-            open.push((j, reach_all.ceiling()));
+            open.push((j, (reach_all.least(&by_slope) + &bend * half.sqr() / 2).ceiling()));
         }
         most = (&least * &room).ceiling();
         open.retain(|(_, bound)| bound.le(&most) != Some(true));
