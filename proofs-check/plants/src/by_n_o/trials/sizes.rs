@@ -13,6 +13,7 @@ use proofs_core::rules::by_n_o::curves::Curves;
 use proofs_core::rules::by_n_o::trials::Trial;
 use proofs_core::rules::by_n_o::tube::Sizes;
 use rug::Rational;
+use std::iter::repeat;
 
 /// The sizes of the curves are known to this share of themselves, in bits.
 const SHARE: u32 = 30;
@@ -72,7 +73,7 @@ impl<'t> Of<'t> {
         };
         let x = match self.plant.states() {
             0 => self.d.int(0),
-            _ => of(largest(&self.from_orbit(), circle, SHARE)) + self.d.number(&self.plant.orbit.radius),
+            _ => of(largest(&self.apart(), circle, SHARE)) + self.d.number(&self.plant.orbit.radius),
         };
         Sizes {
             x,
@@ -83,42 +84,31 @@ impl<'t> Of<'t> {
         }
     }
 
-    /// `L^-1 (xhat - xb)`, of each power: the orbit moves with each parameter by its sensitivity.
-    fn from_orbit(&self) -> Vec<Part> {
-        let orbit = &self.plant.orbit.waves;
-        let numbers = self.trial.curves.first().map_or(0, |curves| curves.powers.len());
-        let of_member = |member: usize| {
-            let mut powers = vec![0; numbers];
-            // The first is the nominal one, and the others are those of the parameters in their order.
-            if let Some(own) = member.checked_sub(1).and_then(|i| powers.get_mut(i)) {
-                *own = 1;
+    /// `L^-1 (xhat - xb)`, of each power of delta that one of both has.
+    fn apart(&self) -> Vec<Part> {
+        let curves = &self.trial.curves;
+        let numbers = curves.first().map_or(0, |curves| curves.powers.len());
+        // The orbit does not move with the gain, which is the last of the numbers.
+        let long = |powers: &[u32]| -> Vec<u32> { powers.iter().copied().chain(repeat(0)).take(numbers).collect() };
+        let of_orbit = [&[][..]].into_iter().chain(self.plant.powers.iter().map(Vec::as_slice)).map(long);
+        let of_orbit: Vec<(Vec<u32>, &Vec<Wave>)> = of_orbit.zip(&self.plant.orbit.waves).collect();
+        let mut all: Vec<&Vec<u32>> = curves.iter().map(|curves| &curves.powers).collect();
+        for (powers, _) in &of_orbit {
+            if !all.contains(&powers) {
+                all.push(powers);
             }
-            powers
-        };
-        let mut all: Vec<(Vec<u32>, Vec<(&Wave, i32)>)> = Vec::new();
-        let mut add = |powers: Vec<u32>, waves: &'t [Wave], sign: i32| {
-            let signed = waves.iter().map(|wave| (wave, sign));
-            match all.iter_mut().find(|(known, _)| *known == powers) {
-                Some((_, parts)) => parts.extend(signed),
-                None => all.push((powers, signed.collect())),
-            }
-        };
-        for curves in &self.trial.curves {
-            add(curves.powers.clone(), &curves.x, 1);
         }
-        for (member, waves) in orbit.iter().enumerate() {
-            add(of_member(member), waves, -1);
-        }
-        let states = self.plant.states();
-        let of = |(powers, parts): (Vec<u32>, Vec<(&Wave, i32)>)| {
-            let waves: Vec<&Wave> = parts.iter().map(|(wave, _)| *wave).collect();
+        let of = |powers: &Vec<u32>| {
+            let x = curves.iter().find(|curves| curves.powers == *powers).map_or(&[][..], |curves| &curves.x);
+            let orbit = of_orbit.iter().find(|(own, _)| own == powers).map_or(&[][..], |(_, waves)| waves);
+            let waves: Vec<&Wave> = x.iter().chain(orbit).collect();
             let component = |row: &Vec<Rational>| {
-                // The components of one curve, and then those of the other, if there are both.
-                let factors = parts.iter().enumerate().map(|(i, (_, sign))| Rational::from(&row[i % states] * *sign));
-                combined(&factors.collect::<Vec<_>>(), &waves)
+                let (plus, minus) = (row.iter().cloned(), row.iter().map(|value| Rational::from(-value)));
+                let factors: Vec<Rational> = plus.take(x.len()).chain(minus.take(orbit.len())).collect();
+                combined(&factors, &waves)
             };
             let vector = self.plant.known.coordinates.inverse.iter().map(component).collect();
-            Part { factor: self.size(&powers), vector }
+            Part { factor: self.size(powers), vector }
         };
         all.into_iter().map(of).collect()
     }
