@@ -126,6 +126,17 @@ fn defects_are_those_of_all_members() {
     both.trial("/defect_q", "0.001199").refused(Invalid, "/defect_q");
 }
 
+/// One that is large in a corner of the interval alone: at the middle it is 0 to fifteen digits, with all its derivatives.
+#[test]
+fn a_defect_is_seen_where_it_is() {
+    let q =
+        case(1).parts.0["plant"]["q"].as_str().unwrap().to_owned() + " + (1 + tanh(400*(a - 1.09)))*cos(4*pi*t)/1000";
+    let case = case(1).part("/plant/q", q);
+    case.trial("/defect_q", "1e-6").refused(Invalid, "/defect_q");
+    case.trial("/defect_q", "0.002001").accepted();
+    case.trial("/defect_q", "0.00199").refused(Invalid, "/defect_q");
+}
+
 /// Sizes are those of all members: the sum at each time of what stands beside each power.
 #[test]
 fn sizes_are_those_of_all_members() {
