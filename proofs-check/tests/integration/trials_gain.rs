@@ -132,6 +132,17 @@ fn every_number_of_the_claim_is_bounded() {
     }
 }
 
+/// Where what stands before 1/b is large the least gain counts in the peak of u.
+#[test]
+fn the_least_gain_counts() {
+    let case = case().trial("/forms/0/P_up", "20");
+    let u = expected(&case).largest[1];
+    let only = expected(&Case { gain: [1.0, GAIN[1]], ..case.clone() }).largest[1];
+    assert!(only < u * (1.0 - 1e-3), "{only} {u}");
+    case.entry("/largest/u", text(u / 4.0 * (1.0 + 1e-7))).accepted();
+    case.entry("/largest/u", text(u / 4.0 * (1.0 - 1e-7))).refused(Invalid, ":/claim/by_n_o/0/largest/u");
+}
+
 /// (14.4a) holds at both ends.
 #[test]
 fn a_form_holds_at_both_ends() {
@@ -238,6 +249,14 @@ fn powers_of_the_gain_stand_last() {
     };
     family(json!([[0, 1], [0, 2], [0, 3]])).accepted();
     family(json!([[1, 0], [2, 0], [3, 0]])).refused(Invalid, "/defect_q");
+    // The orbit moves with a where the curves do not: by 1/2 in its coordinates.
+    let mut moving =
+        family(json!([[0, 1], [0, 2], [0, 3]])).trial("/box/x", "0.1").trial("/box/e", "0.1").steady_alone();
+    moving.parts.0["witness"]["orbit"]["sensitivities"] = json!([{ "mean": ["1"], "harmonics": [] }]);
+    let x = expected(&case()).sizes[0] + 0.05 + 0.1;
+    let within = |x: f64| Case { error_box: [format!("{x:e}"), "1".to_owned()], ..moving.clone() };
+    within(x * (1.0 + 1e-6)).accepted();
+    within(x * (1.0 - 1e-6)).refused(Invalid, "");
     family(json!([[0, 1], [0, 2], [3]])).refused(BadInput, "/members/2/powers");
     case().trial("/members/0/powers", json!([0, 1])).refused(BadInput, "/members/0/powers");
 }
