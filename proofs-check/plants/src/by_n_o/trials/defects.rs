@@ -62,7 +62,10 @@ impl Around<'_> {
                 return Ok(boxes);
             }
         }
-        Ok(self.at_precision(circle(last).each_ref(), kappa, about, true)?.unwrap_or_default())
+        match self.at_precision(circle(last).each_ref(), kappa, about, true)? {
+            Some(boxes) => Ok(boxes),
+            None => demand(None, RULE, &self.trial.pointer, format!("the defects for {about}")).map(|()| 0),
+        }
     }
 
     /// At the precision of Om; `None` where that does not suffice, unless it is the last one.
