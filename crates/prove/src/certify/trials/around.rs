@@ -25,7 +25,7 @@ const LEFT: f64 = 1e-9;
 const SMALL: f64 = 1e-10;
 
 /// By how much a defect of a family may be above what is met of it: the parts of the box of its members are made smaller up to that.
-const DEFECT_ROOM: f64 = 1.5;
+const DEFECT_ROOM: f64 = 2.0;
 
 /// What harmonics that are left out have at most, as a share of the whole; of families, whose trials are polynomials in the parameters.
 const SMALL_OF_ONE: f64 = 1e-15;
@@ -157,7 +157,7 @@ impl Around<'_> {
         let velocity = states.harmonics.iter().enumerate().map(speed).sum::<f64>();
         let scale = own.inverse.iter().flatten().map(|entry| entry.to_f64().abs()).fold(0.0, f64::max);
         let small = if self.is_family() { SMALL_OF_FAMILY } else { SMALL };
-        let of_slope = if self.or_more { small * q * frequency } else { f64::INFINITY };
+        let of_slope = if self.or_more { small * q * frequency } else { f64::MAX };
         let about = trial.about(plant);
         let doubles = own.inverse.iter().map(|row| row.iter().map(Rational::to_f64).collect()).collect::<Vec<_>>();
         let met_there = match self.is_family() {
@@ -166,7 +166,10 @@ impl Around<'_> {
         };
         let enough = [small * velocity * scale, small * q, of_slope];
         let enough = [0, 1, 2].map(|i| enough[i].max(met_there[i]));
-        let [d_x, d_q, d_t] = trial.defects(plant, &own.inverse, enough).ok()?;
+        let found = trial.defects(plant, &own.inverse, enough).ok()?;
+        // What decides it again has as much room.
+        let known = |i: usize| if self.is_family() { found[i].upper_f64().max(enough[i]) } else { found[i].upper_f64() };
+        let [d_x, d_q, d_t] = [0, 1, 2].map(|i| Enclosure::exactly(known(i)));
         let d_q = d_q + trial.mismatch(&own) * &own.gain[1];
         let region = Region::new(l.clone(), trial.centre(), Rational::new()).ok()?;
         let rows = l.iter().map(|row| row.iter().map(Rational::to_f64).collect()).collect();
