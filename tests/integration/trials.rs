@@ -292,7 +292,7 @@ fn what_is_broken_proves_nothing() {
     let [near, far] =
         [start(0, 1), start(1, 1)].map(|start| Peaks::of((&proof.forms, true), &found, &own, &start).unwrap());
     assert!(near.error.upper_f64() > 1.0 && far.error.lower_f64() > near.error.upper_f64());
-    assert!(far.control.lower_f64() > near.control.upper_f64() && far.reach[0].lower_f64() > 1.0);
+    assert!(far.control.lower_f64() > near.control.upper_f64() && far.reach[0][0].lower_f64() > 1.0);
 }
 
 #[test]

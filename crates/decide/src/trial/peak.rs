@@ -11,8 +11,8 @@ use sigmastar_lang::spec::{Level, Metric};
 pub struct Peaks {
     /// For each form `V_0` of the level, at the largest gain of the actuator.
     pub levels: Vec<Enclosure>,
-    /// How far the solutions come from the trial, in x and in e.
-    pub reach: [Enclosure; 2],
+    /// How far the solutions come from the trial by each form, in x and in e.
+    pub reach: Vec<[Enclosure; 2]>,
     /// Of |e - e_per| at all times, by the best form.
     pub error: Enclosure,
     /// Of |u - u_per| of the law, by the best form.
@@ -20,7 +20,8 @@ pub struct Peaks {
 }
 
 impl Peaks {
-    /// The bounds, for solutions from the start. They hold if `reach` is below the radii of the box; then these solutions converge to the periodic one.
+    /// The bounds, for solutions from the start. They hold if `reach` of one of the forms is below the radii of the box; then these solutions converge to
+    /// the periodic one.
     ///
     /// Hypotheses: those of [`Concluded::of`], and each form has (14.4a) on the box, or (14.5a), with eta not below the distance of e. `None` without a form.
     #[must_use]
@@ -54,12 +55,14 @@ impl Peaks {
             at(low).max(&at(high)).sqrt()
         };
         let least = |a: Enclosure, b: Enclosure| a.min(&b);
-        let (Level { x_low, .. }, first) = each().next().map(|((_, level), value)| (level, value))?;
-        let of_x = if has_states { (first / exact(x_low)).sqrt() } else { Enclosure::zero(PRECISION) };
-        let of_e = each().next().map(of_error)?;
         let [s_x, s_e] = &concluded.distances;
+        let of_both = |both: (&(Metric, Level), &Enclosure)| {
+            let ((_, Level { x_low, .. }), level) = both;
+            let of_x = if has_states { (level / exact(x_low)).sqrt() } else { Enclosure::zero(PRECISION) };
+            [of_x + s_x, of_error(both) + s_e]
+        };
         Some(Peaks {
-            reach: [of_x + s_x, of_e + s_e],
+            reach: each().map(of_both).collect(),
             error: each().map(of_error).reduce(least)?,
             control: forms.iter().map(of_control).reduce(least)?,
             levels,

@@ -38,8 +38,8 @@ impl PeakBox {
 }
 
 impl FloatSuprema {
-    /// A form with a small peak on a box around the orbit of the samples; `program` says what the loop is, and keeps the points that were needed. `None` where
-    /// none is found.
+    /// A form with a small peak on a box around the orbit of the samples; `program` says what the loop is, and keeps the points that were needed: with those of
+    /// another search on such a box less has to be sought. `None` where none is found.
     pub fn propose_peak(
         &self,
         place: PeakBox,
@@ -50,7 +50,8 @@ impl FloatSuprema {
         let points = |(part, at): (Part, [f64; 2]), places: Vec<Place>| {
             self.of_derivatives(at, &Places::listed(places), |derivatives, _| (part, Slopes::from(derivatives)))
         };
-        for (part, at) in place.parts() {
+        let parts = if program.points.is_empty() { place.parts() } else { Vec::new() };
+        for (part, at) in parts {
             let extreme = match part {
                 Part::All => self.where_largest(at, &all, [Bound::Fx, Bound::Qx, Bound::Fe, Bound::QeMax, Bound::Qe]),
                 Part::States => self.where_largest(at, &all, [Bound::Fx, Bound::Qx]),
@@ -67,7 +68,7 @@ impl FloatSuprema {
             {
                 let at = [of_x * at[0], of_e * at[1]];
                 let mut worst = self.largest_of_derivatives(at, &all, POINTS, |derivatives, _| {
-                    program.lack(&found, (part, &Slopes::from(derivatives)))
+                    program.lack_above(&found, (part, &Slopes::from(derivatives)), least)
                 });
                 worst.retain(|(lack, _)| *lack > least);
                 more.extend(points((part, at), worst.into_iter().map(|(_, place)| place).collect()));

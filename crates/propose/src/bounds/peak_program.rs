@@ -4,7 +4,7 @@
 use super::pointwise::Slopes;
 use crate::semidefinite::propose;
 use sigmastar_matrix::AffineMatrix;
-use sigmastar_matrix::doubles::largest;
+use sigmastar_matrix::doubles::{largest, largest_of};
 use sigmastar_matrix::symmetric::{Symmetric, triangle};
 use sigmastar_theory::evidence::Part;
 
@@ -272,7 +272,20 @@ impl PeakProgram {
     /// By how much the matrix (14.4a) of a form, less its margins, is not positive semidefinite at a point, in the lengths of the start; along x first
     /// the one of (14.5a) that is about this part of the derivatives.
     #[must_use]
-    pub fn lack(&self, form: &FallingForm, (part, point): (Part, &Slopes)) -> f64 {
+    pub fn lack(&self, form: &FallingForm, at: (Part, &Slopes)) -> f64 {
+        let (mut matrix, order) = self.lacking(form, at);
+        largest_of(&mut matrix, order)
+    }
+
+    /// The same where it is more than `least`; else negative infinity, which is far sooner seen.
+    #[must_use]
+    pub fn lack_above(&self, form: &FallingForm, at: (Part, &Slopes), least: f64) -> f64 {
+        let (mut matrix, order) = self.lacking(form, at);
+        if is_below(&matrix, order, least) { f64::NEG_INFINITY } else { largest_of(&mut matrix, order) }
+    }
+
+    /// The matrix whose largest eigenvalue is the lack, by rows, and its order.
+    fn lacking(&self, form: &FallingForm, (part, point): (Part, &Slopes)) -> (Vec<f64>, usize) {
         let n = point.r.len();
         let d_e = positive(self.start[1], 1.0);
         let d_x = positive(self.start[0], d_e);
@@ -310,8 +323,33 @@ impl PeakProgram {
             -value * unit(i) * unit(k)
         };
         let places: Vec<usize> = (0..n + 2).filter(|place| part != Part::States || *place != n).collect();
-        largest(places.iter().map(|i| places.iter().map(|k| entry(*i, *k)).collect()).collect())
+        let order = places.len();
+        let mut matrix = vec![0.0; order * order];
+        for (row, i) in places.iter().enumerate() {
+            for (column, k) in places.iter().enumerate().skip(row) {
+                let value = entry(*i, *k);
+                (matrix[row * order + column], matrix[column * order + row]) = (value, value);
+            }
+        }
+        (matrix, order)
     }
+}
+
+/// Whether all eigenvalues of a symmetric matrix are below a number, by the pivots of what is between.
+fn is_below(matrix: &[f64], order: usize, number: f64) -> bool {
+    let mut rest: Vec<f64> = matrix.iter().map(|entry| -entry).collect();
+    (0..order).for_each(|i| rest[i * order + i] += number);
+    for k in 0..order {
+        let pivot = rest[k * order + k];
+        if pivot.is_nan() || pivot <= 0.0 {
+            return false;
+        }
+        for i in k + 1..order {
+            let factor = rest[i * order + k] / pivot;
+            (k + 1..=i).for_each(|j| rest[i * order + j] -= factor * rest[j * order + k]);
+        }
+    }
+    true
 }
 
 fn positive(value: f64, other: f64) -> f64 {

@@ -9,7 +9,7 @@ use sigmastar_lang::spec::{Interval, OrbitCurve};
 use std::f64::consts::PI;
 
 /// The degree of the polynomials where so many numbers are intervals, from one on; with more there is no trial.
-const DEGREES: [u32; 5] = [6, 4, 3, 2, 1];
+const DEGREES: [u32; 5] = [4, 4, 2, 2, 1];
 
 /// Singular values that are this share of the largest one are 0.
 const SINGULAR: f64 = 1e-12;

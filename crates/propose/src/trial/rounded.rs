@@ -9,6 +9,10 @@ use sigmastar_lang::spec::{TrigonometricVector, Wave};
 /// Coefficients that are smaller than this share of the size of a solution are left out, and others rounded to it.
 const GRAIN: f64 = 1e-16;
 
+/// The shares of q, and of what of it drives the error, that may be left out: each harmonic of ehat makes all that is evaluated around the trial
+/// slower. The bounds of |zeta|, and with them those of peaks, are many times what is left out.
+const LEFT_OUT: [f64; 2] = [1e-10, 1e-5];
+
 impl TrialLoop<'_> {
     /// The term with these powers, whose product is at most `scale` for all members: ehat has neither a mean nor harmonics up to N, and uhat is what the
     /// regulator answers it with beyond them.
@@ -25,6 +29,7 @@ impl TrialLoop<'_> {
         if self.or_more {
             error.harmonics.clear();
         }
+        self.leave_out(&mut error, series);
         // (re + i im)(a - i b) = (a re + b im) - i (b re - a im).
         let period = self.plant.period.nominal().to_f64();
         let mut answered = series.clone();
@@ -47,6 +52,32 @@ impl TrialLoop<'_> {
     }
 }
 
+impl TrialLoop<'_> {
+    /// Leaves out the harmonics of ehat that little of q belongs to.
+    fn leave_out(&self, error: &mut Wave, series: &FloatSeries) {
+        let period = self.plant.period.nominal().to_f64();
+        let of_q = |(k, [cos, sin]): (usize, &[Rational; 2])| {
+            let [re, im] = self.inverse_answer(k, period);
+            (k, libm::hypot(cos.to_f64(), sin.to_f64()) * libm::hypot(re, im))
+        };
+        let mut sizes: Vec<_> = (1..).zip(&error.harmonics).skip(self.oscillators()).map(of_q).collect();
+        sizes.sort_by(|(_, a), (_, b)| a.total_cmp(b));
+        let control = series.mean.len() - 1;
+        let all = series.harmonics.iter().map(|[cos, sin]| libm::hypot(cos[control], sin[control])).sum::<f64>();
+        let of_error = sizes.iter().map(|(_, size)| size).sum::<f64>();
+        let enough = (LEFT_OUT[0] * all).min(LEFT_OUT[1] * of_error);
+        let mut left_out = 0.0;
+        for (k, size) in sizes {
+            left_out += size;
+            if left_out > enough {
+                break;
+            }
+            error.harmonics[k - 1] = Default::default();
+        }
+        drop_last_zeros(&mut error.harmonics);
+    }
+}
+
 /// A component, rounded to the largest power of ten that is at most [`GRAIN`] of a size; without the last harmonics that are 0 then.
 fn component(series: &FloatSeries, i: usize, size: f64) -> Wave {
     let places = if size > 0.0 { -libm::log10(size * GRAIN).floor() } else { 0.0 };
@@ -58,8 +89,12 @@ fn component(series: &FloatSeries, i: usize, size: f64) -> Wave {
     };
     let pair = |[a, b]: &[Vec<f64>; 2]| [short(a[i]), short(b[i])];
     let mut harmonics: Vec<[Rational; 2]> = series.harmonics.iter().map(pair).collect();
+    drop_last_zeros(&mut harmonics);
+    Wave { mean: short(series.mean[i]), harmonics }
+}
+
+fn drop_last_zeros(harmonics: &mut Vec<[Rational; 2]>) {
     while harmonics.last().is_some_and(|[cos, sin]| *cos == 0 && *sin == 0) {
         harmonics.pop();
     }
-    Wave { mean: short(series.mean[i]), harmonics }
 }

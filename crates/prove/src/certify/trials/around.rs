@@ -24,8 +24,9 @@ const LEFT: f64 = 1e-9;
 /// Defects that are small enough, beside q, and the velocity of the states.
 const SMALL: f64 = 1e-10;
 
-/// By how much a defect of a family may be above what is met of it: the parts of the box of its members are made smaller up to that.
-const DEFECT_ROOM: f64 = 2.0;
+/// By how much a defect may be above what is met of it.
+const ROOM: f64 = 1.5;
+const ROOM_OF_FAMILY: f64 = 2.0;
 
 /// What harmonics that are left out have at most, as a share of the whole; of families, whose trials are polynomials in the parameters.
 const SMALL_OF_ONE: f64 = 1e-15;
@@ -160,15 +161,15 @@ impl Around<'_> {
         let of_slope = if self.or_more { small * q * frequency } else { f64::MAX };
         let about = trial.about(plant);
         let doubles = own.inverse.iter().map(|row| row.iter().map(Rational::to_f64).collect()).collect::<Vec<_>>();
-        let met_there = match self.is_family() {
-            true => sampled_defects(&about, &FloatSeries::from(&states), &doubles).map(|defect| DEFECT_ROOM * defect),
-            false => [0.0; 3],
-        };
+        // What a trial leaves out is in the defects however small the parts of the period are.
+        let room = if self.is_family() { ROOM_OF_FAMILY } else { ROOM };
+        let met_there = sampled_defects(&about, &FloatSeries::from(&states), &doubles).map(|defect| room * defect);
         let enough = [small * velocity * scale, small * q, of_slope];
         let enough = [0, 1, 2].map(|i| enough[i].max(met_there[i]));
         let found = trial.defects(plant, &own.inverse, enough).ok()?;
         // What decides it again has as much room.
-        let known = |i: usize| if self.is_family() { found[i].upper_f64().max(enough[i]) } else { found[i].upper_f64() };
+        let known =
+            |i: usize| if self.is_family() { found[i].upper_f64().max(enough[i]) } else { found[i].upper_f64() };
         let [d_x, d_q, d_t] = [0, 1, 2].map(|i| Enclosure::exactly(known(i)));
         let d_q = d_q + trial.mismatch(&own) * &own.gain[1];
         let region = Region::new(l.clone(), trial.centre(), Rational::new()).ok()?;

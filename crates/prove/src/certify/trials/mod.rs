@@ -10,7 +10,7 @@ mod proved;
 
 use super::gain_row::{ByCount, CountBounds, CountProof, Largest};
 use around::{Around, Prepared};
-use boxes::{FAMILY_MARGINS, MARGINS, WIDE_MARGINS};
+use boxes::{Fit, MARGINS, WIDE_MARGINS};
 use proved::{rounded, short};
 use rug::Rational;
 use sigmastar_decide::linear::PRECISION;
@@ -80,12 +80,14 @@ impl Around<'_> {
             // Where they do not fall with all derivatives at one point for another number, they do not for this one.
             Some((known, Some(_))) => alone(known).or_else(small)?,
             Some(((radii, forms), None)) => {
-                let known = self.with_peaks(&prepared, radii, forms);
-                let own = || self.with_own_peaks(&prepared, known.as_ref().and_then(|known| known.2.as_ref()));
-                let own = if known.is_none() || self.n_o < OWN { own() } else { None };
-                own.or(known).or_else(small)?
+                let own = |known: Option<f64>| self.with_own_peaks(&prepared, Some(&radii), known);
+                let known = || self.with_peaks(&prepared, radii.clone(), forms.clone());
+                let expected = || forms.iter().filter_map(|form| self.expected(&prepared, form)).min_by(f64::total_cmp);
+                let first = if self.n_o < OWN { expected().and_then(|expected| own(Some(expected))) } else { None };
+                let found = first.or_else(known).or_else(|| own(None));
+                found.or_else(small)?
             }
-            None => self.with_own_peaks(&prepared, None).or_else(small)?,
+            None => self.with_own_peaks(&prepared, None, None).or_else(small)?,
         };
         if peaks.is_none() {
             let found = self.along_x_first(&prepared, &concluded, other.and_then(|other| other.x_first.as_ref()));
@@ -115,22 +117,30 @@ impl Around<'_> {
         Some((bounds, (prepared.trial, proof)))
     }
 
-    /// What is proved with forms of its own, if the peak is expected to be well below those that are known.
-    fn with_own_peaks(&self, prepared: &Prepared, known: Option<&Peaks>) -> Option<Proved> {
+    /// What is proved with forms of its own; `near`: the box that serves another number of oscillators; `known`: a peak
+    /// that this one is expected to be well below.
+    fn with_own_peaks(&self, prepared: &Prepared, near: Option<&[Rational; 2]>, known: Option<f64>) -> Option<Proved> {
         // What many oscillators leave may be more than rounding: with small margins the solution could be anywhere.
         let [first, last] = MARGINS;
         let wide = WIDE_MARGINS.last().filter(|_| self.or_more).copied();
-        // What a family leaves is far more than rounding: the wider the margins, the nearer is the solution to the trial.
-        let of_family = FAMILY_MARGINS.into_iter().filter(|_| self.is_family());
-        of_family.chain([first]).chain(wide).chain([last]).find_map(|margin| {
-            let (radii, forms) = self.peak_box(prepared, margin, None)?;
-            let expected = forms.first()?.level.sqrt();
-            if known.is_some_and(|known| expected > WORTH * known.error.upper_f64()) {
+        std::iter::once(first).chain(wide).chain([last]).find_map(|margin| {
+            let Fit { radii, forms, peak } = self.peak_box(prepared, margin, (None, near))?;
+            if known.is_some_and(|known| peak > WORTH * known) {
                 return None;
             }
             let forms = forms.iter().map(rounded).collect::<Option<_>>()?;
             self.with_peaks(prepared, short(radii)?, forms)
         })
+    }
+
+    /// The peak that a form lets expect, as far as distances are known before it is proved.
+    fn expected(&self, prepared: &Prepared, (metric, level): &(Metric, Level)) -> Option<f64> {
+        let [x, e, z] = prepared.distances;
+        let [w, k_p, p_up, e_low] = [&metric.weight, &metric.k_p, &level.p_up, &level.e_low].map(Rational::to_f64);
+        let cross = metric.cross.iter().map(|entry| entry.to_f64() * entry.to_f64()).sum::<f64>().sqrt();
+        let of_states = if self.asked.plant.states() > 0 { p_up * x * x + 2.0 * cross * x * e } else { 0.0 };
+        let at_start = of_states + w * e * e + k_p * prepared.own.mu.midpoint_f64() / 2.0 * z * z;
+        Some((at_start / e_low).sqrt()).filter(|peak| peak.is_finite())
     }
 
     /// What is proved with forms on a box that solutions from the set do not leave.

@@ -1,7 +1,7 @@
 //! What is proved on a box around a trial (derivation, 14.4, 14.5).
 
 use super::around::{Around, Prepared, SHORT, up};
-use super::boxes::MARGINS;
+use super::boxes::{Fit, MARGINS};
 use crate::attempt::prove_value;
 use rug::Rational;
 use sigmastar_decide::bounds::StatesForm;
@@ -43,10 +43,11 @@ impl Around<'_> {
     ) -> Option<Peaks> {
         let has_states = self.asked.plant.states() > 0;
         let peaks = Peaks::of((forms, has_states), concluded, &prepared.own, &prepared.start)?;
-        let mut inside = peaks.reach.iter().zip(radii).zip([has_states, true]);
-        inside
-            .all(|((reach, end), asked)| !asked || reach.lt(&Enclosure::from_rational(end, PRECISION)).is_true())
-            .then_some(peaks)
+        let is_inside = |reach: &[Enclosure; 2]| {
+            let mut ends = reach.iter().zip(radii).zip([has_states, true]);
+            ends.all(|((reach, end), asked)| !asked || reach.lt(&Enclosure::from_rational(end, PRECISION)).is_true())
+        };
+        peaks.reach.iter().any(is_inside).then_some(peaks)
     }
 
     /// What falls along x first on a box that solutions from the set do not leave; `other`: that of another number of oscillators.
@@ -62,7 +63,8 @@ impl Around<'_> {
         }
         let of_other = || self.decided_x_first(prepared, concluded, XFirst { eta: eta.clone(), ..other?.clone() });
         let found = |margin: f64| {
-            let (radii, forms) = self.peak_box(prepared, margin, Some(eta.to_f64()))?;
+            let near = other.map(|other| &other.radii);
+            let Fit { radii, forms, .. } = self.peak_box(prepared, margin, (Some(eta.to_f64()), near))?;
             let splitting = |form: &FallingForm| form.splitting.as_ref()?.iter().map(|row| short_row(row)).collect();
             let splittings = forms.iter().map(splitting).collect::<Option<_>>()?;
             let forms = forms.iter().map(rounded).collect::<Option<_>>()?;

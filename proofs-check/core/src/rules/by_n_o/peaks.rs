@@ -117,16 +117,24 @@ pub fn prove(
     if !has_states {
         reach[0] = d.int(0);
     }
-    let stays = |levels: &[Level], radii, extent: Option<&Extent>, place: &str| {
-        let x_low = extent.filter(|_| has_states).map(|extent| &extent.x_low);
-        // A trial has a form, and x_first too.
-        levels.first().map_or(Ok(()), |first| first.stays(d, (radii, x_low), &solution.off, (place, &words)))
+    // By one of the forms: a trial has one at least, and x_first too. Else that of the first is said, or that it is not known of another.
+    let stays = |levels: &[Level], radii, extents: &[&Extent], place: &str| {
+        let mut failed: Option<Box<Finding>> = None;
+        for (level, extent) in levels.iter().zip(extents) {
+            let x_low = Some(&extent.x_low).filter(|_| has_states);
+            match (level.stays(d, (radii, x_low), &solution.off, (place, &words)), &failed) {
+                (Ok(()), _) => return Ok(()),
+                (Err(known), Some(first)) if first.verdict == known.verdict || known.verdict != Verdict::Undecided => {}
+                (Err(known), _) => failed = Some(known),
+            }
+        }
+        failed.map_or(Ok(()), Err)
     };
     let of_form =
         |(metric, extent): &(Metric, Extent)| Level::of_form(d, (metric, extent), ("e_low", &extent.e_low), &reach);
     let forms: Vec<Level> = trial.forms.iter().map(of_form).collect();
-    let extent = trial.forms.first().map(|(_, extent)| extent);
-    let near = stays(&forms, &trial.radii, extent, &format!("{}/box", trial.pointer));
+    let extents: Vec<&Extent> = trial.forms.iter().map(|(_, extent)| extent).collect();
+    let near = stays(&forms, &trial.radii, &extents, &format!("{}/box", trial.pointer));
 
     let mut levels = vec![Level::of_claim(d, about, &reach)];
     let mut sources = "the function of the claim".to_owned();
@@ -145,8 +153,8 @@ pub fn prove(
             let of_form =
                 |Split { metric, extent, .. }: &Split| Level::of_form(d, (metric, extent), ("w", &metric.w), &reach);
             let own: Vec<Level> = first.forms.iter().map(of_form).collect();
-            let extent = first.forms.first().map(|form| &form.extent);
-            stays(&own, &first.radii, extent, &format!("{}/box", first.pointer))?;
+            let extents: Vec<&Extent> = first.forms.iter().map(|form| &form.extent).collect();
+            stays(&own, &first.radii, &extents, &format!("{}/box", first.pointer))?;
             levels.extend(own);
             sources += ", and x_first";
         }
