@@ -593,7 +593,7 @@ fn the_gain_of_the_actuator_counts_at_both_ends() {
     let [of_x, of_y] = [0.1, 0.01].map(|c: f64| (all / c).sqrt());
     let of_e = of_x.min(of_y / (9.0 + 4.0 * PI * PI).sqrt());
     let of_q = 0.51 * of_x + 1.31 * of_e + d;
-    let right = libm::sqrt(2.0 / (2.0 * 0.9) + 2.0 / (0.9 * 0.9)) * of_q;
+    let right = (2.0 / (2.0 * 0.9) + 2.0 / (0.9 * 0.9_f64)).sqrt() * of_q;
     let s_z = (&found.zeta - &of_curve).upper_f64();
     assert!((s_z / right - 1.0).abs() < 1e-5, "{s_z} {right}");
     // V_0 at 1.1, and the control at the worse end.

@@ -1,17 +1,17 @@
-//! Bounds for each number of oscillators, of plants that are linear in x and e.
+//! Bounds for each number of oscillators.
 
 use serde_json::{Value, json};
 use sigmastar_document::number::{full, upper};
 use sigmastar_document::{Block, Table};
 use sigmastar_exact::enclosure::Enclosure;
-use sigmastar_prove::certify::{ByCount, Certification, CountBounds, CountProof, Largest};
+use sigmastar_prove::certify::{ByCount, Certification, CountBounds, Largest};
 
 /// The numbers of oscillators of which the report has a row, with those that are asked about, and the last one, from which on nothing changes.
 const SHOWN: [u64; 6] = [0, 1, 2, 3, 5, 10];
 
 /// The table; nothing where there are no such bounds.
 pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
-    let Some(ByCount { counts, checked, proof }) = &run.by_count else { return Vec::new() };
+    let Some(ByCount { counts, checked, .. }) = &run.by_count else { return Vec::new() };
     let mut table = Table::new(&["n_o", "steady |e|", "largest |e|", "steady |u|", "largest |u|"]);
     let is_asked = |n_o: u64| run.for_n_o.iter().any(|asked| u64::from(asked.n_o) == n_o);
     let is_shown = |bounds: &&CountBounds| bounds.or_more || SHOWN.contains(&bounds.n_o) || is_asked(bounds.n_o);
@@ -25,8 +25,7 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
     }
     let plant = run.spec.plant();
     let is_family = plant.is_some_and(|plant| plant.parameters.intervals().next().is_some());
-    // Those of trials are about one plant with a known gain.
-    let all = matches!(proof, CountProof::Linear { .. }) && (is_family || run.spec.input_gain.is_some());
+    let all = is_family || run.spec.input_gain.is_some();
     let says = "Proved at this gain by the number of oscillators: steady along the periodic solution, largest at all times from the initial set";
     let of = if all { ", for every plant and gain of the actuator of the claim" } else { "" };
     let who = if *checked { "; they are in the certificate." } else { "; no independent program checks them." };

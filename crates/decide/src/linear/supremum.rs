@@ -73,8 +73,8 @@ impl Middles {
         Middles { middles, apart, bent }
     }
 
-    /// Bounds of the length in the middle of a part of the period, and on all of it.
-    fn on_part(&self, part: usize, parts: usize) -> [Enclosure; 2] {
+    /// The length on a part of the period.
+    fn on_part(&self, part: usize, parts: usize) -> Length {
         let zero = || Enclosure::zero(PRECISION);
         let components = self.middles.first().map_or(0, Vec::len);
         let (mut values, mut slopes) = (vec![zero(); components], vec![zero(); components]);
@@ -88,11 +88,27 @@ impl Middles {
         let half = Enclosure::pi(PRECISION) / parts as i64;
         let square = |all: &[Enclosure]| all.iter().fold(zero(), |sum, part| sum + part.sqr());
         let along = values.iter().zip(&slopes).fold(zero(), |sum, (value, slope)| sum + value * slope);
-        let own = square(&values);
+        let (own, of_slope) = (square(&values), square(&slopes));
         // |v + s v'|^2 for |s| <= half.
-        let linear = (&own + along.abs() * &half * 2 + square(&slopes) * half.sqr()).sqrt();
-        [own.sqrt(), linear + half.sqr() / 2 * &self.bent]
+        let linear = (&own + along.abs() * &half * 2 + &of_slope * half.sqr()).sqrt();
+        let curved = half.sqr() / 2 * &self.bent;
+        let value = own.sqrt();
+        // |v + s v'| <= |v| + s v'v/|v| + s^2 |v'|^2/(2 |v|).
+        let rest = of_slope * half.sqr() / (&value * 2) + &curved;
+        let bound = linear + curved;
+        let smooth = value.is_positive().is_true() && (&value + &rest).le(&bound).is_true();
+        Length { along: smooth.then(|| (along / &value, rest)), value, bound }
     }
+}
+
+/// A length on a part of the period.
+struct Length {
+    /// In the middle.
+    value: Enclosure,
+    /// Its slope there, and what it is at most above the tangent; none where the other bound is better in any case.
+    along: Option<(Enclosure, Enclosure)>,
+    /// On all of the part.
+    bound: Enclosure,
 }
 
 /// Of k and -k.
@@ -109,10 +125,16 @@ pub(crate) fn supremum(vectors: &[Harmonics], fineness: Fineness) -> Enclosure {
     let zero = || Enclosure::zero(PRECISION);
     let apart = vectors.iter().fold(zero(), |sum, vector| sum + &vector.apart);
     let on_part = |part: usize, parts: usize| {
-        vectors
-            .iter()
-            .map(|vector| vector.on_part(part, parts))
-            .fold([zero(), zero()], |[value, bound], [of_value, of_bound]| [value + of_value, bound + of_bound])
+        let half = Enclosure::pi(PRECISION) / parts as i64;
+        let lengths: Vec<Length> = vectors.iter().map(|vector| vector.on_part(part, parts)).collect();
+        let value = lengths.iter().fold(zero(), |sum, length| sum + &length.value);
+        let apart = lengths.iter().fold(zero(), |sum, length| sum + &length.bound);
+        // Slopes of different signs take from each other.
+        let (slope, rest) = lengths.iter().fold((zero(), zero()), |(slope, rest), length| match &length.along {
+            Some((own, above)) => (slope + own, rest + &length.value + above),
+            None => (slope, rest + &length.bound),
+        });
+        [value, apart.min(&(slope.abs() * half + rest))]
     };
     let mut open: Vec<(usize, usize, Enclosure)> = Vec::new();
     let mut met = zero();

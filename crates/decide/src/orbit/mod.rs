@@ -17,6 +17,7 @@ mod forcing;
 mod linear;
 mod members;
 pub(crate) mod model;
+pub(crate) mod models;
 mod not_proved;
 mod rate;
 mod recurrences;

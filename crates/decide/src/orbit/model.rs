@@ -4,10 +4,9 @@
 //! The variables are x_0, x_1, ..., each from -1 to 1. A [`Model`] is a polynomial in them of a degree that is the same for all and a number that the
 //! function is from it at most; what a product has beyond that degree goes there.
 
-use super::taylor::{Taylor, TaylorAlgebra};
+use super::taylor::Taylor;
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
-use sigmastar_lang::expr::{Binary, Operations, PlantVariable, Unary, enclosed_step};
 use std::collections::HashMap;
 
 /// Bits of the enclosures.
@@ -15,14 +14,14 @@ pub(crate) const PRECISION: u32 = 96;
 
 /// A function on the box.
 ///
-/// Guarantee of [`Models`]: where the models of the variables are those of smooth functions and the rest of the result is bounded, the formula is smooth at
+/// Guarantee of [`Models`](super::models::Models): where the models of the variables are those of smooth functions and the rest of the result is bounded, the formula is smooth at
 /// every point of the box and its value is, with some number in each coefficient, the polynomial up to the rest.
 #[derive(Clone, Debug)]
 pub(crate) struct Model {
     /// Of the monomials in the order of [`Space`]; those that are left out are 0.
-    coefficients: Vec<Enclosure>,
+    pub(super) coefficients: Vec<Enclosure>,
     /// How far the function is from the polynomial at most.
-    rest: Enclosure,
+    pub(super) rest: Enclosure,
 }
 
 /// All monomials up to a degree.
@@ -30,7 +29,7 @@ pub(crate) struct Model {
 pub(crate) struct Space {
     degree: usize,
     /// By rising degree, that of 1 first.
-    monomials: Vec<Vec<u8>>,
+    pub(super) monomials: Vec<Vec<u8>>,
     /// Where each of them stands.
     places: HashMap<Vec<u8>, usize>,
     /// For each i the pairs (j, k) with `monomial i * monomial j = monomial k`.
@@ -170,7 +169,7 @@ impl Space {
 
     /// A function of one number of a model, from its series at numbers: by Taylor's formula about the value in the middle of the box, with Lagrange's
     /// form of the rest.
-    fn composed(&self, a: &Model, series: impl Fn(&Taylor, usize) -> Taylor) -> Model {
+    pub(super) fn composed(&self, a: &Model, series: impl Fn(&Taylor, usize) -> Taylor) -> Model {
         let (middle, apart) = self.about_middle(a);
         let reach = self.bound(&apart);
         let at = |value: Enclosure, order: usize| series(&vec![value, Enclosure::one(PRECISION)], order);
@@ -190,14 +189,15 @@ impl Space {
         result
     }
 
-    /// Where the values of a model are: the one in the middle of the box, and how far the others are from it.
+    /// The value in the middle of the box, and how far the others are from it.
     fn about_middle(&self, a: &Model) -> (Enclosure, Model) {
         let mut apart = a.clone();
         let middle = apart.coefficients.first_mut().map(|first| std::mem::replace(first, zero()));
         (middle.unwrap_or_else(zero), apart)
     }
 
-    fn range(&self, a: &Model) -> Enclosure {
+    /// Where the values of a model are.
+    pub(super) fn range(&self, a: &Model) -> Enclosure {
         let (middle, apart) = self.about_middle(a);
         let reach = self.bound(&apart);
         middle + reach.negate().hull(&reach)
@@ -244,108 +244,28 @@ impl Space {
     }
 }
 
-/// The algebra of models.
-pub(crate) struct Models<'a> {
-    /// The monomials.
-    pub(crate) space: &'a Space,
-    /// t.
-    pub(crate) time: Model,
-    /// The states.
-    pub(crate) states: Vec<Model>,
-    /// e.
-    pub(crate) error: Model,
-    /// The parameters of which intervals are known.
-    pub(crate) parameters: Vec<Model>,
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-impl Models<'_> {
-    fn undefined(&self) -> Model {
-        Model { coefficients: Vec::new(), rest: Enclosure::undefined(PRECISION) }
-    }
-
-    fn by_series(&self, a: &Model, of: impl Fn(&mut TaylorAlgebra<'_>, &Taylor) -> Taylor) -> Model {
-        self.space.composed(a, |series, order| {
-            let time = Taylor::new();
-            let mut algebra = TaylorAlgebra { time: &time, states: &[], parameters: &[], order, precision: PRECISION };
-            of(&mut algebra, series)
-        })
-    }
-}
-
-impl Operations for Models<'_> {
-    type Value = Model;
-
-    fn number(&mut self, value: &Rational) -> Model {
-        self.space.constant(Enclosure::from_rational(value, PRECISION))
-    }
-
-    fn pi(&mut self) -> Model {
-        self.space.constant(Enclosure::pi(PRECISION))
-    }
-
-    fn variable(&mut self, variable: PlantVariable) -> Model {
-        let known = match variable {
-            PlantVariable::Time => Some(&self.time),
-            PlantVariable::Error => Some(&self.error),
-            PlantVariable::State(index) => self.states.get(index),
-            PlantVariable::Parameter(index) => self.parameters.get(index),
-        };
-        known.cloned().unwrap_or_else(|| self.undefined())
-    }
-
-    fn unary(&mut self, operation: Unary, a: &Model) -> Model {
-        match operation {
-            Unary::Neg => self.space.scaled(a, &Enclosure::from_integer(-1, PRECISION)),
-            Unary::Abs => {
-                let range = self.space.range(a);
-                if range.is_positive().is_true() {
-                    a.clone()
-                } else if range.negate().is_positive().is_true() {
-                    self.space.scaled(a, &Enclosure::from_integer(-1, PRECISION))
-                } else {
-                    self.undefined()
-                }
-            }
-            _ => self.by_series(a, |algebra, series| algebra.unary(operation, series)),
-        }
-    }
-
-    fn binary(&mut self, operation: Binary, a: &Model, b: &Model) -> Model {
-        let minus = |b: &Model| self.space.scaled(b, &Enclosure::from_integer(-1, PRECISION));
-        match operation {
-            Binary::Add => self.space.sum(a, b),
-            Binary::Sub => self.space.sum(a, &minus(b)),
-            Binary::Mul => self.space.product(a, b),
-            Binary::Div => {
-                let over = self.by_series(b, |algebra, series| algebra.power(series, -1));
-                self.space.product(a, &over)
-            }
-            Binary::Pow => {
-                // Smooth where the base is positive: where it is not, the logarithm is undefined.
-                let logarithm = self.by_series(a, |algebra, series| algebra.unary(Unary::Log, series));
-                let exponent = self.space.product(b, &logarithm);
-                self.by_series(&exponent, |algebra, series| algebra.unary(Unary::Exp, series))
-            }
-            Binary::Min | Binary::Max => {
-                let apart = self.space.range(&self.space.sum(a, &minus(b)));
-                // What is not chosen must exist as well.
-                let defined = a.rest.is_defined() && b.rest.is_defined();
-                let (above, below) = (apart.is_positive().is_true(), apart.negate().is_positive().is_true());
-                match (defined && (above || below), above == (operation == Binary::Max)) {
-                    (false, _) => self.undefined(),
-                    (true, true) => a.clone(),
-                    (true, false) => b.clone(),
-                }
-            }
-        }
-    }
-
-    fn power(&mut self, base: &Model, exponent: i32) -> Model {
-        self.by_series(base, |algebra, series| algebra.power(series, exponent))
-    }
-
-    /// A constant where it is known.
-    fn step(&mut self, a: &Model) -> Model {
-        self.space.constant(enclosed_step(&self.space.range(a)))
+    /// T_5(x_1) of size 1 has coefficients with a sum of 41.
+    #[test]
+    fn halves_bound_what_cancels() {
+        let space = Space::new(2, 6);
+        let exact = |value: i64| Enclosure::from_integer(value, PRECISION);
+        let x = space.variable(1, exact(0), exact(1));
+        let powers: Vec<Model> = (0..5)
+            .scan(space.constant(exact(1)), |power, _| {
+                *power = space.product(power, &x);
+                Some(power.clone())
+            })
+            .collect();
+        let terms = [(4, 16), (2, -20), (0, 5)].map(|(which, factor)| space.scaled(&powers[which], &exact(factor)));
+        let chebyshev = terms.iter().fold(space.constant(exact(0)), |sum, term| space.sum(&sum, term));
+        assert_eq!(space.bound(&chebyshev).upper_f64(), 41.0);
+        let bound = space.largest(&chebyshev, 1.2, 10).upper_f64();
+        assert!((1.0..=1.2).contains(&bound), "{bound}");
+        // It is 1 somewhere, so that no halving gets below.
+        assert!(space.largest(&chebyshev, 0.99, 10).upper_f64() >= 1.0);
     }
 }

@@ -2,7 +2,8 @@
 
 use super::curves::Trial;
 use crate::orbit::OrbitNotProved;
-use crate::orbit::model::{Model, Models, PRECISION, Space};
+use crate::orbit::model::{Model, PRECISION, Space};
+use crate::orbit::models::Models;
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::parallel;
