@@ -215,7 +215,7 @@ fn what_is_broken_proves_nothing() {
     let identity = vec![vec![Rational::from(1)]];
     // The defects of the trial are small; off by a thousandth they are not.
     let small = |trial: &Trial| {
-        let [of_x, of_q, _] = trial.defects(&plant, &identity, [1e-12; 3]).unwrap();
+        let [of_x, of_q, _] = trial.defects(&plant, &identity, [1e-10; 3]).unwrap();
         (of_x.upper_f64().max(of_q.upper_f64()), trial.mismatch(&own).upper_f64())
     };
     let (of_formulas, of_loop) = small(&trial);
@@ -493,11 +493,11 @@ fn the_defects_of_a_family_are_those_of_its_worst_member() {
     let (plant, trial, own) = family_case();
     let identity = vec![vec![Rational::from(1)]];
     let of = |trial: &Trial| {
-        let [of_x, of_q, _] = trial.defects(&plant, &identity, [1e-7, 1e-4, 1.0]).unwrap();
+        let [of_x, of_q, _] = trial.defects(&plant, &identity, [2e-6; 3]).unwrap();
         of_x.upper_f64().max(of_q.upper_f64())
     };
     let all = of(&trial);
-    assert!(all < 2e-4 && trial.mismatch(&own).upper_f64() < 1e-10, "{all}");
+    assert!(all < 1e-5 && trial.mismatch(&own).upper_f64() < 1e-10, "{all}");
     // Each member has at most that; a corner has it nearly.
     let curve = |term: &dyn Fn(&CurveTerm) -> sigmastar_lang::spec::Wave, by: [f64; 2], t: f64| {
         let wave_at = |wave: &sigmastar_lang::spec::Wave| {
@@ -577,7 +577,7 @@ fn the_gain_of_the_actuator_counts_at_both_ends() {
     };
     assert_eq!(truth(&plant, metric), Truth::True);
     let nominal = Plant { input_gain: None, ..plant.clone() };
-    let stiff = Metric { k_p: rational(2, 7), ..metric.clone() };
+    let stiff = Metric { k_p: rational(33, 200), ..metric.clone() };
     assert_eq!(truth(&nominal, &stiff), Truth::True);
     assert_ne!(truth(&plant, &stiff), Truth::True, "at b = 9/10 it does not hold");
 

@@ -102,7 +102,8 @@ impl Around<'_> {
             control.harmonics.iter().map(|[cos, sin]| libm::hypot(cos.to_f64(), sin.to_f64())).collect::<Vec<f64>>();
         let all = control.mean.to_f64().abs() + sizes.iter().sum::<f64>();
         let left = |met: usize| sizes.iter().skip(met).sum::<f64>();
-        (0..=ONE_BY_ONE).find(|met| left(*met) <= LEFT * all).map(|met| met as u64)
+        let enough = if self.is_family() { SMALL_OF_FAMILY } else { LEFT };
+        (0..=ONE_BY_ONE).find(|met| left(*met) <= enough * all).map(|met| met as u64)
     }
 
     /// Where b lies, if that is an interval: outwards.
