@@ -5,7 +5,7 @@
 
 use crate::bounds;
 use crate::form::{End, Form, ends, numbers, of_states, split};
-use crate::formula::{Id, Leaf};
+use crate::formula::{Axis, Id, Leaf};
 use crate::machine::{Curves, Machine};
 use crate::model::{self, Frame, Model, wave};
 use crate::question::{Answer, MAX_PIECES, Question};
@@ -50,7 +50,7 @@ pub struct Around<'t> {
     asked: Vec<Asked<'t>>,
     /// The same questions in x and e.
     still: Still,
-    /// The components of `L^-1 (f - xhat')`, and `q + b uhat - ehat'`.
+    /// The components of `L^-1 (f - xhat')`, and `q + b uhat - ehat'`, and the derivative of that in t where it is asked for.
     pub(super) defects: Vec<Id>,
 }
 
@@ -75,7 +75,9 @@ impl<'t> Around<'t> {
         }
         let velocity = wave(&mut model.formulas, &near, states + 1, 1);
         let apart = model.formulas.make(model.q + input - velocity);
-        let defects = model.defect.iter().copied().chain([apart]).collect();
+        // Of an entry about so many oscillators or more ehat = 0.
+        let rate = trial.or_more.as_ref().map(|_| model.formulas.derivative(apart, Axis::Time));
+        let defects = model.defect.iter().copied().chain([apart]).chain(rate).collect();
         let asked = questions(&mut model, spec, sigma, trial);
         if model.formulas.is_too_large() {
             return too_large(RULE, "/plant");
