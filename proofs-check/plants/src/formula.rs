@@ -51,6 +51,17 @@ pub enum Leaf {
     Drift(usize),
 }
 
+impl Leaf {
+    /// The derivative of this order of the same function of t, if it is a derivative.
+    pub fn of_order(self, order: usize) -> Leaf {
+        match self {
+            Leaf::Orbit { state, .. } => Leaf::Orbit { state, order },
+            Leaf::Lyapunov { which, entry, .. } => Leaf::Lyapunov { which, entry, order },
+            other => other,
+        }
+    }
+}
+
 /// An axis along which derivatives are taken: t along the moving frame, a component of v, e, or a parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Axis {

@@ -5,6 +5,7 @@ use super::time::{Table, Wave, waves};
 use proofs_core::expr::interval_op;
 use proofs_core::interval::Interval;
 use std::cell::{OnceCell, RefCell};
+use std::collections::HashMap;
 use std::rc::Rc;
 
 /// Derivatives of xb and P of higher order than this are not needed, but for Taylor's formula around a time.
@@ -34,6 +35,8 @@ pub struct Cell {
     pub middle: Interval,
     depth: u32,
     waves: OnceCell<Vec<[Interval; 2]>>,
+    /// Of leaves with their order, at the middle.
+    derivatives: RefCell<HashMap<Leaf, Interval>>,
     /// Values at the middle, and on the cell, by the places of nodes that depend on t alone.
     values: [RefCell<Vec<Option<Interval>>>; 2],
     halves: OnceCell<[Rc<Cell>; 2]>,
@@ -42,7 +45,8 @@ pub struct Cell {
 impl Cell {
     fn new(all: Interval, depth: u32) -> Rc<Cell> {
         let values = [RefCell::new(Vec::new()), RefCell::new(Vec::new())];
-        Rc::new(Cell { middle: all.middle(), all, depth, waves: OnceCell::new(), values, halves: OnceCell::new() })
+        let (waves, derivatives, halves) = Default::default();
+        Rc::new(Cell { middle: all.middle(), all, depth, waves, derivatives, values, halves })
     }
 
     /// The two halves, which are the same ones whenever they are asked for, unless they are very small.
@@ -220,7 +224,10 @@ impl<'f> Machine<'f> {
         };
         let Some(table) = table else { return self.none.clone() };
         let waves = cell.waves.get_or_init(|| waves(&self.om, &cell.middle, self.count));
-        let value = |order| table.at(order, waves, self.precision);
+        let value = |order| {
+            let mut known = cell.derivatives.borrow_mut();
+            known.entry(leaf.of_order(order)).or_insert_with(|| table.at(order, waves, self.precision)).clone()
+        };
         if at == At::Middle {
             return value(order);
         }

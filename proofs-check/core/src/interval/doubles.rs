@@ -87,9 +87,20 @@ pub fn sum([a, b]: Ends, [c, d]: Ends) -> Option<Ends> {
     ends(add(a, c).down(), add(b, d).up())
 }
 
-/// The extremes are at the ends.
+/// The extremes are at the ends: at which ones, the signs say, unless there are both in each.
 pub fn product([a, b]: Ends, [c, d]: Ends) -> Option<Ends> {
-    extremes([[a, c], [a, d], [b, c], [b, d]], multiply)
+    let [low, high] = match ([a >= 0.0, b <= 0.0], [c >= 0.0, d <= 0.0]) {
+        ([true, _], [true, _]) => [[a, c], [b, d]],
+        ([true, _], [_, true]) => [[b, c], [a, d]],
+        ([true, _], _) => [[b, c], [b, d]],
+        ([_, true], [true, _]) => [[a, d], [b, c]],
+        ([_, true], [_, true]) => [[b, d], [a, c]],
+        ([_, true], _) => [[a, d], [a, c]],
+        (_, [true, _]) => [[a, d], [b, d]],
+        (_, [_, true]) => [[b, c], [a, c]],
+        _ => return extremes([[a, c], [a, d], [b, c], [b, d]], multiply),
+    };
+    ends(multiply(low[0], low[1]).down(), multiply(high[0], high[1]).up())
 }
 
 /// By what certainly is not 0; the extremes are at the ends.
