@@ -50,11 +50,7 @@ impl Table {
     /// A derivative at the time of these waves; undefined beyond the last order.
     pub fn at(&self, order: usize, waves: &[[Interval; 2]], precision: u32) -> Interval {
         let Some((mean, coefficients)) = self.orders.get(order) else { return Interval::undefined(precision) };
-        coefficients.iter().zip(waves).fold(mean.clone(), |sum, ([a, b], [cos, sin])| {
-            let part = |c: &Interval, wave: &Interval| if c.is_zero() { None } else { Some(c * wave) };
-            let parts = [part(a, cos), part(b, sin)];
-            parts.iter().flatten().fold(sum, |sum, part| sum + part)
-        })
+        mean.plus_products(coefficients.iter().flatten().zip(waves.iter().flatten()))
     }
 
     /// Derivatives from `order` on, `values`, at the middle of a cell: that of `order` on the cell `middle +- half`, by Taylor's

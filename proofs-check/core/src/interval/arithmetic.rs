@@ -42,6 +42,18 @@ fn mul(a: &Interval, b: &Interval) -> Interval {
     by_doubles(a, b, doubles::product, 2).unwrap_or_else(|| by_floats(a, b, |p, ends| product(p, a, b, ends)))
 }
 
+impl Interval {
+    /// It, and the sum of the products of pairs, in which 0 counts for nothing.
+    pub fn plus_products<'i>(&self, pairs: impl Iterator<Item = (&'i Interval, &'i Interval)> + Clone) -> Interval {
+        let steps = 3 * pairs.clone().count() as u64;
+        let short = doubles::sum_of_products(pairs.clone().map(|(a, b)| Some([a.short()?, b.short()?])));
+        match Interval::near(short, steps) {
+            Some(sum) => self + sum,
+            None => pairs.filter(|(a, _)| !a.is_zero()).fold(self.clone(), |sum, (a, b)| sum + a * b),
+        }
+    }
+}
+
 fn product(p: u32, a: &Interval, b: &Interval, [a_lo, a_hi, b_lo, b_hi]: [&Float; 4]) -> Interval {
     if !a.is_defined() || !b.is_defined() {
         return Interval::undefined(p);

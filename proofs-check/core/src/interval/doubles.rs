@@ -103,6 +103,34 @@ pub fn product([a, b]: Ends, [c, d]: Ends) -> Option<Ends> {
     ends(multiply(low[0], low[1]).down(), multiply(high[0], high[1]).up())
 }
 
+/// `1 + 2^-30`.
+const ABOVE: f64 = 1.0 + 1.0 / (1_u64 << 30) as f64;
+
+/// The most products of a sum.
+const MOST_PRODUCTS: usize = 1 << 20;
+
+/// `sum of x y`: by numbers m in x and n in y, from which no number of x and y is farther than r and s, the widths. So the sum of the m n is away from
+/// the exact one by at most `sum of |m| s + r (|n| + s)`, and, with k products, as it is rounded by at most `k u/(1 - k u)` of `sum of |m n|`, u = 2^-53
+/// (Higham); a sum of numbers that are not negative is rounded by no larger share of itself. `2 k u` and `1 + 2^-30` are above all that. Nothing here is
+/// so small that it would not have all its bits: a sum or difference of ends that is not 0 is above 1e-137.
+pub fn sum_of_products(pairs: impl Iterator<Item = Option<[Ends; 2]>>) -> Option<Ends> {
+    // Halfway: rounding does not put it outside.
+    let within = |[lo, hi]: Ends| [(lo + hi) / 2.0, hi - lo];
+    let (mut sum, mut size, mut off, mut count) = (0.0, 0.0, 0.0, 0_usize);
+    for pair in pairs {
+        let [[m, r], [n, s]] = pair?.map(within);
+        sum += m * n;
+        size += (m * n).abs();
+        off += m.abs() * s + r * (n.abs() + s);
+        count += 1;
+    }
+    if count > MOST_PRODUCTS {
+        return None;
+    }
+    let reach = (off + count as f64 * f64::EPSILON * size) * ABOVE;
+    if reach == 0.0 { ends(sum, sum) } else { ends((sum - reach).next_down(), (sum + reach).next_up()) }
+}
+
 /// By what certainly is not 0; the extremes are at the ends.
 pub fn quotient([a, b]: Ends, [c, d]: Ends) -> Option<Ends> {
     if c > 0.0 || d < 0.0 { extremes([[a, c], [a, d], [b, c], [b, d]], divide) } else { None }
@@ -121,4 +149,47 @@ pub fn root([lo, hi]: Ends) -> Option<Ends> {
         Nearest { value, rest: missing(a, multiply(value, value)) }
     };
     ends(root(lo).down(), root(hi).up())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rug::Rational;
+
+    /// Against exact sums, of the ends that make each product least and greatest.
+    #[test]
+    fn a_sum_of_products_contains_the_exact_ones() {
+        let mut state = 1_u64;
+        let mut drawn = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+        };
+        for count in [0, 1, 2, 7, 120] {
+            for wide in [0.0, 1e-16, 1e-3, 3.0] {
+                let mut interval = |scale: f64| {
+                    let [a, b] = [drawn() * scale, drawn().abs() * wide * scale];
+                    [a, a + b]
+                };
+                let pairs: Vec<[Ends; 2]> =
+                    (0..count).map(|k| [interval(1.0 / (1 + k) as f64), interval(1.0)]).collect();
+                let [lo, hi] = sum_of_products(pairs.iter().copied().map(Some)).unwrap();
+                let exact = |x: f64, y: f64| Rational::from_f64(x).unwrap() * Rational::from_f64(y).unwrap();
+                let (mut least, mut most) = (Rational::new(), Rational::new());
+                for [a, b] in &pairs {
+                    let all = a.iter().flat_map(|x| b.iter().map(|y| exact(*x, *y)));
+                    least += all.clone().min().unwrap();
+                    most += all.max().unwrap();
+                }
+                assert!(Rational::from_f64(lo).unwrap() <= least && most <= Rational::from_f64(hi).unwrap());
+                let width = Rational::from(&most - &least).to_f64();
+                assert!(hi - lo <= 5.0 * width + 1e-13, "{count} {wide}: {} {width}", hi - lo);
+            }
+        }
+        assert_eq!(sum_of_products([Some([[0.0; 2]; 2])].into_iter()), Some([0.0, 0.0]));
+        assert_eq!(sum_of_products([Some([[1.0; 2]; 2]), None].into_iter()), None);
+        // Half an ulp of a sum that is rounded is not lost.
+        let [small, one] = [[1e-17; 2], [1.0; 2]];
+        let [lo, hi] = sum_of_products([Some([one, one]), Some([small, one])].into_iter()).unwrap();
+        assert!(lo <= 1.0 && hi > 1.0);
+    }
 }
