@@ -21,8 +21,9 @@ const KEPT: f64 = 0.5;
 /// How far a metric is from what a level says of it.
 const ROOM: f64 = 1e-5;
 
-/// Boxes of the proof of a form.
+/// Boxes of the proof of a form; of a family, where each of them costs the check more.
 const EFFORT: usize = 20_000;
+const EFFORT_OF_FAMILY: usize = 4_000;
 
 /// The share of the distance of e that eta is.
 const SMALL_ETA: f64 = 1e-4;
@@ -87,7 +88,7 @@ impl Around<'_> {
         engine.smooth(x, e).ok()?;
         let decided = |((metric, level), s): (&(Metric, Level), &Vec<Vec<Rational>>)| {
             let place = ([x, e], &x_first.eta);
-            engine.decide_form_x_first((metric, level, s), self.asked.sigma, place, EFFORT).truth.is_true()
+            engine.decide_form_x_first((metric, level, s), self.asked.sigma, place, self.effort()).truth.is_true()
         };
         let holds: Vec<bool> = x_first.forms.iter().zip(&x_first.splittings).map(decided).collect();
         // The box is that of the first.
@@ -110,7 +111,7 @@ impl Around<'_> {
         self.in_domain(prepared, [&x, &e])?;
         engine.smooth(&x, &e).ok()?;
         let decided = |(metric, level): &(Metric, Level)| {
-            engine.decide_form((metric, level), self.asked.sigma, [&x, &e], EFFORT).truth.is_true()
+            engine.decide_form((metric, level), self.asked.sigma, [&x, &e], self.effort()).truth.is_true()
         };
         // The box is that of the first.
         let holds: Vec<bool> = forms.iter().map(decided).collect();
@@ -134,11 +135,15 @@ impl Around<'_> {
             false => None,
             true => {
                 let form = self.states_form(samples, first, [&x, &e])?;
-                engine.decide_states(&form, [&x, &e], EFFORT).truth.is_true().then_some(())?;
+                engine.decide_states(&form, [&x, &e], self.effort()).truth.is_true().then_some(())?;
                 Some(form)
             }
         };
         Some(TubeProof { defects: [d_x, d_q], radii: [x, e], slopes, forms, states, or_more, x_first: None })
+    }
+
+    fn effort(&self) -> usize {
+        if self.is_family() { EFFORT_OF_FAMILY } else { EFFORT }
     }
 
     /// That the box lies where the model holds.
