@@ -146,7 +146,9 @@ mod tests {
         terms.fold(rest, |sum, term| sum + term)
     }
 
-    const SMOOTH: [(&str, fn(f64, f64, f64) -> f64); 8] = [
+    type Case = (&'static str, fn(f64, f64, f64) -> f64);
+
+    const SMOOTH: [Case; 8] = [
         ("v*e - t/v + 3", |t, v, e| v * e - t / v + 3.0),
         ("exp(-e^2)*cos(3*t)", |t, _, e| (-e * e).exp() * (3.0 * t).cos()),
         ("sqrt(1 + v^2 + e)", |_, v, e| (1.0 + v * v + e).sqrt()),

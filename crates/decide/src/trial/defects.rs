@@ -147,7 +147,7 @@ impl<'a> Along<'a> {
         }
         let deviation = |(i, interval): (usize, &Interval)| {
             let [low, high] = interval.deviations();
-            space.variable(1 + i, exact(&Rational::from(&low + &high)) / 2, exact(&Rational::from(high - low)) / 2)
+            space.variable(1 + i, exact(&Rational::from(&low + &high)) / 2, exact(&(high - low)) / 2)
         };
         let deviations: Vec<Model> = trial.intervals().enumerate().map(deviation).collect();
         let one = || space.constant(Enclosure::one(PRECISION));

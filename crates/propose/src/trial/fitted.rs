@@ -52,13 +52,13 @@ impl Members<'_> {
         // With lengths in which they are at most 1.
         let value = |deviations: &[f64], powers: &[u32]| -> f64 {
             let each = deviations.iter().zip(&reaches).zip(powers);
-            each.map(|((deviation, reach), power)| (deviation / reach).powi(*power as i32)).product()
+            each.map(|((deviation, reach), power)| raised(deviation / reach, *power)).product()
         };
         let values = DMatrix::from_fn(nodes.len(), powers.len(), |i, j| value(&nodes[i], &powers[j]));
         let weights = values.svd(true, true).pseudo_inverse(SINGULAR).ok()?;
         let program = of(self.plant, 1.0);
         let term = |(j, powers): (usize, &Vec<u32>)| {
-            let scale: f64 = reaches.iter().zip(powers).map(|(reach, power)| reach.powi(*power as i32)).product();
+            let scale: f64 = reaches.iter().zip(powers).map(|(reach, power)| raised(*reach, *power)).product();
             let weights = weights.row(j).iter().map(|weight| weight / scale).collect::<Vec<f64>>();
             let each: Vec<&FloatSeries> = trials.iter().map(|trial| &trial.series).collect();
             let sizes = trials.iter().map(|trial| &trial.sizes);
@@ -69,6 +69,11 @@ impl Members<'_> {
         };
         Some(powers.iter().enumerate().map(term).collect())
     }
+}
+
+/// A power, by multiplications: the same on all machines.
+fn raised(value: f64, power: u32) -> f64 {
+    (0..power).fold(1.0, |product, _| product * value)
 }
 
 /// What the members differ by at which the trials are found: along each side the points between which a polynomial of this degree goes best.
