@@ -105,3 +105,27 @@ fn powers(sides: usize, degree: u32) -> Vec<Vec<u32>> {
     all.sort_by_key(|powers| powers.iter().sum::<u32>());
     all
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn powers_begin_with_the_nominal_member() {
+        assert_eq!(powers(2, 2), [[0, 0], [0, 1], [1, 0], [0, 2], [1, 1], [2, 0]]);
+        assert_eq!(powers(1, 4).len(), 5);
+        assert_eq!(powers(3, 2).len(), 10);
+    }
+
+    #[test]
+    fn nodes_lie_inside_of_the_box() {
+        let side = |low: i32, high: i32| Interval { nominal: 1.into(), low: low.into(), high: high.into() };
+        let (a, b) = (side(0, 2), side(1, 5));
+        let found = nodes(&[&a, &b], 3);
+        assert_eq!(found.len(), 16);
+        // Deviations from 1: of the second side from 0 to 4.
+        assert!(found.iter().all(|node| node[0].abs() < 1.0 && 0.0 < node[1] && node[1] < 4.0));
+        let furthest = found.iter().map(|node| node[1]).fold(0.0, f64::max);
+        assert!((furthest - 2.0 * (1.0 + libm::cos(PI / 8.0))).abs() < 1e-12, "{furthest}");
+    }
+}

@@ -169,8 +169,8 @@ impl Around<'_> {
         let enough = [0, 1, 2].map(|i| enough[i].max(met_there[i]));
         let found = trial.defects(plant, &own.inverse, enough).ok()?;
         // What decides it again has as much room.
-        let known =
-            |i: usize| if self.is_family() { found[i].upper_f64().max(enough[i]) } else { found[i].upper_f64() };
+        let has_room = |i: usize| self.is_family() && (i < 2 || self.or_more);
+        let known = |i: usize| if has_room(i) { found[i].upper_f64().max(enough[i]) } else { found[i].upper_f64() };
         let [d_x, d_q, d_t] = [0, 1, 2].map(|i| Enclosure::exactly(known(i)));
         let d_q = d_q + trial.mismatch(&own) * &own.gain[1];
         let region = Region::new(l.clone(), trial.centre(), Rational::new()).ok()?;
