@@ -15,7 +15,7 @@ pub struct Sum(Kinds);
 
 /// What the variables of a sum are.
 #[derive(Clone, Copy, Debug)]
-pub struct Variables<'a> {
+pub struct MovedBy<'a> {
     /// The phase of the waves.
     pub phase: &'a Phase,
     /// The numbers from which parameter i is measured.
@@ -25,7 +25,7 @@ pub struct Variables<'a> {
 impl Sum {
     /// With the wave times these powers of `p_i - p_i^0`, parameter i with the power at place i; a power that is left out is 0.
     #[must_use]
-    pub fn and(mut self, variables: Variables<'_>, wave: &Fourier<Rational>, powers: &[u32]) -> Sum {
+    pub fn and(mut self, variables: MovedBy<'_>, wave: &Fourier<Rational>, powers: &[u32]) -> Sum {
         let terms = variables.terms(wave);
         if powers.iter().all(|power| *power == 0) {
             self.0.extend(terms);
@@ -37,7 +37,7 @@ impl Sum {
 
     /// With the derivative of the wave in time, times these powers.
     #[must_use]
-    pub fn and_slope(mut self, variables: Variables<'_>, wave: &Fourier<Rational>, powers: &[u32]) -> Sum {
+    pub fn and_slope(mut self, variables: MovedBy<'_>, wave: &Fourier<Rational>, powers: &[u32]) -> Sum {
         // That of the wave in the phase, times 2 pi/T.
         let turned = wave
             .harmonics
@@ -64,7 +64,7 @@ impl Sum {
     }
 }
 
-impl Variables<'_> {
+impl MovedBy<'_> {
     /// The operations that add a wave to a value.
     fn terms(&self, wave: &Fourier<Rational>) -> Kinds {
         let term = |factor: &Rational, k: usize, function: Unary| {
@@ -120,7 +120,7 @@ impl PlantExpr {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Definitions, Evaluator, Expr, PlantNames, Program, Variables as Names};
+    use super::super::{Definitions, Evaluator, Expr, PlantNames, Program, Variables};
     use super::*;
     use std::sync::Arc;
 
@@ -130,7 +130,7 @@ mod tests {
 
     #[test]
     fn sums_stand_in_the_places_of_the_variables() {
-        let period = Expr::parse("3", Names::None).unwrap();
+        let period = Expr::parse("3", Variables::None).unwrap();
         let phase = Phase::new(&period, true);
         let mut parameters = Definitions::default();
         for name in ["a", "b"] {
@@ -139,7 +139,7 @@ mod tests {
         let names = PlantNames::new(vec!["v".to_owned()]).unwrap();
         let names = names.with_parameters(parameters).with_phase(phase.clone());
         let from = [number(1, 2), number(2, 1)];
-        let variables = Variables { phase: &phase, from: &from };
+        let variables = MovedBy { phase: &phase, from: &from };
         let own = Fourier {
             mean: number(1, 4),
             harmonics: vec![[number(2, 1), Rational::new()], [Rational::new(), number(-1, 3)]],
