@@ -217,6 +217,14 @@ impl Metric {
     }
 }
 
+/// The share of the weight of `|zeta|_N^2` in what falls by an inequality, where there is a gain: its threshold over sigma (section 13.1, Theorem G3).
+pub fn share(d: &Data<'_>, stability: Option<&Inequality>, sigma: &Rational) -> Interval {
+    match stability {
+        Some(part) if d.gain.is_some() => d.number(&part.sigma) / d.number(sigma),
+        _ => d.int(1),
+    }
+}
+
 impl Inequality {
     /// Reads a part, beside w_x and h of its witness; `law`: sigma of a regulator at samples.
     pub fn read(field: &Field<'_>, kind: Kind, weights: [&Rational; 2], law: Option<&Rational>) -> Outcome<Inequality> {

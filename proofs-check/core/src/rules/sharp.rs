@@ -7,10 +7,10 @@
 use super::common::{Evaluated, Free, Sizes};
 use super::control;
 use super::gains::kappas;
+use super::inequality::share;
 use super::inequality::{Inequality, List};
 use super::joint;
 use super::mean_squares;
-use super::stability::share;
 use super::transfer::{self, Proof};
 use crate::data::Data;
 use crate::json::Fields;

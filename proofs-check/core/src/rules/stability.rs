@@ -1,13 +1,11 @@
 //! Rules C4 and C5 of the sharp derivation (docs/mathematics.md, sections 5, 10.1 and 10.4).
 
-use super::inequality::Inequality;
 use super::paths::{Path, Paths};
 use super::set::ClaimedSet;
 use crate::bound::Bound;
 use crate::data::Data;
 use crate::interval::Interval;
 use crate::verdict::Condition;
-use rug::Rational;
 
 /// What the plant's data give on the error box |xt| <= D_x, |et| <= D_e around |x| <= x_per, |e| <= e_per.
 pub struct ErrorBox {
@@ -97,14 +95,6 @@ pub fn distances(d: &Data<'_>, set: &ClaimedSet, [x_per, e_per, z]: [&Interval; 
     let [x0, e0] = [&set.x0, &set.e0].map(|size| d.number(size));
     let of_zeta = set.z0.as_ref().map_or_else(|| z.clone(), |z0| d.number(z0) + &d.n_bar * &e0 + z);
     [x0 + x_per, &e0 + e_per, of_zeta]
-}
-
-/// The share of the weight of `|zeta|_N^2` in what falls by an inequality, where there is a gain: its threshold over sigma (section 13.1, Theorem G3).
-pub fn share(d: &Data<'_>, stability: Option<&Inequality>, sigma: &Rational) -> Interval {
-    match stability {
-        Some(part) if d.gain.is_some() => d.number(&part.sigma) / d.number(sigma),
-        _ => d.int(1),
-    }
 }
 
 /// The two sides of C4: `w_x P_up dX^2 + dE^2 + h dZ^2` and `min{w_x P_low D_x^2, D_e^2}`. At the gain b the weight of `|zeta|_N^2` is

@@ -15,9 +15,9 @@ use super::x_first::Split;
 use crate::data::Data;
 use crate::interval::Interval;
 use crate::rules::control::{put_out, transient};
-use crate::rules::inequality::{Extent, Metric};
+use crate::rules::inequality::{Extent, Metric, share};
 use crate::rules::joint::{between, start};
-use crate::rules::stability::{distances, level, share};
+use crate::rules::stability::{distances, level};
 use crate::verdict::{Condition, Finding, Outcome, Verdict};
 use rug::Rational;
 
