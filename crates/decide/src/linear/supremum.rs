@@ -21,6 +21,8 @@ impl Fineness {
     pub(crate) const COARSE: Fineness = Fineness { room: 1e-3, parts: KNOWN_PARTS };
     /// Of the states of one.
     pub(crate) const OF_STATES: Fineness = Fineness { room: 1e-3, parts: 1 << 14 };
+    /// Of what is claimed of the members of a family, by a sum.
+    pub(crate) const OF_SUMS: Fineness = Fineness { room: 1e-4, parts: 1 << 12 };
     /// Of what is claimed of one.
     pub(crate) const FINE: Fineness = Fineness { room: 1e-8, parts: 1 << 17 };
 }
@@ -73,8 +75,8 @@ impl Middles {
         Middles { middles, apart, bent }
     }
 
-    /// The length on a part of the period.
-    fn on_part(&self, part: usize, parts: usize) -> Length {
+    /// The length on a part of the period; of one that is `alone` without its slope.
+    fn on_part(&self, part: usize, parts: usize, alone: bool) -> Length {
         let zero = || Enclosure::zero(PRECISION);
         let components = self.middles.first().map_or(0, Vec::len);
         let (mut values, mut slopes) = (vec![zero(); components], vec![zero(); components]);
@@ -94,10 +96,12 @@ impl Middles {
         let curved = half.sqr() / 2 * &self.bent;
         let value = own.sqrt();
         // |v + s v'| <= |v| + s v'v/|v| + s^2 |v'|^2/(2 |v|).
-        let rest = of_slope * half.sqr() / (&value * 2) + &curved;
-        let bound = linear + curved;
-        let smooth = value.is_positive().is_true() && (&value + &rest).le(&bound).is_true();
-        Length { along: smooth.then(|| (along / &value, rest)), value, bound }
+        let tangent = || {
+            let rest = of_slope * half.sqr() / (&value * 2) + &curved;
+            let helps = value.is_positive().is_true() && (&value + &rest).le(&(&linear + &curved)).is_true();
+            helps.then(|| (along / &value, rest))
+        };
+        Length { along: if alone { None } else { tangent() }, bound: linear + curved, value }
     }
 }
 
@@ -126,7 +130,8 @@ pub(crate) fn supremum(vectors: &[Harmonics], fineness: Fineness) -> Enclosure {
     let apart = vectors.iter().fold(zero(), |sum, vector| sum + &vector.apart);
     let on_part = |part: usize, parts: usize| {
         let half = Enclosure::pi(PRECISION) / parts as i64;
-        let lengths: Vec<Length> = vectors.iter().map(|vector| vector.on_part(part, parts)).collect();
+        let lengths: Vec<Length> =
+            vectors.iter().map(|vector| vector.on_part(part, parts, vectors.len() == 1)).collect();
         let value = lengths.iter().fold(zero(), |sum, length| sum + &length.value);
         let apart = lengths.iter().fold(zero(), |sum, length| sum + &length.bound);
         // Slopes of different signs take from each other.

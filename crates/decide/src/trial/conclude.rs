@@ -152,7 +152,7 @@ impl Concluded {
         };
 
         let n_bar = own.n_bar_squared.sqrt();
-        let control = supremum(&trial.scaled(|term| &term.control), Fineness::FINE)
+        let control = supremum(&trial.scaled(|term| &term.control), fineness(trial))
             + trial.mismatch(own)
             + &own.sigma * &s_e
             + &own.mu * n_bar * &s_z;
@@ -187,10 +187,15 @@ impl Concluded {
         let zero = Enclosure::zero(PRECISION);
         Some([
             supremum(&from_orbit(trial, orbit, own), Fineness::OF_STATES) + exact(radius),
-            supremum(&trial.scaled(|term| &term.error), Fineness::FINE),
+            supremum(&trial.scaled(|term| &term.error), fineness(trial)),
             trial.terms.iter().try_fold(zero, |sum, term| Some(sum + zeta(term)?))?,
         ])
     }
+}
+
+/// How closely the sizes of curves are bounded: those of a family are sums.
+fn fineness(trial: &Trial) -> Fineness {
+    if trial.terms.len() > 1 { Fineness::OF_SUMS } else { Fineness::FINE }
 }
 
 /// kappa_N at b_lo = 1.
