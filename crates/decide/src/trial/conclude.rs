@@ -35,7 +35,7 @@ pub struct XFirst {
     pub radii: [Rational; 2],
     /// eta.
     pub eta: Rational,
-    /// The forms; the first keeps solutions in the box.
+    /// The forms; one of them keeps solutions in the box.
     pub forms: Vec<(Metric, Level)>,
     /// S of each.
     pub splittings: Vec<Vec<Vec<Rational>>>,
@@ -183,7 +183,7 @@ impl Concluded {
     /// weights.
     #[must_use]
     pub fn sizes_of(trial: &Trial, Known { own, orbit, radius, .. }: &Known<'_>) -> Option<[Enclosure; 3]> {
-        let zeta = |term: &CurveTerm| Some(of_zeta(trial, own, term)? * trial.scale(term));
+        let zeta = |term: &CurveTerm| Some(of_zeta(trial, own, term)? * trial.scale(&term.powers));
         let zero = Enclosure::zero(PRECISION);
         Some([
             supremum(&from_orbit(trial, orbit, own), Fineness::OF_STATES) + exact(radius),
@@ -228,32 +228,23 @@ fn from_orbit(trial: &Trial, orbit: &OrbitCurve, own: &Loop) -> Vec<Harmonics> {
     let minus = |a: &Vec<Rational>, b: &Vec<Rational>| -> Vec<Rational> {
         a.iter().zip(b).map(|(a, b)| Rational::from(a - b)).collect()
     };
-    // The powers of the nominal curve, and of each sensitivity.
-    let count = orbit.sensitivities.len();
-    let powers = (0..=count).map(|which| (1..=count).map(|i| u32::from(i == which)).collect::<Vec<u32>>());
-    let mut apart: Vec<CurveTerm> = trial.terms.clone();
-    for (powers, part) in powers.zip(orbit.parts()) {
-        // After those of the parameters there may be one of the gain.
-        let is_that = |term: &&mut CurveTerm| {
-            let own = term.powers.iter().copied().chain(std::iter::repeat(0));
-            own.zip(powers.iter().copied().chain([0])).all(|(own, power)| own == power)
-        };
-        match apart.iter_mut().find(is_that) {
-            Some(term) => term.states = term.states.with(part, &zeros, minus),
-            None => {
-                let nothing = sigmastar_lang::spec::Wave::constant(Rational::new());
-                let states = TrigonometricVector::constant(zeros.clone()).with(part, &zeros, minus);
-                apart.push(CurveTerm { powers, states, error: nothing.clone(), control: nothing });
-            }
+    let mut apart: Vec<(Vec<u32>, TrigonometricVector)> =
+        trial.terms.iter().map(|term| (term.powers.clone(), term.states.clone())).collect();
+    for (which, part) in orbit.parts().enumerate() {
+        // Of the nominal curve no power, of a sensitivity that of its parameter; the orbit does not move with the gain of the actuator.
+        let powers: Vec<u32> = (1..=trial.intervals().count()).map(|i| u32::from(i == which)).collect();
+        match apart.iter_mut().find(|(own, _)| *own == powers) {
+            Some((_, states)) => *states = states.with(part, &zeros, minus),
+            None => apart.push((powers, TrigonometricVector::constant(zeros.clone()).with(part, &zeros, minus))),
         }
     }
-    let harmonics = |term: &CurveTerm| {
-        let scale = trial.scale(term);
+    let harmonics = |(powers, states): &(Vec<u32>, TrigonometricVector)| {
+        let scale = trial.scale(powers);
         let row = |apart: &Vec<Rational>, row: &Vec<Rational>| {
             let sum = row.iter().zip(apart).fold(Rational::new(), |sum, (l, x)| sum + Rational::from(l * x));
             exact(&sum) * &scale
         };
-        let all = term.states.map(|apart| own.inverse.iter().map(|of| row(apart, of)).collect::<Vec<_>>());
+        let all = states.map(|apart| own.inverse.iter().map(|of| row(apart, of)).collect::<Vec<_>>());
         let mean = all.mean.into_iter().map(Complex::real).collect();
         let pair = |[cos, sin]: [Vec<Enclosure>; 2]| {
             cos.into_iter().zip(sin).map(|(cos, sin)| Complex { re: cos / 2, im: sin / -2 }).collect()

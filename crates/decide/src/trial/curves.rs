@@ -64,10 +64,9 @@ impl Trial {
         self.terms.first().is_some_and(CurveTerm::is_nominal) && self.terms.iter().all(of_term)
     }
 
-    /// The largest `|delta^alpha|` of a term.
-    #[must_use]
-    pub fn scale(&self, term: &CurveTerm) -> Enclosure {
-        let all = term.powers.iter().zip(self.intervals()).fold(Rational::from(1), |product, (power, interval)| {
+    /// The largest `|delta^alpha|` of these powers.
+    pub(super) fn scale(&self, powers: &[u32]) -> Enclosure {
+        let all = powers.iter().zip(self.intervals()).fold(Rational::from(1), |product, (power, interval)| {
             (0..*power).fold(product, |product, _| product * interval.reach())
         });
         Enclosure::from_rational(&all, PRECISION)
@@ -83,7 +82,7 @@ impl Trial {
     /// Waves of the terms, each times the largest `|delta^alpha|`.
     pub(super) fn scaled(&self, of: impl Fn(&CurveTerm) -> &Wave) -> Vec<Harmonics> {
         let scaled = |term: &CurveTerm| {
-            let scale = self.scale(term);
+            let scale = self.scale(&term.powers);
             of_wave(of(term)).iter().map(|wave| vec![wave.scaled(&scale)]).collect()
         };
         self.terms.iter().map(scaled).collect()
@@ -93,7 +92,7 @@ impl Trial {
     #[must_use]
     pub fn mismatch(&self, own: &Loop) -> Enclosure {
         let zero = || Enclosure::zero(PRECISION);
-        let of_term = |term @ CurveTerm { error, control, .. }: &CurveTerm| {
+        let of_term = |CurveTerm { powers, error, control, .. }: &CurveTerm| {
             let degree = error.harmonics.len().max(control.harmonics.len());
             let of = |k: usize| {
                 let y = &own.mu / &own.fundamental * own.poles(self.met(), k, 1);
@@ -102,7 +101,7 @@ impl Trial {
                 harmonic(control, k).add(&answer.mul(&harmonic(error, k))).norm() * 2
             };
             let all = (self.met().saturating_add(1)..=degree).fold(zero(), |sum, k| sum + of(k));
-            all * self.scale(term)
+            all * self.scale(powers)
         };
         self.terms.iter().fold(zero(), |sum, term| sum + of_term(term))
     }

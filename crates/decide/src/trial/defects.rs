@@ -19,6 +19,9 @@ const FIRST_PARTS: usize = 16;
 const PARTS: usize = 2;
 const HALVINGS: u32 = 4;
 
+/// A half of a part is halved again where its bound is below this share of that of the part.
+const HELPFUL: f64 = 0.7;
+
 /// How often the box is halved where the sizes of polynomials are bounded.
 const BOX_HALVINGS: u32 = 8;
 
@@ -39,7 +42,10 @@ impl Trial {
         let space = Space::new(1 + sides, *degree);
         let along = Along::new(self, plant, inverse, &space);
         let count = (PARTS * along.harmonics).next_power_of_two().max(FIRST_PARTS);
-        let bounds = parallel::numbered(count, |part| along.on_part([part, count], enough, HALVINGS));
+        let bounds = parallel::numbered(count, |part| {
+            let place = [part, count];
+            along.refined(place, along.once(place, enough), enough, HALVINGS)
+        });
         let mut all = [(); 3].map(|()| Enclosure::zero(PRECISION));
         for (part, bound) in bounds.iter().enumerate() {
             if !bound.iter().all(Enclosure::is_bounded) {
@@ -128,7 +134,7 @@ struct Along<'a> {
     trial: &'a Trial,
     space: &'a Space,
     inverse: Vec<Vec<Enclosure>>,
-    /// f, q, q_t, q_x.
+    /// f and q, and of a trial for every larger number q_t and q_x.
     formulas: Walk,
     period: Enclosure,
     /// delta_i.
@@ -140,10 +146,12 @@ struct Along<'a> {
 impl<'a> Along<'a> {
     fn new(trial: &'a Trial, plant: &Plant, inverse: &[Vec<Rational>], space: &'a Space) -> Along<'a> {
         let (mut formulas, mut outputs) = plant.formulas();
-        let q = outputs[plant.states()..].to_vec();
-        outputs.extend(plant.derivatives_in_time(&mut formulas, &q));
-        for state in 0..plant.states() {
-            outputs.extend(formulas.derivatives(&q, PlantVariable::State(state)));
+        if trial.or_more {
+            let q = outputs[plant.states()..].to_vec();
+            outputs.extend(plant.derivatives_in_time(&mut formulas, &q));
+            for state in 0..plant.states() {
+                outputs.extend(formulas.derivatives(&q, PlantVariable::State(state)));
+            }
         }
         let deviation = |(i, interval): (usize, &Interval)| {
             let [low, high] = interval.deviations();
@@ -207,22 +215,38 @@ impl<'a> Along<'a> {
         })
     }
 
-    /// The bounds on part `part` of `count` of the period.
-    fn on_part(&self, [part, count]: [usize; 2], enough: [f64; 3], halvings: u32) -> [Enclosure; 3] {
-        let found = self.once(&Part::new([part, count], self.harmonics, self.space.degree()), enough);
-        let wrong = found.iter().zip(enough).any(|(bound, enough)| bound.upper_f64() > enough || !bound.is_defined());
-        if !wrong || halvings == 0 {
+    /// The bounds on part `part` of `count` of the period from those that are `found` there: on halves of it while that helps, up to so many times.
+    fn refined(
+        &self,
+        [part, count]: [usize; 2],
+        found: [Enclosure; 3],
+        enough: [f64; 3],
+        halvings: u32,
+    ) -> [Enclosure; 3] {
+        let is_wrong = |bound: &[Enclosure; 3], i: usize| !bound[i].is_bounded() || bound[i].upper_f64() > enough[i];
+        if halvings == 0 || !(0..3).any(|i| is_wrong(&found, i)) {
             return found;
         }
-        let [first, second] =
-            [2 * part, 2 * part + 1].map(|half| self.on_part([half, 2 * count], enough, halvings - 1));
+        let halves = [0, 1].map(|half| [2 * part + half, 2 * count]);
+        let of_halves = halves.map(|half| self.once(half, enough));
+        // What is left of the largest value is there on halves of any length.
+        let helps = |of_half: &[Enclosure; 3], i: usize| {
+            is_wrong(of_half, i) && of_half[i].upper_f64() <= HELPFUL * found[i].upper_f64()
+        };
+        let [first, second] = [0, 1].map(|which| {
+            let of_half = of_halves[which].clone();
+            let goes_on = (0..3).any(|i| helps(&of_half, i) || !found[i].is_bounded() || !of_half[i].is_bounded());
+            self.refined(halves[which], of_half, enough, if goes_on { halvings - 1 } else { 0 })
+        });
         let both: [Enclosure; 3] = [0, 1, 2].map(|i| first[i].max(&second[i]));
         // What is not seen to be smooth on the whole may be on both halves.
         let better = |i: usize| if found[i].is_bounded() { both[i].min(&found[i]) } else { both[i].clone() };
         [0, 1, 2].map(better)
     }
 
-    fn once(&self, part: &Part, enough: [f64; 3]) -> [Enclosure; 3] {
+    /// Those of all of a part.
+    fn once(&self, place: [usize; 2], enough: [f64; 3]) -> [Enclosure; 3] {
+        let part = &Part::new(place, self.harmonics, self.space.degree());
         let Along { trial, space, inverse, formulas, period, deviations, .. } = self;
         let n = inverse.len();
         let zero = || Enclosure::zero(PRECISION);
@@ -254,16 +278,12 @@ impl<'a> Along<'a> {
         };
         let of_states = inverse.iter().map(|row| component(row).sqr()).fold(zero(), |sum, square| sum + square).sqrt();
         let of_error = minus(&space.sum(&outputs[n], &with_gain(&control)), &error_slope);
-        let in_time = states
-            .iter()
-            .zip(outputs.iter().skip(n + 2))
-            .fold(space.sum(&outputs[n + 1], &with_gain(&control_slope)), |sum, ([_, slope], q_x)| {
-                space.sum(&sum, &space.product(q_x, slope))
-            });
-        let in_time = match trial.or_more {
-            true => space.largest(&in_time, enough[2], BOX_HALVINGS),
-            false => zero(),
-        };
+        let in_time = outputs.get(n + 1).map_or_else(zero, |q_t| {
+            let own = space.sum(q_t, &with_gain(&control_slope));
+            let along = states.iter().zip(outputs.iter().skip(n + 2));
+            let all = along.fold(own, |sum, ([_, slope], q_x)| space.sum(&sum, &space.product(q_x, slope)));
+            space.largest(&all, enough[2], BOX_HALVINGS)
+        });
         [of_states, space.largest(&of_error, enough[1], BOX_HALVINGS), in_time]
     }
 }

@@ -8,9 +8,9 @@ use sigmastar_theory::evidence::Part;
 
 /// By what share of the diagonal the matrices of a form are to be definite.
 pub(super) const MARGINS: [f64; 2] = [1e-3, 1e-5];
-pub(super) const WIDE_MARGINS: [f64; 2] = [0.1, 1e-2];
-/// Of the form that says how near to the trial of a family the solution is.
-const FAMILY_MARGINS: [f64; 5] = [0.5, 0.3, 0.2, 0.1, 1e-2];
+const WIDE_MARGINS: [f64; 2] = [0.1, 1e-2];
+/// Of the form that says how near to the trial the solution is, where its defects are more than rounding.
+const NEAR_MARGINS: [f64; 5] = [0.5, 0.3, 0.2, 0.1, 1e-2];
 
 /// How far x may come from the periodic solution, in distances of the start, in turn; the first box of e in that of its start.
 const REACHES: [f64; 5] = [1.5, 2.5, 4.0, 6.5, 12.0];
@@ -154,9 +154,9 @@ impl Around<'_> {
             let asked = (of, margin, LookedAt::Between);
             prepared.samples.propose_peak(PeakBox { at: radii, x_first }, &mut program, asked)
         };
-        // What a family leaves is far more than rounding: the wider the margins, the nearer is the solution to the trial.
-        let of_family = FAMILY_MARGINS.into_iter().filter(|_| self.is_family() && x_first.is_none());
-        let near_trial = of_family.into_iter().find_map(|margin| more(PeakOf::Error, margin));
+        // What a family leaves, or many oscillators, is far more than rounding: the wider the margins, the nearer is the solution to the trial.
+        let is_far = (self.is_family() || self.or_more) && x_first.is_none();
+        let near_trial = NEAR_MARGINS.into_iter().filter(|_| is_far).find_map(|margin| more(PeakOf::Error, margin));
         let forms = near_trial.into_iter().chain([form]).chain(more(PeakOf::Control, margin)).collect();
         Some(Fit { radii, forms, peak })
     }

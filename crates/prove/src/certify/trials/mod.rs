@@ -10,7 +10,7 @@ mod proved;
 
 use super::gain_row::{ByCount, CountBounds, CountProof, Largest};
 use around::{Around, Prepared};
-use boxes::{Fit, MARGINS, WIDE_MARGINS};
+use boxes::{Fit, MARGINS};
 use proved::{rounded, short};
 use rug::Rational;
 use sigmastar_decide::linear::PRECISION;
@@ -120,10 +120,7 @@ impl Around<'_> {
     /// What is proved with forms of its own; `near`: the box that serves another number of oscillators; `known`: a peak
     /// that this one is expected to be well below.
     fn with_own_peaks(&self, prepared: &Prepared, near: Option<&[Rational; 2]>, known: Option<f64>) -> Option<Proved> {
-        // What many oscillators leave may be more than rounding: with small margins the solution could be anywhere.
-        let [first, last] = MARGINS;
-        let wide = WIDE_MARGINS.last().filter(|_| self.or_more).copied();
-        std::iter::once(first).chain(wide).chain([last]).find_map(|margin| {
+        MARGINS.into_iter().find_map(|margin| {
             let Fit { radii, forms, peak } = self.peak_box(prepared, margin, (None, near))?;
             if known.is_some_and(|known| peak > WORTH * known) {
                 return None;
@@ -139,7 +136,8 @@ impl Around<'_> {
         let [w, k_p, p_up, e_low] = [&metric.weight, &metric.k_p, &level.p_up, &level.e_low].map(Rational::to_f64);
         let cross = metric.cross.iter().map(|entry| entry.to_f64() * entry.to_f64()).sum::<f64>().sqrt();
         let of_states = if self.asked.plant.states() > 0 { p_up * x * x + 2.0 * cross * x * e } else { 0.0 };
-        let at_start = of_states + w * e * e + k_p * prepared.own.mu.midpoint_f64() / 2.0 * z * z;
+        let of_mu = prepared.own.gain[1].upper_f64() * prepared.own.mu.midpoint_f64();
+        let at_start = of_states + w * e * e + k_p * of_mu / 2.0 * z * z;
         Some((at_start / e_low).sqrt()).filter(|peak| peak.is_finite())
     }
 

@@ -91,7 +91,7 @@ impl Around<'_> {
             engine.decide_form_x_first((metric, level, s), self.asked.sigma, place, self.effort()).truth.is_true()
         };
         let holds: Vec<bool> = x_first.forms.iter().zip(&x_first.splittings).map(decided).collect();
-        // The box is that of the first.
+        // The box was fitted to the first.
         holds.first().filter(|first| **first)?;
         let all = x_first.forms.into_iter().zip(x_first.splittings).zip(holds);
         (x_first.forms, x_first.splittings) = all.filter(|(_, holds)| *holds).map(|(form, _)| form).unzip();
@@ -113,7 +113,7 @@ impl Around<'_> {
         let decided = |(metric, level): &(Metric, Level)| {
             engine.decide_form((metric, level), self.asked.sigma, [&x, &e], self.effort()).truth.is_true()
         };
-        // The box is that of the first.
+        // The first is that of Theorem T.
         let holds: Vec<bool> = forms.iter().map(decided).collect();
         holds.first().filter(|first| **first)?;
         let mut holds = holds.into_iter();
