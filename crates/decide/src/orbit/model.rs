@@ -30,6 +30,8 @@ pub(crate) struct Space {
     degree: usize,
     /// By rising degree, that of 1 first.
     pub(super) monomials: Vec<Vec<u8>>,
+    /// Of each of them.
+    degrees: Vec<usize>,
     /// Where each of them stands.
     places: HashMap<Vec<u8>, usize>,
     /// For each i the pairs (j, k) with `monomial i * monomial j = monomial k`.
@@ -69,7 +71,8 @@ impl Space {
             monomials.iter().enumerate().filter_map(times).collect()
         });
         let products = products.collect();
-        Space { degree, monomials, places, products }
+        let degrees = monomials.iter().map(|powers| degree_of(powers)).collect();
+        Space { degree, monomials, degrees, places, products }
     }
 
     /// That up to which polynomials go.
@@ -116,9 +119,8 @@ impl Space {
     /// What the coefficients of each degree are at most.
     fn by_degree(&self, model: &Model) -> Vec<Enclosure> {
         let mut sums = vec![zero(); self.degree + 1];
-        for (value, powers) in model.coefficients.iter().zip(&self.monomials) {
-            let degree = degree_of(powers);
-            sums[degree] = &sums[degree] + value.abs();
+        for (value, degree) in model.coefficients.iter().zip(&self.degrees).filter(|(value, _)| !is_nothing(value)) {
+            sums[*degree] = &sums[*degree] + value.abs();
         }
         sums
     }
@@ -144,18 +146,23 @@ impl Space {
     }
 
     pub(crate) fn product(&self, a: &Model, b: &Model) -> Model {
+        self.product_up_to(a, b, self.degree)
+    }
+
+    /// The product with what is above a degree in the rest.
+    fn product_up_to(&self, a: &Model, b: &Model, limit: usize) -> Model {
         let (of_a, of_b) = (self.by_degree(a), self.by_degree(b));
         let all = |sums: &[Enclosure]| sums.iter().fold(zero(), |sum, value| sum + value);
         let mut rest = &a.rest * (all(&of_b) + &b.rest) + &b.rest * all(&of_a);
         for (i, a) in of_a.iter().enumerate() {
-            for b in of_b.iter().skip(self.degree + 1 - i) {
+            for b in of_b.iter().skip((limit + 1).saturating_sub(i)).filter(|b| !is_nothing(b)) {
                 rest = rest + a * b;
             }
         }
         let is_there: Vec<bool> = b.coefficients.iter().map(|value| !is_nothing(value)).collect();
         let mut coefficients: Vec<Enclosure> = Vec::new();
         for (value, products) in a.coefficients.iter().zip(&self.products).filter(|(value, _)| !is_nothing(value)) {
-            for (j, k) in products {
+            for (j, k) in products.iter().take_while(|(_, k)| self.degrees[*k] <= limit) {
                 if is_there.get(*j) == Some(&true) {
                     if coefficients.len() <= *k {
                         coefficients.resize(*k + 1, zero());
@@ -177,8 +184,12 @@ impl Space {
         let over = at(&middle + reach.negate().hull(&reach), self.degree + 1);
         let smooth = over.iter().chain(&about).all(Enclosure::is_defined);
         let mut result = Model { coefficients: Vec::new(), rest: zero() };
-        for value in about.iter().rev() {
-            result = self.sum(&self.product(&result, &apart), &self.constant(value.clone()));
+        // Of what is to be multiplied by the j-th power of what has no constant the degrees up to the largest less j count.
+        for (j, value) in about.iter().enumerate().rev() {
+            result = self.sum(
+                &self.product_up_to(&result, &apart, self.degree.saturating_sub(j)),
+                &self.constant(value.clone()),
+            );
         }
         let last = match (smooth, over.get(self.degree + 1)) {
             (false, _) => Enclosure::undefined(PRECISION),

@@ -6,6 +6,9 @@ use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_lang::expr::{Binary, Operations, PlantVariable, Unary, enclosed_step};
 
+/// Powers up to this one are products.
+const MULTIPLIED: u32 = 6;
+
 /// The algebra of models.
 pub(crate) struct Models<'a> {
     /// The monomials.
@@ -103,7 +106,12 @@ impl Operations for Models<'_> {
     }
 
     fn power(&mut self, base: &Model, exponent: i32) -> Model {
-        self.by_series(base, |algebra, series| algebra.power(series, exponent))
+        match u32::try_from(exponent) {
+            Ok(exponent @ 1..=MULTIPLIED) => {
+                (1..exponent).fold(base.clone(), |power, _| self.space.product(&power, base))
+            }
+            _ => self.by_series(base, |algebra, series| algebra.power(series, exponent)),
+        }
     }
 
     /// A constant where it is known.
