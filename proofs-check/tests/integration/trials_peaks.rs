@@ -108,3 +108,27 @@ fn forms_count_in_their_box_alone() {
     assert!(finding.message.contains("s_e < D_e of the box"), "{finding:?}");
     assert!(finding.message.contains("; and not satisfied: T, E_N + e_per <= D_e of the claim"), "{finding:?}");
 }
+
+/// Of several forms one is enough to keep solutions in the box, whichever it is.
+#[test]
+fn one_of_the_forms_keeps_the_box() {
+    let fine = Case { error_box: ["1", "0.5"].map(str::to_owned), ..Case::new(1, FORMULAS) };
+    let coarse = fine.trial("/forms/0/P_up", "2");
+    let reach = |case: &Case| {
+        let Expected { v_0, s_e, .. } = expected(case);
+        (v_0 / 0.9975).sqrt() + s_e
+    };
+    let [near, far] = [reach(&fine), reach(&coarse)];
+    assert!(near < far * 0.99, "{near} {far}");
+    let forms = [&coarse, &fine].map(|case| case.trial["forms"][0].clone());
+    let with = |box_e: f64, which: &[usize]| {
+        let list: Vec<_> = which.iter().map(|i| forms[*i].clone()).collect();
+        fine.trial("/forms", list).trial("/box/e", text(box_e))
+    };
+    for which in [&[0, 1][..], &[1, 0], &[1]] {
+        with(near * (1.0 + 1e-7), which).accepted();
+        with(near * (1.0 - 1e-7), which).refused(Invalid, "/box/e");
+    }
+    with(near * (1.0 + 1e-7), &[0]).refused(Invalid, "/box/e");
+    with(far * (1.0 + 1e-7), &[0]).accepted();
+}

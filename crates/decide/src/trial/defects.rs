@@ -14,9 +14,9 @@ use sigmastar_lang::spec::{Interval, Wave};
 /// The degree of the polynomials in the time and so many numbers of which intervals are known, from none on.
 const DEGREES: [usize; 6] = [12, 9, 8, 6, 5, 4];
 
-/// The parts of the period at first, at least, and for each harmonic; and how often they are halved.
+/// The parts of the period at first, at least, and for each harmonic (the last ones are small); and how often they are halved.
 const FIRST_PARTS: usize = 16;
-const PARTS: usize = 2;
+const PARTS: usize = 1;
 const HALVINGS: u32 = 4;
 
 /// A half of a part is halved again where its bound is below this share of that of the part.

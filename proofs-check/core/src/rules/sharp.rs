@@ -7,8 +7,7 @@
 use super::common::{Evaluated, Free, Sizes};
 use super::control;
 use super::gains::kappas;
-use super::inequality::share;
-use super::inequality::{Inequality, List};
+use super::inequality::{Inequality, List, share};
 use super::joint;
 use super::mean_squares;
 use super::transfer::{self, Proof};

@@ -117,7 +117,7 @@ pub fn prove(
     if !has_states {
         reach[0] = d.int(0);
     }
-    // By one of the forms: a trial has one at least, and x_first too. Else that of the first is said, or that it is not known of another.
+    // One of the forms is enough: a trial has one at least, and x_first too. Without one the finding is that of the first form, or of one that is undecided.
     let stays = |levels: &[Level], radii, extents: &[&Extent], place: &str| {
         let mut failed: Option<Box<Finding>> = None;
         for (level, extent) in levels.iter().zip(extents) {
