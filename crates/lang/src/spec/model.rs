@@ -7,6 +7,7 @@ use super::disturbances::Disturbances;
 use super::document::Document;
 use super::input_gain::InputGain;
 use super::of_plant::OfPlant;
+use super::oscillators::AskedHarmonics;
 pub use super::parts::{
     Constant, Domain, InitialSet, Jacobian, JacobianEntry, KnownForcing, Lyapunov, OrbitCurve, PeriodicMatrix,
     RelativeDegree, SIZES, StartSizes, TrigonometricVector,
@@ -172,6 +173,8 @@ pub struct InternalModel {
     pub matched: bool,
     /// The weights n_0, n_1, ...
     pub weights: Weights,
+    /// Of which oscillators the claim is to be; of every set where that costs nothing, if nothing is asked.
+    pub harmonics: Option<AskedHarmonics>,
     /// The samples of a computer, where the regulator runs on one.
     pub sampling: Option<Sampling>,
 }

@@ -171,7 +171,8 @@ impl<'d> Object<'d> {
 }
 
 /// Fields of the regulator, which some write beside it.
-const OF_INTERNAL_MODEL: [&str; 6] = ["mu", "base_frequency", "matched", "weights", "sampling_period", "delay_samples"];
+const OF_INTERNAL_MODEL: [&str; 7] =
+    ["mu", "base_frequency", "matched", "weights", "harmonics", "sampling_period", "delay_samples"];
 
 /// Fields of a file itself, which in TOML belong to a table once one has begun.
 pub(super) const OF_FILE: [&str; 13] = [

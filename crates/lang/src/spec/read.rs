@@ -18,7 +18,7 @@ use super::parts::{Constant, Domain, KnownForcing, Lyapunov, RelativeDegree};
 use super::period::{Period, needs_exact_period, read_period};
 use super::quantity::Quantity;
 use super::sampling::read_delay;
-use super::{sampling, weights_read};
+use super::{oscillators, sampling, weights_read};
 use crate::expr::{Definitions, Expr, Monomial, Variables};
 use rug::Rational;
 use sigmastar_exact::enclosure::Truth;
@@ -219,6 +219,8 @@ pub fn read_internal_model(
         None => Ok(false),
     };
     let weights = object.required("weights", errors).and_then(|value| weights_read::read(&value, errors));
+    let harmonics =
+        object.optional("harmonics").map(|value| oscillators::read_asked(&value, period, errors)).transpose();
     let step = object.optional("sampling_period");
     let delay = object.optional("delay_samples");
     let delayed = delay.as_ref().map_or(Ok(false), |value| read_delay(value, errors));
@@ -247,7 +249,14 @@ pub fn read_internal_model(
         }
         _ => None,
     };
-    Ok(InternalModel { mu: mu?, base_frequency: base_frequency?, matched: matched?, weights: weights?, sampling })
+    Ok(InternalModel {
+        mu: mu?,
+        base_frequency: base_frequency?,
+        matched: matched?,
+        weights: weights?,
+        harmonics: harmonics?,
+        sampling,
+    })
 }
 
 /// Proves base_frequency * period = 2 pi. Close is not enough: the consequences of a matched frequency (vanishing

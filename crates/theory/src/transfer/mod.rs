@@ -10,6 +10,7 @@ mod complex;
 mod cover;
 mod curve;
 mod euler_maclaurin;
+mod every_set;
 mod float_sums;
 mod graph;
 mod inverse_powers;
@@ -27,6 +28,7 @@ pub(crate) mod weights_only;
 pub use boxes::{BoxProof, MAX_BOXES, MAX_N0};
 pub use closed_form::closed_form_pair;
 pub use complex::Complex;
+pub use every_set::serves_every_set;
 pub use graph::transfer_graph;
 pub use matched::{MatchedProof, TradeOff};
 pub use pair::{
