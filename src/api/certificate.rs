@@ -99,7 +99,7 @@ impl Claim {
             // Where the claim is about one gain a larger double is not covered either.
             Run::Continuous(run) => {
                 let rounded = if run.spec.actuator.is_some() { nearest(sigma) } else { rounded_up(sigma) };
-                (rounded, None, statement(run.spec, sigma, set))
+                (rounded, None, statement(run.spec, sigma, set, run.is_for_every_set()))
             }
             Run::Sampled(run) => {
                 let witness = &run.claim()?.witness;

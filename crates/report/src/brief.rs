@@ -31,13 +31,14 @@ pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences
         return Vec::new();
     };
     let sigma = write_exact(sigma);
+    let same = words::the_same_for(run.is_for_every_set());
     let gain = match (&run.given_gain, &run.spec.actuator) {
         (_, Some(actuator)) => format!(
-            "$`sigma = {sigma}`$ in 1/time, this one alone; $`|u|`$ never exceeds the {} that the actuator takes; the same for every $`n_o`$",
+            "$`sigma = {sigma}`$ in 1/time, this one alone; $`|u|`$ never exceeds the {} that the actuator takes; {same}",
             clean(&actuator.max.text)
         ),
         (Some(_), None) => {
-            format!("$`sigma = {sigma}`$ in 1/time, as it was given, or any larger; the same for every $`n_o`$")
+            format!("$`sigma = {sigma}`$ in 1/time, as it was given, or any larger; {same}")
         }
         (None, None) if !run.limits.is_empty() => {
             let least = run.smallest_gain.map_or_else(String::new, |least| {
@@ -48,7 +49,7 @@ pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences
             });
             format!(
                 "$`sigma = {sigma}`$ in 1/time, the smallest one that is found that keeps to what was asked for; the loop is proved for every \
-                 larger one, too, whose bounds are others; the same for every $`n_o`${least}{}",
+                 larger one, too, whose bounds are others; {same}{least}{}",
                 // The limit holds for every n_o, so without oscillators too.
                 match run.limits.steady_error {
                     Some(_) if run.for_n_o.is_empty() =>
@@ -57,7 +58,7 @@ pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences
                 }
             )
         }
-        (None, None) => format!("$`sigma* = {sigma}`$ in 1/time, or any larger; the same for every $`n_o`$"),
+        (None, None) => format!("$`sigma* = {sigma}`$ in 1/time, or any larger; {same}"),
     };
     let mut facts = vec![
         ("gain", gain),

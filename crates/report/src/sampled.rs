@@ -176,7 +176,7 @@ fn certified(run: &SampledCertification<'_>, proof: &SampledProof) -> String {
     let samples = witness.sampling.samples;
     format!(
         "Certified: the regulator at samples $`h = {}`$ apart ({samples} in a period){} with $`sigma = {}`$ and $`K = {}`$, $`mu = {}`$ and base \
-         frequency $`{}`$, for every number of oscillators $`n_o < {samples}/2`$ and every phase of the samples{}{}: every solution that \
+         frequency $`{}`$, for {} and every phase of the samples{}{}: every solution that \
          starts, at a sampling instant, from {}{} converges exponentially to a T-periodic solution, $`T = {}`$.{}",
         clean(&witness.sampling.text()),
         if witness.sampling.delayed { ", each control computed in the sample before it acts," } else { "" },
@@ -184,6 +184,7 @@ fn certified(run: &SampledCertification<'_>, proof: &SampledProof) -> String {
         sigmastar_document::number::compact(&proof.evaluation.law.gain),
         clean(&spec.internal_model.mu.text),
         clean(&spec.internal_model.base_frequency.text),
+        words::oscillators(&format!("n_o < {samples}/2"), spec.internal_model.asks_every_set()),
         words::of_all(spec),
         limits::of_actuator(spec),
         words::set(spec, &witness.set),

@@ -20,12 +20,13 @@ pub(super) fn sentence(run: &Certification<'_>) -> String {
     let spec = run.spec;
     match (run.sigma_star(), run.claimed_set()) {
         (Some(sigma), Some(set)) => format!(
-            "Certified: with $`sigma = {}`${}, $`mu = {}`$ and base frequency $`{}`${}, for every number of oscillators $`n_o >= 0`${}, every solution that starts, at any time, from {} converges exponentially to a T-periodic \
+            "Certified: with $`sigma = {}`${}, $`mu = {}`$ and base frequency $`{}`${}, for {}{}, every solution that starts, at any time, from {} converges exponentially to a T-periodic \
              solution{}.{}",
             if spec.actuator.is_some() { write_exact(sigma) } else { exact(sigma, Direction::Up) },
             if spec.actuator.is_some() { "" } else { " (or any larger)" },
             clean(&spec.internal_model.mu.text),
             clean(&spec.internal_model.base_frequency.text),
+            words::oscillators("n_o >= 0", run.is_for_every_set()),
             limits::of_actuator(spec),
             words::of_all(spec),
             words::set(spec, set),

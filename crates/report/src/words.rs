@@ -11,6 +11,23 @@ use sigmastar_lang::spec::{Constant, InputGain, Specification, StartSizes};
 use sigmastar_prove::certificate::members;
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
 
+/// Of which oscillators a claim is, by the `n_o` that it covers: of every number of them, or of every set of harmonics (derivation, 14.7).
+pub(super) fn oscillators(n_o: &str, every_set: bool) -> String {
+    let first = format!("every number of oscillators $`{n_o}`$");
+    match every_set {
+        false => first,
+        true => format!("oscillators at every finite set of harmonics that contains 0 (so for {first})"),
+    }
+}
+
+/// The same in the short report.
+pub(super) fn the_same_for(every_set: bool) -> &'static str {
+    match every_set {
+        false => "the same for every $`n_o`$",
+        true => "the same for every $`n_o`$, and for oscillators at every other set of harmonics with 0",
+    }
+}
+
 /// The initial set, rounded inward: `|x| <= 1, |e| <= 2, |z|_N <= 0`, or `z = M e`.
 pub(super) fn set(spec: &Specification, set: &ClaimedSet) -> String {
     let StartSizes { x0, e0, z0 } = set.map(|value| exact(value, Direction::Down));

@@ -180,6 +180,12 @@ pub struct InternalModel {
 }
 
 impl InternalModel {
+    /// Whether the claim is to be about every finite set of harmonics that contains 0 (derivation, 14.7).
+    #[must_use]
+    pub fn asks_every_set(&self) -> bool {
+        self.harmonics == Some(AskedHarmonics::EverySet)
+    }
+
     /// K and Nb2 for a sampling time h > 0.
     ///
     /// Guarantee: both are doubles, K > 0, Nb2 is not below the sum of all weights, and K h Nb2 < 2. `None` where that is not

@@ -157,6 +157,7 @@ fn claim_part(
     for unused in [
         "verdict",
         "n_o",
+        "harmonics",
         "mu",
         "period",
         "parameters",

@@ -76,7 +76,9 @@ struct Claim {
 
 fn read_claim(value: &Value<'_>, subject: Option<&Value<'_>>, errors: &mut Errors) -> Result<Claim, Reported> {
     let mut claim = value.object(errors)?;
-    for unused in ["verdict", "n_o", "mu", "parameters", "periodic_solution", "control", "for_n_o", "statement"] {
+    for unused in
+        ["verdict", "n_o", "harmonics", "mu", "parameters", "periodic_solution", "control", "for_n_o", "statement"]
+    {
         let _ = claim.optional(unused);
     }
     let regulator = word(&mut claim, "regulator", REGULATOR, errors);

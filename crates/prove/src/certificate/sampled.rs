@@ -7,7 +7,8 @@ use super::rates::{claimed_rates, sampled_rate_witnesses};
 use super::triple::lyapunov_parts;
 use super::words::sampled_statement;
 use super::write::{
-    actuator_json, conditions_json, control_json, file, input_gain_json, parameters_json, periodic_json, set_json,
+    HARMONICS, actuator_json, conditions_json, control_json, file, input_gain_json, parameters_json, periodic_json,
+    set_json,
 };
 use crate::certify::SampledCertification;
 use serde_json::Value;
@@ -43,9 +44,11 @@ pub fn sampled_certificate_json(run: &SampledCertification<'_>) -> Option<Value>
         ("control", control_json(run.control()?)),
     ];
     let said = ("statement", text(sampled_statement(spec, witness) + &run.rates_in_words()));
+    let sets = spec.internal_model.asks_every_set();
+    let every_set = sets.then(|| (HARMONICS, text("every set below samples/2 that contains 0")));
     let delay = witness.sampling.delayed.then(|| ("delay_samples", Value::from(1)));
     let claim = {
-        let of_actuator = delay.into_iter().chain(input_gain_json(spec)).chain(actuator_json(spec));
+        let of_actuator = every_set.into_iter().chain(delay).chain(input_gain_json(spec)).chain(actuator_json(spec));
         object(
             heading
                 .into_iter()

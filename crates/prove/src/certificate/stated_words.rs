@@ -24,11 +24,12 @@ pub fn claim_in_words(certificate: &Document) -> Result<String, SpecErrors> {
         noise: noise.as_ref().map(|[peak, limit]| [peak, limit]),
     });
     let ball = stated_ball(certificate)?;
+    let reach = (ball.as_ref(), certificate.at("/claim/harmonics").is_some());
     let (sigma, is_sampled, words) = match &witness {
-        FreeNumbers::Sampled(witness) => (&witness.sigma, true, at_samples(&spec, witness, ball.as_ref())),
+        FreeNumbers::Sampled(witness) => (&witness.sigma, true, at_samples(&spec, witness, reach)),
         FreeNumbers::Continuous(given) => {
             let witness = &given.witness;
-            (&witness.sigma, false, in_continuous_time(&spec, &witness.sigma, &witness.set, ball.as_ref()))
+            (&witness.sigma, false, in_continuous_time(&spec, &witness.sigma, &witness.set, reach))
         }
     };
     let counts = certificate.at("/claim/by_n_o").map(|part| part.to_json()).unwrap_or_default();

@@ -12,10 +12,10 @@ use sigmastar_lang::spec::{Actuator, Bound, InputGain, Interval, OfPlant, Parame
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
 use sigmastar_theory::derivation::sampled::{DelayWitness, SampledWitness};
 
-/// The claim of the regulator in continuous time in words.
+/// The claim of the regulator in continuous time in words; `every_set`: whether it is about every set of harmonics (derivation, 14.7).
 #[must_use]
-pub fn statement(spec: &Specification, sigma: &Rational, set: &ClaimedSet) -> String {
-    in_continuous_time(spec, sigma, set, ball(spec, set).as_ref())
+pub fn statement(spec: &Specification, sigma: &Rational, set: &ClaimedSet, every_set: bool) -> String {
+    in_continuous_time(spec, sigma, set, (ball(spec, set).as_ref(), every_set))
 }
 
 /// The ball that a claimed set of a plant with states contains.
@@ -28,7 +28,7 @@ pub(super) fn in_continuous_time(
     spec: &Specification,
     sigma: &Rational,
     set: &ClaimedSet,
-    ball: Option<&Rational>,
+    (ball, every_set): (Option<&Rational>, bool),
 ) -> String {
     let model = &spec.internal_model;
     let reach = if model.matched { "" } else { " (which need not match the period)" };
@@ -40,8 +40,13 @@ pub(super) fn in_continuous_time(
             format!("every period in [{}, {}] (one constant T; nominal {nominal})", low.words(), high.words())
         }
     };
+    let first = "every number of oscillators n_o >= 0";
+    let oscillators = match every_set {
+        false => first.to_owned(),
+        true => format!("oscillators at every finite set of harmonics that contains 0 (so for {first})"),
+    };
     format!(
-        "For every number of oscillators n_o >= 0 and {} {}{input_gain}{}, with {period}, mu = {} and base frequency {}{reach}, {}",
+        "For {oscillators} and {} {}{input_gain}{}, with {period}, mu = {} and base frequency {}{reach}, {}",
         if spec.actuator.is_some() { "the gain sigma =" } else { "every gain sigma >=" },
         write_exact(sigma),
         within_actuator(spec),
@@ -54,13 +59,22 @@ pub(super) fn in_continuous_time(
 /// The claim of the regulator at samples in words.
 #[must_use]
 pub fn sampled_statement(spec: &Specification, witness: &SampledWitness) -> String {
-    at_samples(spec, witness, ball(spec, &witness.set).as_ref())
+    at_samples(spec, witness, (ball(spec, &witness.set).as_ref(), spec.internal_model.asks_every_set()))
 }
 
 /// The claim of the regulator at samples in words, for a set that contains `ball` where one is given.
-pub(super) fn at_samples(spec: &Specification, witness: &SampledWitness, ball: Option<&Rational>) -> String {
+pub(super) fn at_samples(
+    spec: &Specification,
+    witness: &SampledWitness,
+    (ball, every_set): (Option<&Rational>, bool),
+) -> String {
     let model = &spec.internal_model;
     let samples = witness.sampling.samples;
+    let first = format!("every number of oscillators n_o < {samples}/2");
+    let oscillators = match every_set {
+        false => first,
+        true => format!("oscillators at every set of harmonics below {samples}/2 that contains 0 (so for {first})"),
+    };
     let start = match &witness.delay {
         None => "at any sampling instant".to_owned(),
         Some(DelayWitness { y_0, .. }) => {
@@ -69,7 +83,7 @@ pub(super) fn at_samples(spec: &Specification, witness: &SampledWitness, ball: O
     };
     format!(
         "For the digital regulator {}with the gain sigma = {}, the sampling period h = {} ({samples} samples a period) and \
-         K = {}, for every number of oscillators n_o < {samples}/2 and every phase of the sampling grid{}{}, with period T = {}, \
+         K = {}, for {oscillators} and every phase of the sampling grid{}{}, with period T = {}, \
          mu = {} and base frequency {}, {}",
         if witness.sampling.delayed { "whose control is computed in the sample before it acts, " } else { "" },
         write_exact(&witness.sigma),

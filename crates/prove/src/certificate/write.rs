@@ -23,6 +23,8 @@ use sigmastar_theory::transfer::{TransferProof, closed_form_pair};
 
 /// The format of a certificate file.
 pub const FORMAT: &str = "sigmastar/certificate";
+/// The field of a claim about every set of harmonics.
+pub(super) const HARMONICS: &str = "harmonics";
 /// The version that is written and read.
 pub const VERSION: u64 = 1;
 
@@ -56,6 +58,7 @@ pub fn certificate_json(run: &Certification<'_>) -> Option<Value> {
         ("n_o", text("every n_o >= 0")),
         ("mu", text(constant(mu))),
     ];
+    let every_set = run.is_for_every_set().then(|| (HARMONICS, text("every finite set that contains 0")));
     let period = spec.period.interval().map(|[low, high]| {
         let ends = [("nominal", spec.period.nominal()), ("low", low), ("high", high)];
         ("period", object(ends.map(|(name, value)| (name, text(constant(value))))))
@@ -67,12 +70,14 @@ pub fn certificate_json(run: &Certification<'_>) -> Option<Value> {
     ];
     let counts = claimed_counts(run.by_count.as_ref());
     let of_counts = counts.as_ref().map_or_else(String::new, |(_, part)| counts_in_words(spec, sigma, part));
-    let said = ("statement", text(statement(spec, sigma, set) + &run.rates_in_words() + &of_counts));
+    let said =
+        ("statement", text(statement(spec, sigma, set, run.is_for_every_set()) + &run.rates_in_words() + &of_counts));
     let of_actuator = input_gain_json(spec).into_iter().chain(actuator_json(spec));
     let names = of_actuator.chain(period).chain(parameters_json(spec)).chain(rest);
     let claim = object(
         heading
             .into_iter()
+            .chain(every_set)
             .chain(names)
             .chain(claimed_rates(&run.for_n_o))
             .chain(claimed_counts(run.by_count.as_ref()))

@@ -11,6 +11,7 @@ use sigmastar_decide::conditions::BoundingProblem;
 use sigmastar_decide::conditions::NoPlant;
 use sigmastar_decide::conditions::{Decided, Proof, RepairedProof, SharpProof};
 use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_lang::spec::AskedHarmonics;
 use sigmastar_lang::spec::model::Specification;
 use sigmastar_propose::search::{Binding, Datum, Failing, Obstacle, OptionalDatum};
 use sigmastar_theory::data::Data;
@@ -22,6 +23,7 @@ use sigmastar_theory::derivation::printed::{Infeasible, PrintedEvaluation};
 use sigmastar_theory::derivation::relative_degree::RelativeDegreeError;
 use sigmastar_theory::derivation::sharp::SharpEvaluation;
 use sigmastar_theory::derivation::table::Row;
+use sigmastar_theory::transfer::serves_every_set;
 use std::sync::OnceLock;
 
 /// What the printed formulas say about the data; nothing where the data are those of a plant's formulas.
@@ -189,6 +191,15 @@ impl Certification<'_> {
         let proof = self.sharp.proved().filter(|_| self.claim().is_some())?;
         let SharpEvaluation { periodic, peak, control, .. } = &proof.evaluation;
         Some((&periodic.e_per, peak, control))
+    }
+
+    /// Whether the claim is about every finite set of harmonics that contains 0, not about the first `n_o` alone (derivation, 14.7): where its proof of
+    /// the transfer bound serves them, the period is known exactly, and nothing else is asked for.
+    #[must_use]
+    pub fn is_for_every_set(&self) -> bool {
+        let first = self.spec.internal_model.harmonics == Some(AskedHarmonics::First);
+        let serves = |claim: Decided<'_>| serves_every_set(&Data::new(self.spec, claim.precision), claim.transfer);
+        !first && self.spec.period.interval().is_none() && self.claim().is_some_and(serves)
     }
 
     /// The claimed initial set, if certified.

@@ -15,7 +15,7 @@ use sigmastar_propose::search::{
 };
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::sharp::{SharpEvaluation, SharpWitness};
-use sigmastar_theory::transfer::TradeOff;
+use sigmastar_theory::transfer::{TradeOff, TransferProof, serves_every_set};
 
 /// How many of the last steps on the way to a gain are starts, in turn, until one leads to a proof.
 const STARTS: usize = 3;
@@ -70,7 +70,14 @@ impl<'s> Member<'s> {
     pub fn new(spec: &'s Specification, start: Option<&SharpProposal>, options: Options) -> Member<'s> {
         let data = Data::new(spec, options.ladder.start.max(53));
         let with = |kind| Least::new(&data, options, kind, start);
+        // What is asked for every set of harmonics is sought with proofs that serve them.
+        let every_set = spec.internal_model.asks_every_set();
+        let matched = TransferProof::Matched { k: 1 };
         let least = match options.transfer {
+            TransferChoice::Best if every_set && data.matched && serves_every_set(&data, &matched) => {
+                vec![with(TransferKind::Matched), with(TransferKind::ClosedForm)]
+            }
+            _ if every_set => vec![with(TransferKind::ClosedForm)],
             TransferChoice::Best => {
                 let sharper = if data.matched { TransferKind::Matched } else { TransferKind::Boxes };
                 vec![with(sharper), with(TransferKind::ClosedForm)]

@@ -44,7 +44,7 @@ pub use uniformity::{SupRatio, sup_ratios};
 use crate::condition::Condition;
 use crate::data::Data;
 use rug::Rational;
-use sigmastar_exact::enclosure::Truth;
+use sigmastar_exact::enclosure::{Enclosure, Truth};
 
 /// How a pair (k0, k1) is proved admissible.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -76,9 +76,13 @@ impl TransferProof {
 /// is not proved, or the tightest).
 ///
 /// Guarantee: `True` means T_N(x) <= k0 + k1 x^2 for every N >= 0, at every x >= 0 (`ClosedForm`, `Boxes`) or every integer
-/// x >= 0 (`Matched`). `False` means that this proof refutes itself, not that the pair is inadmissible.
+/// x >= 0 (`Matched`); where the document asks for every set of harmonics, for each of these, too. `False` means that this proof refutes itself, not that the pair is inadmissible.
 #[must_use]
 pub fn decide(data: &Data<'_>, k0: &Rational, k1: &Rational, proof: &TransferProof) -> (Truth, Condition) {
+    if data.spec.internal_model.asks_every_set() && !serves_every_set(data, proof) {
+        let what = format!("transfer bound, {}: a proof that serves every set of harmonics (14.7)", proof.name());
+        return (Truth::False, Condition::at_most("T", what, Enclosure::one(data.precision), data.zero()));
+    }
     let (truth, step) = match proof {
         TransferProof::ClosedForm => closed_form::decide(data, k0, k1),
         TransferProof::Matched { k } => MatchedProof { first_of_tail: *k }.decide(data, k0, k1),

@@ -8,9 +8,6 @@ use crate::derivation::mean_squares::{Forcing, Gains, Response};
 use crate::input_gain::InputGain;
 use sigmastar_exact::real::{Operand, Real};
 
-/// With more samples than these 1 + theta, which is then nearly 1, stands for every Sb_j.
-pub const SHARP_SAMPLES: u32 = 8192;
-
 /// The gains at one sigma, between bounds R_q of rms(q), R_1 of rms(q') and those of e.
 #[derive(Clone, Debug)]
 pub struct SampledGains<R> {
@@ -62,7 +59,7 @@ where
     ///
     /// With Sb_j = min{1 + theta, 1/|cos(pi j/N_s)|} the harmonics of y are at most Sb_j times those of the means of q, and 0
     /// for j <= n_o; the sums are over j = 1, ..., N_s - 1, of which j and N_s - j are alike. With an input gain F_j of 13.1
-    /// bounds each of them. With a delay 1 + th1 stands for Sb_j (S3 is not available), and e has 1 + h sigma more; hypothesis then:
+    /// bounds each of them. With a delay 1 + th1 stands for Sb_j (S3 is not available, nor where the law is for every set of harmonics), and e has 1 + h sigma more; hypothesis then:
     /// 3 K h Nb2 < 2.
     #[must_use]
     pub fn new(law: &SampledLaw<R>, sigma: &R, period: &R) -> SampledGains<R> {
@@ -165,7 +162,7 @@ where
         return worst.take(law, sigma, [sine, size]);
     }
     let cosine = R::int(1) - sine;
-    match !law.delayed && law.samples <= SHARP_SAMPLES && cosine.is_certainly_positive() {
+    match law.is_sharp() && cosine.is_certainly_positive() {
         true => largest.min(&(R::int(1) / cosine)),
         false => largest.clone(),
     }
@@ -252,7 +249,7 @@ where
     let first = sigma.sqr() + decay * law.first_frequency_squared();
     let squared = law.of_y().sqr();
     let plain = &first / &squared;
-    if law.delayed || law.samples > SHARP_SAMPLES {
+    if !law.is_sharp() {
         return plain.sqrt();
     }
     let turn = &one - &one / &squared;

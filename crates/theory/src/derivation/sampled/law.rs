@@ -8,6 +8,9 @@ use sigmastar_exact::real::{Operand, Real};
 use sigmastar_lang::spec::{SampledGain, Sampling};
 use std::sync::Arc;
 
+/// With more samples than these 1 + theta, which is then nearly 1, stands for every Sb_j.
+pub const SHARP_SAMPLES: u32 = 8192;
+
 /// The law at samples h apart, N_s of them in a period, with the gain K.
 #[derive(Clone, Debug)]
 pub struct SampledLaw<R> {
@@ -27,12 +30,22 @@ pub struct SampledLaw<R> {
     pub nominal_mu: R,
     /// Whether a control takes the sample after its measurement to be computed (derivation, 13.4).
     pub delayed: bool,
+    /// Whether it is to be for every set of harmonics below N_s/2 that contains 0 (derivation, 14.7), not for the first n_o alone.
+    pub every_set: bool,
     /// The interval of the input gain; none where it is 1 (derivation, 13.1).
     pub input_gain: Option<InputGain<R>>,
     /// pi.
     pub pi: R,
     /// sin^2(pi j/N_s) for j = 1, ..., floor(N_s/2).
     pub sines: Arc<Vec<R>>,
+}
+
+/// The samples of a law: h, N_s, whether it has a delay, and whether it is for every set of harmonics.
+struct Samples<R> {
+    step: R,
+    samples: u32,
+    delayed: bool,
+    every_set: bool,
 }
 
 impl SampledLaw<Enclosure> {
@@ -46,8 +59,13 @@ impl SampledLaw<Enclosure> {
         let sines = (1..=sampling.samples / 2).map(sine).collect();
         let [step, gain, weight_sum] =
             [sampling.step.enclose(data.precision), data.rational(&gain.gain), data.rational(&gain.weight_sum)];
-        let samples = (step, sampling.samples, sampling.delayed);
-        SampledLaw::with(samples, [gain, weight_sum], data.input_gain.clone(), (pi, sines))
+        let of = Samples {
+            step,
+            samples: sampling.samples,
+            delayed: sampling.delayed,
+            every_set: data.spec.internal_model.asks_every_set(),
+        };
+        SampledLaw::with(of, [gain, weight_sum], data.input_gain.clone(), (pi, sines))
     }
 
     /// This law in doubles, for a search.
@@ -57,7 +75,8 @@ impl SampledLaw<Enclosure> {
             [&self.step, &self.gain, &self.weight_sum, &self.pi].map(Enclosure::midpoint_f64);
         let sines = self.sines.iter().map(Enclosure::midpoint_f64).collect();
         let input_gain = self.input_gain.as_ref().map(InputGain::midpoints);
-        SampledLaw::with((step, self.samples, self.delayed), [gain, weight_sum], input_gain, (pi, sines))
+        let of = Samples { step, samples: self.samples, delayed: self.delayed, every_set: self.every_set };
+        SampledLaw::with(of, [gain, weight_sum], input_gain, (pi, sines))
     }
 }
 
@@ -66,7 +85,7 @@ where
     for<'a> &'a R: Operand<R>,
 {
     fn with(
-        (step, samples, delayed): (R, u32, bool),
+        Samples { step, samples, delayed, every_set }: Samples<R>,
         [gain, weight_sum]: [R; 2],
         input_gain: Option<InputGain<R>>,
         (pi, sines): (R, Vec<R>),
@@ -82,7 +101,20 @@ where
             }
         };
         let sines = Arc::new(sines);
-        SampledLaw { step, samples, gain, weight_sum, enlarged, mu, nominal_mu, delayed, input_gain, pi, sines }
+        SampledLaw {
+            step,
+            samples,
+            gain,
+            weight_sum,
+            enlarged,
+            mu,
+            nominal_mu,
+            delayed,
+            every_set,
+            input_gain,
+            pi,
+            sines,
+        }
     }
 
     /// K h Nb2, to be below 2; with an input gain that of b_hi K.
@@ -97,6 +129,13 @@ where
     #[must_use]
     pub fn of_y(&self) -> R {
         if self.delayed { R::int(1) / (R::int(1) - self.lost() * R::int(3)) } else { self.enlarged.clone() }
+    }
+
+    /// Whether (S3) sharpens the bounds of the harmonics of y (derivation, 12.1): it is proved for the first n_o harmonics, not with a delay, and taken
+    /// up to [`SHARP_SAMPLES`].
+    #[must_use]
+    pub fn is_sharp(&self) -> bool {
+        !self.delayed && !self.every_set && self.samples <= SHARP_SAMPLES
     }
 
     /// 1 + h sigma with a delay, 1 without: e_j = (1 + h sigma E^-1) y_j/D_j, E = e^{i om h}.

@@ -10,6 +10,9 @@ use sigmastar_exact::enclosure::Enclosure;
 /// Up to this harmonic the sum s_j is evaluated; from there on, its bound.
 const SUMMED: u32 = 64;
 
+/// Where the sum is over every |l| < N_s/2, up to so many times j they are added one by one; beyond, and above these, by their largest weight.
+const NEAR: u32 = 4;
+
 /// k0 and k1, to be held against every harmonic that samples can have.
 pub struct SampledPair<'p> {
     /// The law.
@@ -25,7 +28,8 @@ impl SampledPair<'_> {
     /// the first one that is not proved, or that of j = 0.
     ///
     /// Hypotheses: W1 to W3, w = 2 pi/T. Guarantee: where it holds, the mean of |zeta_k|_N^2 is at most
-    /// (1+theta)^2 (k0 R_q^2/w^2 + k1 R_1^2/w^4), for every n_o < N_s/2.
+    /// (1+theta)^2 (k0 R_q^2/w^2 + k1 R_1^2/w^4), for every n_o < N_s/2; of a law for every set of harmonics, for each of these below N_s/2, as s_j is
+    /// that of (14.7a) then.
     #[must_use]
     pub fn condition(&self, data: &Data<'_>) -> Condition {
         let needs = Needs::new(data, self.law);
@@ -50,15 +54,21 @@ struct Needs<'n, 's> {
     law: &'n SampledLaw<Enclosure>,
     /// 1/nu^2.
     inverse: Enclosure,
+    /// The first weights, which all sums take.
+    weights: Vec<Enclosure>,
 }
 
 impl<'n, 's> Needs<'n, 's> {
     fn new(data: &'n Data<'s>, law: &'n SampledLaw<Enclosure>) -> Needs<'n, 's> {
-        Needs { data, law, inverse: law.nu(data).sqr().recip() }
+        let weight = |l: u32| data.spec.internal_model.weights.weight(u64::from(l), data.precision);
+        let kept = if law.every_set { NEAR * SUMMED } else { SUMMED };
+        let weights = (0..=kept.min(law.samples / 2) + 1).map(weight).collect();
+        Needs { data, law, inverse: law.nu(data).sqr().recip(), weights }
     }
 
     fn weight(&self, l: u32) -> Enclosure {
-        self.data.spec.internal_model.weights.weight(u64::from(l), self.data.precision)
+        let own = || self.data.spec.internal_model.weights.weight(u64::from(l), self.data.precision);
+        self.weights.get(l as usize).cloned().unwrap_or_else(own)
     }
 
     /// 1/(nu^2 n_0).
@@ -76,7 +86,7 @@ impl<'n, 's> Needs<'n, 's> {
         2 * &self.inverse / self.weight(j)
     }
 
-    /// s_j = (wh/2)^2 sum_{|l|<j} c_l/sin^2((j-l)wh/2), or a bound of it: the first of these that is at most `enough`, else the
+    /// s_j = (wh/2)^2 sum c_l/sin^2((j-l)wh/2) over |l| < j, for every set over |l| < N_s/2 with |l| != j, or a bound of it: the first of these that is at most `enough`, else the
     /// sum.
     fn of_others(&self, j: u32, enough: &Enclosure) -> Enclosure {
         let crude = self.law.pi.sqr() / 4 * &self.law.weight_sum;
@@ -102,11 +112,18 @@ impl<'n, 's> Needs<'n, 's> {
         // sin^2(pi d/N_s), d from 1 to N_s - 1; there is one for each.
         let sine = |d: u32| &self.law.sines[d.min(samples - d) as usize - 1];
         let mut sum = self.data.n_0.clone() / sine(j);
-        for l in 1..j {
-            sum = sum + self.weight(l) / 2 * (sine(j - l).clone().recip() + sine(j + l).clone().recip());
+        // The largest l below N_s/2.
+        let largest = (samples - 1) / 2;
+        let last = if self.law.every_set { largest.min(NEAR * j) } else { j - 1 };
+        for l in (1..=last).filter(|l| *l != j) {
+            sum = sum + self.weight(l) / 2 * (sine(j.abs_diff(l)).clone().recip() + sine(j + l).clone().recip());
         }
         let half = self.data.base_frequency.clone() * &self.law.step / 2;
-        half.sqr() * sum
+        let near = half.sqr() * sum;
+        match self.law.every_set && last < largest {
+            true => near + self.law.pi.sqr() / 6 * self.weight(last + 1),
+            false => near,
+        }
     }
 }
 
@@ -192,6 +209,45 @@ mod tests {
                 }
             }
         }
+    }
+
+    /// Of every set: what the pairs are held against bounds `T_d(j)` of sets with gaps, where that of the first n_o does not.
+    #[test]
+    fn pairs_for_every_set_bound_sets_with_gaps() {
+        let own = |samples: u32, mu: &str, sets: bool, harmonics: &[i64]| {
+            let spec = example(samples, mu, |file| {
+                if sets {
+                    file["internal_model"]["harmonics"] = serde_json::json!("every-set");
+                }
+            });
+            let data = Data::new(&spec, 128);
+            let law = law(&data);
+            let (float, needs) = (law.to_f64(), Needs::new(&data, &law));
+            let unit = std::f64::consts::PI / f64::from(samples);
+            let c =
+                |l: i64| data.spec.internal_model.weights.weight_f64(l.unsigned_abs()) * if l == 0 { 1.0 } else { 0.5 };
+            let poles: Vec<i64> =
+                harmonics.iter().flat_map(|l| if *l == 0 { vec![0] } else { vec![*l, -*l] }).collect();
+            let b: f64 = poles.iter().map(|l| c(*l)).sum();
+            let (k, h, w) = (float.gain, float.step, data.base_frequency.midpoint_f64());
+            let shares = (1..=i64::from(samples / 2)).filter(|j| !harmonics.contains(j)).map(|j| {
+                let at = |l: i64| (j - l) as f64 * unit;
+                let squares: f64 = poles.iter().map(|l| c(*l) / at(*l).sin().powi(2)).sum();
+                let cotangents: f64 = poles.iter().map(|l| c(*l) / at(*l).tan()).sum();
+                let own = w * w * h * h / 4.0 * squares
+                    / ((1.0 - k * h * b / 2.0).powi(2) + (k * h / 2.0 * cotangents).powi(2));
+                own / (float.enlarged.powi(2) * needs.sum(j as u32).upper_f64())
+            });
+            shares.fold(0.0, f64::max)
+        };
+        for (samples, mu) in [(9, "1"), (40, "1/50"), (41, "1"), (400, "1/5")] {
+            for harmonics in [&[0, 2][..], &[0, 3], &[0, 1, 4], &[0, 2, 4]] {
+                let share = own(samples, mu, true, harmonics);
+                assert!(share <= 1.0 + 1e-9, "{samples} {mu} {harmonics:?}: {share}");
+            }
+        }
+        // The sum over |l| < j leaves out the oscillators above j, which sets with gaps have.
+        assert!(own(40, "1/50", false, &[0, 2]) > 1.0);
     }
 
     #[test]
