@@ -41,12 +41,18 @@ pub fn run(args: &ControllerArgs) -> Result<u8, Failure> {
     })?;
 
     let step = step.or_else(|| given.as_ref().and_then(Given::step).cloned());
-    let design = Design::new(subject.internal_model(), &sigma, args.n_o).for_actuator(subject.input_gain());
+    let oscillators = args.oscillators();
+    let design = Design::new(subject.internal_model(), &sigma, oscillators.clone()).for_actuator(subject.input_gain());
     let delayed = args.delay_samples.map(|count| count == 1).or(given.as_ref().and_then(Given::delayed));
     let delayed = delayed.unwrap_or(design.is_delayed());
     let design = design.with_delay(delayed);
-    let asked =
-        Regulated { model: subject.internal_model(), sigma: &sigma, step: step.as_ref(), delayed, n_o: args.n_o };
+    let asked = Regulated {
+        model: subject.internal_model(),
+        sigma: &sigma,
+        step: step.as_ref(),
+        delayed,
+        oscillators: &oscillators,
+    };
     let certificate = provenance(args, given.as_ref(), &subject, &asked)?;
     refuse(args, &design, step.as_ref(), certificate.as_ref())?;
     let regulator = design.regulator();
@@ -75,6 +81,7 @@ pub fn run(args: &ControllerArgs) -> Result<u8, Failure> {
     let export = Export {
         name: &clean(subject.name()),
         regulator: &regulator,
+        oscillators: &oscillators,
         discrete,
         aligned: subject.starts_aligned(),
         actuator,
@@ -130,7 +137,10 @@ fn refuse(
     if let Some(Provenance { sigma_star, scope, .. }) = certificate {
         let way_out = match scope {
             Scope::OtherGain => "leave --sigma out where a certificate is exported",
-            Scope::OtherSamples => "leave --sigma and --discretise out, and take n_o below half of the samples",
+            Scope::OtherSamples => "leave --sigma and --discretise out, and take harmonics below half of the samples",
+            Scope::OtherHarmonics { .. } => {
+                "make the certificate with `\"harmonics\": \"every-set\"` in `internal_model`, or take the first n_o harmonics by --n-o"
+            }
             _ => "take a gain of at least sigma*, or leave --sigma out where a certificate is exported",
         };
         let message = match scope {

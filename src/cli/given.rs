@@ -5,7 +5,9 @@ use rug::Rational;
 use sigmastar_exact::enclosure::{DEFAULT_PRECISION, Enclosure};
 use sigmastar_exact::number::write_exact;
 use sigmastar_lang::plant::Plant;
-use sigmastar_lang::spec::{Constant, Document, Errors, InternalModel, SampledGain, Sampling, any_constant};
+use sigmastar_lang::spec::{
+    Constant, Document, Errors, InternalModel, Oscillators, SampledGain, Sampling, any_constant,
+};
 use sigmastar_prove::certificate::{claim_in_words, read_for, read_numbers};
 use sigmastar_prove::certify::FarStart;
 use sigmastar_prove::rate::bound::MAX_COUNTS;
@@ -19,6 +21,8 @@ pub struct Given {
     sampled: Option<(Sampling, SampledGain)>,
     /// Whether it is about its gain alone because of an actuator.
     with_actuator: bool,
+    /// Whether it is about every set of harmonics.
+    every_set: bool,
     /// The numbers of oscillators of which it says something that counts rounding.
     rounding: Vec<u64>,
     /// The digests that it states, of a specification and of a plant.
@@ -40,6 +44,7 @@ impl Given {
         let text = |pointer: &str| document.at(pointer).and_then(|value| value.text().map(str::to_owned));
         let made_for = ["/specification_sha256", "/plant_sha256"].map(text);
         let with_actuator = document.at("/claim/actuator").is_some();
+        let every_set = document.at("/claim/harmonics").is_some();
         let in_doubles = ["/specification/arithmetic", "/plant/arithmetic"]
             .into_iter()
             .any(|pointer| text(pointer).as_deref() == Some("double"));
@@ -48,7 +53,7 @@ impl Given {
         };
         let counts = (0..MAX_COUNTS).filter(|_| in_doubles).filter_map(stated);
         let rounding = counts.filter_map(|n_o| n_o.integer(&mut Errors::new()).ok()).collect();
-        Ok(Given { sigma_star, sampled, with_actuator, rounding, made_for, document: document.clone() })
+        Ok(Given { sigma_star, sampled, with_actuator, every_set, rounding, made_for, document: document.clone() })
     }
 
     /// sigma*, rounded up to a double: the gain that is exported is certified too. Of the regulator at samples, and with an actuator,
@@ -83,7 +88,12 @@ impl Given {
         let same_step = regulator.step.is_some_and(|step| sampling.is(step)) && regulator.delayed == sampling.delayed;
         let same_law = regulator.step.and_then(|step| regulator.model.sampled_gain(step)).as_ref() == Some(law);
         let same_gain = regulator.sigma.as_rational() == Some(&self.sigma_star);
-        Some(same_step && same_law && same_gain && 2 * u64::from(regulator.n_o) < u64::from(sampling.samples))
+        Some(
+            same_step
+                && same_law
+                && same_gain
+                && 2 * u64::from(regulator.oscillators.largest()) < u64::from(sampling.samples),
+        )
     }
 
     /// Where a simulation of its plant starts, far outside of its set.
@@ -123,8 +133,11 @@ impl Given {
             sigma_star: write_exact(&self.sigma_star),
             one_gain: self.sampled.is_some() || self.with_actuator,
             statement: claim_in_words(&self.document)?,
-            rounding: self.rounding.contains(&u64::from(regulator.n_o)).then_some(regulator.n_o),
+            rounding: regulator.oscillators.n_o().filter(|n_o| self.rounding.contains(&u64::from(*n_o))),
             scope: match self.covers_samples(regulator) {
+                Some(true) | None if !self.every_set && regulator.oscillators.n_o().is_none() => {
+                    Scope::OtherHarmonics { at_samples: self.sampled.is_some() }
+                }
                 Some(true) => Scope::Samples,
                 Some(false) => Scope::OtherSamples,
                 None if self.with_actuator => match sigma.as_rational() {
@@ -148,6 +161,6 @@ pub struct Regulated<'a> {
     pub step: Option<&'a Constant>,
     /// Whether its law at samples has a delay.
     pub delayed: bool,
-    /// The number of oscillators.
-    pub n_o: u32,
+    /// Its oscillators.
+    pub oscillators: &'a Oscillators,
 }

@@ -29,10 +29,10 @@ fn in_continuous_time(args: &SimulateArgs, plant: Plant, sigma: Option<&Constant
     let power = args.noise_power.as_deref().map(|text| input::positive("--noise-power", text)).transpose()?;
     let gain = args.input_gain.as_deref().map(|text| input::positive("--input-gain", text)).transpose()?;
     let member = at_period(args, parameters::member(&plant, &args.parameter, args.quiet)?)?;
-    let regulator = match (&args.controller, sigma, args.n_o) {
+    let regulator = match (&args.controller, sigma, args.oscillators()) {
         (Some(path), ..) => read_regulator(&input::written(path)?)?,
-        (None, Some(sigma), Some(n_o)) => {
-            Design::new(&plant.internal_model, sigma, n_o).for_actuator(plant.input_gain.as_ref()).regulator()
+        (None, Some(sigma), Some(oscillators)) => {
+            Design::new(&plant.internal_model, sigma, oscillators).for_actuator(plant.input_gain.as_ref()).regulator()
         }
         (None, Some(sigma), None) => Regulator::high_gain(sigma.to_f64()).for_actuator(nominal(&plant)),
         (None, None, _) => return Err(Failure::call("no regulator is given", "give --sigma or --controller")),
@@ -56,7 +56,7 @@ fn in_continuous_time(args: &SimulateArgs, plant: Plant, sigma: Option<&Constant
         samples: args.samples as usize,
         noise: power.map(|power| (NoiseSettings { power, seed: args.seed }, entry)),
         noise_steps: args.noise_steps as usize,
-        harmonics: args.harmonics as usize,
+        harmonics: args.coefficients as usize,
     };
     if !args.quiet {
         remarks(&plant, &regulator, &settings, args);

@@ -25,10 +25,10 @@ pub fn run(args: &SimulateArgs, plant: Plant, sigma: Option<&Constant>, step: &C
     let phase = args.phase.as_deref().map(|text| input::nonnegative("--phase", text)).transpose()?;
     let gain = args.input_gain.as_deref().map(|text| input::positive("--input-gain", text)).transpose()?;
     let member = at_period(args, parameters::member(&plant, &args.parameter, args.quiet)?)?;
-    let (regulator, discrete) = match (&args.controller, sigma, args.n_o) {
+    let (regulator, discrete) = match (&args.controller, sigma, args.oscillators()) {
         (Some(_), ..) => from_file(args, step)?,
-        (None, Some(sigma), Some(n_o)) => {
-            let design = Design::new(&plant.internal_model, sigma, n_o).for_actuator(plant.input_gain.as_ref());
+        (None, Some(sigma), Some(oscillators)) => {
+            let design = Design::new(&plant.internal_model, sigma, oscillators).for_actuator(plant.input_gain.as_ref());
             let delayed = args.delay_samples.map_or(design.is_delayed(), |count| count == 1);
             let design = design.with_delay(delayed);
             if !args.quiet {
@@ -38,7 +38,12 @@ pub fn run(args: &SimulateArgs, plant: Plant, sigma: Option<&Constant>, step: &C
             }
             (design.regulator(), design.discretise(step).ok_or_else(beyond)?)
         }
-        _ => return Err(Failure::call("no regulator is given", "give --sigma and --n-o, or --controller")),
+        _ => {
+            return Err(Failure::call(
+                "no regulator is given",
+                "give --sigma and --n-o or --harmonics, or --controller",
+            ));
+        }
     };
     if discrete.prediction.is_some() && converters.delay > 0.0 {
         let help = "leave --delay out, or take the law without a delay: --delay-samples 0";
@@ -71,7 +76,7 @@ pub fn run(args: &SimulateArgs, plant: Plant, sigma: Option<&Constant>, step: &C
     let settings = SampledSettings {
         periods: args.periods as usize,
         samples: args.samples as usize,
-        harmonics: args.harmonics as usize,
+        harmonics: args.coefficients as usize,
     };
     let bar = Bar::new(u64::from(args.periods), args.quiet);
     let simulation = run_sampled_loop(&plant, &sampled, &settings, wanted(args), &bar)?;

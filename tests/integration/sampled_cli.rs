@@ -4,7 +4,7 @@ use crate::support::{self, PLANT, program, utf8};
 use predicates::prelude::*;
 use serde_json::Value;
 
-const SHORT: [&str; 6] = ["simulate", PLANT, "-q", "--periods", "3", "--harmonics"];
+const SHORT: [&str; 6] = ["simulate", PLANT, "-q", "--periods", "3", "--coefficients"];
 
 fn json(arguments: &[&str], code: i32) -> Value {
     let output = program().args(SHORT).arg("3").args(arguments).args(["--format", "json"]).assert().code(code);

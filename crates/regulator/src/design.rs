@@ -3,7 +3,7 @@
 use super::{Discrete, Regulator};
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
-use sigmastar_lang::spec::{Constant, InputGain, InternalModel, SampledGain};
+use sigmastar_lang::spec::{Constant, InputGain, InternalModel, Oscillators, SampledGain};
 
 /// The most oscillators that are exported: the matrices are written out in full.
 pub const MAX_EXPORTED_OSCILLATORS: u32 = 1000;
@@ -17,29 +17,35 @@ fn entry(value: &Enclosure) -> f64 {
     if value.contains_zero() { 0.0 } else { value.midpoint_f64() }
 }
 
-/// A regulator with its numbers exact: an internal model, a gain, a number of oscillators.
+/// A regulator with its numbers exact: an internal model, a gain, its oscillators.
 #[derive(Clone, Debug)]
 pub struct Design<'m> {
     pub(super) model: &'m InternalModel,
     pub(super) sigma: &'m Constant,
-    pub(super) n_o: u32,
+    pub(super) oscillators: Oscillators,
     pub(super) delayed: bool,
     nominal: Option<&'m Constant>,
 }
 
 impl<'m> Design<'m> {
-    /// The regulator of an internal model with the gain sigma and n_o oscillators; at samples the law with a delay, where the model
+    /// The regulator of an internal model with the gain sigma and these oscillators, or so many; at samples the law with a delay, where the model
     /// asks for that.
     #[must_use]
-    pub fn new(model: &'m InternalModel, sigma: &'m Constant, n_o: u32) -> Design<'m> {
+    pub fn new(model: &'m InternalModel, sigma: &'m Constant, oscillators: impl Into<Oscillators>) -> Design<'m> {
         let delayed = model.sampling.as_ref().is_some_and(|sampling| sampling.delayed);
-        Design { model, sigma, n_o, delayed, nominal: None }
+        Design { model, sigma, oscillators: oscillators.into(), delayed, nominal: None }
     }
 
     /// This regulator with or without a delay, whatever the model asks for.
     #[must_use]
     pub fn with_delay(self, delayed: bool) -> Design<'m> {
         Design { delayed, ..self }
+    }
+
+    /// Its oscillators.
+    #[must_use]
+    pub fn oscillators(&self) -> &Oscillators {
+        &self.oscillators
     }
 
     /// Whether a control of its law at samples has a sample to be computed (derivation, 13.4).
@@ -135,12 +141,12 @@ impl<'m> Design<'m> {
     }
 
     fn weights(&self) -> Vec<Enclosure> {
-        (0..=u64::from(self.n_o)).map(|l| self.model.weights.weight(l, PRECISION)).collect()
+        self.oscillators.all().map(|l| self.model.weights.weight(u64::from(l), PRECISION)).collect()
     }
 
     pub(super) fn frequencies(&self) -> Vec<Enclosure> {
         let base = self.model.base_frequency.enclose(PRECISION);
-        (1..=i64::from(self.n_o)).map(|l| l * &base).collect()
+        self.oscillators.beyond_mean().iter().map(|l| i64::from(*l) * &base).collect()
     }
 }
 

@@ -5,7 +5,8 @@ use sigmastar_lang::plant::InitialRegulator;
 
 /// The parameters of the regulator in double precision.
 ///
-/// Invariants: `frequencies[l - 1]` is l w for l = 1, ..., n_o, and `weights` holds n_0, ..., n_(n_o). Gains and
+/// Invariants: `frequencies` holds l w for each harmonic l of the oscillators, rising, for l = 1, ..., n_o of the first n_o, and `weights` n_0 and
+/// their n_l. Gains and
 /// frequencies are in 1/time, weights are pure numbers. A regulator that is only simulated may have any positive
 /// weights: W1-W3 and the strict decrease are hypotheses of a certificate, not of this type.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,9 +15,9 @@ pub struct Regulator {
     pub sigma: f64,
     /// The gain mu.
     pub mu: f64,
-    /// w, 2 w, ..., n_o w.
+    /// l w for each harmonic l of the oscillators: w, 2 w, ..., n_o w of the first n_o.
     pub frequencies: Vec<f64>,
-    /// n_0, ..., n_(n_o).
+    /// n_0 and the n_l of these.
     pub weights: Vec<f64>,
     /// The nominal gain of the actuator, by which the control is divided before it is put out; where there is none it is put out as it
     /// is (derivation, 13.1).
@@ -60,7 +61,7 @@ impl Regulator {
         self.nominal.unwrap_or(1.0)
     }
 
-    /// The number of oscillators n_o; `None` for the high-gain feedback, which has no integrator either.
+    /// The number of oscillators beside the integrator; `None` for the high-gain feedback, which has no integrator either.
     #[must_use]
     pub fn oscillators(&self) -> Option<usize> {
         self.weights.len().checked_sub(1)

@@ -15,9 +15,20 @@ pub fn read_regulator(document: &Document) -> Result<Regulator, SpecErrors> {
 fn read(root: &Value<'_>, errors: &mut Errors) -> Result<Regulator, Reported> {
     let mut file = root.object(errors)?;
     file.header(FORMAT, &VERSIONS, errors)?;
-    for derived in
-        ["name", "n_o", "start", "law", "Phi", "Gamma", "M", "N_diagonal", "discrete", "certificate", "notice"]
-    {
+    for derived in [
+        "name",
+        "n_o",
+        "harmonics",
+        "start",
+        "law",
+        "Phi",
+        "Gamma",
+        "M",
+        "N_diagonal",
+        "discrete",
+        "certificate",
+        "notice",
+    ] {
         let _ = file.optional(derived);
     }
     let sigma = file.required("sigma", errors).and_then(|value| positive(&value, errors));

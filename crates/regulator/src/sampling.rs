@@ -23,18 +23,18 @@ pub enum SamplingError {
     },
     /// The fastest oscillator is not proved to turn by less than half a turn in a sample.
     #[error(
-        "oscillator {n_o} turns by {turns:.6} of a turn in a sample: from 1/2 on (2 n_o h >= T, with T = 2 pi/base_frequency) \
-         the samples cannot tell it from a slower one"
+        "the oscillator of harmonic {harmonic} turns by {turns:.6} of a turn in a sample: from 1/2 on (2*{harmonic} h >= T, with \
+         T = 2 pi/base_frequency) the samples cannot tell it from a slower one"
     )]
     Aliasing {
-        /// n_o.
-        n_o: u32,
-        /// n_o w h/(2 pi).
+        /// The largest harmonic l.
+        harmonic: u32,
+        /// l w h/(2 pi).
         turns: f64,
-        /// pi/(n_o w), rounded down.
+        /// pi/(l w), rounded down.
         below: f64,
-        /// The number of oscillators that this sampling time serves.
-        oscillators: u32,
+        /// The largest harmonic that this sampling time serves.
+        served: u32,
     },
     /// 3 K h Nb2/2 is not proved to be below 1, which the law with a delay needs.
     #[error(
@@ -56,8 +56,8 @@ impl SamplingError {
             SamplingError::TooSlowForSigma { below, .. } => {
                 format!("take a sampling time well below 1/sigma = {below:.6e}, or a smaller sigma")
             }
-            SamplingError::Aliasing { below, oscillators, .. } => {
-                format!("take a sampling time well below {below:.6e}, or at most {oscillators} oscillators")
+            SamplingError::Aliasing { below, served, .. } => {
+                format!("take a sampling time well below {below:.6e}, or no harmonic above {served}")
             }
             SamplingError::TooSlowForDelay { below, .. } => {
                 format!("take a sampling time well below {below:.6e}, or a smaller mu")
@@ -67,7 +67,7 @@ impl SamplingError {
 }
 
 impl Design<'_> {
-    /// What is bad about a sampling time h; empty where n_o w h < pi and h sigma <= 1 are proved, with a delay also 3 K h Nb2 < 2.
+    /// What is bad about a sampling time h; empty where l w h < pi for the largest harmonic l and h sigma <= 1 are proved, with a delay also 3 K h Nb2 < 2.
     #[must_use]
     pub fn sampling_errors(&self, step: &Constant) -> Vec<SamplingError> {
         self.too_slow(step).into_iter().chain(self.aliasing(step)).chain(self.too_slow_for_delay(step)).collect()
@@ -104,11 +104,11 @@ impl Design<'_> {
         Some(samples.midpoint_f64())
     }
 
-    /// Whether the fastest oscillator turns by nearly a quarter of a turn in a sample, or more: n_o is near N_s/4 or above.
+    /// Whether the fastest oscillator turns by nearly a quarter of a turn in a sample, or more: the largest harmonic is near N_s/4 or above.
     #[must_use]
     pub fn turns_far(&self, step: &Constant) -> bool {
         let base = self.model.base_frequency.enclose(PRECISION) * step.enclose(PRECISION);
-        let angle = i64::from(self.n_o) * &base;
+        let angle = i64::from(self.oscillators.largest()) * &base;
         !angle.lt(&(Enclosure::pi(PRECISION) * 9 / 20)).is_true()
     }
 
@@ -147,17 +147,17 @@ impl Design<'_> {
 
     fn aliasing(&self, step: &Constant) -> Option<SamplingError> {
         let (base, step) = (self.model.base_frequency.enclose(PRECISION), step.enclose(PRECISION));
-        let (n_o, pi) = (self.n_o, Enclosure::pi(PRECISION));
-        let angle = &(i64::from(n_o) * &base) * &step;
+        let (harmonic, pi) = (self.oscillators.largest(), Enclosure::pi(PRECISION));
+        let angle = &(i64::from(harmonic) * &base) * &step;
         if angle.lt(&pi).is_true() {
             return None;
         }
-        // n_o >= 1 here: the angle 0 is below pi.
+        // It is at least 1 here: the angle 0 is below pi.
         let most = (&pi / &(&base * &step)).lower_f64();
-        let oscillators = (most.ceil() - 1.0).clamp(0.0, f64::from(n_o - 1)) as u32;
+        let served = (most.ceil() - 1.0).clamp(0.0, f64::from(harmonic - 1)) as u32;
         let turns = (&angle / &(&pi * 2)).midpoint_f64();
-        let below = (pi / (i64::from(n_o) * &base)).lower_f64();
-        Some(SamplingError::Aliasing { n_o, turns, below, oscillators })
+        let below = (pi / (i64::from(harmonic) * &base)).lower_f64();
+        Some(SamplingError::Aliasing { harmonic, turns, below, served })
     }
 }
 
@@ -193,7 +193,7 @@ mod tests {
         );
         for n_o in [5, 9] {
             let (errors, converges) = check(2, n_o, (1, 10));
-            assert!(matches!(errors[..], [SamplingError::Aliasing { oscillators: 4, .. }]) && !converges, "{n_o}");
+            assert!(matches!(errors[..], [SamplingError::Aliasing { served: 4, .. }]) && !converges, "{n_o}");
         }
         assert_eq!(check(58, 9, (1, 10)).0.len(), 2);
         assert_eq!(check(2, 5, (99, 1000)), (vec![], true));

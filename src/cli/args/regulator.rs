@@ -1,11 +1,12 @@
 //! Flags of the commands that export the regulator and set it to work.
 
 use super::Replace;
-use crate::cli::counts::one_count;
+use crate::cli::counts::{harmonics, one_count};
 use crate::cli::output::Format;
 use clap::{Args, ValueEnum, ValueHint};
 use sigmastar::RegulatorMatrices;
 use sigmastar_lab::simulate::MAX_FIXED_STEPS;
+use sigmastar_lang::spec::Oscillators;
 use std::path::PathBuf;
 
 /// The most oscillators of a simulation.
@@ -23,8 +24,13 @@ pub struct ControllerArgs {
     pub sigma: Option<String>,
 
     /// The number of oscillators n_o (the high-gain feedback u = -sigma e needs no file: see `simulate --high-gain`)
-    #[arg(long, value_name = "N", value_parser = one_count(RegulatorMatrices::MAX_OSCILLATORS))]
-    pub n_o: u32,
+    #[arg(long, value_name = "N", required_unless_present = "harmonics",
+          value_parser = one_count(RegulatorMatrices::MAX_OSCILLATORS))]
+    pub n_o: Option<u32>,
+
+    /// The harmonics of the oscillators in the place of the first n_o, 0 among them: `0,1,5,7,11,13`
+    #[arg(long, value_name = "LIST", conflicts_with = "n_o", value_parser = harmonics(RegulatorMatrices::MAX_OSCILLATORS))]
+    pub harmonics: Option<Oscillators>,
 
     /// Also the law for a computer with this sampling time, an exact positive constant; the control is held over each sample
     #[arg(long, value_name = "DT", allow_hyphen_values = true)]
@@ -80,16 +86,20 @@ pub struct SimulateArgs {
     pub sigma: Option<String>,
 
     /// The number of oscillators n_o, with the internal model of the plant file
-    #[arg(long, value_name = "N", required_unless_present_any = ["controller", "high_gain"],
+    #[arg(long, value_name = "N", required_unless_present_any = ["controller", "high_gain", "harmonics"],
           value_parser = one_count(MAX_SIMULATED_OSCILLATORS))]
     pub n_o: Option<u32>,
 
+    /// The harmonics of the oscillators in the place of the first n_o, 0 among them: `0,1,5,7,11,13`
+    #[arg(long, value_name = "LIST", conflicts_with = "n_o", value_parser = harmonics(MAX_SIMULATED_OSCILLATORS))]
+    pub harmonics: Option<Oscillators>,
+
     /// The high-gain feedback u = -sigma e without an internal model
-    #[arg(long, conflicts_with = "n_o")]
+    #[arg(long, conflicts_with_all = ["n_o", "harmonics"])]
     pub high_gain: bool,
 
     /// The regulator from a file that `controller` wrote (JSON)
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, conflicts_with_all = ["sigma", "n_o", "high_gain"])]
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, conflicts_with_all = ["sigma", "n_o", "harmonics", "high_gain"])]
     pub controller: Option<PathBuf>,
 
     /// The regulator at samples H apart, an exact positive constant: the law that `controller --discretise H` exports, with u
@@ -148,7 +158,7 @@ pub struct SimulateArgs {
 
     /// Fourier coefficients in the report
     #[arg(long, value_name = "K", default_value_t = 12, value_parser = clap::value_parser!(u32).range(1..=1000))]
-    pub harmonics: u32,
+    pub coefficients: u32,
 
     /// Also run with measurement noise of this power spectral density through s^2/(s^2 + 3 s + 2)
     #[arg(long, value_name = "POWER", allow_hyphen_values = true)]
@@ -185,6 +195,20 @@ pub struct SimulateArgs {
     /// No progress and no remarks on standard error; errors are still shown
     #[arg(short, long)]
     pub quiet: bool,
+}
+
+impl SimulateArgs {
+    /// The oscillators that are asked for by their number or their harmonics.
+    pub fn oscillators(&self) -> Option<Oscillators> {
+        self.harmonics.clone().or(self.n_o.map(Oscillators::first))
+    }
+}
+
+impl ControllerArgs {
+    /// The oscillators; one of both flags is there.
+    pub fn oscillators(&self) -> Oscillators {
+        self.harmonics.clone().unwrap_or_else(|| Oscillators::first(self.n_o.unwrap_or_default()))
+    }
 }
 
 /// The flags of `reproduce`.

@@ -62,6 +62,10 @@ pub fn json(export: &Export<'_>) -> Value {
         "N_diagonal": regulator.n_diagonal(),
         "discrete": discrete,
     });
+    // The first n_o harmonics need no list.
+    if export.oscillators.n_o().is_none() {
+        file["harmonics"] = export.oscillators.all().collect();
+    }
     // The gain of the actuator, where the document states one.
     if let Some(nominal) = regulator.nominal {
         file["input_gain"] = object!({ "nominal": nominal });

@@ -13,7 +13,7 @@ pub use notice::{DELAYED_LAW, Provenance, SAMPLED_LAW, Scope, notice};
 pub use npz::npz;
 
 use super::{Convergence, Discrete, Regulator};
-use sigmastar_lang::spec::Actuator;
+use sigmastar_lang::spec::{Actuator, Oscillators};
 
 /// What is written out.
 #[derive(Clone, Copy, Debug)]
@@ -22,6 +22,8 @@ pub struct Export<'r> {
     pub name: &'r str,
     /// The regulator.
     pub regulator: &'r Regulator,
+    /// At which harmonics its oscillators are.
+    pub oscillators: &'r Oscillators,
     /// Its discretisation and what that does to the loop, where one was asked for.
     pub discrete: Option<(&'r Discrete, Convergence)>,
     /// Whether it sets z = M e at its first instant (section 13.7); else it starts with z = 0.

@@ -43,6 +43,11 @@ pub enum Scope {
     Samples,
     /// The regulator at samples with another gain, sampling period, internal model or too many oscillators.
     OtherSamples,
+    /// The regulator with oscillators at the first n_o harmonics, where these are at others; whether that is the one at samples.
+    OtherHarmonics {
+        /// At samples.
+        at_samples: bool,
+    },
 }
 
 impl Scope {
@@ -55,7 +60,7 @@ impl Scope {
     /// Whether the claim is about the regulator at samples.
     #[must_use]
     pub fn is_sampled(self) -> bool {
-        matches!(self, Scope::Samples | Scope::OtherSamples)
+        matches!(self, Scope::Samples | Scope::OtherSamples | Scope::OtherHarmonics { at_samples: true })
     }
 
     /// Why it says nothing about this regulator, where it does not.
@@ -67,6 +72,10 @@ impl Scope {
             Scope::OtherGain => Some(format!(
                 "with the actuator that it states it is about sigma = {sigma_star} alone, and this is another gain"
             )),
+            Scope::OtherHarmonics { .. } => Some(
+                "it is about the first n_o harmonics, and the oscillators of this regulator are at other ones"
+                    .to_owned(),
+            ),
             Scope::OtherSamples => Some(format!(
                 "it is about one law at samples, with sigma = {sigma_star} and the sampling period that it states, and this is \
                  another one"
@@ -95,6 +104,10 @@ pub fn notice(export: &Export<'_>) -> Vec<String> {
             }
         }
     };
+    if export.oscillators.n_o().is_none() {
+        lines
+            .push(format!("The regulator has {} of the base frequency, 0 that of the integrator.", export.oscillators));
+    }
     let delayed = export.discrete.is_some_and(|(discrete, _)| discrete.prediction.is_some());
     if delayed {
         lines.push(DELAY.to_owned());

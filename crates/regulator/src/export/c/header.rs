@@ -20,9 +20,10 @@ pub(super) fn header(
     let mut words = vec![
         format!("Regulator for: {}", export.name),
         format!(
-            "sigma = {}, mu = {}, n_o = {n_o}, sampling time h = {}, K = {} (mu/(1 + h mu Nbar^2/2)).",
+            "sigma = {}, mu = {}, {}, sampling time h = {}, K = {} (mu/(1 + h mu Nbar^2/2)).",
             decimal(regulator.sigma),
             decimal(regulator.mu),
+            export.oscillators,
             decimal(discrete.step),
             decimal(discrete.gain),
         ),
