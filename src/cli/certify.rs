@@ -15,7 +15,7 @@ use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{Constant, ErrorKind, SpecErrors};
 use sigmastar_prove::certificate::{certificate_of, is_sampled, read_for};
 use sigmastar_prove::certify::{FarStart, Limits, NoRatesOfClaim, rate_counts, unusual_mu};
-use sigmastar_prove::reduction::{INITIAL_SET, Prepared, Run, Shrunk, Stage, Unwatched, Watch, shrunk};
+use sigmastar_prove::reduction::{INITIAL_SET, Prepared, Run, Shrunk, Stage, Unwatched, Watch, for_every_set, shrunk};
 use std::path::Path;
 
 /// How to hear of the stages where standard error is no terminal.
@@ -45,6 +45,9 @@ pub fn run(args: &CertifyArgs) -> Result<u8, Failure> {
     }
     if let Some(text) = &args.sampling_period {
         document = with_sampling_period(&document, text)?;
+    }
+    if !args.harmonics.is_empty() {
+        document = for_every_set(&document)?;
     }
     let subject = Subject::read(&document)?;
     let witness = args.witness.as_deref().map(input::written).transpose()?;
@@ -97,7 +100,7 @@ pub fn run(args: &CertifyArgs) -> Result<u8, Failure> {
         prepared => prepared,
     };
     drop(working);
-    let prepared = prepared.map_err(Failure::Documents)?;
+    let prepared = prepared.map_err(Failure::Documents)?.with_sets(args.harmonics.clone());
     let watch: &dyn Watch = match &witness {
         None => &stages,
         Some(_) => {

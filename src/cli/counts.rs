@@ -4,8 +4,8 @@ use super::failure::Failure;
 use sigmastar::TransferOptions;
 use sigmastar_lang::spec::{NoSet, Oscillators};
 
-/// The largest harmonic of an oscillator that is read.
-const LARGEST_HARMONIC: u32 = 10_000;
+/// The largest harmonic of an oscillator that is exported or simulated.
+pub const LARGEST_HARMONIC: u32 = 10_000;
 
 /// The most numbers of oscillators that one call looks at.
 const MOST: usize = TransferOptions::MOST;
@@ -80,17 +80,17 @@ pub fn one_count(limit: u32) -> impl Fn(&str) -> Result<u32, String> + Clone {
     }
 }
 
-/// Reads the harmonics of the oscillators of one regulator, for clap: `0,1,5,7` or `0,1..13/2`, at most so many beside 0.
+/// Reads the harmonics of the oscillators of one regulator, for clap: `0,1,5,7` or `0,1..13/2`, at most so many beside 0, and none above the largest.
 ///
 /// # Errors
-/// What is wrong, in words: a list without 0, a harmonic that is there twice or is above [`LARGEST_HARMONIC`].
-pub fn harmonics(most: u32) -> impl Fn(&str) -> Result<Oscillators, String> + Clone {
+/// What is wrong, in words: a list without 0, a harmonic that is there twice or is too large.
+pub fn harmonics(most: u32, largest: u32) -> impl Fn(&str) -> Result<Oscillators, String> + Clone {
     move |text| {
         let all = counts(text)
             .map_err(|_| "expected harmonics and ranges of them, such as `0,1,5,7` or `0,1..13/2`".to_owned())?;
-        let small = |k: Option<u64>| k.and_then(|k| u32::try_from(k).ok()).filter(|k| *k <= LARGEST_HARMONIC);
+        let small = |k: Option<u64>| k.and_then(|k| u32::try_from(k).ok()).filter(|k| *k <= largest);
         let all: Option<Vec<u32>> = all.into_iter().map(small).collect();
-        let all = all.ok_or_else(|| format!("a harmonic is a whole number up to {LARGEST_HARMONIC}"))?;
+        let all = all.ok_or_else(|| format!("a harmonic is a whole number up to {largest} here"))?;
         let oscillators = Oscillators::at(&all).map_err(|error| match error {
             NoSet::WithoutZero => format!("{error}; write `0,{}`", text.trim()),
             NoSet::Twice(_) => error.to_string(),
@@ -139,7 +139,7 @@ mod tests {
 
     #[test]
     fn one_regulator_has_one_set_of_harmonics() {
-        let read = harmonics(3);
+        let read = harmonics(3, 10_000);
         assert_eq!(read("0,1, 5").unwrap().to_string(), "oscillators at the harmonics 0, 1, 5");
         assert_eq!(read("7,0,3..5/2").unwrap().beyond_mean(), [3, 5, 7]);
         assert_eq!(read("0..3").unwrap().n_o(), Some(3));

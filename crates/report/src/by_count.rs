@@ -4,6 +4,7 @@ use serde_json::{Value, json};
 use sigmastar_document::number::{full, upper};
 use sigmastar_document::{Block, Table};
 use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_lang::spec::Oscillators;
 use sigmastar_prove::certify::{ByCount, Certification, CountBounds, Largest};
 
 /// The numbers of oscillators of which the report has a row, with those that are asked about, and the last one, from which on nothing changes.
@@ -14,10 +15,15 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
     let Some(ByCount { counts, checked, .. }) = &run.by_count else { return Vec::new() };
     let mut table = Table::new(&["n_o", "steady |e|", "largest |e|", "steady |u|", "largest |u|"]);
     let is_asked = |n_o: u64| run.for_n_o.iter().any(|asked| u64::from(asked.n_o) == n_o);
-    let is_shown = |bounds: &&CountBounds| bounds.or_more || SHOWN.contains(&bounds.n_o) || is_asked(bounds.n_o);
+    let is_shown =
+        |bounds: &&CountBounds| bounds.or_more || bounds.n_o().is_none_or(|n_o| SHOWN.contains(&n_o) || is_asked(n_o));
     for bounds in counts.iter().filter(is_shown) {
-        let CountBounds { n_o, or_more, steady_error, steady_control, largest, .. } = bounds;
-        let name = if *or_more { format!("{n_o} or more") } else { n_o.to_string() };
+        let CountBounds { oscillators, or_more, steady_error, steady_control, largest, .. } = bounds;
+        let name = match oscillators.n_o() {
+            Some(n_o) if *or_more => format!("{n_o} or more"),
+            Some(n_o) => n_o.to_string(),
+            None => format!("at {}", list(oscillators)),
+        };
         let shown = |value: Option<&Enclosure>| value.map_or_else(|| "not proved".to_owned(), upper);
         let largest_error = shown(largest.as_ref().map(|largest| &largest.error));
         let largest_control = shown(bounds.largest_control().as_ref());
@@ -32,17 +38,24 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
     vec![Block::says(format!("{says}{of}{who}")), Block::Table(table)]
 }
 
+/// `0, 1, 5`.
+fn list(oscillators: &Oscillators) -> String {
+    oscillators.all().map(|k| k.to_string()).collect::<Vec<String>>().join(", ")
+}
+
 /// All of them as JSON, and `null` where there are none.
 pub(super) fn counts_json(run: &Certification<'_>) -> Value {
-    let one = |CountBounds { n_o, or_more, steady_error, mean_square, steady_control, largest }: &CountBounds| {
-        let [peak, transient] = match largest {
-            Some(Largest { error, transient }) => [full(error), full(transient)].map(Value::String),
-            None => [Value::Null, Value::Null],
+    let one =
+        |CountBounds { oscillators, or_more, steady_error, mean_square, steady_control, largest }: &CountBounds| {
+            let [peak, transient] = match largest {
+                Some(Largest { error, transient }) => [full(error), full(transient)].map(Value::String),
+                None => [Value::Null, Value::Null],
+            };
+            let harmonics = oscillators.n_o().is_none().then(|| oscillators.all().collect::<Vec<u32>>());
+            json!({
+                "n_o": oscillators.n_o(), "harmonics": harmonics, "or_more": or_more, "steady_error": full(steady_error), "mean_square": full(mean_square), "peak_error": peak,
+                "control": { "steady": full(steady_control), "transient": transient },
+            })
         };
-        json!({
-            "n_o": n_o, "or_more": or_more, "steady_error": full(steady_error), "mean_square": full(mean_square), "peak_error": peak,
-            "control": { "steady": full(steady_control), "transient": transient },
-        })
-    };
     run.by_count.as_ref().map_or(Value::Null, |found| found.counts.iter().map(one).collect())
 }

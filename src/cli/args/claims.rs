@@ -1,10 +1,13 @@
 //! Flags of the commands that prove something, or say what was proved.
 
 use super::Replace;
+use crate::cli::counts::harmonics;
 use crate::cli::output::Format;
 use clap::{Args, ValueEnum, ValueHint};
 use sigmastar::program::Options;
 use sigmastar::{CertifyOptions, TransferChoice};
+use sigmastar_lang::spec::Oscillators;
+use sigmastar_prove::rate::bound::MAX_OSCILLATORS;
 use std::path::PathBuf;
 
 /// The flags of `certify`.
@@ -81,6 +84,11 @@ pub struct CertifyArgs {
     /// oscillators, these are among them
     #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
     pub n_o: Option<String>,
+
+    /// Certify for every finite set of harmonics that contains 0, and show bounds for oscillators at these, such as `0,1,5,7`; several times for several
+    /// sets. It sets or replaces `harmonics` of the internal model
+    #[arg(long, value_name = "LIST", value_parser = harmonics(MAX_OSCILLATORS, MAX_OSCILLATORS))]
+    pub harmonics: Vec<Oscillators>,
 
     /// Highest working precision in bits, 128 to 4096
     #[arg(long, value_name = "BITS", default_value_t = CertifyOptions::LARGEST_PRECISION_LIMIT,

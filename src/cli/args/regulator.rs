@@ -1,7 +1,7 @@
 //! Flags of the commands that export the regulator and set it to work.
 
 use super::Replace;
-use crate::cli::counts::{harmonics, one_count};
+use crate::cli::counts::{LARGEST_HARMONIC, harmonics, one_count};
 use crate::cli::output::Format;
 use clap::{Args, ValueEnum, ValueHint};
 use sigmastar::RegulatorMatrices;
@@ -29,7 +29,7 @@ pub struct ControllerArgs {
     pub n_o: Option<u32>,
 
     /// The harmonics of the oscillators in the place of the first n_o, 0 among them: `0,1,5,7,11,13`
-    #[arg(long, value_name = "LIST", conflicts_with = "n_o", value_parser = harmonics(RegulatorMatrices::MAX_OSCILLATORS))]
+    #[arg(long, value_name = "LIST", conflicts_with = "n_o", value_parser = harmonics(RegulatorMatrices::MAX_OSCILLATORS, LARGEST_HARMONIC))]
     pub harmonics: Option<Oscillators>,
 
     /// Also the law for a computer with this sampling time, an exact positive constant; the control is held over each sample
@@ -91,7 +91,7 @@ pub struct SimulateArgs {
     pub n_o: Option<u32>,
 
     /// The harmonics of the oscillators in the place of the first n_o, 0 among them: `0,1,5,7,11,13`
-    #[arg(long, value_name = "LIST", conflicts_with = "n_o", value_parser = harmonics(MAX_SIMULATED_OSCILLATORS))]
+    #[arg(long, value_name = "LIST", conflicts_with = "n_o", value_parser = harmonics(MAX_SIMULATED_OSCILLATORS, LARGEST_HARMONIC))]
     pub harmonics: Option<Oscillators>,
 
     /// The high-gain feedback u = -sigma e without an internal model

@@ -3,10 +3,11 @@
 use super::PRECISION;
 use super::member::Line;
 use super::plant::LinearPlant;
-use super::steady::{Loop, Oscillators, Sizes};
+use super::steady::{Loop, Sizes};
 use super::supremum::Fineness;
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_lang::spec::Oscillators;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -51,12 +52,12 @@ impl<'p> Answers<'p> {
     }
 }
 
-/// Bounds along the periodic solution of every member of the family at every gain of the actuator, for this number of oscillators.
+/// Bounds along the periodic solution of every member of the family at every gain of the actuator, for these oscillators.
 ///
 /// Hypothesis: the loop of each has exactly one T-periodic solution ([`super::Falling::decide`]). Guarantee: that one is so bounded. After so
 /// many boxes as `effort` none is cut any more; `None` where no bound is found by then.
 #[must_use]
-pub fn sizes(answers: &Answers<'_>, own: &Loop, oscillators: Oscillators, effort: usize) -> Option<Sizes<Enclosure>> {
+pub fn sizes(answers: &Answers<'_>, own: &Loop, oscillators: &Oscillators, effort: usize) -> Option<Sizes<Enclosure>> {
     let [low, high] = [own.gain[0].lower_rational()?, own.gain[1].upper_rational()?];
     let mut whole = answers.plant.whole().to_vec();
     whole.push([low, high]);

@@ -15,7 +15,7 @@ pub use falling::{Falling, Peak, Start};
 pub use largest::{Answers, sizes};
 pub use member::Member;
 pub use plant::{LinearPlant, MAX_LINES};
-pub use steady::{Loop, Oscillators, Sizes};
+pub use steady::{Loop, Sizes};
 pub(crate) use supremum::{Fineness, Harmonics, supremum};
 
 /// Bits of the enclosures.

@@ -5,17 +5,8 @@ use super::member::Line;
 use super::supremum::{Fineness, supremum};
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
-use sigmastar_lang::spec::InternalModel;
+use sigmastar_lang::spec::{InternalModel, Oscillators};
 use sigmastar_theory::transfer::Complex;
-
-/// How many oscillators there are.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Oscillators {
-    /// So many.
-    Exactly(u64),
-    /// One for each line of the plant at least.
-    ForEachLine,
-}
 
 /// The regulator, whose base frequency is that of the period, and the gain of the actuator over its nominal value.
 #[derive(Clone, Debug)]
@@ -26,9 +17,9 @@ pub struct Loop {
     pub mu: Enclosure,
     /// Om = w = 2 pi/T.
     pub fundamental: Enclosure,
-    /// n_0, n_1, ..., as far as there are lines.
+    /// n_0, n_1, ..., as far as there are lines and oscillators.
     pub weights: Vec<Enclosure>,
-    /// The square of Nbar, the sum of all weights; or of those of so many oscillators ([`Loop::with_oscillators`]).
+    /// The square of Nbar, the sum of all weights; or of those of given oscillators ([`Loop::with_oscillators`]).
     pub n_bar_squared: Enclosure,
     /// The interval `[b_lo, b_hi]`; `[1, 1]` without an input gain.
     pub gain: [Enclosure; 2],
@@ -37,12 +28,12 @@ pub struct Loop {
 }
 
 impl Loop {
-    /// The loop of an internal model with a matched base frequency at a gain, for a plant with so many lines.
+    /// The loop of an internal model with a matched base frequency at a gain, for lines and oscillators up to this harmonic.
     #[must_use]
     pub fn new(
         sigma: &Rational,
         model: &InternalModel,
-        lines: usize,
+        last: usize,
         gain: Option<[Enclosure; 2]>,
         inverse: Vec<Vec<Rational>>,
     ) -> Loop {
@@ -51,29 +42,29 @@ impl Loop {
             sigma: Enclosure::from_rational(sigma, PRECISION),
             mu: model.mu.enclose(PRECISION),
             fundamental: model.base_frequency.enclose(PRECISION),
-            weights: (0..=lines as u64).map(|l| model.weights.weight(l, PRECISION)).collect(),
+            weights: (0..=last as u64).map(|l| model.weights.weight(l, PRECISION)).collect(),
             n_bar_squared: model.weights.total(PRECISION),
             gain: gain.unwrap_or([one.clone(), one]),
             inverse,
         }
     }
 
-    /// The loop of so many oscillators alone, of whose weights Nbar is the sum.
+    /// The loop of these oscillators alone, of whose weights Nbar is the sum; of their harmonics it has the weights.
     #[must_use]
-    pub fn with_oscillators(self, count: usize) -> Loop {
-        let weights = self.weights.iter().take(count.saturating_add(1));
+    pub fn with_oscillators(self, oscillators: &Oscillators) -> Loop {
+        let weights = oscillators.all().filter_map(|l| self.weights.get(l as usize));
         let n_bar_squared = weights.fold(Enclosure::zero(PRECISION), |sum, weight| sum + weight);
         Loop { n_bar_squared, ..self }
     }
 
-    /// `sum_{|l| <= N} c_l/(l - k)^power`, c_0 = n_0 and else n_|l|/2, for k > N: g_N(k) and its derivative.
-    pub(crate) fn poles(&self, oscillators: usize, k: usize, power: u32) -> Enclosure {
-        let term = |l: usize| {
+    /// `sum over l in +-H of c_l/(l - k)^power`, c_0 = n_0 and else n_|l|/2, for k not in H: g_H(k) and its derivative.
+    pub(crate) fn poles(&self, oscillators: &Oscillators, k: usize, power: u32) -> Enclosure {
+        let term = |l: u32| {
             let at = |l: i64| Enclosure::from_rational(&Rational::from((1, (l - k as i64).pow(power))), PRECISION);
-            let both = if l == 0 { at(0) } else { (at(l as i64) + at(-(l as i64))) / 2 };
-            &self.weights[l] * both
+            let both = if l == 0 { at(0) } else { (at(i64::from(l)) + at(-i64::from(l))) / 2 };
+            &self.weights[l as usize] * both
         };
-        (0..=oscillators).fold(Enclosure::zero(PRECISION), |sum, l| sum + term(l))
+        oscillators.all().fold(Enclosure::zero(PRECISION), |sum, l| sum + term(l))
     }
 }
 
@@ -114,28 +105,24 @@ impl Loop {
     /// Bounds of the periodic solution of every member whose lines are these, with a gain of the actuator in `gain`. `None` where the answer
     /// to a line may have no bound. What is below them some instant has, of |e| and |u|, as closely as `fineness` says.
     ///
-    /// Line k meets an oscillator where k <= N: then `e_k = 0`, `u_k = -c_k/b`, and `|zeta_k|_N = sqrt(2/n_k) |c_k|/(b mu)`. Else
-    /// `e_k = c_k/D`, `D = i om_k - W_k + b (sigma + i y_k (i om_k + sigma))`, `y_k = nu g_N(k)`, `u_k = ((i om_k - W_k) e_k - c_k)/b`, and
-    /// `|zeta_k|_N = sqrt(g_N'(k)) |i om_k + sigma| |e_k|/w`.
+    /// Line k meets an oscillator where k is in H: then `e_k = 0`, `u_k = -c_k/b`, and `|zeta_k|_N = sqrt(2/n_k) |c_k|/(b mu)`. Else
+    /// `e_k = c_k/D`, `D = i om_k - W_k + b (sigma + i y_k (i om_k + sigma))`, `y_k = nu g_H(k)`, `u_k = ((i om_k - W_k) e_k - c_k)/b`, and
+    /// `|zeta_k|_N = sqrt(g_H'(k)) |i om_k + sigma| |e_k|/w`.
     pub(super) fn sizes(
         &self,
         lines: &[Line],
         gain: &Enclosure,
-        oscillators: Oscillators,
+        oscillators: &Oscillators,
         fineness: Fineness,
     ) -> Option<Sizes<Enclosure>> {
         let zero = || Enclosure::zero(PRECISION);
-        let met = match oscillators {
-            Oscillators::Exactly(count) => usize::try_from(count).unwrap_or(usize::MAX).min(lines.len() - 1),
-            Oscillators::ForEachLine => lines.len() - 1,
-        };
         let of_mu = gain * &self.mu;
         let mut within = zero();
         let mut sizes = Sizes { error: zero(), mean_square: zero(), control: zero(), states: zero(), zeta: zero() };
         let (mut errors, mut controls) = (Vec::new(), Vec::new());
         for (k, line) in lines.iter().enumerate() {
             let Line { frequency, states, transfer, forcing } = line;
-            if k <= met {
+            if oscillators.meets(k) {
                 // |zeta_0|^2 = |c_0|^2/((b mu)^2 n_0); both of k and -k: 2 * 2 |c_k|^2/((b mu)^2 n_k).
                 let both = if k == 0 { 1 } else { 4 };
                 within = within + forcing.norm_squared() / of_mu.sqr() / &self.weights[k] * both;
@@ -143,7 +130,7 @@ impl Loop {
                 controls.push(forcing.scaled(&gain.recip().negate()));
                 continue;
             }
-            let y = &self.mu / &self.fundamental * self.poles(met, k, 1);
+            let y = &self.mu / &self.fundamental * self.poles(oscillators, k, 1);
             let answer = Complex { re: &self.sigma - &y * frequency, im: &y * &self.sigma }.scaled(gain);
             let own = Complex { re: transfer.re.negate(), im: frequency - &transfer.im };
             let error = forcing.div(&own.add(&answer));
@@ -154,7 +141,7 @@ impl Loop {
             let moved: Vec<Complex> = states.iter().map(|part| part.mul(&error)).collect();
             sizes.states = sizes.states + self.length(&moved) * 2;
             let of_y = (frequency.sqr() + self.sigma.sqr()).sqrt() * error.norm();
-            sizes.zeta = sizes.zeta + self.poles(met, k, 2).sqrt() * of_y / &self.fundamental * 2;
+            sizes.zeta = sizes.zeta + self.poles(oscillators, k, 2).sqrt() * of_y / &self.fundamental * 2;
             errors.push(error);
         }
         sizes.zeta = sizes.zeta + within.sqrt();

@@ -116,7 +116,7 @@ impl Concluded {
         };
         let all = d_x.sqr() * 4 * of_states + k_p.sqr() * d_q.sqr() / &c_y;
         let of_y = (&all / &c_y).sqrt();
-        let next = &own.fundamental * (i64::try_from(trial.n_o).ok()?.checked_add(1)?);
+        let next = &own.fundamental * i64::from(trial.oscillators.first_missing());
         let of_e = (&all / &c_e).sqrt().min(&(&of_y / (own.sigma.sqr() + next.sqr()).sqrt()));
         let s_e = (*period * &of_e * &of_y).sqrt();
         let (s_x, of_x) = match &proof.states {
@@ -141,7 +141,7 @@ impl Concluded {
         let of_q = &b_x * &of_x + &b_e * &of_e + d_q;
         let swing = *period / (low * &own.mu * 2);
         let s_z = match &proof.or_more {
-            None => (swing + largest_answer(trial, own)? / low.sqr()).sqrt() * of_q,
+            None => (swing + largest_answer(trial, own)?).sqrt() * of_q,
             Some(OrMore { defect_t, in_time, states }) => {
                 let [[b_qtx, b_qte], [b_fx, b_fe]] = [in_time, states].map(|pair| pair.each_ref().map(exact));
                 let slope = b_qtx * &of_x + b_qte * &of_e + b_x * (b_fx * &of_x + b_fe * &of_e + d_x);
@@ -198,26 +198,29 @@ fn fineness(trial: &Trial) -> Fineness {
     if trial.terms.len() > 1 { Fineness::OF_SUMS } else { Fineness::FINE }
 }
 
-/// kappa_N at b_lo = 1.
-fn largest_answer(trial: &Trial, own: &Loop) -> Option<Enclosure> {
-    let met = trial.met();
-    let one = |weight: &Enclosure, times: i64| Enclosure::from_integer(times, PRECISION) / weight;
-    let first = one(own.weights.first()?, i64::try_from(met).ok()?.checked_add(1)?);
-    let weights = own.weights.get(1..=met)?;
-    Some(weights.iter().fold(first, |largest, weight| largest.max(&one(weight, 2))) / own.mu.sqr())
+/// kappa_N of the first N, kappa_H of another set (14.7).
+fn largest_answer(Trial { oscillators, .. }: &Trial, own: &Loop) -> Option<Enclosure> {
+    let of_mu = (&own.gain[0] * &own.mu).sqr();
+    let one =
+        |l: u32, times: i64| Some(Enclosure::from_integer(times, PRECISION) / own.weights.get(l as usize)? / &of_mu);
+    let beyond = match oscillators.n_o() {
+        Some(n_o) => one(0, i64::from(n_o) + 1)?,
+        None => one(0, 1)?.max(&(&own.n_bar_squared / own.fundamental.sqr())),
+    };
+    oscillators.beyond_mean().iter().try_fold(beyond, |largest, l| Some(largest.max(&one(*l, 2)?)))
 }
 
 /// zhat of one term.
 fn of_zeta(trial: &Trial, own: &Loop, CurveTerm { error, control, .. }: &CurveTerm) -> Option<Enclosure> {
-    let met = trial.met();
+    let oscillators = &trial.oscillators;
     let (mut within, mut beyond) = (Enclosure::zero(PRECISION), Enclosure::zero(PRECISION));
-    for (k, u) in of_wave(control).iter().enumerate().take(met.saturating_add(1)) {
+    for (k, u) in of_wave(control).iter().enumerate().filter(|(k, _)| oscillators.meets(*k)) {
         let both = if k == 0 { 1 } else { 4 };
         within = within + u.norm_squared() / own.mu.sqr() / own.weights.get(k)? * both;
     }
-    for (k, e) in of_wave(error).iter().enumerate().skip(met.saturating_add(1)) {
+    for (k, e) in of_wave(error).iter().enumerate().filter(|(k, _)| !oscillators.meets(*k)) {
         let of_y = ((&own.fundamental * k as i64).sqr() + own.sigma.sqr()).sqrt() * e.norm();
-        beyond = beyond + own.poles(met, k, 2).sqrt() * of_y / &own.fundamental * 2;
+        beyond = beyond + own.poles(oscillators, k, 2).sqrt() * of_y / &own.fundamental * 2;
     }
     Some(within.sqrt() + beyond)
 }

@@ -4,17 +4,17 @@ use crate::linear::{Harmonics, Loop, PRECISION};
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_lang::plant::{CurveTerm, Plant};
-use sigmastar_lang::spec::{Interval, OrbitCurve, TrigonometricVector, Wave};
+use sigmastar_lang::spec::{Interval, OrbitCurve, Oscillators, TrigonometricVector, Wave};
 use sigmastar_theory::transfer::Complex;
 
-/// `(xhat, ehat, uhat)` of each member, for a number of oscillators.
+/// `(xhat, ehat, uhat)` of each member, for given oscillators.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Trial {
-    /// N.
-    pub n_o: u64,
-    /// Whether it is the trial of every larger number, too.
+    /// At 0, ..., N, or at another set H.
+    pub oscillators: Oscillators,
+    /// Whether it is the trial of every larger number, too: of the first N alone.
     pub or_more: bool,
-    /// The terms of the curves; that of the nominal member is the first. No ehat has a mean or harmonics up to N.
+    /// The terms of the curves; that of the nominal member is the first. No ehat has a mean or harmonics of the oscillators.
     pub terms: Vec<CurveTerm>,
     /// Where the parameters lie of which intervals are known.
     pub parameters: Vec<Interval>,
@@ -39,11 +39,6 @@ pub(super) fn of_wave(wave: &Wave) -> Vec<Complex> {
 }
 
 impl Trial {
-    /// N as an index.
-    pub(super) fn met(&self) -> usize {
-        usize::try_from(self.n_o).unwrap_or(usize::MAX)
-    }
-
     /// Where p, and then b, lie.
     pub(super) fn intervals(&self) -> impl Iterator<Item = &Interval> {
         self.parameters.iter().chain(&self.gain)
@@ -53,12 +48,14 @@ impl Trial {
     /// of them meet. The terms begin with that of the nominal member, and have as many powers as something is an interval.
     #[must_use]
     pub fn is_admissible(&self) -> bool {
-        let met = if self.or_more { usize::MAX } else { self.met() };
+        let first = self.oscillators.n_o().is_some();
         let count = self.intervals().count();
+        let is_0 = |pair: &[Rational; 2]| pair.iter().all(|part| *part == 0);
         let of_term = |CurveTerm { powers, error: Wave { mean, harmonics }, control, .. }: &CurveTerm| {
-            let mut beyond = control.harmonics.iter().skip(self.met()).flatten();
-            let control_is_met = !self.or_more || beyond.all(|part| *part == 0);
-            let error_is_met = *mean == 0 && harmonics.iter().take(met).flatten().all(|part| *part == 0);
+            let mut of_error = (1..).zip(harmonics).filter(|(k, _)| self.or_more || self.oscillators.meets(*k));
+            let mut of_control = (1..).zip(&control.harmonics).filter(|(k, _)| !self.oscillators.meets(*k));
+            let error_is_met = *mean == 0 && of_error.all(|(_, pair)| is_0(pair));
+            let control_is_met = !self.or_more || first && of_control.all(|(_, pair)| is_0(pair));
             error_is_met && control_is_met && powers.len() == count
         };
         self.terms.first().is_some_and(CurveTerm::is_nominal) && self.terms.iter().all(of_term)
@@ -88,19 +85,20 @@ impl Trial {
         self.terms.iter().map(scaled).collect()
     }
 
-    /// kappa: over all terms the sum of `sup|delta^alpha|` times twice the sum of `|uhat_k + (sigma + i y_k (i om_k + sigma)) ehat_k|` over N < k <= K.
+    /// kappa: over all terms the sum of `sup|delta^alpha|` times twice the sum of `|uhat_k + (sigma + i y_k (i om_k + sigma)) ehat_k|` over the k <= K that are not in H.
     #[must_use]
     pub fn mismatch(&self, own: &Loop) -> Enclosure {
         let zero = || Enclosure::zero(PRECISION);
         let of_term = |CurveTerm { powers, error, control, .. }: &CurveTerm| {
             let degree = error.harmonics.len().max(control.harmonics.len());
             let of = |k: usize| {
-                let y = &own.mu / &own.fundamental * own.poles(self.met(), k, 1);
+                let y = &own.mu / &own.fundamental * own.poles(&self.oscillators, k, 1);
                 let frequency = &own.fundamental * k as i64;
                 let answer = Complex { re: &own.sigma - &y * &frequency, im: y * &own.sigma };
                 harmonic(control, k).add(&answer.mul(&harmonic(error, k))).norm() * 2
             };
-            let all = (self.met().saturating_add(1)..=degree).fold(zero(), |sum, k| sum + of(k));
+            let beyond = (1..=degree).filter(|k| !self.oscillators.meets(*k));
+            let all = beyond.fold(zero(), |sum, k| sum + of(k));
             all * self.scale(powers)
         };
         self.terms.iter().fold(zero(), |sum, term| sum + of_term(term))

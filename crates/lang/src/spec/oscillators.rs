@@ -114,6 +114,12 @@ impl Oscillators {
         k == 0 || self.beyond_mean.binary_search(&k).is_ok()
     }
 
+    /// Whether harmonic k of a signal meets an oscillator: [`Oscillators::has`] of an index.
+    #[must_use]
+    pub fn meets(&self, k: usize) -> bool {
+        u32::try_from(k).is_ok_and(|k| self.has(k))
+    }
+
     /// `k_H = min{k >= 1 : k not in H}` (derivation, 14.7).
     #[must_use]
     pub fn first_missing(&self) -> u32 {

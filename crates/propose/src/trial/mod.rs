@@ -15,6 +15,7 @@ pub use sampled::sampled_defects;
 use crate::orbit::{Field, FloatSeries};
 use nalgebra::{DMatrix, DVector};
 use sigmastar_lang::plant::Plant;
+use sigmastar_lang::spec::Oscillators;
 use std::f64::consts::{PI, TAU};
 
 /// The numbers of harmonics, in turn.
@@ -44,7 +45,9 @@ pub struct TrialLoop<'a> {
     pub sigma: f64,
     /// mu.
     pub mu: f64,
-    /// n_0, n_1, ..., n_N: of N oscillators.
+    /// At which harmonics the oscillators are.
+    pub oscillators: Oscillators,
+    /// n_0, and those of these harmonics.
     pub weights: Vec<f64>,
     /// The share of the size of a solution that the last harmonics have at most, where there are enough of them.
     pub resolved: f64,
@@ -62,25 +65,22 @@ pub struct FloatTrial {
 }
 
 impl TrialLoop<'_> {
-    fn oscillators(&self) -> usize {
-        self.weights.len() - 1
+    /// Whether e has no harmonic k: an oscillator meets it, or e vanishes.
+    fn meets(&self, k: usize) -> bool {
+        self.or_more || self.oscillators.meets(k)
     }
 
-    /// `sigma + i y_k (i om_k + sigma)`, by which the regulator multiplies -e_k; k > N.
+    /// `sigma + i y_k (i om_k + sigma)`, by which the regulator multiplies -e_k; of a k that no oscillator meets.
     fn answer(&self, k: usize, period: f64) -> [f64; 2] {
         let omega = TAU / period;
         let at = |l: f64| (l - k as f64).recip();
-        let poles: f64 = self
-            .weights
-            .iter()
-            .enumerate()
-            .map(|(l, weight)| weight * if l == 0 { at(0.0) } else { (at(l as f64) + at(-(l as f64))) / 2.0 })
-            .sum();
+        let both = |l: u32| if l == 0 { at(0.0) } else { (at(f64::from(l)) + at(-f64::from(l))) / 2.0 };
+        let poles: f64 = self.oscillators.all().zip(&self.weights).map(|(l, weight)| weight * both(l)).sum();
         let y = self.mu / omega * poles;
         [self.sigma - y * omega * k as f64, y * self.sigma]
     }
 
-    /// `i om_k + b (sigma + i y_k (i om_k + sigma))`, by which e_k is multiplied where q is answered; k > N.
+    /// `i om_k + b (sigma + i y_k (i om_k + sigma))`, by which e_k is multiplied where q is answered; of such a k.
     fn inverse_answer(&self, k: usize, period: f64) -> [f64; 2] {
         let [re, im] = self.answer(k, period);
         [self.gain * re, TAU / period * k as f64 + self.gain * im]
@@ -95,7 +95,7 @@ impl TrialLoop<'_> {
         let own = field.own(orbit);
         let mut start: Option<FloatSeries> = None;
         let fits = |harmonics: usize| (n + 1) * (2 * harmonics + 1) <= MAX_UNKNOWNS;
-        let is_beyond = |harmonics: usize| harmonics > self.oscillators();
+        let is_beyond = |harmonics: usize| harmonics >= self.oscillators.first_missing() as usize;
         // Where none of these harmonics is beyond the oscillators e vanishes.
         let vanishes = self.or_more || !HARMONICS.into_iter().any(|harmonics| is_beyond(harmonics) && fits(harmonics));
         for harmonics in HARMONICS.into_iter().filter(|harmonics| vanishes || is_beyond(*harmonics)) {
@@ -155,8 +155,7 @@ impl TrialLoop<'_> {
                     // 2 Re(e^{i a}/(re + i im)).
                     2.0 * (cos * re + sin * im) / (re * re + im * im)
                 };
-                let answered = if self.or_more { harmonics } else { self.oscillators() };
-                (answered + 1..=harmonics).map(of).sum::<f64>() / points as f64
+                (1..=harmonics).filter(|k| !self.meets(*k)).map(of).sum::<f64>() / points as f64
             })
             .collect();
         let answer = |j: usize, l: usize| answers[(j + points - l) % points];
@@ -233,9 +232,9 @@ impl TrialLoop<'_> {
     /// The trial of a solution in the units of the field.
     fn with_control(&self, field: &mut Field, series: &FloatSeries, size: f64) -> FloatTrial {
         let n = field.states();
-        let harmonics = series.harmonics.len().max(if self.or_more { self.oscillators() } else { 0 });
+        let harmonics = series.harmonics.len().max(if self.or_more { self.oscillators.largest() as usize } else { 0 });
         let points = 4 * harmonics + 1;
-        // Up to N the harmonics of u are those of -q/b; beyond they follow from those of e.
+        // Where an oscillator meets them the harmonics of u are those of -q/b; the others follow from those of e.
         let sample = |j: usize| {
             let s = j as f64 / points as f64;
             let (mut at, _) = series.at(s);

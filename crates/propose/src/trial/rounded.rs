@@ -14,8 +14,8 @@ const GRAIN: f64 = 1e-16;
 const LEFT_OUT: [f64; 2] = [1e-10, 1e-5];
 
 impl TrialLoop<'_> {
-    /// The term with these powers, whose product is at most `scale` for all members: ehat has neither a mean nor harmonics up to N, and uhat is what the
-    /// regulator answers it with beyond them.
+    /// The term with these powers, whose product is at most `scale` for all members: ehat has neither a mean nor harmonics of oscillators, and uhat is what the
+    /// regulator answers it with at the others.
     #[must_use]
     pub fn term(&self, trial: &FloatTrial, powers: Vec<u32>, scale: f64) -> CurveTerm {
         let FloatTrial { series, sizes } = trial;
@@ -23,7 +23,7 @@ impl TrialLoop<'_> {
         let own = |series: &FloatSeries, i: usize| component(series, i, sizes[i] / scale);
         let mut error = own(series, n);
         error.mean = Rational::new();
-        for pair in error.harmonics.iter_mut().take(self.oscillators()) {
+        for (_, pair) in (1..).zip(&mut error.harmonics).filter(|(k, _)| self.oscillators.meets(*k)) {
             *pair = Default::default();
         }
         if self.or_more {
@@ -33,7 +33,7 @@ impl TrialLoop<'_> {
         // (re + i im)(a - i b) = (a re + b im) - i (b re - a im).
         let period = self.plant.period.nominal().to_f64();
         let mut answered = series.clone();
-        for (k, pair) in answered.harmonics.iter_mut().enumerate().skip(self.oscillators()) {
+        for (k, pair) in answered.harmonics.iter_mut().enumerate().filter(|(k, _)| !self.oscillators.meets(k + 1)) {
             let [a, b] = error.harmonics.get(k).map_or([0.0; 2], |pair| pair.each_ref().map(Rational::to_f64));
             let [re, im] = self.answer(k + 1, period);
             (pair[0][n + 1], pair[1][n + 1]) = (-(a * re + b * im), a * im - b * re);
@@ -60,7 +60,8 @@ impl TrialLoop<'_> {
             let [re, im] = self.inverse_answer(k, period);
             (k, libm::hypot(cos.to_f64(), sin.to_f64()) * libm::hypot(re, im))
         };
-        let mut sizes: Vec<_> = (1..).zip(&error.harmonics).skip(self.oscillators()).map(of_q).collect();
+        let mut sizes: Vec<_> =
+            (1..).zip(&error.harmonics).filter(|(k, _)| !self.oscillators.meets(*k)).map(of_q).collect();
         sizes.sort_by(|(_, a), (_, b)| a.total_cmp(b));
         let control = series.mean.len() - 1;
         let all = series.harmonics.iter().map(|[cos, sin]| libm::hypot(cos[control], sin[control])).sum::<f64>();

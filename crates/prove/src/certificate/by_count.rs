@@ -1,6 +1,7 @@
 //! What a certificate says of each number of oscillators, and what proves it (derivation, 14).
 
 use super::json::{exact, object, rows, series, vector, with_room};
+use super::write::HARMONICS;
 use crate::certify::{ByCount, CountBounds, CountProof};
 use rug::Rational;
 use serde_json::{Value, json};
@@ -28,11 +29,14 @@ pub(super) fn claimed_counts(found: Option<&ByCount>) -> Option<(&'static str, V
         CountProof::Trials(_) => &*OF_TRIALS,
     };
     let one = |bounds: &CountBounds| {
-        let CountBounds { n_o, or_more, steady_error, mean_square, steady_control, largest } = bounds;
+        let CountBounds { oscillators, or_more, steady_error, mean_square, steady_control, largest } = bounds;
         let numbers = |numbers: &[(&'static str, &Enclosure)]| {
             object(numbers.iter().map(|(name, value)| (*name, with_room(value, room))))
         };
-        let mut part = json!({ "n_o": n_o });
+        let mut part = match oscillators.n_o() {
+            Some(n_o) => json!({ "n_o": n_o }),
+            None => json!({ HARMONICS: oscillators.all().collect::<Vec<u32>>() }),
+        };
         if *or_more {
             part["or_more"] = true.into();
         }
@@ -56,7 +60,16 @@ pub(super) fn counts_in_words(spec: &Specification, sigma: &Rational, part: &Val
         },
     );
     let one = |entry: &Value| {
-        let [every, n_o] = [if entry["or_more"] == true { "every n_o >=" } else { "n_o =" }, &entry["n_o"].to_string()];
+        let which = match entry[HARMONICS].as_array() {
+            Some(all) => {
+                let all: Vec<String> = all.iter().map(Value::to_string).collect();
+                format!("oscillators at the harmonics {}", all.join(", "))
+            }
+            None => {
+                let every = if entry["or_more"] == true { "every n_o >=" } else { "n_o =" };
+                format!("{every} {}", entry["n_o"])
+            }
+        };
         let number = |part: &str, name: &str| {
             let text = entry[part][name].as_str().unwrap_or_default();
             if text.contains('/') { format!("({text})") } else { text.to_owned() }
@@ -67,7 +80,7 @@ pub(super) fn counts_in_words(spec: &Specification, sigma: &Rational, part: &Val
             format!(", and |e| <= {e} and |{output}| <= {u} at all times for these solutions")
         });
         format!(
-            " With {every} {n_o} and sigma = {} exactly, |e| <= {e} (root mean square <= {rms}) and |{output}| <= {u} along the T-periodic \
+            " With {which} and sigma = {} exactly, |e| <= {e} (root mean square <= {rms}) and |{output}| <= {u} along the T-periodic \
              solution{largest}.",
             write_exact(sigma)
         )

@@ -8,7 +8,7 @@ use super::write::{HARMONICS, certificate_json};
 use crate::rate::bound::MAX_OSCILLATORS;
 use crate::reduction::{FreeNumbers, Run, Subject, Witness, WitnessData};
 use serde_json::Value;
-use sigmastar_lang::spec::{Document, SpecErrors};
+use sigmastar_lang::spec::{Document, Oscillators, SpecErrors};
 
 /// The certificate of a run; `None` where nothing is certified.
 #[must_use]
@@ -40,12 +40,16 @@ pub fn stated_counts(certificate: &Document) -> Vec<u32> {
     numbers_in(certificate, "/claim/for_n_o").unwrap_or_default()
 }
 
-/// The numbers of oscillators of which a certificate states bounds; none where it states nothing by these numbers.
+/// The oscillators of which a certificate states bounds; none where it states nothing by these.
 #[must_use]
-pub fn stated_by_count(certificate: &Document) -> Option<Vec<u32>> {
-    let mut counts = numbers_in(certificate, "/claim/by_n_o")?;
-    counts.retain(|n_o| *n_o <= MAX_OSCILLATORS);
-    Some(counts)
+pub fn stated_by_count(certificate: &Document) -> Option<Vec<Oscillators>> {
+    let counts = numbers_in(certificate, "/claim/by_n_o")?.into_iter().map(Oscillators::first);
+    let list = certificate.at("/claim/by_n_o")?.to_json();
+    let harmonics = |entry: &Value| -> Option<Vec<u32>> {
+        entry[HARMONICS].as_array()?.iter().map(|k| u32::try_from(k.as_u64()?).ok()).collect()
+    };
+    let sets = list.as_array()?.iter().filter_map(harmonics).filter_map(|all| Oscillators::at(&all).ok());
+    Some(counts.chain(sets).filter(|oscillators| oscillators.largest() <= MAX_OSCILLATORS).collect())
 }
 
 /// The numbers of oscillators in a list of a claim.

@@ -5,12 +5,12 @@ use super::gain_row::{ByCount, CountBounds, CountProof, GainRow, Largest, RowPro
 use super::trials::{Asked, by_trials};
 use rug::Rational;
 use sigmastar_decide::conditions::SharpProof;
-use sigmastar_decide::linear::{Answers, Falling, LinearPlant, Loop, Oscillators, PRECISION, Sizes, Start, sizes};
+use sigmastar_decide::linear::{Answers, Falling, LinearPlant, Loop, PRECISION, Sizes, Start, sizes};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, round_f64};
 use sigmastar_exact::parallel;
 use sigmastar_lang::plant::Plant;
-use sigmastar_lang::spec::Specification;
+use sigmastar_lang::spec::{Oscillators, Specification};
 use sigmastar_matrix::doubles::largest;
 use sigmastar_matrix::inverse;
 use sigmastar_propose::bounds::{FallingForm, PeakOf, PeakProgram, PointSlopes};
@@ -18,6 +18,7 @@ use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::control::Control;
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
 use sigmastar_theory::evidence::Part;
+use std::collections::BTreeSet;
 
 /// By what share of the diagonal the matrices of a form are to be definite, in turn.
 const MARGINS: [f64; 2] = [1e-6, 1e-4];
@@ -37,19 +38,20 @@ fn by_count(
     (plant, answers): (&Plant, &Answers<'_>),
     spec: &Specification,
     (sigma, effort): (&Rational, usize),
-    set: &ClaimedSet,
+    (set, besides): (&ClaimedSet, &[Oscillators]),
 ) -> Option<ByCount> {
     let (linear, model) = (answers.plant(), &spec.internal_model);
     let coordinates = &spec.plant()?.coordinates;
     let gain = spec.input_gain.as_ref().and_then(|gain| gain.factors(PRECISION));
-    let own = Loop::new(sigma, model, linear.lines(), gain, inverse(coordinates)?);
-    let counts: Vec<u64> = (0..=linear.lines() as u64).collect();
-    let effort = effort / counts.len();
-    let of_count = |count: &u64| match *count == linear.lines() as u64 {
-        true => sizes(answers, &own, Oscillators::ForEachLine, effort),
-        false => sizes(answers, &own, Oscillators::Exactly(*count), effort),
-    };
-    let found: Vec<Sizes<Enclosure>> = parallel::map(&counts, of_count).into_iter().collect::<Option<_>>()?;
+    let lines = u32::try_from(linear.lines()).ok()?;
+    // With an oscillator for each line nothing changes any more.
+    let sets = besides.iter().filter(|set| set.n_o().is_none()).cloned().collect::<BTreeSet<_>>();
+    let all: Vec<Oscillators> = (0..=lines).map(Oscillators::first).chain(sets).collect();
+    let last = all.iter().map(Oscillators::largest).max()?;
+    let own = Loop::new(sigma, model, last as usize, gain, inverse(coordinates)?);
+    let effort = effort / all.len();
+    let of_one = |oscillators: &Oscillators| sizes(answers, &own, oscillators, effort);
+    let found: Vec<Sizes<Enclosure>> = parallel::map(&all, of_one).into_iter().collect::<Option<_>>()?;
     let exact = |value: &Rational| Enclosure::from_rational(value, PRECISION);
     let start = Start { x0: exact(&set.x0), e0: exact(&set.e0), z0: set.z0.as_ref().map(exact) };
     let forms: Vec<Falling> = [PeakOf::Error, PeakOf::Control]
@@ -57,7 +59,7 @@ fn by_count(
         .filter_map(|of| form((plant, linear), &own, coordinates, (&start, found.first()?), of))
         .collect();
     let nominal = spec.input_gain.as_ref().map(|gain| gain.nominal.enclose(PRECISION));
-    let bounds = |(n_o, sizes): (u64, &Sizes<Enclosure>)| {
+    let bounds = |(oscillators, sizes): (Oscillators, &Sizes<Enclosure>)| {
         let peaks = forms.iter().map(|form| form.peak(&own, &start, sizes));
         let peak = peaks.reduce(|a, b| sigmastar_decide::linear::Peak {
             error: a.error.min(&b.error),
@@ -66,15 +68,15 @@ fn by_count(
         let Control { steady, transient } =
             Control { steady: sizes.control.clone(), transient: peak.control }.over(nominal.as_ref());
         Some(CountBounds {
-            n_o,
-            or_more: n_o == linear.lines() as u64,
+            or_more: oscillators.n_o() == Some(lines),
+            oscillators,
             steady_error: sizes.error.clone(),
             mean_square: sizes.mean_square.clone(),
             largest: Some(Largest { error: &sizes.error + &peak.error, transient }),
             steady_control: steady,
         })
     };
-    let counts = counts.into_iter().zip(&found).map(bounds).collect::<Option<_>>()?;
+    let counts = all.into_iter().zip(&found).map(bounds).collect::<Option<_>>()?;
     let sizes = found.into_iter().map(|sizes| [sizes.states, sizes.zeta]).collect();
     Some(ByCount { counts, proof: CountProof::Linear { forms, sizes }, checked: false })
 }
@@ -165,15 +167,19 @@ impl Certification<'_> {
     }
 
     /// Bounds by the number of oscillators at the gain of the claim: for every number where the plant is linear in x and e; where nothing of it is an
-    /// interval for every number if a few oscillators meet all that counts, and else for some of them, `counts` among them; nothing where the base frequency is not matched, or the document has noise or a disturbance.
-    pub fn set_counts(&mut self, plant: &Plant, counts: &[u32]) {
+    /// interval for every number if a few oscillators meet all that counts, and else for some of them; and for those `besides`, sets with gaps where the claim is about
+    /// every set; nothing where the base frequency is not matched, or the document has noise or a disturbance.
+    pub fn set_counts(&mut self, plant: &Plant, besides: &[Oscillators]) {
+        let every_set = self.is_for_every_set();
+        let besides: Vec<Oscillators> =
+            besides.iter().filter(|set| every_set || set.n_o().is_some()).cloned().collect();
         let Some(SharpProof { witness, evaluation, .. }) = self.sharp.proved().filter(|_| self.has_counts()) else {
             return;
         };
         self.by_count = match LinearPlant::of(plant) {
             Some(linear) => {
                 let answers = Answers::new(&linear, plant.internal_model.base_frequency.enclose(PRECISION));
-                by_count((plant, &answers), self.spec, (&witness.sigma, EFFORTS[0]), &witness.set)
+                by_count((plant, &answers), self.spec, (&witness.sigma, EFFORTS[0]), (&witness.set, &besides))
             }
             None => {
                 let exact = |value: &Rational| Enclosure::from_rational(value, PRECISION);
@@ -188,7 +194,7 @@ impl Certification<'_> {
                     periodic: [periodic.x_per.clone(), periodic.e_per.clone()],
                     kappas: data.kappas(&exact(&witness.k0), &exact(&witness.k1)),
                     data,
-                    counts,
+                    besides: &besides,
                 })
             }
         };
@@ -215,7 +221,7 @@ impl Certification<'_> {
                 return self.by_count.clone();
             }
             let spec = other.as_deref().unwrap_or(self.spec);
-            by_count((plant, answers.as_ref()?), spec, (&row.sigma, EFFORTS[1]), &proof.witness.set)
+            by_count((plant, answers.as_ref()?), spec, (&row.sigma, EFFORTS[1]), (&proof.witness.set, &[]))
         };
         let found = parallel::map(&self.gains, at);
         for (row, found) in self.gains.iter_mut().zip(&found) {

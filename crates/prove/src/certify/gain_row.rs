@@ -6,7 +6,7 @@ use sigmastar_decide::conditions::{SampledProof, SharpProof};
 use sigmastar_decide::linear::Falling;
 use sigmastar_decide::trial::{Trial, TubeProof};
 use sigmastar_exact::enclosure::Enclosure;
-use sigmastar_lang::spec::Specification;
+use sigmastar_lang::spec::{Oscillators, Specification};
 use sigmastar_theory::derivation::control::Control;
 use sigmastar_theory::derivation::targets::{Target, TargetKind};
 use std::sync::Arc;
@@ -35,11 +35,11 @@ pub struct GainRow {
     pub(super) proof: RowProof,
 }
 
-/// Bounds for one number of oscillators, or for all from it on, at one gain.
+/// Bounds for given oscillators, or for every number of them from some on, at one gain.
 #[derive(Clone, Debug)]
 pub struct CountBounds {
-    /// n_o.
-    pub n_o: u64,
+    /// At which harmonics they are.
+    pub oscillators: Oscillators,
     /// Whether they hold for every larger number, too.
     pub or_more: bool,
     /// Of |e| along the periodic solution.
@@ -62,6 +62,12 @@ pub struct Largest {
 }
 
 impl CountBounds {
+    /// The number of oscillators, where they are at the first harmonics.
+    #[must_use]
+    pub fn n_o(&self) -> Option<u64> {
+        self.oscillators.n_o().map(u64::from)
+    }
+
     /// Of what is put out at all times, for every solution from the set, where it is proved.
     #[must_use]
     pub fn largest_control(&self) -> Option<Enclosure> {
@@ -72,7 +78,7 @@ impl CountBounds {
 /// Bounds by the number of oscillators.
 #[derive(Clone, Debug)]
 pub struct ByCount {
-    /// In rising order; the last one may hold for every larger number, too.
+    /// By their number in rising order, the last one of which may hold for every larger number, too; then other sets.
     pub counts: Vec<CountBounds>,
     /// What proves them.
     pub proof: CountProof,
@@ -87,7 +93,7 @@ pub enum CountProof {
     Linear {
         /// Forms that fall along the differences of solutions.
         forms: Vec<Falling>,
-        /// For each number of oscillators bounds of `|L^-1 (x - x_0)|` and `|zeta|_N` along the periodic solution.
+        /// For each of them bounds of `|L^-1 (x - x_0)|` and `|zeta|_N` along the periodic solution.
         sizes: Vec<[Enclosure; 2]>,
     },
     /// A trial for each number, and what is proved around it (derivation, 14.4).
@@ -98,7 +104,8 @@ impl ByCount {
     /// Those for a number of oscillators.
     #[must_use]
     pub fn at(&self, n_o: u64) -> Option<&CountBounds> {
-        self.counts.iter().rev().find(|bounds| bounds.n_o <= n_o).filter(|bounds| bounds.or_more || bounds.n_o == n_o)
+        let mut below = self.counts.iter().rev().filter(|bounds| bounds.n_o().is_some_and(|own| own <= n_o));
+        below.next().filter(|bounds| bounds.or_more || bounds.n_o() == Some(n_o))
     }
 
     /// The smallest number of oscillators whose bound is certainly at most a target.
@@ -110,14 +117,15 @@ impl ByCount {
             };
             bound.le(&target.value.enclose(bound.precision())).is_true()
         };
-        self.counts.iter().find(reaches).map(|bounds| bounds.n_o)
+        self.counts.iter().filter(|bounds| bounds.n_o().is_some()).find(reaches)?.n_o()
     }
 
     /// The largest of a bound over all numbers of oscillators; none where not all are known.
     pub(super) fn largest(&self, of: impl Fn(&CountBounds) -> Option<&Enclosure>) -> Option<Enclosure> {
-        let all: Vec<&Enclosure> = self.counts.iter().map(of).collect::<Option<_>>()?;
-        let complete = self.counts.iter().map(|bounds| bounds.n_o).eq(0..self.counts.len() as u64);
-        let complete = complete && self.counts.last()?.or_more;
+        let first: Vec<&CountBounds> = self.counts.iter().filter(|bounds| bounds.n_o().is_some()).collect();
+        let all: Vec<&Enclosure> = first.iter().map(|bounds| of(bounds)).collect::<Option<_>>()?;
+        let complete = first.iter().filter_map(|bounds| bounds.n_o()).eq(0..first.len() as u64);
+        let complete = complete && first.last()?.or_more;
         all.into_iter().cloned().reduce(|a, b| a.max(&b)).filter(|_| complete)
     }
 }

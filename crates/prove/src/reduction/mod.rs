@@ -48,6 +48,6 @@ pub use sampled::{RestsOn, SampledPairs, reduce_sampled, with_sampled_pairs};
 pub use shrunk::{INITIAL_SET, Shrunk, shrunk};
 pub use specification::specification;
 pub use study::{OrbitStudy, study};
-pub use subject::{SAMPLING_PERIOD, Subject, at_samples};
+pub use subject::{SAMPLING_PERIOD, Subject, at_samples, for_every_set};
 pub use watch::{Stage, Unwatched, Watch};
 pub use witness::{FreeNumbers, Witness, WitnessData};

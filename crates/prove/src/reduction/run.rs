@@ -17,7 +17,7 @@ use sigmastar_decide::bounds::Engine;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::model::LyapunovSource;
-use sigmastar_lang::spec::{Document, Sampling, SpecErrors, Specification};
+use sigmastar_lang::spec::{Document, Oscillators, Sampling, SpecErrors, Specification};
 use sigmastar_propose::bounds::FloatSuprema;
 use sigmastar_propose::search::{Failing, SampledProposal};
 use sigmastar_theory::derivation::condition::Condition;
@@ -38,8 +38,9 @@ pub struct Prepared {
     start: Start,
     gain: Option<Rational>,
     limits: Limits,
-    /// The numbers of oscillators that are asked about.
+    /// The numbers of oscillators that are asked about, and sets of harmonics.
     counts: Vec<u32>,
+    sets: Vec<Oscillators>,
     /// About the smallest gain, where `gain` was not given but found above it.
     found_above: Option<f64>,
     /// The plant, where it is one and the claim need not rest on norms.
@@ -163,6 +164,7 @@ impl Prepared {
             gain,
             limits: Limits::default(),
             counts: Vec::new(),
+            sets: Vec::new(),
             found_above: None,
             plant: None,
             by_norms: None,
@@ -180,6 +182,12 @@ impl Prepared {
     pub fn again(subject: &Subject, witness: Witness) -> Result<Prepared, Vec<SpecErrors>> {
         let spec = witness.proved(subject)?;
         Ok(Prepared::of(spec, Start::Given(witness.numbers), None))
+    }
+
+    /// The prepared subject with sets of harmonics, of whose oscillators bounds are wanted, too.
+    #[must_use]
+    pub fn with_sets(self, sets: Vec<Oscillators>) -> Prepared {
+        Prepared { sets, ..self }
     }
 
     /// The prepared subject for a claim that is to keep to limits at its gain: at the one that is given, or at the smallest one that is found

@@ -43,6 +43,14 @@ pub fn at_samples(document: &Document, step: &Constant) -> Result<Document, Spec
     document.with_field("/internal_model", "sampling_period", &step.text)
 }
 
+/// A document that asks for a claim about every set of harmonics (derivation, 14.7).
+///
+/// # Errors
+/// A document that is too large with it.
+pub fn for_every_set(document: &Document) -> Result<Document, SpecErrors> {
+    document.with_field("/internal_model", "harmonics", "every-set")
+}
+
 /// Whether a document is to be read as a plant: by its `format`, or where that is neither by what else it has.
 fn is_plant(value: &Value<'_>) -> bool {
     let format = value.member("format");

@@ -7,7 +7,7 @@ use sigmastar_decide::trial::{Concluded, Known, Trial};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, round_f64};
 use sigmastar_lang::plant::{CurveTerm, Plant};
-use sigmastar_lang::spec::{Interval, OfPlant, ProvedCell, Specification};
+use sigmastar_lang::spec::{Interval, OfPlant, Oscillators, ProvedCell, Specification};
 use sigmastar_matrix::inverse;
 use sigmastar_propose::bounds::{FloatCurve, FloatSuprema};
 use sigmastar_propose::orbit::FloatSeries;
@@ -49,16 +49,16 @@ pub(in crate::certify) struct Asked<'a> {
     pub(in crate::certify) data: Data<'a>,
     /// kappa_0 and kappa_1.
     pub(in crate::certify) kappas: [Enclosure; 2],
-    /// Numbers of oscillators that are looked at besides.
-    pub(in crate::certify) counts: &'a [u32],
+    /// Oscillators that are looked at besides.
+    pub(in crate::certify) besides: &'a [Oscillators],
 }
 
-/// One number of oscillators.
+/// The oscillators of one trial.
 pub(super) struct Around<'a> {
     pub(super) asked: &'a Asked<'a>,
     pub(super) of_plant: &'a OfPlant,
     pub(super) cell: &'a ProvedCell,
-    pub(super) n_o: u64,
+    pub(super) oscillators: Oscillators,
     pub(super) or_more: bool,
 }
 
@@ -96,14 +96,14 @@ impl Around<'_> {
 
     /// From which number of oscillators on what they leave of q is as small as nothing, of a loop in which they leave no error; `None` where that is
     /// not soon.
-    pub(super) fn met_by(&self) -> Option<u64> {
+    pub(super) fn met_by(&self) -> Option<u32> {
         let control = self.proposed()?.into_iter().next()?.control;
         let sizes =
             control.harmonics.iter().map(|[cos, sin]| libm::hypot(cos.to_f64(), sin.to_f64())).collect::<Vec<f64>>();
         let all = control.mean.to_f64().abs() + sizes.iter().sum::<f64>();
         let left = |met: usize| sizes.iter().skip(met).sum::<f64>();
         let enough = if self.is_family() { SMALL_OF_FAMILY } else { LEFT };
-        (0..=ONE_BY_ONE).find(|met| left(*met) <= enough * all).map(|met| met as u64)
+        (0..=ONE_BY_ONE).find(|met| left(*met) <= enough * all).map(|met| met as u32)
     }
 
     /// Where b lies, if that is an interval: outwards.
@@ -120,8 +120,8 @@ impl Around<'_> {
     fn proposed(&self) -> Option<Vec<CurveTerm>> {
         let Asked { plant, spec, sigma, .. } = self.asked;
         let model = &spec.internal_model;
-        let weight = |l: u64| model.weights.weight(l, PRECISION).midpoint_f64();
-        let weights: Vec<f64> = (0..=self.n_o).map(weight).collect();
+        let weight = |l: u32| model.weights.weight(u64::from(l), PRECISION).midpoint_f64();
+        let weights: Vec<f64> = self.oscillators.all().map(weight).collect();
         let mu = model.mu.enclose(PRECISION).midpoint_f64();
         let gain = self.gain();
         let members = Members { plant, orbit: &self.cell.orbit.approximation, gain: gain.as_ref() };
@@ -130,6 +130,7 @@ impl Around<'_> {
             gain,
             sigma: sigma.to_f64(),
             mu,
+            oscillators: self.oscillators.clone(),
             weights: weights.clone(),
             resolved: if self.is_family() { SMALL_OF_FAMILY } else { SMALL_OF_ONE },
             or_more: self.or_more,
@@ -140,15 +141,16 @@ impl Around<'_> {
     pub(super) fn prepared(&self) -> Option<Prepared> {
         let Asked { plant, spec, sigma, set, .. } = self.asked;
         let model = &spec.internal_model;
-        let met = usize::try_from(self.n_o).ok()?;
+        let oscillators = self.oscillators.clone();
         let parameters = plant.parameters.intervals().cloned().collect();
         let (terms, gain) = (self.proposed()?, self.gain());
-        let trial = Trial { n_o: self.n_o, or_more: self.or_more, terms, parameters, gain };
+        let trial = Trial { oscillators, or_more: self.or_more, terms, parameters, gain };
         let l = &self.of_plant.coordinates;
         let degree = trial.terms.iter().map(|term| term.error.harmonics.len()).max()?;
         let gain = spec.input_gain.as_ref().and_then(|gain| gain.factors(PRECISION));
-        let own = Loop::new(sigma, model, met.max(degree), gain, inverse(l)?);
-        let own = if self.or_more { own } else { own.with_oscillators(met) };
+        let last = degree.max(trial.oscillators.largest() as usize);
+        let own = Loop::new(sigma, model, last, gain, inverse(l)?);
+        let own = if self.or_more { own } else { own.with_oscillators(&trial.oscillators) };
         let states = trial.states();
         let control = &trial.terms.first()?.control;
         let q = control.parts().map(|part| part.to_f64().abs()).sum::<f64>();

@@ -17,18 +17,18 @@ use sigmastar_decide::linear::PRECISION;
 use sigmastar_decide::trial::{Concluded, Peaks, Trial, TubeProof};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::parallel;
-use sigmastar_lang::spec::{Level, Metric};
+use sigmastar_lang::spec::{Level, Metric, Oscillators};
 use sigmastar_theory::derivation::control::{Control, Reach};
 use std::collections::BTreeSet;
 
 pub(super) use around::Asked;
 
 /// The numbers of oscillators that are looked at where they are not looked at one by one, and from where on all of them at once.
-const COUNTS: [u64; 6] = [0, 1, 2, 3, 5, 10];
-const OR_MORE: u64 = 20;
+const COUNTS: [u32; 6] = [0, 1, 2, 3, 5, 10];
+const OR_MORE: u32 = 20;
 
 /// For so few oscillators a box and forms of their own are looked for where others serve, and proved if the peak is less than this share of the other.
-const OWN: u64 = 2;
+const OWN: u32 = 2;
 const WORTH: f64 = 0.97;
 
 /// The shares of the distances of the start that a box has around a trial of which nothing is known further away, in turn.
@@ -42,19 +42,21 @@ pub(super) fn by_trials(asked: &Asked<'_>) -> Option<ByCount> {
     let Asked { plant, spec, .. } = asked;
     let of_plant = spec.plant()?;
     let cell = of_plant.undivided().filter(|_| plant.period.interval().is_none())?;
-    let around = |n_o: u64, or_more: bool| Around { asked, of_plant, cell, n_o, or_more };
-    let (mut counts, from): (BTreeSet<u64>, u64) = match around(OR_MORE, true).met_by() {
+    let around = |oscillators: Oscillators, or_more: bool| Around { asked, of_plant, cell, oscillators, or_more };
+    let (mut counts, from): (BTreeSet<u32>, u32) = match around(OR_MORE.into(), true).met_by() {
         Some(from) => ((0..from).collect(), from),
         None => (BTreeSet::from(COUNTS), OR_MORE),
     };
     // What it is proved with serves the others in many cases.
-    let last = around(from, true).bounds(None);
+    let last = around(from.into(), true).bounds(None);
     let known = last.as_ref().map(|(_, (_, proof))| proof);
-    let besides = asked.counts.iter().copied().map(u64::from);
-    counts.extend(besides.filter(|n_o| *n_o < from || last.is_none()));
-    let counts: Vec<u64> = counts.into_iter().collect();
-    let mut found = parallel::map(&counts, |n_o| around(*n_o, false).bounds(known));
-    found.push(last);
+    counts.extend(asked.besides.iter().filter_map(Oscillators::n_o).filter(|n_o| *n_o < from || last.is_none()));
+    let first = counts.len();
+    // Sets with gaps are not among the first harmonics; they come behind.
+    let sets = asked.besides.iter().filter(|set| set.n_o().is_none()).cloned().collect::<BTreeSet<_>>();
+    let all: Vec<Oscillators> = counts.into_iter().map(Oscillators::first).chain(sets).collect();
+    let mut found = parallel::map(&all, |oscillators| around(oscillators.clone(), false).bounds(known));
+    found.insert(first, last);
     let (counts, trials): (Vec<_>, Vec<_>) = found.into_iter().flatten().unzip();
     (!counts.is_empty()).then_some(ByCount { counts, proof: CountProof::Trials(trials), checked: false })
 }
@@ -83,7 +85,11 @@ impl Around<'_> {
                 let own = |known: Option<f64>| self.with_own_peaks(&prepared, Some(&radii), known);
                 let known = || self.with_peaks(&prepared, radii.clone(), forms.clone());
                 let expected = || forms.iter().filter_map(|form| self.expected(&prepared, form)).min_by(f64::total_cmp);
-                let first = if self.n_o < OWN { expected().and_then(|expected| own(Some(expected))) } else { None };
+                let first = if self.oscillators.first_missing() <= OWN {
+                    expected().and_then(|expected| own(Some(expected)))
+                } else {
+                    None
+                };
                 let found = first.or_else(known).or_else(|| own(None));
                 found.or_else(small)?
             }
@@ -107,7 +113,7 @@ impl Around<'_> {
         let Control { steady, transient } =
             Control { steady: concluded.control.clone(), transient: reach.transient }.over(nominal.as_ref());
         let bounds = CountBounds {
-            n_o: self.n_o,
+            oscillators: self.oscillators.clone(),
             or_more: self.or_more,
             steady_error: concluded.error.clone(),
             mean_square: concluded.mean_square.clone(),

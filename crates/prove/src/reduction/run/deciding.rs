@@ -14,7 +14,7 @@ use crate::reduction::{FreeNumbers, RestsOn, Stage, Unwatched, Watch, reduce_sam
 use rug::Rational;
 use sigmastar_exact::parallel;
 use sigmastar_lang::plant::Plant;
-use sigmastar_lang::spec::{Sampling, SpecErrors, Specification};
+use sigmastar_lang::spec::{Oscillators, Sampling, SpecErrors, Specification};
 use sigmastar_propose::search::SharpProposal;
 
 /// What the independent checker says of the certificate of a claim.
@@ -60,14 +60,16 @@ impl Prepared {
         watch: &dyn Watch,
     ) -> Result<Run<'_>, Vec<SpecErrors>> {
         watch.enter(Stage::Witness);
-        let counted = |run: &mut Run<'_>, counts: &[u32]| {
+        let counted = |run: &mut Run<'_>, besides: &[Oscillators]| {
             if let Some(plant) =
                 self.plant.as_deref().filter(|_| options.compare || !self.limits.steady_with.is_empty())
             {
-                run.set_counts(plant, counts);
+                run.set_counts(plant, besides);
             }
         };
-        let counts = Counts { of: &counted, asked: &self.counts };
+        let asked: Vec<Oscillators> =
+            self.counts.iter().copied().map(Oscillators::first).chain(self.sets.iter().cloned()).collect();
+        let counts = Counts { of: &counted, asked: &asked };
         let run = match &self.start {
             Start::Continuous(start) => {
                 let pool = self.pool(start.as_deref(), options, watch);
@@ -293,10 +295,10 @@ impl Prepared {
     }
 }
 
-/// What adds to a claim what its certificate says by the number of oscillators, of given numbers besides, and those that are asked for.
+/// What adds to a claim what its certificate says by the number of oscillators, of given oscillators besides, and those that are asked for.
 struct Counts<'c, 's> {
-    of: &'c dyn Fn(&mut Run<'s>, &[u32]),
-    asked: &'c [u32],
+    of: &'c dyn Fn(&mut Run<'s>, &[Oscillators]),
+    asked: &'c [Oscillators],
 }
 
 /// The first claim that the checker decides; where there is none, the best run with its claim taken back. What a certificate says by the number of
@@ -357,11 +359,11 @@ fn best_first(runs: &mut [Run<'_>]) {
 }
 
 impl Run<'_> {
-    /// Finds bounds by the number of oscillators at the gain of the claim, of `counts` besides, where the plant has some
+    /// Finds bounds by the number of oscillators at the gain of the claim, of those `besides`, too, where the plant has some
     /// ([`Certification::set_counts`]): the certificate of the run then has them, for a checker to decide.
-    pub fn set_counts(&mut self, plant: &Plant, counts: &[u32]) {
+    pub fn set_counts(&mut self, plant: &Plant, besides: &[Oscillators]) {
         if let Run::Continuous(run) = self {
-            run.set_counts(plant, counts);
+            run.set_counts(plant, besides);
             if let Some(found) = &mut run.by_count {
                 found.checked = true;
             }

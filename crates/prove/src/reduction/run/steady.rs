@@ -5,6 +5,7 @@ use super::{Checked, Prepared, Run, Subject};
 use crate::certify::Limits;
 use rug::Rational;
 use sigmastar_exact::number::{Direction, Portable, round_f64};
+use sigmastar_lang::spec::Oscillators;
 use std::sync::OnceLock;
 
 /// Gains that are tried at most.
@@ -118,7 +119,7 @@ impl Search<'_> {
         let Run::Continuous(mut run) = run else { return None };
         let sigma = run.sigma_star()?.clone();
         if let (false, Subject::Plant(plant)) = (run.keeps_steady_error(most, self.counts), self.subject) {
-            run.set_counts(plant, self.counts);
+            run.set_counts(plant, &self.counts.iter().copied().map(Oscillators::first).collect::<Vec<_>>());
         }
         let error = run.steady_error_with(self.counts)?.upper_f64();
         Some(Tried { sigma, error, does: run.keeps_steady_error(most, self.counts) })
