@@ -94,6 +94,28 @@ fn the_solution_lies_inside_of_the_box() {
     }
 }
 
+/// Of these numbers all roots are exact: with `u = 2^-10` G is `25 u^2`, s_e is `10 u`, and s_x is `49 u/16`. A box of that size is touched.
+#[test]
+fn a_tube_that_touches_the_box_is_refused() {
+    let numbers = [
+        ("/defect_x", 1.5 / 1024.0),
+        ("/defect_q", 1.0 / 1024.0),
+        ("/forms/0/p/0", 0.0),
+        ("/forms/0/k_p", 0.5),
+        ("/forms/0/c_x", 1.0),
+        ("/forms/0/c_e", 4.0),
+        ("/forms/0/c_y", 1.0 / 64.0),
+        ("/states/gamma", 4.5625 / 64.0),
+    ];
+    let exact = numbers.iter().fold(case().steady_alone(), |case, (at, value)| case.trial(at, value.to_string()));
+    let Expected { s_x, s_e, .. } = expected(&exact);
+    assert_eq!([s_x, s_e], [49.0 / 16.0 / 1024.0, 10.0 / 1024.0]);
+    for (at, size) in [("/box/x", s_x), ("/box/e", s_e)] {
+        exact.trial(at, size.to_string()).refused(Invalid, at);
+        exact.trial(at, (size * (1.0 + 1e-15)).to_string()).accepted();
+    }
+}
+
 /// Of the error box of the claim, in which there is one periodic solution.
 #[test]
 fn it_is_the_solution_of_the_claim() {
