@@ -96,6 +96,8 @@ mod transfer;
 mod transfer_sums;
 mod transfer_table;
 mod trials;
+mod trials_families;
+mod trials_support;
 mod tune;
 mod undefined;
 mod validator;
