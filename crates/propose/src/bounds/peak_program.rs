@@ -355,3 +355,26 @@ fn is_below(matrix: &[f64], order: usize, number: f64) -> bool {
 fn positive(value: f64, other: f64) -> f64 {
     if value > 0.0 && value.is_finite() { value } else { other }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_matrix_is_below_a_number_if_its_largest_eigenvalue_is() {
+        // Their largest eigenvalues are 3, 5 and 2 + sqrt(2); the second one fails at the last pivot alone.
+        let matrices: [(&[f64], usize, f64); 3] = [
+            (&[1.0, 2.0, 2.0, 1.0], 2, 3.0),
+            (&[-1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 5.0], 3, 5.0),
+            (&[2.0, 1.0, 0.0, 1.0, 2.0, 1.0, 0.0, 1.0, 2.0], 3, 2.0 + std::f64::consts::SQRT_2),
+        ];
+        for (matrix, order, largest) in matrices {
+            assert!(is_below(matrix, order, largest + 1e-9), "{matrix:?}");
+            assert!(!is_below(matrix, order, largest - 1e-9), "{matrix:?}");
+        }
+        assert!(!is_below(&[1.0, 2.0, 2.0, 1.0], 2, 3.0), "one that is equal is not below");
+        assert!(is_below(&[-2.0, 1.0, 1.0, -0.51], 2, 0.0) && !is_below(&[-2.0, 1.0, 1.0, -0.49], 2, 0.0));
+        assert!(!is_below(&[f64::NAN], 1, 3.0) && !is_below(&[0.0, f64::NAN, f64::NAN, 0.0], 2, 3.0));
+        assert!(is_below(&[], 0, -1.0));
+    }
+}

@@ -99,3 +99,50 @@ fn drop_last_zeros(harmonics: &mut Vec<[Rational; 2]>) {
         harmonics.pop();
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use sigmastar_lang::plant::Plant;
+    use sigmastar_lang::spec::Document;
+
+    const PLANT: &str = r#"{
+        "format": "sigmastar/plant", "version": 1, "name": "no state", "period": 1, "states": [], "f": [], "q": "-e + sin(phase)",
+        "internal_model": {
+            "mu": 1, "base_frequency": "2*pi", "matched": true, "weights": { "family": "power", "n0": 2, "epsilon": "1/2" }
+        }
+    }"#;
+
+    /// Which harmonics of an error are left that belong to these sizes of q, where q has this size; without oscillators.
+    fn left(of_q: [f64; 4], all: f64) -> Vec<bool> {
+        let plant = Plant::from_value(&Document::parse("no state", PLANT).unwrap().root()).unwrap();
+        let weights = vec![2.0];
+        let own = TrialLoop { plant: &plant, gain: 1.0, sigma: 3.0, mu: 1.0, weights, resolved: 1e-15, or_more: false };
+        let of_error = |(k, size): (usize, f64)| {
+            let [re, im] = own.inverse_answer(k, 1.0);
+            [Rational::new(), Rational::from_f64(size / libm::hypot(re, im)).unwrap()]
+        };
+        let mut error = Wave { mean: Rational::new(), harmonics: (1..).zip(of_q).map(of_error).collect() };
+        // e and u; of u half in each of two harmonics.
+        let half = [vec![0.0, 0.0], vec![0.0, all / 2.0]];
+        let series = FloatSeries { mean: vec![0.0, 0.0], harmonics: vec![half.clone(), half] };
+        own.leave_out(&mut error, &series);
+        error.harmonics.iter().map(|[_, sin]| *sin != 0).collect()
+    }
+
+    #[test]
+    fn harmonics_are_left_out_from_the_smallest_on_while_their_sum_is_small() {
+        // At most 1e-10 of q, where that is less than a hundred-thousandth of what drives the error.
+        let most = 2e-10;
+        assert_eq!(left([1.0, 0.59 * most, 0.40 * most, 0.5], 2.0), [true, false, false, true]);
+        assert_eq!(left([1.0, 0.59 * most, 0.42 * most, 0.5], 2.0), [true, true, false, true]);
+        assert_eq!(left([1.0, 1.01 * most, 1.02 * most, 0.5], 2.0), [true; 4]);
+        // The last ones are dropped.
+        assert_eq!(left([1.0, 0.5, 0.59 * most, 0.40 * most], 2.0), [true, true]);
+        assert_eq!(left([1.0, 0.5, 0.42 * most, 0.59 * most], 2.0), [true, true, false, true]);
+        // Else at most a hundred-thousandth of what drives the error, 1.5.
+        let most = 1.5e-5;
+        assert_eq!(left([1.0, 0.59 * most, 0.40 * most, 0.5], 1e9), [true, false, false, true]);
+        assert_eq!(left([1.0, 0.59 * most, 0.42 * most, 0.5], 1e9), [true, true, false, true]);
+    }
+}

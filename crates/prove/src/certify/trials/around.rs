@@ -151,6 +151,43 @@ impl Around<'_> {
         let last = degree.max(trial.oscillators.largest() as usize);
         let own = Loop::new(sigma, model, last, gain, inverse(l)?);
         let own = if self.or_more { own } else { own.with_oscillators(&trial.oscillators) };
+        let about = trial.about(plant);
+        let defects = self.defects(&trial, &about, &own)?;
+        let region = Region::new(l.clone(), trial.centre(), Rational::new()).ok()?;
+        let rows = l.iter().map(|row| row.iter().map(Rational::to_f64).collect()).collect();
+        let samples = FloatSuprema::new(&about, FloatCurve::from(&trial.states()), rows, [None; 2]);
+        let engine = Engine::new(&about, region, None, None).ok()?;
+        let exact = |value: &Rational| Enclosure::from_rational(value, PRECISION);
+        let start = Start { x0: exact(&set.x0), e0: exact(&set.e0), z0: set.z0.as_ref().map(exact) };
+        let period = plant.period.nominal().enclose(PRECISION);
+        let mut prepared = Prepared { trial, own, period, start, engine, samples, defects, distances: [0.0; 3] };
+        let sizes = Concluded::sizes_of(&prepared.trial, &self.known(&prepared))?;
+        let distances = prepared.start.distances(&prepared.own, sizes.each_ref());
+        prepared.distances = distances.map(|size| size.upper_f64());
+        Some(prepared)
+    }
+
+    /// d_x, d_q and d_t in short numbers; `about`: the plant around the trial.
+    fn defects(&self, trial: &Trial, about: &Plant, own: &Loop) -> Option<[Rational; 3]> {
+        let states = trial.states();
+        let doubles = own.inverse.iter().map(|row| row.iter().map(Rational::to_f64).collect()).collect::<Vec<_>>();
+        // What a trial leaves out is in the defects however small the parts of the period are.
+        let room = if self.is_family() { ROOM_OF_FAMILY } else { ROOM };
+        let met = sampled_defects(about, &FloatSeries::from(&states), &doubles).map(|defect| room * defect);
+        let small = self.small(trial, own)?;
+        let enough = [0, 1, 2].map(|i| small[i].max(met[i]));
+        let found = trial.defects(self.asked.plant, &own.inverse, enough).ok()?;
+        // What decides it again has as much room.
+        let has_room = |i: usize| self.is_family() && (i < 2 || self.or_more);
+        let known = |i: usize| if has_room(i) { found[i].upper_f64().max(enough[i]) } else { found[i].upper_f64() };
+        let [d_x, d_q, d_t] = [0, 1, 2].map(|i| Enclosure::exactly(known(i)));
+        let d_q = d_q + trial.mismatch(own) * &own.gain[1];
+        let short = |defect: &Enclosure| up(defect.upper_f64(), SHORT);
+        Some([short(&d_x)?, short(&d_q)?, short(&d_t)?])
+    }
+
+    /// Defects that are as small as nothing: beside the velocity of the states, q, and its slope.
+    fn small(&self, trial: &Trial, own: &Loop) -> Option<[f64; 3]> {
         let states = trial.states();
         let control = &trial.terms.first()?.control;
         let q = control.parts().map(|part| part.to_f64().abs()).sum::<f64>();
@@ -160,34 +197,7 @@ impl Around<'_> {
         };
         let velocity = states.harmonics.iter().enumerate().map(speed).sum::<f64>();
         let scale = own.inverse.iter().flatten().map(|entry| entry.to_f64().abs()).fold(0.0, f64::max);
-        let small = if self.is_family() { SMALL_OF_FAMILY } else { SMALL };
-        let of_slope = if self.or_more { small * q * frequency } else { f64::MAX };
-        let about = trial.about(plant);
-        let doubles = own.inverse.iter().map(|row| row.iter().map(Rational::to_f64).collect()).collect::<Vec<_>>();
-        // What a trial leaves out is in the defects however small the parts of the period are.
-        let room = if self.is_family() { ROOM_OF_FAMILY } else { ROOM };
-        let met_there = sampled_defects(&about, &FloatSeries::from(&states), &doubles).map(|defect| room * defect);
-        let enough = [small * velocity * scale, small * q, of_slope];
-        let enough = [0, 1, 2].map(|i| enough[i].max(met_there[i]));
-        let found = trial.defects(plant, &own.inverse, enough).ok()?;
-        // What decides it again has as much room.
-        let has_room = |i: usize| self.is_family() && (i < 2 || self.or_more);
-        let known = |i: usize| if has_room(i) { found[i].upper_f64().max(enough[i]) } else { found[i].upper_f64() };
-        let [d_x, d_q, d_t] = [0, 1, 2].map(|i| Enclosure::exactly(known(i)));
-        let d_q = d_q + trial.mismatch(&own) * &own.gain[1];
-        let region = Region::new(l.clone(), trial.centre(), Rational::new()).ok()?;
-        let rows = l.iter().map(|row| row.iter().map(Rational::to_f64).collect()).collect();
-        let samples = FloatSuprema::new(&about, FloatCurve::from(&states), rows, [None; 2]);
-        let engine = Engine::new(&about, region, None, None).ok()?;
-        let exact = |value: &Rational| Enclosure::from_rational(value, PRECISION);
-        let start = Start { x0: exact(&set.x0), e0: exact(&set.e0), z0: set.z0.as_ref().map(exact) };
-        let period = plant.period.nominal().enclose(PRECISION);
-        let short = |defect: &Enclosure| up(defect.upper_f64(), SHORT);
-        let defects = [short(&d_x)?, short(&d_q)?, short(&d_t)?];
-        let mut prepared = Prepared { trial, own, period, start, engine, samples, defects, distances: [0.0; 3] };
-        let sizes = Concluded::sizes_of(&prepared.trial, &self.known(&prepared))?;
-        let distances = prepared.start.distances(&prepared.own, sizes.each_ref());
-        prepared.distances = distances.map(|size| size.upper_f64());
-        Some(prepared)
+        let share = if self.is_family() { SMALL_OF_FAMILY } else { SMALL };
+        Some([share * velocity * scale, share * q, if self.or_more { share * q * frequency } else { f64::MAX }])
     }
 }
