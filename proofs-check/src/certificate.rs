@@ -57,8 +57,8 @@ pub fn check(json: &Json, other: Option<&Json>, lines: &mut Vec<String>) -> Outc
     let has_states = spec.plant.as_ref().is_some_and(|plant| plant.states > 0);
     let claim = Claim::read(&file.required("claim")?, has_states)?;
     let derivation = match &claim.sampled {
-        Some(regulator) => Derivation::read_sampled(&mut witness, regulator, claim.set.clone())?,
-        None => Derivation::read(&mut witness, claim.sigma.clone(), claim.set.clone())?,
+        Some(regulator) => Derivation::read_sampled(&mut witness, regulator, (claim.set.clone(), claim.scope()))?,
+        None => Derivation::read(&mut witness, claim.sigma.clone(), (claim.set.clone(), claim.scope()))?,
     };
     let continuous = claim.sampled.is_none();
     let no_plant = if continuous { file.optional("no_plant") } else { None };

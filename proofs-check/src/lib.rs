@@ -14,7 +14,7 @@ pub mod subject;
 
 pub use proofs_core::{
     bound, constant, data, effort, exact, expr, input_gain, interval, jacobian, json, matrix, monotone, period, plant,
-    propose, range, rules, sha256, spec, verdict, weights,
+    propose, range, rules, scope, sha256, spec, verdict, weights,
 };
 pub use proofs_plants as plants;
 pub use report::Report;

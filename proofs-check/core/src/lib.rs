@@ -24,6 +24,7 @@ pub mod plant;
 pub mod propose;
 pub mod range;
 pub mod rules;
+pub mod scope;
 pub mod sha256;
 pub mod spec;
 pub mod verdict;

@@ -17,6 +17,7 @@ use crate::noise::Noise;
 use crate::period::{self, Period};
 use crate::plant::OfPlant;
 use crate::range::Range;
+use crate::scope::Scope;
 use crate::verdict::{Outcome, bad, demand};
 use crate::weights::Weights;
 use rug::{Integer, Rational};
@@ -107,6 +108,8 @@ pub struct InternalModel {
     pub samples: Option<Integer>,
     /// `delay_samples`: whether a control is computed in the sample before it acts.
     pub delayed: bool,
+    /// Which oscillators the claim has to be about, where the file says it.
+    pub harmonics: Option<Scope>,
     pub weights: Weights,
 }
 
@@ -260,8 +263,9 @@ impl InternalModel {
             Some(field) if samples.is_none() => return bad(&field.pointer, "it needs a sampling period"),
             Some(field) => read_delay(&field)?,
         };
+        let harmonics = model.part("harmonics", |field| Scope::read(field, period))?;
         model.finish()?;
-        Ok(InternalModel { mu, base_frequency, matched, samples, delayed, weights })
+        Ok(InternalModel { mu, base_frequency, matched, samples, delayed, harmonics, weights })
     }
 }
 

@@ -90,7 +90,7 @@ fn read(file: &Field<'_>) -> Outcome<Parts> {
         let pointer = format!("{}/parameters", embedded.pointer);
         return unsupported(&pointer, "no theorem is written of a claim about every parameter of an interval");
     }
-    let read = Derivation::read(&mut fields, claim.sigma.clone(), claim.set.clone())?;
+    let read = Derivation::read(&mut fields, claim.sigma.clone(), (claim.set.clone(), claim.scope()))?;
     let Derivation { free, inequalities, witness: Witness::Sharp(witness), .. } = read else {
         return unsupported("/witness", "no theorem is written of this kind of witness");
     };

@@ -7,6 +7,7 @@ use proofs_check::json::{Field, parse};
 use proofs_check::rules::paths::{Path, Paths};
 use proofs_check::rules::stability::ErrorBox;
 use proofs_check::rules::transfer::{self, Proof};
+use proofs_check::scope::Scope;
 use proofs_check::spec::Specification;
 use rug::Rational;
 use serde_json::{Value, json};
@@ -70,7 +71,8 @@ fn scalar_test() {
         let (k1, m0) = (1000, 3);
         let breaks: Vec<Rational> = (0..=160).map(|j| Rational::from((j, 64))).collect();
         let proof = Proof::Boxes { m0, n0: 4, breaks: vec![breaks; 4] };
-        let steps = transfer::check(&d, &Rational::from(k0), &Rational::from(k1), &proof, "").unwrap();
+        let pair = [k0, k1].map(Rational::from);
+        let steps = transfer::check(&d, pair.each_ref(), (&proof, Scope::First), "").unwrap();
         let pi = std::f64::consts::PI;
         let (m, nu, n_0, n_1) = (f64::from(m0), f64::from(mu) / (2.0 * pi), 2.0, 1.0);
         let (k0, k1) = (f64::from(k0), f64::from(k1));

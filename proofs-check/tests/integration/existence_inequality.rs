@@ -12,6 +12,7 @@ use proofs_check::rules::derivation::{Derivation, Witness};
 use proofs_check::rules::inequality::{Inequality, Kind, Metric, P};
 use proofs_check::rules::mean_squares;
 use proofs_check::rules::set::ClaimedSet;
+use proofs_check::scope::Scope;
 use proofs_check::spec::Specification;
 use proofs_check::verdict::Verdict;
 use rug::Rational;
@@ -462,14 +463,21 @@ fn bounds_of_all_of_q_are_not_used() {
     let spec = Specification::read(&field(&document), &mut fields).unwrap();
     let one = || Rational::from(1);
     let set = ClaimedSet { x0: one(), e0: one(), z0: None };
-    let derivation = Derivation::read(&mut fields, Rational::from(40), set).unwrap();
+    let derivation = Derivation::read(&mut fields, Rational::from(40), (set, Scope::First)).unwrap();
     let (free, Witness::Sharp(w)) = (derivation.free, derivation.witness) else { panic!("it is in continuous time") };
     let d = Data::new(&spec, 128);
     let free = [&free.x_p, &free.e_p, &free.k0, &free.k1].map(|value| d.number(value));
     let [x_p, e_p, k0, k1] = &free;
     let evaluated = |inequality: Option<&Inequality>| {
         let w = mean_squares::Witness { r: [one(), one(), one()], refined: None, ..w.existence.clone() };
-        mean_squares::evaluate(&d, (&w, inequality), &Rational::from(40), [x_p, e_p], [k0, k1], &[d.int(1), d.int(1)])
+        mean_squares::evaluate(
+            &d,
+            (&w, inequality),
+            &Rational::from(40),
+            [x_p, e_p],
+            ([k0, k1], true),
+            &[d.int(1), d.int(1)],
+        )
     };
     let metric = Metric {
         p: P::Own(Vec::new()),

@@ -112,8 +112,14 @@ fn compare(given: Given, sigma: Rational, kap: Rational, r: [Rational; 3], last:
     let pair = [d.int(40), d.int(30)];
     let w = Witness { r: r.clone(), kap: kap.clone(), refined: last.clone() };
     let kappa = kappas(&d, &pair[0], &pair[1]);
-    let solution =
-        mean_squares::evaluate(&d, (&w, None), &sigma, [&d.ratio(1, 4), &d.ratio(3, 8)], [&pair[0], &pair[1]], &kappa);
+    let solution = mean_squares::evaluate(
+        &d,
+        (&w, None),
+        &sigma,
+        [&d.ratio(1, 4), &d.ratio(3, 8)],
+        ([&pair[0], &pair[1]], d.spec.regulator.matched),
+        &kappa,
+    );
 
     // Om of the longest period, and of the shortest (section 13.3).
     let [fast, om] = given.period.unwrap_or([2.0; 2]).map(|end| 2.0 * std::f64::consts::PI / end);

@@ -11,6 +11,7 @@ use proofs_check::rules::inequality::{Inequality, Kind};
 use proofs_check::rules::paths::{Path, Paths};
 use proofs_check::rules::stability::ErrorBox;
 use proofs_check::rules::transfer::{self, Proof};
+use proofs_check::scope::Scope;
 use proofs_check::spec::Specification;
 use proofs_check::verdict::{Condition, Verdict};
 use rug::Rational;
@@ -149,8 +150,9 @@ fn read<T>(part: &Value, read: impl Fn(&Field<'_>) -> T) -> T {
 fn transfer_constants_of_the_least_gain() {
     let check = |ends, pair: [f64; 2], proof: &Proof| {
         let spec = specification(ends);
-        let [k0, k1] = pair.map(|value| Rational::from_f64(value).unwrap());
-        transfer::check(&Data::new(&spec, 256), &k0, &k1, proof, "/witness/transfer").is_ok()
+        let pair = pair.map(|value| Rational::from_f64(value).unwrap());
+        let about = (proof, Scope::First);
+        transfer::check(&Data::new(&spec, 256), pair.each_ref(), about, "/witness/transfer").is_ok()
     };
     let inverse = |low: f64| (2.0 * std::f64::consts::PI / (0.5 * low)).powi(2);
     let tail = (std::f64::consts::PI.powi(2) - 4.0) / 2.0;

@@ -243,7 +243,14 @@ fn proved(d: &Data<'_>, sigma: f64, kap: f64, inequality: Option<&Inequality>) -
     for round in 0..200 {
         let w = Witness { r: r.map(above), kap: Rational::from_f64(kap)?, refined: Some(last.map(above)) };
         let [x_p, e_p] = box_.map(|value| d.number(&above(value)));
-        let solution = mean_squares::evaluate(d, (&w, inequality), &sigma, [&x_p, &e_p], [&pair[0], &pair[1]], &kappa);
+        let solution = mean_squares::evaluate(
+            d,
+            (&w, inequality),
+            &sigma,
+            [&x_p, &e_p],
+            ([&pair[0], &pair[1]], d.spec.regulator.matched),
+            &kappa,
+        );
         if round > 190 && solution.conditions.iter().all(|condition| condition.truth() == Some(true)) {
             return Some((solution, w.refined?));
         }

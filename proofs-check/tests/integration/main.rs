@@ -20,6 +20,7 @@ mod coq_plants;
 mod coq_support;
 mod definite;
 mod doubles;
+mod every_set;
 mod existence_inequality;
 mod families;
 mod forged;

@@ -13,6 +13,7 @@ use proofs_check::rules::sampled::stability;
 use proofs_check::rules::sampled::transfer;
 use proofs_check::rules::set::ClaimedSet;
 use proofs_check::rules::stability::ErrorBox;
+use proofs_check::scope::Scope;
 use proofs_check::spec::Specification;
 use proofs_check::verdict::Verdict;
 use rug::Rational;
@@ -535,7 +536,21 @@ fn how_far_the_control_goes() {
         let set = ClaimedSet { x0: k0.clone(), e0: k0.clone(), z0: None };
         let paths = Paths { f: Path::Straight, q: Path::Straight };
         let r = [1.0; 3].map(rational);
-        let free = Free { pointer: String::new(), set, x_p, e_p, r, d_x, d_e, w_x, h: weight, k0, k1, paths };
+        let free = Free {
+            pointer: String::new(),
+            set,
+            scope: Scope::First,
+            x_p,
+            e_p,
+            r,
+            d_x,
+            d_e,
+            w_x,
+            h: weight,
+            k0,
+            k1,
+            paths,
+        };
         let of = |level: f64, b: f64| {
             let level = 3.0 * 1.5512 * 0.04 + 0.09 + level * h * 4.0;
             (level * (sigma * sigma + gain * gain * NBAR_SQUARED / (b * h))).sqrt()

@@ -18,6 +18,7 @@ use crate::period;
 use crate::plant::OfPlant;
 use crate::plant::{coordinates, parameters};
 use crate::range::is_same;
+use crate::scope::{self, Scope};
 use crate::spec::{AskedSet, Specification};
 use crate::verdict::{Outcome, bad, demand, invalid};
 use rug::Rational;
@@ -60,6 +61,8 @@ pub struct Claim<'a> {
     set_text: (&'a str, String),
     verdict: Field<'a>,
     n_o: Field<'a>,
+    /// The sets of harmonics that it is about, if it names them.
+    harmonics: Option<Field<'a>>,
     mu: Field<'a>,
     kind: Field<'a>,
 }
@@ -139,6 +142,7 @@ impl<'a> Claim<'a> {
             set_text,
             verdict: fields.required("verdict")?,
             n_o: fields.required("n_o")?,
+            harmonics: fields.optional("harmonics"),
             mu: fields.required("mu")?,
             kind,
             periodic: fields.required("periodic_solution")?,
@@ -148,6 +152,11 @@ impl<'a> Claim<'a> {
         fields.required("statement")?.words()?;
         fields.finish()?;
         Ok(claim)
+    }
+
+    /// Which oscillators it is about.
+    pub fn scope(&self) -> Scope {
+        Scope::of_claim(self.harmonics.as_ref())
     }
 
     /// Whether it says something of noise.
@@ -181,6 +190,8 @@ impl<'a> Claim<'a> {
                 regulator.check(spec)?;
             }
         }
+        let named = (self.harmonics.as_ref(), self.sampled.is_some());
+        scope::agrees((spec.regulator.harmonics, &spec.period), named, &self.pointer)?;
         if !is_same(&Constant::read(&self.mu)?, &spec.regulator.mu) {
             reads(RULE, &self.mu, &spec.regulator.mu.text)?;
         }
@@ -277,12 +288,15 @@ impl<'a> Claim<'a> {
     fn regulator(&self, spec: &Specification, y_0: Option<&str>) -> (String, String) {
         if let Some(regulator) = &self.sampled {
             let off = |y_0| format!(", with a prediction of e there within h*{} of it", apart(y_0));
-            return (regulator.in_words(spec), format!("sampling instant{}", y_0.map_or_else(String::new, off)));
+            return (
+                regulator.in_words(spec, self.scope()),
+                format!("sampling instant{}", y_0.map_or_else(String::new, off)),
+            );
         }
         let reach = if spec.regulator.matched { "" } else { " (which need not match the period)" };
         let gain = if spec.actuator.is_some() { "the gain sigma =" } else { "every gain sigma >=" };
         let (sigma, setting) = (self.sigma_text, spec.in_words());
-        let words = format!("For every number of oscillators n_o >= 0 and {gain} {sigma}{setting}{reach}");
+        let words = format!("For {} and {gain} {sigma}{setting}{reach}", self.scope().in_words(None));
         (words, "initial time".to_owned())
     }
 

@@ -12,6 +12,7 @@ use crate::actuator;
 use crate::data::Data;
 use crate::interval::Interval;
 use crate::json::Fields;
+use crate::scope::Scope;
 use crate::verdict::{Condition, Outcome, Verdict, bad, finding};
 use rug::Rational;
 
@@ -46,12 +47,13 @@ pub struct Derivation {
 }
 
 impl Derivation {
-    /// Takes the free numbers out of a witness; what is left there is the caller's to read or to refuse.
-    pub fn read(fields: &mut Fields<'_>, sigma: Rational, set: ClaimedSet) -> Outcome<Derivation> {
+    /// Takes the free numbers out of a witness; what is left there is the caller's to read or to refuse. `about`: the set of the claim, and its
+    /// oscillators.
+    pub fn read(fields: &mut Fields<'_>, sigma: Rational, about: (ClaimedSet, Scope)) -> Outcome<Derivation> {
         if fields.has("p_x") && !fields.has("r_x") {
             return bad(&fields.pointer, "this witness, by p_x and p_e, is of an older form: certify again");
         }
-        let free = Free::read(fields, set)?;
+        let free = Free::read(fields, about)?;
         let inequalities = List::read(fields, [&free.w_x, &free.h], None)?;
         let witness = Witness::Sharp(Box::new(sharp::Witness::read(fields, sigma, &free)?));
         let regulation = fields.part("exact_regulation", regulation::Witness::read)?.map(Box::new);
@@ -59,8 +61,12 @@ impl Derivation {
     }
 
     /// Takes the free numbers of a claim about a sampled regulator out of a witness.
-    pub fn read_sampled(fields: &mut Fields<'_>, regulator: &Regulator<'_>, set: ClaimedSet) -> Outcome<Derivation> {
-        let free = Free::read(fields, set)?;
+    pub fn read_sampled(
+        fields: &mut Fields<'_>,
+        regulator: &Regulator<'_>,
+        about: (ClaimedSet, Scope),
+    ) -> Outcome<Derivation> {
+        let free = Free::read(fields, about)?;
         let inequalities = List::read(fields, [&free.w_x, &free.h], Some(&regulator.sigma))?;
         if let Some(part) = inequalities.all().next().filter(|_| regulator.delayed) {
             return bad(&part.pointer, "a matrix inequality says nothing of a law with a delay");

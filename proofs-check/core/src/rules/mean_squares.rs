@@ -291,7 +291,12 @@ impl<'a> Bounds<'a> {
 
     /// Z^2, the least of `(T/(2 mu) + kappa_0) R_q^2 + kappa_1 R_1^2` and the form of `q_0`; with a gain the part of T is over `b_lo^3`, and
     /// what the transfer bound gives is over c_m.
-    fn z_squared(&self, follows: &Follows, pair: [&Interval; 2], kappa: &[Interval; 2]) -> Interval {
+    fn z_squared(
+        &self,
+        follows: &Follows,
+        (pair, at_poles): ([&Interval; 2], bool),
+        kappa: &[Interval; 2],
+    ) -> Interval {
         let d = self.d;
         let of_answer = d.gain.as_ref().map_or_else(|| d.int(1), Gain::of_answer);
         let mean = |[q, q_t]: &[Interval; 2]| (&kappa[0] * q.sqr() + &kappa[1] * q_t.sqr()) / of_answer.sqr();
@@ -299,12 +304,12 @@ impl<'a> Bounds<'a> {
         let swing = d.gain.as_ref().map_or_else(|| swing.clone(), |gain| &swing / gain.of_swing());
         let plain = &swing + mean(&follows.rates);
         let Some(forced) = &self.forced else { return plain };
-        // Bounds of sup_N T_N(k Om/w).
+        // Bounds of T(k Om/w) with all oscillators that the claim is about.
         let inverse = d.nu.sqr().recip();
         let transfer = |k: i64| {
             let bound = pair[0] + pair[1] * (d.period.fastest() * k / &d.w).sqr();
             let pole = || &inverse * 2 / d.weight(k.unsigned_abs());
-            if d.spec.regulator.matched { bound.min(&pole()) } else { bound }
+            if at_poles { bound.min(&pole()) } else { bound }
         };
         let mean_part = &inverse / &d.n_0 * forced.harmonics[0].sqr();
         let harmonics = mean_part + twice_sum(d, &forced.harmonics, |k, c| transfer(k) * c.sqr());
@@ -313,13 +318,14 @@ impl<'a> Bounds<'a> {
     }
 }
 
-/// Evaluates S1-S3; `pair` is (k0, k1), which the transfer proof has to settle. The inequality of existence has a part in S1b to S2c, where it is given.
+/// Evaluates S1-S3; `pair` is (k0, k1), which the transfer proof has to settle, and whether `T(k) <= 2/(nu^2 n_k)` is proved besides
+/// ([`super::transfer::at_poles`]). The inequality of existence has a part in S1b to S2c, where it is given.
 pub fn evaluate(
     d: &Data<'_>,
     (w, inequality): (&Witness, Option<&Inequality>),
     sigma: &Rational,
     [x_p, e_p]: [&Interval; 2],
-    pair: [&Interval; 2],
+    pair: ([&Interval; 2], bool),
     kappa: &[Interval; 2],
 ) -> Solution {
     let mut bounds = Bounds::new(d, &d.number(sigma), [x_p, e_p]);

@@ -5,6 +5,7 @@ pub mod claim;
 pub mod common;
 pub mod control;
 pub mod derivation;
+pub mod every_set;
 pub mod existence;
 pub mod gains;
 pub mod inequality;

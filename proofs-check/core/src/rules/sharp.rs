@@ -1,7 +1,7 @@
 //! The sharp derivation: every condition from the witness (docs/mathematics.md, sections 5 and 10).
 //!
-//! Guarantee, if all conditions hold and the bounding functions are as proved up to `arguments`: for every n_o >= 0 and
-//! every sigma' >= sigma (with an actuator for sigma alone) there is a T-periodic solution with |x| <= x_per, |e| <= e_per, |zeta|_N <= Z, and every
+//! Guarantee, if all conditions hold and the bounding functions are as proved up to `arguments`: for every n_o >= 0, or every finite set of
+//! harmonics that contains 0 in the place of the first n_o (section 14.7), and every sigma' >= sigma (with an actuator for sigma alone) there is a T-periodic solution with |x| <= x_per, |e| <= e_per, |zeta|_N <= Z, and every
 //! solution from the claimed set, at any initial time, converges to it exponentially.
 
 use super::common::{Evaluated, Free, Sizes};
@@ -59,8 +59,10 @@ pub fn evaluate(d: &Data<'_>, (free, inequalities): (&Free, &List), w: &Witness)
         [&w.sigma, &free.w_x, &free.h, &free.x_p, &free.e_p, &free.k0, &free.k1].map(|value| d.number(value));
     let kappa = kappas(d, &k0, &k1);
     let of_existence = (&w.existence, existence.as_ref());
-    let solution = mean_squares::evaluate(d, of_existence, &w.sigma, [&x_p, &e_p], [&k0, &k1], &kappa);
-    let transfer = transfer::check(d, &free.k0, &free.k1, &w.transfer, &format!("{}/transfer", free.pointer))?;
+    let place = format!("{}/transfer", free.pointer);
+    let transfer = transfer::check(d, [&free.k0, &free.k1], (&w.transfer, free.scope), &place)?;
+    let pair = ([&k0, &k1], transfer::at_poles(d, &w.transfer, free.scope));
+    let solution = mean_squares::evaluate(d, of_existence, &w.sigma, [&x_p, &e_p], pair, &kappa);
     let sizes = Sizes { x: solution.x.clone(), e: solution.e.clone(), zeta: solution.z_squared.sqrt() };
     let existence = covers.chain(solution.conditions.iter().cloned());
     let (error_box, reach, mut evaluated) = free.evaluate(d, sizes, transfer, existence);

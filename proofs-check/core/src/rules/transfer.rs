@@ -1,12 +1,15 @@
 //! Rule T: T_N(x) <= k0 + k1 x^2 for every N >= 0 and every x that occurs (docs/mathematics.md, section 2).
 //!
 //! Guarantee: closed form and boxes, for every x >= 0; matched, for every integer x >= 0, which are all that occur when
-//! base_frequency = 2 pi/T. Every comparison is evaluated once; there is no search.
+//! base_frequency = 2 pi/T. Every comparison is evaluated once; there is no search. Of a claim about every finite set H of harmonics that contains 0
+//! the same of T_H (section 14.7): the closed form is about it as it is, matched with (14.7b), and boxes are not.
 
+use super::every_set;
 use crate::data::Data;
 use crate::interval::Interval;
 use crate::json::Field;
-use crate::verdict::{Condition, Outcome, bad, invalid};
+use crate::scope::Scope;
+use crate::verdict::{Condition, Outcome, Verdict, bad, finding, invalid};
 use rug::Rational;
 
 /// Limits of a proof: harmonics, m0, N0 and boxes.
@@ -67,7 +70,12 @@ fn pi_part(d: &Data<'_>) -> Interval {
 }
 
 /// Proves the bound, and returns the comparisons that a certificate may show; `pointer` is that of the proof.
-pub fn check(d: &Data<'_>, k0: &Rational, k1: &Rational, proof: &Proof, pointer: &str) -> Outcome<Vec<Condition>> {
+pub fn check(
+    d: &Data<'_>,
+    [k0, k1]: [&Rational; 2],
+    (proof, scope): (&Proof, Scope),
+    pointer: &str,
+) -> Outcome<Vec<Condition>> {
     let pair = [d.number(k0), d.number(k1)];
     let refuse = |message: &str| invalid(RULE, pointer, message);
     if *k1 <= 0 {
@@ -84,8 +92,19 @@ pub fn check(d: &Data<'_>, k0: &Rational, k1: &Rational, proof: &Proof, pointer:
         Proof::Matched(_) if !d.spec.regulator.matched => {
             return refuse("a matched proof needs `matched` in the specification");
         }
-        Proof::Matched(k) if (1..=MAX_HARMONICS).contains(k) => ("matched", matched(d, &pair, *k)),
+        Proof::Matched(k) if (1..=MAX_HARMONICS).contains(k) => {
+            let mut steps = matched(d, &pair, *k);
+            if scope == Scope::EverySet {
+                let message = "for every set of harmonics: no K up to 4096 is seen to have (14.7c)";
+                let undecided = || finding(Verdict::Undecided, RULE, pointer, message);
+                steps.extend(every_set::steps(d).ok_or_else(undecided)?);
+            }
+            ("matched", steps)
+        }
         Proof::Matched(_) => return refuse("K must lie between 1 and 4096"),
+        Proof::Boxes { .. } if scope == Scope::EverySet => {
+            return refuse("boxes are about the first n_o harmonics, not about every set");
+        }
         Proof::Boxes { m0, n0, breaks } => {
             let count = breaks.iter().map(Vec::len).sum::<usize>();
             if *m0 < 1 || m0 > n0 || *m0 > MAX_M0 || *n0 > MAX_N0 || count > MAX_BOXES {
@@ -106,7 +125,18 @@ pub fn check(d: &Data<'_>, k0: &Rational, k1: &Rational, proof: &Proof, pointer:
     Ok(steps)
 }
 
-type Step = (String, Interval, Interval);
+/// What is compared, and both sides: the first one has to be at most the other.
+pub type Step = (String, Interval, Interval);
+
+/// Whether `T(k) <= 2/(nu^2 n_k)` for every k >= 1 with all oscillators that the claim is about, at a matched base frequency: of the first n_o by Lemma
+/// T'', of every set by (14.7b), which a matched proof has demanded. Only the form with `q_0` asks for it.
+pub fn at_poles(d: &Data<'_>, proof: &Proof, scope: Scope) -> bool {
+    let proved = || match (scope, proof) {
+        (Scope::First, _) | (Scope::EverySet, Proof::Matched(_)) => true,
+        (Scope::EverySet, _) => every_set::holds(d),
+    };
+    d.spec.q_0.is_some() && d.spec.regulator.matched && proved()
+}
 
 /// Lemma T'': T_N(0) = 1/(nu^2 n_0) and T_N(k) <= 2/(nu^2 n_k) for k >= 1; by W3 n_k >= K^2 n_K/k^2 for k >= K.
 fn matched(d: &Data<'_>, [k0, k1]: &[Interval; 2], tail: u32) -> Vec<Step> {

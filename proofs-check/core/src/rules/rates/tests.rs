@@ -10,6 +10,7 @@ use crate::rules::sampled::claim::Regulator;
 use crate::rules::sampled::law::Law;
 use crate::rules::set::ClaimedSet;
 use crate::rules::stability::ErrorBox;
+use crate::scope::Scope;
 use crate::spec::Specification;
 use rug::Rational;
 
@@ -57,10 +58,10 @@ fn with_stored(name: &str, use_it: impl Fn(&Data<'_>, (&Derivation, &Rational), 
     let set = ClaimedSet { x0, e0, z0 };
     let mut fields = claim.fields().unwrap();
     let (derivation, sigma) = match Regulator::read(&mut fields).unwrap() {
-        Some(regulator) => (Derivation::read_sampled(&mut witness, &regulator, set), regulator.sigma),
+        Some(regulator) => (Derivation::read_sampled(&mut witness, &regulator, (set, Scope::First)), regulator.sigma),
         None => {
             let sigma = rational(claim.json, "sigma_star");
-            (Derivation::read(&mut witness, sigma.clone(), set), sigma)
+            (Derivation::read(&mut witness, sigma.clone(), (set, Scope::First)), sigma)
         }
     };
     let derivation = derivation.unwrap();

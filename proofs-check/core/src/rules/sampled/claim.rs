@@ -3,6 +3,7 @@
 use super::law::RULE;
 use crate::constant::Constant;
 use crate::json::Fields;
+use crate::scope::Scope;
 use crate::spec::{Specification, read_delay, samples};
 use crate::verdict::{Outcome, bad, demand};
 use rug::Rational;
@@ -64,13 +65,14 @@ impl<'a> Regulator<'a> {
     }
 
     /// The beginning of the claim in words.
-    pub fn in_words(&self, spec: &Specification) -> String {
+    pub fn in_words(&self, spec: &Specification, scope: Scope) -> String {
         let (samples, [sigma, gain]) = (self.samples, self.texts);
         format!(
             "For the digital regulator {}with the gain sigma = {sigma}, the sampling period h = {} ({samples} samples a period) and \
-             K = {gain}, for every number of oscillators n_o < {samples}/2 and every phase of the sampling grid{}",
+             K = {gain}, for {} and every phase of the sampling grid{}",
             if self.delayed { "whose control is computed in the sample before it acts, " } else { "" },
             self.sampling.words,
+            scope.in_words(Some(samples)),
             spec.in_words(),
         )
     }

@@ -20,7 +20,8 @@ use super::inequality::List;
 use super::set;
 use crate::data::Data;
 use crate::json::Fields;
-use crate::verdict::{Outcome, bad, demand};
+use crate::scope::Scope;
+use crate::verdict::{Outcome, bad, demand, invalid};
 use delay::Past;
 use law::{Law, Terms};
 
@@ -59,6 +60,9 @@ pub fn evaluate(d: &Data<'_>, (free, inequalities): (&Free, &List), w: &Witness)
     let (law, List { stability, existence }) = (Law::new(d, &w.terms), inequalities);
     inequalities.demand(d)?;
     let of_law = law.conditions("/claim")?;
+    if free.scope == Scope::EverySet {
+        return invalid(law::RULE, "/claim/harmonics", "at samples it is proved of the first n_o harmonics");
+    }
     let transfer = transfer::check(&law, &free.k0, &free.k1, &format!("{}/k0", free.pointer))?;
     let [x_p, e_p, w_x, eta, k0, k1] =
         [&free.x_p, &free.e_p, &free.w_x, &free.h, &free.k0, &free.k1].map(|value| d.number(value));
