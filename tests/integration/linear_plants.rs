@@ -5,10 +5,11 @@ use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 use rug::Rational;
 use serde_json::{Value, json};
-use sigmastar_decide::linear::{Answers, Falling, LinearPlant, Loop, Oscillators, PRECISION, Start, sizes};
+use sigmastar_decide::linear::{Answers, Falling, LinearPlant, Loop, PRECISION, Start, sizes};
 use sigmastar_exact::enclosure::{Enclosure, Truth};
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::Document;
+use sigmastar_lang::spec::Oscillators;
 use std::f64::consts::TAU;
 
 const WEIGHTS: [f64; 2] = [2.0, 1.5];
@@ -52,7 +53,7 @@ fn weight(l: usize) -> f64 {
     if l == 0 { WEIGHTS[0] } else { (l as f64).powf(-WEIGHTS[1]) }
 }
 
-/// The loop of (x, e, z) with n oscillators, and its matrices Phi, M and N.
+/// The loop of (x, e, z) with oscillators at these harmonics and 0, and its matrices Phi, M and N.
 struct StateSpace {
     matrix: DMatrix<f64>,
     /// The control over (x, e, z).
@@ -61,14 +62,14 @@ struct StateSpace {
     weights: DVector<f64>,
 }
 
-fn state_space(rows: &DMatrix<f64>, b: f64, sigma: f64, mu: f64, omega: f64, n: usize) -> StateSpace {
-    let order = 2 * n + 1;
+fn state_space(rows: &DMatrix<f64>, b: f64, sigma: f64, mu: f64, omega: f64, harmonics: &[u32]) -> StateSpace {
+    let order = 2 * harmonics.len() + 1;
     let mut phi = DMatrix::zeros(order, order);
     let mut m = DVector::zeros(order);
     let mut weights = DVector::zeros(order);
     (m[0], weights[0]) = (1.0, weight(0));
-    for l in 1..=n {
-        let at = 2 * l - 1;
+    for (at, l) in (1..).step_by(2).zip(harmonics) {
+        let l = *l as usize;
         (phi[(at, at + 1)], phi[(at + 1, at)]) = (l as f64 * omega, -(l as f64) * omega);
         m[at] = 1.0;
         (weights[at], weights[at + 1]) = (weight(l), weight(l));
@@ -90,10 +91,10 @@ fn state_space(rows: &DMatrix<f64>, b: f64, sigma: f64, mu: f64, omega: f64, n: 
 }
 
 /// (x, e, z) over the orbit at 400 instants of the period, and u there.
-fn periodic(a: f64, b: f64, sigma: f64, n: usize) -> (StateSpace, Vec<DVector<f64>>, Vec<f64>) {
+fn periodic(a: f64, b: f64, sigma: f64, oscillators: &Oscillators) -> (StateSpace, Vec<DVector<f64>>, Vec<f64>) {
     let (rows, waves) = member(a);
     let omega = TAU / 2.0;
-    let space = state_space(&rows, b, sigma, 1.0, omega, n);
+    let space = state_space(&rows, b, sigma, 1.0, omega, oscillators.beyond_mean());
     let order = space.matrix.nrows();
     let complex = space.matrix.map(|entry| Complex::new(entry, 0.0));
     let zero_dynamics = rows.view((0, 0), (2, 2)).map(|entry| Complex::new(entry, 0.0));
@@ -133,7 +134,7 @@ fn periodic(a: f64, b: f64, sigma: f64, n: usize) -> (StateSpace, Vec<DVector<f6
 fn own(sigma: i32, linear: &LinearPlant, plant: &Plant) -> Loop {
     let gain = plant.input_gain.as_ref().unwrap().factors(PRECISION);
     let identity = [[1, 0], [0, 1]].map(|row| row.map(Rational::from).to_vec()).to_vec();
-    Loop::new(&Rational::from(sigma), &plant.internal_model, linear.lines(), gain, identity)
+    Loop::new(&Rational::from(sigma), &plant.internal_model, linear.lines().max(8), gain, identity)
 }
 
 /// |zeta|_N.
@@ -151,12 +152,12 @@ fn sizes_are_those_of_the_worst_member() {
     for sigma in [12, 40] {
         let own = own(sigma, &linear, &plant);
         let answers = Answers::new(&linear, own.fundamental.clone());
-        for n in 0..=5 {
-            let count = if n >= 4 { Oscillators::ForEachLine } else { Oscillators::Exactly(n as u64) };
-            let found = sizes(&answers, &own, count, 8192).unwrap();
+        let sets = [&[0, 1, 4][..], &[0, 2], &[0, 3, 7], &[0, 1, 3, 8]].map(|set| Oscillators::at(set).unwrap());
+        for oscillators in (0..=5).map(Oscillators::first).chain(sets) {
+            let found = sizes(&answers, &own, &oscillators, 8192).unwrap();
             let mut largest = [0.0_f64; 4];
             for (a, b) in [(0.8, 0.9), (0.8, 1.1), (1.2, 0.9), (1.2, 1.1), (1.0, 1.0), (1.0, 0.9), (1.1, 0.93)] {
-                let (space, states, controls) = periodic(a, b, f64::from(sigma), n);
+                let (space, states, controls) = periodic(a, b, f64::from(sigma), &oscillators);
                 for (state, control) in states.iter().zip(&controls) {
                     let own = [state[2].abs(), control.abs(), state[0].hypot(state[1]), norm(&space, state)];
                     largest = std::array::from_fn(|i| largest[i].max(own[i]));
@@ -165,8 +166,8 @@ fn sizes_are_those_of_the_worst_member() {
             let bounds = [&found.error, &found.control, &found.states, &found.zeta].map(Enclosure::upper_f64);
             for (i, room) in [1.02, 1.02, 1.6, 1.6].into_iter().enumerate() {
                 let slack = 1e-9 * (1.0 + largest[i]);
-                assert!(largest[i] <= bounds[i] + slack, "{sigma} {n} {i}: {largest:?} {bounds:?}");
-                assert!(bounds[i] <= room * largest[i] + slack, "{sigma} {n} {i}: {largest:?} {bounds:?}");
+                assert!(largest[i] <= bounds[i] + slack, "{sigma} {oscillators} {i}: {largest:?} {bounds:?}");
+                assert!(bounds[i] <= room * largest[i] + slack, "{sigma} {oscillators} {i}: {largest:?} {bounds:?}");
             }
         }
     }
@@ -201,15 +202,14 @@ fn nothing_goes_beyond_the_peaks() {
     let start = Start { x0: exact(1), e0: exact(2), z0: None };
     let mut random = StdRng::seed_from_u64(14);
     let mut nearest = 0.0_f64;
-    for n in [0, 2, 5] {
-        let count = if n >= 4 { Oscillators::ForEachLine } else { Oscillators::Exactly(n as u64) };
-        let steady = sizes(&answers, &own, count, 8192).unwrap();
+    for oscillators in [0.into(), 2.into(), 5.into(), Oscillators::at(&[0, 2, 3, 8]).unwrap()] {
+        let steady = sizes(&answers, &own, &oscillators, 8192).unwrap();
         let peak = falling.peak(&own, &start, &steady);
         let [of_e, of_u] = [&peak.error, &peak.control].map(Enclosure::upper_f64);
         for _ in 0..40 {
             let pick = |random: &mut StdRng, ends: [f64; 2]| ends[usize::from(random.random::<bool>())];
             let (a, b) = (pick(&mut random, [0.8, 1.2]), pick(&mut random, [0.9, 1.1]));
-            let (space, states, _) = periodic(a, b, 40.0, n);
+            let (space, states, _) = periodic(a, b, 40.0, &oscillators);
             let (angle, e) = (random.random::<f64>() * TAU, pick(&mut random, [-2.0, 2.0]));
             let at = random.random_range(0..400);
             // The difference from the periodic solution, aligned: z = M e.
@@ -223,7 +223,7 @@ fn nothing_goes_beyond_the_peaks() {
             let step = 1e-3;
             for _ in 0..3000 {
                 let (error, control) = (difference[2].abs(), space.control.dot(&difference).abs());
-                assert!(error <= of_e && control <= of_u, "{n}: {error} {of_e} {control} {of_u}");
+                assert!(error <= of_e && control <= of_u, "{oscillators}: {error} {of_e} {control} {of_u}");
                 nearest = nearest.max(error / of_e).max(control / of_u);
                 let k_1 = &space.matrix * &difference;
                 let k_2 = &space.matrix * (&difference + &k_1 * (step / 2.0));

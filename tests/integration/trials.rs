@@ -84,7 +84,7 @@ fn what_is_broken_proves_nothing() {
     off.terms[0].control.harmonics[0][1] += rational(1, 1000);
     assert!(small(&off).0 > 0.99e-3);
     // y_k of another number of oscillators.
-    assert!(small(&Trial { n_o: 0, ..trial.clone() }).1 > 1e-3);
+    assert!(small(&Trial { oscillators: 0.into(), ..trial.clone() }).1 > 1e-3);
 
     // Both inequalities, and what nearly is one.
     let region = Region::new(identity, trial.centre(), Rational::new()).unwrap();

@@ -110,12 +110,13 @@ pub fn trial_of(plant: &Plant, orbit: &OrbitCurve, gain: Option<Interval>) -> Tr
         gain,
         sigma: 3.0,
         mu: MU,
+        oscillators: 1.into(),
         weights: weights.clone(),
         resolved: if plant.is_family() { 1e-6 } else { 1e-15 },
         or_more: false,
     });
     let parameters = plant.parameters.intervals().cloned().collect();
-    Trial { n_o: 1, or_more: false, terms: terms.unwrap(), parameters, gain }
+    Trial { oscillators: 1.into(), or_more: false, terms: terms.unwrap(), parameters, gain }
 }
 
 pub fn case() -> Case {
@@ -123,7 +124,7 @@ pub fn case() -> Case {
     let trial = trial_of(&plant, &orbit(), None);
     let identity = vec![vec![Rational::from(1)]];
     let lines = trial.terms[0].error.harmonics.len();
-    let own = Loop::new(&Rational::from(3), &plant.internal_model, lines, None, identity).with_oscillators(1);
+    let own = Loop::new(&Rational::from(3), &plant.internal_model, lines, None, identity).with_oscillators(&1.into());
     let metric = Metric {
         matrix: vec![vec![rational(1, 2)]],
         cross: vec![Rational::new()],
