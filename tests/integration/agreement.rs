@@ -46,8 +46,8 @@ fn evaluate(certificate: &Value, precision: u32) -> Checked {
     let field = file.required("claim").expect("a claim");
     let claim = Claim::read(&field, has_states).expect("it is read");
     let derivation = match &claim.sampled {
-        Some(regulator) => Derivation::read_sampled(&mut witness, regulator, claim.set.clone()),
-        None => Derivation::read(&mut witness, claim.sigma.clone(), claim.set.clone()),
+        Some(regulator) => Derivation::read_sampled(&mut witness, regulator, (claim.set.clone(), claim.scope())),
+        None => Derivation::read(&mut witness, claim.sigma.clone(), (claim.set.clone(), claim.scope())),
     };
     let d = Data::new(&spec, precision);
     let evaluated = derivation.and_then(|derivation| derivation.evaluate(&d)).expect("it is evaluated");

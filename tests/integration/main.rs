@@ -97,6 +97,7 @@ mod transfer_sums;
 mod transfer_table;
 mod trials;
 mod trials_families;
+mod trials_sets;
 mod trials_support;
 mod tune;
 mod undefined;

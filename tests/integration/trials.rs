@@ -34,8 +34,13 @@ fn simulations_meet_the_bounds_and_do_not_exceed_them() {
         for start in [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]] {
             // The more oscillators, the longer they take.
             let periods = if n > 3 { 1500 } else { 200 };
-            let [e, u, steady, steady_u, rms] =
-                simulated(sigma, n, [0.5, 1.0], [at_0 + start[0] * x_0, start[1] * 0.5], periods);
+            let [e, u, steady, steady_u, rms] = simulated(
+                sigma,
+                &(1..=n).collect::<Vec<_>>(),
+                [0.5, 1.0],
+                [at_0 + start[0] * x_0, start[1] * 0.5],
+                periods,
+            );
             assert!(e <= bound("largest", "e") && u <= bound("largest", "u"), "{n}: {e} {u} {entry}");
             let meets =
                 |value: f64, bound: f64| value <= bound * (1.0 + 1e-6) + 1e-9 && bound <= value * (1.0 + 1e-5) + 1e-5;

@@ -176,7 +176,7 @@ fn members_of_a_family_do_not_exceed_its_bounds() {
         let mut worst = [0.0_f64; 5];
         for (a, b) in [(0.4, 0.9), (0.4, 1.1), (0.6, 0.9), (0.6, 1.1), (0.5, 1.0)] {
             for start in [[0.4, 0.5], [-0.4, -0.5]] {
-                let found = simulated(sigma, n, [a, b], start, 300);
+                let found = simulated(sigma, &(1..=n).collect::<Vec<_>>(), [a, b], start, 300);
                 worst = [0, 1, 2, 3, 4].map(|i| worst[i].max(found[i]));
             }
         }

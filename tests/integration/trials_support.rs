@@ -35,11 +35,13 @@ pub fn plant() -> Plant {
     Plant::from_value(&Document::parse("one state", &document().to_string()).unwrap().root()).unwrap()
 }
 
-/// The right side of the loop with n oscillators at (x, e, z), and u: z' = Phi z + Gamma e, u = -sigma e + mu M'N (z - M e).
-fn right_side(sigma: f64, n: usize, t: f64, y: &[f64]) -> (Vec<f64>, f64) {
+/// The right side of the loop with oscillators at these harmonics and 0 at (x, e, z), and u: z' = Phi z + Gamma e, u = -sigma e + mu M'N (z - M e).
+fn right_side(sigma: f64, harmonics: &[usize], t: f64, y: &[f64]) -> (Vec<f64>, f64) {
     let (x, e) = (y[0], y[1]);
     let phase = OMEGA * t;
-    let of_z: f64 = (0..=n).map(|l| weight(l) * (y[2 + if l == 0 { 0 } else { 2 * l - 1 }] - e)).sum();
+    // z_0, and where the states of each oscillator begin.
+    let blocks = (3..).step_by(2).zip(harmonics);
+    let of_z = blocks.clone().fold(weight(0) * (y[2] - e), |sum, (at, l)| sum + weight(*l) * (y[at] - e));
     let u = -sigma * e + MU * of_z;
     let mut slopes = vec![
         -2.0 * x - x.powi(3) / 3.0 + e + phase.cos(),
@@ -47,8 +49,8 @@ fn right_side(sigma: f64, n: usize, t: f64, y: &[f64]) -> (Vec<f64>, f64) {
         // Gamma = -(Phi + sigma I) M.
         -sigma * e,
     ];
-    for l in 1..=n {
-        let (frequency, at) = (l as f64 * OMEGA, 2 * l + 1);
+    for (at, l) in blocks {
+        let frequency = *l as f64 * OMEGA;
         slopes.push(frequency * y[at + 1] - sigma * e);
         slopes.push(-frequency * y[at] + frequency * e);
     }
@@ -57,14 +59,20 @@ fn right_side(sigma: f64, n: usize, t: f64, y: &[f64]) -> (Vec<f64>, f64) {
 
 /// The largest |e| and |u| over all times, and over the last of so many periods, with the root mean square of e there; of the member of the family with
 /// the coefficient `of_x` of v in q, and the gain of the actuator `gain`.
-pub fn simulated(sigma: f64, n: usize, [of_x, gain]: [f64; 2], [x, e]: [f64; 2], periods: usize) -> [f64; 5] {
+pub fn simulated(
+    sigma: f64,
+    harmonics: &[usize],
+    [of_x, gain]: [f64; 2],
+    [x, e]: [f64; 2],
+    periods: usize,
+) -> [f64; 5] {
     let slopes = |t: f64, y: &[f64]| {
-        let (mut slopes, u) = right_side(sigma, n, t, y);
+        let (mut slopes, u) = right_side(sigma, harmonics, t, y);
         slopes[1] += (of_x - 0.5) * y[0] + (gain - 1.0) * u;
         (slopes, u)
     };
     let (steps, mut y) = (2000, vec![x, e]);
-    y.extend((0..=2 * n).map(|i| if i == 0 || i % 2 == 1 { e } else { 0.0 }));
+    y.extend((0..=2 * harmonics.len()).map(|i| if i == 0 || i % 2 == 1 { e } else { 0.0 }));
     let h = 2.0 / steps as f64;
     let mut found = [0.0_f64; 5];
     for step in 0..steps * periods {

@@ -116,8 +116,16 @@ mod tests {
     /// Which harmonics of an error are left that belong to these sizes of q, where q has this size; without oscillators.
     fn left(of_q: [f64; 4], all: f64) -> Vec<bool> {
         let plant = Plant::from_value(&Document::parse("no state", PLANT).unwrap().root()).unwrap();
-        let weights = vec![2.0];
-        let own = TrialLoop { plant: &plant, gain: 1.0, sigma: 3.0, mu: 1.0, weights, resolved: 1e-15, or_more: false };
+        let own = TrialLoop {
+            plant: &plant,
+            gain: 1.0,
+            sigma: 3.0,
+            mu: 1.0,
+            oscillators: 0.into(),
+            weights: vec![2.0],
+            resolved: 1e-15,
+            or_more: false,
+        };
         let of_error = |(k, size): (usize, f64)| {
             let [re, im] = own.inverse_answer(k, 1.0);
             [Rational::new(), Rational::from_f64(size / libm::hypot(re, im)).unwrap()]
