@@ -21,6 +21,7 @@ mod coq_support;
 mod definite;
 mod doubles;
 mod every_set;
+mod every_set_at_samples;
 mod existence_inequality;
 mod families;
 mod forged;

@@ -9,6 +9,7 @@ use proofs_check::rules::derivation::Inequalities;
 use proofs_check::rules::inequality::{Inequality, Kind as Of, List};
 use proofs_check::rules::rates::{Asked, Kind, Witness};
 use proofs_check::rules::sampled::law::Terms;
+use proofs_check::scope::Scope;
 use proofs_check::spec::Specification;
 use proofs_check::verdict::{Outcome, Verdict};
 use rug::{Float, Rational};
@@ -44,7 +45,7 @@ fn inequalities(parts: &Value) -> Outcome<(List, Option<Terms>)> {
         let value = |name: &str| decimal(parts[name].as_str().unwrap()).unwrap();
         let samples = u32::try_from(parts["samples"].as_u64().unwrap()).unwrap();
         let (sigma, gain, weight_sum) = (value("sigma"), value("gain"), value("weight_sum"));
-        Terms { sigma, samples, gain, weight_sum, delayed: false }
+        Terms { sigma, samples, gain, weight_sum, delayed: false, scope: Scope::First }
     });
     let read = |kind, part: Option<&Value>, weights: &Value| {
         part.map(|part| inequality(kind, part, weights, law.as_ref().map(|law| &law.sigma))).transpose()

@@ -60,6 +60,8 @@ pub struct Float {
     pub ends: [f64; 2],
     /// Whether a control is computed in the sample before it acts.
     pub delayed: bool,
+    /// Which oscillators the claim is about.
+    pub scope: Scope,
 }
 
 impl Float {
@@ -78,6 +80,7 @@ impl Float {
             a: 1.0 - h * sigma,
             ends: [1.0; 2],
             delayed: false,
+            scope: Scope::First,
         }
     }
 
@@ -119,7 +122,7 @@ impl Float {
         at(self.ends[0]).min(at(self.ends[1]))
     }
 
-    /// The bound of |e_j| over |q_j|.
+    /// The bound of |e_j| over |q_j|, of the first n_o harmonics.
     pub fn error(&self, j: u32) -> f64 {
         let [size, _] = self.size(j);
         if self.ends == [1.0; 2] {
@@ -141,6 +144,7 @@ impl Float {
             gain: rational(self.gain),
             weight_sum,
             delayed: self.delayed,
+            scope: self.scope,
         }
     }
 
@@ -536,21 +540,7 @@ fn how_far_the_control_goes() {
         let set = ClaimedSet { x0: k0.clone(), e0: k0.clone(), z0: None };
         let paths = Paths { f: Path::Straight, q: Path::Straight };
         let r = [1.0; 3].map(rational);
-        let free = Free {
-            pointer: String::new(),
-            set,
-            scope: Scope::First,
-            x_p,
-            e_p,
-            r,
-            d_x,
-            d_e,
-            w_x,
-            h: weight,
-            k0,
-            k1,
-            paths,
-        };
+        let free = Free { pointer: String::new(), set, x_p, e_p, r, d_x, d_e, w_x, h: weight, k0, k1, paths };
         let of = |level: f64, b: f64| {
             let level = 3.0 * 1.5512 * 0.04 + 0.09 + level * h * 4.0;
             (level * (sigma * sigma + gain * gain * NBAR_SQUARED / (b * h))).sqrt()

@@ -9,7 +9,6 @@ use super::stability::{ErrorBox, distances, level};
 use crate::data::Data;
 use crate::interval::Interval;
 use crate::json::Fields;
-use crate::scope::Scope;
 use crate::verdict::{Condition, Outcome};
 use rug::Rational;
 
@@ -20,8 +19,6 @@ pub struct Free {
     pub pointer: String,
     /// The initial conditions.
     pub set: ClaimedSet,
-    /// Which oscillators the claim is about.
-    pub scope: Scope,
     pub x_p: Rational,
     pub e_p: Rational,
     /// r_x, r_e, r_d.
@@ -66,13 +63,13 @@ pub struct Evaluated {
 }
 
 impl Free {
-    /// Takes the free numbers out of a witness; the claim is about this set and these oscillators.
-    pub fn read(fields: &mut Fields<'_>, (set, scope): (ClaimedSet, Scope)) -> Outcome<Free> {
+    /// Takes the free numbers out of a witness.
+    pub fn read(fields: &mut Fields<'_>, set: ClaimedSet) -> Outcome<Free> {
         let r = fields.numbers(["r_x", "r_e", "r_d"])?;
         let [x_p, e_p, d_x, d_e, w_x, h, k0, k1] =
             fields.numbers(["X_p", "E_p", "D_x", "D_e", "w_x", "h", "k0", "k1"])?;
         let (paths, pointer) = (Paths::read(fields)?, fields.pointer.clone());
-        Ok(Free { pointer, set, scope, x_p, e_p, r, d_x, d_e, w_x, h, k0, k1, paths })
+        Ok(Free { pointer, set, x_p, e_p, r, d_x, d_e, w_x, h, k0, k1, paths })
     }
 
     /// Demands the signs that both regulators need, and of these numbers besides.

@@ -47,15 +47,15 @@ pub struct Derivation {
 }
 
 impl Derivation {
-    /// Takes the free numbers out of a witness; what is left there is the caller's to read or to refuse. `about`: the set of the claim, and its
-    /// oscillators.
-    pub fn read(fields: &mut Fields<'_>, sigma: Rational, about: (ClaimedSet, Scope)) -> Outcome<Derivation> {
+    /// Takes the free numbers out of a witness; what is left there is the caller's to read or to refuse. `scope`: which
+    /// oscillators the claim is about.
+    pub fn read(fields: &mut Fields<'_>, sigma: Rational, (set, scope): (ClaimedSet, Scope)) -> Outcome<Derivation> {
         if fields.has("p_x") && !fields.has("r_x") {
             return bad(&fields.pointer, "this witness, by p_x and p_e, is of an older form: certify again");
         }
-        let free = Free::read(fields, about)?;
+        let free = Free::read(fields, set)?;
         let inequalities = List::read(fields, [&free.w_x, &free.h], None)?;
-        let witness = Witness::Sharp(Box::new(sharp::Witness::read(fields, sigma, &free)?));
+        let witness = Witness::Sharp(Box::new(sharp::Witness::read(fields, (sigma, scope), &free)?));
         let regulation = fields.part("exact_regulation", regulation::Witness::read)?.map(Box::new);
         Ok(Derivation { free, inequalities, witness, regulation })
     }
@@ -64,14 +64,14 @@ impl Derivation {
     pub fn read_sampled(
         fields: &mut Fields<'_>,
         regulator: &Regulator<'_>,
-        about: (ClaimedSet, Scope),
+        (set, scope): (ClaimedSet, Scope),
     ) -> Outcome<Derivation> {
-        let free = Free::read(fields, about)?;
+        let free = Free::read(fields, set)?;
         let inequalities = List::read(fields, [&free.w_x, &free.h], Some(&regulator.sigma))?;
         if let Some(part) = inequalities.all().next().filter(|_| regulator.delayed) {
             return bad(&part.pointer, "a matrix inequality says nothing of a law with a delay");
         }
-        let witness = Witness::Sampled(Box::new(sampled::Witness::read(fields, regulator)?));
+        let witness = Witness::Sampled(Box::new(sampled::Witness::read(fields, regulator, scope)?));
         Ok(Derivation { free, inequalities, witness, regulation: None })
     }
 

@@ -13,6 +13,7 @@ use super::mean_squares;
 use super::transfer::{self, Proof};
 use crate::data::Data;
 use crate::json::Fields;
+use crate::scope::Scope;
 use crate::verdict::{Outcome, invalid};
 use rug::Rational;
 
@@ -20,20 +21,22 @@ use rug::Rational;
 #[derive(Clone, Debug)]
 pub struct Witness {
     pub sigma: Rational,
+    /// Which oscillators the claim is about.
+    pub scope: Scope,
     pub existence: mean_squares::Witness,
     pub transfer: Proof,
 }
 
 impl Witness {
     /// Takes it out of a witness; what is left there is the caller's to read or to refuse.
-    pub fn read(fields: &mut Fields<'_>, sigma: Rational, free: &Free) -> Outcome<Witness> {
+    pub fn read(fields: &mut Fields<'_>, (sigma, scope): (Rational, Scope), free: &Free) -> Outcome<Witness> {
         let existence = mean_squares::Witness {
             r: free.r.clone(),
             kap: fields.number("kap")?,
             refined: fields.part("refined", mean_squares::read)?,
         };
         let transfer = Proof::read(&fields.required("transfer")?)?;
-        Ok(Witness { sigma, existence, transfer })
+        Ok(Witness { sigma, scope, existence, transfer })
     }
 
     fn signs(&self, free: &Free) -> Outcome<()> {
@@ -60,8 +63,8 @@ pub fn evaluate(d: &Data<'_>, (free, inequalities): (&Free, &List), w: &Witness)
     let kappa = kappas(d, &k0, &k1);
     let of_existence = (&w.existence, existence.as_ref());
     let place = format!("{}/transfer", free.pointer);
-    let transfer = transfer::check(d, [&free.k0, &free.k1], (&w.transfer, free.scope), &place)?;
-    let pair = ([&k0, &k1], transfer::at_poles(d, &w.transfer, free.scope));
+    let transfer = transfer::check(d, [&free.k0, &free.k1], (&w.transfer, w.scope), &place)?;
+    let pair = ([&k0, &k1], transfer::at_poles(d, &w.transfer, w.scope));
     let solution = mean_squares::evaluate(d, of_existence, &w.sigma, [&x_p, &e_p], pair, &kappa);
     let sizes = Sizes { x: solution.x.clone(), e: solution.e.clone(), zeta: solution.z_squared.sqrt() };
     let existence = covers.chain(solution.conditions.iter().cloned());

@@ -1,10 +1,11 @@
 //! What the sampled loop makes of a periodic input, uniformly in n_o (docs/mathematics.md, sections 12.1 and 12.2, S3).
 //!
 //! The harmonic j of e is `S_j h/(e^{i om h} - a)` times that of the mean input, `|e^{i om h} - a|^2 = (h sigma)^2 + a (h om_j)^2`, and
-//! `|S_j| <= Sb_j = min{1 + theta, 1/|cos(pi j/N_s)|}`; S_0 = 0. With a gain (section 13.1) [`Law::of_error`] stands for it.
+//! `|S_j| <= Sb_j = min{1 + theta, 1/|cos(pi j/N_s)|}`, of every set of harmonics 1 + theta (section 14.7); S_0 = 0. With a gain (section 13.1) [`Law::of_error`] stands for it.
 
 use super::law::Law;
 use crate::interval::Interval;
+use crate::scope::Scope;
 
 /// Up to so many samples 1/|cos| is used; beyond, where theta is small, Sb_j = 1 + theta and sg_S = sg_h/(1 + theta).
 const MAX_SHARPENED: u32 = 8192;
@@ -36,7 +37,9 @@ impl Gains {
     /// Over the harmonics; j and N_s - j are equal.
     pub fn new(law: &Law<'_>) -> Gains {
         let d = law.d;
-        let (largest, sharpened) = (law.of_y().sqr(), law.samples <= MAX_SHARPENED && !law.delayed);
+        // (S3) is about the first n_o.
+        let sharpened = law.samples <= MAX_SHARPENED && !law.delayed && law.scope == Scope::First;
+        let largest = law.of_y().sqr();
         // The squares of |e_j| over |q_j|, of om_j, and of |D_j| = |e^{i om h} - a|/h.
         let harmonic = |j| {
             let sine = law.sine(j);

@@ -1,8 +1,9 @@
 //! Rule S0: the sampled law that is claimed, and the numbers that follow from it (docs/mathematics.md, section 12).
 //!
 //! `u_k = -sigma e_k + K v_k`, `v_k = M'N R (z_k - M e_k)`, `z_{k+1} = R (z_k - M e_k) + (1 - h sigma) M e_k`, `R = e^{Phi h}`, with
-//! `h = T/N_s` and 2 n_o < N_s. Guarantee, where the conditions hold: for every such n_o the response y of `q_k + K v_k` to a periodic
-//! input has `|y_j| <= (1 + theta)|q_j|` in every harmonic, and none at j = 0; the loop without input is stable.
+//! `h = T/N_s` and 2 n_o < N_s. Guarantee, where the conditions hold: for every such n_o, and every set of harmonics below N_s/2 that contains 0 (section
+//! 14.7), the response y of `q_k + K v_k` to a periodic input has `|y_j| <= (1 + theta)|q_j|` in every harmonic, and none at j = 0; the loop
+//! without input is stable.
 //!
 //! With an input gain (section 13.1) `y_k = qb_k + (1-b) sigma e_k + b K v_k`: the loop of gain 1 with b K for K, and the means of
 //! `q + (1-b) sigma e_k` for those of q. theta is that of `b_hi K`, the largest, and mu that of `b_lo K`, so `mu <= b K (1 + theta)` for
@@ -11,6 +12,7 @@
 use crate::data::Data;
 use crate::interval::Interval;
 use crate::rules::control::Answer;
+use crate::scope::Scope;
 use crate::verdict::{Condition, Outcome, Verdict, demand, finding};
 use rug::Rational;
 
@@ -33,6 +35,8 @@ pub struct Terms {
     pub weight_sum: Rational,
     /// Whether a control is computed in the sample before it acts.
     pub delayed: bool,
+    /// Which oscillators the claim is about.
+    pub scope: Scope,
 }
 
 /// The numbers of section 12 under their names there.
@@ -58,6 +62,8 @@ pub struct Law<'a> {
     pub mu: Interval,
     /// Whether a control is computed in the sample before it acts (section 13.4).
     pub delayed: bool,
+    /// Which oscillators the claim is about.
+    pub scope: Scope,
     weight_sum: Interval,
 }
 
@@ -84,6 +90,7 @@ impl<'a> Law<'a> {
             growth: growth(&loss),
             samples: terms.samples,
             delayed: terms.delayed,
+            scope: terms.scope,
             d,
             sigma,
             h,

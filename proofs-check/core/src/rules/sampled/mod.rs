@@ -3,7 +3,8 @@
 //! Guarantee, if all conditions hold and the bounding functions are as proved up to `arguments`: for this sigma and h, every
 //! n_o < N_s/2 and every phase of the sampling grid there is a T-periodic solution with |x| <= x_per, |e| <= e_per at all times and
 //! |zeta_k|_N <= Z at the samples, and every solution that is in the claimed set at a sample converges to it exponentially. With an
-//! input gain, or for a family, that is so of each. It is about exact arithmetic, without quantisation or saturation, and without a delay of
+//! input gain, or for a family, that is so of each. A claim about every set of harmonics below N_s/2 that contains 0 is one about these in the place of the
+//! first n_o (section 14.7). It is about exact arithmetic, without quantisation or saturation, and without a delay of
 //! the computation, or with one of a sample that the law knows of (section 13.4). A matrix inequality, proved of the plant's formulas, may stand in the place of C5h, and another one beside S1 and S2.
 
 pub mod claim;
@@ -21,7 +22,7 @@ use super::set;
 use crate::data::Data;
 use crate::json::Fields;
 use crate::scope::Scope;
-use crate::verdict::{Outcome, bad, demand, invalid};
+use crate::verdict::{Outcome, bad, demand};
 use delay::Past;
 use law::{Law, Terms};
 
@@ -34,8 +35,8 @@ pub struct Witness {
 }
 
 impl Witness {
-    /// Takes it out of a witness.
-    pub fn read(fields: &mut Fields<'_>, claimed: &claim::Regulator<'_>) -> Outcome<Witness> {
+    /// Takes it out of a witness; `scope`: which oscillators the claim is about.
+    pub fn read(fields: &mut Fields<'_>, claimed: &claim::Regulator<'_>, scope: Scope) -> Outcome<Witness> {
         fields.required("transfer")?.object(|proof| {
             let kind = proof.required("proof")?;
             let sampled = kind.text()? == "sampled";
@@ -43,7 +44,7 @@ impl Witness {
         })?;
         let (sigma, gain, samples, delayed) =
             (claimed.sigma.clone(), claimed.gain.clone(), claimed.samples, claimed.delayed);
-        let terms = Terms { sigma, samples, gain, weight_sum: fields.number("weight_sum")?, delayed };
+        let terms = Terms { sigma, samples, gain, weight_sum: fields.number("weight_sum")?, delayed, scope };
         Ok(Witness { terms, past: if delayed { Some(Past::read(fields)?) } else { None } })
     }
 
@@ -60,9 +61,6 @@ pub fn evaluate(d: &Data<'_>, (free, inequalities): (&Free, &List), w: &Witness)
     let (law, List { stability, existence }) = (Law::new(d, &w.terms), inequalities);
     inequalities.demand(d)?;
     let of_law = law.conditions("/claim")?;
-    if free.scope == Scope::EverySet {
-        return invalid(law::RULE, "/claim/harmonics", "at samples it is proved of the first n_o harmonics");
-    }
     let transfer = transfer::check(&law, &free.k0, &free.k1, &format!("{}/k0", free.pointer))?;
     let [x_p, e_p, w_x, eta, k0, k1] =
         [&free.x_p, &free.e_p, &free.w_x, &free.h, &free.k0, &free.k1].map(|value| d.number(value));
