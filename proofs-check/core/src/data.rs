@@ -32,10 +32,10 @@ pub struct Data<'s> {
 }
 
 impl<'s> Data<'s> {
-    /// The numbers of the loop with so many oscillators: the sum of their weights is that of these alone (14.4).
-    pub fn of_oscillators(spec: &'s Specification, precision: u32, n_o: u32) -> Data<'s> {
+    /// The numbers of the loop with oscillators at these harmonics: the sum of their weights is that of these alone (14.4, 14.7).
+    pub fn of_oscillators(spec: &'s Specification, precision: u32, harmonics: &[u32]) -> Data<'s> {
         let d = Data::new(spec, precision);
-        let sum = (0..=u64::from(n_o)).fold(d.int(0), |sum, l| sum + d.weight(l));
+        let sum = harmonics.iter().fold(d.int(0), |sum, l| sum + d.weight(u64::from(*l)));
         Data { n_bar: sum.sqrt(), ..d }
     }
 

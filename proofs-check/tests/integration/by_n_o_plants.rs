@@ -6,7 +6,7 @@ use crate::common::{drawn, every};
 use proofs_check::verdict::Verdict::{Invalid, Undecided};
 
 /// A plant with so many states: skew couplings and damping, K harmonics, an uncertain factor k of the damping, and a gain.
-fn made(case: u64, states: usize) -> Loop {
+pub fn made(case: u64, states: usize) -> Loop {
     let mut draw = drawn(case);
     let mut size = |lo: f64, hi: f64| {
         let value = lo * (hi / lo).powf(draw());

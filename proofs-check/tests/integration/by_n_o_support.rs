@@ -111,6 +111,16 @@ pub struct Formulas {
     pub q: String,
 }
 
+/// 0, 1, ..., n_o.
+fn first(n_o: usize) -> Vec<usize> {
+    (0..=n_o).collect()
+}
+
+/// What an entry is about.
+fn about(n_o: usize, or_more: bool) -> Value {
+    if or_more { json!({ "n_o": n_o, "or_more": true }) } else { json!({ "n_o": n_o }) }
+}
+
 fn weight(l: usize) -> f64 {
     if l == 0 { 2.0 } else { (l as f64).powf(-1.5) }
 }
@@ -153,11 +163,11 @@ fn at(waves: impl Iterator<Item = Z>, t: f64) -> f64 {
 }
 
 impl Loop {
-    /// The equations of all states with their oscillators at one frequency: e after x, and then z.
-    fn solution(&self, n_o: usize, k: f64, g: f64) -> Solution {
+    /// The equations of all states with oscillators at these harmonics at one frequency: e after x, and then z.
+    fn solution(&self, own: &[usize], k: f64, g: f64) -> Solution {
         let n = self.a.len();
-        let order = n + 2 + 2 * n_o;
-        let first = |l: usize| if l == 0 { n + 1 } else { n + 2 * l };
+        let order = n + 2 * own.len();
+        let first = |place: usize| if place == 0 { n + 1 } else { n + 2 * place };
         let mut m = vec![vec![0.0; order]; order];
         for (row, own) in m.iter_mut().zip(&self.a) {
             row.iter_mut().zip(own).for_each(|(entry, a)| *entry = k * a);
@@ -165,13 +175,13 @@ impl Loop {
         for (i, (b, c)) in self.b.iter().zip(&self.c).enumerate() {
             (m[i][n], m[n][i]) = (*b, *c);
         }
-        let total: f64 = (0..=n_o).map(weight).sum();
+        let total: f64 = own.iter().map(|l| weight(*l)).sum();
         m[n][n] = self.d - g * (self.sigma + self.mu * total);
-        for l in 0..=n_o {
-            let (at, rate) = (first(l), 2.0 * PI * l as f64);
-            m[n][at] = g * self.mu * weight(l);
+        for (place, l) in own.iter().enumerate() {
+            let (at, rate) = (first(place), 2.0 * PI * *l as f64);
+            m[n][at] = g * self.mu * weight(*l);
             m[at][n] = -self.sigma;
-            if l > 0 {
+            if place > 0 {
                 (m[at][at + 1], m[at + 1][at], m[at + 1][n]) = (rate, -rate, rate);
             }
         }
@@ -188,23 +198,23 @@ impl Loop {
                 solved(rows.collect())
             };
             let mut right: Vec<Z> = self.f_0.iter().map(|waves| forced(waves, 0.0, h)).collect();
-            let own: Vec<Vec<f64>> = m[..n].iter().map(|row| row[..n].to_vec()).collect();
-            let at_rest = equations(&own, &right);
+            let of_x: Vec<Vec<f64>> = m[..n].iter().map(|row| row[..n].to_vec()).collect();
+            let at_rest = equations(&of_x, &right);
             right.push(forced(&self.q_0, self.mean, h));
             right.resize(order, Z(0.0, 0.0));
             let found = equations(&m, &right);
             let e = found[n];
-            let s = (0..=n_o).fold(Z(0.0, 0.0), |sum, l| {
-                let part = found[first(l)].less(e);
-                Z(sum.0 + weight(l) * part.0, sum.1 + weight(l) * part.1)
+            let s = own.iter().enumerate().fold(Z(0.0, 0.0), |sum, (place, l)| {
+                let part = found[first(place)].less(e);
+                Z(sum.0 + weight(*l) * part.0, sum.1 + weight(*l) * part.1)
             });
             all.u.push(Z(self.mu * s.0 - self.sigma * e.0, self.mu * s.1 - self.sigma * e.1));
             all.x.push(in_coordinates(
                 &found[..n].iter().zip(&at_rest).map(|(x, rest)| x.less(*rest)).collect::<Vec<_>>(),
             ));
-            let zeta = (0..=n_o).flat_map(|l| {
-                let second = if l == 0 { Z(0.0, 0.0) } else { found[first(l) + 1] };
-                [found[first(l)].less(e), second]
+            let zeta = (0..own.len()).flat_map(|place| {
+                let second = if place == 0 { Z(0.0, 0.0) } else { found[first(place) + 1] };
+                [found[first(place)].less(e), second]
             });
             all.zeta.push(zeta.collect());
             all.e.push(e);
@@ -214,29 +224,41 @@ impl Loop {
 
     /// The bound of |zeta|_N, and its largest value.
     pub fn oscillators(&self, n_o: usize, k: f64, g: f64) -> [f64; 2] {
-        let zeta = self.solution(n_o, k, g).zeta;
-        let square = |parts: &[Z]| parts.iter().enumerate().map(|(i, z)| weight(i / 2) * z.size().powi(2)).sum::<f64>();
+        self.oscillators_of(&first(n_o), k, g)
+    }
+
+    /// The same with oscillators at these harmonics.
+    pub fn oscillators_of(&self, own: &[usize], k: f64, g: f64) -> [f64; 2] {
+        let zeta = self.solution(own, k, g).zeta;
+        let of = |i: usize| weight(own[i / 2]);
+        let square = |parts: &[Z]| parts.iter().enumerate().map(|(i, z)| of(i) * z.size().powi(2)).sum::<f64>();
         let within: f64 = zeta
             .iter()
-            .take(n_o + 1)
             .enumerate()
+            .filter(|(h, _)| own.contains(h))
             .map(|(h, parts)| if h == 0 { 1.0 } else { 2.0 } * square(parts))
             .sum();
-        let beyond: f64 = zeta.iter().skip(n_o + 1).map(|parts| 2.0 * square(parts).sqrt()).sum();
+        let others = zeta.iter().enumerate().filter(|(h, _)| !own.contains(h));
+        let beyond: f64 = others.map(|(_, parts)| 2.0 * square(parts).sqrt()).sum();
         let part = |i: usize, t: f64| at(zeta.iter().map(|parts| parts[i]), t);
-        let largest = most(|t| (0..2 * n_o + 2).map(|i| weight(i / 2) * part(i, t).powi(2)).sum::<f64>().sqrt());
+        let largest = most(|t| (0..2 * own.len()).map(|i| of(i) * part(i, t).powi(2)).sum::<f64>().sqrt());
         [within.sqrt() + beyond, largest]
     }
 
     /// The numbers, the largest over factors and gains.
     pub fn largest(&self, n_o: usize) -> Numbers {
+        self.largest_of(&first(n_o))
+    }
+
+    /// The same with oscillators at these harmonics.
+    pub fn largest_of(&self, own: &[usize]) -> Numbers {
         let steps = |[low, high]: [f64; 2]| {
             let count = if low < high { 7 } else { 1 };
             (0..count).map(move |i| low + (high - low) * f64::from(i) / f64::from((count - 1).max(1)))
         };
         let mut all = [0.0_f64; 5];
         for (k, g) in steps(self.factor).flat_map(|k| steps(self.gain).map(move |g| (k, g))) {
-            let solution = self.solution(n_o, k, g);
+            let solution = self.solution(own, k, g);
             let states = |t: f64| {
                 let part = |i: usize| at(solution.x.iter().map(|x| x[i]), t);
                 (0..self.a.len()).map(|i| part(i).powi(2)).sum::<f64>().sqrt()
@@ -246,7 +268,7 @@ impl Loop {
                 solution.e.iter().skip(1).map(|e| 2.0 * e.size().powi(2)).sum::<f64>().sqrt(),
                 most(|t| at(solution.u.iter().copied(), t).abs()),
                 most(states),
-                self.oscillators(n_o, k, g)[0],
+                self.oscillators_of(own, k, g)[0],
             ];
             all.iter_mut().zip(numbers).for_each(|(all, number)| *all = all.max(number));
         }
@@ -314,7 +336,13 @@ impl Loop {
     /// What is proved of one n_o, or of it and every larger one.
     pub fn judged(&self, form: &Value, n_o: usize, or_more: bool, numbers: &Numbers) -> Outcome<Vec<String>> {
         let names: Vec<String> = (0..self.a.len()).map(|i| format!("x{i}")).collect();
-        self.judged_of((names, self.formulas()), form, n_o, or_more, numbers)
+        self.judged_of((names, self.formulas()), form, about(n_o, or_more), numbers)
+    }
+
+    /// What is proved with oscillators at these harmonics.
+    pub fn judged_of_set(&self, form: &Value, own: &[usize], numbers: &Numbers) -> Outcome<Vec<String>> {
+        let names: Vec<String> = (0..self.a.len()).map(|i| format!("x{i}")).collect();
+        self.judged_of((names, self.formulas()), form, json!({ "harmonics": own }), numbers)
     }
 
     /// The same of other formulas in one state x.
@@ -327,15 +355,14 @@ impl Loop {
         numbers: &Numbers,
     ) -> Outcome<Vec<String>> {
         let of = (vec![formulas.f.clone()], formulas.q.clone());
-        self.judged_of((vec!["x".to_owned()], of), form, n_o, or_more, numbers)
+        self.judged_of((vec!["x".to_owned()], of), form, about(n_o, or_more), numbers)
     }
 
     fn judged_of(
         &self,
         (names, (f, q)): (Vec<String>, (Vec<String>, String)),
         form: &Value,
-        n_o: usize,
-        or_more: bool,
+        mut entry: Value,
         numbers: &Numbers,
     ) -> Outcome<Vec<String>> {
         let states = names.len();
@@ -371,11 +398,8 @@ impl Loop {
         }
         let (spec, plants) = read(&parts)?;
         let [e, e_rms, u, x, zeta] = numbers.0.map(|number| format!("{number:.15e}"));
-        let mut entry =
-            json!({ "n_o": n_o, "steady": { "e": e, "e_rms": e_rms, "u": u }, "largest": { "e": "0", "u": "0" } });
-        if or_more {
-            entry["or_more"] = true.into();
-        }
+        entry["steady"] = json!({ "e": e, "e_rms": e_rms, "u": u });
+        entry["largest"] = json!({ "e": "0", "u": "0" });
         let mut sizes = json!({ "zeta": zeta });
         if states > 0 {
             sizes["x"] = x.into();

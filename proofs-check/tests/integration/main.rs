@@ -11,6 +11,7 @@ mod at_samples_certificate;
 mod by_n_o;
 mod by_n_o_plants;
 mod by_n_o_support;
+mod by_the_set;
 mod cells;
 mod claim;
 mod common;

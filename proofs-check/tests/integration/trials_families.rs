@@ -1,7 +1,7 @@
 //! Trials of families (docs/mathematics.md, section 14.4): plants with a parameter a in an interval, whose periodic solutions are known.
 
 use crate::trials_support::{
-    Case, FORMULAS, L, OFF, SIGMA, Wave, answered, asks_for_a_domain, expected, largest, oscillators, text,
+    Case, FORMULAS, L, OFF, SIGMA, Wave, answered, asks_for_a_domain, expected, first, largest, oscillators, text,
 };
 use proofs_check::verdict::Verdict::{BadInput, Invalid};
 use serde_json::{Value, json};
@@ -30,7 +30,7 @@ fn slopes(n_o: usize) -> [Wave; 3] {
     let e: Vec<[f64; 2]> =
         (1..=3).map(|k| if k <= n_o { [0.0; 2] } else { [[0.0, 0.1], [0.2, -0.4], [0.3, 0.0]][k - 1] }).collect();
     let free = [[-0.4, 0.3], [0.2, 0.2], [0.0, 0.0]];
-    let q = (1..=3).map(|k| if k <= n_o { free[k - 1] } else { answered(n_o, k, e[k - 1]) }).collect();
+    let q = (1..=3).map(|k| if k <= n_o { free[k - 1] } else { answered(&first(n_o), k, e[k - 1]) }).collect();
     [Wave(-0.5, vec![[0.3, -0.2], [0.1, 0.0]]), Wave(0.0, e), Wave(-0.2, q)]
 }
 
@@ -187,7 +187,7 @@ fn the_peaks_are_those_of_all_members() {
         (wave.0 * wave.0 / 2.0 + within(1) + within(2)).sqrt()
     };
     let beyond = |wave: &Wave| {
-        let [both, _, slope] = oscillators(2, 3);
+        let [both, _, slope] = oscillators(&first(2), 3);
         let [a, b] = wave.1[2];
         slope * both * a.hypot(b) / TAU
     };
@@ -277,7 +277,7 @@ fn the_form_of_members() {
 /// Taylor polynomial of degree K in `a - 1` is `|(a - 1)/D|^(K+1)` at the largest, with D at 1.
 #[test]
 fn a_plant_without_states() {
-    let [_, y, _] = oscillators(1, 2);
+    let [_, y, _] = oscillators(&first(1), 2);
     let om = 2.0 * TAU;
     // The number before e in u is minus `sigma + i y (i om + sigma)`.
     let turn = [SIGMA - y * om, y * SIGMA];

@@ -19,7 +19,7 @@ fn times(factor: f64, Wave(mean, pairs): &Wave) -> Wave {
 }
 
 /// This q, of a trial whose u has the powers of `b - 1` up to a degree.
-fn of_gain(case: &Case, degree: i32) -> Case {
+pub fn of_gain(case: &Case, degree: i32) -> Case {
     let [low, high] = GAIN.map(|b| (4.0 * b).to_string());
     let mut case = case.part("/plant/input_gain", json!({ "nominal": "4", "low": low, "high": high }));
     let none = Wave(0.0, vec![]);

@@ -1,7 +1,7 @@
 //! So many oscillators or more by a trial (docs/mathematics.md, section 14.4): what is accepted and refused of a loop whose periodic solution has e = 0.
 
 use crate::trials_support::{
-    Case, Expected, FORMULAS, Formulas, L, asks_for_a_tube_inside, expected, expected_with, largest, n_bar, text,
+    Case, Expected, FORMULAS, Formulas, L, asks_for_a_tube_inside, expected, expected_with, first, largest, n_bar, text,
 };
 use proofs_check::verdict::Verdict;
 use serde_json::{Value, json};
@@ -73,7 +73,7 @@ fn there_is_no_harmonic_that_some_number_would_answer() {
 
 #[test]
 fn every_number_of_the_claim_is_bounded() {
-    for case in [case(), coarse(), Case { n_o: 5, ..coarse().entry("/n_o", 5) }] {
+    for case in [case(), coarse(), Case { own: first(5), ..coarse().entry("/n_o", 5) }] {
         let expected = expected(&case);
         let steady = ["e", "e_rms", "u"].map(|name| format!("/steady/{name}"));
         let all = ["e", "u"].map(|name| format!("/largest/{name}"));

@@ -18,8 +18,6 @@ use std::f64::consts::TAU;
 pub const SIGMA: f64 = 4.0;
 /// n_0 and n_1; n_l is `l^-1.5`.
 pub const WEIGHTS: [f64; 2] = [2.0, 1.0];
-/// The period is 1, and mu too: nu.
-const NU: f64 = 1.0 / TAU;
 /// L.
 pub const L: f64 = 2.0;
 /// At so many times.
@@ -27,9 +25,24 @@ const TIMES: usize = 64;
 /// Harmonics of what f and q need of t.
 const HARMONICS: usize = 12;
 
+/// n_l.
+fn weight(l: usize) -> f64 {
+    if l == 0 { WEIGHTS[0] } else { (l as f64).powf(-1.5) }
+}
+
 /// The root of the sum of the weights of so many oscillators.
 pub fn n_bar(n_o: usize) -> f64 {
-    (WEIGHTS[0] + (1..=n_o).map(|l| (l as f64).powf(-1.5)).sum::<f64>()).sqrt()
+    n_bar_of(&first(n_o))
+}
+
+/// Of those at these harmonics.
+pub fn n_bar_of(own: &[usize]) -> f64 {
+    own.iter().map(|l| weight(*l)).sum::<f64>().sqrt()
+}
+
+/// 0, 1, ..., n_o.
+pub fn first(n_o: usize) -> Vec<usize> {
+    (0..=n_o).collect()
 }
 
 /// The root of the sum of all weights: n_0 and zeta(3/2).
@@ -106,20 +119,26 @@ pub fn largest(value: impl Fn(f64) -> f64) -> f64 {
 const OF_ERROR: [[f64; 2]; 3] = [[0.1, 0.2], [0.3, 0.0], [0.0, -0.1]];
 const FREE: [[f64; 2]; 3] = [[0.2, -0.1], [0.05, 0.1], [0.0, 0.0]];
 
-/// `|i om_k + sigma|` and, with n_o oscillators, y_k and `sqrt(g_N'(k))`.
-pub fn oscillators(n_o: usize, k: usize) -> [f64; 3] {
-    let poles = (0..=n_o).flat_map(|l| if l == 0 { vec![0.0] } else { vec![l as f64, -(l as f64)] });
+/// `|i om_k + sigma|` and, with oscillators at these harmonics and mu = 1, y_k and `sqrt(g_H'(k))`.
+pub fn oscillators(own: &[usize], k: usize) -> [f64; 3] {
+    let poles = own.iter().flat_map(|l| if *l == 0 { vec![0.0] } else { vec![*l as f64, -(*l as f64)] });
     let (mut g, mut slope) = (0.0, 0.0);
     for l in poles {
         let (c, from) = (if l == 0.0 { WEIGHTS[0] } else { l.abs().powf(-1.5) / 2.0 }, l - k as f64);
         (g, slope) = (g + c / from, slope + c / (from * from));
     }
-    [(TAU * k as f64).hypot(SIGMA), NU * g, slope.sqrt()]
+    // The period is 1.
+    [(TAU * k as f64).hypot(SIGMA), g / TAU, slope.sqrt()]
 }
 
 /// `(i om_k + sigma)(1 + i y_k)` times the harmonic `(a - i b)/2` of e, of q.
-pub fn answered(n_o: usize, k: usize, [a, b]: [f64; 2]) -> [f64; 2] {
-    let [_, y, _] = oscillators(n_o, k);
+pub fn answered(own: &[usize], k: usize, pair: [f64; 2]) -> [f64; 2] {
+    answered_at(1.0, own, k, pair)
+}
+
+/// With this mu.
+fn answered_at(mu: f64, own: &[usize], k: usize, [a, b]: [f64; 2]) -> [f64; 2] {
+    let y = mu * oscillators(own, k)[1];
     let om = TAU * k as f64;
     let (re, im) = (SIGMA - om * y, om + SIGMA * y);
     [re * a + im * b, re * b - im * a]
@@ -156,7 +175,9 @@ pub struct Case {
     pub x: Wave,
     pub e: Wave,
     pub q: Wave,
-    pub n_o: usize,
+    /// The harmonics of the oscillators.
+    pub own: Vec<usize>,
+    pub mu: f64,
     /// b_lo and b_hi.
     pub gain: [f64; 2],
     /// By what the size of u, and zhat, is larger than that of the nominal member.
@@ -171,10 +192,23 @@ pub const OFF: [f64; 2] = [0.3, 0.01];
 impl Case {
     /// With the defects 1e-12, the box 2 and 2, and numbers of the claim that are far too large.
     pub fn new(n_o: usize, formulas: Formulas) -> Case {
-        let e = Wave(0.0, (1..=3).map(|k| if k <= n_o { [0.0; 2] } else { OF_ERROR[k - 1] }).collect());
-        let of_q = (1..=3).map(|k| if k <= n_o { FREE[k - 1] } else { answered(n_o, k, e.1[k - 1]) });
-        let q = Wave(0.3, of_q.collect());
-        Case::of(n_o, formulas, [e, q])
+        Case::of(n_o, formulas, Case::waves(&first(n_o), 1.0))
+    }
+
+    /// The same with oscillators at these harmonics, which the entry names, and this mu.
+    pub fn of_set(own: &[usize], mu: f64, formulas: Formulas) -> Case {
+        let case = Case::of(0, formulas, Case::waves(own, mu));
+        let mut case = case.part("/plant/internal_model/mu", mu.to_string());
+        case.entry.as_object_mut().unwrap().remove("n_o");
+        case.entry["harmonics"] = json!(own);
+        Case { own: own.to_vec(), mu, ..case }
+    }
+
+    /// e and q.
+    fn waves(own: &[usize], mu: f64) -> [Wave; 2] {
+        let of_e = |k: usize| if own.contains(&k) { [0.0; 2] } else { OF_ERROR[k - 1] };
+        let of_q = |k: usize| if own.contains(&k) { FREE[k - 1] } else { answered_at(mu, own, k, of_e(k)) };
+        [Wave(0.0, (1..=3).map(of_e).collect()), Wave(0.3, (1..=3).map(of_q).collect())]
     }
 
     /// Of two oscillators or more, without an error; the bounds of derivatives are far too large.
@@ -229,7 +263,25 @@ impl Case {
         // A function that is too large to be of use.
         let (transfer, weights) = (["19.8", "79.1"], ["1e9", "1e9"]);
         let (sigma, stability, gain, of_u) = ("4", None, [1.0; 2], 1.0);
-        Case { parts, entry, trial, sigma, error_box, periodic, transfer, weights, stability, x, e, q, n_o, gain, of_u }
+        let (own, mu) = (first(n_o), 1.0);
+        Case {
+            parts,
+            entry,
+            trial,
+            sigma,
+            error_box,
+            periodic,
+            transfer,
+            weights,
+            stability,
+            x,
+            e,
+            q,
+            own,
+            mu,
+            gain,
+            of_u,
+        }
     }
 
     /// Of a plant without states, with this q; its trial has nothing of states.
@@ -343,7 +395,7 @@ pub struct Expected {
 }
 
 pub fn expected(case: &Case) -> Expected {
-    expected_with(case, if case.is_or_more() { N_BAR } else { n_bar(case.n_o) })
+    expected_with(case, if case.is_or_more() { N_BAR } else { n_bar_of(&case.own) })
 }
 
 /// With this root of the sum of the weights.
@@ -359,7 +411,9 @@ pub fn expected_with(case: &Case, n_bar: f64) -> Expected {
     let [q_low, q_up, c, gamma] = ["Q_low", "Q_up", "c", "gamma"].map(|name| value(&format!("/states/{name}")));
     let g = 4.0 * d_x * d_x * (p_up * p_up / c_x + p * p / c_e) + k_p * k_p * d_q * d_q / c_y;
     let (rho_x, rho_y) = ((g / c_x).sqrt(), (g / c_y).sqrt());
-    let rho_e = (g / c_e).sqrt().min(rho_y / SIGMA.hypot(TAU * (case.n_o + 1) as f64));
+    let (own, mu) = (&case.own, case.mu);
+    let next = (1..).find(|k| !own.contains(k)).unwrap();
+    let rho_e = (g / c_e).sqrt().min(rho_y / SIGMA.hypot(TAU * next as f64));
     let s_e = (rho_e * rho_y).sqrt();
     let s_x = (q_up / (q_low * c) * (gamma * s_e * s_e + q_up * q_up * d_x * d_x / c)).sqrt();
     let [low, high] = case.gain;
@@ -371,25 +425,31 @@ pub fn expected_with(case: &Case, n_bar: f64) -> Expected {
         let [k0, k1] = case.transfer.map(|text| text.parse::<f64>().unwrap());
         (k0 / TAU.powi(2), k1 / TAU.powi(4) * rate * rate)
     } else {
-        let own = (case.n_o + 1) as f64 / WEIGHTS[0];
-        ((1..=case.n_o).map(|k| 2.0 * (k as f64).powf(1.5)).fold(own, f64::max), 0.0)
+        // Times `(b_lo mu)^2`.
+        let at_mean = if case.entry["harmonics"].is_null() {
+            own.len() as f64 / WEIGHTS[0]
+        } else {
+            (1.0 / WEIGHTS[0]).max((low * mu * n_bar / TAU).powi(2))
+        };
+        (own.iter().skip(1).map(|k| 2.0 / weight(*k)).fold(at_mean, f64::max) / (mu * mu), 0.0)
     };
-    let s_z = ((0.5 / low + kappa / (low * low)) * input * input + other / (low * low)).sqrt();
+    let s_z = ((0.5 / (low * mu) + kappa / (low * low)) * input * input + other / (low * low)).sqrt();
     let size = |[a, b]: [f64; 2]| a.hypot(b);
     let within = |k: usize| size(case.q.1[k - 1]).powi(2) / (k as f64).powf(-1.5);
-    let first = (case.q.0 * case.q.0 / WEIGHTS[0] + (1..=case.n_o.min(case.q.1.len())).map(within).sum::<f64>()).sqrt();
+    let known = own.iter().copied().filter(|k| (1..=case.q.1.len()).contains(k));
+    let first = (case.q.0 * case.q.0 / WEIGHTS[0] + known.map(within).sum::<f64>()).sqrt() / mu;
     let beyond = |k: usize| {
-        let [both, _, slope] = oscillators(case.n_o, k);
+        let [both, _, slope] = oscillators(own, k);
         slope * both * size(case.e.1[k - 1]) / TAU
     };
-    let z_n = case.of_u * first + (case.n_o + 1..=case.e.1.len()).map(beyond).sum::<f64>() + s_z;
+    let z_n = case.of_u * first + (1..=case.e.1.len()).filter(|k| !own.contains(k)).map(beyond).sum::<f64>() + s_z;
     let e_n = largest(|t| case.e.at(t, 0)) + s_e;
     let rms = (case.e.1.iter().map(|pair| size(*pair).powi(2)).sum::<f64>() / 2.0).sqrt();
-    let u = case.of_u * largest(|t| case.e.at(t, 1) - case.q.at(t, 0)) + SIGMA * s_e + n_bar * s_z;
+    let u = case.of_u * largest(|t| case.e.at(t, 1) - case.q.at(t, 0)) + SIGMA * s_e + mu * n_bar * s_z;
     let x_n = OFF[0] / L + OFF[1] + s_x;
     let [d_x, d_e, d_z] = [SET[0] + x_n, SET[1] + e_n, SET[2] + n_bar * SET[1] + z_n];
-    let at = |b: f64| p_up * d_x * d_x + 2.0 * p * d_x * d_e + w * d_e * d_e + k_p * b / 2.0 * d_z * d_z;
-    let of_u = |b: f64| (at(b) * (SIGMA * SIGMA / e_low + 2.0 * n_bar * n_bar / (b * k_p))).sqrt();
+    let at = |b: f64| p_up * d_x * d_x + 2.0 * p * d_x * d_e + w * d_e * d_e + k_p * b * mu / 2.0 * d_z * d_z;
+    let of_u = |b: f64| (at(b) * (SIGMA * SIGMA / e_low + 2.0 * mu * n_bar * n_bar / (b * k_p))).sqrt();
     let v_0 = at(high);
     Expected {
         s_x,
@@ -404,9 +464,9 @@ pub fn expected_with(case: &Case, n_bar: f64) -> Expected {
 
 /// `largest` by a function that is at most `level` at the start, and never below `weight e^2 + h |zeta|_N^2`.
 pub fn peaks(case: &Case, level: f64, [weight, h]: [f64; 2]) -> [f64; 2] {
-    let n_bar = if case.is_or_more() { N_BAR } else { n_bar(case.n_o) };
+    let n_bar = if case.is_or_more() { N_BAR } else { n_bar_of(&case.own) };
     let Expected { steady: [e, _, u], .. } = expected(case);
-    [e + (level / weight).sqrt(), u + (level * (SIGMA * SIGMA / weight + n_bar * n_bar / h)).sqrt()]
+    [e + (level / weight).sqrt(), u + (level * (SIGMA * SIGMA / weight + (case.mu * n_bar).powi(2) / h)).sqrt()]
 }
 
 pub fn text(value: f64) -> Value {

@@ -5,7 +5,7 @@ use proofs_check::verdict::Verdict::{BadInput, Invalid, Undecided};
 use serde_json::{Value, json};
 
 /// q_e grows with |e|: `d = 3 e^2/50 + x/10`; `r = 1 + e/5`, and `J = -2 - x^2/20`, `g = 1/4`.
-const GROWING: Formulas = Formulas {
+pub const GROWING: Formulas = Formulas {
     q: "x/2 + e^3/50 + x*e/10",
     values: |x, e| {
         let [f, _] = (FORMULAS.values)(x, e);
@@ -25,7 +25,7 @@ fn with(formulas: Formulas) -> Case {
     along(&Case { error_box: ["0.1", "0.1"].map(str::to_owned), ..case })
 }
 
-fn along(case: &Case) -> Case {
+pub fn along(case: &Case) -> Case {
     let mut case = case.trial("/box/x", "0.3").trial("/box/e", "0.3");
     case.trial["x_first"] = json!({
         "box": { "x": BOX[0].to_string(), "e": BOX[1].to_string() }, "E": BOX[2].to_string(),
@@ -43,7 +43,7 @@ fn case() -> Case {
 }
 
 /// V_0 of its form.
-fn level(case: &Case) -> f64 {
+pub fn level(case: &Case) -> f64 {
     let [x, e, z] = expected(case).distances;
     1.01 * x * x + e * e + 0.4 * z * z
 }

@@ -126,6 +126,12 @@ impl<'a> Claim<'a> {
             None => Entry::read_all(field),
             Some(_) => bad(&field.pointer, "nothing is proved by n_o of a regulator at samples"),
         })?;
+        let harmonics = fields.optional("harmonics");
+        let of_set = by_n_o.iter().flatten().find(|entry| entry.oscillators.n_o().is_none());
+        if let Some(entry) = of_set.filter(|_| harmonics.is_none()) {
+            let what = "expected only where the claim has `harmonics`";
+            return bad(&format!("{}/harmonics", entry.pointer), what);
+        }
         let claim = Claim {
             rates: rates.transpose()?.unwrap_or_default(),
             by_n_o: by_n_o.unwrap_or_default(),
@@ -142,7 +148,7 @@ impl<'a> Claim<'a> {
             set_text,
             verdict: fields.required("verdict")?,
             n_o: fields.required("n_o")?,
-            harmonics: fields.optional("harmonics"),
+            harmonics,
             mu: fields.required("mu")?,
             kind,
             periodic: fields.required("periodic_solution")?,

@@ -1,5 +1,6 @@
 //! What a claim says by the number of oscillators, as it is written and in words (docs/mathematics.md, section 14).
 
+use super::oscillators::Oscillators;
 use crate::json::{Field, Fields};
 use crate::noise::apart;
 use crate::rules::rates::claimed::read_count;
@@ -12,13 +13,13 @@ pub const RULE: &str = "by n_o";
 /// The most entries.
 const MOST: usize = 64;
 
-/// What is said of one n_o, or of it and every larger one, at the gain of the claim.
+/// What is said of one n_o, or of it and every larger one, or of a set of harmonics, at the gain of the claim.
 pub struct Entry<'a> {
     /// Where it stands in the file.
     pub pointer: String,
-    /// The number of oscillators.
-    pub n_o: u32,
-    /// Whether it is said of every larger number, too. Of the last entry alone.
+    /// Its oscillators.
+    pub oscillators: Oscillators,
+    /// Whether it is said of every larger number, too. Of the last entry with n_o alone.
     pub or_more: bool,
     /// Along the T-periodic solution: bounds of |e|, of the root mean square of e, and of what is put out.
     pub steady: [Rational; 3],
@@ -29,7 +30,7 @@ pub struct Entry<'a> {
 }
 
 impl<'a> Entry<'a> {
-    /// Reads the part `by_n_o`: each n_o once, in order.
+    /// Reads the part `by_n_o`: each n_o once, in order, and then each set once.
     pub fn read_all(field: &Field<'a>) -> Outcome<Vec<Entry<'a>>> {
         let list = field.elements()?;
         if list.is_empty() || list.len() > MOST {
@@ -38,13 +39,24 @@ impl<'a> Entry<'a> {
         let mut entries: Vec<Entry<'a>> = Vec::new();
         for field in list {
             let entry = field.object(Entry::take)?;
-            if let Some(before) = entries.last() {
-                if before.or_more {
-                    return bad(&format!("{}/or_more", before.pointer), "expected in the last entry alone");
+            match (entries.last(), entry.oscillators.n_o()) {
+                (Some(before), Some(n_o)) => match before.oscillators.n_o() {
+                    None => {
+                        return bad(&format!("{}/n_o", entry.pointer), "expected before the entries with `harmonics`");
+                    }
+                    Some(_) if before.or_more => {
+                        let what = "expected in the last entry with `n_o` alone";
+                        return bad(&format!("{}/or_more", before.pointer), what);
+                    }
+                    Some(least) if least >= n_o => {
+                        return bad(&format!("{}/n_o", entry.pointer), "expected each n_o once, in rising order");
+                    }
+                    Some(_) => {}
+                },
+                (_, None) if entries.iter().any(|other| other.oscillators == entry.oscillators) => {
+                    return bad(&format!("{}/harmonics", entry.pointer), "expected each set once");
                 }
-                if before.n_o >= entry.n_o {
-                    return bad(&format!("{}/n_o", entry.pointer), "expected each n_o once, in rising order");
-                }
+                _ => {}
             }
             entries.push(entry);
         }
@@ -52,23 +64,29 @@ impl<'a> Entry<'a> {
     }
 
     fn take(fields: &mut Fields<'a>) -> Outcome<Entry<'a>> {
-        let n_o = read_count(fields)?;
-        let or_more = fields.part("or_more", |field| match field.truth()? {
-            true => Ok(()),
-            false => bad(&field.pointer, "expected `true`, or no such field"),
-        })?;
+        // A set has neither of the other two fields.
+        let (oscillators, or_more) = match fields.part("harmonics", Oscillators::read_set)? {
+            Some(set) => (set, None),
+            None => {
+                let n_o = read_count(fields)?;
+                let or_more = fields.part("or_more", |field| match field.truth()? {
+                    true => Ok(()),
+                    false => bad(&field.pointer, "expected `true`, or no such field"),
+                })?;
+                (Oscillators::first(n_o), or_more)
+            }
+        };
         let steady = fields.required("steady")?;
         let (steady, steady_texts) = steady.object(|fields| sizes(fields, ["e", "e_rms", "u"]))?;
         let largest = fields.part("largest", |field| field.object(|fields| sizes(fields, ["e", "u"])))?;
         let (largest, largest_texts) = largest.map_or((None, [""; 2]), |(numbers, texts)| (Some(numbers), texts));
         let pointer = fields.pointer.clone();
-        Ok(Entry { pointer, n_o, or_more: or_more.is_some(), steady, largest, steady_texts, largest_texts })
+        Ok(Entry { pointer, oscillators, or_more: or_more.is_some(), steady, largest, steady_texts, largest_texts })
     }
 
-    /// Which n_o it is about.
+    /// Which oscillators it is about.
     pub fn about(&self) -> String {
-        let every = if self.or_more { "every n_o >=" } else { "n_o =" };
-        format!("{every} {}", self.n_o)
+        self.oscillators.in_words(self.or_more)
     }
 
     /// Its sentence in the claim, with a space before it; `output`: what is put out.

@@ -8,7 +8,6 @@ use crate::spec::Specification;
 use crate::verdict::{Outcome, bad, demand};
 use crate::wave::Wave;
 use rug::Rational;
-use std::ops::RangeInclusive;
 
 /// The most harmonics of a curve.
 const MOST_HARMONICS: usize = 64;
@@ -53,16 +52,15 @@ impl Curves {
         let e = of_e.object(|fields| Wave::read_without_mean(fields, MOST_HARMONICS))?;
         let of_u = fields.required("u")?;
         let u = of_u.object(|fields| Wave::read(fields, MOST_HARMONICS))?;
-        let n_o = entry.n_o as usize;
-        let silent =
-            |wave: &Wave, mut k: RangeInclusive<usize>| k.all(|k| wave.harmonic(k).iter().all(Rational::is_zero));
+        let silent = |wave: &Wave, k: usize| wave.harmonic(k).iter().all(Rational::is_zero);
+        let own = |k: &usize| entry.oscillators.contains(*k);
         if entry.or_more {
             demand(Some(e.is_constant()), RULE, &of_e.pointer, format!("no harmonic, for {}", entry.about()))?;
-            let within = silent(&u, n_o + 1..=u.harmonics.len());
+            let within = (1..=u.harmonics.len()).filter(|k| !own(k)).all(|k| silent(&u, k));
             demand(Some(within), RULE, &of_u.pointer, format!("no harmonic above n_o, for {}", entry.about()))?;
         } else {
-            let what = format!("no harmonic up to that of {}", entry.about());
-            demand(Some(silent(&e, 1..=n_o)), RULE, &of_e.pointer, what)?;
+            let without = (1..=e.harmonics.len()).filter(own).all(|k| silent(&e, k));
+            demand(Some(without), RULE, &of_e.pointer, format!("no harmonic of an oscillator, for {}", entry.about()))?;
         }
         Ok(Curves { powers, x, e, u })
     }

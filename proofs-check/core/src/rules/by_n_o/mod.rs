@@ -1,6 +1,6 @@
 //! Rule: what a claim says by the number of oscillators, at its gain and no other, in continuous time and without noise (docs/mathematics.md, section
 //! 14): how large the error and the control are along the T-periodic solution, and at all times from the claimed set. Of a plant that is given by
-//! its formulas, with a matched base frequency.
+//! its formulas, with a matched base frequency. Where the claim is about every set of harmonics, the oscillators may be those of one set (section 14.7).
 //!
 //! Guarantee of [`prove`]: of a plant that is linear in x and e, `largest` of each entry follows from what `steady` and the witness say of the periodic
 //! solution. That these are true of the formulas is proved by the crate `proofs-plants`, whose part has the same name; with trials all that an entry
@@ -10,6 +10,7 @@ pub mod claimed;
 pub mod curves;
 mod form;
 pub mod linear;
+pub mod oscillators;
 pub mod peaks;
 pub mod trials;
 pub mod tube;

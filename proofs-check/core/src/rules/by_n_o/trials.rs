@@ -1,7 +1,7 @@
 //! What proves the numbers by n_o at one gain of the law: a trial for each entry, near which the periodic solution is (docs/mathematics.md, section
 //! 14.4), with the forms that say so. Read, and of the numbers that stand alone it is decided that they are right.
 //!
-//! Guarantee of [`Trial`]: no coefficient of ehat has a mean or a harmonic up to n_o; of an entry about so many oscillators or more ehat = 0, and no
+//! Guarantee of [`Trial`]: no coefficient of ehat has a mean or a harmonic of an oscillator; of an entry about so many oscillators or more ehat = 0, and no
 //! coefficient of uhat has a harmonic above n_o. A harmonic that is written with 0 for both of its numbers is none. Of each form `P <= P_up I`, `Pi >= diag(x_low I, 0)` and
 //! `Pi >= diag(0, e_low)` with x_low, e_low > 0, so that Pi is positive definite. `Q_low I <= Q <= Q_up I`, and k_p, c_x, c_e, c_y, Q_low, c, gamma, D_x
 //! and D_e are above 0. What is said of the formulas is proved by the crate `proofs-plants`.
@@ -16,7 +16,7 @@ use crate::rules::inequality::{Extent, Metric, P, number, symmetric};
 use crate::verdict::{Outcome, bad, demand};
 use rug::Rational;
 
-/// A trial of one n_o.
+/// A trial of one n_o, or of one set of harmonics.
 #[derive(Clone, Debug)]
 pub struct Trial {
     /// Where it stands in the file.

@@ -1,12 +1,13 @@
 //! What follows from a trial: Theorem T of section 14.4 of docs/mathematics.md and its corollary. Which solution it is and the peaks are in [`peaks`].
 //!
 //! Guarantee of [`prove`], with the trial's inequalities and defects proved of the formulas on its box for every member, the boxes in the domain of the
-//! plant, and with [`Sizes`] as they are: the loop of every member with n_o oscillators and the gain sigma has exactly one T-periodic solution in its
+//! plant, and with [`Sizes`] as they are: the loop of every member with the oscillators of the entry and the gain sigma has exactly one T-periodic solution in its
 //! box, it is that of the claim, and `steady` of the entry is true of it. `largest`, where it is there, is true of every solution from the claimed set. With an entry about so many
 //! oscillators or more that is so for each number of them: then `k0` and `k1` have to be proved, too, and what the trial has for it.
 
 use super::About;
 use super::claimed::{Entry, RULE};
+use super::oscillators::Oscillators;
 use super::peaks::{self, Solution};
 use super::trials::{OrMore, States, Trial};
 use crate::data::Data;
@@ -41,12 +42,12 @@ struct Tube {
 }
 
 impl Tube {
-    /// The numbers of Theorem T, or of its corollary with k0 and k1: n_o is the least number of oscillators.
-    fn new(d: &Data<'_>, (sigma, n_o): (&Interval, u32), trial: &Trial, pair: [&Rational; 2]) -> Tube {
+    /// The numbers of Theorem T, or of its corollary with k0 and k1: then the oscillators are the fewest that it is about.
+    fn new(d: &Data<'_>, (sigma, own): (&Interval, &Oscillators), trial: &Trial, pair: [&Rational; 2]) -> Tube {
         let [[d_x, d_q], [b_x, b_e]] =
             [&trial.defects, &trial.slopes].map(|pair| pair.each_ref().map(|of| d.number(of)));
         let [rho_x, rho_e, rho_y] = match trial.forms.first() {
-            Some(first) => means(d, (sigma, n_o), first, [&d_x, &d_q]),
+            Some(first) => means(d, (sigma, own.next()), first, [&d_x, &d_q]),
             // A trial has a form.
             None => [(); 3].map(|()| Interval::undefined(d.precision)),
         };
@@ -62,7 +63,7 @@ impl Tube {
         let low = d.by_gain(|gain| &gain.low, &d.int(1));
         let of_swing = d.period.only() / (&low * &d.mu * 2);
         let square = match &trial.or_more {
-            None => (of_swing + swing(d, n_o) / low.sqr()) * input.sqr(),
+            None => (of_swing + swing(d, own, &low)) * input.sqr(),
             Some(OrMore { defect, rates, slopes }) => {
                 let [q_tx, q_te, f_x, f_e] =
                     [&rates[0], &rates[1], &slopes[0], &slopes[1]].map(|value| d.number(value));
@@ -78,10 +79,10 @@ impl Tube {
     }
 }
 
-/// rho_x, rho_e and rho_y.
+/// rho_x, rho_e and rho_y; `next`: the first harmonic without an oscillator.
 fn means(
     d: &Data<'_>,
-    (sigma, n_o): (&Interval, u32),
+    (sigma, next): (&Interval, u32),
     (metric, extent): &(Metric, Extent),
     [d_x, d_q]: [&Interval; 2],
 ) -> [Interval; 3] {
@@ -90,7 +91,7 @@ fn means(
     let of_x = p_up.sqr() / &c_x + size_of_cross(d, metric).sqr() / &c_e;
     let g = d_x.sqr() * of_x * 4 + (k_p * d_q).sqr() / &c_y;
     let [rho_x, rho_e, rho_y] = [c_x, c_e, c_y].map(|c| (&g / c).sqrt());
-    let next = d.period.slowest() * (i64::from(n_o) + 1);
+    let next = d.period.slowest() * i64::from(next);
     let by_y = &rho_y / (sigma.sqr() + next.sqr()).sqrt();
     [rho_x, rho_e.min(&by_y), rho_y]
 }
@@ -102,20 +103,28 @@ fn shift(d: &Data<'_>, sigma: &Interval) -> Interval {
     low.max(&high)
 }
 
-/// kappa_N where b is 1.
-fn swing(d: &Data<'_>, n_o: u32) -> Interval {
-    let own = (i64::from(n_o) + 1) / d.weight(0);
-    let of = |k: u32| 2 / d.weight(u64::from(k));
-    (1..=n_o).fold(own, |most, k| most.max(&of(k))) / d.mu.sqr()
+/// kappa_N, or kappa_H of a set: `d` has the sum of the weights of these oscillators. That all terms of g_N(k) have one sign, from which the `N + 1` is,
+/// they have beyond the last pole alone; of a set `g_H'(k) <= Nbar_H^2` where there is none at k, for the distances are 1 or more.
+fn swing(d: &Data<'_>, own: &Oscillators, low: &Interval) -> Interval {
+    let of = |k: &u32| 2 / d.weight(u64::from(*k));
+    let at_mean = own.n_o().map_or(1, |n_o| i64::from(n_o) + 1) / d.weight(0);
+    let later = own.harmonics().iter().skip(1);
+    let poles = later.fold(at_mean, |most, k| most.max(&of(k))) / d.mu.sqr() / low.sqr();
+    match own.n_o() {
+        Some(_) => poles,
+        None => poles.max(&(&d.n_bar / d.period.slowest()).sqr()),
+    }
 }
 
 /// Proves an entry with its trial; `d` has the sum of all weights.
 pub fn prove(d: &Data<'_>, about: &About<'_>, (entry, trial): (&Entry<'_>, &Trial), curves: &Sizes) -> Outcome<()> {
     // Of so many oscillators or more the sum of all weights counts.
-    let alone = trial.or_more.is_none().then(|| Data::of_oscillators(d.spec, d.precision, entry.n_o));
-    let (d, n_bar) = alone.as_ref().map_or((d, "Nbar"), |d| (d, "Nbar_N"));
+    let alone =
+        trial.or_more.is_none().then(|| Data::of_oscillators(d.spec, d.precision, entry.oscillators.harmonics()));
+    let name = if entry.oscillators.n_o().is_some() { "Nbar_N" } else { "Nbar_H" };
+    let (d, n_bar) = alone.as_ref().map_or((d, "Nbar"), |d| (d, name));
     let sigma = d.number(about.sigma);
-    let tube = Tube::new(d, (&sigma, entry.n_o), trial, about.transfer);
+    let tube = Tube::new(d, (&sigma, &entry.oscillators), trial, about.transfer);
     let has_states = trial.states.is_some();
     let [d_x, d_e] = trial.radii.each_ref().map(|value| d.number(value));
     let less = |what: &str, left: Interval, right: &Interval, place: String| {

@@ -1,8 +1,8 @@
 //! What is asked of one n_o along the periodic solution, on a box of the parameters and of b (docs/mathematics.md, section 14.3).
 //!
-//! With `D_k = i om_k - W_k + b (sigma + i y_k (i om_k + sigma))` the harmonics are for `|k| <= n_o`
-//! `e_k = 0`, `x_k = x_0k`, `u_k = -c_k/b`, `|zeta_k|_N^2 = 2 |c_k|^2/((b mu)^2 n_k)` (`c_0^2/((b mu)^2 n_0)` for k = 0), and beyond `e_k = c_k/D_k`,
-//! `x_k - x_0k = R_k g e_k`, `u_k = -(sigma + i y_k (i om_k + sigma)) e_k`, `|zeta_k|_N = sqrt(g_N'(k)) |i om_k + sigma| |e_k|/Om`. At all times
+//! With `D_k = i om_k - W_k + b (sigma + i y_k (i om_k + sigma))` the harmonics are where there is an oscillator, for `|k| <= n_o` or in a set,
+//! `e_k = 0`, `x_k = x_0k`, `u_k = -c_k/b`, `|zeta_k|_N^2 = 2 |c_k|^2/((b mu)^2 n_k)` (`c_0^2/((b mu)^2 n_0)` for k = 0), and elsewhere `e_k = c_k/D_k`,
+//! `x_k - x_0k = R_k g e_k`, `u_k = -(sigma + i y_k (i om_k + sigma)) e_k`, `|zeta_k|_N = sqrt(g_H'(k)) |i om_k + sigma| |e_k|/Om`. At all times
 //! `|zeta|_N` is at most `sqrt(|zeta_0|_N^2 + 2 sum_(1 <= k <= n_o) |zeta_k|_N^2) + 2 sum_(k > n_o) |zeta_k|_N`.
 
 use super::answers::Answer;
@@ -65,8 +65,8 @@ impl Entry {
         harmonics: &[usize],
         (nominal, states): (&Interval, usize),
     ) -> Entry {
-        let n_o = claimed.n_o as usize;
-        let (within, beyond): (Vec<usize>, Vec<usize>) = harmonics.iter().partition(|k| **k <= n_o);
+        let own = &claimed.oscillators;
+        let (within, beyond): (Vec<usize>, Vec<usize>) = harmonics.iter().partition(|k| own.contains(**k));
         let number = |value: &Rational| Interval::rational(value, nominal.precision());
         let [e, e_rms, u] = &claimed.steady;
         let all = [
@@ -101,7 +101,7 @@ impl Entry {
             });
         Entry {
             asked: asked.collect(),
-            beyond: beyond.into_iter().map(|k| (k, regulator.beyond(n_o, k))).collect(),
+            beyond: beyond.into_iter().map(|k| (k, regulator.beyond(own, k))).collect(),
             within: within.into_iter().map(|k| (k, regulator.weight(k))).collect(),
         }
     }

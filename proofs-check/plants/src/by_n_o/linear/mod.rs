@@ -102,7 +102,12 @@ impl Question<'_> {
         for entry in claimed.iter().filter(|entry| entry.or_more) {
             let what =
                 format!("no harmonic of the forcing is beyond n_o, the last one that is seen in its form is {most}");
-            demand((entry.n_o as usize >= most).then_some(true), RULE, &format!("{}/or_more", entry.pointer), what)?;
+            demand(
+                entry.oscillators.contains(most).then_some(true),
+                RULE,
+                &format!("{}/or_more", entry.pointer),
+                what,
+            )?;
         }
         let nominal = spec
             .input_gain

@@ -1,10 +1,11 @@
-//! What n_o oscillators of a matched base frequency make of a harmonic k beyond them (docs/mathematics.md, section 14.3).
+//! What the oscillators of a matched base frequency make of a harmonic k at which there is none (docs/mathematics.md, sections 14.3 and 14.7).
 //!
-//! With `g = g_N(k) = sum over |l| <= N of c_l/(l - k)`, `c_0 = n_0` and else `c_l = n_|l|/2`, and `y_k = nu g`, the control has the harmonic
-//! `u_k = -(sigma + i y_k (i om_k + sigma)) e_k`, for `mu s_k = -i y_k (i om_k + sigma) e_k`; and `|zeta_k|_N = sqrt(g_N'(k)) |i om_k + sigma| |e_k|/Om`.
+//! With `g = g_H(k) = sum over |l| in H of c_l/(l - k)`, H their harmonics, `c_0 = n_0` and else `c_l = n_|l|/2`, and `y_k = nu g`, the control has the harmonic
+//! `u_k = -(sigma + i y_k (i om_k + sigma)) e_k`, for `mu s_k = -i y_k (i om_k + sigma) e_k`; and `|zeta_k|_N = sqrt(g_H'(k)) |i om_k + sigma| |e_k|/Om`.
 
 use super::complex::Complex;
 use proofs_core::interval::Interval;
+use proofs_core::rules::by_n_o::oscillators::Oscillators;
 use proofs_core::spec::InternalModel;
 
 /// The regulator of the claim at one precision.
@@ -19,11 +20,11 @@ pub struct Regulator<'s> {
     pub om: Interval,
 }
 
-/// Of a harmonic beyond the oscillators.
+/// Of a harmonic without an oscillator.
 pub struct Beyond {
     /// `sigma + i y_k (i om_k + sigma)`.
     pub turn: Complex,
-    /// `sqrt(g_N'(k)) |i om_k + sigma|/Om`.
+    /// `sqrt(g_H'(k)) |i om_k + sigma|/Om`.
     pub size: Interval,
 }
 
@@ -38,13 +39,14 @@ impl Regulator<'_> {
         self.model.weights.weight(l as u64, self.om.precision())
     }
 
-    /// Of a harmonic `k > n_o`: the terms l and -l of g are `-n_l k/(k^2 - l^2)` together, and those of g' `n_l (k^2 + l^2)/(k^2 - l^2)^2`.
-    pub fn beyond(&self, n_o: usize, k: usize) -> Beyond {
+    /// Of a harmonic k >= 1 that is not among them: the terms l and -l of g are `-n_l k/(k^2 - l^2)` together, and those of g'
+    /// `n_l (k^2 + l^2)/(k^2 - l^2)^2`. They are not defined where k is one of them.
+    pub fn beyond(&self, own: &Oscillators, k: usize) -> Beyond {
         let square = (k * k) as i64;
         let n_0 = self.weight(0);
         let (mut g, mut slope) = (-(&n_0 / k as i64), &n_0 / square);
-        for l in 1..=n_o {
-            let (n_l, of_l) = (self.weight(l), (l * l) as i64);
+        for l in own.harmonics().iter().skip(1) {
+            let (n_l, of_l) = (self.weight(*l as usize), i64::from(*l) * i64::from(*l));
             g = g - &n_l * k as i64 / (square - of_l);
             slope = slope + n_l * (square + of_l) / ((square - of_l) * (square - of_l));
         }

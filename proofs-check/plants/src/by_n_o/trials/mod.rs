@@ -41,7 +41,7 @@ pub fn prove(
     };
     let in_short = circle(PRECISION);
     for (entry, trial) in claimed.iter().zip(trials) {
-        let of = Of::new(&d, plant, &regulator, (entry.n_o as usize, trial));
+        let of = Of::new(&d, plant, &regulator, (&entry.oscillators, trial));
         let sizes = of.sizes(in_short.each_ref());
         let larger = trial.x_first.iter().map(|first| (&first.pointer, &first.radii));
         for (pointer, radii) in [(&trial.pointer, &trial.radii)].into_iter().chain(larger) {

@@ -10,6 +10,7 @@ use crate::time::Wave;
 use proofs_core::data::Data;
 use proofs_core::interval::Interval;
 use proofs_core::rules::by_n_o::curves::Curves;
+use proofs_core::rules::by_n_o::oscillators::Oscillators;
 use proofs_core::rules::by_n_o::trials::Trial;
 use proofs_core::rules::by_n_o::tube::Sizes;
 use rug::Rational;
@@ -30,16 +31,16 @@ pub struct Of<'t> {
 }
 
 impl<'t> Of<'t> {
-    /// With n_o oscillators.
+    /// With these oscillators.
     pub fn new(
         d: &'t Data<'t>,
         plant: &'t Plant,
         regulator: &Regulator<'_>,
-        (n_o, trial): (usize, &'t Trial),
+        (own, trial): (&Oscillators, &'t Trial),
     ) -> Of<'t> {
         let mut of = Of { d, plant, trial, kappa: d.int(0), zeta: d.int(0) };
         for curves in &trial.curves {
-            let (answer, size) = (Answer::new(regulator, n_o, curves), of.size(&curves.powers));
+            let (answer, size) = (Answer::new(regulator, own, curves), of.size(&curves.powers));
             of.kappa = of.kappa + answer.kappa * &size;
             of.zeta = of.zeta + answer.zeta * size;
         }
