@@ -10,6 +10,9 @@ use std::f64::consts::TAU;
 /// How far a is from 1.
 const APART: f64 = 0.1;
 
+/// The share of the slope of x that the orbit has.
+const OF_ORBIT: f64 = 0.25;
+
 /// f and q of x, e and a.
 fn values(x: f64, e: f64, a: f64) -> [f64; 2] {
     let [_, q] = (FORMULAS.values)(x, e);
@@ -53,7 +56,7 @@ fn member(powers: &[u32], x: &Wave, e: &Wave, u: &Wave) -> Value {
     json!({ "powers": powers, "x": x.json(true, true), "e": e.json(false, false), "u": u.json(true, false) })
 }
 
-/// A family whose solutions are affine in a; the orbit moves by half of what x does.
+/// A family whose solutions are affine in a; the orbit moves by a share of what x does.
 fn case(n_o: usize) -> Case {
     let mut case = Case::new(n_o, FORMULAS);
     let [x, e, q] = slopes(n_o);
@@ -75,8 +78,8 @@ fn case(n_o: usize) -> Case {
         .part("/plant/f", json!([f]))
         .part("/plant/q", text_of_q)
         .part("/plant/parameters", json!({ "a": { "nominal": "1", "low": "0.9", "high": "1.1" } }));
-    let half = moved(&Wave(0.0, Vec::new()), &x, 0.5);
-    case.parts.0["witness"]["orbit"]["sensitivities"] = json!([half.json(true, true)]);
+    let slope = moved(&Wave(0.0, Vec::new()), &x, OF_ORBIT);
+    case.parts.0["witness"]["orbit"]["sensitivities"] = json!([slope.json(true, true)]);
     case.parts.0["witness"]["forcing"]["sensitivities"] = json!([{ "mean": "0", "harmonics": [] }]);
     case.trial["members"] = json!([member(&[1], &x, &e, &control(&e, &q))]);
     // The slope of q by e is larger by up to 0.1.
@@ -126,6 +129,16 @@ fn defects_are_those_of_all_members() {
     both.trial("/defect_q", "0.001199").refused(Invalid, "/defect_q");
 }
 
+/// A harmonic that the law does not put out is in the defect, and in kappa once more, that of every power of `a - 1`.
+#[test]
+fn what_the_law_does_not_put_out_counts_for_every_member() {
+    let at = "/members/0/u/harmonics/2/cos";
+    let u = case(1).trial.pointer(at).unwrap().as_str().unwrap().parse::<f64>().unwrap();
+    let off = case(1).trial(at, text(u + 1e-3));
+    off.trial("/defect_q", text(2e-3 * APART * (1.0 + 1e-4))).accepted();
+    off.trial("/defect_q", text(2e-3 * APART * (1.0 - 1e-4))).refused(Invalid, "/defect_q");
+}
+
 /// One that is large in a corner of the interval alone: at the middle it is 0 to fifteen digits, with all its derivatives.
 #[test]
 fn a_defect_is_seen_where_it_is() {
@@ -161,7 +174,7 @@ fn sizes_are_those_of_all_members() {
             }
         }
         // How far x is from the orbit of the member, and which solution it is.
-        let x_n = largest(|t| (OFF[0] + APART * (x.at(t, 0) / 2.0).abs()) / L) + OFF[1];
+        let x_n = largest(|t| (OFF[0] + APART * (1.0 - OF_ORBIT) * x.at(t, 0).abs()) / L) + OFF[1];
         let small = case.steady_alone().trial("/box/x", "0.1").trial("/box/e", "0.1");
         for (which, size) in [(0, x_n), (1, of_e)] {
             let with = |factor: f64| {
@@ -194,7 +207,7 @@ fn the_peaks_are_those_of_all_members() {
     let [_, e, _] = slopes(2);
     let z_n = size(&case.q) + beyond(&case.e) + APART * (size(&q) + beyond(&e));
     let e_n = largest(|t| case.e.at(t, 0).abs() + APART * e.at(t, 0).abs());
-    let x_n = largest(|t| (OFF[0] + APART * (x.at(t, 0) / 2.0).abs()) / L) + OFF[1];
+    let x_n = largest(|t| (OFF[0] + APART * (1.0 - OF_ORBIT) * x.at(t, 0).abs()) / L) + OFF[1];
     let n_bar = crate::trials_support::n_bar(2);
     let [d_x, d_e, d_z] = [0.05 + x_n, 0.04 + e_n, 0.1 + n_bar * 0.04 + z_n];
     let v_0 = d_x * d_x + 0.1 * d_x * d_e + d_e * d_e + 0.4 * d_z * d_z;
