@@ -6,8 +6,10 @@ use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_propose::bounds::{FallingForm, LookedAt, PeakBox, PeakOf, PeakProgram, PointSlopes};
 use sigmastar_theory::evidence::Part;
 
-/// By what share of the diagonal the matrices of a form are to be definite.
-pub(super) const MARGINS: [f64; 2] = [1e-3, 1e-5];
+/// By what share of the diagonal the matrices of a form are to be definite; of a family, each box of which costs the check more, wider at first: that takes
+/// far fewer boxes, and peaks are larger by half a hundredth at most.
+const MARGINS: [f64; 2] = [1e-3, 1e-5];
+const MARGINS_OF_FAMILY: [f64; 2] = [1e-2, 1e-5];
 const WIDE_MARGINS: [f64; 2] = [0.1, 1e-2];
 /// Of the form that says how near to the trial the solution is, where its defects are more than rounding.
 const NEAR_MARGINS: [f64; 5] = [0.5, 0.3, 0.2, 0.1, 1e-2];
@@ -54,6 +56,11 @@ struct Fitted {
 }
 
 impl Around<'_> {
+    /// The margins of forms, in turn.
+    pub(super) fn margins(&self) -> [f64; 2] {
+        if self.is_family() { MARGINS_OF_FAMILY } else { MARGINS }
+    }
+
     fn program(&self, prepared: &Prepared, reach: Option<f64>) -> PeakProgram {
         let own = &prepared.own;
         PeakProgram {

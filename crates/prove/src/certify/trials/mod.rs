@@ -10,7 +10,7 @@ mod proved;
 
 use super::gain_row::{ByCount, CountBounds, CountProof, Largest};
 use around::{Around, Prepared};
-use boxes::{Fit, MARGINS};
+use boxes::Fit;
 use proved::{rounded, short};
 use rug::Rational;
 use sigmastar_decide::linear::PRECISION;
@@ -126,7 +126,7 @@ impl Around<'_> {
     /// What is proved with forms of its own; `near`: the box that serves another number of oscillators; `known`: a peak
     /// that this one is expected to be well below.
     fn with_own_peaks(&self, prepared: &Prepared, near: Option<&[Rational; 2]>, known: Option<f64>) -> Option<Proved> {
-        MARGINS.into_iter().find_map(|margin| {
+        self.margins().into_iter().find_map(|margin| {
             let Fit { radii, forms, peak } = self.peak_box(prepared, margin, (None, near))?;
             if known.is_some_and(|known| peak > WORTH * known) {
                 return None;

@@ -1,7 +1,7 @@
 //! What is proved on a box around a trial (derivation, 14.4, 14.5).
 
 use super::around::{Around, Prepared, SHORT, up};
-use super::boxes::{Fit, MARGINS};
+use super::boxes::Fit;
 use crate::attempt::prove_value;
 use rug::Rational;
 use sigmastar_decide::bounds::StatesForm;
@@ -72,7 +72,7 @@ impl Around<'_> {
             let x_first = XFirst { radii: short(radii)?, eta: eta.clone(), forms, splittings };
             self.decided_x_first(prepared, concluded, x_first)
         };
-        of_other().or_else(|| MARGINS.into_iter().find_map(found))
+        of_other().or_else(|| self.margins().into_iter().find_map(found))
     }
 
     /// What is proved of it: at least the first form.
