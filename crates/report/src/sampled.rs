@@ -174,6 +174,7 @@ fn obstacle_advice(run: &SampledCertification<'_>, failing: Failing, add: &mut d
 fn certified(run: &SampledCertification<'_>, proof: &SampledProof) -> String {
     let (spec, witness) = (run.spec, &proof.witness);
     let samples = witness.sampling.samples;
+    let sets = spec.internal_model.asks_every_set().then(|| format!("set of harmonics below {samples}/2"));
     format!(
         "Certified: the regulator at samples $`h = {}`$ apart ({samples} in a period){} with $`sigma = {}`$ and $`K = {}`$, $`mu = {}`$ and base \
          frequency $`{}`$, for {} and every phase of the samples{}{}: every solution that \
@@ -184,7 +185,7 @@ fn certified(run: &SampledCertification<'_>, proof: &SampledProof) -> String {
         sigmastar_document::number::compact(&proof.evaluation.law.gain),
         clean(&spec.internal_model.mu.text),
         clean(&spec.internal_model.base_frequency.text),
-        words::oscillators(&format!("n_o < {samples}/2"), spec.internal_model.asks_every_set()),
+        words::oscillators(&format!("n_o < {samples}/2"), sets.as_deref()),
         words::of_all(spec),
         limits::of_actuator(spec),
         words::set(spec, &witness.set),

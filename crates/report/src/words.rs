@@ -11,12 +11,12 @@ use sigmastar_lang::spec::{Constant, InputGain, Specification, StartSizes};
 use sigmastar_prove::certificate::members;
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
 
-/// Of which oscillators a claim is, by the `n_o` that it covers: of every number of them, or of every set of harmonics (derivation, 14.7).
-pub(super) fn oscillators(n_o: &str, every_set: bool) -> String {
+/// Of which oscillators a claim is, by the `n_o` that it covers: of every number of them, or of every one of these `sets` (derivation, 14.7).
+pub(super) fn oscillators(n_o: &str, sets: Option<&str>) -> String {
     let first = format!("every number of oscillators $`{n_o}`$");
-    match every_set {
-        false => first,
-        true => format!("oscillators at every finite set of harmonics that contains 0 (so for {first})"),
+    match sets {
+        None => first,
+        Some(sets) => format!("oscillators at every {sets} that contains 0 (so for {first})"),
     }
 }
 

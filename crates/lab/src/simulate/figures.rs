@@ -15,9 +15,20 @@ const SPECTRUM_FLOOR: f64 = 1e-16;
 pub(super) fn regulator_words(regulator: &Regulator) -> String {
     match regulator.oscillators() {
         None => format!("high-gain feedback, $`sigma = {}`$", regulator.sigma),
-        Some(n_o) => {
-            format!("internal model, $`sigma = {}`$, $`mu = {}`$, $`n_o = {n_o}`$", regulator.sigma, regulator.mu)
+        Some(_) => {
+            let Regulator { sigma, mu, .. } = regulator;
+            format!("internal model, $`sigma = {sigma}`$, $`mu = {mu}`$, {}", oscillator_words(regulator))
         }
+    }
+}
+
+/// `n_o = 3`, or `3 oscillators` where they are not at the first multiples of one frequency.
+fn oscillator_words(Regulator { frequencies, .. }: &Regulator) -> String {
+    let first = frequencies.first().copied().unwrap_or(1.0);
+    let is_next = |(count, frequency): (u32, &f64)| (frequency / first - f64::from(count)).abs() <= 1e-9;
+    match (1..).zip(frequencies).all(is_next) {
+        true => format!("$`n_o = {}`$", frequencies.len()),
+        false => format!("{} oscillators", frequencies.len()),
     }
 }
 

@@ -8,7 +8,7 @@ use sigmastar_exact::enclosure::Enclosure;
 /// Whether an admissible pair with this proof bounds `T_H(x)` for every finite set H of harmonics that contains 0, too, at every x at which it bounds
 /// `T_N`, and `2/(nu^2 n_k)` bounds `T_H(k)` where that is used.
 ///
-/// The closed form does. A matched pair does under (14.7b),
+/// The closed form does; where `2/(nu^2 n_k)` is used beside it, and a matched pair, under (14.7b),
 /// `nu^2 (n_k s_k/2 - max{ga_k, 0}^2) <= 1` for every k >= 1, with `s_k = sum over |l| != k of c_l/(l-k)^2` and
 /// `ga_k = n_0/k - sum over l > k of n_l k/(l^2-k^2)`. Boxes are about n_o.
 ///
@@ -16,10 +16,15 @@ use sigmastar_exact::enclosure::Enclosure;
 #[must_use]
 pub fn serves_every_set(data: &Data<'_>, proof: &TransferProof) -> bool {
     match proof {
-        TransferProof::ClosedForm => true,
+        TransferProof::ClosedForm => !takes_poles(data) || EverySet::new(data).is_served(),
         TransferProof::Matched { .. } => EverySet::new(data).is_served(),
         TransferProof::Boxes(_) => false,
     }
+}
+
+/// Whether `2/(nu^2 n_k)` is used whatever proves the pair: at a matched frequency with known harmonics of q(t,0,0).
+fn takes_poles(data: &Data<'_>) -> bool {
+    data.matched && (data.spec.q_0.is_some() || data.spec.plant().is_some())
 }
 
 struct EverySet<'d, 's> {
