@@ -324,8 +324,8 @@ fn sampling_that_cannot_work_is_refused() {
         ("58", "1", "1/10", "h sigma = 5.8"),
         ("20", "0", "1/10", "h sigma = 2.0"),
         ("10.01", "0", "1/10", "h sigma = 1.001"),
-        ("2", "5", "1/10", "oscillator 5 turns by 0.5"),
-        ("2", "9", "1/10", "at most 4 oscillators"),
+        ("2", "5", "1/10", "the oscillator of harmonic 5 turns by 0.5"),
+        ("2", "9", "1/10", "no harmonic above 4"),
     ] {
         let call = [spec, "--sigma", sigma, "--n-o", n_o, "--discretise", step];
         let told = ["sampling time", "--uncertified"].map(predicate::str::contains);

@@ -27,7 +27,7 @@ pub(super) fn sentence(run: &Certification<'_>) -> String {
             clean(&spec.internal_model.mu.text),
             clean(&spec.internal_model.base_frequency.text),
             limits::of_actuator(spec),
-            words::oscillators("n_o >= 0", run.is_for_every_set().then_some("finite set of harmonics")),
+            words::oscillators("n_o >= 0", run.is_for_every_set().then_some("set of harmonics")),
             words::of_all(spec),
             words::set(spec, set),
             match spec.period.interval() {

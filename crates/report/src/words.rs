@@ -13,10 +13,9 @@ use sigmastar_theory::derivation::initial_set::ClaimedSet;
 
 /// Of which oscillators a claim is, by the `n_o` that it covers: of every number of them, or of every one of these `sets` (derivation, 14.7).
 pub(super) fn oscillators(n_o: &str, sets: Option<&str>) -> String {
-    let first = format!("every number of oscillators $`{n_o}`$");
     match sets {
-        None => first,
-        Some(sets) => format!("oscillators at every {sets} that contains 0 (so for {first})"),
+        None => format!("every number of oscillators $`{n_o}`$"),
+        Some(sets) => format!("oscillators at every {sets} with 0 (so every $`{n_o}`$)"),
     }
 }
 
@@ -24,7 +23,7 @@ pub(super) fn oscillators(n_o: &str, sets: Option<&str>) -> String {
 pub(super) fn the_same_for(every_set: bool) -> &'static str {
     match every_set {
         false => "the same for every $`n_o`$",
-        true => "the same for every $`n_o`$, and for oscillators at every other set of harmonics with 0",
+        true => "the same for every set of oscillators",
     }
 }
 

@@ -43,6 +43,12 @@ pub(super) fn internal_model() -> Field {
             weights(),
         ),
         may(
+            "harmonics",
+            "Sets of harmonics",
+            "every-set: a claim about oscillators at every finite set of harmonics that contains 0; first: at the first n_o harmonics alone, for every n_o.",
+            Shape::Word(vec!["first", "every-set"]),
+        ),
+        may(
             "sampling_period",
             "Sampling period h",
             "Asks for the regulator at samples, in units of time: the period is a whole multiple, and `matched` is true.",

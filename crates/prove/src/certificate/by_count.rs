@@ -1,7 +1,7 @@
 //! What a certificate says of each number of oscillators, and what proves it (derivation, 14).
 
+use super::fields::HARMONICS;
 use super::json::{exact, object, rows, series, vector, with_room};
-use super::write::HARMONICS;
 use crate::certify::{ByCount, CountBounds, CountProof};
 use rug::Rational;
 use serde_json::{Value, json};

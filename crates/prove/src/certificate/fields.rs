@@ -23,6 +23,9 @@ use sigmastar_theory::transfer::TransferProof;
 pub(super) const PLANT_FIELDS: [&str; 8] =
     ["coordinates", "orbit", "forcing", CELLS, "bounds", INEQUALITY, EXISTENCE_INEQUALITY, JOINT_INEQUALITY];
 
+/// Of which sets of harmonics a claim is, and an entry of what it says by the oscillators.
+pub(super) const HARMONICS: &str = "harmonics";
+
 /// The field in the place of `orbit` and `forcing` where the box of the parameters is cut.
 pub(super) const CELLS: &str = "cells";
 

@@ -1,10 +1,11 @@
 //! The certificate of a run of either regulator, and the witness of a certificate for a subject of either kind.
 
+use super::fields::HARMONICS;
 use super::read::{read_lyapunov, read_witness};
 use super::read_plant::read_plant_witness;
 use super::read_sampled::{is_sampled, read_sampled_witness};
 use super::sampled::sampled_certificate_json;
-use super::write::{HARMONICS, certificate_json};
+use super::write::certificate_json;
 use crate::rate::bound::MAX_OSCILLATORS;
 use crate::reduction::{FreeNumbers, Run, Subject, Witness, WitnessData};
 use serde_json::Value;

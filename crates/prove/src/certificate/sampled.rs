@@ -1,14 +1,13 @@
 //! The certificate of the regulator at samples: a claim about exactly one gain and one sampling period.
 
-use super::fields::{NumberFields, paths_json};
+use super::fields::{HARMONICS, NumberFields, paths_json};
 use super::json::{exact, object, text};
 use super::of_plant::plant_parts;
 use super::rates::{claimed_rates, sampled_rate_witnesses};
 use super::triple::lyapunov_parts;
 use super::words::sampled_statement;
 use super::write::{
-    HARMONICS, actuator_json, conditions_json, control_json, file, input_gain_json, parameters_json, periodic_json,
-    set_json,
+    actuator_json, conditions_json, control_json, file, input_gain_json, parameters_json, periodic_json, set_json,
 };
 use crate::certify::SampledCertification;
 use serde_json::Value;

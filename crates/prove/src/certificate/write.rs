@@ -1,7 +1,7 @@
 //! The certificate file: self-contained, the same bytes for the same input.
 
 use super::by_count::{claimed_counts, count_witness, counts_in_words};
-use super::fields::{NumberFields, paths_json, set_fields};
+use super::fields::{HARMONICS, NumberFields, paths_json, set_fields};
 use super::json::{exact, object, rows, text, upper_end};
 use super::of_plant::plant_parts;
 use super::rates::{claimed_rates, rate_witnesses};
@@ -23,8 +23,6 @@ use sigmastar_theory::transfer::{TransferProof, closed_form_pair};
 
 /// The format of a certificate file.
 pub const FORMAT: &str = "sigmastar/certificate";
-/// The field of a claim about every set of harmonics.
-pub(super) const HARMONICS: &str = "harmonics";
 /// The version that is written and read.
 pub const VERSION: u64 = 1;
 
