@@ -193,7 +193,7 @@ fn with(path: &str, fields: &[(&str, Value)]) -> Value {
 /// What is required is needed, what is optional may be there: every optional field is in one of these documents.
 fn specifications() -> Vec<Value> {
     let explicit = json!({ "mu": 1, "base_frequency": "2*pi", "matched": true, "sampling_period": "1/100", "delay_samples": 1,
-        "weights": { "family": "explicit", "values": [2, 1], "tail": { "coefficient": 1, "exponent": "3/2" } } });
+        "harmonics": "every-set", "weights": { "family": "explicit", "values": [2, 1], "tail": { "coefficient": 1, "exponent": "3/2" } } });
     let lyapunov = json!({ "p_low": 1, "p_up": 1, "alpha": 1, "rate": "1 - X/100" });
     let q_0 = json!({ "harmonics": [1], "rest_rms": 1, "rest_t_rms": 1 });
     let at_rest = json!({ "kind": "at-rest", "X0": 0, "E0": 0 });

@@ -15,7 +15,7 @@ use sigmastar_theory::derivation::initial_set::ClaimedSet;
 pub(super) fn oscillators(n_o: &str, sets: Option<&str>) -> String {
     match sets {
         None => format!("every number of oscillators $`{n_o}`$"),
-        Some(sets) => format!("oscillators at every {sets} with 0 (so every $`{n_o}`$)"),
+        Some(sets) => format!("oscillators at every {sets} with 0"),
     }
 }
 

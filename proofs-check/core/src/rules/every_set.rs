@@ -7,10 +7,12 @@
 //! last step settles every k from the least K with (14.7c), for its left side does not grow with k; the others are about k < K, one by one. The terms with
 //! `|l| <= L = 4 k + 64` are added up; beyond, `n_(L+1)/(L - k)` is at least what they add to s_k, and `n_(L+1) k/(L + 1 - k)` what they take from gamma_k.
 
-use super::transfer::Step;
 use crate::data::Data;
 use crate::effort;
 use crate::interval::Interval;
+
+/// What is compared, and both sides: the first one has to be at most the other.
+pub type Step = (String, Interval, Interval);
 
 /// The largest K.
 const MOST: u32 = 4096;

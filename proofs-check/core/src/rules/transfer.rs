@@ -4,7 +4,7 @@
 //! base_frequency = 2 pi/T. Every comparison is evaluated once; there is no search. Of a claim about every finite set H of harmonics that contains 0
 //! the same of T_H (section 14.7): the closed form is about it as it is, matched with (14.7b), and boxes are not.
 
-use super::every_set;
+use super::every_set::{self, Step};
 use crate::data::Data;
 use crate::interval::Interval;
 use crate::json::Field;
@@ -124,9 +124,6 @@ pub fn check(
     steps.iter().try_for_each(|step| step.demand(RULE, pointer))?;
     Ok(steps)
 }
-
-/// What is compared, and both sides: the first one has to be at most the other.
-pub type Step = (String, Interval, Interval);
 
 /// Whether `T(k) <= 2/(nu^2 n_k)` for every k >= 1 with all oscillators that the claim is about, at a matched base frequency: of the first n_o by Lemma
 /// T'', of every set by (14.7b), which a matched proof has demanded. Only the form with `q_0` asks for it.
