@@ -289,6 +289,15 @@ mod tests {
         assert!((e - 2.5..e / 6.0 * 1.000001).contains(&found), "{found}");
     }
 
+    /// What is apart from the coefficient of 1 has the rest, too: of a function of it the range is as wide.
+    #[test]
+    fn the_rest_is_a_part_of_the_range() {
+        let one = Expansion { coefficients: vec![number(3, 1), number(-2, 1)], rest: number(1, 2) };
+        assert_eq!(one.apart().hi().to_f64(), 2.5);
+        let range = one.range();
+        assert!(range.contains(&number(11, 2)) && range.contains(&number(1, 2)) && !range.contains(&number(12, 2)));
+    }
+
     #[test]
     fn what_is_not_smooth_on_the_box_is_not_known() {
         let powers = Powers::new(3, 3);

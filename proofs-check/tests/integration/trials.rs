@@ -1,7 +1,7 @@
 //! Numbers by n_o by a trial (docs/mathematics.md, sections 14.4 and 14.5): what is accepted and refused of a loop whose periodic solution is known.
 
 use crate::trials_support::{
-    Case, Expected, FORMULAS, Formulas, asks_for_a_domain, asks_for_a_tube_inside, expected, largest, text,
+    Case, Expected, FORMULAS, Formulas, Wave, asks_for_a_domain, asks_for_a_tube_inside, expected, largest, text,
 };
 use proofs_check::verdict::Verdict;
 use serde_json::{Value, json};
@@ -53,6 +53,25 @@ fn defects_are_bounded() {
     let of_f = case().part("/plant/f", json!([f]));
     of_f.trial("/defect_x", "0.00050000001").accepted();
     of_f.trial("/defect_x", "0.00049999999").refused(Invalid, "/defect_x");
+}
+
+/// At the middle of the period `((1 + cos)/2)^10` has twenty zeros at once: its Taylor polynomial there is 0, and all of it is in the rest.
+#[test]
+fn what_a_polynomial_in_time_leaves_out_counts() {
+    let formulas = Formulas { q: "e/10", values: |_, e| [0.0, e / 10.0], ..FORMULAS };
+    let still = || Wave(0.0, Vec::new());
+    let case = Case::of(10, formulas, [still(), still()]).stateless();
+    case.accepted();
+    // The numbers C(20, 10 + k) over 2^20, twice but for k = 0.
+    let mut left = 184_756.0;
+    let mut harmonics = Vec::new();
+    for k in 0..10 {
+        left *= f64::from(10 - k) / f64::from(11 + k);
+        harmonics.push([2.0 * left / 2.0_f64.powi(20), 0.0]);
+    }
+    let u = Wave(184_756.0 / 2.0_f64.powi(20), harmonics);
+    assert_eq!([u.at(0.0, 0), u.1[9][0]], [1.0, 2.0_f64.powi(-19)]);
+    case.trial("/u", u.json(true, false)).trial("/defect_q", "1e-3").refused(Invalid, "/defect_q");
 }
 
 #[test]

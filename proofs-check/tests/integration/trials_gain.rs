@@ -132,6 +132,17 @@ fn every_number_of_the_claim_is_bounded() {
     }
 }
 
+/// Of b and of its shift the end counts that is further from 1: here b_lo, with the same powers of `b - 1` and the same defect.
+#[test]
+fn the_further_end_counts() {
+    let case = case().part("/plant/input_gain", json!({ "nominal": "4", "low": "3.2", "high": "4.4" }));
+    let case = Case { gain: [0.8, 1.1], ..case };
+    for (at, number) in of_claim(&case) {
+        case.entry(at, text(number * (1.0 + 1e-7))).accepted();
+        case.entry(at, text(number * (1.0 - 1e-7))).refused(Invalid, &format!(":/claim/by_n_o/0{at}"));
+    }
+}
+
 /// Where what stands before 1/b is large the least gain counts in the peak of u.
 #[test]
 fn the_least_gain_counts() {

@@ -132,7 +132,7 @@ where
     }
 
     /// Whether (S3) sharpens the bounds of the harmonics of y (derivation, 12.1): it is proved for the first n_o harmonics, not with a delay, and taken
-    /// up to [`SHARP_SAMPLES`].
+    /// up to 8192 samples.
     #[must_use]
     pub fn is_sharp(&self) -> bool {
         !self.delayed && !self.every_set && self.samples <= SHARP_SAMPLES
