@@ -6,8 +6,8 @@ use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_propose::bounds::{FallingForm, LookedAt, PeakBox, PeakOf, PeakProgram, PointSlopes};
 use sigmastar_theory::evidence::Part;
 
-/// By what share of the diagonal the matrices of a form are to be definite; of a family, each box of which costs the check more, wider at first: that takes
-/// far fewer boxes, and peaks are larger by half a hundredth at most.
+/// By what share of the diagonal the matrices of a form are to be definite. Of a family, whose boxes cost the check more, they are wider at first: the proof
+/// takes a fraction of the boxes, and the peaks of the machines in `specs` are larger by half a hundredth at most.
 const MARGINS: [f64; 2] = [1e-3, 1e-5];
 const MARGINS_OF_FAMILY: [f64; 2] = [1e-2, 1e-5];
 const WIDE_MARGINS: [f64; 2] = [0.1, 1e-2];
