@@ -190,6 +190,18 @@ fn sizes_are_those_of_all_members() {
     }
 }
 
+/// Of an interval whose ends are not as far from the nominal value the further one counts.
+#[test]
+fn the_further_end_counts() {
+    let (of_both, [_, e, _]) = (case(1), slopes(1));
+    let of_e = largest(|t| of_both.e.at(t, 0).abs() + APART * e.at(t, 0).abs());
+    for [low, high] in [["0.9", "1.05"], ["0.95", "1.1"]] {
+        let case = of_both.part("/plant/parameters", json!({ "a": { "nominal": "1", "low": low, "high": high } }));
+        case.entry("/steady/e", text(of_e * (1.0 + 1e-7))).accepted();
+        case.entry("/steady/e", text(of_e * (1.0 - 1e-7))).refused(Invalid, ":/claim/by_n_o/0/steady/e");
+    }
+}
+
 /// zhat moves with the members, too: what it adds counts in the peaks.
 #[test]
 fn the_peaks_are_those_of_all_members() {
