@@ -235,7 +235,7 @@ fn plants() -> Vec<Value> {
     let file = "specs/plants/paper-example.json";
     let start = json!({ "x": [0, 0], "e": 0, "z": [0] });
     let explicit = json!({ "mu": 1, "base_frequency": "2*pi", "matched": true, "sampling_period": "1/100", "delay_samples": 1,
-        "weights": { "family": "explicit", "values": [2, 1], "tail": { "coefficient": 1, "exponent": "3/2" } } });
+        "harmonics": "first", "weights": { "family": "explicit", "values": [2, 1], "tail": { "coefficient": 1, "exponent": "3/2" } } });
     let set = |set: Value| with(file, &[("initial_set", set), ("domain", json!({ "x": 1, "e": 1 }))]);
     vec![
         with(file, &[("$schema", json!("x")), ("initial", start)]),
