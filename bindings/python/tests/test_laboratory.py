@@ -16,7 +16,7 @@ PLANT = ROOT / "specs" / "plants" / "linear.json"
         ({}, ("--high-gain",)),
         ({"n_o": 1, "sampling_period": "1/100"}, ("--n-o", "1", "--sampled", "1/100")),
         ({"n_o": 1, "input_gain": "9/10", "periods": 3, "samples": 10, "harmonics": 3},
-         ("--n-o", "1", "--input-gain", "9/10", "--periods", "3", "--samples", "10", "--harmonics", "3")),
+         ("--n-o", "1", "--input-gain", "9/10", "--periods", "3", "--samples", "10", "--coefficients", "3")),
     ],
 )  # fmt: skip
 def test_a_simulation_is_that_of_the_program(options, flags, program, tmp_path):
