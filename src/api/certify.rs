@@ -47,7 +47,8 @@ fn run(subject: &Subject, options: &CertifyOptions) -> Result<Certificate, Error
         }
     };
     let sampled = asked.read.sampling().is_some();
-    if let Some([message, help]) = options.misfit(sampled, "`transfer`") {
+    let kind = (sampled, asked.read.internal_model().asks_every_set());
+    if let Some([message, help]) = options.misfit(kind, "`transfer`") {
         return Err(Error::new(ErrorKind::Options, message, &help));
     }
     let prepared = Prepared::seeking(&asked.read, gain, (&limits, &counts), options, &Unwatched)

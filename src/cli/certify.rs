@@ -12,7 +12,7 @@ use sigmastar::program::{Afterwards, Drawn, FIGURE_FILES, decided, report_of};
 use sigmastar_document::number::estimate;
 use sigmastar_exact::number::write_exact;
 use sigmastar_lang::plant::Plant;
-use sigmastar_lang::spec::{Constant, ErrorKind, SpecErrors};
+use sigmastar_lang::spec::{Constant, ErrorKind, Oscillators, SpecErrors};
 use sigmastar_prove::certificate::{certificate_of, is_sampled, read_for};
 use sigmastar_prove::certify::{FarStart, Limits, NoRatesOfClaim, rate_counts, unusual_mu};
 use sigmastar_prove::reduction::{INITIAL_SET, Prepared, Run, Shrunk, Stage, Unwatched, Watch, for_every_set, shrunk};
@@ -53,10 +53,12 @@ pub fn run(args: &CertifyArgs) -> Result<u8, Failure> {
     let witness = args.witness.as_deref().map(input::written).transpose()?;
     let gain = args.sigma.as_deref().map(|text| input::rational("--sigma", text)).transpose()?;
     let sampled = witness.as_ref().map_or(subject.sampling().is_some(), is_sampled);
-    if let Some([message, help]) = args.options().misfit(sampled, "--transfer") {
+    let kind = (sampled, subject.internal_model().asks_every_set());
+    if let Some([message, help]) = args.options().misfit(kind, "--transfer") {
         return Err(Failure::call(message, help));
     }
     let counts = counts(args)?;
+    fits(&args.harmonics, &subject)?;
     if given.is_some() && witness.is_none() && !args.quiet {
         let kind = subject.kind();
         output::remark(&format!(
@@ -129,10 +131,47 @@ pub fn run(args: &CertifyArgs) -> Result<u8, Failure> {
         None => Shortened::new(&*report, args.format, args.full),
     };
     let code = tell(args, &run, &shown, output.as_ref())?;
+    if let Some(remark) = without_bounds(&run, &args.harmonics).filter(|_| !args.quiet) {
+        output::remark(&remark);
+    }
     if let Some(far) = plant.and_then(|plant| far_start(&run, plant)) {
         output::remark(&far.describe());
     }
     Ok(code)
+}
+
+/// That samples can tell the harmonics that are asked for apart.
+fn fits(sets: &[Oscillators], subject: &Subject) -> Result<(), Failure> {
+    let Some(sampling) = subject.sampling() else { return Ok(()) };
+    let largest = sets.iter().map(Oscillators::largest).max().unwrap_or(0);
+    if 2 * u64::from(largest) < u64::from(sampling.samples) {
+        return Ok(());
+    }
+    let message = format!(
+        "--harmonics: the claim is about harmonics below {}/2, half of the samples in a period, and {largest} is not",
+        sampling.samples
+    );
+    Err(Failure::call(message, "take a shorter sampling period, or smaller harmonics"))
+}
+
+/// Of which sets that were asked for a certified run has no bounds of their own, in words.
+fn without_bounds(run: &Run<'_>, sets: &[Oscillators]) -> Option<String> {
+    run.certified()?;
+    let found = match run {
+        Run::Continuous(run) => run.by_count.as_ref().map_or(&[][..], |found| &found.counts),
+        Run::Sampled(_) => &[],
+    };
+    let is_missing = |set: &&Oscillators| set.n_o().is_none() && found.iter().all(|bounds| bounds.oscillators != **set);
+    let missing: Vec<String> = sets.iter().filter(is_missing).map(Oscillators::to_string).collect();
+    let why = match run {
+        Run::Sampled(_) => "bounds by the set are proved in continuous time",
+        Run::Continuous(_) => {
+            "they are proved of plants in continuous time, with a matched base frequency and without noise"
+        }
+    };
+    (!missing.is_empty()).then(|| {
+        format!("no bounds of their own were proved for {}, which the claim covers; {why}", missing.join("; "))
+    })
 }
 
 /// The start of simulations that the plant states, where it is far outside of what is certified.

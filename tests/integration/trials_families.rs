@@ -30,8 +30,9 @@ fn family_case() -> (Plant, Trial, Loop) {
     let ends = [rational(9, 10), rational(11, 10)].map(|end| Enclosure::from_rational(&end, PRECISION));
     let lines = trial.terms.iter().map(|term| term.error.harmonics.len()).max().unwrap();
     let identity = vec![vec![Rational::from(1)]];
-    let own =
-        Loop::new(&Rational::from(3), &plant.internal_model, lines, Some(ends), identity).with_oscillators(&1.into());
+    let own = Loop::new(&Rational::from(3), &plant.internal_model, lines, Some(ends), identity)
+        .with_oscillators(&1.into())
+        .unwrap();
     (plant, trial, own)
 }
 

@@ -132,7 +132,9 @@ pub fn case() -> Case {
     let trial = trial_of(&plant, &orbit(), None);
     let identity = vec![vec![Rational::from(1)]];
     let lines = trial.terms[0].error.harmonics.len();
-    let own = Loop::new(&Rational::from(3), &plant.internal_model, lines, None, identity).with_oscillators(&1.into());
+    let own = Loop::new(&Rational::from(3), &plant.internal_model, lines, None, identity)
+        .with_oscillators(&1.into())
+        .unwrap();
     let metric = Metric {
         matrix: vec![vec![rational(1, 2)]],
         cross: vec![Rational::new()],

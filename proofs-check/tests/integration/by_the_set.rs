@@ -6,7 +6,7 @@ use super::trials_x_first::{GROWING, along, level};
 use crate::by_n_o_support::Numbers;
 use crate::common::*;
 use crate::rates::refused;
-use crate::trials_support::{Case, FORMULAS, asks_for_a_tube_inside, expected, peaks, text};
+use crate::trials_support::{Case, FORMULAS, asks_for_a_tube_inside, asks_for_every_number, expected, peaks, text};
 use proofs_check::verdict::Verdict::{BadInput, Invalid, Undecided};
 use serde_json::{Value, json};
 
@@ -106,14 +106,7 @@ fn the_solution_itself_is_a_trial() {
 fn every_number_of_the_claim_is_bounded() {
     for (own, mu) in [(SETS[0], 1.0), (SETS[1], 0.3), (SETS[2], 1.0), (SETS[3], 4.0), (SETS[4], 1.0), (&[0, 2], 12.0)] {
         let case = coarse(own, mu);
-        let expected = expected(&case);
-        let steady = ["e", "e_rms", "u"].map(|name| format!("/steady/{name}"));
-        let peaks = ["e", "u"].map(|name| format!("/largest/{name}"));
-        let numbers = steady.iter().zip(expected.steady).chain(peaks.iter().zip(expected.largest));
-        for (at, number) in numbers {
-            case.entry(at, text(number * (1.0 + 1e-7))).accepted();
-            case.entry(at, text(number * (1.0 - 1e-7))).refused(Invalid, &format!(":/claim/by_n_o/0{at}"));
-        }
+        asks_for_every_number(&case);
         asks_for_a_tube_inside(&case.steady_alone());
     }
 }

@@ -1,7 +1,8 @@
 //! Numbers by n_o by a trial (docs/mathematics.md, sections 14.4 and 14.5): what is accepted and refused of a loop whose periodic solution is known.
 
 use crate::trials_support::{
-    Case, Expected, FORMULAS, Formulas, Wave, asks_for_a_domain, asks_for_a_tube_inside, expected, largest, text,
+    Case, Expected, FORMULAS, Formulas, Wave, asks_for_a_domain, asks_for_a_tube_inside, asks_for_every_number,
+    expected, largest, text,
 };
 use proofs_check::verdict::Verdict;
 use serde_json::{Value, json};
@@ -73,14 +74,7 @@ fn what_a_polynomial_in_time_leaves_out_counts() {
 #[test]
 fn every_number_of_the_claim_is_bounded() {
     for case in [case(), coarse(), Case::new(2, FORMULAS), Case::new(0, FORMULAS)] {
-        let expected = expected(&case);
-        let steady = ["e", "e_rms", "u"].map(|name| format!("/steady/{name}"));
-        let peaks = ["e", "u"].map(|name| format!("/largest/{name}"));
-        let numbers = steady.iter().zip(expected.steady).chain(peaks.iter().zip(expected.largest));
-        for (at, number) in numbers {
-            case.entry(at, text(number * (1.0 + 1e-7))).accepted();
-            case.entry(at, text(number * (1.0 - 1e-7))).refused(Invalid, &format!(":/claim/by_n_o/0{at}"));
-        }
+        asks_for_every_number(&case);
     }
 }
 

@@ -482,6 +482,17 @@ pub fn asks_for_a_domain(case: impl Fn() -> Case, [x, e]: [f64; 2], less: [f64; 
     with(x * more, e * (1.0 - less[1])).refused(Verdict::Invalid, at);
 }
 
+/// Each number of the entry is refused if it is a ten-millionth too small.
+pub fn asks_for_every_number(case: &Case) {
+    let expected = expected(case);
+    let steady = ["e", "e_rms", "u"].map(|name| format!("/steady/{name}"));
+    let peaks = ["e", "u"].map(|name| format!("/largest/{name}"));
+    for (at, number) in steady.iter().zip(expected.steady).chain(peaks.iter().zip(expected.largest)) {
+        case.entry(at, text(number * (1.0 + 1e-7))).accepted();
+        case.entry(at, text(number * (1.0 - 1e-7))).refused(Verdict::Invalid, &format!(":/claim/by_n_o/0{at}"));
+    }
+}
+
 /// A tube that touches the box is no tube.
 pub fn asks_for_a_tube_inside(case: &Case) {
     let Expected { s_x, s_e, .. } = expected(case);

@@ -49,12 +49,12 @@ impl Loop {
         }
     }
 
-    /// The loop of these oscillators alone, of whose weights Nbar is the sum; of their harmonics it has the weights.
+    /// The loop of these oscillators alone, of whose weights Nbar is the sum; `None` where it does not have all of them.
     #[must_use]
-    pub fn with_oscillators(self, oscillators: &Oscillators) -> Loop {
-        let weights = oscillators.all().filter_map(|l| self.weights.get(l as usize));
-        let n_bar_squared = weights.fold(Enclosure::zero(PRECISION), |sum, weight| sum + weight);
-        Loop { n_bar_squared, ..self }
+    pub fn with_oscillators(self, oscillators: &Oscillators) -> Option<Loop> {
+        let nothing = Enclosure::zero(PRECISION);
+        let n_bar_squared = oscillators.all().try_fold(nothing, |sum, l| Some(sum + self.weights.get(l as usize)?))?;
+        Some(Loop { n_bar_squared, ..self })
     }
 
     /// `sum over l in +-H of c_l/(l - k)^power`, c_0 = n_0 and else n_|l|/2, for k not in H: g_H(k) and its derivative.

@@ -5,30 +5,34 @@ use super::{ClosedLoop, Disturbance, frequencies, magnitude};
 use sigmastar_document::plain;
 use sigmastar_document::plot::{Curve, Figure, Scale, Style};
 use sigmastar_lang::plant::Plant;
+use sigmastar_lang::spec::Oscillators;
 use sigmastar_regulator::Regulator;
 use std::f64::consts::TAU;
 
 /// Amplitudes below this share of the largest one are rounding: the floor of spectra. It is no higher than this either.
 const SPECTRUM_FLOOR: f64 = 1e-16;
 
-/// The regulator in words.
-pub(super) fn regulator_words(regulator: &Regulator) -> String {
+/// The regulator in words, in a loop of this period.
+pub(super) fn regulator_words(regulator: &Regulator, period: f64) -> String {
     match regulator.oscillators() {
         None => format!("high-gain feedback, $`sigma = {}`$", regulator.sigma),
         Some(_) => {
             let Regulator { sigma, mu, .. } = regulator;
-            format!("internal model, $`sigma = {sigma}`$, $`mu = {mu}`$, {}", oscillator_words(regulator))
+            format!("internal model, $`sigma = {sigma}`$, $`mu = {mu}`$, {}", oscillator_words(regulator, period))
         }
     }
 }
 
-/// `n_o = 3`, or `3 oscillators` where they are not at the first multiples of one frequency.
-fn oscillator_words(Regulator { frequencies, .. }: &Regulator) -> String {
-    let first = frequencies.first().copied().unwrap_or(1.0);
-    let is_next = |(count, frequency): (u32, &f64)| (frequency / first - f64::from(count)).abs() <= 1e-9;
-    match (1..).zip(frequencies).all(is_next) {
-        true => format!("$`n_o = {}`$", frequencies.len()),
-        false => format!("{} oscillators", frequencies.len()),
+/// `n_o = 3`, or the harmonics of the period at which the oscillators are; how many there are, where they are at none.
+fn oscillator_words(Regulator { frequencies, .. }: &Regulator, period: f64) -> String {
+    let harmonic = |frequency: &f64| {
+        let ratio = frequency * period / TAU;
+        ((ratio - ratio.round()).abs() <= 1e-9 * ratio).then_some(ratio.round() as u32)
+    };
+    let harmonics: Option<Vec<u32>> = std::iter::once(Some(0)).chain(frequencies.iter().map(harmonic)).collect();
+    match harmonics.and_then(|harmonics| Oscillators::at(&harmonics).ok()) {
+        Some(oscillators) if oscillators.n_o().is_none() => oscillators.to_string(),
+        _ => format!("$`n_o = {}`$", frequencies.len()),
     }
 }
 
@@ -98,7 +102,11 @@ pub fn figures(plant: &Plant, closed_loop: &ClosedLoop, simulation: &Simulation)
 
 fn response(closed_loop: &ClosedLoop, run: &LongRun) -> Figure {
     let points = run.times.iter().zip(&run.states).map(|(t, y)| (*t, y[closed_loop.states()])).collect();
-    let curves = vec![Curve { label: plain(&regulator_words(&closed_loop.regulator)), points, style: Style::Line }];
+    let curves = vec![Curve {
+        label: plain(&regulator_words(&closed_loop.regulator, closed_loop.period)),
+        points,
+        style: Style::Line,
+    }];
     over_time(closed_loop.period, "Regulated error", "e [unit of e]", curves)
 }
 
@@ -132,7 +140,11 @@ fn control(closed_loop: &ClosedLoop, run: &LongRun) -> Figure {
     let samples = (run.times.len() - 1) / run.return_distances.len().max(1);
     let last = run.times.iter().zip(&run.states).skip(run.times.len() - 1 - samples);
     let points = last.map(|(t, y)| (*t, closed_loop.control(y, Disturbance::default()))).collect();
-    let curves = vec![Curve { label: plain(&regulator_words(&closed_loop.regulator)), points, style: Style::Line }];
+    let curves = vec![Curve {
+        label: plain(&regulator_words(&closed_loop.regulator, closed_loop.period)),
+        points,
+        style: Style::Line,
+    }];
     over_time(
         closed_loop.period,
         "Control over the last period",

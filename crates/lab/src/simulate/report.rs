@@ -25,7 +25,7 @@ impl Readable for SimulationReport<'_> {
             Block::Title(format!("{}: simulation", clean(&plant.name))),
             Block::says(format!(
                 "Floating point, no claim. {}; period {}.{}",
-                regulator_words(&closed_loop.regulator),
+                regulator_words(&closed_loop.regulator, closed_loop.period),
                 number(closed_loop.period),
                 closed_loop.limit().map_or_else(String::new, |limit| format!(
                     " The actuator takes $`|u| <= {}`$ and cuts off what is beyond.",

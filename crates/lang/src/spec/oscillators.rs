@@ -123,7 +123,10 @@ impl Oscillators {
     /// `k_H = min{k >= 1 : k not in H}` (derivation, 14.7).
     #[must_use]
     pub fn first_missing(&self) -> u32 {
-        (1..).zip(&self.beyond_mean).find(|(k, own)| k != *own).map_or(self.largest() + 1, |(k, _)| k)
+        (1..)
+            .zip(&self.beyond_mean)
+            .find(|(k, own)| k != *own)
+            .map_or_else(|| self.largest().saturating_add(1), |(k, _)| k)
     }
 
     /// n_o, where they are at the first n_o harmonics.

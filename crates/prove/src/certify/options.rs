@@ -37,9 +37,18 @@ impl Default for Options {
 }
 
 impl Options {
-    /// What does not fit the regulator at samples, and what to do about it; `transfer` is what the user writes for that option.
+    /// What does not fit the regulator at samples, or a claim about every set of harmonics, and what to do about it; `transfer` is what the user writes for
+    /// that option.
     #[must_use]
-    pub fn misfit(&self, at_samples: bool, transfer: &str) -> Option<[String; 2]> {
+    pub fn misfit(&self, (at_samples, every_set): (bool, bool), transfer: &str) -> Option<[String; 2]> {
+        if every_set && self.transfer == TransferChoice::Boxes {
+            return Some([
+                format!(
+                    "{transfer} boxes is about the first n_o harmonics, and the claim is to be about every set of them"
+                ),
+                format!("leave {transfer} out, or `harmonics`"),
+            ]);
+        }
         (at_samples && self.transfer != TransferChoice::Best).then(|| {
             [
                 format!(
@@ -107,8 +116,8 @@ mod tests {
     fn only_what_does_not_fit_is_refused() {
         let boxes = Options { transfer: TransferChoice::Boxes, ..Options::default() };
         let fits = [(Options::default(), false), (Options::default(), true), (boxes, false)];
-        assert!(fits.iter().all(|(options, at_samples)| options.misfit(*at_samples, "transfer").is_none()));
-        let [message, help] = boxes.misfit(true, "--transfer").unwrap();
+        assert!(fits.iter().all(|(options, at_samples)| options.misfit((*at_samples, false), "transfer").is_none()));
+        let [message, help] = boxes.misfit((true, false), "--transfer").unwrap();
         assert_eq!(help, "leave --transfer or the sampling period out");
         assert!(message.starts_with("--transfer is not for the regulator at samples"));
     }

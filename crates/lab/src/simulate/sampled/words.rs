@@ -6,7 +6,7 @@ use crate::simulate::report::number;
 
 /// The regulator with its law at samples.
 pub(super) fn loop_words(sampled: &SampledLoop) -> String {
-    format!("{}, at samples $`h = {}`$", regulator_words(&sampled.regulator), number(sampled.step()))
+    format!("{}, at samples $`h = {}`$", regulator_words(&sampled.regulator, sampled.period()), number(sampled.step()))
 }
 
 /// What stands between the law and the plant; nothing where that is nothing.

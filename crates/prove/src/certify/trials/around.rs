@@ -150,7 +150,7 @@ impl Around<'_> {
         let gain = spec.input_gain.as_ref().and_then(|gain| gain.factors(PRECISION));
         let last = degree.max(trial.oscillators.largest() as usize);
         let own = Loop::new(sigma, model, last, gain, inverse(l)?);
-        let own = if self.or_more { own } else { own.with_oscillators(&trial.oscillators) };
+        let own = if self.or_more { own } else { own.with_oscillators(&trial.oscillators)? };
         let about = trial.about(plant);
         let defects = self.defects(&trial, &about, &own)?;
         let region = Region::new(l.clone(), trial.centre(), Rational::new()).ok()?;

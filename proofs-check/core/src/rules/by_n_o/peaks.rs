@@ -209,3 +209,32 @@ fn neither(largest: bool, left: Box<Finding>, apart: Box<Finding>) -> Box<Findin
     finding.message = format!("{}; and {}", finding.message, other.message);
     finding
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::json::{Field, parse};
+    use crate::spec::Specification;
+
+    /// Where a difference may touch the box it is not kept in it: both roots are exact here.
+    #[test]
+    fn a_reach_that_touches_the_box_does_not_stay() {
+        let path = format!("{}/../tests/certificates/linear.sharp.json", env!("CARGO_MANIFEST_DIR"));
+        let json = parse(&std::fs::read(path).unwrap()).unwrap();
+        let mut file = Field { json: &json, pointer: String::new() }.fields().unwrap();
+        let mut witness = file.required("witness").unwrap().fields().unwrap();
+        let spec = Specification::read(&file.required("specification").unwrap(), &mut witness).unwrap();
+        let d = Data::new(&spec, 128);
+        let level = Level { start: d.int(4), weight: d.int(1), ends: Vec::new(), name: "1" };
+        let stays = |x: Rational, e: Rational| {
+            let off = [d.int(1), d.int(1)];
+            let found = level.stays(&d, (&[x, e], Some(&Rational::from(4))), &off, ("/box", "a test"));
+            found.map_err(|finding| finding.pointer)
+        };
+        // sqrt(4/4) + 1 in x, and sqrt(4/1) + 1 in e.
+        let above = |value: i32| Rational::from(value) + Rational::from((1, 1_000_000));
+        assert_eq!(stays(above(2), above(3)), Ok(()));
+        assert_eq!(stays(Rational::from(2), above(3)), Err("/box/x".to_owned()));
+        assert_eq!(stays(above(2), Rational::from(3)), Err("/box/e".to_owned()));
+    }
+}
