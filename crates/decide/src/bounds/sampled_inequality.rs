@@ -34,7 +34,7 @@ impl Engine {
         let [w_x, eta, lambda, rate, c_e, c_y] = [w_x, eta, lambda, rate, c_e, c_y].map(exact);
         let k_p = eta * 2 / &of.gain;
         let less = Less { e_k: c_e, e: zero(), y: c_y };
-        let numbers = FormNumbers { of: &of, weight: Enclosure::one(PRECISION), k_p, lambda, less, gamma: None };
+        let numbers = FormNumbers { of: &of, weight: Enclosure::one(PRECISION), k_p, lambda, less, gamma: None, past: None };
         self.at_all_ends(&numbers, [x, e], effort, |values| of_stability(values, &w_x, &rate))
     }
 
@@ -54,7 +54,7 @@ impl Engine {
         let of = LoopNumbers::enclosed(at, &self.period(), self.moves(), PRECISION);
         let [k_p, c_e, c_y, gamma, lambda] = [k_p, c_e, c_y, gamma, lambda].map(exact);
         let less = Less { e_k: zero(), e: c_e, y: c_y };
-        let numbers = FormNumbers { of: &of, weight: Enclosure::one(PRECISION), k_p, lambda, less, gamma: Some(gamma) };
+        let numbers = FormNumbers { of: &of, weight: Enclosure::one(PRECISION), k_p, lambda, less, gamma: Some(gamma), past: None };
         self.at_all_ends(&numbers, [x, e], effort, |values| of_existence(values, matrix, c_x))
     }
 
@@ -66,8 +66,8 @@ impl Engine {
         effort: usize,
         parts: impl Fn(&Values<'_>) -> Option<Parts<Centred>>,
     ) -> Decision {
-        numbers.of.ends().fold(Decision::TRUE, |all, end| {
-            let entries = |values: &Values<'_>| Some(form(values.frame, numbers.clone(), end, parts(values)?));
+        numbers.of.corners(numbers.past.is_some()).fold(Decision::TRUE, |all, corner| {
+            let entries = |values: &Values<'_>| Some(form(values.frame, numbers.clone(), &corner, parts(values)?));
             all.and(|| self.decide_part(Part::All, at, effort, |values| Some(balanced(values.frame, entries(values)?))))
         })
     }

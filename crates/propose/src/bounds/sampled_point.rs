@@ -7,7 +7,7 @@ use super::weights::Root;
 use rug::Rational;
 use sigmastar_exact::number::Portable;
 use sigmastar_lang::spec::SampledExistence;
-use sigmastar_theory::derivation::sampled_form::{Doubles, End, FormNumbers, Less, LoopNumbers, Parts, form};
+use sigmastar_theory::derivation::sampled_form::{Corner, Doubles, FormNumbers, Less, LoopNumbers, Parts, form};
 
 /// Powers of four by which lambda is tried where its first guess proves nothing, and the logarithm of the factor up to which it is found.
 const EXPONENTS: std::ops::RangeInclusive<i32> = -7..=7;
@@ -102,19 +102,19 @@ impl SampledWeights {
     fn at(&self, point: &Slopes, lambda: f64) -> f64 {
         let n = point.r.len();
         let order: Vec<usize> = (0..n).chain([n + 1, n + 2, n + 3, n]).collect();
-        let of_end = |end: (End, &f64)| {
+        let of_end = |corner: Corner<'_, f64>| {
             let parts = point.with(|i, k| if i == k { self.w_x } else { 0.0 }, 0.0);
             let less = Less { e_k: 0.0, e: 0.0, y: 0.0 };
             let k_p = 2.0 * self.eta / self.of.gain;
-            let numbers = FormNumbers { of: &self.of, weight: 1.0, k_p, lambda, less, gamma: None };
-            let Bordered { before, mut last } = bordered(&form(&Doubles, numbers, end, parts), &order);
+            let numbers = FormNumbers { of: &self.of, weight: 1.0, k_p, lambda, less, gamma: None, past: None };
+            let Bordered { before, mut last } = bordered(&form(&Doubles, numbers, &corner, parts), &order);
             let own = last.pop().unwrap_or(f64::NAN);
             match Root::new(before) {
                 Ok(root) => 2.0 * root.half_square(&last) / own,
                 Err(without) => without,
             }
         };
-        self.of.ends().map(of_end).fold(0.0, larger)
+        self.of.corners(false).map(of_end).fold(0.0, larger)
     }
 
     fn at_all(&self, points: &[Slopes], lambda: f64) -> f64 {
@@ -157,19 +157,19 @@ impl SampledEnergy {
     pub(super) fn gamma(&self, point: &Slopes, of: &LoopNumbers<f64>) -> f64 {
         let SampledEnergy { p, k_p, lambda, c_x, c_e, c_y } = self;
         let order: Vec<usize> = (0..point.r.len() + 5).collect();
-        let of_end = |end: (End, &f64)| {
+        let of_end = |corner: Corner<'_, f64>| {
             let parts = point.with(|i, k| p[i][k], *c_x);
             let less = Less { e_k: 0.0, e: *c_e, y: *c_y };
             let [k_p, lambda] = [*k_p, *lambda];
-            let numbers = FormNumbers { of, weight: 1.0, k_p, lambda, less, gamma: Some(0.0) };
-            let Bordered { before, mut last } = bordered(&form(&Doubles, numbers, end, parts), &order);
+            let numbers = FormNumbers { of, weight: 1.0, k_p, lambda, less, gamma: Some(0.0), past: None };
+            let Bordered { before, mut last } = bordered(&form(&Doubles, numbers, &corner, parts), &order);
             last.pop();
             match Root::new(before) {
                 Ok(root) => 2.0 * root.half_square(&last),
                 Err(without) => without,
             }
         };
-        of.ends().map(of_end).fold(0.0, larger)
+        of.corners(false).map(of_end).fold(0.0, larger)
     }
 }
 

@@ -9,7 +9,7 @@ use crate::semidefinite::propose;
 use sigmastar_lang::spec::Bound;
 use sigmastar_matrix::symmetric::{triangle, unit_entry};
 use sigmastar_matrix::{AffineMatrix, Symmetric};
-use sigmastar_theory::derivation::sampled_form::{Doubles, End, FormNumbers, Less, LoopNumbers, form};
+use sigmastar_theory::derivation::sampled_form::{Corner, Doubles, FormNumbers, Less, LoopNumbers, form};
 
 /// Points that are added where what was found holds least, and how often.
 const POINTS: usize = 4;
@@ -140,10 +140,10 @@ impl Program<'_> {
         cost_of_last: f64,
     ) -> Option<(Vec<f64>, f64)> {
         let order = self.points.first()?.r.len() + 5;
-        let at_all_ends = self.points.iter().flat_map(|point| self.of.ends().map(move |end| (point, end)));
+        let at_all_ends = self.points.iter().flat_map(|point| self.of.corners(false).map(move |corner| (point, corner)));
         let constraints: Vec<AffineMatrix<f64>> = at_all_ends
-            .map(|(point, end)| {
-                let matrix = |variables: &Variables| self.matrix(units, variables, point, end);
+            .map(|(point, corner)| {
+                let matrix = |variables: &Variables| self.matrix(units, variables, point, &corner);
                 let constant = matrix(fixed);
                 let terms: Vec<Vec<Vec<f64>>> = of_f.iter().chain([last]).map(matrix).collect();
                 let entry = |matrix: &[Vec<f64>], i: usize, k: usize| matrix[i.min(k)][i.max(k)];
@@ -163,7 +163,7 @@ impl Program<'_> {
     }
 
     /// F in these units, the upper triangle: linear in the variables.
-    fn matrix(&self, units: &Units, variables: &Variables, point: &Slopes, end: (End, &f64)) -> Vec<Vec<f64>> {
+    fn matrix(&self, units: &Units, variables: &Variables, point: &Slopes, corner: &Corner<'_, f64>) -> Vec<Vec<f64>> {
         let Units { x, within, sigma } = *units;
         let Variables { p, weight, k_p, lambda, c_e, c_y, gamma, room } = *variables;
         let n = point.r.len();
@@ -175,6 +175,7 @@ impl Program<'_> {
             lambda: lambda * sigma / (within * within),
             less: Less { e_k: 0.0, e: c_e * sigma, y: c_y / sigma },
             gamma: Some(gamma / sigma),
+            past: None,
         };
         let unit = |i: usize| match i {
             _ if i < n => x,
@@ -183,7 +184,7 @@ impl Program<'_> {
             _ => sigma,
         };
         let mut matrix = vec![vec![0.0; n + 5]; n + 5];
-        for (i, k, value) in form(&Doubles, numbers, end, parts) {
+        for (i, k, value) in form(&Doubles, numbers, corner, parts) {
             matrix[i][k] = value * unit(i) * unit(k) / sigma;
         }
         for i in (0..=n).chain([n + 2, n + 3]) {

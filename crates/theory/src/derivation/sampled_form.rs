@@ -70,9 +70,12 @@ where
         LoopNumbers { across: &step / pi, sigma, step, gain, kept, moved }
     }
 
-    /// Both ends of a sample, with both ends of an input gain: F is affine in where it is in the sample and in b.
-    pub fn ends(&self) -> impl Iterator<Item = (End, &R)> {
-        End::BOTH.into_iter().flat_map(|end| self.moved.iter().map(move |moved| (end, moved)))
+    /// Both ends of a sample, with both ends of an input gain and, with a delay, both signs of what it adds: F is affine in where it is in the
+    /// sample, in b, and in b_1 of the law.
+    pub fn corners(&self, delayed: bool) -> impl Iterator<Item = Corner<'_, R>> {
+        let signs: &[i64] = if delayed { &[1, -1] } else { &[0] };
+        let with_gain = End::BOTH.into_iter().flat_map(|end| self.moved.iter().map(move |moved| (end, moved)));
+        with_gain.flat_map(move |(end, moved)| signs.iter().map(move |sign| Corner { end, moved, sign: *sign }))
     }
 }
 
@@ -114,6 +117,16 @@ impl End {
     pub const BOTH: [End; 2] = [End::Start, End::End];
 }
 
+/// One of those at which F is to be positive.
+pub struct Corner<'n, R> {
+    /// Where in a sample.
+    pub end: End,
+    /// (1-b) sigma.
+    pub moved: &'n R,
+    /// The sign of b_1 = M'N R M, at its largest size; 0 without a delay.
+    pub sign: i64,
+}
+
 /// The free numbers of F.
 #[derive(Clone)]
 pub struct FormNumbers<'n, R> {
@@ -129,6 +142,8 @@ pub struct FormNumbers<'n, R> {
     pub less: Less<R>,
     /// Of q0^2; without it q0 is no variable.
     pub gamma: Option<R>,
+    /// g_m, the weight of the last y of the law with a delay; without it that is no variable.
+    pub past: Option<R>,
 }
 
 /// What F must exceed beside what its block of x holds: so much of e_k^2, of e(s)^2 and of y^2.
@@ -154,24 +169,27 @@ pub struct Parts<V> {
     pub d: V,
 }
 
-/// The entries of F on and above the diagonal in (x, e_k, y, G, w), then q0 where there is one, at one of [`LoopNumbers::ends`].
+/// The entries of F on and above the diagonal in (x, e_k, y, G, w), then q0 and then p = y_{k-1} where there are these, at one of
+/// [`LoopNumbers::corners`].
 ///
-/// With e(s) = (1 - s sigma) e_k + s y + G the form is that of the block of x, -2 x'P g e(s) + sigma (2 - h sigma) e_k^2
-/// - 2 (1 - h sigma) e_k y - h y^2 + k_p y^2/(1 + theta) - k_p y (r x + d e(s) + q0) + lambda G^2
+/// With e(s) = (1 - s sigma) e_k + s Y + G, Y = y, with a delay Y = y + h sigma p, the form is that of the block of x, -2 x'P g e(s)
+/// + weight (sigma (2 - h sigma) e_k^2 - 2 (1 - h sigma) e_k Y - h Y^2) + k_p y^2/(1 + theta) - k_p y (r x + d e(s) + q0) + lambda G^2
 /// + 2 lambda (h/pi) w (r x + d e(s) + q0) + lambda w^2 + gamma q0^2, less what it must exceed.
 ///
-/// With an input gain less `k_p (1-b) sigma e_k y`, for y = q + (1-b) sigma e_k + b K v in the mean (13.1).
+/// With an input gain less `k_p (1-b) sigma e_k y`, for y = q + (1-b) sigma e_k + b K v in the mean (13.1), with a delay `e_k - h p` there for e_k; and
+/// with a delay g_m (p^2 - y^2) and 2 k_p theta/(1 + theta) y p with the sign of the corner besides (13.7, 14.6).
 pub fn form<A: Arithmetic>(
     a: &A,
     numbers: FormNumbers<'_, A::Number>,
-    (end, of_gain): (End, &A::Number),
+    corner: &Corner<'_, A::Number>,
     parts: Parts<A::Value>,
 ) -> Vec<(usize, usize, A::Value)>
 where
     for<'a> &'a A::Number: Operand<A::Number>,
 {
-    let FormNumbers { of, weight, k_p, lambda, less, gamma } = numbers;
+    let FormNumbers { of, weight, k_p, lambda, less, gamma, past } = numbers;
     let LoopNumbers { sigma, step, kept, across, .. } = of;
+    let Corner { end, moved: of_gain, sign } = *corner;
     let int = <A::Number as Real>::int;
     let product = step * sigma;
     let decayed = int(1) - &product;
@@ -179,25 +197,31 @@ where
         End::Start => (int(1), step * int(0)),
         End::End => (decayed.clone(), step.clone()),
     };
+    let of_p = &of_y * &product;
     let half = &k_p / int(2);
     let across = &lambda * across;
     let Parts { decay, moved, r, d } = parts;
     let n = moved.len();
     let [e, y, g, w, q] = [n, n + 1, n + 2, n + 3, n + 4];
+    let p = if gamma.is_some() { q + 1 } else { q };
     let mut entries = decay;
     for (i, (moved, r)) in moved.iter().zip(&r).enumerate() {
         entries.push((i, e, a.scale(moved, &-of_e.clone())));
         entries.push((i, y, a.add(&a.scale(moved, &-of_y.clone()), &a.scale(r, &-half.clone()))));
         entries.push((i, g, a.scale(moved, &int(-1))));
         entries.push((i, w, a.scale(r, &across)));
+        if past.is_some() {
+            entries.push((i, p, a.scale(moved, &-of_p.clone())));
+        }
     }
     let constant = |value: A::Number| a.constant(value);
     let with_d = |value: A::Number, factor: A::Number| a.add(&a.constant(value), &a.scale(&d, &factor));
-    entries.push((e, e, constant(&weight * sigma * (int(2) - product) - less.e_k - &less.e * of_e.sqr())));
-    entries.push((e, y, with_d(-(&weight * decayed) - &less.e * &of_e * &of_y - &half * of_gain, -(&half * &of_e))));
+    let of_square = &k_p * kept - &weight * step - less.y - &less.e * of_y.sqr();
+    let of_square = past.as_ref().map_or_else(|| of_square.clone(), |past| &of_square - past);
+    entries.push((e, e, constant(&weight * sigma * (int(2) - &product) - less.e_k - &less.e * of_e.sqr())));
+    entries.push((e, y, with_d(-(&weight * &decayed) - &less.e * &of_e * &of_y - &half * of_gain, -(&half * &of_e))));
     entries.push((e, g, constant(-(&less.e * &of_e))));
     entries.push((e, w, a.scale(&d, &(&across * &of_e))));
-    let of_square = &k_p * kept - &weight * step - less.y - &less.e * of_y.sqr();
     entries.push((y, y, with_d(of_square, -(&k_p * &of_y))));
     entries.push((y, g, with_d(-(&less.e * &of_y), -half.clone())));
     entries.push((y, w, a.scale(&d, &(&across * &of_y))));
@@ -205,9 +229,18 @@ where
     entries.push((g, w, a.scale(&d, &across)));
     entries.push((w, w, constant(lambda)));
     if let Some(gamma) = gamma {
-        entries.push((y, q, constant(-half)));
-        entries.push((w, q, constant(across)));
+        entries.push((y, q, constant(-half.clone())));
+        entries.push((w, q, constant(across.clone())));
         entries.push((q, q, constant(gamma)));
+    }
+    if let Some(past) = past {
+        let of_delay = &half * step * of_gain + int(sign) * &k_p * (int(1) - kept);
+        entries.push((e, p, constant(-(&weight * &decayed * &product) - &less.e * &of_e * &of_p)));
+        let own = of_delay - &weight * step * &product - &less.e * &of_y * &of_p;
+        entries.push((y, p, with_d(own, -(&half * &of_p))));
+        entries.push((g, p, constant(-(&less.e * &of_p))));
+        entries.push((w, p, a.scale(&d, &(&across * &of_p))));
+        entries.push((p, p, constant(past - &weight * step * product.sqr() - &less.e * of_p.sqr())));
     }
     entries
 }

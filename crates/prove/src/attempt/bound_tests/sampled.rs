@@ -3,7 +3,7 @@
 use super::*;
 use sigmastar_lang::spec::{SampledExistence, SampledGain, SampledInequality, SampledLoop};
 use sigmastar_propose::bounds::PointSlopes;
-use sigmastar_theory::derivation::sampled_form::{Doubles, End, FormNumbers, Less, LoopNumbers, form};
+use sigmastar_theory::derivation::sampled_form::{Corner, Doubles, End, FormNumbers, Less, LoopNumbers, form};
 
 /// Boxes that a decision may take.
 const EFFORT: usize = 20_000;
@@ -41,12 +41,18 @@ fn with_gains(sigma: f64, samples: u32, gain: f64, ends: Option<[f64; 2]>) -> Lo
     LoopNumbers::new(sigma, f64::from(samples).recip(), [gain, WEIGHT_SUM], &std::f64::consts::PI, moves)
 }
 
-/// The state of a loop with one state of the plant.
+/// The state of a loop with one state of the plant; of the law with a delay with the last y.
 #[derive(Clone, Copy)]
 struct State {
     x: f64,
     e: f64,
     zeta: [f64; 3],
+    past: Option<f64>,
+}
+
+/// M'N R M.
+fn b_1(of: &LoopNumbers<f64>) -> f64 {
+    2.0 + (std::f64::consts::TAU * of.step).cos()
 }
 
 /// What one sample does at the input gain b, for x' = j x + g e and q = r x + d e + q0(t).
@@ -58,12 +64,14 @@ struct Sample {
 }
 
 fn sample((of, b): (&LoopNumbers<f64>, f64), slopes: &PointSlopes, at: State, q0: &dyn Fn(f64) -> f64) -> Sample {
-    let State { x, e, zeta } = at;
+    let State { x, e, zeta, past } = at;
+    let last = past.unwrap_or(0.0);
+    let predicted = e - of.step * last;
     let angle = std::f64::consts::TAU * of.step;
     let turned =
         [zeta[0], angle.cos() * zeta[1] + angle.sin() * zeta[2], angle.cos() * zeta[2] - angle.sin() * zeta[1]];
-    let v = 2.0 * turned[0] + turned[1];
-    let u = b * (of.gain * v - of.sigma * e);
+    let v = 2.0 * turned[0] + turned[1] + of.step * b_1(of) * last;
+    let u = b * (of.gain * v - of.sigma * predicted);
     let ds = of.step / STEPS as f64;
     let q = |s: f64, x: f64, e: f64| slopes.r[0] * x + slopes.d * e + q0(s);
     let field = |s: f64, x: f64, e: f64| [slopes.j[0] * x + slopes.g[0] * e, q(s, x, e) + u];
@@ -82,14 +90,15 @@ fn sample((of, b): (&LoopNumbers<f64>, f64), slopes: &PointSlopes, at: State, q0
         mean += qm / STEPS as f64;
         middles.push([xm, em, qm, s + ds / 2.0]);
     }
-    let y = b * of.gain * v + (1.0 - b) * of.sigma * e + mean;
-    let within = middles.into_iter().map(|[x, es, q, s]| [x, es, q, es - (1.0 - s * of.sigma) * e - s * y]).collect();
+    let y = b * of.gain * v + (1.0 - b) * of.sigma * predicted + mean;
+    let moves = y + of.step * of.sigma * last;
+    let within = middles.into_iter().map(|[x, es, q, s]| [x, es, q, es - (1.0 - s * of.sigma) * e - s * moves]).collect();
     let moved = [turned[0] - of.step * y, turned[1] - of.step * y, turned[2]];
-    Sample { y, next: State { x: xs, e: es, zeta: moved }, within }
+    Sample { y, next: State { x: xs, e: es, zeta: moved, past: past.map(|_| y) }, within }
 }
 
 /// x'P x + e^2 + eta |zeta|_N^2.
-fn level(State { x, e, zeta }: State, p: f64, eta: f64) -> f64 {
+fn level(State { x, e, zeta, .. }: State, p: f64, eta: f64) -> f64 {
     p * x * x + e * e + eta * (2.0 * zeta[0] * zeta[0] + zeta[1] * zeta[1] + zeta[2] * zeta[2])
 }
 
@@ -109,25 +118,36 @@ fn the_fall_in_a_sample_is_the_mean_of_f() {
             PointSlopes { j: vec![5.0 * next()], g: vec![9.0 * next()], r: vec![9.0 * next()], d: 9.0 * next() };
         let (p, k_p, lambda) = (next(), 0.2 + 0.1 * next(), 30.0 + 20.0 * next());
         let eta = k_p * b * of.gain / 2.0;
-        let at = State { x: next(), e: next(), zeta: [next(), next(), next()] };
+        let past = (trial % 4 > 1).then(|| 5.0 * next());
+        let at = State { x: next(), e: next(), zeta: [next(), next(), next()], past };
+        let weight = 20.0 * next();
         let amplitude = next();
         let q0 = |s: f64| amplitude * (1.0 + s);
         let Sample { y, next: after, within } = sample((&of, b), &slopes, at, &q0);
         let entries = End::BOTH.map(|end| {
-            let less = Less { e_k: 0.0, e: 0.0, y: 0.0 };
-            let numbers = FormNumbers { of: &of, weight: 1.0, k_p, lambda, less, gamma: Some(0.0) };
-            form(&Doubles, numbers, (end, &of.moved[0]), slopes.with(|_, _| p, 0.0))
+            // It is affine in b_1: this far from the middle to one with the sign -1.
+            let share = b_1(&of) / WEIGHT_SUM;
+            let of_sign = |sign: i64| {
+                let less = Less { e_k: 0.0, e: 0.0, y: 0.0 };
+                let past = past.map(|_| weight);
+                let numbers = FormNumbers { of: &of, weight: 1.0, k_p, lambda, less, gamma: Some(0.0), past };
+                form(&Doubles, numbers, &Corner { end, moved: &of.moved[0], sign }, slopes.with(|_, _| p, 0.0))
+            };
+            let both = of_sign(0).into_iter().zip(of_sign(-1));
+            both.map(|((i, j, a), (.., b))| (i, j, (1.0 - share) * a + share * b)).collect::<Vec<_>>()
         });
         let (mut mean, mut squares) = (0.0, [0.0; 2]);
         for (step, [x, _, q, gap]) in within.iter().enumerate() {
             let part = (step as f64 + 0.5) / STEPS as f64;
-            let vector = [*x, at.e, y, *gap, -of.across * q, q0(part * of.step)];
+            let vector: Vec<f64> =
+                [*x, at.e, y, *gap, -of.across * q, q0(part * of.step)].into_iter().chain(past).collect();
             let [start, end] = entries.each_ref().map(|entries| value(entries, &vector));
             mean += ((1.0 - part) * start + part * end) / STEPS as f64;
             squares[0] += gap * gap / STEPS as f64;
             squares[1] += (of.across * q).powi(2) / STEPS as f64;
         }
-        let fall = (level(at, p, eta) - level(after, p, eta)) / of.step;
+        let stored = |at: State| level(at, p, eta) + weight * of.step * at.past.unwrap_or(0.0).powi(2);
+        let fall = (stored(at) - stored(after)) / of.step;
         let left_out = lambda * (squares[1] - squares[0]);
         assert!(left_out > -1e-9);
         assert!(
@@ -294,7 +314,7 @@ fn periodic_solutions_stay_within_the_bounds() {
             let ends = [low, high].map(|end| end.parse::<f64>().unwrap());
             for (b, harmonic) in ends.into_iter().flat_map(|b| (1..9).map(move |harmonic| (b, harmonic))) {
                 let frequency = std::f64::consts::TAU * f64::from(harmonic);
-                let mut at = State { x: 0.0, e: 0.0, zeta: [0.0; 3] };
+                let mut at = State { x: 0.0, e: 0.0, zeta: [0.0; 3], past: None };
                 let mut squares = [0.0; 3];
                 for k in 0..200 * SAMPLES {
                     let start = f64::from(k % SAMPLES) * of.step;
