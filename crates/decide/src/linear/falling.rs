@@ -1,17 +1,18 @@
 //! A quadratic form that falls along every difference of two solutions of a linear loop, and the peaks that follow (derivation, 13.7 (M),
-//! 14.5).
+//! 14.5; at samples 14.6).
 
 use super::PRECISION;
 use super::plant::LinearPlant;
-use super::steady::{Loop, Sizes};
+use super::steady::{Held, Loop, Sizes};
 use rug::Rational;
 use sigmastar_exact::enclosure::{Enclosure, Truth};
 use sigmastar_matrix::{ScaledMatrix, is_positive_definite, is_symmetric};
+use sigmastar_theory::derivation::sampled_form::{Enclosures, FormNumbers, Less, LoopNumbers, Parts, form};
 
 /// The most boxes of parameters that are looked at.
 const MAX_BOXES: usize = 2048;
 
-/// `V = y'P y + w e^2 + (b mu k_p/2) |zeta|_N^2`, at the gain b of the actuator.
+/// `V = y'P y + w e^2 + (b mu k_p/2) |zeta|_N^2`, at the gain b of the actuator; at samples with K for mu, and with a delay `g_m h y_{k-1}^2` besides.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Falling {
     /// P by rows: symmetric, positive definite, in the coordinates `y = L^-1 x`.
@@ -22,6 +23,17 @@ pub struct Falling {
     pub weight: Rational,
     /// k_p > 0.
     pub k_p: Rational,
+    /// At samples, and only there.
+    pub held: Option<FallingHeld>,
+}
+
+/// What a form has at samples.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FallingHeld {
+    /// lambda > 0, the multiplier of what moves within a sample.
+    pub lambda: Rational,
+    /// g_m > 0, with a delay and only there.
+    pub past: Option<Rational>,
 }
 
 /// The starts.
@@ -33,6 +45,8 @@ pub struct Start {
     pub e0: Enclosure,
     /// Z_0; none where the regulator sets z = M e at its first instant.
     pub z0: Option<Enclosure>,
+    /// Y_0, with a delay: |e_0 - et_0| is at most h times that. Else 0.
+    pub y0: Enclosure,
 }
 
 impl Start {
@@ -40,7 +54,7 @@ impl Start {
     /// 14.5).
     #[must_use]
     pub fn distances(&self, own: &Loop, [states, error, zeta]: [&Enclosure; 3]) -> [Enclosure; 3] {
-        let Start { x0, e0, z0 } = self;
+        let Start { x0, e0, z0, .. } = self;
         let of_start = z0.as_ref().map(|z0| z0 + own.n_bar_squared.sqrt() * e0);
         [x0 + states, e0 + error, of_start.map_or_else(|| zeta.clone(), |of_start| of_start + zeta)]
     }
@@ -60,28 +74,41 @@ impl Falling {
     ///
     /// Guarantee: `True` only if P is symmetric and positive definite, not above p_up, w and k_p are positive, and
     /// `[[-(P J + J'P), -P g, -(k_p/2) r'], [., 2 sigma w, -w - (k_p/2)(d + (1-b) sigma)], [., ., k_p]]` is positive definite for every
-    /// member, in the coordinates y, and every gain b of the actuator. Then V falls along every difference of two solutions, for every
-    /// number of oscillators; it has no periodic solution but one.
+    /// member, in the coordinates y, and every gain b of the actuator; at samples the form (14.6a), whose numbers lambda and, with a delay, g_m are
+    /// positive. Then V falls along every difference of two solutions, for every
+    /// number of oscillators; it has no periodic solution but one. Hypothesis at samples: h sigma <= 1.
     #[must_use]
     pub fn decide(&self, plant: &LinearPlant, own: &Loop, coordinates: &[Vec<Rational>]) -> Truth {
-        let Falling { matrix, p_up, weight, k_p } = self;
+        let Falling { matrix, p_up, weight, k_p, held } = self;
         let n = plant.states();
+        let of_law = match (held, &own.held) {
+            (None, None) => true,
+            (Some(FallingHeld { lambda, past }), Some(held)) => {
+                *lambda > 0 && past.is_some() == held.delayed && past.as_ref().is_none_or(|past| *past > 0)
+            }
+            _ => false,
+        };
         let below = |i: usize, j: usize| Rational::from(if i == j { p_up } else { &ZERO } - &matrix[i][j]);
         let fits = is_symmetric(matrix, n)
             && is_positive_definite(matrix)
             && is_positive_definite(&(0..n).map(|i| (0..n).map(|j| below(i, j)).collect()).collect::<Vec<_>>())
             && *weight > 0
-            && *k_p > 0;
+            && *k_p > 0
+            && of_law;
         if !fits {
             return Truth::False;
         }
+        let numbers = own.held.as_ref().map(|held| own.numbers(held));
         let mut open = vec![plant.whole().to_vec()];
         let mut boxes = 0;
         while let Some(ends) = open.pop() {
             boxes += 1;
             let holds = plant.member(&plant.enclosed(&ends)).is_some_and(|member| {
                 let rows = own.in_coordinates(&member.rows, coordinates);
-                own.gain.iter().all(|b| self.is_definite(&rows, own, b))
+                match (held, &numbers) {
+                    (Some(held), Some(numbers)) => self.is_definite_at_samples(&rows, held, numbers),
+                    _ => own.gain.iter().all(|b| self.is_definite(&rows, own, b)),
+                }
             });
             if holds {
                 continue;
@@ -119,19 +146,64 @@ impl Falling {
         ScaledMatrix::from_enclosures(n + 2, entry).is_some_and(|matrix| matrix.is_positive_definite().is_true())
     }
 
+    /// Whether the matrix of (14.6a) is positive definite at all corners, for every entry of `[[J, g], [r, d]]` in these enclosures.
+    fn is_definite_at_samples(
+        &self,
+        rows: &[Vec<Enclosure>],
+        FallingHeld { lambda, past }: &FallingHeld,
+        of: &LoopNumbers<Enclosure>,
+    ) -> bool {
+        let n = rows.len() - 1;
+        let exact = |value: &Rational| Enclosure::from_rational(value, PRECISION);
+        let zero = || Enclosure::zero(PRECISION);
+        let times =
+            |i: usize, column: usize| (0..n).fold(zero(), |sum, k| sum + exact(&self.matrix[i][k]) * &rows[k][column]);
+        let decay: Vec<(usize, usize, Enclosure)> = (0..n)
+            .flat_map(|i| (i..n).map(move |j| (i, j)))
+            .map(|(i, j)| (i, j, (times(i, j) + times(j, i)).negate()))
+            .collect();
+        let moved: Vec<Enclosure> = (0..n).map(|i| times(i, n)).collect();
+        let (r, d) = (rows[n][..n].to_vec(), rows[n][n].clone());
+        let numbers = FormNumbers {
+            of,
+            weight: exact(&self.weight),
+            k_p: exact(&self.k_p),
+            lambda: exact(lambda),
+            less: Less { e_k: zero(), e: zero(), y: zero() },
+            gamma: None,
+            past: past.as_ref().map(exact),
+        };
+        let order = n + 4 + usize::from(past.is_some());
+        of.corners(past.is_some()).all(|corner| {
+            let parts = Parts { decay: decay.clone(), moved: moved.clone(), r: r.clone(), d: d.clone() };
+            let mut entries = vec![zero(); order * order];
+            for (i, j, entry) in form(&Enclosures, numbers.clone(), &corner, parts) {
+                entries[j * order + i] = entry;
+            }
+            let matrix = ScaledMatrix::from_enclosures(order, |i, j| entries[i * order + j].clone());
+            matrix.is_some_and(|matrix| matrix.is_positive_definite().is_true())
+        })
+    }
+
     /// How far solutions from the starts may be from the periodic one of these sizes.
     ///
     /// Hypothesis: V falls, at this gain. Guarantee: with `V_0 = p_up dX^2 + w dE^2 + (b mu k_p/2) dZ^2` they are
-    /// `sqrt(V_0/w)` and `sqrt(V_0 (sigma^2/w + 2 mu Nbar^2/(b k_p)))`, at the worse end of b, in which the square is convex.
+    /// `sqrt(V_0/w)` and `sqrt(V_0 (sigma^2/w + 2 mu Nbar^2/(b k_p)))`, at the worse end of b, in which the square is convex; with a delay V_0 has
+    /// `g_m h (Y_0 + Y)^2` besides, and the second bracket `h (sigma + K Nb2)^2/g_m`.
     #[must_use]
     pub fn peak(&self, own: &Loop, start: &Start, sizes: &Sizes<Enclosure>) -> Peak {
         let exact = |value: &Rational| Enclosure::from_rational(value, PRECISION);
         let (weight, k_p) = (exact(&self.weight), exact(&self.k_p));
         let [x, e, z] = start.distances(own, [&sizes.states, &sizes.error, &sizes.zeta]);
-        let plain = exact(&self.p_up) * x.sqr() + &weight * e.sqr();
+        let (mut plain, mut of_past) = (exact(&self.p_up) * x.sqr() + &weight * e.sqr(), Enclosure::zero(PRECISION));
+        let past = self.held.as_ref().and_then(|held| held.past.as_ref());
+        if let Some((past, Held { step, .. })) = past.zip(own.held.as_ref()) {
+            plain = plain + exact(past) * step * (&start.y0 + &sizes.mean).sqr();
+            of_past = step * (&own.sigma + &own.mu * &own.n_bar_squared).sqr() / exact(past);
+        }
         let level = |b: &Enclosure| &plain + b * &own.mu * &k_p / 2 * z.sqr();
-        let of_control =
-            |b: &Enclosure| level(b) * (own.sigma.sqr() / &weight + &own.mu * &own.n_bar_squared * 2 / (b * &k_p));
+        let of_zeta = |b: &Enclosure| &own.mu * &own.n_bar_squared * 2 / (b * &k_p);
+        let of_control = |b: &Enclosure| level(b) * (own.sigma.sqr() / &weight + of_zeta(b) + &of_past);
         let [low, high] = &own.gain;
         Peak { error: (level(high) / &weight).sqrt(), control: of_control(low).max(&of_control(high)).sqrt() }
     }
@@ -140,6 +212,13 @@ impl Falling {
 static ZERO: std::sync::LazyLock<Rational> = std::sync::LazyLock::new(Rational::new);
 
 impl Loop {
+    /// The numbers of F at samples.
+    fn numbers(&self, held: &Held) -> LoopNumbers<Enclosure> {
+        let moves = self.gain.each_ref().map(|b| Enclosure::one(PRECISION) - b);
+        let law = [self.mu.clone(), self.n_bar_squared.clone()];
+        LoopNumbers::new(self.sigma.clone(), held.step.clone(), law, &Enclosure::pi(PRECISION), Some(moves))
+    }
+
     /// `[[L^-1 A L, L^-1 b], [c L, d]]`, by rows.
     #[must_use]
     pub fn in_coordinates(&self, rows: &[Vec<Enclosure>], coordinates: &[Vec<Rational>]) -> Vec<Vec<Enclosure>> {

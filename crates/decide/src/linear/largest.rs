@@ -1,7 +1,7 @@
 //! The largest sizes of the members of a linear family, by subdivision of the box of parameters and gains.
 
 use super::PRECISION;
-use super::member::Line;
+use super::member::{Answer, Clock};
 use super::plant::LinearPlant;
 use super::steady::{Loop, Sizes};
 use super::supremum::Fineness;
@@ -12,7 +12,7 @@ use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// By what share a bound may be above what is met: of e and u, and of what only the transient rests on.
-const ROOMS: [f64; 5] = [0.005, 0.005, 0.005, 0.05, 0.05];
+const ROOMS: [f64; 6] = [0.005, 0.005, 0.005, 0.05, 0.05, 0.05];
 
 /// The ends of the parameters.
 type Ends = Vec<[Rational; 2]>;
@@ -22,15 +22,15 @@ type Ends = Vec<[Rational; 2]>;
 #[derive(Debug)]
 pub struct Answers<'p> {
     plant: &'p LinearPlant,
-    fundamental: Enclosure,
-    known: Mutex<HashMap<Ends, Option<Arc<Vec<Line>>>>>,
+    clock: Clock,
+    known: Mutex<HashMap<Ends, Option<Arc<Answer>>>>,
 }
 
 impl<'p> Answers<'p> {
-    /// Of a plant whose first harmonic has this frequency.
+    /// Of a plant at such instants.
     #[must_use]
-    pub fn new(plant: &'p LinearPlant, fundamental: Enclosure) -> Answers<'p> {
-        Answers { plant, fundamental, known: Mutex::default() }
+    pub fn new(plant: &'p LinearPlant, clock: Clock) -> Answers<'p> {
+        Answers { plant, clock, known: Mutex::default() }
     }
 
     /// The plant.
@@ -39,16 +39,16 @@ impl<'p> Answers<'p> {
         self.plant
     }
 
-    fn lines(&self, parameters: &[[Rational; 2]]) -> Option<Arc<Vec<Line>>> {
+    fn answer(&self, parameters: &[[Rational; 2]]) -> Option<Arc<Answer>> {
         // Whoever panics while he holds the lock has changed nothing but whole entries.
         let lock = || self.known.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(lines) = lock().get(parameters) {
-            return lines.clone();
+        if let Some(answer) = lock().get(parameters) {
+            return answer.clone();
         }
         let member = self.plant.member(&self.plant.enclosed(parameters));
-        let lines = member.and_then(|member| member.lines(self.plant.lines(), &self.fundamental)).map(Arc::new);
-        lock().insert(parameters.to_vec(), lines.clone());
-        lines
+        let answer = member.and_then(|member| member.answer(self.plant.lines(), &self.clock)).map(Arc::new);
+        lock().insert(parameters.to_vec(), answer.clone());
+        answer
     }
 }
 
@@ -67,7 +67,7 @@ pub fn sizes(answers: &Answers<'_>, own: &Loop, oscillators: &Oscillators, effor
     let at = |ends: &[[Rational; 2]]| {
         let (gain, parameters) = ends.split_last()?;
         let gain = Enclosure::between(&gain[0], &gain[1], PRECISION);
-        own.sizes(&answers.lines(parameters)?, &gain, oscillators, fineness)
+        own.sizes(&*answers.answer(parameters)?, &gain, oscillators, fineness)
     };
     let mut open = vec![whole.clone()];
     let mut known: Option<Sizes<Enclosure>> = None;

@@ -1,11 +1,11 @@
-//! The periodic solution of a linear loop for a given number of oscillators (derivation, 14.3).
+//! The periodic solution of a linear loop for a given number of oscillators (derivation, 14.3), and of the law at samples (14.6).
 
 use super::PRECISION;
-use super::member::Line;
+use super::member::{Answer, Clock, HeldLine, Line, half_turn};
 use super::supremum::{Fineness, supremum};
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
-use sigmastar_lang::spec::{InternalModel, Oscillators};
+use sigmastar_lang::spec::{InternalModel, Oscillators, SampledGain};
 use sigmastar_theory::transfer::Complex;
 
 /// The regulator, whose base frequency is that of the period, and the gain of the actuator over its nominal value.
@@ -13,18 +13,31 @@ use sigmastar_theory::transfer::Complex;
 pub struct Loop {
     /// sigma.
     pub sigma: Enclosure,
-    /// mu.
+    /// mu; at samples K.
     pub mu: Enclosure,
     /// Om = w = 2 pi/T.
     pub fundamental: Enclosure,
     /// n_0, n_1, ..., as far as there are lines and oscillators.
     pub weights: Vec<Enclosure>,
-    /// The square of Nbar, the sum of all weights; or of those of given oscillators ([`Loop::with_oscillators`]).
+    /// The square of Nbar, the sum of all weights; or of those of given oscillators ([`Loop::with_oscillators`]); at samples Nb2.
     pub n_bar_squared: Enclosure,
     /// The interval `[b_lo, b_hi]`; `[1, 1]` without an input gain.
     pub gain: [Enclosure; 2],
     /// The inverse of the coordinates L: sizes of x are those of `L^-1 x`.
     pub inverse: Vec<Vec<Rational>>,
+    /// What belongs to the law at samples; none in continuous time.
+    pub held: Option<Held>,
+}
+
+/// What belongs to the law at samples.
+#[derive(Clone, Debug)]
+pub struct Held {
+    /// N_s.
+    pub samples: u32,
+    /// h.
+    pub step: Enclosure,
+    /// Whether a control takes the sample to be computed (derivation, 13.4).
+    pub delayed: bool,
 }
 
 impl Loop {
@@ -46,7 +59,23 @@ impl Loop {
             n_bar_squared: model.weights.total(PRECISION),
             gain: gain.unwrap_or([one.clone(), one]),
             inverse,
+            held: None,
         }
+    }
+
+    /// The loop of the law at samples with these K and Nb2, of a period with this many of them.
+    #[must_use]
+    pub fn at_samples(self, law: &SampledGain, samples: u32, delayed: bool) -> Loop {
+        let exact = |value: &Rational| Enclosure::from_rational(value, PRECISION);
+        let step = Enclosure::pi(PRECISION) * 2 / (&self.fundamental * i64::from(samples));
+        let held = Some(Held { samples, step, delayed });
+        Loop { mu: exact(&law.gain), n_bar_squared: exact(&law.weight_sum), held, ..self }
+    }
+
+    /// When the harmonics are looked at.
+    #[must_use]
+    pub fn clock(&self) -> Clock {
+        Clock { fundamental: self.fundamental.clone(), samples: self.held.as_ref().map(|held| held.samples) }
     }
 
     /// The loop of these oscillators alone, of whose weights Nbar is the sum; `None` where it does not have all of them.
@@ -79,8 +108,10 @@ pub struct Sizes<T> {
     pub control: T,
     /// Of `|L^-1 (x - x_0)|`.
     pub states: T,
-    /// Of |zeta|_N.
+    /// Of |zeta|_N; at samples at their instants.
     pub zeta: T,
+    /// Of |y_k|, of the law with a delay; else 0.
+    pub mean: T,
 }
 
 impl<T> Sizes<T> {
@@ -92,25 +123,77 @@ impl<T> Sizes<T> {
             control: of(&self.control, &other.control),
             states: of(&self.states, &other.states),
             zeta: of(&self.zeta, &other.zeta),
+            mean: of(&self.mean, &other.mean),
         }
     }
 
     /// In a fixed order.
-    pub(super) fn each(&self) -> [&T; 5] {
-        [&self.error, &self.mean_square, &self.control, &self.states, &self.zeta]
+    pub(super) fn each(&self) -> [&T; 6] {
+        [&self.error, &self.mean_square, &self.control, &self.states, &self.zeta, &self.mean]
     }
 }
 
+/// What the regulator makes of a harmonic at which it has no oscillator: u = -turn e.
+struct Beyond {
+    /// `sigma + i y_k (i om_k + sigma)`; at samples kappa_k.
+    turn: Complex,
+    /// |y| over |e|.
+    mean: Enclosure,
+    /// |zeta|_N over |y|.
+    zeta: Enclosure,
+}
+
 impl Loop {
-    /// Bounds of the periodic solution of every member whose lines are these, with a gain of the actuator in `gain`. `None` where the answer
-    /// to a line may have no bound. What is below them some instant has, of |e| and |u|, as closely as `fineness` says.
+    /// Of the harmonic k of these oscillators.
+    fn beyond(&self, oscillators: &Oscillators, k: usize, Line { frequency, delta, .. }: &Line) -> Beyond {
+        let sigma = || Complex::real(self.sigma.clone());
+        let Some(Held { samples, step, delayed }) = &self.held else {
+            let y = &self.mu / &self.fundamental * self.poles(oscillators, k, 1);
+            let turn = Complex { re: &self.sigma - &y * frequency, im: &y * &self.sigma };
+            let mean = (frequency.sqr() + self.sigma.sqr()).sqrt();
+            return Beyond { turn, mean, zeta: self.poles(oscillators, k, 2).sqrt() / &self.fundamental };
+        };
+        let zero = || Enclosure::zero(PRECISION);
+        // The sums of c_l, of c_l cot((k-l) Om h/2) and of c_l/sin^2((k-l) Om h/2) over l and -l, and b_1.
+        let (mut total, mut cotangents, mut squares, mut b_1) = (zero(), zero(), zero(), zero());
+        for l in oscillators.all().map(i64::from) {
+            let weight = &self.weights[l as usize];
+            let places: &[i64] = if l == 0 { &[0] } else { &[l, -l] };
+            for place in places {
+                let [sin, cos] = half_turn(k as i64 - place, *samples);
+                let share = weight / places.len() as i64;
+                cotangents = cotangents + &share * cos / &sin;
+                squares = squares + share / sin.sqr();
+            }
+            total = total + weight;
+            let [_, cos] = half_turn(2 * l, *samples);
+            b_1 = b_1 + weight * cos;
+        }
+        let of_poles = Complex { re: total.negate(), im: cotangents.negate() }.scaled(&(Enclosure::one(PRECISION) / 2));
+        let one = Complex::real(Enclosure::one(PRECISION));
+        let z = delta.scaled(step).add(&one);
+        let product = Complex::real(step * &self.sigma);
+        let (mut mean, mut turn, mut sum) = (delta.add(&sigma()), sigma(), of_poles);
+        if *delayed {
+            let predicted = z.add(&product);
+            mean = z.mul(&mean).div(&predicted);
+            turn = turn.div(&predicted);
+            sum = sum.sub(&Complex::real(b_1).div(&z));
+        }
+        let turn = turn.add(&sum.mul(&mean).scaled(&(&self.mu * step)));
+        Beyond { turn, mean: mean.norm(), zeta: squares.sqrt() * step / 2 }
+    }
+
+    /// Bounds of the periodic solution of every member whose answer is this, with a gain of the actuator in `gain`. `None` where the answer
+    /// to a line may have no bound. What is below them some instant has, of |e| and |u|, as closely as `fineness` says; at samples |e| has besides what it
+    /// moves within one.
     ///
-    /// Line k meets an oscillator where k is in H: then `e_k = 0`, `u_k = -c_k/b`, and `|zeta_k|_N = sqrt(2/n_k) |c_k|/(b mu)`. Else
-    /// `e_k = c_k/D`, `D = i om_k - W_k + b (sigma + i y_k (i om_k + sigma))`, `y_k = nu g_H(k)`, `u_k = ((i om_k - W_k) e_k - c_k)/b`, and
-    /// `|zeta_k|_N = sqrt(g_H'(k)) |i om_k + sigma| |e_k|/w`.
+    /// Line k meets an oscillator where k is in H: then `e_k = 0`, `b u_k = -c_k`, and `|zeta_k|_N = sqrt(2/n_k) |u_k|/mu`. Else
+    /// `e_k = c_k/D`, `D = i om_k - W_k + b (sigma + i y_k (i om_k + sigma))`, `y_k = nu g_H(k)`, `b u_k = (i om_k - W_k) e_k - c_k`, and
+    /// `|zeta_k|_N = sqrt(g_H'(k)) |i om_k + sigma| |e_k|/w`. At samples (derivation, 14.6) likewise: [`Line`], [`Beyond`].
     pub(super) fn sizes(
         &self,
-        lines: &[Line],
+        Answer { lines, held }: &Answer,
         gain: &Enclosure,
         oscillators: &Oscillators,
         fineness: Fineness,
@@ -118,31 +201,56 @@ impl Loop {
         let zero = || Enclosure::zero(PRECISION);
         let of_mu = gain * &self.mu;
         let mut within = zero();
-        let mut sizes = Sizes { error: zero(), mean_square: zero(), control: zero(), states: zero(), zeta: zero() };
+        let mut sizes =
+            Sizes { error: zero(), mean_square: zero(), control: zero(), states: zero(), zeta: zero(), mean: zero() };
         let (mut errors, mut controls) = (Vec::new(), Vec::new());
+        // Bounds of |q'|: their sum, and that of their squares.
+        let (mut rate, mut rate_squares) = (zero(), zero());
         for (k, line) in lines.iter().enumerate() {
-            let Line { frequency, states, transfer, forcing } = line;
-            if oscillators.meets(k) {
+            let Line { frequency, delta, states, transfer, forcing, held: of_line } = line;
+            let both = if k == 0 { 1 } else { 2 };
+            let over_gain = |control: Complex| match of_line {
+                None => control,
+                Some(of_line) => control.div(&of_line.gain),
+            };
+            // e, and the control b u.
+            let (error, control) = if oscillators.meets(k) {
+                let control = over_gain(forcing.scaled(&Enclosure::one(PRECISION).negate()));
                 // |zeta_0|^2 = |c_0|^2/((b mu)^2 n_0); both of k and -k: 2 * 2 |c_k|^2/((b mu)^2 n_k).
-                let both = if k == 0 { 1 } else { 4 };
-                within = within + forcing.norm_squared() / of_mu.sqr() / &self.weights[k] * both;
-                errors.push(Complex::real(zero()));
-                controls.push(forcing.scaled(&gain.recip().negate()));
-                continue;
+                within = within + control.norm_squared() / of_mu.sqr() / &self.weights[k] * (both * both);
+                (Complex::real(zero()), control)
+            } else {
+                let Beyond { turn, mean, zeta } = self.beyond(oscillators, k, line);
+                let own = delta.sub(transfer);
+                let answer = turn.scaled(gain);
+                let answer = of_line.as_ref().map_or_else(|| answer.clone(), |of_line| of_line.gain.mul(&answer));
+                let error = forcing.div(&own.add(&answer));
+                if !(error.re.is_bounded() && error.im.is_bounded()) {
+                    return None;
+                }
+                let of_mean = mean * error.norm();
+                sizes.zeta = sizes.zeta + zeta * &of_mean * 2;
+                if self.held.as_ref().is_some_and(|held| held.delayed) {
+                    sizes.mean = sizes.mean + of_mean * 2;
+                }
+                let control = over_gain(own.mul(&error).sub(forcing));
+                (error, control)
+            };
+            let mut moved: Vec<Complex> = states.iter().map(|part| part.mul(&error)).collect();
+            if let Some(HeldLine { by_control, by_forcing, .. }) = of_line {
+                for (moved, (of_control, of_forcing)) in moved.iter_mut().zip(by_control.iter().zip(by_forcing)) {
+                    *moved = moved.add(&of_control.mul(&control)).add(of_forcing);
+                }
             }
-            let y = &self.mu / &self.fundamental * self.poles(oscillators, k, 1);
-            let answer = Complex { re: &self.sigma - &y * frequency, im: &y * &self.sigma }.scaled(gain);
-            let own = Complex { re: transfer.re.negate(), im: frequency - &transfer.im };
-            let error = forcing.div(&own.add(&answer));
-            if !(error.re.is_bounded() && error.im.is_bounded()) {
-                return None;
+            sizes.states = sizes.states + self.length(&moved) * both;
+            if let Some((held, of_line)) = held.as_ref().zip(of_line.as_ref()) {
+                moved.push(error.clone());
+                let own = held.rate_of_q((frequency, &of_line.driving), &moved, &control);
+                rate_squares = rate_squares + own.sqr() * both;
+                rate = rate + own * both;
             }
-            controls.push(own.mul(&error).sub(forcing).scaled(&gain.recip()));
-            let moved: Vec<Complex> = states.iter().map(|part| part.mul(&error)).collect();
-            sizes.states = sizes.states + self.length(&moved) * 2;
-            let of_y = (frequency.sqr() + self.sigma.sqr()).sqrt() * error.norm();
-            sizes.zeta = sizes.zeta + self.poles(oscillators, k, 2).sqrt() * of_y / &self.fundamental * 2;
             errors.push(error);
+            controls.push(control.scaled(&gain.recip()));
         }
         sizes.zeta = sizes.zeta + within.sqrt();
         // Both of k and -k; the mean is 0.
@@ -150,6 +258,12 @@ impl Loop {
         let largest = |waves: Vec<Complex>| supremum(&[waves.into_iter().map(|wave| vec![wave]).collect()], fineness);
         sizes.error = largest(errors);
         sizes.control = largest(controls);
+        if let Some(Held { step, .. }) = &self.held {
+            // How far e is from its linear interpolation, at most; at the instants it may not be at all.
+            let bow = step.sqr() / 8;
+            sizes.error = &sizes.error + zero().hull(&(&bow * rate));
+            sizes.mean_square = &sizes.mean_square + zero().hull(&(bow * rate_squares.sqrt()));
+        }
         let bounded = sizes.each().into_iter().all(Enclosure::is_bounded);
         bounded.then_some(sizes)
     }

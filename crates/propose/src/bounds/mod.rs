@@ -3,7 +3,7 @@
 //! - [`FloatSuprema`]: the bounds of the table on samples of a tube;
 //! - [`FloatWeights`], [`EnergyWeights`], [`SampledEnergy`]: the free numbers of (M), (E) and their forms at samples;
 //! - [`FloatMetric`], [`FloatLevel`]: joint metrics by semidefinite programs;
-//! - [`PeakProgram`], [`FallingForm`]: quadratic forms that fall, for small peaks;
+//! - [`PeakProgram`], [`FallingForm`], [`HeldForm`]: quadratic forms that fall, for small peaks;
 //! - [`FloatSlopes`]: the matrix ball of all derivatives together;
 //! - [`Directions`]: the directions along which the derivatives change.
 //!
@@ -22,6 +22,7 @@ mod place;
 mod points;
 mod pointwise;
 mod sampled_pairs;
+mod sampled_peak;
 mod sampled_point;
 mod sampled_program;
 mod sampled_threshold;
@@ -37,6 +38,7 @@ pub use peak_points::PeakBox;
 pub use peak_program::{FallingForm, PeakOf, PeakProgram};
 pub use place::{Place, Places};
 pub use pointwise::{Asked, Derivatives, MatrixAt, Slopes as PointSlopes};
+pub use sampled_peak::{HeldForm, HeldProgram};
 pub use sampled_pairs::{Corners, MatrixArguments};
 pub use sampled_point::{SampledEnergy, SampledRadius, SampledWeights};
 pub use sampled_threshold::{Focus, thresholds};

@@ -352,7 +352,8 @@ fn is_below(matrix: &[f64], order: usize, number: f64) -> bool {
     true
 }
 
-fn positive(value: f64, other: f64) -> f64 {
+/// The value, or another one where it is not positive.
+pub(super) fn positive(value: f64, other: f64) -> f64 {
     if value > 0.0 && value.is_finite() { value } else { other }
 }
 

@@ -40,6 +40,26 @@ impl Arithmetic for Doubles {
     }
 }
 
+/// Enclosures for one point, or for all that they contain.
+pub struct Enclosures;
+
+impl Arithmetic for Enclosures {
+    type Number = Enclosure;
+    type Value = Enclosure;
+
+    fn constant(&self, value: Enclosure) -> Enclosure {
+        value
+    }
+
+    fn add(&self, a: &Enclosure, b: &Enclosure) -> Enclosure {
+        a + b
+    }
+
+    fn scale(&self, value: &Enclosure, factor: &Enclosure) -> Enclosure {
+        value * factor
+    }
+}
+
 /// The numbers of a law at samples and its gain.
 #[derive(Clone, Debug)]
 pub struct LoopNumbers<R> {
