@@ -158,13 +158,14 @@ fn fits(sets: &[Oscillators], subject: &Subject) -> Result<(), Failure> {
 fn without_bounds(run: &Run<'_>, sets: &[Oscillators]) -> Option<String> {
     run.certified()?;
     let found = match run {
-        Run::Continuous(run) => run.by_count.as_ref().map_or(&[][..], |found| &found.counts),
-        Run::Sampled(_) => &[],
+        Run::Continuous(run) => &run.by_count,
+        Run::Sampled(run) => &run.by_count,
     };
+    let found = found.as_ref().map_or(&[][..], |found| &found.counts);
     let is_missing = |set: &&Oscillators| set.n_o().is_none() && found.iter().all(|bounds| bounds.oscillators != **set);
     let missing: Vec<String> = sets.iter().filter(is_missing).map(Oscillators::to_string).collect();
     let why = match run {
-        Run::Sampled(_) => "bounds by the set are proved in continuous time",
+        Run::Sampled(_) => "at samples they are proved of plants that are linear in x and e, without noise",
         Run::Continuous(_) => {
             "they are proved of plants in continuous time, with a matched base frequency and without noise"
         }

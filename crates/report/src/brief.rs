@@ -88,7 +88,8 @@ pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences
     let transient = (upper(&error_box[0]), &peak);
     facts.push(("periodic solution", periodic_solution(run.spec, &periodic, transient, control)));
     facts.push(("assumed", assumed(run.spec, run.largest_arguments(), None)));
-    let known = by_count(run);
+    let asked: Vec<u32> = run.for_n_o.iter().map(|asked| asked.n_o).collect();
+    let known = by_count(run.spec, run.by_count.as_ref(), &asked);
     [Block::facts(facts)].into_iter().chain(known).chain([Block::says(norms(run.spec, "$`sigma`$"))]).collect()
 }
 
@@ -148,6 +149,7 @@ pub(super) fn of_samples(
     origin: Origin,
 ) -> Vec<Block> {
     let (Some(proof), Some(periodic)) = (run.claim(), run.periodic_solution()) else { return Vec::new() };
+    let Some((steady, peak, control)) = run.best_bounds() else { return Vec::new() };
     let witness = &proof.witness;
     // That gain stands exactly in the sentence above: the claim is about no other.
     let gain =
@@ -169,13 +171,14 @@ pub(super) fn of_samples(
     ];
     facts.extend(orbit(run.spec).map(|said| ("orbit", said)));
     facts.extend(run.found.map(|(_, limit)| ("limited by", format!("{} (an estimate)", limit.describe()))));
-    facts.extend(consequences.and_then(|all| error(&all.by_n_o)).map(|said| ("steady error", said)));
+    // A table stands below where more is known.
+    let by_n_o = consequences.filter(|_| run.by_count.is_none());
+    facts.extend(by_n_o.and_then(|all| error(&all.by_n_o)).map(|said| ("steady error", said)));
     facts.extend(for_n_o_at_samples(run).map(|said| ("convergence", said)));
-    let transient = (exact(&witness.d_x, Direction::Up), &proof.evaluation.peak);
-    facts.push((
-        "periodic solution",
-        periodic_solution(run.spec, &periodic, transient, run.control().map(|bounds| (bounds, ""))),
-    ));
+    let [x, _, zeta, z] = periodic.clone();
+    let along = [x, steady, zeta, z];
+    let transient = (exact(&witness.d_x, Direction::Up), &peak);
+    facts.push(("periodic solution", periodic_solution(run.spec, &along, transient, Some((&control, "")))));
     facts.extend(uncertain_gain(run.spec).map(|said| ("input gain", said)));
     facts.extend(interval_costs(run.spec, &run.interval_costs, "the gain").map(|said| ("intervals", said)));
     let late = if run.sampling.delayed { "every control put out at the next sample, no" } else { "no delay," };
@@ -193,7 +196,9 @@ pub(super) fn of_samples(
         }
     };
     facts.push(("assumed", format!("{}; {of_the_computer}{beside}", assumed(run.spec, run.largest_arguments(), None))));
-    vec![Block::facts(facts), Block::says(norms(run.spec, "law"))]
+    let asked: Vec<u32> = run.for_n_o.iter().map(|asked| asked.n_o).collect();
+    let known = by_count(run.spec, run.by_count.as_ref(), &asked);
+    [Block::facts(facts)].into_iter().chain(known).chain([Block::says(norms(run.spec, "law"))]).collect()
 }
 
 /// What to do with the claim next; `at_samples` where its law is one.

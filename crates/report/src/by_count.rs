@@ -4,17 +4,17 @@ use serde_json::{Value, json};
 use sigmastar_document::number::{full, upper};
 use sigmastar_document::{Block, Table};
 use sigmastar_exact::enclosure::Enclosure;
-use sigmastar_lang::spec::Oscillators;
-use sigmastar_prove::certify::{ByCount, Certification, CountBounds, Largest};
+use sigmastar_lang::spec::{Oscillators, Specification};
+use sigmastar_prove::certify::{ByCount, CountBounds, Largest};
 
 /// The numbers of oscillators of which the report has a row, with those that are asked about, and the last one, from which on nothing changes.
 const SHOWN: [u64; 6] = [0, 1, 2, 3, 5, 10];
 
-/// The table; nothing where there are no such bounds.
-pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
-    let Some(ByCount { counts, checked, .. }) = &run.by_count else { return Vec::new() };
+/// The table, with the numbers of oscillators that are asked about; nothing where there are no such bounds.
+pub(super) fn section(spec: &Specification, found: Option<&ByCount>, asked: &[u32]) -> Vec<Block> {
+    let Some(ByCount { counts, checked, .. }) = found else { return Vec::new() };
     let mut table = Table::new(&["n_o", "steady |e|", "largest |e|", "steady |u|", "largest |u|"]);
-    let is_asked = |n_o: u64| run.for_n_o.iter().any(|asked| u64::from(asked.n_o) == n_o);
+    let is_asked = |n_o: u64| asked.iter().any(|asked| u64::from(*asked) == n_o);
     let is_shown =
         |bounds: &&CountBounds| bounds.or_more || bounds.n_o().is_none_or(|n_o| SHOWN.contains(&n_o) || is_asked(n_o));
     for bounds in counts.iter().filter(is_shown) {
@@ -29,9 +29,8 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
         let largest_control = shown(bounds.largest_control().as_ref());
         table.push([name, upper(steady_error), largest_error, upper(steady_control), largest_control]);
     }
-    let plant = run.spec.plant();
-    let is_family = plant.is_some_and(|plant| plant.parameters.intervals().next().is_some());
-    let all = is_family || run.spec.input_gain.is_some();
+    let is_family = spec.plant().is_some_and(|plant| plant.parameters.intervals().next().is_some());
+    let all = is_family || spec.input_gain.is_some();
     let says = "Proved at this gain by the number of oscillators: steady along the periodic solution, largest at all times from the initial set";
     let of = if all { ", for every plant and gain of the actuator of the claim" } else { "" };
     let who = if *checked { "; they are in the certificate." } else { "; no independent program checks them." };
@@ -44,7 +43,7 @@ fn list(oscillators: &Oscillators) -> String {
 }
 
 /// All of them as JSON, and `null` where there are none.
-pub(super) fn counts_json(run: &Certification<'_>) -> Value {
+pub(super) fn counts_json(found: Option<&ByCount>) -> Value {
     let one =
         |CountBounds { oscillators, or_more, steady_error, mean_square, steady_control, largest }: &CountBounds| {
             let [peak, transient] = match largest {
@@ -57,5 +56,5 @@ pub(super) fn counts_json(run: &Certification<'_>) -> Value {
                 "control": { "steady": full(steady_control), "transient": transient },
             })
         };
-    run.by_count.as_ref().map_or(Value::Null, |found| found.counts.iter().map(one).collect())
+    found.map_or(Value::Null, |found| found.counts.iter().map(one).collect())
 }

@@ -78,7 +78,7 @@ pub(super) fn report(run: &Certification<'_>, consequences: Option<&Consequences
         ("sigma_star_by_norms_estimate", json!(run.alternatives.by_norms.map(estimate))),
         ("consequences", consequences.map_or(Value::Null, consequences_json)),
         ("gains", rows_json(&run.gains)),
-        ("by_n_o", counts_json(run)),
+        ("by_n_o", counts_json(run.by_count.as_ref())),
         ("exact_regulation", exact_regulation(run)),
         ("relative_degree", gains_json(run)),
     ]) {

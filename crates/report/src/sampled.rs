@@ -1,5 +1,6 @@
 //! The report on a certification of the regulator at samples.
 
+use super::by_count::counts_json;
 use super::conditions::conditions_with_truth;
 use super::failures::{FORMAT, VERSION, errors_json};
 use super::for_n_o::{rates_json, sampled_section};
@@ -328,6 +329,7 @@ impl Readable for SampledReport<'_> {
                 report["consequences"] =
                     json!({ "error_bounds": bounds_json(by_n_o), "targets": targets_json(targets), "most": most });
             }
+            report["by_n_o"] = counts_json(run.by_count.as_ref());
             report["gains"] = gains::rows_json(&run.gains);
             if let Some(kept) = limits::sampled_json(run) {
                 report["limits"] = kept;

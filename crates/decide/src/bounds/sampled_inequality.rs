@@ -34,7 +34,8 @@ impl Engine {
         let [w_x, eta, lambda, rate, c_e, c_y] = [w_x, eta, lambda, rate, c_e, c_y].map(exact);
         let k_p = eta * 2 / &of.gain;
         let less = Less { e_k: c_e, e: zero(), y: c_y };
-        let numbers = FormNumbers { of: &of, weight: Enclosure::one(PRECISION), k_p, lambda, less, gamma: None, past: None };
+        let numbers =
+            FormNumbers { of: &of, weight: Enclosure::one(PRECISION), k_p, lambda, less, gamma: None, past: None };
         self.at_all_ends(&numbers, [x, e], effort, |values| of_stability(values, &w_x, &rate))
     }
 
@@ -54,7 +55,15 @@ impl Engine {
         let of = LoopNumbers::enclosed(at, &self.period(), self.moves(), PRECISION);
         let [k_p, c_e, c_y, gamma, lambda] = [k_p, c_e, c_y, gamma, lambda].map(exact);
         let less = Less { e_k: zero(), e: c_e, y: c_y };
-        let numbers = FormNumbers { of: &of, weight: Enclosure::one(PRECISION), k_p, lambda, less, gamma: Some(gamma), past: None };
+        let numbers = FormNumbers {
+            of: &of,
+            weight: Enclosure::one(PRECISION),
+            k_p,
+            lambda,
+            less,
+            gamma: Some(gamma),
+            past: None,
+        };
         self.at_all_ends(&numbers, [x, e], effort, |values| of_existence(values, matrix, c_x))
     }
 

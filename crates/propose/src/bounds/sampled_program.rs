@@ -140,7 +140,8 @@ impl Program<'_> {
         cost_of_last: f64,
     ) -> Option<(Vec<f64>, f64)> {
         let order = self.points.first()?.r.len() + 5;
-        let at_all_ends = self.points.iter().flat_map(|point| self.of.corners(false).map(move |corner| (point, corner)));
+        let at_all_ends =
+            self.points.iter().flat_map(|point| self.of.corners(false).map(move |corner| (point, corner)));
         let constraints: Vec<AffineMatrix<f64>> = at_all_ends
             .map(|(point, corner)| {
                 let matrix = |variables: &Variables| self.matrix(units, variables, point, &corner);

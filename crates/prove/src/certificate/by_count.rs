@@ -49,8 +49,13 @@ pub(super) fn claimed_counts(found: Option<&ByCount>) -> Option<(&'static str, V
     Some((BY_N_O, found.counts.iter().map(one).collect()))
 }
 
-/// The sentences of the claim about them, each with a space before it, from that part of it.
-pub(super) fn counts_in_words(spec: &Specification, sigma: &Rational, part: &Value) -> String {
+/// The sentences of the claim about them, each with a space before it, from that part of it; at samples with their number in a period.
+pub(super) fn counts_in_words(
+    spec: &Specification,
+    (sigma, samples): (&Rational, Option<u32>),
+    part: &Value,
+) -> String {
+    let below = samples.map_or_else(String::new, |samples| format!(" below {samples}/2"));
     let output = spec.input_gain.as_ref().map_or_else(
         || "u".to_owned(),
         |gain| {
@@ -66,8 +71,8 @@ pub(super) fn counts_in_words(spec: &Specification, sigma: &Rational, part: &Val
                 format!("oscillators at the harmonics {}", all.join(", "))
             }
             None => {
-                let every = if entry["or_more"] == true { "every n_o >=" } else { "n_o =" };
-                format!("{every} {}", entry["n_o"])
+                let n_o = &entry["n_o"];
+                if entry["or_more"] == true { format!("every n_o >= {n_o}{below}") } else { format!("n_o = {n_o}") }
             }
         };
         let number = |part: &str, name: &str| {
@@ -97,14 +102,19 @@ pub(super) fn count_witness(found: Option<&ByCount>) -> Option<(&'static str, Va
     Some((BY_N_O, object([part])))
 }
 
-fn linear(forms: &[Falling], sizes: &[[Enclosure; 2]]) -> Value {
-    let form = |Falling { matrix, p_up, weight, k_p }: &Falling| {
-        object([("P", rows(matrix)), ("p_up", exact(p_up)), ("w", exact(weight)), ("k_p", exact(k_p))])
+fn linear(forms: &[Falling], sizes: &[[Enclosure; 3]]) -> Value {
+    let form = |Falling { matrix, p_up, weight, k_p, held }: &Falling| {
+        let numbers = [("P", rows(matrix)), ("p_up", exact(p_up)), ("w", exact(weight)), ("k_p", exact(k_p))];
+        let past = held.as_ref().and_then(|held| held.past.as_ref());
+        let at_samples = held.iter().map(|held| ("lambda", exact(&held.lambda)));
+        object(numbers.into_iter().chain(at_samples).chain(past.map(|past| ("gm", exact(past)))))
     };
     let has_states = forms.iter().any(|form| !form.matrix.is_empty());
-    let size = |[states, zeta]: &[_; 2]| {
+    let has_past = forms.iter().any(|form| form.held.as_ref().is_some_and(|held| held.past.is_some()));
+    let size = |[states, zeta, mean]: &[_; 3]| {
         let states = has_states.then(|| ("x", with_room(states, &OF_LINEAR)));
-        object(states.into_iter().chain([("zeta", with_room(zeta, &OF_LINEAR))]))
+        let mean = has_past.then(|| ("y", with_room(mean, &OF_LINEAR)));
+        object(states.into_iter().chain([("zeta", with_room(zeta, &OF_LINEAR))]).chain(mean))
     };
     object([("forms", forms.iter().map(form).collect()), ("sizes", sizes.iter().map(size).collect())])
 }

@@ -76,9 +76,18 @@ struct Claim {
 
 fn read_claim(value: &Value<'_>, subject: Option<&Value<'_>>, errors: &mut Errors) -> Result<Claim, Reported> {
     let mut claim = value.object(errors)?;
-    for unused in
-        ["verdict", "n_o", "harmonics", "mu", "parameters", "periodic_solution", "control", "for_n_o", "statement"]
-    {
+    for unused in [
+        "verdict",
+        "n_o",
+        "harmonics",
+        "mu",
+        "parameters",
+        "periodic_solution",
+        "control",
+        "for_n_o",
+        "by_n_o",
+        "statement",
+    ] {
         let _ = claim.optional(unused);
     }
     let regulator = word(&mut claim, "regulator", REGULATOR, errors);

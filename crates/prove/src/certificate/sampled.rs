@@ -1,5 +1,6 @@
 //! The certificate of the regulator at samples: a claim about exactly one gain and one sampling period.
 
+use super::by_count::{claimed_counts, count_witness, counts_in_words};
 use super::fields::{HARMONICS, NumberFields, paths_json};
 use super::json::{exact, object, text};
 use super::of_plant::plant_parts;
@@ -42,7 +43,10 @@ pub fn sampled_certificate_json(run: &SampledCertification<'_>) -> Option<Value>
         ("periodic_solution", periodic_json(&run.periodic_solution()?)),
         ("control", control_json(run.control()?)),
     ];
-    let said = ("statement", text(sampled_statement(spec, witness) + &run.rates_in_words()));
+    let counts = claimed_counts(run.by_count.as_ref());
+    let at = (&witness.sigma, Some(witness.sampling.samples));
+    let of_counts = counts.as_ref().map_or_else(String::new, |(_, part)| counts_in_words(spec, at, part));
+    let said = ("statement", text(sampled_statement(spec, witness) + &run.rates_in_words() + &of_counts));
     let sets = spec.internal_model.asks_every_set();
     let every_set = sets.then(|| (HARMONICS, text("every set below samples/2 that contains 0")));
     let delay = witness.sampling.delayed.then(|| ("delay_samples", Value::from(1)));
@@ -55,6 +59,7 @@ pub fn sampled_certificate_json(run: &SampledCertification<'_>) -> Option<Value>
                 .chain(parameters_json(spec))
                 .chain(rest)
                 .chain(claimed_rates(&run.for_n_o))
+                .chain(counts)
                 .chain([said]),
         )
     };
@@ -62,8 +67,8 @@ pub fn sampled_certificate_json(run: &SampledCertification<'_>) -> Option<Value>
     let further = [("weight_sum", exact(&witness.law.weight_sum)), ("transfer", object([("proof", text(SAMPLED))]))];
     let parts =
         further.into_iter().chain([paths_json(witness.paths)]).chain(lyapunov_parts(spec)).chain(plant_parts(spec));
-    let witness =
-        object(witness.json().into_iter().chain(of_delay).chain(parts).chain(sampled_rate_witnesses(&run.for_n_o)));
+    let by_n_o = sampled_rate_witnesses(&run.for_n_o).into_iter().chain(count_witness(run.by_count.as_ref()));
+    let witness = object(witness.json().into_iter().chain(of_delay).chain(parts).chain(by_n_o));
     let conditions = ("conditions", conditions_json(&proof.evaluation.conditions));
     Some(object(file(spec, proof.precision, claim, witness).into_iter().chain([conditions])))
 }

@@ -25,15 +25,18 @@ pub fn claim_in_words(certificate: &Document) -> Result<String, SpecErrors> {
     });
     let ball = stated_ball(certificate)?;
     let reach = (ball.as_ref(), certificate.at("/claim/harmonics").is_some());
-    let (sigma, is_sampled, words) = match &witness {
-        FreeNumbers::Sampled(witness) => (&witness.sigma, true, at_samples(&spec, witness, reach)),
+    let (sigma, samples, words) = match &witness {
+        FreeNumbers::Sampled(witness) => {
+            (&witness.sigma, Some(witness.sampling.samples), at_samples(&spec, witness, reach))
+        }
         FreeNumbers::Continuous(given) => {
             let witness = &given.witness;
-            (&witness.sigma, false, in_continuous_time(&spec, &witness.sigma, &witness.set, reach))
+            (&witness.sigma, None, in_continuous_time(&spec, &witness.sigma, &witness.set, reach))
         }
     };
     let counts = certificate.at("/claim/by_n_o").map(|part| part.to_json()).unwrap_or_default();
-    Ok(words + &rates_in_words(&spec, sigma, is_sampled, said) + &counts_in_words(&spec, sigma, &counts))
+    let of_rates = rates_in_words(&spec, sigma, samples.is_some(), said);
+    Ok(words + &of_rates + &counts_in_words(&spec, (sigma, samples), &counts))
 }
 
 /// What a certificate states of one number of oscillators.

@@ -67,7 +67,7 @@ pub fn certificate_json(run: &Certification<'_>) -> Option<Value> {
         ("control", control_json(run.control()?)),
     ];
     let counts = claimed_counts(run.by_count.as_ref());
-    let of_counts = counts.as_ref().map_or_else(String::new, |(_, part)| counts_in_words(spec, sigma, part));
+    let of_counts = counts.as_ref().map_or_else(String::new, |(_, part)| counts_in_words(spec, (sigma, None), part));
     let said =
         ("statement", text(statement(spec, sigma, set, run.is_for_every_set()) + &run.rates_in_words() + &of_counts));
     let of_actuator = input_gain_json(spec).into_iter().chain(actuator_json(spec));

@@ -1,22 +1,27 @@
-//! Bounds for each number of oscillators, of plants that are linear in x and e (derivation, 14.3, 14.5).
+//! Bounds for each number of oscillators, of plants that are linear in x and e (derivation, 14.3, 14.5; at samples 14.6).
 
 use super::certification::Certification;
 use super::gain_row::{ByCount, CountBounds, CountProof, GainRow, Largest, RowProof, SHOWN_N_O};
+use super::sampled::SampledCertification;
 use super::trials::{Asked, by_trials};
 use rug::Rational;
 use sigmastar_decide::conditions::SharpProof;
-use sigmastar_decide::linear::{Answers, Falling, LinearPlant, Loop, PRECISION, Sizes, Start, sizes};
+use sigmastar_decide::linear::{
+    Answers, Clock, Falling, FallingHeld, LinearPlant, Loop, PRECISION, Sizes, Start, sizes,
+};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, round_f64};
 use sigmastar_exact::parallel;
 use sigmastar_lang::plant::Plant;
-use sigmastar_lang::spec::{Oscillators, Specification};
+use sigmastar_lang::spec::{Oscillators, Sampling, Specification};
 use sigmastar_matrix::doubles::largest;
 use sigmastar_matrix::inverse;
-use sigmastar_propose::bounds::{FallingForm, PeakOf, PeakProgram, PointSlopes};
+use sigmastar_propose::bounds::{FallingForm, HeldForm, HeldProgram, PeakOf, PeakProgram, PointSlopes};
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::control::Control;
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
+use sigmastar_theory::derivation::sampled::SampledWitness;
+use sigmastar_theory::derivation::sampled_form::LoopNumbers;
 use sigmastar_theory::evidence::Part;
 use std::collections::BTreeSet;
 
@@ -29,17 +34,24 @@ const DIGITS: u32 = 9;
 /// Boxes of parameters and gains for all numbers of oscillators together: at the gain of the claim, and at the others.
 const EFFORTS: [usize; 2] = [8192, 512];
 
+/// What bounds are asked about.
+struct Loops<'a> {
+    sigma: &'a Rational,
+    /// The law at samples, where it is that one: its witness.
+    at_samples: Option<&'a SampledWitness>,
+    set: &'a ClaimedSet,
+    besides: &'a [Oscillators],
+    effort: usize,
+}
+
 /// Bounds for every number of oscillators, at a gain and from a set, for every member of the family and every gain of the actuator.
 ///
-/// Hypotheses: the plant is linear, with this specification; its base frequency is matched; the regulator is that in continuous time; the set is
-/// in the coordinates of the specification. Guarantee: there is one periodic solution, which has these bounds, and so have the solutions from
-/// the set. `None` where no form is found that falls, or a bound is not found.
-fn by_count(
-    (plant, answers): (&Plant, &Answers<'_>),
-    spec: &Specification,
-    (sigma, effort): (&Rational, usize),
-    (set, besides): (&ClaimedSet, &[Oscillators]),
-) -> Option<ByCount> {
+/// Hypotheses: the plant is linear, with this specification; its base frequency is matched; the set is in the coordinates of the specification; at samples
+/// h sigma <= 1, and the answers are those at the same samples. Guarantee: there is one periodic solution, which has these bounds, and so have the
+/// solutions from the set. `None` where no form is found that falls, or a bound is not found; at samples also where they do not tell the harmonics of the
+/// plant apart.
+fn by_count((plant, answers): (&Plant, &Answers<'_>), spec: &Specification, loops: &Loops<'_>) -> Option<ByCount> {
+    let Loops { sigma, at_samples, set, besides, effort } = *loops;
     let (linear, model) = (answers.plant(), &spec.internal_model);
     let coordinates = &spec.plant()?.coordinates;
     let gain = spec.input_gain.as_ref().and_then(|gain| gain.factors(PRECISION));
@@ -48,12 +60,20 @@ fn by_count(
     let sets = besides.iter().filter(|set| set.n_o().is_none()).cloned().collect::<BTreeSet<_>>();
     let all: Vec<Oscillators> = (0..=lines).map(Oscillators::first).chain(sets).collect();
     let last = all.iter().map(Oscillators::largest).max()?;
-    let own = Loop::new(sigma, model, last as usize, gain, inverse(coordinates)?);
+    let mut own = Loop::new(sigma, model, last as usize, gain, inverse(coordinates)?);
+    let exact = |value: &Rational| Enclosure::from_rational(value, PRECISION);
+    let mut y0 = Enclosure::zero(PRECISION);
+    if let Some(SampledWitness { sampling, law, delay, .. }) = at_samples {
+        if 2 * u64::from(last) >= u64::from(sampling.samples) {
+            return None;
+        }
+        own = own.at_samples(law, sampling.samples, sampling.delayed);
+        y0 = delay.as_ref().map_or(y0, |delay| exact(&delay.y_0));
+    }
     let effort = effort / all.len();
     let of_one = |oscillators: &Oscillators| sizes(answers, &own, oscillators, effort);
     let found: Vec<Sizes<Enclosure>> = parallel::map(&all, of_one).into_iter().collect::<Option<_>>()?;
-    let exact = |value: &Rational| Enclosure::from_rational(value, PRECISION);
-    let start = Start { x0: exact(&set.x0), e0: exact(&set.e0), z0: set.z0.as_ref().map(exact) };
+    let start = Start { x0: exact(&set.x0), e0: exact(&set.e0), z0: set.z0.as_ref().map(exact), y0 };
     let forms: Vec<Falling> = [PeakOf::Error, PeakOf::Control]
         .into_iter()
         .filter_map(|of| form((plant, linear), &own, coordinates, (&start, found.first()?), of))
@@ -77,7 +97,7 @@ fn by_count(
         })
     };
     let counts = all.into_iter().zip(&found).map(bounds).collect::<Option<_>>()?;
-    let sizes = found.into_iter().map(|sizes| [sizes.states, sizes.zeta]).collect();
+    let sizes = found.into_iter().map(|sizes| [sizes.states, sizes.zeta, sizes.mean]).collect();
     Some(ByCount { counts, proof: CountProof::Linear { forms, sizes }, checked: false })
 }
 
@@ -114,32 +134,61 @@ fn form(
         joint: false,
         reach: None,
     };
-    MARGINS
-        .into_iter()
-        .filter_map(|margin| program.propose(of, margin))
-        .filter_map(|form| rounded(&form))
-        .find(|form| form.decide(linear, own, coordinates).is_true())
+    let propose = |margin: f64| match &own.held {
+        None => rounded(&program.propose(of, margin)?),
+        Some(held) => {
+            let law = [program.mu, program.n_bar_squared];
+            let moves = Some(program.gain.map(|b| 1.0 - b));
+            let of_law = LoopNumbers::new(program.sigma, held.step.midpoint_f64(), law, &std::f64::consts::PI, moves);
+            let past = held.delayed.then(|| (&start.y0 + &sizes.mean).upper_f64());
+            rounded_at_samples(&program.propose_at_samples(of, margin, &HeldProgram { of: of_law, past })?)
+        }
+    };
+    MARGINS.into_iter().filter_map(propose).find(|form| form.decide(linear, own, coordinates).is_true())
+}
+
+/// A number in few digits.
+fn short(value: f64) -> Option<Rational> {
+    round_f64(value, DIGITS, Direction::Nearest)
+}
+
+/// A form in short numbers, of the law at samples.
+fn rounded_at_samples(HeldForm { matrix, weight, k_p, lambda, past }: &HeldForm) -> Option<Falling> {
+    let held = FallingHeld { lambda: short(*lambda)?, past: past.map_or(Some(None), |past| short(past).map(Some))? };
+    Some(Falling { held: Some(held), ..of_numbers(matrix, *weight, *k_p)? })
 }
 
 /// A form in short numbers.
 fn rounded(FallingForm { matrix, weight, k_p, .. }: &FallingForm) -> Option<Falling> {
-    let short = |value: f64| round_f64(value, DIGITS, Direction::Nearest);
+    of_numbers(matrix, *weight, *k_p)
+}
+
+fn of_numbers(matrix: &[Vec<f64>], weight: f64, k_p: f64) -> Option<Falling> {
     let row = |row: &Vec<f64>| row.iter().map(|entry| short(*entry)).collect::<Option<Vec<Rational>>>();
-    let above = if matrix.is_empty() { 1.0 } else { largest(matrix.clone()) * (1.0 + 1e-6) };
+    let above = if matrix.is_empty() { 1.0 } else { largest(matrix.to_vec()) * (1.0 + 1e-6) };
     Some(Falling {
         matrix: matrix.iter().map(row).collect::<Option<_>>()?,
         p_up: round_f64(above, DIGITS, Direction::Up)?,
-        weight: short(*weight)?,
-        k_p: short(*k_p)?,
+        weight: short(weight)?,
+        k_p: short(k_p)?,
+        held: None,
     })
 }
 
 impl GainRow {
     /// The row with the bounds for every number of oscillators where these are smaller.
     fn with(&mut self, found: &ByCount) {
-        for (bound, n_o) in self.steady.iter_mut().zip(SHOWN_N_O) {
-            if let Some(own) = found.at(n_o) {
-                *bound = bound.min(&own.steady_error);
+        let of_all = found.largest(|bounds| Some(&bounds.steady_error));
+        match (self.steady.as_mut_slice(), of_all) {
+            // One for every n_o.
+            ([bound], Some(of_all)) => *bound = bound.min(&of_all),
+            ([_], None) => {}
+            (all, _) => {
+                for (bound, n_o) in all.iter_mut().zip(SHOWN_N_O) {
+                    if let Some(own) = found.at(n_o) {
+                        *bound = bound.min(&own.steady_error);
+                    }
+                }
             }
         }
         if let Some(peak) = found.largest(|bounds| Some(&bounds.largest.as_ref()?.error)) {
@@ -178,8 +227,10 @@ impl Certification<'_> {
         };
         self.by_count = match LinearPlant::of(plant) {
             Some(linear) => {
-                let answers = Answers::new(&linear, plant.internal_model.base_frequency.enclose(PRECISION));
-                by_count((plant, &answers), self.spec, (&witness.sigma, EFFORTS[0]), (&witness.set, &besides))
+                let answers = Answers::new(&linear, clock(plant, None));
+                let (sigma, set) = (&witness.sigma, &witness.set);
+                let loops = Loops { sigma, at_samples: None, set, besides: &besides, effort: EFFORTS[0] };
+                by_count((plant, &answers), self.spec, &loops)
             }
             None => {
                 let exact = |value: &Rational| Enclosure::from_rational(value, PRECISION);
@@ -210,8 +261,7 @@ impl Certification<'_> {
             return;
         }
         let linear = LinearPlant::of(plant);
-        let frequency = plant.internal_model.base_frequency.enclose(PRECISION);
-        let answers = linear.as_ref().map(|linear| Answers::new(linear, frequency));
+        let answers = linear.as_ref().map(|linear| Answers::new(linear, clock(plant, None)));
         let claim = self.claim();
         let at = |row: &GainRow| {
             let RowProof::Continuous(proof, other) = &row.proof else { return None };
@@ -221,13 +271,83 @@ impl Certification<'_> {
                 return self.by_count.clone();
             }
             let spec = other.as_deref().unwrap_or(self.spec);
-            by_count((plant, answers.as_ref()?), spec, (&row.sigma, EFFORTS[1]), (&proof.witness.set, &[]))
+            let set = &proof.witness.set;
+            let loops = Loops { sigma: &row.sigma, at_samples: None, set, besides: &[], effort: EFFORTS[1] };
+            by_count((plant, answers.as_ref()?), spec, &loops)
         };
         let found = parallel::map(&self.gains, at);
-        for (row, found) in self.gains.iter_mut().zip(&found) {
-            if let Some(found) = found {
-                row.with(found);
-            }
+        with_bounds(&mut self.gains, &found);
+    }
+}
+
+/// The rows with what is found at their gains.
+fn with_bounds(rows: &mut [GainRow], found: &[Option<ByCount>]) {
+    for (row, found) in rows.iter_mut().zip(found) {
+        if let Some(found) = found {
+            row.with(found);
         }
+    }
+}
+
+/// When the harmonics of a plant with a matched base frequency are looked at.
+fn clock(plant: &Plant, sampling: Option<&Sampling>) -> Clock {
+    let fundamental = plant.internal_model.base_frequency.enclose(PRECISION);
+    Clock { fundamental, samples: sampling.map(|sampling| sampling.samples) }
+}
+
+impl SampledCertification<'_> {
+    /// Bounds by the number of oscillators at the gain of the claim, of a plant that is linear in x and e, and for those `besides`, sets with gaps where the
+    /// claim is about every set; nothing where the document has noise or a disturbance.
+    pub fn set_counts(&mut self, plant: &Plant, besides: &[Oscillators]) {
+        let every_set = self.spec.internal_model.asks_every_set();
+        let besides: Vec<Oscillators> =
+            besides.iter().filter(|set| every_set || set.n_o().is_some()).cloned().collect();
+        let found = self.claim().and_then(|proof| self.counts_at((plant, &besides), &proof.witness, EFFORTS[0]));
+        self.by_count = found;
+    }
+
+    /// The rows with such bounds.
+    pub fn set_counts_of_rows(&mut self, plant: &Plant) {
+        if self.by_count.is_none() {
+            return;
+        }
+        let at = |row: &GainRow| {
+            let RowProof::Sampled(proof) = &row.proof else { return None };
+            if self.claim().is_some_and(|claim| claim.witness.sigma == row.sigma) {
+                return self.by_count.clone();
+            }
+            self.counts_at((plant, &[]), &proof.witness, EFFORTS[1])
+        };
+        let found = parallel::map(&self.gains, at);
+        with_bounds(&mut self.gains, &found);
+    }
+
+    fn counts_at(
+        &self,
+        (plant, besides): (&Plant, &[Oscillators]),
+        witness: &SampledWitness,
+        effort: usize,
+    ) -> Option<ByCount> {
+        let linear = LinearPlant::of(plant).filter(|_| !self.spec.disturbances.any_at_samples())?;
+        let answers = Answers::new(&linear, clock(plant, Some(&witness.sampling)));
+        let (sigma, set) = (&witness.sigma, &witness.set);
+        by_count((plant, &answers), self.spec, &Loops { sigma, at_samples: Some(witness), set, besides, effort })
+    }
+
+    /// Bounds of |e| along the periodic solution and at all times, and of the control, for every number of oscillators, if certified: the least that are
+    /// proved.
+    #[must_use]
+    pub fn best_bounds(&self) -> Option<(Enclosure, Enclosure, Control<Enclosure>)> {
+        let evaluation = &self.claim()?.evaluation;
+        let known = (evaluation.size.e_per.clone(), evaluation.peak.clone(), evaluation.control.clone());
+        let Some(found) = &self.by_count else { return Some(known) };
+        let (steady, peak, Control { steady: of_u, transient }) = known;
+        let least = |known: Enclosure, own: Option<Enclosure>| own.map_or(known.clone(), |own| known.min(&own));
+        let control = Control {
+            steady: least(of_u, found.largest(|bounds| Some(&bounds.steady_control))),
+            transient: least(transient, found.largest(|bounds| Some(&bounds.largest.as_ref()?.transient))),
+        };
+        let steady = least(steady, found.largest(|bounds| Some(&bounds.steady_error)));
+        Some((steady, least(peak, found.largest(|bounds| Some(&bounds.largest.as_ref()?.error))), control))
     }
 }

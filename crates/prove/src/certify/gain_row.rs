@@ -93,8 +93,8 @@ pub enum CountProof {
     Linear {
         /// Forms that fall along the differences of solutions.
         forms: Vec<Falling>,
-        /// For each of them bounds of `|L^-1 (x - x_0)|` and `|zeta|_N` along the periodic solution.
-        sizes: Vec<[Enclosure; 2]>,
+        /// For each of them bounds of `|L^-1 (x - x_0)|`, of `|zeta|_N` and, where the law has a delay, of `|y|` along the periodic solution.
+        sizes: Vec<[Enclosure; 3]>,
     },
     /// A trial for each number, and what is proved around it (derivation, 14.4).
     Trials(Vec<(Trial, TubeProof)>),

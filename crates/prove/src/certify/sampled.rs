@@ -1,6 +1,6 @@
 //! The regulator at samples: search, rounding and decision of a claim about one gain and one sampling period (derivation, 12).
 
-use super::gain_row::{GainRow, RowNoise};
+use super::gain_row::{ByCount, GainRow, RowNoise};
 use super::least_limit::with_least_kept;
 use super::limits::{FloatLimits, NEAR, ROOMS};
 use super::options::Limits;
@@ -69,6 +69,8 @@ pub struct SampledCertification<'s> {
     pub norms_from: Option<f64>,
     /// Rates for the numbers of oscillators that were asked about.
     pub for_n_o: Vec<SampledRateForCount>,
+    /// Bounds by the number of oscillators at the gain of the claim, where the plant has some.
+    pub by_count: Option<ByCount>,
 }
 
 impl SampledCertification<'_> {
@@ -364,6 +366,7 @@ fn assemble<'s>(
         noise_of_rows: Vec::new(),
         norms_from: None,
         for_n_o: Vec::new(),
+        by_count: None,
     })
 }
 

@@ -92,7 +92,8 @@ fn sample((of, b): (&LoopNumbers<f64>, f64), slopes: &PointSlopes, at: State, q0
     }
     let y = b * of.gain * v + (1.0 - b) * of.sigma * predicted + mean;
     let moves = y + of.step * of.sigma * last;
-    let within = middles.into_iter().map(|[x, es, q, s]| [x, es, q, es - (1.0 - s * of.sigma) * e - s * moves]).collect();
+    let within =
+        middles.into_iter().map(|[x, es, q, s]| [x, es, q, es - (1.0 - s * of.sigma) * e - s * moves]).collect();
     let moved = [turned[0] - of.step * y, turned[1] - of.step * y, turned[2]];
     Sample { y, next: State { x: xs, e: es, zeta: moved, past: past.map(|_| y) }, within }
 }

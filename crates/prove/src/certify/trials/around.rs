@@ -158,7 +158,8 @@ impl Around<'_> {
         let samples = FloatSuprema::new(&about, FloatCurve::from(&trial.states()), rows, [None; 2]);
         let engine = Engine::new(&about, region, None, None).ok()?;
         let exact = |value: &Rational| Enclosure::from_rational(value, PRECISION);
-        let start = Start { x0: exact(&set.x0), e0: exact(&set.e0), z0: set.z0.as_ref().map(exact) };
+        let z0 = set.z0.as_ref().map(exact);
+        let start = Start { x0: exact(&set.x0), e0: exact(&set.e0), z0, y0: Enclosure::zero(PRECISION) };
         let period = plant.period.nominal().enclose(PRECISION);
         let mut prepared = Prepared { trial, own, period, start, engine, samples, defects, distances: [0.0; 3] };
         let sizes = Concluded::sizes_of(&prepared.trial, &self.known(&prepared))?;

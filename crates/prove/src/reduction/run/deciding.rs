@@ -276,6 +276,9 @@ impl Prepared {
         run.norms_from = self.norms_from;
         if options.compare {
             run.set_gains(start.map(|sought| &sought.proposal), options.ladder);
+            if let Some(plant) = self.plant.as_deref() {
+                run.set_counts_of_rows(plant);
+            }
         }
         if self.found_above.is_some() {
             run.given_gain = None;
@@ -362,18 +365,19 @@ impl Run<'_> {
     /// Finds bounds by the number of oscillators at the gain of the claim, of those `besides`, too, where the plant has some
     /// ([`Certification::set_counts`]): the certificate of the run then has them, for a checker to decide.
     pub fn set_counts(&mut self, plant: &Plant, besides: &[Oscillators]) {
-        if let Run::Continuous(run) = self {
-            run.set_counts(plant, besides);
-            if let Some(found) = &mut run.by_count {
-                found.checked = true;
-            }
+        match self {
+            Run::Continuous(run) => run.set_counts(plant, besides),
+            Run::Sampled(run) => run.set_counts(plant, besides),
+        }
+        if let Some(found) = self.by_count_mut() {
+            found.checked = true;
         }
     }
 
     fn by_count_mut(&mut self) -> Option<&mut ByCount> {
         match self {
             Run::Continuous(run) => run.by_count.as_mut(),
-            Run::Sampled(_) => None,
+            Run::Sampled(run) => run.by_count.as_mut(),
         }
     }
 
