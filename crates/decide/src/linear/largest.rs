@@ -1,6 +1,5 @@
 //! The largest sizes of the members of a linear family, by subdivision of the box of parameters and gains.
 
-use super::PRECISION;
 use super::member::{Answer, Clock};
 use super::plant::LinearPlant;
 use super::steady::{Loop, Sizes};
@@ -45,8 +44,8 @@ impl<'p> Answers<'p> {
         if let Some(answer) = lock().get(parameters) {
             return answer.clone();
         }
-        let member = self.plant.member(&self.plant.enclosed(parameters));
-        let answer = member.and_then(|member| member.answer(self.plant.lines(), &self.clock)).map(Arc::new);
+        let family = self.plant.family(parameters);
+        let answer = family.and_then(|family| family.answer(self.plant.lines(), &self.clock)).map(Arc::new);
         lock().insert(parameters.to_vec(), answer.clone());
         answer
     }
@@ -66,8 +65,7 @@ pub fn sizes(answers: &Answers<'_>, own: &Loop, oscillators: &Oscillators, effor
     let fineness = if single { Fineness::FINE } else { Fineness::COARSE };
     let at = |ends: &[[Rational; 2]]| {
         let (gain, parameters) = ends.split_last()?;
-        let gain = Enclosure::between(&gain[0], &gain[1], PRECISION);
-        own.sizes(&*answers.answer(parameters)?, &gain, oscillators, fineness)
+        own.sizes(&*answers.answer(parameters)?, gain, oscillators, fineness)
     };
     let mut open = vec![whole.clone()];
     let mut known: Option<Sizes<Enclosure>> = None;

@@ -1,7 +1,8 @@
 //! The members of a linear family on a box of its parameters, and how their zero dynamics answer a harmonic.
 
 use super::PRECISION;
-use super::held::Held;
+use super::held::{Held, product};
+use super::jet::{Jet, Offsets};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_lang::expr::TrigonometricPolynomial;
 use sigmastar_theory::transfer::Complex;
@@ -15,6 +16,16 @@ pub struct Member {
     pub waves: Vec<TrigonometricPolynomial>,
 }
 
+/// The coefficients of all members with parameters in a box, as they depend on these.
+#[derive(Clone, Debug)]
+pub(super) struct Family {
+    /// In the middle, on the box, and the derivatives along the sides; without sides one for all.
+    members: [Member; 2],
+    slopes: Vec<Member>,
+    /// How far the parameters are from the middle.
+    offsets: Offsets,
+}
+
 /// How the members answer the harmonics.
 #[derive(Clone, Debug)]
 pub(super) struct Answer {
@@ -22,6 +33,8 @@ pub(super) struct Answer {
     pub(super) lines: Vec<Line>,
     /// What happens within a sample; none in continuous time.
     pub(super) held: Option<Held>,
+    /// How far the parameters are from the middle of their box.
+    pub(super) offsets: Offsets,
 }
 
 /// One harmonic, `e^{i k Om t}`, of the members: with the harmonics e of the error and v of the control b u, that of x is
@@ -33,11 +46,11 @@ pub(super) struct Line {
     /// `i om_k`; at samples `(e^{i om_k h} - 1)/h`.
     pub(super) delta: Complex,
     /// `(i om_k - A)^-1 b`; at samples `R_k E_xe`.
-    pub(super) states: Vec<Complex>,
+    pub(super) states: Vec<Jet>,
     /// `W_k = d + c (i om_k - A)^-1 b`; at samples `E_ee + E_ex R_k E_xe`.
-    pub(super) transfer: Complex,
+    pub(super) transfer: Jet,
     /// c_k, the harmonic of q along the orbit; at samples gamma_k.
-    pub(super) forcing: Complex,
+    pub(super) forcing: Jet,
     /// What holding adds; none in continuous time, where the gain is 1 and the rest 0.
     pub(super) held: Option<HeldLine>,
 }
@@ -46,13 +59,13 @@ pub(super) struct Line {
 #[derive(Clone, Debug)]
 pub(super) struct HeldLine {
     /// c_k.
-    pub(super) driving: Complex,
+    pub(super) driving: Jet,
     /// `R_k G_x`.
-    pub(super) by_control: Vec<Complex>,
+    pub(super) by_control: Vec<Jet>,
     /// `R_k F_x`.
-    pub(super) by_forcing: Vec<Complex>,
+    pub(super) by_forcing: Vec<Jet>,
     /// beta_k.
-    pub(super) gain: Complex,
+    pub(super) gain: Jet,
 }
 
 /// The instants at which the harmonics are looked at.
@@ -66,7 +79,7 @@ pub struct Clock {
 
 impl Clock {
     /// h, at samples.
-    pub(super) fn step(&self) -> Option<Enclosure> {
+    fn step(&self) -> Option<Enclosure> {
         let samples = i64::from(self.samples?);
         Some(Enclosure::pi(PRECISION) * 2 / (&self.fundamental * samples))
     }
@@ -78,72 +91,97 @@ pub(super) fn half_turn(j: i64, samples: u32) -> [Enclosure; 2] {
     [angle.sin(), angle.cos()]
 }
 
-impl Member {
+impl Family {
+    /// One member, or all of a box of which nothing is known along its sides.
+    pub(super) fn of_one(member: Member) -> Family {
+        Family { members: [member.clone(), member], slopes: Vec::new(), offsets: Offsets::default() }
+    }
+
+    /// The members of a box: in its middle, on it, their derivatives along the sides, and how far these go from the middle.
+    pub(super) fn new(members: [Member; 2], slopes: Vec<Member>, offsets: Vec<Enclosure>) -> Family {
+        Family { members, slopes, offsets: Offsets(offsets) }
+    }
+
+    fn jet(&self, of: impl Fn(&Member) -> Complex) -> Jet {
+        let [middle, all] = self.members.each_ref().map(&of);
+        self.offsets.narrowed(Jet::new([middle, all], self.slopes.iter().map(of).collect()))
+    }
+
+    fn rows(&self) -> Vec<Vec<Jet>> {
+        let count = self.members[0].rows.len();
+        let entry = |i: usize, j: usize| self.jet(|member| Complex::real(member.rows[i][j].clone()));
+        (0..count).map(|i| (0..count).map(|j| entry(i, j)).collect()).collect()
+    }
+
     /// The lines 0, ..., `last`; `None` where the system for one may be singular, or where a sample is too long.
     pub(super) fn answer(&self, last: usize, clock: &Clock) -> Option<Answer> {
-        let mut lines: Vec<Line> = (0..=last).map(|k| self.line(k, &clock.fundamental)).collect::<Option<_>>()?;
-        let Some((samples, step)) = clock.samples.zip(clock.step()) else { return Some(Answer { lines, held: None }) };
-        let held = Held::new(&self.rows, &step)?;
+        let rows = self.rows();
+        let offsets = self.offsets.clone();
+        let mut lines: Vec<Line> =
+            (0..=last).map(|k| self.line(&rows, k, &clock.fundamental)).collect::<Option<_>>()?;
+        let Some((samples, step)) = clock.samples.zip(clock.step()) else {
+            return Some(Answer { lines, held: None, offsets });
+        };
+        let held = Held::new(&rows, &step, &offsets)?;
         for (k, line) in lines.iter_mut().enumerate() {
             let [sin, cos] = half_turn(k as i64, samples);
             // e^{i om h} - 1 = 2 i sin(om h/2) e^{i om h/2}.
             let delta = Complex { re: sin.negate(), im: cos }.scaled(&(sin * 2 / &step));
-            *line = self.held_line(line, delta, &held)?;
+            *line = held_line(line, delta, &held, &offsets)?;
         }
-        Some(Answer { lines, held: Some(held) })
+        Some(Answer { lines, held: Some(held), offsets })
     }
 
-    fn line(&self, k: usize, fundamental: &Enclosure) -> Option<Line> {
-        let n = self.rows.len() - 1;
+    fn line(&self, rows: &[Vec<Jet>], k: usize, fundamental: &Enclosure) -> Option<Line> {
+        let n = rows.len() - 1;
         let frequency = fundamental * k as i64;
         let delta = Complex { re: Enclosure::zero(PRECISION), im: frequency.clone() };
-        let waves: Vec<Complex> = self.waves.iter().map(|wave| coefficient(wave, k)).collect();
-        let right = |i: usize| [Complex::real(self.rows[i][n].clone()), waves[i].clone()];
-        let ([states, orbit], last) = (resolved(&self.rows, &delta, right)?, &self.rows[n]);
-        let transfer = along(last, &states, Complex::real(last[n].clone()));
-        let forcing = along(last, &orbit, waves[n].clone());
+        let waves: Vec<Jet> = (0..=n).map(|i| self.jet(|member| coefficient(&member.waves[i], k))).collect();
+        let right = |i: usize| [rows[i][n].clone(), waves[i].clone()];
+        let [states, orbit] = resolved(rows, &delta, right, &self.offsets)?;
+        let (last, d) = (&rows[n][..n], &rows[n][n]);
+        let transfer = self.offsets.narrowed(product(last, &states, &self.offsets).add(d));
+        let forcing = self.offsets.narrowed(product(last, &orbit, &self.offsets).add(&waves[n]));
         Some(Line { frequency, delta, states, transfer, forcing, held: None })
-    }
-
-    /// The line with a control that is held.
-    fn held_line(&self, Line { frequency, forcing: driving, .. }: &Line, delta: Complex, held: &Held) -> Option<Line> {
-        let n = self.rows.len() - 1;
-        let driven: Vec<Complex> = held.driven(frequency)?.iter().map(|part| part.mul(driving)).collect();
-        let map = &held.step_map;
-        let control: Vec<Complex> = held.by_control.iter().cloned().map(Complex::real).collect();
-        let right = |i: usize| [Complex::real(map[i][n].clone()), control[i].clone(), driven[i].clone()];
-        let [states, by_control, by_forcing] = resolved(map, &delta, right)?;
-        let last = &map[n];
-        let transfer = along(last, &states, Complex::real(last[n].clone()));
-        let gain = along(last, &by_control, control[n].clone());
-        let forcing = along(last, &by_forcing, driven[n].clone());
-        let held = HeldLine { driving: driving.clone(), by_control, by_forcing, gain };
-        Some(Line { frequency: frequency.clone(), delta, states, transfer, forcing, held: Some(held) })
     }
 }
 
-/// `start + c x`, c the row without its last entry.
-fn along(row: &[Enclosure], x: &[Complex], start: Complex) -> Complex {
-    x.iter().zip(row).fold(start, |sum, (x, c)| sum.add(&x.scaled(c)))
+/// The line with a control that is held.
+fn held_line(
+    Line { frequency, forcing: driving, .. }: &Line,
+    delta: Complex,
+    held: &Held,
+    offsets: &Offsets,
+) -> Option<Line> {
+    let Held { step_map: map, by_control: control, .. } = held;
+    let n = map.len() - 1;
+    let driven: Vec<Jet> = held.driven(frequency, offsets)?.iter().map(|part| part.mul(driving, offsets)).collect();
+    let right = |i: usize| [map[i][n].clone(), control[i].clone(), driven[i].clone()];
+    let [states, by_control, by_forcing] = resolved(map, &delta, right, offsets)?;
+    let along = |x: &[Jet], own: &Jet| offsets.narrowed(product(&map[n][..n], x, offsets).add(own));
+    let transfer = along(&states, &map[n][n]);
+    let gain = along(&by_control, &control[n]);
+    let forcing = along(&by_forcing, &driven[n]);
+    let held = HeldLine { driving: driving.clone(), by_control, by_forcing, gain };
+    Some(Line { frequency: frequency.clone(), delta, states, transfer, forcing, held: Some(held) })
 }
 
 /// The solutions of `(delta - A) x = right` for each of the right sides, A the block of the states.
 fn resolved<const SIDES: usize>(
-    rows: &[Vec<Enclosure>],
+    rows: &[Vec<Jet>],
     delta: &Complex,
-    right: impl Fn(usize) -> [Complex; SIDES],
-) -> Option<[Vec<Complex>; SIDES]> {
+    right: impl Fn(usize) -> [Jet; SIDES],
+    offsets: &Offsets,
+) -> Option<[Vec<Jet>; SIDES]> {
     let n = rows.len() - 1;
+    let delta = Jet::constant(delta.clone());
     let system = (0..n)
         .map(|i| {
-            let entry = |j: usize| {
-                let own = Complex::real(rows[i][j].clone());
-                if i == j { delta.sub(&own) } else { Complex::real(rows[i][j].negate()) }
-            };
+            let entry = |j: usize| if i == j { delta.sub(&rows[i][j]) } else { rows[i][j].negate() };
             (0..n).map(entry).chain(right(i)).collect()
         })
         .collect();
-    solved(system)
+    solved(system, offsets)
 }
 
 /// The coefficient of `e^{i k Om t}`: (a_k - i b_k)/2, and the mean for k = 0.
@@ -161,30 +199,33 @@ fn coefficient(wave: &TrigonometricPolynomial, k: usize) -> Complex {
 /// The solutions for so many right sides, which stand in the last columns: elimination with the pivot whose middle is largest.
 ///
 /// Guarantee: they contain those of every system within the enclosures. `None` where a pivot may be 0.
-fn solved<const SIDES: usize>(mut rows: Vec<Vec<Complex>>) -> Option<[Vec<Complex>; SIDES]> {
+fn solved<const SIDES: usize>(mut rows: Vec<Vec<Jet>>, offsets: &Offsets) -> Option<[Vec<Jet>; SIDES]> {
     let n = rows.len();
     for k in 0..n {
-        let size = |row: &Vec<Complex>| row[k].re.midpoint_f64().abs() + row[k].im.midpoint_f64().abs();
+        let size = |row: &Vec<Jet>| {
+            let Complex { re, im } = row[k].all();
+            re.midpoint_f64().abs() + im.midpoint_f64().abs()
+        };
         let pivot = (k..n).max_by(|&a, &b| size(&rows[a]).total_cmp(&size(&rows[b])))?;
         rows.swap(k, pivot);
-        if !rows[k][k].norm_squared().is_positive().is_true() {
+        if !rows[k][k].all().norm_squared().is_positive().is_true() {
             return None;
         }
         let (done, rest) = rows.split_at_mut(k + 1);
         let row = &done[k];
         for other in rest {
-            let factor = other[k].div(&row[k]);
+            let factor = other[k].div(&row[k], offsets);
             for j in k..row.len() {
-                other[j] = other[j].sub(&factor.mul(&row[j]));
+                other[j] = offsets.narrowed(other[j].sub(&factor.mul(&row[j], offsets)));
             }
         }
     }
-    let mut solutions: [Vec<Complex>; SIDES] =
+    let mut solutions: [Vec<Jet>; SIDES] =
         std::array::from_fn(|side| rows.iter().map(|row| row[n + side].clone()).collect());
     for solution in &mut solutions {
         for k in (0..n).rev() {
-            let known = (k + 1..n).fold(solution[k].clone(), |sum, j| sum.sub(&rows[k][j].mul(&solution[j])));
-            solution[k] = known.div(&rows[k][k]);
+            let known = (k + 1..n).fold(solution[k].clone(), |sum, j| sum.sub(&rows[k][j].mul(&solution[j], offsets)));
+            solution[k] = offsets.narrowed(known).div(&rows[k][k], offsets);
         }
     }
     Some(solutions)

@@ -6,6 +6,7 @@
 
 mod falling;
 mod held;
+mod jet;
 mod largest;
 mod member;
 mod plant;

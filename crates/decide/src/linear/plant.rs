@@ -1,7 +1,7 @@
 //! A plant that is linear in x and e, read off its formulas.
 
 use super::PRECISION;
-use super::member::Member;
+use super::member::{Family, Member};
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_lang::expr::{Enclosing, Formulas, Monomial, PlantVariable, VariableSet, Walk};
@@ -20,6 +20,8 @@ pub struct LinearPlant {
     slopes: Walk,
     /// f(t,0,0) and then q(t,0,0).
     origin: Walk,
+    /// The derivatives of both along each parameter.
+    along: Vec<[Walk; 2]>,
     period: Monomial,
     /// The box of the parameters.
     whole: Vec<[Rational; 2]>,
@@ -60,7 +62,16 @@ impl LinearPlant {
         }
         let whole = plant.parameters.intervals().map(|known| [known.low.clone(), known.high.clone()]).collect();
         let period = plant.period.nominal().exact.clone()?;
-        let mut linear = LinearPlant { states, lines: 0, slopes, origin: formulas.walk(&sides), period, whole };
+        let along = (0..plant.parameters.intervals().count())
+            .map(|place| {
+                let parameter = PlantVariable::Parameter(place);
+                [&entries, &sides].map(|outputs| {
+                    let slopes = formulas.derivatives(outputs, parameter);
+                    formulas.walk(&slopes)
+                })
+            })
+            .collect();
+        let mut linear = LinearPlant { states, lines: 0, slopes, origin: formulas.walk(&sides), along, period, whole };
         linear.lines =
             linear.member(&linear.enclosed(&linear.whole))?.waves.iter().map(|wave| wave.harmonics.len()).max()?;
         (linear.lines <= MAX_LINES).then_some(linear)
@@ -93,11 +104,37 @@ impl LinearPlant {
     /// The coefficients of all members with parameters in these enclosures; `None` where one is not bounded.
     #[must_use]
     pub fn member(&self, parameters: &[Enclosure]) -> Option<Member> {
+        self.evaluated([&self.slopes, &self.origin], parameters)
+    }
+
+    /// The members with parameters in a box, as they depend on these; `None` where a coefficient is not bounded.
+    pub(super) fn family(&self, ends: &[[Rational; 2]]) -> Option<Family> {
+        let all = self.enclosed(ends);
+        let of_all = self.member(&all)?;
+        let middles: Vec<Enclosure> = ends
+            .iter()
+            .map(|[low, high]| Enclosure::from_rational(&(Rational::from(low + high) / 2), PRECISION))
+            .collect();
+        let open: Vec<usize> = (0..ends.len()).filter(|side| ends[*side][0] != ends[*side][1]).collect();
+        // Where a formula has no derivative there is nothing to be gained.
+        let slopes =
+            open.iter().map(|side| self.evaluated(self.along[*side].each_ref(), &all)).collect::<Option<Vec<_>>>();
+        let found = slopes.zip(self.member(&middles)).filter(|_| !open.is_empty());
+        Some(match found {
+            None => Family::of_one(of_all),
+            Some((slopes, middle)) => {
+                let offsets = open.iter().map(|side| &all[*side] - &middles[*side]).collect();
+                Family::new([middle, of_all], slopes, offsets)
+            }
+        })
+    }
+
+    fn evaluated(&self, [slopes, origin]: [&Walk; 2], parameters: &[Enclosure]) -> Option<Member> {
         let zero = Enclosure::zero(PRECISION);
         let x = vec![zero.clone(); self.states];
-        let mut origin = Enclosing { t: &zero, x: &x, e: &zero, p: parameters, precision: PRECISION };
-        let slopes = self.slopes.evaluate(&mut origin);
-        let waves = self.origin.trigonometric_at_origin(parameters, &self.period, PRECISION).ok()?;
+        let mut at = Enclosing { t: &zero, x: &x, e: &zero, p: parameters, precision: PRECISION };
+        let slopes = slopes.evaluate(&mut at);
+        let waves = origin.trigonometric_at_origin(parameters, &self.period, PRECISION).ok()?;
         let bounded = slopes.iter().chain(waves.iter().flat_map(|wave| wave.parts())).all(Enclosure::is_bounded);
         bounded.then(|| Member { rows: slopes.chunks(self.states + 1).map(<[Enclosure]>::to_vec).collect(), waves })
     }

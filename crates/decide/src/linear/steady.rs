@@ -1,6 +1,7 @@
 //! The periodic solution of a linear loop for a given number of oscillators (derivation, 14.3), and of the law at samples (14.6).
 
 use super::PRECISION;
+use super::jet::Jet;
 use super::member::{Answer, Clock, HeldLine, Line, half_turn};
 use super::supremum::{Fineness, supremum};
 use rug::Rational;
@@ -193,13 +194,17 @@ impl Loop {
     /// `|zeta_k|_N = sqrt(g_H'(k)) |i om_k + sigma| |e_k|/w`. At samples (derivation, 14.6) likewise: [`Line`], [`Beyond`].
     pub(super) fn sizes(
         &self,
-        Answer { lines, held }: &Answer,
-        gain: &Enclosure,
+        Answer { lines, held, offsets }: &Answer,
+        gain: &[Rational; 2],
         oscillators: &Oscillators,
         fineness: Fineness,
     ) -> Option<Sizes<Enclosure>> {
         let zero = || Enclosure::zero(PRECISION);
-        let of_mu = gain * &self.mu;
+        // The gain is one more side.
+        let mut offsets = offsets.clone();
+        let gain = offsets.with_side(gain);
+        let inverse = gain.recip(&offsets);
+        let of_mu = &gain.all().re * &self.mu;
         let mut within = zero();
         let mut sizes =
             Sizes { error: zero(), mean_square: zero(), control: zero(), states: zero(), zeta: zero(), mean: zero() };
@@ -209,23 +214,26 @@ impl Loop {
         for (k, line) in lines.iter().enumerate() {
             let Line { frequency, delta, states, transfer, forcing, held: of_line } = line;
             let both = if k == 0 { 1 } else { 2 };
-            let over_gain = |control: Complex| match of_line {
+            let over_gain = |control: Jet| match of_line {
                 None => control,
-                Some(of_line) => control.div(&of_line.gain),
+                Some(of_line) => control.div(&of_line.gain, &offsets),
             };
             // e, and the control b u.
             let (error, control) = if oscillators.meets(k) {
-                let control = over_gain(forcing.scaled(&Enclosure::one(PRECISION).negate()));
+                let control = over_gain(forcing.negate());
                 // |zeta_0|^2 = |c_0|^2/((b mu)^2 n_0); both of k and -k: 2 * 2 |c_k|^2/((b mu)^2 n_k).
-                within = within + control.norm_squared() / of_mu.sqr() / &self.weights[k] * (both * both);
-                (Complex::real(zero()), control)
+                within = within + control.all().norm_squared() / of_mu.sqr() / &self.weights[k] * (both * both);
+                (Jet::real(zero()), control)
             } else {
                 let Beyond { turn, mean, zeta } = self.beyond(oscillators, k, line);
-                let own = delta.sub(transfer);
-                let answer = turn.scaled(gain);
-                let answer = of_line.as_ref().map_or_else(|| answer.clone(), |of_line| of_line.gain.mul(&answer));
-                let error = forcing.div(&own.add(&answer));
-                if !(error.re.is_bounded() && error.im.is_bounded()) {
+                let own = Jet::constant(delta.clone()).sub(transfer);
+                let answer = gain.times(&turn);
+                let answer = match of_line {
+                    None => answer,
+                    Some(of_line) => of_line.gain.mul(&answer, &offsets),
+                };
+                let error = forcing.div(&offsets.narrowed(own.add(&answer)), &offsets);
+                if !(error.all().re.is_bounded() && error.all().im.is_bounded()) {
                     return None;
                 }
                 let of_mean = mean * error.norm();
@@ -233,24 +241,24 @@ impl Loop {
                 if self.held.as_ref().is_some_and(|held| held.delayed) {
                     sizes.mean = sizes.mean + of_mean * 2;
                 }
-                let control = over_gain(own.mul(&error).sub(forcing));
+                let control = over_gain(offsets.narrowed(own.mul(&error, &offsets).sub(forcing)));
                 (error, control)
             };
-            let mut moved: Vec<Complex> = states.iter().map(|part| part.mul(&error)).collect();
+            let mut moved: Vec<Jet> = states.iter().map(|part| part.mul(&error, &offsets)).collect();
             if let Some(HeldLine { by_control, by_forcing, .. }) = of_line {
                 for (moved, (of_control, of_forcing)) in moved.iter_mut().zip(by_control.iter().zip(by_forcing)) {
-                    *moved = moved.add(&of_control.mul(&control)).add(of_forcing);
+                    *moved = offsets.narrowed(moved.add(&of_control.mul(&control, &offsets)).add(of_forcing));
                 }
             }
             sizes.states = sizes.states + self.length(&moved) * both;
             if let Some((held, of_line)) = held.as_ref().zip(of_line.as_ref()) {
                 moved.push(error.clone());
-                let own = held.rate_of_q((frequency, &of_line.driving), &moved, &control);
+                let own = held.rate_of_q((frequency, &of_line.driving), (&moved, &control), &offsets);
                 rate_squares = rate_squares + own.sqr() * both;
                 rate = rate + own * both;
             }
-            errors.push(error);
-            controls.push(control.scaled(&gain.recip()));
+            errors.push(error.all().clone());
+            controls.push(control.mul(&inverse, &offsets).all().clone());
         }
         sizes.zeta = sizes.zeta + within.sqrt();
         // Both of k and -k; the mean is 0.
@@ -269,11 +277,11 @@ impl Loop {
     }
 
     /// |L^-1 x|.
-    fn length(&self, x: &[Complex]) -> Enclosure {
+    fn length(&self, x: &[Jet]) -> Enclosure {
         let row = |row: &Vec<Rational>| {
             let zero = Complex::real(Enclosure::zero(PRECISION));
             let entries = row.iter().zip(x).filter(|(entry, _)| **entry != 0);
-            entries.fold(zero, |sum, (entry, x)| sum.add(&x.scaled(&Enclosure::from_rational(entry, PRECISION))))
+            entries.fold(zero, |sum, (entry, x)| sum.add(&x.all().scaled(&Enclosure::from_rational(entry, PRECISION))))
         };
         let squares = self.inverse.iter().map(|entries| row(entries).norm_squared());
         squares.fold(Enclosure::zero(PRECISION), |sum, square| sum + square).sqrt()
