@@ -79,7 +79,8 @@ pub fn check(json: &Json, other: Option<&Json>, lines: &mut Vec<String>) -> Outc
         Some(_) => Kind::Slopes { states, corner: derivation.has_corner() && states > 0 },
     };
     let rates = Witness::read_all(witness.optional("for_n_o").as_ref(), &claim.rates, kind)?;
-    let by_n_o = by_n_o::Witness::read(witness.optional("by_n_o").as_ref(), &claim.by_n_o, &spec)?;
+    let by_n_o =
+        by_n_o::Witness::read(witness.optional("by_n_o").as_ref(), &claim.by_n_o, &spec, derivation.at_samples())?;
     witness.finish()?;
     file.finish()?;
     by_n_o::demand_form(&spec, &claim.by_n_o)?;
@@ -112,7 +113,8 @@ pub fn check(json: &Json, other: Option<&Json>, lines: &mut Vec<String>) -> Outc
             let (weights, stability) = ([w_x, h], derivation.inequalities.stability.as_ref());
             // Of k0 and k1 the transfer bound is proved with the claim, by its derivation.
             let transfer = [k0, k1];
-            let about = by_n_o::About { sigma, set, error_box, periodic, transfer, weights, stability };
+            let at_samples = derivation.at_samples();
+            let about = by_n_o::About { sigma, set, error_box, periodic, transfer, weights, stability, at_samples };
             proofs_plants::by_n_o::prove(&spec, cells, &about, (&claim.by_n_o, witness), lines)?;
         }
     }
@@ -156,7 +158,8 @@ fn prove(
         rates::prove(d, about, (&claim.rates, rates), lines)?;
     }
     if let Some(witness) = by_n_o {
-        by_n_o::prove(d, (&free.set, &claim.sigma), (&claim.by_n_o, witness), lines)?;
+        let about = (&free.set, &claim.sigma, derivation.at_samples());
+        by_n_o::prove(d, about, (&claim.by_n_o, witness), lines)?;
     }
     lines.push("claim: verdict, n_o, mu, set, periodic solution and control follow from what is proved".to_owned());
     let mut largest = proved.arguments.each_ref().map(|argument| argument.hi().into_owned());

@@ -407,9 +407,9 @@ impl Loop {
         let [claim, witness] = [json!([entry]), json!({ "linear": { "forms": [form], "sizes": [sizes] } })]
             .map(|part| parse(part.to_string().as_bytes()).unwrap());
         let place = |of: &str| format!("/{of}/by_n_o");
-        let claimed = Entry::read_all(&Field { json: &claim, pointer: place("claim") })?;
+        let claimed = Entry::read_all(&Field { json: &claim, pointer: place("claim") }, None)?;
         let witness =
-            Witness::read(Some(&Field { json: &witness, pointer: place("witness") }), &claimed, &spec)?.unwrap();
+            Witness::read(Some(&Field { json: &witness, pointer: place("witness") }), &claimed, &spec, None)?.unwrap();
         let sigma = Rational::from_f64(self.sigma).unwrap();
         let mut lines = Vec::new();
         // The set, the error box, k0, k1 and the function of the claim say something of trials alone.
@@ -417,7 +417,16 @@ impl Loop {
         let set = ClaimedSet { x0: zero.clone(), e0: zero.clone(), z0: None };
         let periodic = [zero.clone(), zero.clone()];
         let [error_box, transfer, weights] = [[&zero; 2]; 3];
-        let about = About { sigma: &sigma, set: &set, error_box, periodic, transfer, weights, stability: None };
+        let about = About {
+            sigma: &sigma,
+            set: &set,
+            error_box,
+            periodic,
+            transfer,
+            weights,
+            stability: None,
+            at_samples: None,
+        };
         let prove = || by_n_o::prove(&spec, &plants, &about, (&claimed, &witness), &mut lines);
         effort::limited(effort::LIMIT, prove).0.map(|()| lines)
     }

@@ -342,9 +342,9 @@ impl Case {
         let parsed = |value: Value| -> Json { parse(value.to_string().as_bytes()).unwrap() };
         let (claim, witness) = (parsed(json!([self.entry])), parsed(json!({ "trials": [self.trial] })));
         let (spec, cells) = read(&self.parts.0)?;
-        let claimed = Entry::read_all(&Field { json: &claim, pointer: "/claim/by_n_o".to_owned() })?;
+        let claimed = Entry::read_all(&Field { json: &claim, pointer: "/claim/by_n_o".to_owned() }, None)?;
         let field = Field { json: &witness, pointer: "/witness/by_n_o".to_owned() };
-        let witness = Witness::read(Some(&field), &claimed, &spec)?.unwrap();
+        let witness = Witness::read(Some(&field), &claimed, &spec, None)?.unwrap();
         let value = |text: &str| decimal(text).unwrap();
         let [x0, e0, z0] = SET.map(|size| value(&size.to_string()));
         let set = ClaimedSet { x0, e0, z0: Some(z0) };
@@ -353,7 +353,8 @@ impl Case {
         let (error_box, periodic, pair) = ([&d_x, &d_e], self.periodic.map(value), self.transfer.map(value));
         let (weights, transfer) = (self.weights.map(value), pair.each_ref());
         let (weights, stability) = (weights.each_ref(), self.stability.as_ref());
-        let about = About { sigma: &sigma, set: &set, error_box, periodic, transfer, weights, stability };
+        let about =
+            About { sigma: &sigma, set: &set, error_box, periodic, transfer, weights, stability, at_samples: None };
         let mut lines = Vec::new();
         plant::by_n_o::prove(&spec, &cells, &about, (&claimed, &witness), &mut lines).map(|()| lines)
     }

@@ -122,10 +122,8 @@ impl<'a> Claim<'a> {
             false => Rate::read_all(&field),
             true => bad(&field.pointer, "nothing is proved of given n_o of a law with a delay"),
         });
-        let by_n_o = fields.part("by_n_o", |field| match sampled {
-            None => Entry::read_all(field),
-            Some(_) => bad(&field.pointer, "nothing is proved by n_o of a regulator at samples"),
-        })?;
+        let samples = sampled.as_ref().map(|regulator| regulator.samples);
+        let by_n_o = fields.part("by_n_o", |field| Entry::read_all(field, samples))?;
         let harmonics = fields.optional("harmonics");
         let of_set = by_n_o.iter().flatten().find(|entry| entry.oscillators.n_o().is_none());
         if let Some(entry) = of_set.filter(|_| harmonics.is_none()) {

@@ -3,6 +3,7 @@
 //! Guarantee of [`Derivation::prove`]: all conditions of the derivation hold for the witness, the bounding functions are
 //! as they must be up to every argument that is used, and so the claim at `sigma` and `set` is proved.
 
+use super::by_n_o::AtSamples;
 use super::common::{Evaluated, Free};
 use super::inequality::{Inequality, List};
 use super::sampled::{self, claim::Regulator};
@@ -90,6 +91,14 @@ impl Derivation {
         match &self.witness {
             Witness::Sharp(_) => None,
             Witness::Sampled(w) => Some(&w.terms),
+        }
+    }
+
+    /// The same with what a start of it is known by.
+    pub fn at_samples(&self) -> Option<AtSamples<'_>> {
+        match &self.witness {
+            Witness::Sharp(_) => None,
+            Witness::Sampled(w) => Some(AtSamples { terms: &w.terms, y_0: w.past.as_ref().map(|past| &past.y_0) }),
         }
     }
 

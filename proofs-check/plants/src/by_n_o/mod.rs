@@ -20,7 +20,8 @@ pub fn prove(
 ) -> Outcome<()> {
     match witness {
         Witness::Linear(witness) => {
-            cells.iter().try_for_each(|plant| linear::prove(spec, plant, about.sigma, (claimed, witness), lines))
+            let law = (about.sigma, about.at_samples.map(|law| law.terms));
+            cells.iter().try_for_each(|plant| linear::prove(spec, plant, law, (claimed, witness), lines))
         }
         Witness::Trials(witness) => {
             cells.iter().try_for_each(|plant| trials::prove(spec, plant, about, (claimed, witness), lines))

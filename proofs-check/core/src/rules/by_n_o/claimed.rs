@@ -25,20 +25,23 @@ pub struct Entry<'a> {
     pub steady: [Rational; 3],
     /// At all times, of every solution from the claimed set: bounds of |e| and of what is put out.
     pub largest: Option<[Rational; 2]>,
+    /// The samples in a period, of a claim at samples.
+    samples: Option<u32>,
     steady_texts: [&'a str; 3],
     largest_texts: [&'a str; 2],
 }
 
 impl<'a> Entry<'a> {
-    /// Reads the part `by_n_o`: each n_o once, in order, and then each set once.
-    pub fn read_all(field: &Field<'a>) -> Outcome<Vec<Entry<'a>>> {
+    /// Reads the part `by_n_o`: each n_o once, in order, and then each set once. Of a claim at samples these can tell all harmonics of the oscillators
+    /// apart.
+    pub fn read_all(field: &Field<'a>, samples: Option<u32>) -> Outcome<Vec<Entry<'a>>> {
         let list = field.elements()?;
         if list.is_empty() || list.len() > MOST {
             return bad(&field.pointer, format!("expected 1 to {MOST} entries"));
         }
         let mut entries: Vec<Entry<'a>> = Vec::new();
         for field in list {
-            let entry = field.object(Entry::take)?;
+            let entry = field.object(|fields| Entry::take(fields, samples))?;
             match (entries.last(), entry.oscillators.n_o()) {
                 (Some(before), Some(n_o)) => match before.oscillators.n_o() {
                     None => {
@@ -63,7 +66,7 @@ impl<'a> Entry<'a> {
         Ok(entries)
     }
 
-    fn take(fields: &mut Fields<'a>) -> Outcome<Entry<'a>> {
+    fn take(fields: &mut Fields<'a>, samples: Option<u32>) -> Outcome<Entry<'a>> {
         // A set has neither of the other two fields.
         let (oscillators, or_more) = match fields.part("harmonics", Oscillators::read_set)? {
             Some(set) => (set, None),
@@ -76,17 +79,32 @@ impl<'a> Entry<'a> {
                 (Oscillators::first(n_o), or_more)
             }
         };
+        let last = oscillators.harmonics().last().copied().unwrap_or(0);
+        if let Some(samples) = samples.filter(|samples| 2 * last >= *samples) {
+            let name = if oscillators.n_o().is_some() { "n_o" } else { "harmonics" };
+            let what = format!("{last} is below {samples}/2: the samples tell these oscillators apart");
+            demand(Some(false), RULE, &format!("{}/{name}", fields.pointer), what)?;
+        }
         let steady = fields.required("steady")?;
         let (steady, steady_texts) = steady.object(|fields| sizes(fields, ["e", "e_rms", "u"]))?;
         let largest = fields.part("largest", |field| field.object(|fields| sizes(fields, ["e", "u"])))?;
         let (largest, largest_texts) = largest.map_or((None, [""; 2]), |(numbers, texts)| (Some(numbers), texts));
         let pointer = fields.pointer.clone();
-        Ok(Entry { pointer, oscillators, or_more: or_more.is_some(), steady, largest, steady_texts, largest_texts })
+        Ok(Entry {
+            pointer,
+            oscillators,
+            or_more: or_more.is_some(),
+            steady,
+            largest,
+            samples,
+            steady_texts,
+            largest_texts,
+        })
     }
 
     /// Which oscillators it is about.
     pub fn about(&self) -> String {
-        self.oscillators.in_words(self.or_more)
+        self.oscillators.in_words(self.or_more, self.samples)
     }
 
     /// Its sentence in the claim, with a space before it; `output`: what is put out.

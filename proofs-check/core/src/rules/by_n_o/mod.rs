@@ -1,5 +1,5 @@
-//! Rule: what a claim says by the number of oscillators, at its gain and no other, in continuous time and without noise (docs/mathematics.md, section
-//! 14): how large the error and the control are along the T-periodic solution, and at all times from the claimed set. Of a plant that is given by
+//! Rule: what a claim says by the number of oscillators, at its gain and no other, without noise (docs/mathematics.md, section 14), in continuous time or,
+//! of a plant that is linear in x and e, at samples: how large the error and the control are along the T-periodic solution, and at all times from the claimed set. Of a plant that is given by
 //! its formulas, with a matched base frequency. Where the claim is about every set of harmonics, the oscillators may be those of one set (section 14.7).
 //!
 //! Guarantee of [`prove`]: of a plant that is linear in x and e, `largest` of each entry follows from what `steady` and the witness say of the periodic
@@ -19,6 +19,7 @@ pub mod x_first;
 use crate::data::Data;
 use crate::json::Field;
 use crate::rules::inequality::Inequality;
+use crate::rules::sampled::law::Terms;
 use crate::rules::set::ClaimedSet;
 use crate::spec::Specification;
 use crate::verdict::{Outcome, Verdict, bad, finding};
@@ -38,6 +39,15 @@ pub enum Witness {
     Trials(Vec<Trial>),
 }
 
+/// The law of a claim at samples.
+#[derive(Clone, Copy)]
+pub struct AtSamples<'l> {
+    /// Its numbers.
+    pub terms: &'l Terms,
+    /// Y_0, with a delay.
+    pub y_0: Option<&'l Rational>,
+}
+
 /// What the claim says besides, and by what it is proved.
 pub struct About<'c> {
     /// Its gain.
@@ -54,11 +64,18 @@ pub struct About<'c> {
     pub weights: [&'c Rational; 2],
     /// The inequality by which it does, where there is one.
     pub stability: Option<&'c Inequality>,
+    /// Its law at samples; none in continuous time.
+    pub at_samples: Option<AtSamples<'c>>,
 }
 
 impl Witness {
     /// Reads the part `by_n_o` of a witness: there exactly if the claim has its part.
-    pub fn read(field: Option<&Field<'_>>, claimed: &[Entry<'_>], spec: &Specification) -> Outcome<Option<Witness>> {
+    pub fn read(
+        field: Option<&Field<'_>>,
+        claimed: &[Entry<'_>],
+        spec: &Specification,
+        at_samples: Option<AtSamples<'_>>,
+    ) -> Outcome<Option<Witness>> {
         let field = match (field, claimed.is_empty()) {
             (None, true) => return Ok(None),
             (Some(field), false) => field,
@@ -67,17 +84,23 @@ impl Witness {
         };
         let states = spec.plant.as_ref().map_or(0, |plant| plant.states);
         let sizes = [states, curves::intervals(spec)];
+        let delayed = at_samples.map(|law| law.y_0.is_some());
         let known = field.object(|fields| {
-            let linear = fields.part("linear", |field| field.object(|fields| Linear::take(fields, claimed, states)))?;
+            let linear = fields
+                .part("linear", |field| field.object(|fields| Linear::take(fields, claimed, (states, delayed))))?;
             match linear {
                 Some(linear) => Ok(Some(Witness::Linear(linear))),
                 None => {
-                    let trials = fields.part("trials", |field| trials::read_all(field, claimed, sizes))?;
+                    let trials = fields.part("trials", |field| match at_samples {
+                        None => trials::read_all(field, claimed, sizes),
+                        Some(_) => bad(&field.pointer, "of a regulator at samples nothing is proved by trials"),
+                    })?;
                     Ok(trials.map(Witness::Trials))
                 }
             }
         })?;
-        known.map_or_else(|| bad(&field.pointer, "expected `linear` or `trials`"), |known| Ok(Some(known)))
+        let expected = if at_samples.is_none() { "expected `linear` or `trials`" } else { "expected `linear`" };
+        known.map_or_else(|| bad(&field.pointer, expected), |known| Ok(Some(known)))
     }
 }
 
@@ -94,10 +117,10 @@ pub fn demand_form(spec: &Specification, claimed: &[Entry<'_>]) -> Outcome<()> {
     }
 }
 
-/// Proves of each entry that `largest` follows from the rest; `sigma`: the gain of the claim.
+/// Proves of each entry that `largest` follows from the rest; `about`: the set, the gain and the law at samples of the claim.
 pub fn prove(
     d: &Data<'_>,
-    about: (&ClaimedSet, &Rational),
+    about: (&ClaimedSet, &Rational, Option<AtSamples<'_>>),
     (claimed, witness): (&[Entry<'_>], &Witness),
     lines: &mut Vec<String>,
 ) -> Outcome<()> {

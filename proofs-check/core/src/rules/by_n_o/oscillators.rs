@@ -64,10 +64,13 @@ impl Oscillators {
         gap.unwrap_or(self.harmonics.len() as u32)
     }
 
-    /// As a claim says it; `or_more`: of the first n_o, every larger number too.
-    pub fn in_words(&self, or_more: bool) -> String {
+    /// As a claim says it; `or_more`: of the first n_o, every larger number too, of which those below half of the samples count.
+    pub fn in_words(&self, or_more: bool, samples: Option<u32>) -> String {
         match self.n_o() {
-            Some(n_o) if or_more => format!("every n_o >= {n_o}"),
+            Some(n_o) if or_more => {
+                let below = samples.map_or_else(String::new, |samples| format!(" below {samples}/2"));
+                format!("every n_o >= {n_o}{below}")
+            }
             Some(n_o) => format!("n_o = {n_o}"),
             None => {
                 let harmonics: Vec<String> = self.harmonics.iter().map(u32::to_string).collect();
@@ -99,8 +102,10 @@ mod tests {
         let first = Oscillators::first(3);
         assert_eq!((first.next(), first.n_o(), first.harmonics()), (4, Some(3), &[0, 1, 2, 3][..]));
         assert!(first != read("[0, 1, 2, 3]").unwrap());
-        assert_eq!([false, true].map(|or_more| first.in_words(or_more)), ["n_o = 3", "every n_o >= 3"]);
-        assert_eq!(read("[0, 1, 5]").unwrap().in_words(false), "oscillators at the harmonics 0, 1, 5");
+        assert_eq!([false, true].map(|or_more| first.in_words(or_more, None)), ["n_o = 3", "every n_o >= 3"]);
+        let at_samples = [false, true].map(|or_more| first.in_words(or_more, Some(9)));
+        assert_eq!(at_samples, ["n_o = 3", "every n_o >= 3 below 9/2"]);
+        assert_eq!(read("[0, 1, 5]").unwrap().in_words(false, Some(20)), "oscillators at the harmonics 0, 1, 5");
     }
 
     #[test]

@@ -3,9 +3,10 @@
 //! A box is done when each bound is shown on it; those that are not are asked on its halves. All entries share the answers of the plant on a box. Which
 //! side is halved decides nothing.
 
-use super::answers::{Answer, OnBox};
+use super::answers::{self, Answer};
 use super::complex::Complex;
-use super::entry::{Asked, Entry};
+use super::entry::{Asked, Entry, OnBox};
+use super::held::Held;
 use super::jet::{Axes, Jet};
 use super::largest::{Judgement, Times};
 use super::oscillators::Regulator;
@@ -160,13 +161,23 @@ impl Computation<'_, '_> {
         let half_widths: Vec<Interval> = sides.iter().map(|side| piece.sides[*side].half_width()).collect();
         let axes = Axes::new(&half_widths);
         let Some(numbers) = self.evaluator.on(&piece.sides[..count]) else { return not_seen() };
-        let on_box = OnBox { axes: &axes, numbers: &numbers, states: self.system.states() };
-        let answers: Vec<Answer> =
-            self.harmonics.iter().map(|k| on_box.answer(*k, &self.regulator.frequency(*k))).collect();
-        let b = self.gain(&piece.sides[count..], axes.count());
+        let plant = answers::OnBox { axes: &axes, numbers: &numbers, states: self.system.states() };
+        let frequency = |k: &usize| self.regulator.frequency(*k);
+        let fastest = frequency(self.harmonics.last().unwrap_or(&0));
+        let held = self.regulator.at_samples.as_ref().map(|of| Held::new(&axes, plant.rows(), of, &fastest));
+        let answer = |k: &usize| {
+            let at_all_times = plant.answer(*k, &frequency(k));
+            match &held {
+                None => at_all_times,
+                Some(held) => held.answer(*k, &frequency(k), at_all_times.forcing),
+            }
+        };
+        let answers: Vec<Answer> = self.harmonics.iter().map(answer).collect();
+        let gain = self.gain(&piece.sides[count..], axes.count());
+        let on_box = OnBox { axes: &axes, answers: &answers, held: held.as_ref(), gain: &gain };
         let mut left = Left { open: Vec::new(), scores: vec![0.0; axes.count()], close: false };
         for (place, asked) in &piece.open {
-            let judged = entries[*place].judge(asked, (&axes, &answers, &b), (self.regulator, &self.times));
+            let judged = entries[*place].judge(asked, &on_box, (self.regulator, &self.times));
             let mut open = Vec::new();
             for (which, (judgement, shares)) in asked.iter().zip(judged) {
                 let about = &entries[*place].asked[*which];

@@ -4,6 +4,7 @@
 //! derivative vanishes, the next of these times is at most T/(2M) away, and `|y''| <= (K Om)^2 m` (Bernstein's inequality, twice). For a vector the
 //! same holds of its part in every direction, hence of its length. The times do not depend on the box, so at each of them the mean value theorem bounds y.
 
+use super::bound::Bound;
 use super::complex::Complex;
 use super::jet::{Axes, Jet};
 use proofs_core::interval::Interval;
@@ -65,7 +66,7 @@ impl Times {
 }
 
 /// The factor of the harmonic k and -k together.
-fn both(k: usize) -> i64 {
+pub fn both(k: usize) -> i64 {
     if k == 0 { 1 } else { 2 }
 }
 
@@ -110,6 +111,21 @@ impl Signal {
             }
         }
         Judgement::Open
+    }
+
+    /// The same of |y| and of what it is off by at most, which no value of y need show.
+    pub fn at_most_with(&self, axes: &Axes, limit: &Interval, off: Option<&Bound>, times: &Times) -> Judgement {
+        let Some(off) = off else { return self.at_most(axes, limit, times) };
+        let within = |off: &Interval| self.at_most(axes, &(limit - off).floor(), times);
+        if matches!(within(&off.on_box(axes)), Judgement::Proved) {
+            return Judgement::Proved;
+        }
+        match (self.at_most(axes, limit, times), within(off.in_middle())) {
+            (Judgement::Refuted, _) => Judgement::Refuted,
+            (_, Judgement::Refuted | Judgement::Stuck) => Judgement::Stuck,
+            (_, Judgement::Close) => Judgement::Close,
+            _ => Judgement::Open,
+        }
     }
 
     /// At every so many-th of the times: a number that |y| reaches at one of them in the middle of the box, and one that it does not exceed at any of

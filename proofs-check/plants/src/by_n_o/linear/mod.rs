@@ -1,18 +1,21 @@
-//! Kind (a): plants that are linear in x and e (docs/mathematics.md, section 14.3).
+//! Kind (a): plants that are linear in x and e (docs/mathematics.md, sections 14.3 and 14.6).
 //!
-//! Guarantee of [`prove`]: Theorem L for every member of the family and every gain. The forms fall (`falls`), so that there is one periodic solution
+//! Guarantee of [`prove`]: Theorem L, or Theorem L_s of a claim at samples, for every member of the family and every gain. The forms fall (`falls`), so that there is one periodic solution
 //! for each n_o; `steady` and the sizes of each entry bound it (`entry`), for the number of its n_o or, where no harmonic of the forcing is beyond it,
 //! for every larger one.
 
 mod answers;
+mod bound;
 mod boxes;
 pub(super) mod complex;
 mod entry;
 mod falls;
+mod held;
 pub(super) mod jet;
 mod largest;
 pub(super) mod oscillators;
 mod ring;
+mod series;
 mod system;
 
 use crate::machine::{Curves, Machine};
@@ -22,11 +25,12 @@ use boxes::{Computation, Whole, not_seen};
 use entry::Entry;
 use falls::Falls;
 use largest::Times;
-use oscillators::Regulator;
+use oscillators::{Regulator, Sampling};
 use proofs_core::input_gain::Gain;
 use proofs_core::interval::Interval;
 use proofs_core::rules::by_n_o::claimed::{self, RULE};
 use proofs_core::rules::by_n_o::linear::Linear;
+use proofs_core::rules::sampled::law::Terms;
 use proofs_core::spec::Specification;
 use proofs_core::verdict::{Outcome, Verdict, demand};
 use rug::Rational;
@@ -37,20 +41,23 @@ struct Question<'q> {
     spec: &'q Specification,
     plant: &'q Plant,
     sigma: &'q Rational,
+    law: Option<&'q Terms>,
     claimed: &'q [claimed::Entry<'q>],
     witness: &'q Linear,
 }
 
-/// Proves (14.3a) of each form, and `steady` and the sizes of each entry; the formulas are proved to be smooth where they are used.
+/// Proves (14.3a) of each form, or (14.6a), and `steady` and the sizes of each entry; the formulas are proved to be smooth where they are used. The law is
+/// that of a claim at samples, of which S0 is proved.
 pub fn prove(
     spec: &Specification,
     plant: &Plant,
-    sigma: &Rational,
+    (sigma, law): (&Rational, Option<&Terms>),
     (claimed, witness): (&[claimed::Entry<'_>], &Linear),
     lines: &mut Vec<String>,
 ) -> Outcome<()> {
     let mut system = System::new(plant)?;
-    let falls: Vec<Falls> = witness.forms.iter().map(|form| Falls::new(&mut system, spec, sigma, form)).collect();
+    let forms = witness.forms.iter().map(|form| Falls::new(&mut system, spec, (sigma, law), form));
+    let falls: Vec<Falls> = forms.collect::<Outcome<_>>()?;
     if system.model.formulas.is_too_large() {
         return too_large(RULE, "/plant");
     }
@@ -60,7 +67,7 @@ pub fn prove(
     let (root, mut values) = (machine.period(&period), machine.values());
     falls.iter().try_for_each(|falls| falls.prove(plant, &machine, &root, &mut values, lines))?;
 
-    let question = Question { spec, plant, sigma, claimed, witness };
+    let question = Question { spec, plant, sigma, law, claimed, witness };
     let mut count = question.attempt(&system, PRECISION);
     if count.as_ref().is_err_and(|finding| finding.verdict == Verdict::Undecided) {
         count = question.attempt(&system, TAYLOR_PRECISIONS[0]);
@@ -81,15 +88,20 @@ pub fn prove(
 impl Question<'_> {
     /// All bounds at one precision; by how many boxes.
     fn attempt(&self, system: &System, precision: u32) -> Outcome<usize> {
-        let Question { spec, plant, sigma, claimed, witness } = self;
+        let Question { spec, plant, sigma, law, claimed, witness } = self;
         let Some(period) = &spec.period.nominal.exact else { return not_seen() };
         let number = |value: &Rational| Interval::rational(value, precision);
         let om = Interval::pi(precision) * 2 / spec.period.nominal.enclose(precision);
         let regulator = Regulator {
             model: &spec.regulator,
             sigma: number(sigma),
-            mu: spec.regulator.mu.enclose(precision),
+            mu: law.map_or_else(|| spec.regulator.mu.enclose(precision), |law| number(&law.gain)),
             om: om.clone(),
+            at_samples: law.map(|law| Sampling {
+                h: spec.period.nominal.enclose(precision) / i64::from(law.samples),
+                samples: law.samples,
+                delayed: law.delayed,
+            }),
         };
         let count = plant.known.parameters.len();
         let parameters: Vec<&[Rational; 2]> = plant.family.iter().take(count).map(|span| &span.ends).collect();
@@ -99,6 +111,11 @@ impl Question<'_> {
             whole.parameters.iter().map(|[lo, hi]| Interval::between(lo, hi, precision)).collect();
         let Some(harmonics) = evaluator.harmonics(&sides) else { return not_seen() };
         let most = harmonics.last().copied().unwrap_or(0);
+        if let Some(law) = law.filter(|law| 2 * most >= law.samples as usize) {
+            let what =
+                format!("2 m < {}, m = {most} the last harmonic of the forcing that is seen in its form", law.samples);
+            demand(None, RULE, "/plant", what)?;
+        }
         for entry in claimed.iter().filter(|entry| entry.or_more) {
             let what =
                 format!("no harmonic of the forcing is beyond n_o, the last one that is seen in its form is {most}");

@@ -33,8 +33,13 @@ pub fn prove(
 ) -> Outcome<()> {
     demand_form(spec, claimed)?;
     let d = Data::new(spec, ARGUMENT_PRECISION);
-    let regulator =
-        Regulator { model: &spec.regulator, sigma: d.number(about.sigma), mu: d.mu.clone(), om: d.period.slowest() };
+    let regulator = Regulator {
+        model: &spec.regulator,
+        sigma: d.number(about.sigma),
+        mu: d.mu.clone(),
+        om: d.period.slowest(),
+        at_samples: None,
+    };
     let circle = |p: u32| {
         let period = spec.period.nominal.enclose(p);
         [Interval::pi(p) * 2 / &period, period]
