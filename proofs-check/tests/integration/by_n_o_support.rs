@@ -5,7 +5,8 @@ use proofs_check::effort;
 use proofs_check::json::{Field, parse};
 use proofs_check::plants::by_n_o;
 use proofs_check::rules::by_n_o::claimed::Entry;
-use proofs_check::rules::by_n_o::{About, Witness};
+use proofs_check::rules::by_n_o::{self as by_n_o_rules, About, Witness};
+use proofs_check::rules::sampled::law::Terms;
 use proofs_check::rules::set::ClaimedSet;
 use proofs_check::verdict::Outcome;
 use rug::Rational;
@@ -82,7 +83,17 @@ pub struct Loop {
 /// The largest |e|, the root mean square of e, |u|, |L^-1 (x - x_0)|, and the bound of |zeta|_N.
 pub struct Numbers([f64; 5]);
 
+/// A law at samples, and with a delay a bound of |y|.
+pub struct AtSamples {
+    pub terms: Terms,
+    pub y: Option<f64>,
+}
+
 impl Numbers {
+    pub fn of(numbers: [f64; 5]) -> Numbers {
+        Numbers(numbers)
+    }
+
     pub fn large() -> Numbers {
         Numbers([1e9; 5])
     }
@@ -121,12 +132,12 @@ fn about(n_o: usize, or_more: bool) -> Value {
     if or_more { json!({ "n_o": n_o, "or_more": true }) } else { json!({ "n_o": n_o }) }
 }
 
-fn weight(l: usize) -> f64 {
+pub fn weight(l: usize) -> f64 {
     if l == 0 { 2.0 } else { (l as f64).powf(-1.5) }
 }
 
 /// L of one or two states.
-fn coordinates(states: usize) -> Vec<Vec<f64>> {
+pub fn coordinates(states: usize) -> Vec<Vec<f64>> {
     [vec![], vec![vec![0.5]], vec![vec![2.0, 1.0], vec![0.0, 0.25]]][states].clone()
 }
 
@@ -336,13 +347,25 @@ impl Loop {
     /// What is proved of one n_o, or of it and every larger one.
     pub fn judged(&self, form: &Value, n_o: usize, or_more: bool, numbers: &Numbers) -> Outcome<Vec<String>> {
         let names: Vec<String> = (0..self.a.len()).map(|i| format!("x{i}")).collect();
-        self.judged_of((names, self.formulas()), form, about(n_o, or_more), numbers)
+        self.judged_of((names, self.formulas()), form, about(n_o, or_more), (numbers, None))
+    }
+
+    /// What is proved of a law at samples, of an entry without its numbers.
+    pub fn judged_at_samples(
+        &self,
+        form: &Value,
+        entry: &Value,
+        numbers: &Numbers,
+        law: &AtSamples,
+    ) -> Outcome<Vec<String>> {
+        let names: Vec<String> = (0..self.a.len()).map(|i| format!("x{i}")).collect();
+        self.judged_of((names, self.formulas()), form, entry.clone(), (numbers, Some(law)))
     }
 
     /// What is proved with oscillators at these harmonics.
     pub fn judged_of_set(&self, form: &Value, own: &[usize], numbers: &Numbers) -> Outcome<Vec<String>> {
         let names: Vec<String> = (0..self.a.len()).map(|i| format!("x{i}")).collect();
-        self.judged_of((names, self.formulas()), form, json!({ "harmonics": own }), numbers)
+        self.judged_of((names, self.formulas()), form, json!({ "harmonics": own }), (numbers, None))
     }
 
     /// The same of other formulas in one state x.
@@ -355,7 +378,7 @@ impl Loop {
         numbers: &Numbers,
     ) -> Outcome<Vec<String>> {
         let of = (vec![formulas.f.clone()], formulas.q.clone());
-        self.judged_of((vec!["x".to_owned()], of), form, about(n_o, or_more), numbers)
+        self.judged_of((vec!["x".to_owned()], of), form, about(n_o, or_more), (numbers, None))
     }
 
     fn judged_of(
@@ -363,7 +386,7 @@ impl Loop {
         (names, (f, q)): (Vec<String>, (Vec<String>, String)),
         form: &Value,
         mut entry: Value,
-        numbers: &Numbers,
+        (numbers, law): (&Numbers, Option<&AtSamples>),
     ) -> Outcome<Vec<String>> {
         let states = names.len();
         let zeros = json!(vec!["0"; states]);
@@ -404,29 +427,28 @@ impl Loop {
         if states > 0 {
             sizes["x"] = x.into();
         }
+        if let Some(y) = law.and_then(|law| law.y) {
+            sizes["y"] = format!("{y:.15e}").into();
+        }
+        let zero = Rational::new();
+        let at_samples =
+            law.map(|law| by_n_o_rules::AtSamples { terms: &law.terms, y_0: law.terms.delayed.then_some(&zero) });
         let [claim, witness] = [json!([entry]), json!({ "linear": { "forms": [form], "sizes": [sizes] } })]
             .map(|part| parse(part.to_string().as_bytes()).unwrap());
         let place = |of: &str| format!("/{of}/by_n_o");
-        let claimed = Entry::read_all(&Field { json: &claim, pointer: place("claim") }, None)?;
+        let claimed =
+            Entry::read_all(&Field { json: &claim, pointer: place("claim") }, law.map(|law| law.terms.samples))?;
         let witness =
-            Witness::read(Some(&Field { json: &witness, pointer: place("witness") }), &claimed, &spec, None)?.unwrap();
+            Witness::read(Some(&Field { json: &witness, pointer: place("witness") }), &claimed, &spec, at_samples)?
+                .unwrap();
         let sigma = Rational::from_f64(self.sigma).unwrap();
         let mut lines = Vec::new();
         // The set, the error box, k0, k1 and the function of the claim say something of trials alone.
-        let zero = Rational::new();
         let set = ClaimedSet { x0: zero.clone(), e0: zero.clone(), z0: None };
         let periodic = [zero.clone(), zero.clone()];
         let [error_box, transfer, weights] = [[&zero; 2]; 3];
-        let about = About {
-            sigma: &sigma,
-            set: &set,
-            error_box,
-            periodic,
-            transfer,
-            weights,
-            stability: None,
-            at_samples: None,
-        };
+        let about =
+            About { sigma: &sigma, set: &set, error_box, periodic, transfer, weights, stability: None, at_samples };
         let prove = || by_n_o::prove(&spec, &plants, &about, (&claimed, &witness), &mut lines);
         effort::limited(effort::LIMIT, prove).0.map(|()| lines)
     }

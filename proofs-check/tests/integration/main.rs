@@ -9,6 +9,8 @@ mod arithmetic;
 mod at_samples;
 mod at_samples_certificate;
 mod by_n_o;
+mod by_n_o_at_samples;
+mod by_n_o_held;
 mod by_n_o_plants;
 mod by_n_o_support;
 mod by_the_set;

@@ -55,6 +55,12 @@ impl Bound {
         self.with(other, |a, b| (a.sqr() + b.sqr() * factor).sqrt())
     }
 
+    /// Of the root of the square of it and a number.
+    pub fn raised(&self, square: &Interval) -> Bound {
+        let raised = |value: &Interval| (value.sqr() + square.ceiling()).sqrt().ceiling();
+        Bound { middle: raised(&self.middle), all: raised(&self.all), slopes: self.slopes.clone() }
+    }
+
     /// In the middle of the box.
     pub fn in_middle(&self) -> &Interval {
         &self.middle

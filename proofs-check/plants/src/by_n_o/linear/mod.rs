@@ -5,6 +5,7 @@
 //! for every larger one.
 
 mod answers;
+mod between;
 mod bound;
 mod boxes;
 pub(super) mod complex;

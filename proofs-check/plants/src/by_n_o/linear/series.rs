@@ -18,7 +18,7 @@ const MOST_TERMS: usize = 300;
 /// The powers of a matrix by rows.
 pub struct Exponential<'a> {
     axes: &'a Axes,
-    /// The rows of A.
+    /// The rows of A, among complex ones.
     pub matrix: Vec<Vec<Jet<Complex>>>,
     /// `A^j/j!` for j from 1 to J.
     powers: Vec<Vec<Vec<Jet<Interval>>>>,
@@ -53,6 +53,11 @@ impl<'a> Exponential<'a> {
         }
         let matrix = real.iter().map(|row| row.iter().map(complex).collect()).collect();
         Exponential { axes, matrix, powers, size, slopes, rests }
+    }
+
+    /// The rows of A.
+    pub fn real(&self) -> &[Vec<Jet<Interval>>] {
+        self.powers.first().map_or(&[], Vec::as_slice)
     }
 
     /// `e^(s A) - I`.
