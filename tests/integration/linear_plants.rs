@@ -151,7 +151,7 @@ fn sizes_are_those_of_the_worst_member() {
     assert_eq!(linear.lines(), 4);
     for sigma in [12, 40] {
         let own = own(sigma, &linear, &plant);
-        let answers = Answers::new(&linear, own.fundamental.clone());
+        let answers = Answers::new(&linear, own.clock());
         let sets = [&[0, 1, 4][..], &[0, 2], &[0, 3, 7], &[0, 1, 3, 8]].map(|set| Oscillators::at(set).unwrap());
         for oscillators in (0..=5).map(Oscillators::first).chain(sets) {
             let found = sizes(&answers, &own, &oscillators, 8192).unwrap();
@@ -185,6 +185,7 @@ fn nothing_goes_beyond_the_peaks() {
         p_up: Rational::from(p) + Rational::from((1, 1000)),
         weight: Rational::from(1),
         k_p: Rational::from(k_p),
+        held: None,
     };
     let falling = form((1, 2), (1, 20));
     assert_eq!(falling.decide(&linear, &own, &identity), Truth::True);
@@ -197,9 +198,9 @@ fn nothing_goes_beyond_the_peaks() {
     ] {
         assert_eq!(wrong.decide(&linear, &own, &identity), is, "{wrong:?}");
     }
-    let answers = Answers::new(&linear, own.fundamental.clone());
+    let answers = Answers::new(&linear, own.clock());
     let exact = |value: i32| Enclosure::from_integer(i64::from(value), PRECISION);
-    let start = Start { x0: exact(1), e0: exact(2), z0: None };
+    let start = Start { x0: exact(1), e0: exact(2), z0: None, y0: exact(0) };
     let mut random = StdRng::seed_from_u64(14);
     let mut nearest = 0.0_f64;
     for oscillators in [0.into(), 2.into(), 5.into(), Oscillators::at(&[0, 2, 3, 8]).unwrap()] {

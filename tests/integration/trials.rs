@@ -147,6 +147,7 @@ fn what_is_broken_proves_nothing() {
         x0: Enclosure::from_integer(i64::from(x), PRECISION),
         e0: Enclosure::from_integer(i64::from(e), PRECISION),
         z0: None,
+        y0: Enclosure::zero(PRECISION),
     };
     let [near, far] =
         [start(0, 1), start(1, 1)].map(|start| Peaks::of((&proof.forms, true), &found, &own, &start).unwrap());

@@ -147,8 +147,12 @@ fn the_gain_of_the_actuator_counts_at_both_ends() {
     let s_z = (&found.zeta - &of_curve).upper_f64();
     assert!((s_z / right - 1.0).abs() < 1e-5, "{s_z} {right}");
     // V_0 at 1.1, and the control at the worse end.
-    let start =
-        Start { x0: Enclosure::one(PRECISION), e0: Enclosure::one(PRECISION), z0: Some(Enclosure::one(PRECISION)) };
+    let start = Start {
+        x0: Enclosure::one(PRECISION),
+        e0: Enclosure::one(PRECISION),
+        z0: Some(Enclosure::one(PRECISION)),
+        y0: Enclosure::zero(PRECISION),
+    };
     let peaks = Peaks::of((&proof.forms, true), &found, &own, &start).unwrap();
     let [x, e, z] =
         start.distances(&own, [&found.states, &found.error, &found.zeta]).map(|distance| distance.upper_f64());

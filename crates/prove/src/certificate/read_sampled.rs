@@ -41,7 +41,9 @@ fn read(root: &Value<'_>, errors: &mut Errors) -> Result<SampledWitness, Reporte
     let (Claim { sigma, sampling, gain, set }, witness) = (claim?, witness?);
     let mut fields = witness.object(errors)?;
     // Rates are proved again where they are asked for.
-    let _ = fields.optional("for_n_o");
+    for unused in ["for_n_o", "by_n_o"] {
+        let _ = fields.optional(unused);
+    }
     let of_plant: &[&'static str] = if root.member("plant").is_some() { &PLANT_FIELDS } else { &[] };
     for field in [STABILITY, EXISTENCE].iter().chain(of_plant) {
         if let Some(value) = fields.optional(field).filter(|_| sampling.delayed && BY_MATRIX.contains(field)) {
