@@ -344,7 +344,9 @@ fn the_exported_law_keeps_to_what_its_certificate_says() {
                 let within = |seen: f64, bound: f64| seen <= bound * (1.0 + 1e-6) + 1e-9;
                 assert!(within(steady, of("steady", "e")) && within(steady_u, of("steady", "u")), "{entry} {said}");
                 assert!(within(peak, of("largest", "e")) && within(most, of("largest", "u")), "{entry} {said}");
-                assert!(b > 1.0 || of("steady", "e") <= 1.05 * steady + 1e-9, "{entry} {said}");
+                // Where only what happens within a sample is left, that is bounded less closely.
+                let room = if entry["or_more"] == true { 1.3 } else { 1.02 };
+                assert!(b > 1.0 || of("steady", "e") <= room * steady + 1e-9, "{entry} {said}");
             }
         }
     }
@@ -366,13 +368,19 @@ fn looped(case: &Case, b: f64) -> String {
     }
     format!(
         r#"#include "law.h"
-#include <math.h>
 #include <stdio.h>
 
-enum {{ ORDER = {order}, SAMPLES = 100, PERIODS = 400 }};
+enum {{ ORDER = {order}, SAMPLES = 100, PERIODS = 12000 }};
 
 static const double half[ORDER * ORDER] = {half};
 static const double whole[ORDER * ORDER] = {whole};
+
+static double larger(double most, double value)
+{{
+    double size = value < 0.0 ? -value : value;
+
+    return size > most ? size : most;
+}}
 
 static void moved(const double *matrix, const double *from, double *to)
 {{
@@ -411,11 +419,11 @@ int main(void)
 
         ready = next;
         state[2] = {b} * 2.0 * u;
-        seen[1] = fmax(seen[1], fabs(u));
-        seen[3] = last ? fmax(seen[3], fabs(u)) : 0.0;
+        seen[1] = larger(seen[1], u);
+        seen[3] = last ? larger(seen[3], u) : 0.0;
         moved(half, state, way);
-        seen[0] = fmax(seen[0], fmax(fabs(state[1]), fabs(way[1])));
-        seen[2] = last ? fmax(seen[2], fmax(fabs(state[1]), fabs(way[1]))) : 0.0;
+        seen[0] = larger(larger(seen[0], state[1]), way[1]);
+        seen[2] = last ? larger(larger(seen[2], state[1]), way[1]) : 0.0;
         moved(whole, state, way);
         for (i = 0; i < ORDER; i++) {{
             state[i] = way[i];
