@@ -2,27 +2,11 @@
 //! section 14.3): with `R_k = (i om_k - J)^-1`, `R_k g`, `W_k = d + r R_k g` and `c_k = q_0k + r R_k f_0k`. Without e, x answers to f_0 with x_0, and q has
 //! the harmonics c_k. What it answers at samples is in [`super::held`].
 
+use super::answer::{Answer, solved};
 use super::complex::Complex;
-use super::held::Between;
 use super::jet::{Axes, Jet};
 use super::system::Numbers;
 use proofs_core::interval::Interval;
-
-/// Of one harmonic: `(i om_k - W_k) e_k = b u_k + c_k`, and at samples `(delta_k - W_k) e_k = beta_k b u_k + gamma_k`.
-pub struct Answer {
-    /// k.
-    pub k: usize,
-    /// `i om_k`, or delta_k.
-    pub speed: Complex,
-    /// `R_k g`, or `R_k E_xe`, in the coordinates of the claim.
-    pub of_error: Vec<Jet<Complex>>,
-    /// W_k.
-    pub transfer: Jet<Complex>,
-    /// c_k, or gamma_k.
-    pub forcing: Jet<Complex>,
-    /// What it has besides at samples.
-    pub between: Option<Between>,
-}
 
 /// The numbers of a system in the middle of a box, on it, and of its derivatives there.
 pub struct OnBox<'n> {
@@ -83,26 +67,4 @@ impl OnBox<'_> {
         let output = (0..=n).map(|j| entry(n * n + n + j)).collect();
         (0..n).map(row).chain([output]).collect()
     }
-}
-
-/// The solutions of linear equations, by their rows of n coefficients and the right sides: what stands in the place of the right sides in the end
-/// (Gauss and Jordan). The pivot is one that is large in the middle; which one it is decides nothing.
-pub fn solved(mut rows: Vec<Vec<Jet<Complex>>>, axes: &Axes) -> Vec<Vec<Jet<Complex>>> {
-    let n = rows.len();
-    for step in 0..n {
-        let size = |row: &Vec<Jet<Complex>>| row[step].middle.square().to_f64();
-        let best = (step..n).max_by(|a, b| size(&rows[*a]).total_cmp(&size(&rows[*b])));
-        rows.swap(step, best.unwrap_or(step));
-        let pivot = rows[step][step].clone();
-        rows[step].iter_mut().skip(step).for_each(|entry| *entry = axes.over(entry, &pivot));
-        let own = rows[step].clone();
-        for (_, row) in rows.iter_mut().enumerate().filter(|(i, _)| *i != step) {
-            let factor = row[step].clone();
-            row.iter_mut()
-                .zip(&own)
-                .skip(step)
-                .for_each(|(entry, other)| *entry = entry.minus(&axes.times(&factor, other)));
-        }
-    }
-    rows.into_iter().map(|row| row.into_iter().skip(n).collect()).collect()
 }

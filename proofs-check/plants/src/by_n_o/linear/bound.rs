@@ -5,8 +5,20 @@
 
 use super::complex::Complex;
 use super::jet::{Axes, Jet};
-use super::largest::Judgement;
 use proofs_core::interval::Interval;
+
+/// What is known of a bound on a box.
+pub enum Judgement {
+    Proved,
+    /// In the middle of the box the number is certainly exceeded.
+    Refuted,
+    /// In the middle of the box the bound that is computed certainly exceeds the number: no box shows less.
+    Stuck,
+    /// In the middle of the box too little is left of the number for what this way of computing gives away: some box may refute, none proves.
+    Close,
+    /// A smaller box may show it.
+    Open,
+}
 
 /// The numbers.
 #[derive(Clone, Debug)]

@@ -3,12 +3,14 @@
 //! A box is done when each bound is shown on it; those that are not are asked on its halves. All entries share the answers of the plant on a box. Which
 //! side is halved decides nothing.
 
-use super::answers::{self, Answer};
+use super::answer::Answer;
+use super::answers;
+use super::bound::Judgement;
 use super::complex::Complex;
 use super::entry::{Asked, Entry, OnBox};
 use super::held::Held;
 use super::jet::{Axes, Jet};
-use super::largest::{Judgement, Times};
+use super::largest::Times;
 use super::oscillators::Regulator;
 use super::system::{Evaluator, System};
 use proofs_core::effort;

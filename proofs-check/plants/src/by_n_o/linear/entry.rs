@@ -10,12 +10,12 @@
 //! the samples that turns each of them. Between the samples e is off the line through these values by `(h^2/8) (rho_0 + 2 sum rho_k)` at most, of which the
 //! root mean square is at most `(h^2/8) sqrt(rho_0^2 + 2 sum rho_k^2)`.
 
-use super::answers::Answer;
-use super::bound::Bound;
+use super::answer::Answer;
+use super::bound::{Bound, Judgement};
 use super::complex::Complex;
 use super::held::Held;
 use super::jet::{Axes, Jet, Number};
-use super::largest::{Judgement, Signal, Times, at_most, both, spread};
+use super::largest::{Signal, Times, at_most, both, spread};
 use super::oscillators::{Beyond, Regulator};
 use proofs_core::interval::Interval;
 use proofs_core::rules::by_n_o::claimed;

@@ -8,8 +8,8 @@
 //!
 //! Between samples q changes as `X_k'(0) = Ae X_k + B (b u_k + c_k)` and c_k say ([`super::between`]).
 
-use super::answers::{Answer, solved};
-use super::between::{Rates, Ways};
+use super::answer::{Answer, Between, solved};
+use super::between::Ways;
 use super::bound::Bound;
 use super::complex::Complex;
 use super::jet::{Axes, Jet, Number};
@@ -26,18 +26,6 @@ pub struct Held<'h> {
     step: Vec<Vec<Jet<Complex>>>,
     control: Vec<Jet<Complex>>,
     ways: Ways,
-}
-
-/// What one harmonic has besides.
-pub struct Between {
-    /// c_k.
-    input: Jet<Complex>,
-    /// beta_k.
-    pub of_control: Jet<Complex>,
-    /// `R_k G_x` and `R_k F_x`.
-    pub states: Vec<[Jet<Complex>; 2]>,
-    /// What q' has of c_k alone.
-    rates: Rates,
 }
 
 impl<'h> Held<'h> {

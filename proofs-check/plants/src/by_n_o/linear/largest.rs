@@ -4,7 +4,7 @@
 //! derivative vanishes, the next of these times is at most T/(2M) away, and `|y''| <= (K Om)^2 m` (Bernstein's inequality, twice). For a vector the
 //! same holds of its part in every direction, hence of its length. The times do not depend on the box, so at each of them the mean value theorem bounds y.
 
-use super::bound::Bound;
+use super::bound::{Bound, Judgement};
 use super::complex::Complex;
 use super::jet::{Axes, Jet};
 use proofs_core::interval::Interval;
@@ -13,19 +13,6 @@ use proofs_core::interval::Interval;
 const TIMES: usize = 256;
 /// Every so many-th is looked at first, which gives away 0.12 %.
 const STRIDES: [usize; 2] = [4, 1];
-
-/// What is known of a bound on a box.
-pub enum Judgement {
-    Proved,
-    /// In the middle of the box the number is certainly exceeded.
-    Refuted,
-    /// In the middle of the box the bound that is computed certainly exceeds the number: no box shows less.
-    Stuck,
-    /// In the middle of the box too little is left of the number for what this way of computing gives away: some box may refute, none proves.
-    Close,
-    /// A smaller box may show it.
-    Open,
-}
 
 /// That a function is at most a number, where what is computed is the function itself (`exact`) or a bound of it.
 pub fn at_most(axes: &Axes, bound: &Jet<Interval>, limit: &Interval, exact: bool) -> Judgement {

@@ -4,6 +4,7 @@
 //! for each n_o; `steady` and the sizes of each entry bound it (`entry`), for the number of its n_o or, where no harmonic of the forcing is beyond it,
 //! for every larger one.
 
+mod answer;
 mod answers;
 mod between;
 mod bound;
