@@ -11,6 +11,7 @@ mod at_samples_certificate;
 mod by_n_o;
 mod by_n_o_at_samples;
 mod by_n_o_held;
+mod by_n_o_held_certificate;
 mod by_n_o_plants;
 mod by_n_o_support;
 mod by_the_set;

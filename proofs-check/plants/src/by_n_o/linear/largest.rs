@@ -107,7 +107,7 @@ impl Signal {
         if matches!(within(&off.on_box(axes)), Judgement::Proved) {
             return Judgement::Proved;
         }
-        match (self.at_most(axes, limit, times), within(off.in_middle())) {
+        match (self.at_most(axes, limit, times), within(&off.in_middle())) {
             (Judgement::Refuted, _) => Judgement::Refuted,
             (_, Judgement::Refuted | Judgement::Stuck) => Judgement::Stuck,
             (_, Judgement::Close) => Judgement::Close,
