@@ -80,7 +80,7 @@ impl<'r> SampledReport<'r> {
         ];
         if run.sampling.delayed {
             items.push(
-                "With a delay everything is by norms: matrix inequalities over a plant's derivatives are not used."
+                "With a delay the claim rests on norms: matrix inequalities over a plant's derivatives are for the bounds by the number of oscillators alone."
                     .to_owned(),
             );
         }
