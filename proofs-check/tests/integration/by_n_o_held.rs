@@ -8,8 +8,6 @@ use rug::Rational;
 use serde_json::{Value, json};
 use std::f64::consts::PI;
 
-/// Steps of the integration in a sample.
-const STEPS: usize = 24;
 /// A little above the sum of all weights.
 pub const WEIGHT_SUM: &str = "4.6123753533";
 
@@ -66,6 +64,13 @@ impl State {
         let (x, rest) = rest.split_at(states);
         let z = rest[3..].chunks(2).map(|pair| [pair[0], pair[1]]).collect();
         State { x_0: x_0.to_vec(), x: x.to_vec(), e: rest[0], predicted: rest[1], u: rest[2], z }
+    }
+}
+
+impl Law {
+    /// Steps of the integration in a sample.
+    fn steps(&self) -> usize {
+        if self.samples < 50 { 24 } else { 6 }
     }
 }
 
@@ -129,14 +134,15 @@ impl Run<'_> {
         let next_u = -sigma * predicted + gain * self.heard(&self.turned(&z, predicted));
 
         let mut at: Vec<f64> = state.x_0.iter().chain(&state.x).copied().chain([state.e]).collect();
-        let (start, small) = (self.phase + j as f64 * h, h / STEPS as f64);
+        let steps = self.law.steps();
+        let (start, small) = (self.phase + j as f64 * h, h / steps as f64);
         let mut way = Vec::new();
         let mut note = |at: &[f64], t: f64| {
             let v = self.velocity(at, u, t);
             let of_x: f64 = self.of.c.iter().zip(&v[n..]).map(|(c, v)| c * v).sum();
             way.push([at[2 * n], of_x + self.of.d * v[2 * n] + Run::wave(&self.of.q_0, t)[1]]);
         };
-        for i in 0..STEPS {
+        for i in 0..steps {
             let t = start + i as f64 * small;
             note(&at, t);
             let moved = |by: &[f64], f: f64| at.iter().zip(by).map(|(a, b)| a + f * b).collect::<Vec<f64>>();
@@ -263,8 +269,8 @@ impl Law {
             let phase = f64::from(i) / 5.0 / self.samples as f64;
             let seen = Run { of, law: self, own, factor, gain, phase }.periodic();
             let peak = |values: &mut dyn Iterator<Item = f64>| values.map(f64::abs).fold(0.0, f64::max);
-            let way = || seen.way.iter().flat_map(|way| &way[..STEPS]).map(|[e, _]| *e);
-            let mean = way().map(|e| e * e).sum::<f64>() / (self.samples * STEPS) as f64;
+            let way = || seen.way.iter().flat_map(|way| &way[..self.steps()]).map(|[e, _]| *e);
+            let mean = way().map(|e| e * e).sum::<f64>() / (self.samples * self.steps()) as f64;
             let length = |x: &Vec<f64>| x.iter().map(|x| x * x).sum::<f64>().sqrt();
             let norm = |zeta: &Vec<f64>| {
                 let parts = zeta.iter().zip(0..).map(|(part, i)| weight(own[i / 2]) * part * part);
@@ -292,7 +298,7 @@ impl Law {
             all.collect()
         };
         let e = waves(&|j| seen.e[j]);
-        let rates: Vec<f64> = (0..=STEPS)
+        let rates: Vec<f64> = (0..=self.steps())
             .map(|i| waves(&|j| seen.way[j][i][1]).into_iter().map(size).collect::<Vec<f64>>())
             .reduce(|a, b| a.iter().zip(b).map(|(a, b)| a.max(b)).collect())
             .unwrap();
