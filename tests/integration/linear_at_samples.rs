@@ -68,11 +68,10 @@ impl Case {
 
     fn document(&self) -> Value {
         let n = self.rows.nrows() - 1;
-        let names = ["v", "w", "e"];
+        let names = ["v", "w"];
         let row = |i: usize| {
             let mut text = String::new();
-            for j in 0..=n {
-                let name = if j == n { "e" } else { names[j] };
+            for (j, name) in names[..n].iter().chain(["e"].iter()).enumerate() {
                 write!(text, "+ ({})*{name} ", self.rows[(i, j)]).unwrap();
             }
             for (k, [cos, sin]) in self.waves.iter().enumerate() {

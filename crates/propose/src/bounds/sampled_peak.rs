@@ -100,7 +100,7 @@ impl PeakProgram {
         // 1/w + share/kappa + past/gamma <= 1, by its Schur complement; of the error 1/w alone.
         let with_control = of == PeakOf::Control;
         let share = 2.0 * self.mu * self.n_bar_squared / (sigma * self.gain[0]);
-        let of_past = held.of.step * (sigma + self.mu * self.n_bar_squared).powi(2) / sigma;
+        let of_past = held.of.step * square(sigma + self.mu * self.n_bar_squared) / sigma;
         let parts: Vec<(Variable, f64)> = [(Variable::Weight, 1.0), (Variable::KP, share), (Variable::Past, of_past)]
             .into_iter()
             .filter(|(variable, _)| with_control || *variable == Variable::Weight)
@@ -121,8 +121,8 @@ impl PeakProgram {
             .map(|variable| match variable {
                 Variable::Weight => 1.0,
                 Variable::Above if n > 0 => 1.0,
-                Variable::KP => self.gain[1] * self.mu / (2.0 * sigma) * (self.start[2] / units.e).powi(2),
-                Variable::Past => held.of.step / sigma * (held.past.unwrap_or(0.0) / units.e).powi(2),
+                Variable::KP => self.gain[1] * self.mu / (2.0 * sigma) * square(self.start[2] / units.e),
+                Variable::Past => held.of.step / sigma * square(held.past.unwrap_or(0.0) / units.e),
                 _ => 0.0,
             })
             .collect();
@@ -137,6 +137,10 @@ impl PeakProgram {
             past: value(Variable::Past).map(|past| past / sigma),
         })
     }
+}
+
+fn square(value: f64) -> f64 {
+    value * value
 }
 
 /// F over sigma in these units, the upper triangle, less its margin: linear in the variables.

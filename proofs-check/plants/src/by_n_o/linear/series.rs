@@ -127,7 +127,7 @@ fn rests(reach: &Interval) -> (usize, [Interval; 2]) {
     let p = reach.precision();
     let undefined = (1, [(); 2].map(|()| Interval::undefined(p)));
     let x = reach.to_f64();
-    let enough = (-f64::from(p)).exp2();
+    let enough = (0..p).fold(1.0, |half, _| half / 2.0);
     let (mut count, mut term) = (2, x * x / 2.0);
     while !(count as f64 + 1.0 > 2.0 * x && term < enough) {
         count += 1;
