@@ -165,7 +165,7 @@ fn forms_that_do_not_fall() {
 /// With too few samples for the forcing nothing is proved.
 #[test]
 fn harmonics_that_samples_do_not_tell_apart() {
-    let (of, law) = drawn(4);
+    let (of, _) = drawn(4);
     let last = of.q_0.len();
     let slow = Law { samples: 2 * last, gain: 0.01, delayed: false };
     let mut calm = of.clone();
@@ -175,7 +175,6 @@ fn harmonics_that_samples_do_not_tell_apart() {
     let finding = judge(&slow).unwrap_err();
     assert_eq!((finding.verdict, finding.rule, finding.pointer.as_str()), (Undecided, RULE, "/plant"), "{finding:?}");
     judge(&Law { samples: 2 * last + 1, ..slow.clone() }).unwrap();
-    drop(law);
 }
 
 /// A form and sizes at samples have fields of their own, which there are none of in continuous time.
