@@ -123,6 +123,24 @@ fn what_is_left_between_samples() {
     }
 }
 
+/// In a wide family what is left between samples shows with little room in small boxes alone, and a number below it in none.
+#[test]
+fn what_is_left_between_samples_in_a_wide_family() {
+    for case in [1, 4, 7] {
+        let (mut of, law) = drawn(case);
+        (of.factor, of.gain) = ([0.1, 2.5], [0.6, 1.4]);
+        let form = law.written(&of, law.found(&of));
+        let last = of.q_0.len();
+        let (bounds, between) = law.bounds(&of, &(0..=last).collect::<Vec<_>>());
+        assert!((bounds[0] / between - 1.0).abs() < 1e-6, "{bounds:?}, {between}");
+        let with =
+            |of_e: f64| judged(&of, &law, &json!({ "n_o": last }), (&form, &bounds, [of_e, 2.0, 2.0, 2.0, 2.0, 2.0]));
+        assert!(with(ROOM[0]).is_ok(), "case {case}: {:?}", with(ROOM[0]));
+        let finding = with(0.98).unwrap_err();
+        assert_eq!((finding.verdict, finding.pointer), (Undecided, place(0)), "case {case}");
+    }
+}
+
 /// The forms that a search finds fall, by the form as section 14.6 writes it; where it is not definite they are refused, and K counts and not mu.
 #[test]
 fn forms_that_do_not_fall() {

@@ -10,8 +10,9 @@ use super::jet::{Axes, Jet, Number};
 use super::series::{Driven, Exponential, column, complex, plus_products};
 use proofs_core::interval::Interval;
 
-/// On how many parts of a sample |q'| is bounded.
-const PARTS: i64 = 16;
+/// On how many parts of a sample |q'| is bounded: so many for each radian that the fastest harmonic turns in it, within these ends.
+const PARTS_OF_A_RADIAN: f64 = 20.0;
+const PARTS: [f64; 2] = [4.0, 16.0];
 
 /// q' in the middle of a part, on the part, and q'' on the part.
 type OnPart<T> = [T; 3];
@@ -37,15 +38,17 @@ struct Part {
 pub struct Rates(Vec<OnPart<Jet<Complex>>>);
 
 impl Ways {
-    /// For parts of [0, h].
-    pub fn new(axes: &Axes, of: &Exponential<'_>, h: &Interval) -> Ways {
+    /// For parts of [0, h], and harmonics up to the frequency `fastest`.
+    pub fn new(axes: &Axes, of: &Exponential<'_>, fastest: &Interval, h: &Interval) -> Ways {
+        let turned = (fastest * h).hi().to_f64();
+        let count = (PARTS_OF_A_RADIAN * turned).ceil().max(PARTS[0]).min(PARTS[1]) as i64;
         let matrix = of.real();
         let output = matrix.last().cloned().unwrap_or_default();
         let zero = Jet::constant(&Interval::int(0, h.precision()));
         let entry = |j: usize| plus_products(axes, zero.clone(), &output, &column(matrix, j));
         let next: Vec<Jet<Interval>> = (0..output.len()).map(entry).collect();
         let part = |i: i64| {
-            let all = (h * i / PARTS).hull(&(h * (i + 1) / PARTS));
+            let all = (h * i / count).hull(&(h * (i + 1) / count));
             let middle = all.middle();
             let [at_middle, on_part] = [&middle, &all].map(|s| of.grown(s));
             let rows = [(&output, &at_middle), (&output, &on_part), (&next, &on_part)].map(|(row, grown)| {
@@ -54,7 +57,7 @@ impl Ways {
             });
             Part { reach: (&all - &middle).abs().ceiling(), middle, all, rows }
         };
-        let parts = (0..PARTS).map(part).collect();
+        let parts = (0..count).map(part).collect();
         let outputs = [&output, &next].map(|row| row.iter().map(complex).collect());
         Ways { parts, outputs, precision: h.precision() }
     }
@@ -92,8 +95,8 @@ impl Ways {
             let value =
                 |which: usize| axes.narrowed(plus_products(axes, own[which].clone(), &part.rows[which], velocity));
             let [at_middle, on_part, next] = [0, 1, 2].map(value);
-            let turned = (&on_part.all.re * &next.all.re + &on_part.all.im * &next.all.im) * 2;
-            Bound::of(&at_middle).raised(&(turned.abs() * &part.reach))
+            let turned = axes.times(&on_part.mapped(Complex::conjugate), &next).mapped(|product| &product.re * 2);
+            Bound::of(&at_middle).raised(&turned, &part.reach)
         };
         let zero = Bound::zero(self.precision);
         self.parts.iter().zip(rates).map(on_part).fold(zero, |most, bound| most.most(&bound))

@@ -92,14 +92,20 @@ impl Bound {
         Bound { middle: length(&self.middle, &other.middle), slopes, all }
     }
 
-    /// The root of the sum of the square and a number.
-    pub fn raised(&self, square: &Interval) -> Bound {
-        let square = square.ceiling();
-        let raised = |value: &Interval| (value.sqr() + &square).sqrt();
-        let all = raised(&self.all);
-        let unit = Interval::int(0, all.precision()).hull(&Interval::int(1, all.precision()));
-        let share = if all.is_positive() { within(&self.all / &all, &unit) } else { unit };
-        Bound { middle: raised(&self.middle), slopes: self.slopes.iter().map(|slope| slope * &share).collect(), all }
+    /// The root of the sum of the square and `factor` times the largest size of a function over the times that its enclosures are of.
+    ///
+    /// That largest size lies between the sizes in the enclosures, in the middle of the box and on it, and its slopes lie between the opposite of the
+    /// largest slope and that. Where the root may be 0 its slopes are undefined.
+    pub fn raised(&self, by: &Jet<Interval>, factor: &Interval) -> Bound {
+        let raised = |value: &Interval, by: &Interval| (value.sqr() + by.abs() * factor).sqrt();
+        let all = raised(&self.all, &by.all);
+        let by = Bound {
+            middle: by.middle.abs().ceiling(),
+            all: by.all.abs(),
+            slopes: by.slopes.iter().map(around).collect(),
+        };
+        let slope = |[own, by]: [Interval; 2]| (&self.all * own + by * factor / 2) / &all;
+        Bound { middle: raised(&self.middle, &by.middle), slopes: self.pairs(&by).map(slope).collect(), all }
     }
 
     /// At most this in the middle of the box.
@@ -125,4 +131,54 @@ impl Bound {
 /// What two enclosures of one number have in common; the second one, where the first is undefined.
 fn within(value: Interval, most: &Interval) -> Interval {
     if value.is_defined() { value.intersect(most) } else { most.clone() }
+}
+
+#[cfg(test)]
+#[allow(clippy::disallowed_methods, reason = "what is compared need not be the same on every machine")]
+mod tests {
+    use super::*;
+    use rug::Rational;
+
+    const PRECISION: u32 = 53;
+
+    fn number(value: f64) -> Interval {
+        Interval::rational(&Rational::from_f64(value).unwrap(), PRECISION)
+    }
+
+    /// `middle + slope s` for s between -w and w, with numbers between -spread and spread added.
+    fn line(middle: f64, slope: f64, w: f64, spread: f64) -> Jet<Interval> {
+        let around = |middle: f64, size: f64| number(middle - size).hull(&number(middle + size));
+        Jet {
+            middle: around(middle, spread),
+            all: around(middle, (slope * w).abs() + spread),
+            slopes: vec![number(slope)],
+        }
+    }
+
+    /// The root of `(a + b s)^2 + r sup |c + d s + v|` over the v between -spread and spread: the number in the middle is that in the middle, on the box
+    /// none is larger than the bound, and the bound is near the largest one, whichever grows.
+    #[test]
+    fn a_root_of_a_square_and_a_largest_size() {
+        let (w, r) = (0.25, 0.5);
+        let axes = Axes::new(&[number(w)]);
+        for [a, b, c, d] in
+            [[1.0, 0.5, 2.0, -1.0], [1.0, -0.5, -2.0, -3.0], [-0.5, 0.25, 1.0, 3.0], [0.1, 1.0, 0.0, 1.0]]
+        {
+            for spread in [0.0, 0.25] {
+                let at = |s: f64| ((a + b * s).powi(2) + r * ((c + d * s).abs() + spread)).sqrt();
+                let own = line(a, b, w, 0.0).mapped(|value| Complex::real(value.clone()));
+                let bound = Bound::of(&own).raised(&line(c, d, w, spread), &number(r));
+                let [in_middle, on_box] = [bound.in_middle(), bound.on_box(&axes)].map(|bound| bound.hi().to_f64());
+                assert!(at(0.0) <= in_middle && in_middle < at(0.0) * (1.0 + 1e-12), "{in_middle} {}", at(0.0));
+                let largest = (-64..=64).map(|i| at(w * f64::from(i) / 64.0)).fold(0.0, f64::max);
+                assert!(largest <= on_box && on_box < largest * 1.25, "{largest} {on_box}");
+                let [more, less] = [1.0 + 1e-9, 1.0 - 1e-9];
+                assert!(matches!(bound.at_most(&axes, &number(on_box * more)), Judgement::Proved));
+                if in_middle < largest {
+                    assert!(matches!(bound.at_most(&axes, &number(largest * less)), Judgement::Open));
+                }
+                assert!(matches!(bound.at_most(&axes, &number(at(0.0) * less)), Judgement::Stuck));
+            }
+        }
+    }
 }

@@ -37,7 +37,7 @@ impl<'h> Held<'h> {
         let step = of.grown(h).iter().map(|row| row.iter().map(over_h).collect()).collect();
         let still = of.driven(&Complex::zero(h.precision()));
         let control = of.answer(&still, h).iter().map(|jet| jet.mapped(|value| value.scaled(&h.recip()))).collect();
-        let ways = Ways::new(axes, &of, h);
+        let ways = Ways::new(axes, &of, fastest, h);
         Held { axes, sampling, step, control, ways, of }
     }
 
