@@ -6,7 +6,7 @@ use super::pointwise::Slopes;
 use crate::semidefinite::propose;
 use sigmastar_matrix::symmetric::{triangle, unit_entry};
 use sigmastar_matrix::{AffineMatrix, Symmetric};
-use sigmastar_theory::derivation::sampled_form::{Corner, Doubles, FormNumbers, Less, LoopNumbers, form};
+use sigmastar_theory::derivation::sampled_form::{AtPoint, Corner, FormNumbers, Less, LoopNumbers, form};
 
 /// What a program at samples needs besides.
 #[derive(Clone, Debug)]
@@ -179,7 +179,7 @@ fn matrix(
     };
     let order = n + 4 + usize::from(delayed);
     let mut matrix = vec![vec![0.0; order]; order];
-    for (i, k, value) in form(&Doubles, numbers, corner, point.with(of_matrix, 0.0)) {
+    for (i, k, value) in form(&AtPoint::default(), numbers, corner, point.with(of_matrix, 0.0)) {
         matrix[i][k] = value * place(i).0 * place(k).0 / sigma;
     }
     for (i, row) in matrix.iter_mut().enumerate() {

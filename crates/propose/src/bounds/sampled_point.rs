@@ -7,7 +7,7 @@ use super::weights::Root;
 use rug::Rational;
 use sigmastar_exact::number::Portable;
 use sigmastar_lang::spec::SampledExistence;
-use sigmastar_theory::derivation::sampled_form::{Corner, Doubles, FormNumbers, Less, LoopNumbers, Parts, form};
+use sigmastar_theory::derivation::sampled_form::{AtPoint, Corner, FormNumbers, Less, LoopNumbers, Parts, form};
 
 /// Powers of four by which lambda is tried where its first guess proves nothing, and the logarithm of the factor up to which it is found.
 const EXPONENTS: std::ops::RangeInclusive<i32> = -7..=7;
@@ -107,7 +107,7 @@ impl SampledWeights {
             let less = Less { e_k: 0.0, e: 0.0, y: 0.0 };
             let k_p = 2.0 * self.eta / self.of.gain;
             let numbers = FormNumbers { of: &self.of, weight: 1.0, k_p, lambda, less, gamma: None, past: None };
-            let Bordered { before, mut last } = bordered(&form(&Doubles, numbers, &corner, parts), &order);
+            let Bordered { before, mut last } = bordered(&form(&AtPoint::default(), numbers, &corner, parts), &order);
             let own = last.pop().unwrap_or(f64::NAN);
             match Root::new(before) {
                 Ok(root) => 2.0 * root.half_square(&last) / own,
@@ -162,7 +162,7 @@ impl SampledEnergy {
             let less = Less { e_k: 0.0, e: *c_e, y: *c_y };
             let [k_p, lambda] = [*k_p, *lambda];
             let numbers = FormNumbers { of, weight: 1.0, k_p, lambda, less, gamma: Some(0.0), past: None };
-            let Bordered { before, mut last } = bordered(&form(&Doubles, numbers, &corner, parts), &order);
+            let Bordered { before, mut last } = bordered(&form(&AtPoint::default(), numbers, &corner, parts), &order);
             last.pop();
             match Root::new(before) {
                 Ok(root) => 2.0 * root.half_square(&last),

@@ -9,7 +9,7 @@ use crate::semidefinite::propose;
 use sigmastar_lang::spec::Bound;
 use sigmastar_matrix::symmetric::{triangle, unit_entry};
 use sigmastar_matrix::{AffineMatrix, Symmetric};
-use sigmastar_theory::derivation::sampled_form::{Corner, Doubles, FormNumbers, Less, LoopNumbers, form};
+use sigmastar_theory::derivation::sampled_form::{AtPoint, Corner, FormNumbers, Less, LoopNumbers, form};
 
 /// Points that are added where what was found holds least, and how often.
 const POINTS: usize = 4;
@@ -185,7 +185,7 @@ impl Program<'_> {
             _ => sigma,
         };
         let mut matrix = vec![vec![0.0; n + 5]; n + 5];
-        for (i, k, value) in form(&Doubles, numbers, corner, parts) {
+        for (i, k, value) in form(&AtPoint::default(), numbers, corner, parts) {
             matrix[i][k] = value * unit(i) * unit(k) / sigma;
         }
         for i in (0..=n).chain([n + 2, n + 3]) {

@@ -5,6 +5,7 @@ use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::real::{Operand, Real};
 use sigmastar_lang::spec::SampledLoop;
+use std::marker::PhantomData;
 
 /// What entries are computed in.
 pub trait Arithmetic {
@@ -20,42 +21,31 @@ pub trait Arithmetic {
     fn scale(&self, value: &Self::Value, factor: &Self::Number) -> Self::Value;
 }
 
-/// Doubles at a point.
-pub struct Doubles;
+/// Numbers at a point: doubles, or enclosures for all that they contain.
+pub struct AtPoint<R>(PhantomData<R>);
 
-impl Arithmetic for Doubles {
-    type Number = f64;
-    type Value = f64;
-
-    fn constant(&self, value: f64) -> f64 {
-        value
-    }
-
-    fn add(&self, a: &f64, b: &f64) -> f64 {
-        a + b
-    }
-
-    fn scale(&self, value: &f64, factor: &f64) -> f64 {
-        value * factor
+impl<R> Default for AtPoint<R> {
+    fn default() -> AtPoint<R> {
+        AtPoint(PhantomData)
     }
 }
 
-/// Enclosures for one point, or for all that they contain.
-pub struct Enclosures;
+impl<R: Real> Arithmetic for AtPoint<R>
+where
+    for<'a> &'a R: Operand<R>,
+{
+    type Number = R;
+    type Value = R;
 
-impl Arithmetic for Enclosures {
-    type Number = Enclosure;
-    type Value = Enclosure;
-
-    fn constant(&self, value: Enclosure) -> Enclosure {
+    fn constant(&self, value: R) -> R {
         value
     }
 
-    fn add(&self, a: &Enclosure, b: &Enclosure) -> Enclosure {
+    fn add(&self, a: &R, b: &R) -> R {
         a + b
     }
 
-    fn scale(&self, value: &Enclosure, factor: &Enclosure) -> Enclosure {
+    fn scale(&self, value: &R, factor: &R) -> R {
         value * factor
     }
 }

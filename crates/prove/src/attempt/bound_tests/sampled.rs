@@ -3,7 +3,7 @@
 use super::*;
 use sigmastar_lang::spec::{SampledExistence, SampledGain, SampledInequality, SampledLoop};
 use sigmastar_propose::bounds::PointSlopes;
-use sigmastar_theory::derivation::sampled_form::{Corner, Doubles, End, FormNumbers, Less, LoopNumbers, form};
+use sigmastar_theory::derivation::sampled_form::{AtPoint, Corner, End, FormNumbers, Less, LoopNumbers, form};
 
 /// Boxes that a decision may take.
 const EFFORT: usize = 20_000;
@@ -132,7 +132,12 @@ fn the_fall_in_a_sample_is_the_mean_of_f() {
                 let less = Less { e_k: 0.0, e: 0.0, y: 0.0 };
                 let past = past.map(|_| weight);
                 let numbers = FormNumbers { of: &of, weight: 1.0, k_p, lambda, less, gamma: Some(0.0), past };
-                form(&Doubles, numbers, &Corner { end, moved: &of.moved[0], sign }, slopes.with(|_, _| p, 0.0))
+                form(
+                    &AtPoint::default(),
+                    numbers,
+                    &Corner { end, moved: &of.moved[0], sign },
+                    slopes.with(|_, _| p, 0.0),
+                )
             };
             let both = of_sign(0).into_iter().zip(of_sign(-1));
             both.map(|((i, j, a), (.., b))| (i, j, (1.0 - share) * a + share * b)).collect::<Vec<_>>()
