@@ -142,6 +142,31 @@ pub(super) fn read_rows(value: &Value<'_>, what: &str, errors: &mut Errors) -> R
     Ok(rows)
 }
 
+/// Passes over what the claim of a certificate about either regulator says besides: it follows from the free numbers.
+pub(super) fn skip_said(claim: &mut Object<'_>) {
+    for said in [
+        "verdict",
+        "n_o",
+        "harmonics",
+        "mu",
+        "parameters",
+        "periodic_solution",
+        "control",
+        "for_n_o",
+        "by_n_o",
+        "statement",
+    ] {
+        let _ = claim.optional(said);
+    }
+}
+
+/// Passes over what proves numbers for given numbers of oscillators: it is worked out again for those that are asked about.
+pub(super) fn skip_by_count(witness: &mut Object<'_>) {
+    for part in ["for_n_o", "by_n_o"] {
+        let _ = witness.optional(part);
+    }
+}
+
 /// What the claim contributes to the witness: the gain, and the initial set. Its input gain and actuator are those of the embedded document.
 fn claim_part(
     value: &Value<'_>,
@@ -154,21 +179,8 @@ fn claim_part(
         let error = regulator.error(ErrorKind::UnknownField, message);
         return Err(errors.report(error.help("`certify --witness`, `controller` and `check` take it")));
     }
-    for unused in [
-        "verdict",
-        "n_o",
-        "harmonics",
-        "mu",
-        "period",
-        "parameters",
-        "periodic_solution",
-        "control",
-        "for_n_o",
-        "by_n_o",
-        "statement",
-    ] {
-        let _ = claim.optional(unused);
-    }
+    skip_said(&mut claim);
+    let _ = claim.optional("period");
     let derivation = claim.required("derivation", errors).and_then(|value| match value.string(errors)? {
         "sharp" => Ok(()),
         other => {
@@ -306,10 +318,7 @@ fn read_sharp(
     let witness = SharpWitness::read(fields, errors, |fields, errors| {
         let transfer = read_transfer(fields, errors);
         let _ = fields.optional("lmi");
-        // They are worked out again for the numbers that are asked about.
-        for unused in ["for_n_o", "by_n_o"] {
-            let _ = fields.optional(unused);
-        }
+        skip_by_count(fields);
         exact = fields
             .optional("exact_regulation")
             .map(|value| {

@@ -1,7 +1,7 @@
 //! Reading the claim and the witness of a certificate of the regulator at samples.
 
 use super::fields::{EXISTENCE_INEQUALITY, INEQUALITY, NumberFields, PLANT_FIELDS, rational, read_paths};
-use super::read::{COMMON, embedded, own_actuator, read_set, small_integer};
+use super::read::{COMMON, embedded, own_actuator, read_set, skip_by_count, skip_said, small_integer};
 use super::sampled::{REGULATOR, SAMPLED};
 use super::triple::{EXISTENCE, STABILITY};
 use super::write::{FORMAT, VERSION};
@@ -40,10 +40,7 @@ fn read(root: &Value<'_>, errors: &mut Errors) -> Result<SampledWitness, Reporte
     file.finish(errors);
     let (Claim { sigma, sampling, gain, set }, witness) = (claim?, witness?);
     let mut fields = witness.object(errors)?;
-    // Rates are proved again where they are asked for.
-    for unused in ["for_n_o", "by_n_o"] {
-        let _ = fields.optional(unused);
-    }
+    skip_by_count(&mut fields);
     let of_plant: &[&'static str] = if root.member("plant").is_some() { &PLANT_FIELDS } else { &[] };
     for field in [STABILITY, EXISTENCE].iter().chain(of_plant) {
         if let Some(value) = fields.optional(field).filter(|_| sampling.delayed && BY_MATRIX.contains(field)) {
@@ -78,20 +75,7 @@ struct Claim {
 
 fn read_claim(value: &Value<'_>, subject: Option<&Value<'_>>, errors: &mut Errors) -> Result<Claim, Reported> {
     let mut claim = value.object(errors)?;
-    for unused in [
-        "verdict",
-        "n_o",
-        "harmonics",
-        "mu",
-        "parameters",
-        "periodic_solution",
-        "control",
-        "for_n_o",
-        "by_n_o",
-        "statement",
-    ] {
-        let _ = claim.optional(unused);
-    }
+    skip_said(&mut claim);
     let regulator = word(&mut claim, "regulator", REGULATOR, errors);
     let derivation = word(&mut claim, "derivation", "sharp", errors);
     let sigma = rational(&mut claim, "sigma", errors);
