@@ -3,11 +3,11 @@
 
 use super::PRECISION;
 use super::plant::LinearPlant;
-use super::steady::{Held, Loop, Sizes};
+use super::steady::{AtSamples, Loop, Sizes};
 use rug::Rational;
 use sigmastar_exact::enclosure::{Enclosure, Truth};
 use sigmastar_matrix::{ScaledMatrix, is_positive_definite, is_symmetric};
-use sigmastar_theory::derivation::sampled_form::{Enclosures, FormNumbers, Less, LoopNumbers, Parts, form};
+use sigmastar_theory::derivation::sampled_form::{AtPoint, FormNumbers, Less, LoopNumbers, Parts, form};
 
 /// The most boxes of parameters that are looked at.
 const MAX_BOXES: usize = 2048;
@@ -74,9 +74,9 @@ impl Falling {
     ///
     /// Guarantee: `True` only if P is symmetric and positive definite, not above p_up, w and k_p are positive, and
     /// `[[-(P J + J'P), -P g, -(k_p/2) r'], [., 2 sigma w, -w - (k_p/2)(d + (1-b) sigma)], [., ., k_p]]` is positive definite for every
-    /// member, in the coordinates y, and every gain b of the actuator; at samples the form (14.6a), whose numbers lambda and, with a delay, g_m are
-    /// positive. Then V falls along every difference of two solutions, for every
-    /// number of oscillators; it has no periodic solution but one. Hypothesis at samples: h sigma <= 1.
+    /// member, in the coordinates y, and every gain b of the actuator; at samples (14.6a) holds, with lambda > 0 and, with a delay, g_m > 0. Then V
+    /// tends to 0 along every difference of two solutions and never rises, for every number of oscillators; the loop has no periodic solution but one.
+    /// Hypothesis at samples: h sigma <= 1.
     #[must_use]
     pub fn decide(&self, plant: &LinearPlant, own: &Loop, coordinates: &[Vec<Rational>]) -> Truth {
         let Falling { matrix, p_up, weight, k_p, held } = self;
@@ -177,7 +177,7 @@ impl Falling {
         of.corners(past.is_some()).all(|corner| {
             let parts = Parts { decay: decay.clone(), moved: moved.clone(), r: r.clone(), d: d.clone() };
             let mut entries = vec![zero(); order * order];
-            for (i, j, entry) in form(&Enclosures, numbers.clone(), &corner, parts) {
+            for (i, j, entry) in form(&AtPoint::default(), numbers.clone(), &corner, parts) {
                 entries[j * order + i] = entry;
             }
             let matrix = ScaledMatrix::from_enclosures(order, |i, j| entries[i * order + j].clone());
@@ -197,7 +197,7 @@ impl Falling {
         let [x, e, z] = start.distances(own, [&sizes.states, &sizes.error, &sizes.zeta]);
         let (mut plain, mut of_past) = (exact(&self.p_up) * x.sqr() + &weight * e.sqr(), Enclosure::zero(PRECISION));
         let past = self.held.as_ref().and_then(|held| held.past.as_ref());
-        if let Some((past, Held { step, .. })) = past.zip(own.held.as_ref()) {
+        if let Some((past, AtSamples { step, .. })) = past.zip(own.held.as_ref()) {
             plain = plain + exact(past) * step * (&start.y0 + &sizes.mean).sqr();
             of_past = step * (&own.sigma + &own.mu * &own.n_bar_squared).sqr() / exact(past);
         }
@@ -213,7 +213,7 @@ static ZERO: std::sync::LazyLock<Rational> = std::sync::LazyLock::new(Rational::
 
 impl Loop {
     /// The numbers of F at samples.
-    fn numbers(&self, held: &Held) -> LoopNumbers<Enclosure> {
+    fn numbers(&self, held: &AtSamples) -> LoopNumbers<Enclosure> {
         let moves = self.gain.each_ref().map(|b| Enclosure::one(PRECISION) - b);
         let law = [self.mu.clone(), self.n_bar_squared.clone()];
         LoopNumbers::new(self.sigma.clone(), held.step.clone(), law, &Enclosure::pi(PRECISION), Some(moves))

@@ -59,6 +59,11 @@ impl Jet {
         &self.all
     }
 
+    /// Whether its values on the box have a bound.
+    pub(super) fn is_bounded(&self) -> bool {
+        is_bounded(&self.all)
+    }
+
     /// |z| on the box.
     pub(super) fn norm(&self) -> Enclosure {
         self.all.norm()

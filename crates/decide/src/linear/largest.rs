@@ -10,8 +10,11 @@ use sigmastar_lang::spec::Oscillators;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// By what share a bound may be above what is met: of e and u, and of what only the transient rests on.
-const ROOMS: [f64; 6] = [0.005, 0.005, 0.005, 0.05, 0.05, 0.05];
+/// By what share a bound may be above that of some member at some gain: of e and u, and of what only the transient rests on.
+const ROOMS: [f64; 6] = [0.002, 0.002, 0.002, 0.02, 0.02, 0.02];
+
+/// The most sides of a box whose corners are looked at first.
+const MOST_CORNERS: usize = 5;
 
 /// The ends of the parameters.
 type Ends = Vec<[Rational; 2]>;
@@ -67,23 +70,27 @@ pub fn sizes(answers: &Answers<'_>, own: &Loop, oscillators: &Oscillators, effor
         let (gain, parameters) = ends.split_last()?;
         own.sizes(&*answers.answer(parameters)?, gain, oscillators, fineness)
     };
+    // What is bounded at points: no box shows less. The largest is often at a corner.
+    let larger = |a: Sizes<Enclosure>, b: &Sizes<Enclosure>| a.with(b, |a, b| a.max(b));
+    let mut known = corners(&whole).iter().filter_map(|point| at(point)).reduce(|a, b| larger(a, &b));
     let mut open = vec![whole.clone()];
-    let mut known: Option<Sizes<Enclosure>> = None;
     let mut found: Option<Sizes<Enclosure>> = None;
     let mut boxes = 0;
     while !open.is_empty() {
         boxes += open.len();
         let all: Vec<Option<Sizes<Enclosure>>> = open.iter().map(|ends| at(ends)).collect();
-        known = all.iter().flatten().chain(&known).cloned().reduce(|a, b| a.with(&b, |a, b| a.max(b)));
+        let in_middle = open.iter().zip(&all).filter(|(_, sizes)| sizes.is_some() && !single);
+        let in_middle = in_middle.filter_map(|(ends, _)| at(&middle(ends)));
+        known = in_middle.chain(known.take()).reduce(|a, b| larger(a, &b));
         let mut next = Vec::new();
         for (ends, sizes) in open.into_iter().zip(all) {
             let sharp = sizes.as_ref().zip(known.as_ref()).is_some_and(|(sizes, known)| {
                 let mut pairs = sizes.each().into_iter().zip(known.each()).zip(ROOMS);
-                pairs.all(|((size, known), room)| size.upper_f64() <= known.lower_f64() * (1.0 + room))
+                pairs.all(|((size, known), room)| size.upper_f64() <= known.upper_f64() * (1.0 + room))
             });
             match sizes {
                 Some(sizes) if sharp || boxes >= effort => {
-                    found = Some(found.map_or_else(|| sizes.clone(), |found| found.with(&sizes, |a, b| a.max(b))));
+                    found = Some(found.map_or_else(|| sizes.clone(), |found| larger(found, &sizes)));
                 }
                 None if boxes >= effort => return None,
                 sizes => match halved(ends, &whole) {
@@ -91,7 +98,7 @@ pub fn sizes(answers: &Answers<'_>, own: &Loop, oscillators: &Oscillators, effor
                     // There is nothing to cut.
                     None => {
                         let sizes = sizes?;
-                        found = Some(found.map_or_else(|| sizes.clone(), |found| found.with(&sizes, |a, b| a.max(b))));
+                        found = Some(found.map_or_else(|| sizes.clone(), |found| larger(found, &sizes)));
                     }
                 },
             }
@@ -99,6 +106,32 @@ pub fn sizes(answers: &Answers<'_>, own: &Loop, oscillators: &Oscillators, effor
         open = next;
     }
     found
+}
+
+/// The point in the middle of a box.
+fn middle(ends: &[[Rational; 2]]) -> Ends {
+    let point = |[low, high]: &[Rational; 2]| {
+        let middle: Rational = Rational::from(low + high) / 2;
+        [middle.clone(), middle]
+    };
+    ends.iter().map(point).collect()
+}
+
+/// The corners of a box with a few sides; those of many are not looked at.
+fn corners(ends: &[[Rational; 2]]) -> Vec<Ends> {
+    let open: Vec<usize> = (0..ends.len()).filter(|side| ends[*side][0] != ends[*side][1]).collect();
+    if open.len() > MOST_CORNERS {
+        return Vec::new();
+    }
+    let corner = |which: usize| {
+        let mut corner = middle(ends);
+        for (bit, side) in open.iter().enumerate() {
+            let end = &ends[*side][which >> bit & 1];
+            corner[*side] = [end.clone(), end.clone()];
+        }
+        corner
+    };
+    (0..1 << open.len()).map(corner).collect()
 }
 
 /// Both halves of a box, across the side that is the largest share of that of the whole; `None` where none has a length.

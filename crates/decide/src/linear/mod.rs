@@ -17,7 +17,7 @@ pub use falling::{Falling, FallingHeld, Peak, Start};
 pub use largest::{Answers, sizes};
 pub use member::{Clock, Member};
 pub use plant::{LinearPlant, MAX_LINES};
-pub use steady::{Held, Loop, Sizes};
+pub use steady::{AtSamples, Loop, Sizes};
 pub(crate) use supremum::{Fineness, Harmonics, supremum};
 
 /// Bits of the enclosures.

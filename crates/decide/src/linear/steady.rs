@@ -27,12 +27,12 @@ pub struct Loop {
     /// The inverse of the coordinates L: sizes of x are those of `L^-1 x`.
     pub inverse: Vec<Vec<Rational>>,
     /// What belongs to the law at samples; none in continuous time.
-    pub held: Option<Held>,
+    pub held: Option<AtSamples>,
 }
 
 /// What belongs to the law at samples.
 #[derive(Clone, Debug)]
-pub struct Held {
+pub struct AtSamples {
     /// N_s.
     pub samples: u32,
     /// h.
@@ -69,7 +69,7 @@ impl Loop {
     pub fn at_samples(self, law: &SampledGain, samples: u32, delayed: bool) -> Loop {
         let exact = |value: &Rational| Enclosure::from_rational(value, PRECISION);
         let step = Enclosure::pi(PRECISION) * 2 / (&self.fundamental * i64::from(samples));
-        let held = Some(Held { samples, step, delayed });
+        let held = Some(AtSamples { samples, step, delayed });
         Loop { mu: exact(&law.gain), n_bar_squared: exact(&law.weight_sum), held, ..self }
     }
 
@@ -148,7 +148,7 @@ impl Loop {
     /// Of the harmonic k of these oscillators.
     fn beyond(&self, oscillators: &Oscillators, k: usize, Line { frequency, delta, .. }: &Line) -> Beyond {
         let sigma = || Complex::real(self.sigma.clone());
-        let Some(Held { samples, step, delayed }) = &self.held else {
+        let Some(AtSamples { samples, step, delayed }) = &self.held else {
             let y = &self.mu / &self.fundamental * self.poles(oscillators, k, 1);
             let turn = Complex { re: &self.sigma - &y * frequency, im: &y * &self.sigma };
             let mean = (frequency.sqr() + self.sigma.sqr()).sqrt();
@@ -233,9 +233,6 @@ impl Loop {
                     Some(of_line) => of_line.gain.mul(&answer, &offsets),
                 };
                 let error = forcing.div(&offsets.narrowed(own.add(&answer)), &offsets);
-                if !(error.all().re.is_bounded() && error.all().im.is_bounded()) {
-                    return None;
-                }
                 let of_mean = mean * error.norm();
                 sizes.zeta = sizes.zeta + zeta * &of_mean * 2;
                 if self.held.as_ref().is_some_and(|held| held.delayed) {
@@ -244,6 +241,9 @@ impl Loop {
                 let control = over_gain(offsets.narrowed(own.mul(&error, &offsets).sub(forcing)));
                 (error, control)
             };
+            if !(error.is_bounded() && control.is_bounded()) {
+                return None;
+            }
             let mut moved: Vec<Jet> = states.iter().map(|part| part.mul(&error, &offsets)).collect();
             if let Some(HeldLine { by_control, by_forcing, .. }) = of_line {
                 for (moved, (of_control, of_forcing)) in moved.iter_mut().zip(by_control.iter().zip(by_forcing)) {
@@ -266,7 +266,7 @@ impl Loop {
         let largest = |waves: Vec<Complex>| supremum(&[waves.into_iter().map(|wave| vec![wave]).collect()], fineness);
         sizes.error = largest(errors);
         sizes.control = largest(controls);
-        if let Some(Held { step, .. }) = &self.held {
+        if let Some(AtSamples { step, .. }) = &self.held {
             // How far e is from its linear interpolation, at most; at the instants it may not be at all.
             let bow = step.sqr() / 8;
             sizes.error = &sizes.error + zero().hull(&(&bow * rate));
