@@ -8,8 +8,8 @@ use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 use rug::Rational;
 use serde_json::{Value, json};
-use sigmastar_decide::linear::{Answers, LinearPlant, Loop, sizes};
-use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_decide::linear::{Answers, Falling, FallingHeld, LinearPlant, Loop, sizes};
+use sigmastar_exact::enclosure::{Enclosure, Truth};
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{Document, Oscillators, SampledGain};
 use std::f64::consts::TAU;
@@ -290,6 +290,58 @@ fn harmonics_at_samples_are_those_of_the_loop() {
     assert!(looked_at > 100 && ratios[ratios.len() / 2] > 0.9, "{looked_at} {:?}", ratios[ratios.len() / 2]);
 }
 
+/// Forms of e' = -e/2 + q_0(t) + b u: one that falls with each law, and what keeps others from it.
+#[test]
+fn forms_at_samples_that_do_not_fall_are_refused() {
+    let case = Case {
+        rows: DMatrix::from_element(1, 1, -0.5),
+        waves: vec![[DVector::zeros(1), DVector::zeros(1)], [DVector::from_element(1, 1.0), DVector::zeros(1)]],
+    };
+    let plant = Plant::from_value(&Document::parse("linear", &case.document().to_string()).unwrap().root()).unwrap();
+    let linear = LinearPlant::of(&plant).unwrap();
+    let number = |value: (i32, i32)| Rational::from(value);
+    let decided = |delayed: bool, gain: (i32, i32), form: &Falling| {
+        let of_law = SampledGain { gain: number(gain), weight_sum: number((37, 8)) };
+        let gains = [Enclosure::exactly(0.75), Enclosure::exactly(1.25)];
+        let own = Loop::new(&number((5, 1)), &plant.internal_model, 1, Some(gains), Vec::new())
+            .at_samples(&of_law, 50, delayed);
+        form.decide(&linear, &own, &[])
+    };
+    let form = |k_p: (i32, i32), lambda: (i32, i32), past: Option<(i32, i32)>| Falling {
+        matrix: Vec::new(),
+        p_up: number((1, 1)),
+        weight: number((1, 1)),
+        k_p: number(k_p),
+        held: Some(FallingHeld { lambda: number(lambda), past: past.map(number) }),
+    };
+    let (k_p, lambda, past) = ((1, 2), (10, 1), (1, 10));
+    let [plain, delayed] = [None, Some(past)].map(|past| form(k_p, lambda, past));
+    assert_eq!([decided(false, (1, 1), &plain), decided(true, (1, 1), &delayed)], [Truth::True; 2]);
+    for (with_delay, own) in [(false, &plain), (true, &delayed)] {
+        let past = own.held.as_ref().and_then(|held| held.past.is_some().then_some(past));
+        for (gain, wrong, is) in [
+            ((1, 1), form(k_p, (-10, 1), past), Truth::False),
+            ((1, 1), form((-1, 2), lambda, past), Truth::False),
+            ((1, 1), Falling { held: None, ..own.clone() }, Truth::False),
+            // What belongs to the other law.
+            ((1, 1), if with_delay { plain.clone() } else { delayed.clone() }, Truth::False),
+            // Too little for G, for y, and more than the samples take.
+            ((1, 1), form(k_p, (1, 1000), past), Truth::Undecided),
+            ((1, 1), form((1, 100), lambda, past), Truth::Undecided),
+            ((17, 1), own.clone(), Truth::Undecided),
+        ] {
+            assert_eq!(decided(with_delay, gain, &wrong), is, "{with_delay} {gain:?} {wrong:?}");
+        }
+    }
+    // g_m takes from y what it gives to the last one.
+    for past in [(-1, 10), (0, 1)] {
+        assert_eq!(decided(true, (1, 1), &form(k_p, lambda, Some(past))), Truth::False);
+    }
+    for past in [(1, 2), (1, 1000)] {
+        assert_eq!(decided(true, (1, 1), &form(k_p, lambda, Some(past))), Truth::Undecided);
+    }
+}
+
 /// A plant whose numbers by n_o, and for a set, a certificate has, with a delay and without: its C code in closed loop keeps to them, and comes close
 /// to those along the periodic solution.
 #[test]
@@ -307,12 +359,19 @@ fn the_exported_law_keeps_to_what_its_certificate_says() {
         document["internal_model"]["delay_samples"] = json!(delayed);
         document["internal_model"]["harmonics"] = json!("every-set");
         let folder = tempfile::tempdir().unwrap();
-        let (certificate, report) = certified_in(folder.path(), &document, &["--harmonics", "0,2"]);
+        let (certificate, report) =
+            certified_in(folder.path(), &document, &["--harmonics", "0,2", "--target-sup", "1/10"]);
         assert_valid(&certificate);
         let claim = &read(&certificate)["claim"];
         let entries = claim["by_n_o"].as_array().unwrap();
         assert_eq!(entries.len(), 5);
         assert_eq!(report["by_n_o"].as_array().unwrap().len(), 5);
+        // A target is answered by the least of what is proved: by norms one oscillator is too few.
+        let consequences = &report["consequences"];
+        let by_norms =
+            consequences["error_bounds"].as_array().unwrap().iter().find(|bounds| bounds["n_o"] == 1).unwrap();
+        assert!(number(&by_norms["sup"]) > 0.1, "{consequences}");
+        assert_eq!(consequences["targets"][0]["n_o"], 1, "{consequences}");
         for entry in entries {
             let which = match entry["n_o"].as_u64() {
                 Some(n_o) => ["--n-o".to_owned(), n_o.to_string()],

@@ -132,13 +132,20 @@ impl Certification<'_> {
 }
 
 impl SampledCertification<'_> {
-    /// Certified bounds of the periodic error by the number of oscillators, with answers to the targets; `None` without a certified claim.
+    /// Certified bounds of the periodic error by the number of oscillators, with answers to the targets, of these bounds and of those of
+    /// [`SampledCertification::set_counts`]; `None` without a certified claim.
     ///
     /// Guarantee: they hold for exactly the gain and the sampling period of the claim, along the periodic solution, between samples too.
     #[must_use]
     pub fn consequences(&self, targets: &[Target]) -> Option<SampledConsequences> {
         let proof = self.claim()?;
         let bounds = proof.evaluation.errors(&Data::new(self.spec, proof.precision), &proof.witness);
-        Some(SampledConsequences::new(&bounds, proof.precision, targets))
+        let mut all = SampledConsequences::new(&bounds, proof.precision, targets);
+        for (target, outcome) in &mut all.targets {
+            // All of them are about the gain of the claim alone.
+            let own = self.by_count.as_ref().and_then(|found| found.reaching(target));
+            *outcome = outcome.or_at_gain(own, true);
+        }
+        Some(all)
     }
 }
