@@ -360,18 +360,17 @@ fn the_exported_law_keeps_to_what_its_certificate_says() {
         document["internal_model"]["harmonics"] = json!("every-set");
         let folder = tempfile::tempdir().unwrap();
         let (certificate, report) =
-            certified_in(folder.path(), &document, &["--harmonics", "0,2", "--target-sup", "1/10"]);
+            certified_in(folder.path(), &document, &["--harmonics", "0,2", "--target-sup", "1/1000"]);
         assert_valid(&certificate);
         let claim = &read(&certificate)["claim"];
         let entries = claim["by_n_o"].as_array().unwrap();
         assert_eq!(entries.len(), 5);
         assert_eq!(report["by_n_o"].as_array().unwrap().len(), 5);
-        // A target is answered by the least of what is proved: by norms one oscillator is too few.
+        // A target is answered by the least of what is proved: by norms no number of oscillators is enough.
         let consequences = &report["consequences"];
-        let by_norms =
-            consequences["error_bounds"].as_array().unwrap().iter().find(|bounds| bounds["n_o"] == 1).unwrap();
-        assert!(number(&by_norms["sup"]) > 0.1, "{consequences}");
-        assert_eq!(consequences["targets"][0]["n_o"], 1, "{consequences}");
+        let by_norms = consequences["error_bounds"].as_array().unwrap();
+        assert!(by_norms.iter().all(|bounds| number(&bounds["sup"]) > 1e-3), "{consequences}");
+        assert_eq!(consequences["targets"][0]["n_o"], 3, "{consequences}");
         for entry in entries {
             let which = match entry["n_o"].as_u64() {
                 Some(n_o) => ["--n-o".to_owned(), n_o.to_string()],
