@@ -7,6 +7,7 @@ use super::supremum::Fineness;
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_lang::spec::Oscillators;
+use std::cell::OnceCell;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -66,9 +67,12 @@ pub fn sizes(answers: &Answers<'_>, own: &Loop, oscillators: &Oscillators, effor
     // Of a single member nothing but the instants is uncertain.
     let single = whole.iter().all(|[low, high]| low == high);
     let fineness = if single { Fineness::FINE } else { Fineness::COARSE };
+    let regulation = OnceCell::new();
     let at = |ends: &[[Rational; 2]]| {
         let (gain, parameters) = ends.split_last()?;
-        own.sizes(&*answers.answer(parameters)?, gain, oscillators, fineness)
+        let answer = answers.answer(parameters)?;
+        let regulation = regulation.get_or_init(|| own.regulation(oscillators, &answer.lines));
+        own.sizes(&answer, gain, regulation, fineness)
     };
     // What is bounded at points: no box shows less. The largest is often at a corner.
     let larger = |a: Sizes<Enclosure>, b: &Sizes<Enclosure>| a.with(b, |a, b| a.max(b));

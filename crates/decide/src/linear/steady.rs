@@ -134,6 +134,9 @@ impl<T> Sizes<T> {
     }
 }
 
+/// What the regulator makes of the harmonics 0, 1, ...: none of those at which it has an oscillator. The same for all members.
+pub(super) struct Regulation(Vec<Option<Beyond>>);
+
 /// What the regulator makes of a harmonic at which it has no oscillator: u = -turn e.
 struct Beyond {
     /// `sigma + i y_k (i om_k + sigma)`; at samples kappa_k.
@@ -185,6 +188,12 @@ impl Loop {
         Beyond { turn, mean: mean.norm(), zeta: squares.sqrt() * step / 2 }
     }
 
+    /// Of the harmonics of these lines.
+    pub(super) fn regulation(&self, oscillators: &Oscillators, lines: &[Line]) -> Regulation {
+        let of_line = |(k, line): (usize, &Line)| (!oscillators.meets(k)).then(|| self.beyond(oscillators, k, line));
+        Regulation(lines.iter().enumerate().map(of_line).collect())
+    }
+
     /// Bounds of the periodic solution of every member whose answer is this, with a gain of the actuator in `gain`. `None` where the answer
     /// to a line may have no bound. What is below them some instant has, of |e| and |u|, as closely as `fineness` says; at samples |e| has besides what it
     /// moves within one.
@@ -196,7 +205,7 @@ impl Loop {
         &self,
         Answer { lines, held, offsets }: &Answer,
         gain: &[Rational; 2],
-        oscillators: &Oscillators,
+        Regulation(regulation): &Regulation,
         fineness: Fineness,
     ) -> Option<Sizes<Enclosure>> {
         let zero = || Enclosure::zero(PRECISION);
@@ -211,7 +220,7 @@ impl Loop {
         let (mut errors, mut controls) = (Vec::new(), Vec::new());
         // Bounds of |q'|: their sum, and that of their squares.
         let (mut rate, mut rate_squares) = (zero(), zero());
-        for (k, line) in lines.iter().enumerate() {
+        for (k, (line, beyond)) in lines.iter().zip(regulation).enumerate() {
             let Line { frequency, delta, states, transfer, forcing, held: of_line } = line;
             let both = if k == 0 { 1 } else { 2 };
             let over_gain = |control: Jet| match of_line {
@@ -219,15 +228,9 @@ impl Loop {
                 Some(of_line) => control.div(&of_line.gain, &offsets),
             };
             // e, and the control b u.
-            let (error, control) = if oscillators.meets(k) {
-                let control = over_gain(forcing.negate());
-                // |zeta_0|^2 = |c_0|^2/((b mu)^2 n_0); both of k and -k: 2 * 2 |c_k|^2/((b mu)^2 n_k).
-                within = within + control.all().norm_squared() / of_mu.sqr() / &self.weights[k] * (both * both);
-                (Jet::real(zero()), control)
-            } else {
-                let Beyond { turn, mean, zeta } = self.beyond(oscillators, k, line);
+            let (error, control) = if let Some(Beyond { turn, mean, zeta }) = beyond {
                 let own = Jet::constant(delta.clone()).sub(transfer);
-                let answer = gain.times(&turn);
+                let answer = gain.times(turn);
                 let answer = match of_line {
                     None => answer,
                     Some(of_line) => of_line.gain.mul(&answer, &offsets),
@@ -240,6 +243,11 @@ impl Loop {
                 }
                 let control = over_gain(offsets.narrowed(own.mul(&error, &offsets).sub(forcing)));
                 (error, control)
+            } else {
+                let control = over_gain(forcing.negate());
+                // |zeta_0|^2 = |c_0|^2/((b mu)^2 n_0); both of k and -k: 2 * 2 |c_k|^2/((b mu)^2 n_k).
+                within = within + control.all().norm_squared() / of_mu.sqr() / &self.weights[k] * (both * both);
+                (Jet::real(zero()), control)
             };
             if !(error.is_bounded() && control.is_bounded()) {
                 return None;

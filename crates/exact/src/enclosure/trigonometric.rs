@@ -4,6 +4,7 @@ use super::Enclosure;
 use super::ends::End;
 use rug::Float;
 use rug::float::{Constant, Round};
+use std::cmp::Ordering;
 
 /// Arguments beyond this binary exponent are not reduced modulo pi (that would need as many bits); the trivial
 /// enclosure is returned instead. Up to it a reduction costs no more than the function itself at the highest
@@ -25,28 +26,32 @@ impl Enclosure {
         self.is_bounded() && self.long().iter().all(|x| x.get_exp().is_none_or(|e| e <= MAX_REDUCED_EXPONENT))
     }
 
-    /// Whether `offset * pi/2 + k * period * pi/2` may lie in the interval for some integer k.
+    /// The interval in units of pi/2.
+    fn quarter_turns(&self) -> Enclosure {
+        self / &(Enclosure::pi(self.precision() + 32) / 2)
+    }
+
+    /// Whether `offset + k * period` may lie in an interval for some integer k.
     fn may_contain_phase(&self, offset: i64, period: i64) -> bool {
-        let p = self.precision() + 32;
-        let quarter = Enclosure::pi(p) / 2;
-        let turns = (self / &quarter - offset) / period;
-        !turns.is_bounded() || turns.integers().is_some()
+        let periods = (self - offset) / period;
+        !periods.is_bounded() || periods.integers().is_some()
     }
 
     /// The sine.
     #[must_use]
     pub fn sin(&self) -> Enclosure {
-        self.wave([1, -1], |x, p, round| Float::with_val_round(p, x.sin_ref(), round).0)
+        self.wave([1, -1], |x, p| Float::with_val_round(p, x.sin_ref(), Round::Down))
     }
 
     /// The cosine.
     #[must_use]
     pub fn cos(&self) -> Enclosure {
-        self.wave([0, 2], |x, p, round| Float::with_val_round(p, x.cos_ref(), round).0)
+        self.wave([0, 2], |x, p| Float::with_val_round(p, x.cos_ref(), Round::Down))
     }
 
-    /// The values at the two ends, and 1 or -1 wherever a crest or a trough, given in units of pi/2, may lie in between.
-    fn wave(&self, [crest, trough]: [i64; 2], at: impl Fn(&Float, u32, Round) -> Float) -> Enclosure {
+    /// The values at the two ends, and 1 or -1 wherever a crest or a trough, given in units of pi/2, may lie in between; from a value rounded down, and
+    /// whether that changed it.
+    fn wave(&self, [crest, trough]: [i64; 2], below: impl Fn(&Float, u32) -> (Float, Ordering)) -> Enclosure {
         let p = self.precision();
         if !self.is_defined() {
             return Enclosure::undefined(p);
@@ -56,20 +61,33 @@ impl Enclosure {
             return Enclosure::new(least, most);
         }
         let [lower, upper] = self.long();
-        let at = |x: &Float, round| at(x, p, round);
-        let crest = self.may_contain_phase(crest, 4);
-        let trough = self.may_contain_phase(trough, 4);
-        Enclosure::new(
-            if trough { least } else { at(&lower, Round::Down).smaller(&at(&upper, Round::Down), p) },
-            if crest { most } else { at(&lower, Round::Up).larger(&at(&upper, Round::Up), p) },
-        )
+        // What is rounded up is the next number, unless the value is one.
+        let around = |x: &Float| {
+            let (below, changed) = below(x, p);
+            let mut above = below.clone();
+            if changed != Ordering::Equal {
+                above.next_up();
+            }
+            [below, above]
+        };
+        let turns = self.quarter_turns();
+        let crest = turns.may_contain_phase(crest, 4);
+        let trough = turns.may_contain_phase(trough, 4);
+        let [below, above] = around(&lower);
+        let [below, above] = if lower == upper {
+            [below, above]
+        } else {
+            let [other_below, other_above] = around(&upper);
+            [below.smaller(&other_below, p), above.larger(&other_above, p)]
+        };
+        Enclosure::new(if trough { least } else { below }, if crest { most } else { above })
     }
 
     /// The tangent, increasing between its poles; undefined if a pole may lie in the interval.
     #[must_use]
     pub fn tan(&self) -> Enclosure {
         let p = self.precision();
-        if !self.is_reducible() || self.may_contain_phase(1, 2) {
+        if !self.is_reducible() || self.quarter_turns().may_contain_phase(1, 2) {
             return Enclosure::undefined(p);
         }
         self.nondecreasing(|x, p, round| Float::with_val_round(p, x.tan_ref(), round).0)
