@@ -14,7 +14,7 @@ use sigmastar_exact::number::write_exact;
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{Constant, ErrorKind, Oscillators, SpecErrors};
 use sigmastar_prove::certificate::{certificate_of, is_sampled, read_for};
-use sigmastar_prove::certify::{FarStart, Limits, NoRatesOfClaim, rate_counts, unusual_mu};
+use sigmastar_prove::certify::{FarStart, Limits, NoRatesOfClaim, rate_counts, unusual};
 use sigmastar_prove::reduction::{INITIAL_SET, Prepared, Run, Shrunk, Stage, Unwatched, Watch, for_every_set, shrunk};
 use std::path::Path;
 
@@ -73,8 +73,12 @@ pub fn run(args: &CertifyArgs) -> Result<u8, Failure> {
         // The search may take long.
         output::remark(&unused);
     }
-    if let Some(unusual) = unusual_mu(subject.internal_model(), subject.period()).filter(|_| !args.quiet) {
-        output::remark(&unusual);
+    if !args.quiet {
+        let gain = match &subject {
+            Subject::Plant(plant) => plant.input_gain.as_ref(),
+            Subject::Specification(spec) => spec.input_gain.as_ref(),
+        };
+        unusual(subject.internal_model(), subject.period(), gain).iter().for_each(|said| output::remark(said));
     }
     let stages = Stages::new(steps(args, &subject), args.progress, args.quiet);
     let working = (!stages.are_told()).then(|| proving(&subject, TOLD_MORE, args.quiet)).flatten();

@@ -8,7 +8,8 @@ use super::subject::{has_format, with_sampling_period};
 use sigmastar::program::{MAX_CERTIFICATE, check_bytes, page};
 use sigmastar::{CheckReport, CheckVerdict, Report};
 use sigmastar_document::clean;
-use sigmastar_lang::spec::{Document, Notation};
+use sigmastar_lang::plant::FORMAT as PLANT;
+use sigmastar_lang::spec::{Document, FORMAT as SPECIFICATION, Notation};
 use sigmastar_prove::certificate::FORMAT as CERTIFICATE;
 use std::fs::File;
 use std::io::{Cursor, Read};
@@ -84,12 +85,21 @@ fn specification(path: &Path, args: &CheckArgs) -> Result<Box<dyn Read>, Failure
 fn tell_no_certificate(path: &Path) {
     let is_one =
         path == Path::new("-") || input::written(path).is_ok_and(|document| has_format(&document, CERTIFICATE));
-    if !is_one {
-        output::remark(&format!(
-            "`{}` is no certificate: `sigmastar certify FILE -o CERTIFICATE` writes one",
-            shown(path)
-        ));
+    if is_one {
+        return;
     }
+    let name = shown(path);
+    // What people write may have comments, or be TOML.
+    let document = input::document(path).ok();
+    let is = |format: &str| document.as_ref().is_some_and(|document| has_format(document, format));
+    let what = [(PLANT, "a plant"), (SPECIFICATION, "a specification")].into_iter().find(|(format, _)| is(format));
+    output::remark(&match what {
+        Some((_, what)) => format!(
+            "`{name}` is {what}, not a certificate: `sigmastar certify {name} -o CERTIFICATE` writes one, and `sigmastar check CERTIFICATE` \
+             checks it"
+        ),
+        None => format!("`{name}` is no certificate: `sigmastar certify FILE -o CERTIFICATE` writes one"),
+    });
 }
 
 /// Says where a certificate and the specification that it was compared with differ in the sampling period, and where that is a certificate

@@ -26,7 +26,11 @@ const MACHINES: &str =
     "a study on several machines is run from Python: `sigmastar.run_case` and `sigmastar.write_results`";
 
 /// Commands that there are not, and what there is.
-const COMMANDS: [(&str, &str); 3] = [
+const COMMANDS: [(&str, &str); 4] = [
+    (
+        "verify",
+        "did you mean `check`? It decides a certificate again; `certify` makes one from a plant or a specification",
+    ),
     ("report", "`certify` shows a report; `--full` shows all of it, `--format html` writes a page"),
     ("merge", MACHINES),
     ("rate", "`certify --n-o LIST` proves rates, with `--sigma V` at a larger gain"),

@@ -50,6 +50,7 @@ mod lyapunov;
 mod lyapunov_random;
 mod machines;
 mod messages;
+mod mistakes;
 mod mutants;
 mod mutated_specifications;
 mod names;

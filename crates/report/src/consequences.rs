@@ -12,6 +12,9 @@ use sigmastar_theory::derivation::targets::{
     Consequences, MistunedSummary, SampledConsequences, Target, TargetOutcome,
 };
 
+/// Above so many oscillators an answer says that they are hardly practical.
+const PRACTICAL: u64 = 1000;
+
 /// Where there is no claim.
 pub(super) const UNANSWERED: &str = "The targets are not answered: without a certified gain there is no error bound.";
 
@@ -124,16 +127,28 @@ fn psi_items(spec: &Specification, consequences: &Consequences) -> Vec<String> {
     items
 }
 
+/// That so many oscillators are too many for a computer, where they are.
+fn many(n_o: u64) -> &'static str {
+    match n_o > PRACTICAL {
+        true => ". So many oscillators are hardly practical: a larger gain (`--sigma`) or a larger target needs fewer",
+        false => "",
+    }
+}
+
 fn answer(target: &Target, outcome: TargetOutcome, most: u64) -> String {
     let wanted = format!("$`{} <= {}`$", target.kind.name(), clean(&target.value.text));
     match outcome {
         TargetOutcome::Reached(n_o) => {
-            format!("Target {wanted}: certified with $`n_o = {n_o}`$ oscillators, the least for these bounds")
+            format!(
+                "Target {wanted}: certified with $`n_o = {n_o}`$ oscillators, the least for these bounds{}",
+                many(n_o)
+            )
         }
         TargetOutcome::ReachedAtGain(n_o, larger) => {
             let larger = larger.map_or_else(String::new, |larger| format!("; with {larger} at every larger gain, too"));
             format!(
-                "Target {wanted}: certified with $`n_o = {n_o}`$ oscillators at this gain alone, the least for these bounds{larger}"
+                "Target {wanted}: certified with $`n_o = {n_o}`$ oscillators at this gain alone, the least for these bounds{larger}{}",
+                many(n_o)
             )
         }
         TargetOutcome::NotReached => {

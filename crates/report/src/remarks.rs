@@ -6,13 +6,13 @@ use sigmastar_decide::conditions::{ExceededBy, NoPlant};
 use sigmastar_document::number::{estimate, exact, upper};
 use sigmastar_exact::number::Direction;
 use sigmastar_lang::spec::{ProvedValue, Specification};
-use sigmastar_prove::certify::{Certification, SampledCertification, unusual_mu};
+use sigmastar_prove::certify::{Certification, SampledCertification, unusual};
 
 /// One sentence or two for each.
 pub fn remarks(run: &Certification<'_>) -> Vec<String> {
     let mut remarks = of(run.no_plant.as_ref(), run.has_force_at_origin());
     remarks.extend(unused_parameters(run.spec));
-    remarks.extend(mu(run.spec));
+    remarks.extend(meant_otherwise(run.spec));
     remarks.extend(no_worth_of_oscillators(run));
     if let Some(sigma) = run.sigma_star().filter(|_| run.is_smallest())
         && sigma.to_f64() * run.spec.period.longest().to_f64() > LARGE
@@ -91,7 +91,7 @@ fn far_above_its_samples(entries: &[ProvedValue]) -> Option<String> {
 pub fn sampled_remarks(run: &SampledCertification<'_>) -> Vec<String> {
     let mut remarks = of(run.no_plant.as_ref(), run.has_force_at_origin());
     remarks.extend(unused_parameters(run.spec));
-    remarks.extend(mu(run.spec));
+    remarks.extend(meant_otherwise(run.spec));
     remarks.extend(unused_disturbances(run.spec, run.claim().is_some() && run.for_n_o.is_empty()));
     remarks.extend(unused_arithmetic(run));
     let asked = run.claim().is_some() && run.given_gain.is_none() && !run.for_n_o.is_empty();
@@ -104,9 +104,10 @@ fn unused_parameters(spec: &Specification) -> Option<String> {
     Some(format!("Remark: {}.", spec.plant()?.parameters.unused_in_words()?))
 }
 
-/// That mu is far from the scale of the period.
-fn mu(spec: &Specification) -> Option<String> {
-    Some(format!("Remark: {}.", unusual_mu(&spec.internal_model, &spec.period)?))
+/// Numbers that are likely to be meant in another way.
+fn meant_otherwise(spec: &Specification) -> impl Iterator<Item = String> {
+    let all = unusual(&spec.internal_model, &spec.period, spec.input_gain.as_ref());
+    all.into_iter().map(|said| format!("Remark: {said}."))
 }
 
 /// That a claim about a plant rests on norms because of what was asked for `--n-o`, where a matrix inequality might have given a smaller gain.

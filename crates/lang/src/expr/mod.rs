@@ -67,6 +67,7 @@ pub use slope::Slopes;
 pub use syntax::{Binary, Unary};
 pub use trigonometric::{MAX_HARMONIC, NotTrigonometric, TrigonometricPolynomial};
 pub use walk::{Memory, VariableSet, Walk};
+pub(crate) use words::percent;
 pub use words::{in_words, quoted};
 
 use std::fmt;

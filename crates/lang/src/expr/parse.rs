@@ -16,6 +16,7 @@ use super::monomial::Monomial;
 use super::names::{FOLDED, Scope, UNARY, is_taken, suggest};
 use super::phase::PHASE;
 use super::syntax::{Binary, Node, NodeKind, Unary, carried, step};
+use super::words::percent;
 use super::{ExprError, ExprErrorKind, MAX_EXPONENT, MAX_NESTING, MAX_NODES, MAX_TEXT};
 use sigmastar_exact::number::parse_decimal;
 use std::ops::Range;
@@ -318,13 +319,14 @@ impl<S: Scope> Parser<'_, S> {
             }
             _ => None,
         };
+        let percent = (symbol == '%').then(|| percent(&self.text[..span.start]));
         let known = matches!(symbol, '+' | '-' | '*' | '/' | '^' | '(' | ')' | ',');
         let kind = if known {
             ExprErrorKind::Unexpected { found: symbol.to_string() }
         } else {
             ExprErrorKind::UnexpectedCharacter { character: symbol }
         };
-        ExprError { kind, span, expected: Some(expected), help: help.map(str::to_owned) }
+        ExprError { kind, span, expected: Some(expected), help: help.map(str::to_owned).or(percent) }
     }
 
     /// What to write where `right` follows the operand `left` without an operator.

@@ -1,11 +1,11 @@
 //! From a document to a plant.
 
 use super::{Initial, InitialRegulator, Plant, periodicity};
-use crate::expr::{Definitions, Expr, Phase, PlantExpr, PlantNames, Program};
+use crate::expr::{Definitions, Phase, PlantExpr, PlantNames, Program};
 use crate::spec::{
     Constant, Document, Domain, ErrorKind, Errors, InitialSet, Parameters, Period, Reported, SpecErrors, Value,
     any_constant_in, positive_constant_in, read_actuator, read_disturbances, read_input_gain, read_internal_model,
-    read_parameters, read_period, read_with_ball,
+    read_parameters, read_period, read_with_ball, rounded_from,
 };
 use rug::Rational;
 
@@ -73,8 +73,9 @@ fn read(value: &Value<'_>, errors: &mut Errors) -> Result<Plant, Reported> {
             return Err(reported);
         }
     };
-    // Where the period is wrong that alone is told.
-    let names = names.with_phase(period.as_ref().map_or_else(|_| Phase::new(&Expr::zero(), true), Period::phase));
+    // Where the period is wrong that alone is told, and no division by it.
+    let one = Constant::rational(&Rational::from(1));
+    let names = names.with_phase(period.as_ref().map_or_else(|_| Phase::new(&one.expr, true), Period::phase));
     let f = f.and_then(|value| {
         let elements = of_length(&value, names.states().len(), "right sides", errors)?;
         Ok((elements, value.each(errors, |value, errors| expression(value, &names, errors))?))
@@ -94,8 +95,8 @@ fn read(value: &Value<'_>, errors: &mut Errors) -> Result<Plant, Reported> {
     let periodic = match (&broken, &f, &q) {
         (Some(broken), Ok((f_values, f)), Ok((q_value, q))) => {
             let (value, expr) = f_values.get(broken.index).zip(f.get(broken.index)).unwrap_or((q_value, q));
-            let period = period.as_ref().map(Period::nominal);
-            let first = period.ok().and_then(|period| periodicity::decide(expr, broken.index, period).err());
+            let period = period.as_ref();
+            let first = period.ok().and_then(|period| periodicity::decide(expr, broken.index, period.nominal()).err());
             let length = value.text().or_else(|| value.numeral()).map_or(0, str::len);
             let span = first.as_ref().map_or(0..length, |first| first.span.clone());
             let first = first
@@ -103,7 +104,9 @@ fn read(value: &Value<'_>, errors: &mut Errors) -> Result<Plant, Reported> {
             let message = format!("this is not periodic in t with the stated period: {broken}{first}");
             let error = value.error_in(ErrorKind::Range, &span, message);
             let help = "correct the expression, or state the period of all right sides together";
-            Err(errors.report(error.help(help)))
+            let meant = period.ok().and_then(rounded_from);
+            let meant = meant.map_or_else(String::new, |meant| format!("; `\"{meant}\"` is exact, if that is meant"));
+            Err(errors.report(error.help(format!("{help}{meant}"))))
         }
         _ => Ok(()),
     };

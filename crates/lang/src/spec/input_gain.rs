@@ -2,7 +2,7 @@
 
 use super::constant::{not_in_order, positive_constant_in, whole};
 use super::document::Value;
-use super::error::{ErrorKind, Errors, Reported};
+use super::error::{ErrorKind, Errors, Reported, SpecError};
 use super::interval::no_list;
 use super::parameters::Parameters;
 use super::parts::Constant;
@@ -114,7 +114,7 @@ impl InputGain {
 /// Reports fields that are missing or unknown, numbers that are not positive, expressions that may have no value somewhere, and an order
 /// that fails or is not decided.
 pub fn read_input_gain(value: &Value<'_>, parameters: &Parameters, errors: &mut Errors) -> Result<InputGain, Reported> {
-    let help = "the true gain lies in [low, high], and the regulator divides by `nominal`";
+    let help = "the true gain lies in [low, high], and the regulator divides its output by `nominal`";
     let mut formulas = [None, None];
     let [nominal, low, high] = ordered_by(value, help, errors, |name, value, errors| {
         let text = value.text().filter(|text| parameters.definitions().vary(text));
@@ -170,6 +170,18 @@ pub(super) fn read_ordered(
     ordered_by(value, help, errors, |_, value, errors| positive_constant_in(value, names, errors))
 }
 
+/// That `low` is certainly above `high`, with both.
+pub(super) fn exchanged(low_value: &Value<'_>, low: &Constant, high: &Constant) -> Option<SpecError> {
+    let (low, high) = (Quantity::constant(low), Quantity::constant(high));
+    if !high.lt(&low).is_true() {
+        return None;
+    }
+    let (low, high) = low.shown_apart(&high);
+    let message = format!("`low` = {low} is above `high` = {high}");
+    let error = whole(low_value, ErrorKind::Range, message).expected("expected low <= nominal <= high");
+    Some(error.help(format!("exchange the two: `low` is the smaller end, {high}, and `high` the larger one, {low}")))
+}
+
 /// Reads `nominal`, `low` and `high` with the reader that is given, proved to be in order: low <= nominal <= high.
 fn ordered_by(
     value: &Value<'_>,
@@ -180,20 +192,25 @@ fn ordered_by(
     no_list(value, errors)?;
     let mut object = value.object(errors)?;
     let nominal = object.required("nominal", errors).and_then(|value| read("nominal", &value, errors));
-    let mut end = |name: &'static str, relation: &str, side: &str| {
-        object.required(name, errors).and_then(|value| {
-            let end = read(name, &value, errors)?;
-            if let Ok(nominal) = &nominal
-                && let Some(error) = not_in_order(&value, (name, &end), relation, ("nominal", nominal))
-            {
-                let expected = format!("expected {side} {}", Quantity::constant(nominal).shown());
-                return Err(errors.report(error.expected(expected).help(help)));
-            }
-            Ok(end)
-        })
-    };
-    let low = end("low", "<=", "at most");
-    let high = end("high", ">=", "at least");
+    let [low, high] = ["low", "high"]
+        .map(|name| object.required(name, errors).and_then(|value| read(name, &value, errors).map(|end| (value, end))));
     object.finish(errors);
+    if let (Ok((value, low)), Ok((_, high))) = (&low, &high)
+        && let Some(error) = exchanged(value, low, high)
+    {
+        return Err(errors.report(error));
+    }
+    let mut in_order = |name: &str, end: Result<(Value<'_>, Constant), Reported>, relation: &str, side: &str| {
+        let (value, end) = end?;
+        if let Ok(nominal) = &nominal
+            && let Some(error) = not_in_order(&value, (name, &end), relation, ("nominal", nominal))
+        {
+            let expected = format!("expected {side} {}", Quantity::constant(nominal).shown());
+            return Err(errors.report(error.expected(expected).help(help)));
+        }
+        Ok(end)
+    };
+    let low = in_order("low", low, "<=", "at most");
+    let high = in_order("high", high, ">=", "at least");
     Ok([nominal?, low?, high?])
 }

@@ -2,6 +2,7 @@
 
 use super::error::{ErrorKind, SpecError, shown};
 use super::limits;
+use crate::expr::percent;
 use jsonc_parser::ast;
 use jsonc_parser::common::Ranged;
 use jsonc_parser::{CollectOptions, ParseOptions, parse_to_ast};
@@ -74,10 +75,25 @@ pub(super) fn parse(text: &str) -> Result<Node, SpecError> {
     }
 }
 
+/// Whether a text has a line that C code has and JSON, TOML and YAML have not.
+fn is_c(text: &str) -> bool {
+    let types = ["void ", "double ", "float ", "int ", "static ", "typedef ", "struct ", "extern "];
+    text.lines().map(str::trim).any(|line| {
+        let included = line.strip_prefix("#include").map(str::trim_start);
+        let declares = types.iter().any(|start| line.starts_with(start)) && line.ends_with([';', '{', '}', ')', ',']);
+        included.is_some_and(|what| what.starts_with(['<', '"'])) || declares
+    })
+}
+
 /// What to do with a document that starts as one of another notation.
 fn other_notation(text: &str) -> Option<&'static str> {
+    const C: &str = "this looks like C code, which is not read: a plant is its formulas in JSON or TOML; `sigmastar new plant -o plant.jsonc` \
+                     writes one to start from";
     const TOML: &str = "this looks like TOML: name the file `.toml`, which is read";
     const YAML: &str = "this looks like YAML, which is not read: write it as JSON, or as TOML in a file named `.toml`";
+    if is_c(text) {
+        return Some(C);
+    }
     let first = text.lines().map(str::trim).find(|line| !line.is_empty() && !line.starts_with('#'))?;
     let is_key = |key: &str| {
         let bare = key.trim().trim_matches(['"', '\'']);
@@ -115,6 +131,7 @@ fn syntax_error(text: &str, error: &serde_json::Error) -> SpecError {
         return located.help("the text ends before its value does: a closing brace, bracket or quote is missing");
     }
     match &text[at..end] {
+        "%" => located.help(percent(&text[..at])),
         "/" | "#" => located.help("JSON has no comments; name the file `.jsonc`, or put remarks in `description`"),
         "'" => located.help("strings stand in double quotes"),
         "}" | "]" if text[..at].trim_end().ends_with(',') => located.help("remove the comma in front of it"),

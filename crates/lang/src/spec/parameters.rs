@@ -3,11 +3,13 @@
 use super::constant::{any_constant, whole};
 use super::document::Value;
 use super::error::{ErrorKind, Errors, Reported};
+use super::input_gain::exchanged;
 use super::interval::no_list;
 use super::object::{OF_FILE, belongs_above};
 use super::parts::Constant;
 use crate::expr::{DefinitionError, Definitions, MAX_INTERVALS, occurs, quoted};
 use rug::Rational;
+use sigmastar_exact::number::write_exact;
 
 /// The most parameters that are read.
 pub const MAX_PARAMETERS: usize = 12;
@@ -296,9 +298,14 @@ fn read_interval(
     };
     let (nominal, low, high) = (number("nominal"), number("low"), number("high"));
     object.finish(errors);
-    let ((place, constant, nominal), (_, _, low), (_, _, high)) = (nominal?, low?, high?);
+    let ((place, constant, nominal), (low_place, low_end, low), (_, high_end, high)) = (nominal?, low?, high?);
+    if let Some(error) = exchanged(&low_place, &low_end, &high_end) {
+        return Err(errors.report(error));
+    }
     if low > nominal || nominal > high {
-        let message = format!("the nominal value of `{name}` is not between `low` and `high`");
+        let [nominal, low, high] = [&nominal, &low, &high].map(write_exact);
+        let message =
+            format!("the nominal value of `{name}`, {nominal}, is not between `low`, {low}, and `high`, {high}");
         let error = whole(&place, ErrorKind::Range, message).expected("expected low <= nominal <= high");
         return Err(errors.report(error));
     }

@@ -11,6 +11,7 @@ use super::document::{Document, Value};
 use super::error::{ErrorKind, Errors, Reported, SpecErrors};
 use super::initial_set;
 use super::input_gain::read_input_gain;
+use super::meant::{is_in_hertz, matched_frequency};
 use super::model::{InternalModel, LyapunovSource, Specification};
 use super::object::Object;
 use super::parameters::Parameters;
@@ -269,11 +270,7 @@ fn prove_matched(
 ) -> Result<(), Reported> {
     let product = Quantity::constant(frequency).times(Quantity::constant(period));
     let two_pi = Quantity::exact(Monomial::pi()).times(Quantity::rational(2));
-    let right = match period.as_rational().map(|period| Rational::from(2) / period) {
-        Some(ratio) if ratio == 1 => "pi".to_owned(),
-        Some(ratio) => format!("{}*pi", write_exact(&ratio)),
-        None => format!("2*pi/({})", period.text),
-    };
+    let right = matched_frequency(period);
     let error = match product.equals(&two_pi) {
         Truth::True => return Ok(()),
         Truth::False => {
@@ -289,6 +286,13 @@ fn prove_matched(
             whole(value, ErrorKind::Undecided, message).expected(format!("write it in multiples of pi, as `{right}`"))
         }
     };
+    if is_in_hertz(frequency, period) {
+        let help = format!(
+            "this is 1/period, a frequency in cycles per unit of time (Hz); the base frequency is in radians per unit of time, 2*pi/period, \
+             which is `{right}`"
+        );
+        return Err(errors.report(error.help(help)));
+    }
     let own = frequency.exact.as_ref().and_then(|frequency| Monomial::pi().div(frequency));
     let own = own.and_then(|half| half.as_rational().map(|half| write_exact(&Rational::from(half * 2))));
     let own = own.map_or_else(String::new, |own| format!("state the period of this base frequency, {own}, or "));

@@ -84,8 +84,8 @@ pub(super) fn read(
 
 /// Why there is no whole number of samples in a period.
 enum Problem {
-    /// It is this number.
-    NotWhole(String, Option<u32>),
+    /// It is this number, about the second one.
+    NotWhole(String, f64),
     /// It is whole, and out of range.
     Range(String),
     /// It is not known exactly.
@@ -111,8 +111,22 @@ impl Problem {
         }
         let share = |count: u32| period.divided_by(count).map_or_else(String::new, |share| share.text);
         match self {
-            Problem::NotWhole(_, Some(near)) => format!("such as `{}`", share(*near)),
-            Problem::NotWhole(_, None) | Problem::Range(_) => "take another sampling period".to_owned(),
+            Problem::NotWhole(_, ratio) => {
+                let near: Vec<String> = near(*ratio)
+                    .into_iter()
+                    .enumerate()
+                    .map(|(at, count)| {
+                        let of_what = if at == 0 { " samples in a period" } else { "" };
+                        format!("`{}` ({count}{of_what})", share(count))
+                    })
+                    .collect();
+                match near.split_last() {
+                    None => "take another sampling period".to_owned(),
+                    Some((only, [])) => format!("such as {only}"),
+                    Some((last, others)) => format!("such as {} or {last}", others.join(", ")),
+                }
+            }
+            Problem::Range(_) => "take another sampling period".to_owned(),
             Problem::Undecided => format!("write it as a fraction of the period, as `{}`", share(100)),
         }
     }
@@ -126,13 +140,22 @@ impl Problem {
     }
 }
 
+/// The whole numbers of samples around a number that is not whole, and those around it with one digit beside zeros, in order.
+fn near(ratio: f64) -> Vec<u32> {
+    let ten = 10f64.powi(ratio.max(1.0).log10().floor() as i32);
+    let mut all: Vec<u32> = [ratio.floor(), ratio.ceil(), (ratio / ten).floor() * ten, (ratio / ten).ceil() * ten]
+        .into_iter()
+        .filter(|count| *count >= 2.0 && *count <= f64::from(MAX_SAMPLES))
+        .map(|count| count as u32)
+        .collect();
+    all.sort_unstable();
+    all.dedup();
+    all
+}
+
 /// T/h, decided exactly.
 fn samples(period: &Constant, step: &Constant) -> Result<u32, Problem> {
     let ratio = period.exact.as_ref().zip(step.exact.as_ref()).and_then(|(period, step)| period.div(step));
-    let near = |value: f64| {
-        let rounded = value.round();
-        (rounded >= 2.0 && rounded <= f64::from(MAX_SAMPLES)).then_some(rounded as u32)
-    };
     let Some(ratio) = ratio else {
         // Without exact forms two numbers can be told apart, and not be proved equal.
         let ratio = period.enclose(PRECISION) / step.enclose(PRECISION);
@@ -140,7 +163,7 @@ fn samples(period: &Constant, step: &Constant) -> Result<u32, Problem> {
         return Err(match nearest {
             Ok(nearest) if !ratio.contains(&nearest) && ratio.is_bounded() => {
                 let value = ratio.midpoint_f64();
-                Problem::NotWhole(format!("about {value:.6}"), near(value))
+                Problem::NotWhole(format!("about {value:.6}"), value)
             }
             _ => Problem::Undecided,
         });
@@ -151,7 +174,7 @@ fn samples(period: &Constant, step: &Constant) -> Result<u32, Problem> {
             Some(samples) if (2..=MAX_SAMPLES).contains(&samples) => Ok(samples),
             _ => Err(Problem::Range(shown)),
         },
-        _ => Err(Problem::NotWhole(shown, near(ratio.enclose(PRECISION).midpoint_f64()))),
+        _ => Err(Problem::NotWhole(shown, ratio.enclose(PRECISION).midpoint_f64())),
     }
 }
 
@@ -197,6 +220,21 @@ impl Sampling {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn sampling_periods_on_both_sides_are_offered() {
+        let told = |period: (i32, i32), step: (i32, i32)| {
+            let [period, step] = [period, step].map(|ratio| Constant::rational(&Rational::from(ratio)));
+            samples(&period, &step).unwrap_err().way_out(&period, &step)
+        };
+        assert_eq!(
+            told((1, 3), (1, 1000)),
+            "such as `1/900` (300 samples in a period), `1/999` (333), `1/1002` (334) or `1/1200` (400)"
+        );
+        assert_eq!(told((1, 1), (2, 3)), "such as `0.5` (2 samples in a period)");
+        assert_eq!(told((1, 1), (9, 10)), "such as `0.5` (2 samples in a period)");
+        assert_eq!(told((1, 1), (1, 999_999)), "take another sampling period");
+    }
 
     /// Where samples in a unit of time stand in the place of the time between two: also such that are no whole number.
     #[test]

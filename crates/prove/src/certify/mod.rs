@@ -48,7 +48,7 @@ pub use produce::{certify, certify_for, certify_member, recheck};
 pub use rates::{NoRatesOfClaim, SaidOfCount, apart, rate_counts, rates_in_words};
 pub use refusal::Refusal;
 pub use sampled::{SampledCertification, certify_sampled, certify_sampled_within, recheck_sampled, sampled_model};
-pub use scale::unusual_mu;
+pub use scale::unusual;
 pub use smaller::SmallerChoice;
 pub use start::FarStart;
 pub use verdict::{Verdict, verdict_of_errors};

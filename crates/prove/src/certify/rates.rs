@@ -89,7 +89,10 @@ impl NoRatesOfClaim {
             NoRatesOfClaim::OfFormulas => {
                 "leave it out; a bounding specification of the plant (`sigmastar bound`) has a claim by norms"
             }
-            NoRatesOfClaim::TooMany(_) | NoRatesOfClaim::TooLarge(_) => "ask for fewer, or write several certificates",
+            NoRatesOfClaim::TooMany(_) => {
+                "ask for fewer, as `0,1,2,5,10,20`, or for a range in steps, as `0..60/10`; or write several certificates"
+            }
+            NoRatesOfClaim::TooLarge(_) => "ask for fewer, or write several certificates",
             NoRatesOfClaim::Beyond(_) => "ask for smaller numbers",
         }
     }

@@ -1,15 +1,58 @@
-//! Whether mu is of the scale of the period. Floating point: no claim rests on it.
+//! Numbers of a file that can be certified and are likely to be meant in another way. Floating point: no claim rests on it.
 
 use sigmastar_exact::number::{Direction, round_f64, write_exact};
-use sigmastar_lang::spec::{InternalModel, Period};
+use sigmastar_lang::spec::{InputGain, InternalModel, Period, is_in_hertz, matched_frequency, rounded_from};
 
 /// mu times the period of regulators as they are built, and how many times outside of it is far.
 const USUAL: [f64; 2] = [1.0, 20.0];
 const FAR: f64 = 10.0;
 
-/// That mu is far from 1/T to 20/T, and what that does, in a sentence without a final stop.
+/// From so many times the low end on the high end of an input gain is far above it.
+const WIDE: f64 = 3.0;
+
+/// What of these data is likely to be meant in another way, each in a sentence without a final stop.
 #[must_use]
-pub fn unusual_mu(model: &InternalModel, period: &Period) -> Option<String> {
+pub fn unusual(model: &InternalModel, period: &Period, gain: Option<&InputGain>) -> Vec<String> {
+    [rounded(period), in_hertz(model, period), unusual_mu(model, period), gain.and_then(wide)]
+        .into_iter()
+        .flatten()
+        .collect()
+}
+
+/// That the period is likely to be a rounded fraction.
+fn rounded(period: &Period) -> Option<String> {
+    let meant = rounded_from(period)?;
+    Some(format!("the period is exactly {} here: if {meant} is meant, write \"{meant}\"", period.nominal().text))
+}
+
+/// That a base frequency that is not matched is 1/period.
+fn in_hertz(model: &InternalModel, period: &Period) -> Option<String> {
+    let frequency = &model.base_frequency;
+    (!model.matched && is_in_hertz(frequency, period.nominal())).then(|| {
+        format!(
+            "the base frequency {} is 1/period, a frequency in cycles per unit of time (Hz): the oscillators then meet no harmonic; in radians \
+             per unit of time it is {}, with `matched`",
+            frequency.text,
+            matched_frequency(period.nominal())
+        )
+    })
+}
+
+/// That the interval of an input gain is wide.
+fn wide(gain: &InputGain) -> Option<String> {
+    let ratio = gain.high.to_f64() / gain.low.to_f64();
+    (ratio >= WIDE).then(|| {
+        let shown = round_f64(ratio, 3, Direction::Nearest).map_or_else(|| ratio.to_string(), |ratio| write_exact(&ratio));
+        format!(
+            "the input gain is known to a factor of {shown} only, from {} to {}: `nominal`, `low` and `high` are in the same unit, as 1/C, 0.9/C \
+             and 1.1/C; a narrower interval needs a smaller gain",
+            gain.low.text, gain.high.text
+        )
+    })
+}
+
+/// That mu is far from 1/T to 20/T, and what that does, in a sentence without a final stop.
+fn unusual_mu(model: &InternalModel, period: &Period) -> Option<String> {
     let share = model.mu.to_f64() * period.nominal().to_f64();
     let [low, high] = USUAL;
     let does = if share < low / FAR {

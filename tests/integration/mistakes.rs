@@ -1,0 +1,245 @@
+//! Mistakes that a first user makes with numbers, files and words of the command line: each with its answer, and beside it what is none.
+
+use crate::support::{document, in_one_line, program, utf8};
+use serde_json::{Value, json};
+use std::path::{Path, PathBuf};
+
+const CERTIFY: [&str; 3] = ["certify", "--no-alternatives", "--quiet"];
+
+/// Like [`CERTIFY`], with remarks on standard error.
+const TOLD: [&str; 2] = ["certify", "--no-alternatives"];
+
+/// A file of this name and content, in a folder that is removed with the first part.
+fn file(name: &str, content: &str) -> (tempfile::TempDir, PathBuf) {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join(name);
+    std::fs::write(&path, content).unwrap();
+    (folder, path)
+}
+
+/// The exit code and both streams of a call, in one line each.
+fn streams(words: &[&str], path: Option<&Path>, more: &[&str]) -> (i32, [String; 2]) {
+    let output = program().args(words).args(path).args(more).output().expect("the program runs");
+    let told = [utf8(output.stdout), utf8(output.stderr)].map(|text| in_one_line(&text));
+    (output.status.code().expect("a code"), told)
+}
+
+/// The exit code and both streams, as one text.
+fn told(words: &[&str], path: Option<&Path>, more: &[&str]) -> (i32, String) {
+    let (code, [data, remarks]) = streams(words, path, more);
+    (code, format!("{data} {remarks}"))
+}
+
+/// The plant without states, with these fields in the place of its own.
+fn changed(fields: &[(&str, Value)]) -> String {
+    let mut plant = document("plants/linear");
+    for (place, value) in fields {
+        match plant.pointer_mut(place) {
+            Some(field) => *field = value.clone(),
+            None => plant[place.trim_start_matches('/')] = value.clone(),
+        }
+    }
+    plant.to_string()
+}
+
+/// What is said about this plant with these flags.
+fn of(fields: &[(&str, Value)], flags: &[&str]) -> (i32, String) {
+    let (_folder, path) = file("plant.json", &changed(fields));
+    told(&TOLD, Some(&path), flags)
+}
+
+#[test]
+fn c_code_is_no_plant() {
+    const C: &str = "this looks like C code, which is not read";
+    for (content, said) in [
+        ("#include <math.h>\nvoid f(void) { }\n", true),
+        ("/* a plant */\nstatic double x[2];\n", true),
+        ("// a plant\n\nvoid f(double t, const double *x, double *dx)\n{\n}\n", true),
+        ("# include of nothing\nformat: 1\n", false),
+        ("{ // double x;\n}", false),
+        ("{ \"name\": double }", false),
+        ("int = 3\n", false),
+    ] {
+        let (_folder, path) = file("plant.c", content);
+        let (code, text) = told(&CERTIFY, Some(&path), &[]);
+        assert!(code == 2 && text.contains(C) == said, "{content}: {text}");
+        assert_eq!(text.contains("`sigmastar new plant -o plant.jsonc`"), said, "{content}: {text}");
+    }
+    // The name alone is no mistake.
+    let (_folder, path) = file("plant.c", &changed(&[]));
+    assert_eq!(told(&CERTIFY, Some(&path), &[]).0, 0);
+}
+
+#[test]
+fn a_base_frequency_in_hertz_is_told_in_radians() {
+    const HERTZ: &str = "a frequency in cycles per unit of time (Hz)";
+    let base = "/internal_model/base_frequency";
+    let (code, text) = of(&[(base, "1".into())], &[]);
+    assert!(code == 2 && text.contains(HERTZ) && text.contains("2*pi/period, which is `2*pi`"), "{text}");
+    assert!(!text.contains("`matched` to false"), "{text}");
+    // Another number is no frequency in Hz.
+    let (code, text) = of(&[(base, "3".into())], &[]);
+    assert!(code == 2 && !text.contains(HERTZ) && text.contains("set `matched` to false"), "{text}");
+    // Where nothing is asserted it is certified, with a remark on each stream.
+    for (frequency, said) in [("1", true), ("6", false)] {
+        let changes = [(base, frequency.into()), ("/internal_model/matched", false.into())];
+        let (_folder, path) = file("plant.json", &changed(&changes));
+        let (code, both) = streams(&TOLD, Some(&path), &[]);
+        assert!(code == 0 && both.iter().all(|text| text.contains(HERTZ) == said), "{frequency}: {both:?}");
+        assert_eq!(both[0].contains("it is 2*pi, with `matched`"), said, "{both:?}");
+        assert!(!streams(&CERTIFY, Some(&path), &[]).1[1].contains(HERTZ));
+    }
+}
+
+#[test]
+fn an_input_gain_of_two_units_is_a_wide_interval() {
+    const WIDE: &str = "the input gain is known to a factor of ";
+    let gain = |low: &str, high: &str| {
+        let gain = json!({ "nominal": "1/0.4", "low": low, "high": high });
+        let (_folder, path) = file("plant.json", &changed(&[("/input_gain", gain)]));
+        streams(&TOLD, Some(&path), &[]).1
+    };
+    let both = gain("0.9", "1.1/0.4");
+    assert!(both.iter().all(|text| text.contains(&format!("{WIDE}3.06 only, from 0.9 to 1.1/0.4"))), "{both:?}");
+    assert!(both[1].contains("as 1/C, 0.9/C and 1.1/C"), "{both:?}");
+    let both = gain("0.9/0.4", "1.1/0.4");
+    assert!(both.iter().all(|text| !text.contains(WIDE)), "{both:?}");
+}
+
+#[test]
+fn a_rounded_period_may_be_written_exactly() {
+    let with = |period: &str| {
+        let frequency =
+            format!("2*pi/{}", if period.contains('/') { format!("({period})") } else { period.to_owned() });
+        of(
+            &[
+                ("/period", period.into()),
+                ("/q", "sin(phase)".into()),
+                ("/internal_model/base_frequency", frequency.into()),
+                ("/internal_model/mu", "6".into()),
+            ],
+            &[],
+        )
+    };
+    let (code, text) = with("0.333");
+    assert!(code == 0 && text.contains("if 1/3 is meant, write \"1/3\""), "{text}");
+    for period in ["1/3", "0.125", "0.3"] {
+        let (code, text) = with(period);
+        assert!(code == 0 && !text.contains("is meant, write"), "{period}: {text}");
+    }
+    // Where the formulas have the exact one.
+    let (code, text) = of(&[("/period", "0.333".into()), ("/q", "sin(6*pi*t)".into())], &[]);
+    assert!(code == 2 && text.contains("not periodic") && text.contains("`\"1/3\"` is exact"), "{text}");
+    let (code, text) = of(&[("/period", "0.3".into()), ("/q", "sin(6*pi*t)".into())], &[]);
+    assert!(code == 2 && text.contains("not periodic") && !text.contains("is exact"), "{text}");
+}
+
+#[test]
+fn ends_that_are_exchanged_are_named_both() {
+    let ends = |nominal: &str, low: &str, high: &str| json!({ "nominal": nominal, "low": low, "high": high });
+    let advice = "exchange the two: `low` is the smaller end, 0.5, and `high` the larger one, 2";
+    for (place, more) in [
+        ("/input_gain", vec![]),
+        ("/parameters", vec![("/q", "k*sin(2*pi*t)".into())]),
+        ("/period", vec![("/q", "sin(phase)".into()), ("/internal_model/matched", false.into())]),
+    ] {
+        let put = |value: Value| if place == "/parameters" { json!({ "k": value }) } else { value };
+        let told = |value: Value| {
+            let fields: Vec<_> = more.iter().cloned().chain([(place, put(value))]).collect();
+            let (_folder, path) = file("plant.json", &changed(&fields));
+            told(&CERTIFY, Some(&path), &[])
+        };
+        let (code, text) = told(ends("1", "2", "0.5"));
+        assert!(
+            code == 2 && text.contains("`low` = 2 is above `high` = 0.5") && text.contains(advice),
+            "{place}: {text}"
+        );
+        assert_eq!(text.matches("error[").count(), 1, "{place}: {text}");
+        // A nominal value that is not between them.
+        let (code, text) = told(ends("3", "0.5", "2"));
+        assert!(code == 2 && !text.contains("exchange") && text.contains('3') && text.contains('2'), "{place}: {text}");
+    }
+}
+
+#[test]
+fn a_plant_is_certified_before_it_is_checked() {
+    let plant = changed(&[]);
+    for (name, content, what) in [
+        ("plant.json", plant.clone(), Some("a plant")),
+        ("plant.jsonc", format!("// a plant\n{plant}"), Some("a plant")),
+        ("spec.toml", "format = \"sigmastar/bounding-spec\"\n".to_owned(), Some("a specification")),
+        ("study.toml", "format = \"sigmastar/study\"\n".to_owned(), None),
+    ] {
+        let (_folder, path) = file(name, &content);
+        let (code, text) = told(&["check"], Some(&path), &[]);
+        let said = |what: &str| text.contains(&format!("is {what}, not a certificate: `sigmastar certify "));
+        assert_eq!(code, 2, "{name}: {text}");
+        assert!(what.map_or(!said("a plant") && !said("a specification"), said), "{name}: {text}");
+    }
+}
+
+#[test]
+fn too_many_numbers_of_oscillators_are_told_with_a_list() {
+    let (code, text) = of(&[], &["--n-o", "0..60"]);
+    assert!(code == 2 && text.contains("at most 8") && text.contains("as `0..60/10`"), "{text}");
+    let (code, text) = of(&[], &["--n-o", "0-60"]);
+    assert!(code == 2 && text.contains("such as `0,1,2,10..20`"), "{text}");
+    // What is advised is taken.
+    let (code, text) = of(&[], &["--n-o", "0..60/10"]);
+    assert!(code == 0 && !text.contains("at most 8"), "{text}");
+}
+
+#[test]
+fn a_percentage_is_told_as_a_number() {
+    let share = "write 0.15 or 3/20 for 15%";
+    let (code, text) = of(&[("/internal_model/mu", "15%".into())], &[]);
+    assert!(code == 2 && text.contains(share), "{text}");
+    let (code, text) = of(&[("/q", "e*15% + sin(2*pi*t)".into())], &[]);
+    assert!(code == 2 && text.contains(share), "{text}");
+    for flag in ["--target-sup", "--sigma"] {
+        let (code, text) = of(&[], &[flag, "15%"]);
+        assert!(code == 2 && text.contains(share), "{flag}: {text}");
+    }
+    let (_folder, path) = file("plant.json", &changed(&[]).replace("\"1\"", "15%"));
+    let (code, text) = told(&CERTIFY, Some(&path), &[]);
+    assert!(code == 2 && text.contains(share), "{text}");
+    let (code, text) = of(&[("/internal_model/mu", "200%".into())], &[]);
+    assert!(code == 2 && text.contains("write 2 for 200%"), "{text}");
+    let (code, text) = of(&[("/q", "(e)% + sin(2*pi*t)".into())], &[]);
+    assert!(code == 2 && text.contains("there are no percentages"), "{text}");
+    let (code, text) = of(&[("/q", "e $ 2".into())], &[]);
+    assert!(code == 2 && !text.contains("percentages"), "{text}");
+}
+
+#[test]
+fn verify_is_check() {
+    let (code, text) = told(&["verify", "certificate.json"], None, &[]);
+    assert!(code == 2 && text.contains("did you mean `check`?") && !text.contains("exists: 'certify'"), "{text}");
+    let (code, text) = told(&["certfy", "plant.json"], None, &[]);
+    assert!(code == 2 && text.contains("'certify'") && !text.contains("did you mean `check`?"), "{text}");
+}
+
+#[test]
+fn a_target_of_thousands_of_oscillators_is_remarked() {
+    const MANY: &str = "So many oscillators are hardly practical";
+    for (target, said) in [("1e-9", true), ("1/100", false)] {
+        let (code, [text, _]) = streams(&CERTIFY, Some(Path::new("specs/linear.json")), &["--target-sup", target]);
+        assert!(code == 0 && text.contains("the least for these bounds"), "{text}");
+        assert_eq!(text.contains(MANY), said, "{target}: {text}");
+    }
+}
+
+#[test]
+fn sampling_periods_that_divide_the_period_are_offered() {
+    let third = [
+        ("/period", "1/3".into()),
+        ("/q", "sin(6*pi*t)".into()),
+        ("/internal_model/base_frequency", "6*pi".into()),
+        ("/internal_model/mu", "6".into()),
+    ];
+    let (code, text) = of(&third, &["--sampling-period", "1/1000"]);
+    let offered = "such as `1/900` (300 samples in a period), `1/999` (333), `1/1002` (334) or `1/1200` (400)";
+    assert!(code == 2 && text.contains("is 1000/3, not a whole number") && text.contains(offered), "{text}");
+    let (code, text) = of(&third, &["--sampling-period", "1/1200"]);
+    assert!(code == 0 && !text.contains("samples in a period), `"), "{text}");
+}
