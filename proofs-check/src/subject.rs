@@ -233,7 +233,12 @@ pub fn same_data(about: &str, embedded: &Json, asked: &Json) -> Outcome<()> {
     match difference(embedded, asked, "", free) {
         None => Ok(()),
         Some((place, ours, theirs)) => {
-            let message = format!("the certificate says {ours}, the {about} that was asked for says {theirs}");
+            let field = place.rsplit('/').next().unwrap_or_default();
+            let message = match (ours.as_str(), theirs.as_str()) {
+                (NOTHING, _) => format!("`{}` is in your file and not in the certificate", printable(field)),
+                (_, NOTHING) => format!("`{}` is in the certificate and not in your file", printable(field)),
+                _ => format!("the certificate has {ours}, your {about} has {theirs}"),
+            };
             invalid(RULE, &format!("/{about}{place}"), message)
         }
     }
@@ -284,9 +289,12 @@ fn same_numeral(a: &str, b: &str) -> bool {
     bare(a) == bare(b) || rational(a).zip(rational(b)).is_some_and(|(a, b)| a == b)
 }
 
+/// A field that is not there.
+const NOTHING: &str = "nothing";
+
 fn shown(json: Option<&Json>) -> String {
     match json {
-        None => "nothing".to_owned(),
+        None => NOTHING.to_owned(),
         Some(Json::Text(text) | Json::Number(text)) => format!("`{}`", printable(text)),
         Some(Json::Bool(value)) => value.to_string(),
         Some(Json::Null) => "null".to_owned(),

@@ -238,7 +238,7 @@ fn rates_far_above_the_smallest_gain_are_found() {
     if every(2) == 1 {
         // Faster than the zero dynamics no loop is.
         let (code, text) = at(&["--rate", "1e5", "--n-o", "2"]);
-        assert!(code == 3 && text.contains("the largest that is found is about"), "{text}");
+        assert!(code == 3 && text.contains("the largest one found is about"), "{text}");
     }
 }
 

@@ -8,7 +8,7 @@ use tempfile::TempDir;
 
 /// What the gallery calls the mechanisms of a report, and how the report's words start.
 const MECHANISMS: [(&str, &str); 5] = [
-    ("joint metrics", "(Jm): below it no metrics"),
+    ("joint metrics", "stability (Jm)"),
     ("matrix inequality", "(M): the matrix inequality of stability"),
     ("loop through x", "C5: the loop through x in the error box"),
     ("dq/de", "C5: dq/de in the error box"),

@@ -57,9 +57,9 @@ fn a_gain_that_is_too_small_is_told_with_the_smallest() {
     ] {
         let (code, told) = certify(&text, &["--sigma", small]);
         assert_eq!(code, 3, "{told}");
-        assert!(told.contains("is below the smallest one that is found, about"), "{told}");
+        assert!(told.contains("is below the smallest one found, about"), "{told}");
         assert!(
-            told.contains(smallest) && told.contains("which is set by") && told.contains("a larger gain"),
+            told.contains(smallest) && told.contains("which is limited by") && told.contains("a larger gain"),
             "{told}"
         );
         assert!(!told.contains("finite value") && !told.contains("not finite"), "{told}");

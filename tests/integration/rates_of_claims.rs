@@ -242,7 +242,7 @@ fn a_gain_for_rates_that_are_asked_for() {
     assert!(number(&both["sigma_star"]) > gain && number(&both["limits"]["peak_error"]["proved"]) <= 2.0);
     let (code, never) = report(&["--rate", "1000"]);
     assert_eq!(code, Some(3));
-    assert!(never["statement"].as_str().unwrap().contains("the largest that is found is about"));
+    assert!(never["statement"].as_str().unwrap().contains("the largest one found is about"));
     for wrong in ["0", "-1", "x", "sqrt(2)"] {
         assert_eq!(report(&["--rate", wrong]).0, Some(2), "{wrong}");
     }

@@ -48,8 +48,8 @@ pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences
                 )
             });
             format!(
-                "$`sigma = {sigma}`$ in 1/time, the smallest one that is found that keeps to what was asked for; the loop is proved for every \
-                 larger one, too, whose bounds are others; {same}{least}{}",
+                "$`sigma = {sigma}`$ in 1/time, the smallest one found that keeps to what was asked for; the loop is proved for every \
+                 larger one, too, with other bounds; {same}{least}{}",
                 // The limit holds for every n_o, so without oscillators too.
                 match run.limits.steady_error {
                     Some(_) if run.for_n_o.is_empty() =>
@@ -152,9 +152,11 @@ pub(super) fn of_samples(
     let Some((steady, peak, control)) = run.best_bounds() else { return Vec::new() };
     let witness = &proof.witness;
     // That gain stands exactly in the sentence above: the claim is about no other.
-    let gain =
-        "exactly that $`sigma`$, in 1/time, for this sampling period alone: no threshold, neither for larger gains nor for faster samples"
-            .to_owned();
+    let gain = format!(
+        "$`sigma = {}`$ in 1/time and $`h = {}`$ only; neither a larger gain nor faster sampling follows",
+        write_exact(&witness.sigma),
+        clean(&run.sampling.step.text)
+    );
     let when = witness.delay.as_ref().map_or_else(
         || "a sampling instant".to_owned(),
         |delay| {
@@ -304,7 +306,8 @@ fn input_gain(run: &Certification<'_>) -> Option<String> {
 /// The interval of the input gain.
 fn uncertain_gain(spec: &Specification) -> Option<String> {
     let (interval, gain) = (words::input_gain(spec)?, spec.input_gain.as_ref()?);
-    Some(format!("any constant from {interval}; the regulator divides by {}", clean(&gain.nominal.text)))
+    let nominal = gain.nominal.as_rational().map_or_else(|| clean(&gain.nominal.text), write_exact);
+    Some(format!("any constant from {interval}; the regulator divides its output by the nominal gain, {nominal}"))
 }
 
 /// What the intervals of parameters cost.

@@ -83,7 +83,7 @@ pub(super) fn section(spec: &Specification, set: Option<&ClaimedSet>) -> Vec<Blo
         };
         Block::says(format!(
             "Stability rests on the matrix inequality (M) over the derivatives (section 13.7), which holds from $`sigma = {}`$ on, \
-             {place} and every $`t`$. No condition uses the bounds at the same $`X`$ and $`E`$; rates of convergence do.",
+             {place} and every $`t`$. The bounds at the same $`X`$ and $`E`$ are used for the rates of convergence only.",
             exact(&inequality.value, Direction::Up)
         ))
     }));
@@ -146,7 +146,7 @@ fn at_samples(spec: &Specification) -> Vec<Block> {
     let of_stability = stability.iter().map(|SampledInequality { x, e, .. }| {
         Block::says(format!(
             "Stability rests on the matrix inequality (Ms) over the derivatives (section 13.7) in the place of C5h, at this gain and \
-             sampling period, at every point of {} and every $`t`$. No condition uses the bounds at the same $`X`$ and $`E`$.",
+             sampling period, at every point of {} and every $`t`$. The bounds at the same $`X`$ and $`E`$ are not used.",
             place(spec, [x, e])
         ))
     });
@@ -184,8 +184,9 @@ pub(super) fn orbit(spec: &Specification) -> Option<String> {
         Some(format!("{} about {}{swing}", quoted(name.as_str()?), estimate(mean[state].to_f64())))
     };
     let states: Vec<String> = names.iter().enumerate().map(of_state).collect::<Option<_>>()?;
-    let members = if nominal.is_empty() { "" } else { ", of the nominal member: each has its own" };
-    (!states.is_empty()).then(|| format!("$`x_0(t)`$: {}{members}", states.join(", ")))
+    let [whose, others] =
+        if nominal.is_empty() { [""; 2] } else { [" (nominal plant)", "; other members have others"] };
+    (!states.is_empty()).then(|| format!("$`x_0(t)`${whose}: {}{others}", states.join(", ")))
 }
 
 fn facts(plant: &OfPlant, set: Option<&ClaimedSet>) -> Vec<(&'static str, String)> {

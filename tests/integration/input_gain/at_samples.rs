@@ -141,7 +141,12 @@ fn the_claim_and_the_report_say_so() {
     assert_eq!(again_by_flag.unwrap().status.code(), Some(0));
     let said = utf8(program().arg("certify").arg(&input).args(["--sampling-period", "1/200"]).output().unwrap().stdout);
     let said = in_one_line(&said);
-    assert!(said.contains("input gain: any constant from 1.8 to 2.5; the regulator divides by 2"), "{said}");
+    assert!(
+        said.contains(
+            "input gain: any constant from 1.8 to 2.5; the regulator divides its output by the nominal gain, 2"
+        ),
+        "{said}"
+    );
     assert!(said.contains("with input_gain known exactly"), "{said}");
     // A claim about another interval than the document's is refused.
     let refused = |change: &dyn Fn(&mut Value)| {

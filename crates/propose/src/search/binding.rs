@@ -30,7 +30,7 @@ impl Binding {
             Binding::InternalModel => "C5: how far the state of the internal model starts from the periodic solution",
             Binding::Coupling => "C5: the loop through x in the error box, by df/de and dq/dx against the decay rate",
             Binding::MatrixInequality => "(M): the matrix inequality of stability in the error box",
-            Binding::JointMetrics => "(Jm): below it no metrics of the states and the error are found that serve",
+            Binding::JointMetrics => "stability (Jm); no Lyapunov function was found below this gain",
         }
     }
 

@@ -238,14 +238,14 @@ impl Obstacle {
             Failing::Existence => {
                 format!("existence: no set was found that the map of the proof takes into itself{place}")
             }
-            Failing::DomainX => format!("domain X: the error box around the initial set leaves it{place}"),
-            Failing::DomainE => format!("domain E: the error box around the initial set leaves it{place}"),
+            Failing::DomainX => format!("domain X: solutions from this set may leave the domain{place}"),
+            Failing::DomainE => format!("domain E: solutions from this set may leave the domain{place}"),
             Failing::Curvature => {
                 format!("C5: a_2 <= 0, the nonlinearity over the error box takes all of the decay rate{place}")
             }
             Failing::Coupling => format!("C5: (h/mu) k_x^2 >= 4 w_x a_2{place}"),
             Failing::Gain { given, smallest: Some((smallest, binding)) } => format!(
-                "the gain {} is below the smallest one that is found, about {}, which is set by {}",
+                "the gain {} is below the smallest one found, about {}, which is limited by {}",
                 short(given),
                 short(smallest),
                 binding.describe()
@@ -307,7 +307,7 @@ impl Obstacle {
                 let found = largest.map_or_else(
                     || format!("none is proved at the gain {}", short(sigma)),
                     |largest| {
-                        format!("the largest that is found is about {}, at the gain {}", short(largest), short(sigma))
+                        format!("the largest one found is about {}, at the gain {}", short(largest), short(sigma))
                     },
                 );
                 format!("the rate for n_o = {n_o} is not proved to be at least {}: {found}", short(asked))

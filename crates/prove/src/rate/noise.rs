@@ -114,8 +114,8 @@ impl NoNoiseBound {
             }
             NoNoiseBound::NotFound => "not proved: no Pi was found".to_owned(),
             NoNoiseBound::LeavesBox { limit, .. } => format!(
-                "not proved: e may deviate by about {}, for which the error box has no room; a box that has asks for a larger gain, which lets \
-                 less of a disturbance through and more of the noise",
+                "not proved: noise and disturbances may move e by {}, more than the proved region allows; less of them, fewer oscillators, a \
+                 larger gain (which lets more of the noise through) or a larger domain may help",
                 shown(limit)
             ),
             NoNoiseBound::BeyondDoubles { what, size } => format!(

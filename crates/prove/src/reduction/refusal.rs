@@ -180,7 +180,13 @@ impl PlantRefusal {
 }
 
 fn no_gain(obstacle: &Obstacle) -> String {
-    format!("no gain was found for this initial set in floating point. {}", obstacle.describe())
+    let what = match obstacle.failing {
+        Failing::Gain { given, .. } | Failing::Hold { sigma: given, given: true, .. } => {
+            format!("the gain {given} could not be proved for this set")
+        }
+        _ => "no proof was found for this initial set".to_owned(),
+    };
+    format!("{what}. {}", obstacle.describe())
 }
 
 /// Whether a smaller initial set may be all that it takes.
