@@ -25,7 +25,7 @@ pub struct CertifyOptions {
     sigma: Option<String>,
     sampling_period: Option<String>,
     n_o: Vec<u32>,
-    /// Of the steady error, of the error on the way, of what is put out, of the rates.
+    /// Of the steady error, of the error in the transient, of the control, of the rates.
     limits: [Option<String>; 4],
 }
 
@@ -89,7 +89,7 @@ impl CertifyOptions {
         self
     }
 
-    /// Certify this gain, a positive rational number, and not the smallest one that is found.
+    /// Certify this gain, a positive rational number, and not the smallest one found.
     #[must_use]
     pub fn sigma(mut self, sigma: impl Into<String>) -> CertifyOptions {
         self.sigma = Some(sigma.into());
@@ -123,7 +123,7 @@ impl CertifyOptions {
         self
     }
 
-    /// Certify the smallest gain that is found with which |e| of the periodic solution is at most this, a positive rational number, for
+    /// Certify a gain that keeps |e| of the periodic solution at most this, a positive rational number (the smallest found), for
     /// every number of oscillators, or, in continuous time and without [`CertifyOptions::rate`], for those of [`CertifyOptions::n_o`], where there are
     /// some, which often needs a far smaller gain; with [`CertifyOptions::sigma`] refuse a gain with which that is not proved.
     #[must_use]
@@ -131,22 +131,22 @@ impl CertifyOptions {
         self.limited(0, limit.into())
     }
 
-    /// Certify the smallest gain that is found with which |e| is at all times from the initial set at most this, a positive rational number;
+    /// Certify a gain that keeps |e| at all times from the initial set at most this, a positive rational number (the smallest found);
     /// with [`CertifyOptions::sigma`] refuse a gain with which that is not proved.
     #[must_use]
     pub fn peak_error(self, limit: impl Into<String>) -> CertifyOptions {
         self.limited(1, limit.into())
     }
 
-    /// Certify the smallest gain that is found with which what is put out is at all times from the initial set at most this, a positive rational
-    /// number: a bound that grows with the gain. With [`CertifyOptions::sigma`] refuse a gain with which that is not proved.
+    /// Certify a gain that keeps the control, with an input gain over the nominal one, at all times from the initial set at most this, a
+    /// positive rational number (the smallest found). The bound grows with the gain. With [`CertifyOptions::sigma`] refuse a gain with which that is not proved.
     #[must_use]
     pub fn max_control(self, limit: impl Into<String>) -> CertifyOptions {
         self.limited(2, limit.into())
     }
 
-    /// Certify the smallest gain that is found with which the rates for the numbers of [`CertifyOptions::n_o`] are at least this, a positive
-    /// rational number, in 1/time; with [`CertifyOptions::sigma`] refuse a gain with which that is not proved.
+    /// Certify a gain with which the rates for the numbers of [`CertifyOptions::n_o`] are at least this, a positive rational number, in 1/time
+    /// (the smallest found); with [`CertifyOptions::sigma`] refuse a gain with which that is not proved.
     #[must_use]
     pub fn rate(self, least: impl Into<String>) -> CertifyOptions {
         self.limited(3, least.into())

@@ -21,24 +21,25 @@ pub struct CertifyArgs {
     #[arg(long, value_enum, value_name = "NAME", default_value_t = TransferArg::Best)]
     pub transfer: TransferArg,
 
-    /// Certify this gain, a positive rational number, instead of the smallest one that is found
+    /// Certify this gain, a positive rational number, instead of the smallest one found
     #[arg(long, value_name = "V", allow_hyphen_values = true)]
     pub sigma: Option<String>,
 
-    /// Certify the smallest gain that is found with which |e| of the periodic solution is at most V for every n_o; with --n-o, without --rate
-    /// and in continuous time for those of LIST, which often needs a far smaller gain
+    /// Certify a gain that keeps |e| of the periodic solution at most V for every n_o (the smallest found); with --n-o, without --rate
+    /// and in continuous time, for the numbers of LIST, which often needs a far smaller gain
     #[arg(long, value_name = "V", allow_hyphen_values = true)]
     pub steady_error: Option<String>,
 
-    /// Certify the smallest gain that is found with which |e| is at most V in the transient from the initial set
+    /// Certify a gain that keeps |e| at most V in the transient from the initial set (the smallest found)
     #[arg(long, value_name = "V", allow_hyphen_values = true)]
     pub peak_error: Option<String>,
 
-    /// Certify the smallest gain that is found with which what is put out is at most V in the transient from the initial set
+    /// Certify a gain that keeps the control, with `input_gain` over `nominal`, at most V in the transient from the initial set (the
+    /// smallest found)
     #[arg(long, value_name = "V", allow_hyphen_values = true)]
     pub max_control: Option<String>,
 
-    /// Certify the smallest gain that is found with which the rates for the numbers of --n-o are at least V (1/time)
+    /// Certify a gain with which the rates for the numbers of --n-o are at least V, in 1/time (the smallest found)
     #[arg(long, value_name = "V", allow_hyphen_values = true, requires = "n_o")]
     pub rate: Option<String>,
 
@@ -95,7 +96,7 @@ pub struct CertifyArgs {
           value_parser = clap::value_parser!(u32).range(i64::from(CertifyOptions::LEAST_PRECISION_LIMIT)..=4096))]
     pub precision_limit: u32,
 
-    /// Leave out what else would give: bounds at larger gains, what intervals of parameters cost, a limit that can be kept, a smaller
+    /// Leave out what other choices would give: bounds at larger gains, what intervals of parameters cost, a limit that can be kept, a smaller
     /// initial set where a plant is not certified; and, in a whole report and a certificate, the search of the paper's derivations
     #[arg(long, alias = "no-compare")]
     pub no_alternatives: bool,

@@ -131,10 +131,10 @@ pub enum Command {
     /// proved. The report goes to standard output, remarks and errors to standard error.
     #[command(after_help = CERTIFY_EXAMPLES, after_long_help = format!("{CERTIFY_EXAMPLES}\n\n{EXIT_CODES}"))]
     Certify(Box<CertifyArgs>),
-    /// For how fast a computer: the smallest certified gain for sampling periods, and the longest one for gains
+    /// Show which gains go with which sampling periods: the smallest gain for a period, the longest period for a gain
     ///
-    /// Each pair is certified as `certify --sampling-period H --sigma V` does. A gain is certified for its sampling period alone:
-    /// neither a larger gain nor a shorter period follows from it.
+    /// Each pair is certified as `certify --sampling-period H --sigma V` does. A gain is certified for its sampling period only:
+    /// neither a larger gain nor a shorter period follows.
     #[command(after_help = SAMPLING_EXAMPLES, after_long_help = format!("{SAMPLING_EXAMPLES}\n\n{EXIT_CODES}"))]
     Sampling(SamplingArgs),
     /// Certify a specification or plant with many values put in: a grid or a Latin hypercube
@@ -152,7 +152,7 @@ pub enum Command {
     /// Prove the transfer bound T(x) <= k0 + k1 x^2 for every number of oscillators
     ///
     /// Finds constants k0, k1 that are proved for every n_o and every frequency, says how much of the bound each n_o uses,
-    /// and holds the paper's constants against them. Computed with enclosures; there is no file for the independent checker.
+    /// and compares the paper's constants with them. Computed with enclosures; there is no file for the independent checker.
     #[command(after_help = TRANSFER_EXAMPLES, after_long_help = format!("{TRANSFER_EXAMPLES}\n\n{TRANSFER_EXIT_CODES}"))]
     Transfer(TransferArgs),
     /// Check a certificate with the independent checker
@@ -163,8 +163,8 @@ pub enum Command {
     Check(CheckArgs),
     /// Write the regulator of a specification, plant or certificate: matrices, the law for a computer, C code
     ///
-    /// Every number is the exact one rounded once to double precision, what an actuator takes upwards. Of a certificate the gain is its sigma* unless --sigma
-    /// says otherwise. What is known to be bad is refused: sampling that cannot tell the oscillators apart, DT sigma > 1, a gain
+    /// Every number is the exact one rounded once to double precision (the limit of an actuator upwards). For a certificate the gain is its sigma* unless
+    /// --sigma gives another. The command refuses what is known to be bad: sampling that cannot tell the oscillators apart, DT sigma > 1, a gain
     /// below sigma* of the certificate. Only a certificate with a sampling period covers the sampling.
     #[command(after_help = CONTROLLER_EXAMPLES)]
     Controller(ControllerArgs),
@@ -214,12 +214,12 @@ pub enum Command {
     New(NewArgs),
     /// Write a specification, plant or study as JSON, whatever its notation
     ///
-    /// Numbers keep their text. The independent checker reads JSON alone; this is how it gets to see a .toml or .jsonc file.
+    /// Numbers keep their text. The independent checker reads JSON only: convert a .toml or .jsonc file for it.
     #[command(after_help = CONVERT_EXAMPLES)]
     Convert(ConvertArgs),
     /// Write the JSON Schema of a file to standard output
     ///
-    /// For editors and validators (draft 2020-12). It knows fields and types; what it accepts, `certify` may still refuse.
+    /// For editors and validators (draft 2020-12). The schema knows fields and types; `certify` may still refuse a file that it accepts.
     Schema(SchemaArgs),
     /// Write a completion script for a shell to standard output
     Completions {

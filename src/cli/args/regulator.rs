@@ -108,7 +108,7 @@ pub struct SimulateArgs {
           conflicts_with_all = ["high_gain", "fixed", "noise_power", "noise_everywhere"])]
     pub sampled: Option<String>,
 
-    /// 1: the law whose control is put out at the next sample, 0: the one without such a delay (`delay_samples` of the plant file
+    /// 1: the law whose control acts at the next sample, 0: the one without such a delay (`delay_samples` of the plant file
     /// without this flag; a file of --controller has its own)
     #[arg(long, value_name = "N", conflicts_with = "controller",
           value_parser = clap::value_parser!(u32).range(0..=1))]
@@ -118,7 +118,7 @@ pub struct SimulateArgs {
     #[arg(long, value_name = "D", allow_hyphen_values = true)]
     pub delay: Option<String>,
 
-    /// Measure e in multiples of QE and, if QU is given, put u out in multiples of QU
+    /// Measure e in multiples of QE and, if QU is given, output u in multiples of QU
     #[arg(long, value_name = "QE[,QU]", value_delimiter = ',', allow_hyphen_values = true)]
     pub quantise: Vec<String>,
 

@@ -98,14 +98,14 @@ def certify(
 
     There is a certificate only where every condition is proved. The options are those of `sigmastar certify`:
 
-    - `sigma`: certify this gain instead of the smallest one that is found;
+    - `sigma`: certify this gain instead of the smallest one found;
     - `sampling_period`: certify the regulator that a computer runs at samples this far apart;
     - `n_o`: numbers of oscillators (at most 8, up to 100) for each of which a rate and a factor are proved and claimed, at this gain, and bounds by the
       number of oscillators where there are some;
-    - `steady_error`, `peak_error`, `max_control`: certify the smallest gain that is found with which |e| along the periodic solution, |e|
-      on the way, or what is put out stays within this; the first with every number of oscillators, or, in continuous time and without `rate`, with
-      those of `n_o`;
-    - `rate`: certify the smallest gain that is found with which the rates for the numbers of `n_o` are at least this, in 1/time;
+    - `steady_error`, `peak_error`, `max_control`: certify a gain that keeps |e| along the periodic solution, |e| in the transient, or the
+      control (with `input_gain` over `nominal`) within this (the smallest found). The first is for every number of oscillators, or, in continuous
+      time and without `rate`, for those of `n_o`;
+    - `rate`: certify a gain with which the rates for the numbers of `n_o` are at least this, in 1/time (the smallest found);
     - `transfer`: the proof of the transfer bound, `best`, `boxes` or `closed-form`;
     - `precision_limit`: the precision in bits at which an undecided condition is given up;
     - `compare`: whether what else would give is worked out too, as bounds at larger gains, and the repaired derivation, for the report
