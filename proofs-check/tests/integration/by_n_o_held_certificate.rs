@@ -3,7 +3,8 @@
 
 use crate::by_n_o_held::{Law, WEIGHT_SUM};
 use crate::by_n_o_support::Loop;
-use crate::common::{accepted, assert_refused, deleted, edited, judged, parsed, rehash};
+use crate::common::{accepted, assert_refused, deleted, edited, every, judged, parsed, rehash};
+use crate::plant_mutations::mutate_in;
 use crate::rates::{refused, times};
 use proofs_check::verdict::Verdict::{BadInput, Invalid, Undecided};
 use serde_json::{Value, json};
@@ -257,5 +258,13 @@ fn what_is_not_said_at_samples() {
             refused(edited(made.clone(), &[(&place, json!("1"))]), BadInput, "format", &place);
             refused(edited(made.clone(), &[(&spare, json!("1"))]), BadInput, "format", &spare);
         }
+    }
+}
+
+/// Every leaf of what is said by n_o, and of what proves it, altered.
+#[test]
+fn leaves_of_a_certificate_by_n_o_at_samples() {
+    for delayed in [false, true] {
+        mutate_in(&made(delayed), every(29), &["/by_n_o/"]);
     }
 }

@@ -78,12 +78,19 @@ fn leaves_of_certificates_with_an_input_gain() {
     mutate("gain/splitting", every(29));
 }
 
-/// Of a certificate that is valid.
+/// What a certificate says of intervals.
+const INTERVALS: [&str; 3] = ["/input_gain", "/parameters", "/period/"];
+
+/// Of a stored certificate that is valid.
 pub fn mutate(name: &str, stride: usize) {
-    let original = stored(name);
+    mutate_in(&stored(name), stride, &INTERVALS);
+}
+
+/// Of a certificate that is valid, all that is below some names and some of the rest.
+pub fn mutate_in(original: &Value, stride: usize, names: &[&str]) {
     assert_eq!(check(original.to_string().as_bytes()).verdict, Verdict::Valid);
     let mut all = Vec::new();
-    pointers(&original, String::new(), &mut all);
+    pointers(original, String::new(), &mut all);
     let (mut made, mut holes) = (0, Vec::new());
     let mut accepted: BTreeMap<&str, usize> = BTreeMap::new();
     let mut judge = |pointer: &str, kind: &str, mutant: &Value| {
@@ -92,23 +99,22 @@ pub fn mutate(name: &str, stride: usize) {
         if report.verdict != Verdict::Valid {
             return;
         }
-        match harmless(&original, pointer, kind).or_else(|| of_claim(pointer, mutant, &report)) {
+        match harmless(original, pointer, kind).or_else(|| of_claim(pointer, mutant, &report)) {
             Some(class) => *accepted.entry(class).or_default() += 1,
             None => holes.push(format!("{pointer}: {kind}")),
         }
     };
     // The figures are not looked at.
     let places = all.iter().skip(1).filter(|place| !place.starts_with("/con"));
-    let about_intervals =
-        |place: &str| ["/input_gain", "/parameters", "/period/"].iter().any(|part| place.contains(part));
-    let intervals = all.iter().filter(|place| about_intervals(place));
-    for (place, pointer) in places.step_by(stride).chain(intervals).enumerate() {
+    let is_named = |place: &str| names.iter().any(|part| place.contains(part));
+    let named = all.iter().filter(|place| is_named(place));
+    for (place, pointer) in places.step_by(stride).chain(named).enumerate() {
         let value = original.pointer(pointer).unwrap();
         if value.is_object() || value.is_array() {
             continue;
         }
-        // What is said of intervals is altered everywhere, by turns in one half of the ways or the other.
-        let (turn, each) = if about_intervals(pointer) { (place % every(2), every(2)) } else { (0, 1) };
+        // What is named is altered everywhere, by turns in one half of the ways or the other.
+        let (turn, each) = if is_named(pointer) { (place % every(2), every(2)) } else { (0, 1) };
         let all = replacements(value).into_iter().filter(|(_, new)| new != value);
         for (kind, replacement) in all.skip(turn).step_by(each) {
             let mut mutant = original.clone();
@@ -119,7 +125,7 @@ pub fn mutate(name: &str, stride: usize) {
                 judge(pointer, &format!("{kind}, re-hashed"), &mutant);
             }
         }
-        judge(pointer, "deleted", &deleted(&original, pointer));
+        judge(pointer, "deleted", &deleted(original, pointer));
     }
     println!("{made} mutants, {} accepted", accepted.values().sum::<usize>());
     accepted.iter().for_each(|(class, count)| println!("  {count:5}  {class}"));
