@@ -142,6 +142,18 @@ pub(super) fn not_in_order(
     Some(whole(value, kind, message))
 }
 
+/// That `low` is certainly above `high`, with both.
+pub(super) fn exchanged(low_value: &Value<'_>, low: &Constant, high: &Constant) -> Option<SpecError> {
+    let (low, high) = (Quantity::constant(low), Quantity::constant(high));
+    if !high.lt(&low).is_true() {
+        return None;
+    }
+    let (low, high) = low.shown_apart(&high);
+    let message = format!("`low` = {low} is above `high` = {high}");
+    let error = whole(low_value, ErrorKind::Range, message).expected("expected low <= nominal <= high");
+    Some(error.help(format!("exchange the two: `low` is the smaller end, {high}, and `high` the larger one, {low}")))
+}
+
 /// The constant if the range is proved, else an error that says which of the two other answers it is.
 fn in_range(
     value: &Value<'_>,

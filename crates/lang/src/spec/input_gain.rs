@@ -1,8 +1,8 @@
 //! An actuator whose gain is known to an interval (derivation, 13.1): e' = q(t,x,e) + b u with a constant b.
 
-use super::constant::{not_in_order, positive_constant_in, whole};
+use super::constant::{exchanged, not_in_order, positive_constant_in, whole};
 use super::document::Value;
-use super::error::{ErrorKind, Errors, Reported, SpecError};
+use super::error::{ErrorKind, Errors, Reported};
 use super::interval::no_list;
 use super::parameters::Parameters;
 use super::parts::Constant;
@@ -168,18 +168,6 @@ pub(super) fn read_ordered(
     errors: &mut Errors,
 ) -> Result<[Constant; 3], Reported> {
     ordered_by(value, help, errors, |_, value, errors| positive_constant_in(value, names, errors))
-}
-
-/// That `low` is certainly above `high`, with both.
-pub(super) fn exchanged(low_value: &Value<'_>, low: &Constant, high: &Constant) -> Option<SpecError> {
-    let (low, high) = (Quantity::constant(low), Quantity::constant(high));
-    if !high.lt(&low).is_true() {
-        return None;
-    }
-    let (low, high) = low.shown_apart(&high);
-    let message = format!("`low` = {low} is above `high` = {high}");
-    let error = whole(low_value, ErrorKind::Range, message).expected("expected low <= nominal <= high");
-    Some(error.help(format!("exchange the two: `low` is the smaller end, {high}, and `high` the larger one, {low}")))
 }
 
 /// Reads `nominal`, `low` and `high` with the reader that is given, proved to be in order: low <= nominal <= high.

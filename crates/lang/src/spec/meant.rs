@@ -47,11 +47,11 @@ pub fn rounded_from(period: &Period) -> Option<String> {
     // The simplest fraction that is rounded to this decimal.
     let (over, under) = (1..=LARGEST).find_map(|under| {
         let over = Rational::from(&value * under).round();
-        let distance = Rational::from(&over / Rational::from(under)) - &value;
+        let distance = (&over / Rational::from(under)) - &value;
         (over > 0 && distance.abs() <= half).then_some((over, under))
     })?;
     let without = |mut number: u32, factor: u32| {
-        while number % factor == 0 {
+        while number.is_multiple_of(factor) {
             number /= factor;
         }
         number
@@ -60,8 +60,8 @@ pub fn rounded_from(period: &Period) -> Option<String> {
         return None;
     }
     let [sign, of_tens] = SIGNS;
-    let limit = if over == 1 && under % 10 == 0 { of_tens } else { sign };
-    (f64::from(under).powi(2) * 2.0 * half.to_f64() <= limit).then(|| format!("{over}/{under}"))
+    let limit = if over == 1 && under.is_multiple_of(10) { of_tens } else { sign };
+    (f64::from(under) * f64::from(under) * 2.0 * half.to_f64() <= limit).then(|| format!("{over}/{under}"))
 }
 
 #[cfg(test)]

@@ -1,9 +1,8 @@
 //! The named constants of a plant.
 
-use super::constant::{any_constant, whole};
+use super::constant::{any_constant, exchanged, whole};
 use super::document::Value;
 use super::error::{ErrorKind, Errors, Reported};
-use super::input_gain::exchanged;
 use super::interval::no_list;
 use super::object::{OF_FILE, belongs_above};
 use super::parts::Constant;

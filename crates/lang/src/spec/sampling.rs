@@ -142,7 +142,10 @@ impl Problem {
 
 /// The whole numbers of samples around a number that is not whole, and those around it with one digit beside zeros, in order.
 fn near(ratio: f64) -> Vec<u32> {
-    let ten = 10f64.powi(ratio.max(1.0).log10().floor() as i32);
+    let mut ten = 1.0;
+    while ten * 10.0 <= ratio && ten < f64::from(MAX_SAMPLES) {
+        ten *= 10.0;
+    }
     let mut all: Vec<u32> = [ratio.floor(), ratio.ceil(), (ratio / ten).floor() * ten, (ratio / ten).ceil() * ten]
         .into_iter()
         .filter(|count| *count >= 2.0 && *count <= f64::from(MAX_SAMPLES))
