@@ -107,6 +107,18 @@ fn an_input_gain_of_two_units_is_a_wide_interval() {
 }
 
 #[test]
+fn the_nominal_gain_is_shown_as_a_number() {
+    for (nominal, shown) in [("1/0.4", "the nominal gain, 2.5"), ("10/7000000007", "the nominal gain, about 1.43e-9")] {
+        let gain = json!({ "nominal": nominal, "low": format!("0.9*{nominal}"), "high": format!("1.1*{nominal}") });
+        let (code, text) = of(&[("/input_gain", gain)], &[]);
+        assert!(
+            code == 0 && text.contains(&format!("the regulator divides its output by {shown}")),
+            "{nominal}: {text}"
+        );
+    }
+}
+
+#[test]
 fn a_rounded_period_may_be_written_exactly() {
     let with = |period: &str| {
         let frequency =

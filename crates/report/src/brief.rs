@@ -303,10 +303,14 @@ fn input_gain(run: &Certification<'_>) -> Option<String> {
     Some(format!("{said}{known}"))
 }
 
+/// A number with so many characters at most is shown exactly.
+const SHORT: usize = 12;
+
 /// The interval of the input gain.
 fn uncertain_gain(spec: &Specification) -> Option<String> {
     let (interval, gain) = (words::input_gain(spec)?, spec.input_gain.as_ref()?);
-    let nominal = gain.nominal.as_rational().map_or_else(|| clean(&gain.nominal.text), write_exact);
+    let exact = gain.nominal.as_rational().map_or_else(|| clean(&gain.nominal.text), write_exact);
+    let nominal = if exact.len() <= SHORT { exact } else { format!("about {}", estimate(gain.nominal.to_f64())) };
     Some(format!("any constant from {interval}; the regulator divides its output by the nominal gain, {nominal}"))
 }
 
