@@ -104,7 +104,7 @@ mod tests {
         for (gain, told) in [
             (r#"{ "nominal": "1", "low": "1/(J - 0.2)", "high": "9" }"#, "no value that can be enclosed"),
             (r#"{ "nominal": "1", "low": "d", "high": "9" }"#, "must be positive"),
-            (r#"{ "nominal": "1/J", "low": "1/J", "high": "0.5/J" }"#, "high >= nominal fails"),
+            (r#"{ "nominal": "1/J", "low": "1/J", "high": "0.5/J" }"#, "`high` = 2.777777777"),
             (r#"{ "nominal": "5.7", "low": "1/J", "high": "6" }"#, ""),
             (r#"{ "nominal": "5", "low": "t/J", "high": "6" }"#, "`t` is not a known name"),
             (r#"{ "nominal": "5", "low": "1/J + x1", "high": "6" }"#, "`x1` is not a known name"),
