@@ -12,7 +12,7 @@ use proofs_core::interval::Interval;
 
 /// On how many parts of a sample |q'| is bounded: so many for each radian that the fastest harmonic turns in it, within these ends.
 const PARTS_OF_A_RADIAN: f64 = 20.0;
-const PARTS: [f64; 2] = [4.0, 16.0];
+const PARTS: [i64; 2] = [4, 16];
 
 /// q' in the middle of a part, on the part, and q'' on the part.
 type OnPart<T> = [T; 3];
@@ -41,7 +41,8 @@ impl Ways {
     /// For parts of [0, h], and harmonics up to the frequency `fastest`.
     pub fn new(axes: &Axes, of: &Exponential<'_>, fastest: &Interval, h: &Interval) -> Ways {
         let turned = (fastest * h).hi().to_f64();
-        let count = (PARTS_OF_A_RADIAN * turned).ceil().max(PARTS[0]).min(PARTS[1]) as i64;
+        // A number that is undefined becomes 0 as an integer, so there are parts in any case.
+        let count = ((PARTS_OF_A_RADIAN * turned).ceil() as i64).clamp(PARTS[0], PARTS[1]);
         let matrix = of.real();
         let output = matrix.last().cloned().unwrap_or_default();
         let zero = Jet::constant(&Interval::int(0, h.precision()));
