@@ -118,7 +118,7 @@ fn where_there_is_none_the_reason_is_told() {
     assert!(said.contains("`actuator`"), "{said}");
     let loud = [("disturbance", object!("1000"))];
     let said = reason(&with("paper-example-at-rest", &loud), &AT);
-    assert!(said.contains("no room"), "{said}");
+    assert!(said.contains("more than the proved region allows"), "{said}");
     // Without a list a remark says what they are for; and the claim has nothing of them.
     let (report, certificate) = certify(folder.path(), &with("paper-example-at-rest", &inputs()), &["--sigma", "60"]);
     assert!(report["remarks"].to_string().contains("--n-o LIST"), "{}", report["remarks"]);
