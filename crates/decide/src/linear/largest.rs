@@ -58,7 +58,7 @@ impl<'p> Answers<'p> {
 /// Bounds along the periodic solution of every member of the family at every gain of the actuator, for these oscillators.
 ///
 /// Hypothesis: the loop of each has exactly one T-periodic solution ([`super::Falling::decide`]). Guarantee: that one is so bounded. After so
-/// many boxes as `effort` none is cut any more; `None` where no bound is found by then.
+/// many boxes as `effort` (corners and middles, to which they are compared, not counted) none is cut any more; `None` where no bound is found by then.
 #[must_use]
 pub fn sizes(answers: &Answers<'_>, own: &Loop, oscillators: &Oscillators, effort: usize) -> Option<Sizes<Enclosure>> {
     let [low, high] = [own.gain[0].lower_rational()?, own.gain[1].upper_rational()?];
@@ -121,10 +121,10 @@ fn middle(ends: &[[Rational; 2]]) -> Ends {
     ends.iter().map(point).collect()
 }
 
-/// The corners of a box with a few sides; those of many are not looked at.
+/// The corners of a box with a few sides; those of many are not looked at, and a point has none.
 fn corners(ends: &[[Rational; 2]]) -> Vec<Ends> {
     let open: Vec<usize> = (0..ends.len()).filter(|side| ends[*side][0] != ends[*side][1]).collect();
-    if open.len() > MOST_CORNERS {
+    if open.is_empty() || open.len() > MOST_CORNERS {
         return Vec::new();
     }
     let corner = |which: usize| {
