@@ -114,7 +114,7 @@ impl NoNoiseBound {
             }
             NoNoiseBound::NotFound => "not proved: no Pi was found".to_owned(),
             NoNoiseBound::LeavesBox { limit, .. } => format!(
-                "not proved: noise and disturbances may move e by {}, more than the proved region allows; less of them, fewer oscillators, a \
+                "not proved: noise and disturbances may move e by about {}, more than the proved region allows; less of them, fewer oscillators, a \
                  larger gain (which lets more of the noise through) or a larger domain may help",
                 shown(limit)
             ),

@@ -3,6 +3,7 @@
 use super::shrunk::INITIAL_SET;
 use sigmastar_decide::bounds::SmoothnessFailure;
 use sigmastar_decide::orbit::OrbitNotProved;
+use sigmastar_exact::number::in_digits;
 use sigmastar_lang::plant::{PeriodicityFailure, Plant};
 use sigmastar_lang::spec::{ErrorKind, InitialSet, SpecErrors};
 use sigmastar_propose::orbit::OrbitFailure;
@@ -182,7 +183,7 @@ impl PlantRefusal {
 fn no_gain(obstacle: &Obstacle) -> String {
     let what = match obstacle.failing {
         Failing::Gain { given, .. } | Failing::Hold { sigma: given, given: true, .. } => {
-            format!("the gain {given} could not be proved for this set")
+            format!("the gain {} could not be proved for this set", in_digits(given, 4))
         }
         _ => "no proof was found for this initial set".to_owned(),
     };
