@@ -137,13 +137,7 @@ fn within(value: Interval, most: &Interval) -> Interval {
 #[allow(clippy::disallowed_methods, reason = "what is compared need not be the same on every machine")]
 mod tests {
     use super::*;
-    use rug::Rational;
-
-    const PRECISION: u32 = 53;
-
-    fn number(value: f64) -> Interval {
-        Interval::rational(&Rational::from_f64(value).unwrap(), PRECISION)
-    }
+    use crate::by_n_o::linear::tests::number;
 
     /// `middle + slope s` for s between -w and w, with numbers between -spread and spread added.
     fn line(middle: f64, slope: f64, w: f64, spread: f64) -> Jet<Interval> {

@@ -201,13 +201,8 @@ impl<T: Number> Jet<T> {
 #[allow(clippy::disallowed_methods, reason = "what is compared need not be the same on every machine")]
 mod tests {
     use super::*;
-    use rug::Rational;
-
-    const PRECISION: u32 = 53;
-
-    fn number(value: f64) -> Interval {
-        Interval::rational(&Rational::from_f64(value).unwrap(), PRECISION)
-    }
+    use crate::PRECISION;
+    use crate::by_n_o::linear::tests::number;
 
     /// A coordinate between `middle - w` and `middle + w`.
     fn coordinate(axis: usize, middle: f64, w: f64) -> Jet<Complex> {

@@ -194,13 +194,8 @@ pub fn spread(jet: &Jet<Complex>, axes: &Axes, axis: usize) -> f64 {
 #[allow(clippy::disallowed_methods, reason = "what is compared need not be the same on every machine")]
 mod tests {
     use super::*;
-    use rug::Rational;
-
-    const PRECISION: u32 = 53;
-
-    fn number(value: f64) -> Interval {
-        Interval::rational(&Rational::from_f64(value).unwrap(), PRECISION)
-    }
+    use crate::PRECISION;
+    use crate::by_n_o::linear::tests::number;
 
     /// `size cos(k Om t - phase)` for numbers between -w and w on one axis: they move the size by the derivative `slope`, and the phase by 1.
     fn wave(k: usize, size: f64, phase: f64, [w, slope]: [f64; 2]) -> Jet<Complex> {

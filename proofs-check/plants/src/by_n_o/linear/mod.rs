@@ -19,6 +19,8 @@ pub(super) mod oscillators;
 mod ring;
 mod series;
 mod system;
+#[cfg(test)]
+mod tests;
 
 use crate::machine::{Curves, Machine};
 use crate::read::Plant;
