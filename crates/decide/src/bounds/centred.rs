@@ -180,8 +180,14 @@ impl Frame {
                 self.chain(centre.exp(), values.clone(), &values, a)
             }
             Unary::Log => self.chain(centre.log(), range.log(), &range.recip(), a),
-            Unary::Sin => self.chain(centre.sin(), range.sin(), &range.cos(), a),
-            Unary::Cos => self.chain(centre.cos(), range.cos(), &range.sin().negate(), a),
+            Unary::Sin => {
+                let [cosines, sines] = range.cos_sin();
+                self.chain(centre.sin(), sines, &cosines, a)
+            }
+            Unary::Cos => {
+                let [cosines, sines] = range.cos_sin();
+                self.chain(centre.cos(), cosines, &sines.negate(), a)
+            }
             Unary::Tan => {
                 let values = range.tan();
                 let factor = values.sqr() + one();

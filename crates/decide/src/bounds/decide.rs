@@ -19,7 +19,6 @@ use sigmastar_matrix::doubles::largest;
 use sigmastar_matrix::doubles::{product, roots, transposed};
 use sigmastar_theory::evidence::Entry;
 use sigmastar_theory::evidence::Part;
-use std::sync::Arc;
 
 /// Up to so many cells each may take all of an effort; more of them share one.
 const WHOLE: usize = 4;
@@ -208,9 +207,10 @@ impl<'a> OnBoxes<'a> {
         // Formulas of t alone keep their values while its interval does; the slopes are per side, and sides stay.
         let changed = if *last == Some(side) { VariableSet::ALL_BUT_TIME } else { VariableSet::ALL };
         *last = Some(side);
+        let velocity = if quantity.is_carried() { engine.velocity(tube, side, &time) } else { &[] };
         let Placed { frame, t, x, e, p } = &placed;
         let outputs = quantity.walk.evaluate_again(&mut OnBox { frame, t, x, e, p }, memory, changed);
-        use_it(&Values { engine, chart, frame, quantity, outputs, time, error: e }, frame)
+        use_it(&Values { engine, chart, frame, quantity, outputs, time: &time, velocity, error: e }, frame)
     }
 }
 
@@ -224,7 +224,9 @@ pub(super) struct Values<'a> {
     pub(super) frame: &'a Frame,
     quantity: &'a Quantity,
     outputs: Vec<Centred>,
-    time: Arc<TimeCell>,
+    time: &'a TimeCell,
+    /// x_0', where the quantity goes with it.
+    velocity: &'a [Centred],
     /// e.
     error: &'a Centred,
 }
@@ -250,7 +252,7 @@ impl Values<'_> {
         for (row, along) in rows.iter_mut().zip(&self.quantity.along) {
             for (entry, terms) in row.iter_mut().zip(along) {
                 for (output, state) in terms {
-                    let velocity = self.chart.moving(frame, &self.time.velocity[*state]);
+                    let velocity = self.chart.moving(frame, &self.velocity[*state]);
                     *entry = frame.add(entry, &frame.mul(&self.outputs[*output], &velocity));
                 }
             }

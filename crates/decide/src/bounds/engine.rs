@@ -253,10 +253,8 @@ impl Engine {
         };
         let sensitivities: Vec<Vec<Centred>> = orbit.sensitivities.iter().map(along).collect();
         let orbit = along(&orbit.centre);
-        let frame = Frame { halves: vec![Enclosure::from_rational(&side.half(), PRECISION)], precision: PRECISION };
+        let frame = frame_in_time(side);
         let period = self.period();
-        // As unknown as v: all members at once.
-        let between = |[low, high]: [&Rational; 2]| Enclosure::between(low, high, PRECISION);
         let clock = self.clock.map(|clock| &parameters[clock]);
         let frequency = clock.map_or_else(|| period.recip(), |clock| between([&clock.low, &clock.high]) / &period);
         let matrices = self.matrices.each_ref().map(|matrix| {
@@ -272,6 +270,18 @@ impl Engine {
                 })
             })
         });
+        TimeCell { orbit, sensitivities, velocity: OnceLock::new(), matrices }
+    }
+
+    /// f(t, xb + L v, 0) for all |v| <= r and all p on a part of the period: few bounds ask for it.
+    pub(super) fn velocity<'c>(&self, tube: &Tube, side: Side, cell: &'c TimeCell) -> &'c [Centred] {
+        cell.velocity.get_or_init(|| self.velocity_of(tube, side, cell))
+    }
+
+    fn velocity_of(&self, Tube { region, parameters, .. }: &Tube, side: Side, cell: &TimeCell) -> Vec<Centred> {
+        let TimeCell { orbit, sensitivities, .. } = cell;
+        let frame = frame_in_time(side);
+        let period = self.period();
         let radius = region.radius();
         let x: Vec<Centred> = orbit
             .iter()
@@ -283,6 +293,7 @@ impl Engine {
                 frame.add(value, &frame.constant(deviation))
             })
             .collect();
+        // As unknown as v: all members at once.
         let deviations: Vec<Enclosure> =
             parameters.iter().map(|interval| between(interval.deviations().each_ref())).collect();
         let x: Vec<Centred> = x
@@ -303,7 +314,15 @@ impl Engine {
             slopes: vec![Some(period)],
         };
         let e = frame.constant(Enclosure::zero(PRECISION));
-        let velocity = self.velocity.evaluate(&mut OnBox { frame: &frame, t: &t, x: &x, e: &e, p: &p });
-        TimeCell { orbit, sensitivities, velocity, matrices }
+        self.velocity.evaluate(&mut OnBox { frame: &frame, t: &t, x: &x, e: &e, p: &p })
     }
+}
+
+fn between([low, high]: [&Rational; 2]) -> Enclosure {
+    Enclosure::between(low, high, PRECISION)
+}
+
+/// A part of the period, of which the only side is s = t/T.
+fn frame_in_time(side: Side) -> Frame {
+    Frame { halves: vec![Enclosure::from_rational(&side.half(), PRECISION)], precision: PRECISION }
 }

@@ -28,7 +28,7 @@ pub(super) fn extent(orbit: &TrigonometricVector, index: usize) -> [Rational; 2]
     let waves: Vec<[Enclosure; 2]> = (0..SAMPLES as i64)
         .map(|sample| {
             let angle = &turn * sample / SAMPLES as i64;
-            [angle.cos(), angle.sin()]
+            angle.cos_sin()
         })
         .collect();
     let exact = |value: &Rational| Enclosure::from_rational(value, PRECISION);

@@ -55,8 +55,34 @@ impl Engine {
         effort: usize,
         matrix: impl Fn(&Values<'_>, &Rational) -> Option<SymmetricValues>,
     ) -> Decision {
-        ends.iter().fold(Decision::TRUE, |all, moved| {
-            all.and(|| self.decide_part(part, at, effort, |values| matrix(values, moved)))
+        self.decide_all(ends, (part, at), effort, matrix)
+    }
+
+    /// Decides that `matrix(values, which)` is positive definite on `G(X, E)` for each of `all`, on the same boxes: what is evaluated there serves all.
+    pub(super) fn decide_all<W>(
+        &self,
+        all: &[W],
+        (part, at): (Part, [&Rational; 2]),
+        effort: usize,
+        matrix: impl Fn(&Values<'_>, &W) -> Option<SymmetricValues>,
+    ) -> Decision {
+        let quantity = self.first_derivatives(part);
+        let examine = |values: &Values<'_>, frame: &Frame, ball: &Ball, which: &W| match matrix(values, which) {
+            Some(mut matrix) => {
+                matrix.entries.retain(|(i, j, value)| i == j || !value.is_zero());
+                definite(frame, &matrix, ball)
+            }
+            None => Verdict::Stuck,
+        };
+        self.in_all(effort, |tube, effort| {
+            let chart = self.chart(tube, &quantity.active, at);
+            let mut boxes = OnBoxes::new(self, quantity, (tube, &chart));
+            subdivide(&chart, effort, |cell, ball| {
+                boxes.with(cell, ball, |values, frame| {
+                    let mut verdicts = all.iter().map(|which| examine(values, frame, ball, which));
+                    verdicts.find(|verdict| *verdict != Verdict::Holds).unwrap_or(Verdict::Holds)
+                })
+            })
         })
     }
 
@@ -68,19 +94,7 @@ impl Engine {
         effort: usize,
         matrix: impl Fn(&Values<'_>) -> Option<SymmetricValues>,
     ) -> Decision {
-        let quantity = self.first_derivatives(part);
-        let examine = |values: &Values<'_>, frame: &Frame, ball: &Ball| match matrix(values) {
-            Some(mut matrix) => {
-                matrix.entries.retain(|(i, j, value)| i == j || !value.is_zero());
-                definite(frame, &matrix, ball)
-            }
-            None => Verdict::Stuck,
-        };
-        self.in_all(effort, |tube, effort| {
-            let chart = self.chart(tube, &quantity.active, at);
-            let mut boxes = OnBoxes::new(self, quantity, (tube, &chart));
-            subdivide(&chart, effort, |cell, ball| boxes.with(cell, ball, |values, frame| examine(values, frame, ball)))
-        })
+        self.decide_all(&[()], (part, at), effort, |values, ()| matrix(values))
     }
 }
 

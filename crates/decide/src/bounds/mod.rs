@@ -7,7 +7,7 @@
 //! - [`Engine::decide_joint`], [`Engine::decide_joint_stability`]: the joint inequalities of existence and of stability;
 //! - [`Engine::decide_slopes`]: what rates for given n_o know of all derivatives together;
 //! - [`Engine::decide_sampled`], [`Engine::decide_sampled_existence`]: the matrix inequalities of the regulator at samples;
-//! - [`Engine::decide_form`], [`Engine::decide_states`]: the inequalities of the tube theorem;
+//! - [`Engine::decide_forms`], [`Engine::decide_states`]: the inequalities of the tube theorem;
 //! - [`Engine::explore`]: where a bound is large, for the next attempt; nothing rests on it.
 //!
 //! Within: `chart` (coordinates of boxes), `side` (their sides), `time_cell` (what depends on t alone), `extent` (the interval of a

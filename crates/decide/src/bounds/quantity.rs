@@ -104,9 +104,8 @@ impl Quantity {
             })
             .collect();
         let walk = formulas.walk(&outputs);
-        let carried = along.iter().flatten().any(|terms: &Vec<(usize, usize)>| !terms.is_empty());
         let mut active = Active::of(&walk);
-        active.time |= carried || (moves && kind.is_rate());
+        active.time |= moves && kind.is_rate();
         let inverse =
             matches!(kind, Bound::Fx | Bound::Fe | Bound::Rate | Bound::RateExistence | Bound::Fxx | Bound::Fex);
         let right = match kind {
@@ -114,7 +113,9 @@ impl Quantity {
             Bound::Fxx => Right::Pair,
             _ => Right::One,
         };
-        Some(Quantity { walk, plain, along, inverse, right, active })
+        let mut quantity = Quantity { walk, plain, along, inverse, right, active };
+        quantity.active.time |= quantity.is_carried();
+        Some(quantity)
     }
 
     /// First derivatives, by the formulas themselves.
@@ -130,5 +131,10 @@ impl Quantity {
         let row = |row: usize| (0..columns.len()).map(|column| row * columns.len() + column).collect();
         let plain = (0..=order).map(row).collect();
         Quantity { walk, plain, along: Vec::new(), inverse: false, right: Right::One, active }
+    }
+
+    /// Whether it goes with the velocity x_0'.
+    pub(super) fn is_carried(&self) -> bool {
+        self.along.iter().flatten().any(|terms| !terms.is_empty())
     }
 }

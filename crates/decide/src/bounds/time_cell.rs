@@ -5,6 +5,7 @@ use super::centred::Centred;
 use super::side::Side;
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
+use std::sync::OnceLock;
 
 /// The waves `cos(2 pi k s)`, `sin(2 pi k s)` for s = t/T in an interval: in its middle and all over it.
 #[derive(Clone, Debug)]
@@ -35,7 +36,7 @@ impl Waves {
         let range = Enclosure::between(&low, &high, PRECISION) * &turn;
         let waves = |angle: &Enclosure| -> Vec<[Enclosure; 2]> {
             let multiples = (1..=degree as i64).map(|k| angle * k);
-            multiples.map(|angle| [angle.cos(), angle.sin()]).collect()
+            multiples.map(|angle| angle.cos_sin()).collect()
         };
         let half = Enclosure::from_rational(&side.half(), PRECISION);
         Waves { middle: waves(&middle), range: waves(&range), half }
@@ -83,8 +84,8 @@ pub(super) struct TimeCell {
     pub(super) orbit: Vec<Centred>,
     /// What is added to it times `p_i - p_i^0`, for each parameter.
     pub(super) sensitivities: Vec<Vec<Centred>>,
-    /// f(t, xb + L v, 0) for all |v| <= r and all p.
-    pub(super) velocity: Vec<Centred>,
+    /// f(t, xb + L v, 0) for all |v| <= r and all p, once it is asked for.
+    pub(super) velocity: OnceLock<Vec<Centred>>,
     /// P and dP/dt, for the rate and the rate of existence.
     pub(super) matrices: [Option<[Vec<Vec<Centred>>; 2]>; 2],
 }

@@ -39,57 +39,66 @@ fn form_of(metric: &Metric, sigma: &Rational, moved: &Rational) -> MetricForm {
 }
 
 impl Engine {
-    /// Decides (14.4a) at a gain, with so many boxes at most.
+    /// Decides (14.4a) at a gain for each of these metrics, with so many boxes for all of them at most.
     ///
     /// Guarantee: `True` only if at every t and every point of `|y| <= X`, `|e| <= E` around the orbit of the region, with the derivatives of f and q
-    /// there in the coordinates y, the matrix (14.4a) of the metric is positive definite, its margins and k_p are positive, and the metric is
-    /// strictly between what the level says, for every member and gain of the actuator. For the caller to prove: what [`Engine::decide`] leaves to him.
+    /// there in the coordinates y, the matrix (14.4a) of each metric is positive definite, its margins and k_p are positive, and it is
+    /// strictly between what its level says, for every member and gain of the actuator. For the caller to prove: what [`Engine::decide`] leaves to him.
     #[must_use]
-    pub fn decide_form(
+    pub fn decide_forms(
         &self,
-        (metric, level): (&Metric, &Level),
+        forms: &[(Metric, Level)],
         sigma: &Rational,
         [x, e]: [&Rational; 2],
         effort: usize,
     ) -> Decision {
-        if !fits(metric, self.states()) || !lies_between(metric, level) || *sigma <= 0 {
+        let fits = |(metric, level): &(Metric, Level)| fits(metric, self.states()) && lies_between(metric, level);
+        if !forms.iter().all(fits) || *sigma <= 0 {
             return Decision::FALSE;
         }
         if *x < 0 || *e < 0 {
             return Decision::UNDECIDED;
         }
-        let form = |moved: &Rational| form_of(metric, sigma, moved);
         let ends = self.moved_slopes(sigma);
-        self.decide_ends(&ends, (Part::All, [x, e]), effort, |values, moved| form(moved).matrix(values))
+        let of_ends =
+            |(metric, _): &(Metric, Level)| ends.iter().map(|moved| form_of(metric, sigma, moved)).collect::<Vec<_>>();
+        let forms: Vec<MetricForm> = forms.iter().flat_map(of_ends).collect();
+        self.decide_all(&forms, (Part::All, [x, e]), effort, |values, form| form.matrix(values))
     }
 
-    /// Decides (14.5a) at a gain, with so many boxes for each of its parts at most; `s` is S.
+    /// Decides (14.5a) at a gain for each of these metrics with its S, with so many boxes for each of the parts at most.
     ///
     /// Guarantee: `True` only if with J and r at every point of `|y| <= X`, `|e| <= eta` around the orbit of the region, and with g and d at every point of
-    /// `|y| <= X`, `|e| <= E`, both matrices are positive definite, the margins and k_p are positive, p is 0, and the metric is strictly between what the
-    /// level says, for every member and gain of the actuator. For the caller to prove: what [`Engine::decide`] leaves to him.
+    /// `|y| <= X`, `|e| <= E`, both matrices of each metric are positive definite, its margins and k_p are positive, p is 0, and it is strictly between
+    /// what its level says, for every member and gain of the actuator. For the caller to prove: what [`Engine::decide`] leaves to him.
     #[must_use]
-    pub fn decide_form_x_first(
+    pub fn decide_forms_x_first(
         &self,
-        (metric, level, s): (&Metric, &Level, &[Vec<Rational>]),
+        forms: &[(Metric, Level)],
+        splittings: &[Vec<Vec<Rational>>],
         sigma: &Rational,
         ([x, e], eta): ([&Rational; 2], &Rational),
         effort: usize,
     ) -> Decision {
-        let alone = metric.cross.iter().all(|entry| *entry == 0) && is_symmetric(s, self.states() + 1);
-        if !fits(metric, self.states()) || !lies_between(metric, level) || *sigma <= 0 || !alone {
+        let fits = |((metric, level), s): (&(Metric, Level), &Vec<Vec<Rational>>)| {
+            let alone = metric.cross.iter().all(|entry| *entry == 0) && is_symmetric(s, self.states() + 1);
+            fits(metric, self.states()) && lies_between(metric, level) && alone
+        };
+        if forms.len() != splittings.len() || !forms.iter().zip(splittings).all(fits) || *sigma <= 0 {
             return Decision::FALSE;
         }
         if *x < 0 || *eta < 0 || eta > e {
             return Decision::UNDECIDED;
         }
-        let form = |moved: &Rational| form_of(metric, sigma, moved);
+        let at = |moved: &Rational| {
+            let metrics = forms.iter().map(|(metric, _)| form_of(metric, sigma, moved));
+            metrics.zip(splittings).collect::<Vec<_>>()
+        };
         // J and r do not have the gain.
-        let own = form(&Rational::new());
-        let first = self.decide_part(Part::States, [x, eta], effort, |values| own.beyond(s, values));
-        let ends = self.moved_slopes(sigma);
-        let beside = |values: &Values<'_>, moved: &Rational| form(moved).beside(s, values);
-        first.and(|| self.decide_ends(&ends, (Part::Error, [x, e]), effort, beside))
+        let own = at(&Rational::new());
+        let first = self.decide_all(&own, (Part::States, [x, eta]), effort, |values, (form, s)| form.beyond(s, values));
+        let ends: Vec<_> = self.moved_slopes(sigma).iter().flat_map(at).collect();
+        first.and(|| self.decide_all(&ends, (Part::Error, [x, e]), effort, |values, (form, s)| form.beside(s, values)))
     }
 
     /// Decides (14.4b), with so many boxes at most; of a plant without states it says nothing, and is true.

@@ -60,7 +60,8 @@ impl Held {
         let on_part = |(part, slope): (i64, &Vec<Enclosure>)| {
             let within = (&self.step * part / PARTS).hull(&(&self.step * (part + 1) / PARTS));
             let angle = frequency * &within;
-            let own = of_driving.mul(&Complex { re: angle.cos(), im: angle.sin() });
+            let [re, im] = angle.cos_sin();
+            let own = of_driving.mul(&Complex { re, im });
             let sum = rates.iter().zip(slope).fold(own, |sum, (rate, slope)| sum.add(&rate.all().scaled(slope)));
             sum.norm()
         };

@@ -88,7 +88,8 @@ impl Clock {
 /// The sine and the cosine of `pi j/N_s`.
 pub(super) fn half_turn(j: i64, samples: u32) -> [Enclosure; 2] {
     let angle = Enclosure::pi(PRECISION) * j / i64::from(samples);
-    [angle.sin(), angle.cos()]
+    let [cos, sin] = angle.cos_sin();
+    [sin, cos]
 }
 
 impl Family {

@@ -42,7 +42,7 @@ fn turned(m: usize, parts: usize) -> [Enclosure; 2] {
         return [m, m + 2 * KNOWN_PARTS - KNOWN_PARTS / 2].map(|m| COSINES[m % (2 * KNOWN_PARTS)].clone());
     }
     let angle = Enclosure::pi(PRECISION) * m as i64 / parts as i64;
-    [angle.cos(), angle.sin()]
+    angle.cos_sin()
 }
 
 /// The harmonics `w_k`, k = 0, 1, ..., K, of a vector `sum_k w_k e^{i k s}`, over -K..K with `w_-k = conj(w_k)`: they are the same in length, and w_0 is

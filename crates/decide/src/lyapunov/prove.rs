@@ -209,7 +209,7 @@ impl Entries {
         let precision = curvature[0].precision();
         let angle = Enclosure::from_rational(angle, precision);
         // By the addition theorem: a sine or cosine costs as much as fifty products.
-        let first = [angle.cos(), angle.sin()];
+        let first = angle.cos_sin();
         let next =
             |[cos, sin]: &[Enclosure; 2]| Some([cos * &first[0] - sin * &first[1], sin * &first[0] + cos * &first[1]]);
         let waves: Vec<[Enclosure; 2]> = std::iter::successors(Some(first.clone()), next).take(degree).collect();

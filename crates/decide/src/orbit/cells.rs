@@ -50,7 +50,7 @@ impl Cells {
         let circle = (0..2 * count)
             .map(|m| {
                 let angle = &turn * ratio(m as i64, 2 * count);
-                [angle.cos(), angle.sin()]
+                angle.cos_sin()
             })
             .collect();
         let powers = (1..=harmonics)

@@ -116,7 +116,7 @@ fn over(u: &[Enclosure], w: &[Enclosure], value: Enclosure, order: usize) -> Ser
 
 /// Sine and cosine: `s' = u' c`, `c' = -u' s`.
 pub(super) fn sin_cos(u: &[Enclosure], order: usize) -> [Series; 2] {
-    let (mut sin, mut cos) = (vec![u[0].sin()], vec![u[0].cos()]);
+    let [mut cos, mut sin] = u[0].cos_sin().map(|value| vec![value]);
     let w = weights(u);
     for k in 1..length(u, order) {
         let next = [weighted(&w, &cos, k, precision(u)), weighted(&w, &sin, k, precision(u)).negate()];

@@ -110,7 +110,7 @@ impl<'a> SampledDynamics<'a> {
         let unit = &law.pi * 2 / Enclosure::from_integer(i64::from(law.samples), data.precision);
         let turn = |l: usize| {
             let angle = &unit * (l as i64);
-            [angle.cos(), angle.sin()]
+            angle.cos_sin()
         };
         let turns = (0..=oscillators.order() / 2).map(turn).collect();
         let ordered = sample.slope[0].le(&sample.slope[1]) == Truth::True;

@@ -233,6 +233,15 @@ proptest! {
         }
     }
 
+    /// Both at once are what each by itself is.
+    #[test]
+    fn cosine_and_sine_are_the_same_together(a in sample()) {
+        let x = &a.enclosure;
+        let [cos, sin] = x.cos_sin();
+        prop_assert_eq!((&cos, &sin), (&x.cos(), &x.sin()));
+        prop_assert_eq!([cos.precision(), sin.precision()], [x.precision(); 2]);
+    }
+
     /// Between the ends of an interval there are no values but those of the function: the bounds are attained, up to
     /// rounding, at an end or at an extremum.
     #[test]

@@ -1,9 +1,38 @@
 //! Values in doubles, for searches and simulations; the same bits on every machine. They decide nothing.
 
-use super::{Family, downward, mirrored, of_reciprocal, polynomial, upward};
+use super::{Family, downward, mirrored, of_reciprocal, upward};
+use std::sync::LazyLock;
 
 /// Terms of Taylor's polynomials: for `|x| < 2 + k` the rest is below the last digit for the derivatives that anybody asks for.
 const TERMS: usize = 40;
+
+/// How many of them are enough up to which |x|: `|x|^J/J!` is below 2^-56 there.
+const ENOUGH: [(f64, usize); 4] = [(0.02, 8), (0.2, 12), (1.1, 20), (3.0, 30)];
+
+/// The orders of which the coefficients are known.
+const KNOWN: usize = 8;
+
+/// `I_(k+j)(0)/j!` for j = 0, 1, ...
+fn coefficients(family: Family, k: usize) -> [f64; TERMS] {
+    let mut factorial = 1.0;
+    std::array::from_fn(|j| {
+        factorial *= j.max(1) as f64;
+        family.sign(k + j) as f64 / ((k + j + 1) as f64 * factorial)
+    })
+}
+
+/// Those of the two families.
+static COEFFICIENTS: LazyLock<[[[f64; TERMS]; KNOWN]; 2]> = LazyLock::new(|| {
+    [Family::Exponential, Family::Wave].map(|family| std::array::from_fn(|k| coefficients(family, k)))
+});
+
+/// `I_k` near 0.
+fn taylor(family: Family, x: f64, k: usize) -> f64 {
+    let known = COEFFICIENTS[usize::from(family == Family::Wave)].get(k);
+    let coefficients = known.copied().unwrap_or_else(|| coefficients(family, k));
+    let terms = ENOUGH.iter().find(|(most, _)| x.abs() <= *most).map_or(TERMS, |(_, terms)| *terms);
+    coefficients[..terms].iter().rev().fold(0.0, |sum, own| sum * x + own)
+}
 
 /// The derivative of some order of `x/(e^x - 1)`, which is 1 at 0.
 #[must_use]
@@ -16,7 +45,7 @@ pub fn exprelr(x: f64, order: u32) -> f64 {
     // E_k, scaled by e^-y.
     let (decay, ends) = (libm::exp(-y), [1.0; 4]);
     let all = if y < 2.0 + k as f64 {
-        downward(&y, polynomial(Family::Exponential, &y, &1.0, k, TERMS) * decay, &ends, k)
+        downward(&y, taylor(Family::Exponential, y, k) * decay, &ends, k)
     } else {
         upward(&y, &(1.0 - decay), &ends, k)
     };
@@ -31,7 +60,7 @@ pub fn sinc(x: f64, order: u32) -> f64 {
         return 0.0;
     }
     if x.abs() < 1.0 + k as f64 {
-        return polynomial(Family::Wave, &x, &1.0, k, TERMS);
+        return taylor(Family::Wave, x, k);
     }
     let (sin, cos) = libm::sincos(x);
     upward(&x, &sin, &[sin, cos, -sin, -cos], k).pop().unwrap_or(f64::NAN)

@@ -1,9 +1,11 @@
 //! Values over intervals.
 
-use super::{Family, downward, mirrored, of_reciprocal, polynomial, upward};
+use super::{Family, downward, mirrored, of_reciprocal, upward};
 use crate::enclosure::Enclosure;
 use rug::float::Special;
-use rug::{Float, Rational};
+use rug::{Float, Integer, Rational};
+use std::collections::HashMap;
+use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 
 /// Terms of a Taylor polynomial at most; the rest is bounded in any case.
 const MAX_TERMS: usize = 300;
@@ -30,26 +32,60 @@ fn is_near(x: &Float) -> bool {
 
 /// `I_last` at a point with |x| < 1, by so many terms that nothing is left of the rest.
 fn top(family: Family, x: &Enclosure, last: usize, bound: i64) -> Enclosure {
-    let precision = x.precision();
     let size = x.abs();
-    let small = Float::with_val(precision, 1) >> (precision + 8);
-    let (mut power, mut terms) = (size.clone(), 1);
-    while power.upper() > small && terms < MAX_TERMS {
-        terms += 1;
-        power = power * &size / terms as i64;
-    }
-    with_rest(family, x, last, bound, (terms, power))
+    with_rest(family, x, last, bound, terms_for(&size))
 }
 
-/// `I_last(x)` by J terms of its series, with `|x|^J/J!` given: the rest is `I_(last+J)(xi) x^J/J!`, and `|I_m| <= bound/(m + 1)`.
-fn with_rest(family: Family, x: &Enclosure, last: usize, bound: i64, (terms, power): (usize, Enclosure)) -> Enclosure {
-    let rest = power * bound / (last + terms + 1) as i64;
-    polynomial(family, x, &Enclosure::one(x.precision()), last, terms) + around_zero(&rest)
+/// A number J of terms, at most [`MAX_TERMS`], with `s^J/J!` far below the last digit of a size s below 1 where there is one.
+fn terms_for(size: &Enclosure) -> usize {
+    let bits = f64::from(size.precision() + 8);
+    let of_size = -libm::log2(size.upper_f64());
+    let (mut below, mut terms) = (of_size, 1);
+    while below <= bits && terms < MAX_TERMS {
+        terms += 1;
+        below += of_size + libm::log2(terms as f64);
+    }
+    terms
+}
+
+/// `I_(k+j)(0)/j!` for j = 0, 1, ..., [`MAX_TERMS`] - 1, and `1/j!` for one more, at a precision.
+struct Coefficients {
+    of_powers: Vec<Enclosure>,
+    factorials: Vec<Enclosure>,
+}
+
+type Known = HashMap<(Family, usize, u32), Arc<Coefficients>>;
+
+/// Those of a family and an order k, made once for each precision.
+fn coefficients(family: Family, k: usize, precision: u32) -> Arc<Coefficients> {
+    static KNOWN: LazyLock<Mutex<Known>> = LazyLock::new(Mutex::default);
+    // Whoever panics while he holds the lock has changed nothing but whole entries.
+    let lock = || KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some(known) = lock().get(&(family, k, precision)) {
+        return known.clone();
+    }
+    let next = |(j, factorial): &(i64, Enclosure)| Some((j + 1, factorial / (j + 1)));
+    let all = std::iter::successors(Some((0, Enclosure::one(precision))), next);
+    let factorials: Vec<Enclosure> = all.take(MAX_TERMS + 1).map(|(_, factorial)| factorial).collect();
+    let own = |(j, factorial): (usize, &Enclosure)| factorial * family.sign(k + j) / (k + j + 1) as i64;
+    let of_powers = factorials.iter().take(MAX_TERMS).enumerate().map(own).collect();
+    let made = Arc::new(Coefficients { of_powers, factorials });
+    lock().insert((family, k, precision), made.clone());
+    made
+}
+
+/// `I_last(x)` by J terms of its series: the rest is `I_(last+J)(xi) x^J/J!`, and `|I_m| <= bound/(m + 1)`.
+fn with_rest(family: Family, x: &Enclosure, last: usize, bound: i64, terms: usize) -> Enclosure {
+    let known = coefficients(family, last, x.precision());
+    let zero = Enclosure::zero(x.precision());
+    let sum = known.of_powers[..terms].iter().rev().fold(zero, |sum, own| sum * x + own);
+    let power = x.abs().pow_integer(&Integer::from(terms)) * &known.factorials[terms];
+    sum + around_zero(&(power * bound / (last + terms + 1) as i64))
 }
 
 /// `S_0, ..., S_last` at a point.
 fn waves(x: &Enclosure, last: usize) -> Vec<Enclosure> {
-    let (sin, cos) = (x.sin(), x.cos());
+    let [cos, sin] = x.cos_sin();
     let ends = [sin.clone(), cos.clone(), sin.negate(), cos.negate()];
     if is_near(&x.upper()) {
         downward(x, top(Family::Wave, x, last, 1), &ends, last)
@@ -363,7 +399,7 @@ mod tests {
             let x = ratio(numerator, 16, 200);
             let power = (1..=terms).fold(Enclosure::one(200), |power, j| power * x.abs() / j as i64);
             for (family, bound) in [(Family::Exponential, 3), (Family::Wave, 1)] {
-                let found = with_rest(family, &x, last, bound, (terms, power.clone()));
+                let found = with_rest(family, &x, last, bound, terms);
                 let value = top(family, &x, last, bound);
                 assert!(
                     found.lower() <= value.upper() && value.lower() <= found.upper(),

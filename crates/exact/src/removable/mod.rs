@@ -20,7 +20,7 @@ pub use double::{exprelr, sinc};
 use crate::real::{Operand, Real};
 
 /// Which of the two families.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 enum Family {
     /// E_k.
     Exponential,
@@ -64,17 +64,6 @@ where
     }
     all.reverse();
     all
-}
-
-/// `sum_{j < terms} I_(k+j)(0) x^j/j!`; `one` is 1 at the precision of x.
-fn polynomial<R: Real>(family: Family, x: &R, one: &R, k: usize, terms: usize) -> R
-where
-    for<'a> &'a R: Operand<R>,
-{
-    (0..terms).rev().fold(R::int(0), |sum, j| {
-        let own = one * R::int(family.sign(k + j)) / R::int((k + j + 1) as i64);
-        sum * x / R::int(j as i64 + 1) + own
-    })
 }
 
 /// The k-th derivative of 1/I from those of I, `I_0, ..., I_k`: with `f_j = I_j/j!` the coefficients r of the reciprocal have

@@ -4,13 +4,14 @@ use super::around::{Around, Prepared, SHORT, up};
 use super::boxes::Fit;
 use crate::attempt::prove_value;
 use rug::Rational;
-use sigmastar_decide::bounds::StatesForm;
+use sigmastar_decide::bounds::{Decision, StatesForm};
 use sigmastar_decide::linear::PRECISION;
 use sigmastar_decide::trial::{Concluded, OrMore, Peaks, TubeProof, XFirst};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, round_f64, round_rational};
 use sigmastar_lang::spec::{Bound, Level, Metric};
 use sigmastar_propose::bounds::{FallingForm, FloatSuprema};
+use std::ops::Range;
 
 /// Digits of the numbers of a form.
 const DIGITS: u32 = 9;
@@ -86,15 +87,14 @@ impl Around<'_> {
         let [x, e] = x_first.radii.each_ref();
         self.in_domain(prepared, [x, e])?;
         engine.smooth(x, e).ok()?;
-        let decided = |((metric, level), s): (&(Metric, Level), &Vec<Vec<Rational>>)| {
-            let place = ([x, e], &x_first.eta);
-            engine.decide_form_x_first((metric, level, s), self.asked.sigma, place, self.effort()).truth.is_true()
-        };
-        let holds: Vec<bool> = x_first.forms.iter().zip(&x_first.splittings).map(decided).collect();
         // The box was fitted to the first.
-        holds.first().filter(|first| **first)?;
-        let all = x_first.forms.into_iter().zip(x_first.splittings).zip(holds);
-        (x_first.forms, x_first.splittings) = all.filter(|(_, holds)| *holds).map(|(form, _)| form).unzip();
+        let holding = holding(x_first.forms.len(), |those| {
+            let place = ([x, e], &x_first.eta);
+            let (forms, splittings) = (&x_first.forms[those.clone()], &x_first.splittings[those]);
+            engine.decide_forms_x_first(forms, splittings, self.asked.sigma, place, self.effort())
+        })?;
+        x_first.forms = kept(x_first.forms, &holding);
+        x_first.splittings = kept(x_first.splittings, &holding);
         let peaks = self.peaks(prepared, concluded, (&x_first.radii, &x_first.forms))?;
         Some((x_first, peaks))
     }
@@ -110,14 +110,11 @@ impl Around<'_> {
         let has_states = self.asked.plant.states() > 0;
         self.in_domain(prepared, [&x, &e])?;
         engine.smooth(&x, &e).ok()?;
-        let decided = |(metric, level): &(Metric, Level)| {
-            engine.decide_form((metric, level), self.asked.sigma, [&x, &e], self.effort()).truth.is_true()
-        };
         // The first is that of Theorem T.
-        let holds: Vec<bool> = forms.iter().map(decided).collect();
-        holds.first().filter(|first| **first)?;
-        let mut holds = holds.into_iter();
-        forms.retain(|_| holds.next() == Some(true));
+        let holding = holding(forms.len(), |those| {
+            engine.decide_forms(&forms[those], self.asked.sigma, [&x, &e], self.effort())
+        })?;
+        forms = kept(forms, &holding);
         let first = forms.first()?;
         let slope = |bound| prove_value(engine, samples, bound, &x, &e).map(|proved| proved.value);
         let of_states = |bound| if has_states { slope(bound) } else { Some(Rational::new()) };
@@ -177,6 +174,24 @@ impl Around<'_> {
             gamma: up(gamma, SHORT)?,
         })
     }
+}
+
+/// Which of so many forms hold, by what decides all of some at once; `None` where the first does not.
+fn holding(count: usize, decide: impl Fn(Range<usize>) -> Decision) -> Option<Vec<bool>> {
+    let holds = |those: Range<usize>| decide(those).truth.is_true();
+    if count == 0 || holds(0..count) {
+        return (count > 0).then(|| vec![true; count]);
+    }
+    if count == 1 || !holds(0..1) {
+        return None;
+    }
+    let others = (1..count).map(|one| holds(one..one + 1));
+    Some(std::iter::once(true).chain(others).collect())
+}
+
+/// Those that hold.
+fn kept<T>(all: Vec<T>, holding: &[bool]) -> Vec<T> {
+    all.into_iter().zip(holding).filter(|(_, holds)| **holds).map(|(one, _)| one).collect()
 }
 
 /// With room for a velocity of the states that is known to d_x alone, also where the value is 0; what follows hardly depends on it.
