@@ -4,6 +4,7 @@ mod clocks;
 mod directions;
 mod existence;
 mod families;
+mod forms;
 mod inequality;
 mod input_gain;
 mod joint;
