@@ -124,22 +124,22 @@ impl CertifyOptions {
     }
 
     /// Certify a gain that keeps |e| of the periodic solution at most this, a positive rational number (the smallest found), for
-    /// every number of oscillators, or, in continuous time and without [`CertifyOptions::rate`], for those of [`CertifyOptions::n_o`], where there are
-    /// some, which often needs a far smaller gain; with [`CertifyOptions::sigma`] refuse a gain with which that is not proved.
+    /// every number of oscillators, or for those of [`CertifyOptions::n_o`], where there are some, which often needs a far smaller gain. Without
+    /// [`CertifyOptions::rate`] bounds by the number of oscillators count, too. With [`CertifyOptions::sigma`] refuse a gain with which that is not proved.
     #[must_use]
     pub fn steady_error(self, limit: impl Into<String>) -> CertifyOptions {
         self.limited(0, limit.into())
     }
 
-    /// Certify a gain that keeps |e| at all times from the initial set at most this, a positive rational number (the smallest found);
-    /// with [`CertifyOptions::sigma`] refuse a gain with which that is not proved.
+    /// Certify a gain that keeps |e| at all times from the initial set at most this, a positive rational number (the smallest found), in the same
+    /// way; with [`CertifyOptions::sigma`] refuse a gain with which that is not proved.
     #[must_use]
     pub fn peak_error(self, limit: impl Into<String>) -> CertifyOptions {
         self.limited(1, limit.into())
     }
 
     /// Certify a gain that keeps the control, with an input gain over the nominal one, at all times from the initial set at most this, a
-    /// positive rational number (the smallest found). The bound grows with the gain. With [`CertifyOptions::sigma`] refuse a gain with which that is not proved.
+    /// positive rational number (the smallest found), in the same way. The bound grows with the gain. With [`CertifyOptions::sigma`] refuse a gain with which that is not proved.
     #[must_use]
     pub fn max_control(self, limit: impl Into<String>) -> CertifyOptions {
         self.limited(2, limit.into())

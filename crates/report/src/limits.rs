@@ -15,27 +15,34 @@ use sigmastar_theory::derivation::sampled::SampledEvaluation;
 struct Bounds<'r> {
     /// The rates for the numbers of oscillators that were asked about.
     rates: Vec<(u32, Option<&'r Rational>)>,
-    /// |e| along the periodic solution, with the numbers of oscillators that are asked about, or with every one.
-    steady: Enclosure,
-    /// |e| in the transient.
-    peak: &'r Enclosure,
-    /// What is put out.
-    control: &'r Control<Enclosure>,
+    /// |e| along the periodic solution and in the transient, and what is put out at all times: with the numbers of oscillators that are asked about, or with
+    /// every one.
+    all: [Enclosure; 3],
 }
 
 impl<'r> Bounds<'r> {
     /// Those of a claim in continuous time.
     fn of_run(run: &'r Certification<'_>) -> Option<Bounds<'r>> {
-        let (steady, peak, control) = run.bounds()?;
-        let steady = run.steady_error_with(&run.limits.steady_with).unwrap_or_else(|| steady.clone());
-        Some(Bounds { rates: run.rates().collect(), steady, peak, control })
+        let all = match &run.limits.by_count {
+            Some(counts) => run.bounds_with(counts)?,
+            None => of_conditions(run.bounds()?),
+        };
+        Some(Bounds { rates: run.rates().collect(), all })
     }
 
     /// Those of a claim at samples.
     fn of_samples(run: &'r SampledCertification<'_>) -> Option<Bounds<'r>> {
         let SampledEvaluation { size, peak, control, .. } = &run.claim()?.evaluation;
-        Some(Bounds { rates: run.rates().collect(), steady: size.e_per.clone(), peak, control })
+        let all = match &run.limits.by_count {
+            Some(counts) => run.bounds_with(counts)?,
+            None => of_conditions((&size.e_per, peak, control)),
+        };
+        Some(Bounds { rates: run.rates().collect(), all })
     }
+}
+
+fn of_conditions((steady, peak, control): (&Enclosure, &Enclosure, &Control<Enclosure>)) -> [Enclosure; 3] {
+    [steady.clone(), peak.clone(), &control.steady + &control.transient]
 }
 
 /// " At sigma = 39.8018, |e| <= 0.1 (proved: 0.0997) in the transient, ...": what a claim keeps to, which a larger gain need not; empty where nothing was
@@ -56,17 +63,16 @@ fn in_words(sigma: Option<&Rational>, kept: Option<String>) -> String {
 
 /// "|e| <= 0.1 (proved: 0.0997) in the transient, ..."; nothing where nothing was asked for.
 fn kept(limits: &Limits, bounds: &Bounds<'_>) -> Option<String> {
-    let named = named(limits, bounds).into_iter().filter_map(|(name, [size, place], limit, bound)| {
-        let with = if name == STEADY { with_counts(&limits.steady_with) } else { String::new() };
-        limit.map(|limit| format!("$`{size} <= {limit}`$ (proved: {}) {place}{with}", upper(&bound)))
+    let named = named(limits, bounds).into_iter().filter_map(|(_, [size, place], limit, bound)| {
+        limit.map(|limit| format!("$`{size} <= {limit}`$ (proved: {}) {place}{}", upper(&bound), with_counts(limits)))
     });
     let all: Vec<String> = named.chain(rate_kept(limits, bounds)).collect();
     (!all.is_empty()).then(|| all.join(", "))
 }
 
 /// " with n_o = 4, 10", where a bound is one with these; empty where it is for every number.
-fn with_counts(counts: &[u32]) -> String {
-    let counts: Vec<String> = counts.iter().map(u32::to_string).collect();
+fn with_counts(limits: &Limits) -> String {
+    let counts: Vec<String> = limits.by_count.iter().flatten().map(u32::to_string).collect();
     if counts.is_empty() { String::new() } else { format!(" with $`n_o = {}`$", counts.join(", ")) }
 }
 
@@ -83,19 +89,16 @@ fn slowest<'r>(bounds: &Bounds<'r>) -> Option<&'r Rational> {
     bounds.rates.iter().map(|(_, rate)| *rate).min()?
 }
 
-/// The field of |e| along the periodic solution.
-const STEADY: &str = "steady_error";
-
 /// What may be limited: its field, what is bounded and where, the limit that was asked for, and what is proved.
 type Named = (&'static str, [&'static str; 2], Option<String>, Enclosure);
 
 fn named(limits: &Limits, bounds: &Bounds<'_>) -> [Named; 3] {
     let text = |limit: &Option<Rational>| limit.as_ref().map(write_exact);
-    let largest = &bounds.control.steady + &bounds.control.transient;
+    let [steady, peak, control] = bounds.all.clone();
     [
-        (STEADY, ["|e|", "along the periodic solution"], text(&limits.steady_error), bounds.steady.clone()),
-        ("peak_error", ["|e|", "in the transient"], text(&limits.peak_error), bounds.peak.clone()),
-        ("control", ["|u|", "in the transient"], text(&limits.control), largest),
+        ("steady_error", ["|e|", "along the periodic solution"], text(&limits.steady_error), steady),
+        ("peak_error", ["|e|", "in the transient"], text(&limits.peak_error), peak),
+        ("control", ["|u|", "in the transient"], text(&limits.control), control),
     ]
 }
 
@@ -117,8 +120,8 @@ fn kept_json(limits: &Limits, bounds: &Bounds<'_>) -> Option<Value> {
     let fields: Map<String, Value> = named
         .filter_map(|(name, _, limit, bound)| {
             let mut kept = json!({ "asked": limit?, "proved": full(&bound) });
-            if name == STEADY && !limits.steady_with.is_empty() {
-                kept["n_o"] = json!(limits.steady_with);
+            if let Some(counts) = limits.by_count.as_ref().filter(|counts| !counts.is_empty()) {
+                kept["n_o"] = json!(counts);
             }
             Some((name.to_owned(), kept))
         })

@@ -25,17 +25,18 @@ pub struct CertifyArgs {
     #[arg(long, value_name = "V", allow_hyphen_values = true)]
     pub sigma: Option<String>,
 
-    /// Certify a gain that keeps |e| of the periodic solution at most V for every n_o (the smallest found); with --n-o, without --rate
-    /// and in continuous time, for the numbers of LIST, which often needs a far smaller gain
+    /// Certify a gain that keeps |e| of the periodic solution at most V (the smallest found), for every n_o, or with --n-o for the numbers
+    /// of LIST, which often needs a far smaller gain
     #[arg(long, value_name = "V", allow_hyphen_values = true)]
     pub steady_error: Option<String>,
 
-    /// Certify a gain that keeps |e| at most V in the transient from the initial set (the smallest found)
+    /// Certify a gain that keeps |e| at most V in the transient from the initial set (the smallest found), for every n_o, or with --n-o for the
+    /// numbers of LIST
     #[arg(long, value_name = "V", allow_hyphen_values = true)]
     pub peak_error: Option<String>,
 
     /// Certify a gain that keeps the control, with `input_gain` over `nominal`, at most V in the transient from the initial set (the
-    /// smallest found)
+    /// smallest found), for every n_o, or with --n-o for the numbers of LIST
     #[arg(long, value_name = "V", allow_hyphen_values = true)]
     pub max_control: Option<String>,
 

@@ -103,8 +103,8 @@ def certify(
     - `n_o`: numbers of oscillators (at most 8, up to 100) for each of which a rate and a factor are proved and claimed, at this gain, and bounds by the
       number of oscillators where there are some;
     - `steady_error`, `peak_error`, `max_control`: certify a gain that keeps |e| along the periodic solution, |e| in the transient, or the
-      control (with `input_gain` over `nominal`) within this (the smallest found). The first is for every number of oscillators, or, in continuous
-      time and without `rate`, for those of `n_o`;
+      control (with `input_gain` over `nominal`) within this (the smallest found), for every number of oscillators, or for those of `n_o`
+      where there are some;
     - `rate`: certify a gain with which the rates for the numbers of `n_o` are at least this, in 1/time (the smallest found);
     - `transfer`: the proof of the transfer bound, `best`, `boxes` or `closed-form`;
     - `precision_limit`: the precision in bits at which an undecided condition is given up;

@@ -123,9 +123,9 @@ impl Limited {
     pub fn describe(self) -> &'static str {
         match self {
             Limited::SteadyError => "the steady |e| is not proved to be at most",
-            Limited::PeakError => "|e| on the way from the initial set is not proved to be at most",
-            Limited::Control => "what is put out is not proved to be at most",
-            Limited::Actuator => "C6: what is put out is not proved to be at most the max of the actuator,",
+            Limited::PeakError => "|e| in the transient is not proved to be at most",
+            Limited::Control => "|u| in the transient is not proved to be at most",
+            Limited::Actuator => "C6: |u| in the transient is not proved to be at most the max of the actuator,",
         }
     }
 }

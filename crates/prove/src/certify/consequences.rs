@@ -2,11 +2,8 @@
 //! error box, the regulated output behind a filter.
 
 use super::certification::{Certification, RelativeDegreeGains};
-use super::options::Limits;
 use super::sampled::SampledCertification;
-use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
-use sigmastar_propose::search::{Failing, Limited};
 use sigmastar_theory::data::{Bound, Data, Problem};
 use sigmastar_theory::derivation::consequences::{ErrorBounds, Excitation, error_bounds};
 use sigmastar_theory::derivation::control::Control;
@@ -43,37 +40,6 @@ impl Certification<'_> {
         let mistuning = Mistuning::new(&data);
         let (excitation, sigma) = (self.excitation()?, data.rational(claim.sigma));
         Some(error_bounds(&data, excitation, mistuning.as_ref(), &sigma, e_per, n_o))
-    }
-
-    /// A bound of |e| along the periodic solution with each of these numbers of oscillators, at the gain of the claim: the least that is proved.
-    /// `None` without a certified claim.
-    #[must_use]
-    pub fn steady_error_with(&self, counts: &[u32]) -> Option<Enclosure> {
-        let with = |n_o: &u32| {
-            let known = self.error_with(u64::from(*n_o))?.sup;
-            let own = self.by_count.as_ref().and_then(|found| found.at(u64::from(*n_o)));
-            Some(own.map_or_else(|| known.clone(), |own| known.min(&own.steady_error)))
-        };
-        counts.iter().map(with).reduce(|a, b| Some(a?.max(&b?)))?
-    }
-
-    /// Whether that is proved to be at most this.
-    pub(crate) fn keeps_steady_error(&self, most: &Rational, counts: &[u32]) -> bool {
-        let bound = self.steady_error_with(counts).and_then(|bound| bound.upper_rational());
-        bound.is_some_and(|bound| bound <= *most)
-    }
-
-    /// Takes the claim back where the steady error was to be kept with some numbers of oscillators, and is not.
-    pub(crate) fn keep_to_steady_error(&mut self) {
-        let Limits { steady_error, steady_with, .. } = &self.limits;
-        let asked = steady_error.as_ref().filter(|_| !steady_with.is_empty());
-        if let Some((asked, sigma)) = asked.zip(self.sigma_star())
-            && !self.keeps_steady_error(asked, steady_with)
-        {
-            let least = self.steady_error_with(steady_with).map_or(f64::INFINITY, |bound| bound.upper_f64());
-            let (asked, sigma) = (asked.to_f64(), sigma.to_f64());
-            self.take_back(Failing::Limit { which: Limited::SteadyError, asked, least, sigma, proved: false });
-        }
     }
 
     fn excitation(&self) -> Option<&Excitation> {

@@ -120,13 +120,28 @@ impl ByCount {
         self.counts.iter().filter(|bounds| bounds.n_o().is_some()).find(reaches)?.n_o()
     }
 
+    /// The largest of a bound over these numbers of oscillators, or over all of them where there are none; none where it is not known of one.
+    pub(super) fn over(&self, counts: &[u32], of: &dyn Fn(&CountBounds) -> Option<Enclosure>) -> Option<Enclosure> {
+        let all: Vec<Enclosure> = match counts {
+            [] => {
+                self.is_about_all().then_some(())?;
+                self.counts.iter().filter(|bounds| bounds.n_o().is_some()).map(of).collect::<Option<_>>()?
+            }
+            _ => counts.iter().map(|n_o| of(self.at(u64::from(*n_o))?)).collect::<Option<_>>()?,
+        };
+        all.into_iter().reduce(|a, b| a.max(&b))
+    }
+
+    /// Whether bounds of every number of oscillators are known.
+    fn is_about_all(&self) -> bool {
+        let first: Vec<u64> = self.counts.iter().filter_map(CountBounds::n_o).collect();
+        let last = self.counts.iter().rfind(|bounds| bounds.n_o().is_some());
+        first.iter().copied().eq(0..first.len() as u64) && last.is_some_and(|last| last.or_more)
+    }
+
     /// The largest of a bound over all numbers of oscillators; none where not all are known.
     pub(super) fn largest(&self, of: impl Fn(&CountBounds) -> Option<&Enclosure>) -> Option<Enclosure> {
-        let first: Vec<&CountBounds> = self.counts.iter().filter(|bounds| bounds.n_o().is_some()).collect();
-        let all: Vec<&Enclosure> = first.iter().map(|bounds| of(bounds)).collect::<Option<_>>()?;
-        let complete = first.iter().filter_map(|bounds| bounds.n_o()).eq(0..first.len() as u64);
-        let complete = complete && first.last()?.or_more;
-        all.into_iter().cloned().reduce(|a, b| a.max(&b)).filter(|_| complete)
+        self.over(&[], &|bounds| of(bounds).cloned())
     }
 }
 

@@ -35,7 +35,7 @@ pub(super) const ROOMS: [f64; 4] = [1e-4, 1e-3, 1e-2, 0.1];
 impl FloatLimits {
     /// None where nothing is to be kept.
     pub(super) fn new(spec: &Specification, limits: &Limits) -> Option<FloatLimits> {
-        let [steady, peak, control] = [limits.steady_for_every(), limits.peak_error.as_ref(), limits.control.as_ref()];
+        let [steady, peak, control] = limits.of_conditions().map(|(_, limit)| limit);
         let float = |limit: Option<&Rational>| limit.map(Rational::to_f64);
         let actuator = spec.actuator.as_ref().map(|actuator| actuator.max.to_f64());
         let limits = [

@@ -11,6 +11,7 @@ mod constants;
 mod gain_row;
 mod gains;
 mod jacobian;
+pub(crate) mod kept;
 mod least_limit;
 mod limits;
 mod matrix_checks;

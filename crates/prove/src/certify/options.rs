@@ -63,14 +63,16 @@ impl Options {
 /// What a claim is to keep to, at its gain; each where it is asked for.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Limits {
-    /// Of |e| along the periodic solution, for every n_o, or for those of `steady_with`.
+    /// Of |e| along the periodic solution.
     pub steady_error: Option<Rational>,
-    /// The numbers of oscillators with which the steady error is meant; empty for every one.
-    pub steady_with: Vec<u32>,
-    /// Of |e| on the way from the initial set, at all times.
+    /// Of |e| in the transient from the initial set, at all times.
     pub peak_error: Option<Rational>,
-    /// Of what is put out, on the way from the initial set, at all times.
+    /// Of what is put out, in the transient from the initial set, at all times.
     pub control: Option<Rational>,
+    /// Whether these three are judged by all that is proved at the gain of the claim, what is proved by the number of oscillators included
+    /// ([`Certification::set_counts`](super::Certification::set_counts)): for these numbers, or for every one where there are none. `None`: by what the
+    /// conditions of the claim prove for every number.
+    pub by_count: Option<Vec<u32>>,
     /// Of the rates for the numbers of oscillators that are asked about, in 1/time: each is at least this.
     pub rate: Option<Rational>,
 }
@@ -79,30 +81,41 @@ impl Limits {
     /// Whether nothing is asked for.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.rate.is_none() && self.steady_error.is_none() && self.named().all(|(_, limit)| limit.is_none())
+        self.rate.is_none() && !self.bounds_anything()
     }
 
-    /// That of |e| along the periodic solution for every n_o.
-    pub(super) fn steady_for_every(&self) -> Option<&Rational> {
-        self.steady_error.as_ref().filter(|_| self.steady_with.is_empty())
+    /// Whether something other than rates is asked for.
+    #[must_use]
+    pub fn bounds_anything(&self) -> bool {
+        self.named().iter().any(|(_, limit)| limit.is_some())
     }
 
-    fn named(&self) -> impl Iterator<Item = (Limited, Option<&Rational>)> {
+    /// The steady error, the peak and the control.
+    pub(super) fn named(&self) -> [(Limited, Option<&Rational>); 3] {
         [
-            (Limited::SteadyError, self.steady_for_every()),
+            (Limited::SteadyError, self.steady_error.as_ref()),
             (Limited::PeakError, self.peak_error.as_ref()),
             (Limited::Control, self.control.as_ref()),
         ]
-        .into_iter()
     }
 
-    /// Whether the bounds at the gain of a proof are certainly not above, rates and the steady error with some n_o apart: of |e| along the periodic solution and on the way, and of the
-    /// control.
+    /// Those of them that the conditions of a claim are to prove.
+    pub(super) fn of_conditions(&self) -> [(Limited, Option<&Rational>); 3] {
+        self.named().map(|(which, limit)| (which, limit.filter(|_| self.by_count.is_none())))
+    }
+
+    /// Whether there are such.
+    pub(crate) fn are_of_conditions(&self) -> bool {
+        self.of_conditions().iter().any(|(_, limit)| limit.is_some())
+    }
+
+    /// Whether what the conditions of a claim prove at its gain keeps to them: of |e| along the periodic solution and in the transient, and of the
+    /// control. Rates, and what is judged by the number of oscillators, are no part of it.
     #[must_use]
     pub fn kept(&self, [steady, peak]: [&Enclosure; 2], control: &Control<Enclosure>) -> bool {
         let largest = &control.steady + &control.transient;
         let bounds = [steady, peak, &largest];
-        self.named().zip(bounds).all(|((_, limit), bound)| {
+        self.of_conditions().into_iter().zip(bounds).all(|((_, limit), bound)| {
             limit.is_none_or(|limit| bound.upper_rational().is_some_and(|upper| upper <= *limit))
         })
     }

@@ -47,6 +47,7 @@ pub struct Reduced {
 }
 
 /// A choice for a family of plants, with a constant P.
+#[derive(Clone)]
 pub(super) struct Near {
     /// Its coordinates, as they were rounded.
     pub(super) coordinates: Coordinates,

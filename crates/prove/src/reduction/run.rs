@@ -2,7 +2,7 @@
 
 mod deciding;
 mod seeking;
-mod steady;
+mod with_counts;
 
 pub use deciding::Checked;
 
@@ -26,6 +26,7 @@ use sigmastar_theory::derivation::sampled::SampledWitness;
 use std::sync::OnceLock;
 
 /// Where a search may start, of the regulator in continuous time or of the one at samples; or the numbers that stand in its place.
+#[derive(Clone)]
 enum Start {
     Continuous(Option<Box<Sought>>),
     Sampled(Box<Sampling>, Option<SoughtAtSamples>),
@@ -33,6 +34,7 @@ enum Start {
 }
 
 /// A subject whose data are proved, for one question.
+#[derive(Clone)]
 pub struct Prepared {
     spec: Specification,
     start: Start,
@@ -59,6 +61,7 @@ pub struct Prepared {
 }
 
 /// Data by norms, of the regulator in continuous time or of the one at samples.
+#[derive(Clone)]
 enum Last {
     Continuous(Box<ProvedData>),
     Sampled(Box<Specification>, SampledProposal),
@@ -194,7 +197,7 @@ impl Prepared {
     /// with which it does.
     #[must_use]
     pub fn within(self, limits: Limits, watch: &dyn Watch) -> Prepared {
-        let kept = !limits.is_empty() || self.spec.actuator.is_some();
+        let kept = limits.are_of_conditions() || limits.rate.is_some() || self.spec.actuator.is_some();
         let sought = kept && self.gain.is_none() && matches!(self.start, Start::Continuous(_));
         let plant = self.plant.as_ref().filter(|_| sought);
         let by_norms = |plant: &Plant| {
@@ -234,9 +237,12 @@ impl Run<'_> {
         match self {
             Run::Continuous(run) => {
                 run.keep_to_rate();
-                run.keep_to_steady_error();
+                run.keep_to_counts();
             }
-            Run::Sampled(run) => run.keep_to_rate(),
+            Run::Sampled(run) => {
+                run.keep_to_rate();
+                run.keep_to_counts();
+            }
         }
         Ok(())
     }

@@ -14,6 +14,7 @@ use sigmastar_lang::spec::{
 use sigmastar_propose::search::{SampledProposal, SharpProposal};
 
 /// Where the search for a gain may start, and what it saw beside.
+#[derive(Clone)]
 pub(super) struct Sought {
     pub(super) proposal: SharpProposal,
     pub(super) alternatives: Alternatives,
@@ -24,6 +25,7 @@ pub(super) struct Sought {
 }
 
 /// Where the search for a gain at samples may start, and what it saw beside.
+#[derive(Clone)]
 pub(super) struct SoughtAtSamples {
     pub(super) proposal: SampledProposal,
     /// Other data at a gain that is given, and where the search for a witness may start.

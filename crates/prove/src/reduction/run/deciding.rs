@@ -61,9 +61,7 @@ impl Prepared {
     ) -> Result<Run<'_>, Vec<SpecErrors>> {
         watch.enter(Stage::Witness);
         let counted = |run: &mut Run<'_>, besides: &[Oscillators]| {
-            if let Some(plant) =
-                self.plant.as_deref().filter(|_| options.compare || !self.limits.steady_with.is_empty())
-            {
+            if let Some(plant) = self.plant.as_deref().filter(|_| options.compare || self.limits.by_count.is_some()) {
                 run.set_counts(plant, besides);
             }
         };

@@ -43,8 +43,8 @@ impl Prepared {
     /// The data of a subject for the smallest gain that is found with which the limits are kept, the least rate among them, of these numbers
     /// of oscillators; where no gain has it, for the one with the largest rate that is found. A run with it whose rates are proved
     /// decides anew ([`Run::prove_rates`]). A claim of a plant rests on norms where it can and what is asked needs them: rates at samples, what
-    /// noise does, and limits at samples that are kept with them alone. At the gain that is given nothing is sought. In continuous time, and without a
-    /// least rate, the steady error is one with these numbers of oscillators, where there are some.
+    /// noise does, and limits at samples that are kept with them alone. At the gain that is given nothing is sought. Without a least rate the other
+    /// limits are about these numbers of oscillators, where there are some and the plant has bounds by their number.
     ///
     /// # Errors
     /// Those of [`Prepared::new`].
@@ -61,12 +61,11 @@ impl Prepared {
             (_, Some(gain)) => {
                 let prepared = search.at(Some(gain))?;
                 let norms_from = search.norms_from(&prepared);
-                Prepared { norms_from, ..prepared.within(limits.clone(), watch) }
+                search.given_with_these_counts(Prepared { norms_from, ..prepared.within(limits.clone(), watch) })
             }
-            (None, None) => search.within_limits()?,
+            (None, None) => search.smallest_with_these_counts()?,
             (Some(least), None) => search.with_rate(least)?,
         };
-        let prepared = if limits.rate.is_some() { prepared } else { search.with_these_counts(prepared) };
         Ok(Prepared { counts: counts.to_vec(), ..prepared })
     }
 }
@@ -113,8 +112,9 @@ impl Search<'_> {
         }
     }
 
-    fn within_limits(&self) -> Result<Prepared, Vec<SpecErrors>> {
-        let prepared = self.at(None)?.within(self.limits.clone(), self.watch);
+    /// What is proved for the smallest gain, or by norms, prepared to keep to the limits by the conditions of a claim.
+    pub(super) fn within_limits(&self, smallest: Prepared) -> Prepared {
+        let prepared = smallest.within(self.limits.clone(), self.watch);
         let certifies = |prepared: &Prepared| {
             prepared
                 .certify_checked(self.options, &|_| Checked::Decided, self.watch)
@@ -123,10 +123,10 @@ impl Search<'_> {
         let plant_at_samples = matches!(self.subject, Subject::Plant(_)) && self.subject.sampling().is_some();
         let has_other = plant_at_samples && !self.asks_for_norms() && !self.limits.is_empty();
         if !has_other || certifies(&prepared) {
-            return Ok(prepared);
+            return prepared;
         }
         let other = self.by_norms(None).map(|other| other.within(self.limits.clone(), self.watch));
-        Ok(other.ok().filter(certifies).unwrap_or(prepared))
+        other.ok().filter(certifies).unwrap_or(prepared)
     }
 
     fn with_rate(&self, least: &Rational) -> Result<Prepared, Vec<SpecErrors>> {

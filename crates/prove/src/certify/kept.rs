@@ -1,0 +1,136 @@
+//! Limits that are judged by all that is proved at the gain of a claim, bounds by the number of oscillators included (derivation, 13.5, 14).
+
+use super::certification::Certification;
+use super::gain_row::{ByCount, CountBounds};
+use super::options::Limits;
+use super::sampled::SampledCertification;
+use rug::Rational;
+use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_propose::search::{Failing, Limited};
+
+/// A limit beside what is proved.
+struct Against {
+    which: Limited,
+    asked: f64,
+    least: f64,
+    kept: bool,
+}
+
+impl Against {
+    fn share(&self) -> f64 {
+        self.least / self.asked
+    }
+}
+
+/// What is proved of the steady error, the peak and the control, beside the limits of them.
+fn against(limits: &Limits, bounds: [Enclosure; 3]) -> Vec<Against> {
+    let one = |((which, limit), bound): ((Limited, Option<&Rational>), Enclosure)| {
+        let kept = |limit: &Rational| bound.upper_rational().is_some_and(|upper| upper <= *limit);
+        limit.map(|limit| Against { which, asked: limit.to_f64(), least: bound.upper_f64(), kept: kept(limit) })
+    };
+    limits.named().into_iter().zip(bounds).filter_map(one).collect()
+}
+
+/// How far what is proved at a gain is from limits.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Shares {
+    /// The largest share that the steady error and the peak have of their limits, which falls with the gain; where these are kept, or not asked for, that
+    /// of the control.
+    pub(crate) next: f64,
+    /// The largest share of all.
+    pub(crate) largest: f64,
+    /// Whether the limits of the error are kept.
+    pub(crate) keeps_error: bool,
+    /// Whether all are.
+    pub(crate) keeps_all: bool,
+}
+
+fn shares(all: &[Against]) -> Option<Shares> {
+    let largest = |of: &dyn Fn(&&Against) -> bool| all.iter().filter(of).map(Against::share).reduce(f64::max);
+    let keeps = |of: &dyn Fn(&&Against) -> bool| all.iter().filter(of).all(|against| against.kept);
+    let is_of_error = |against: &&Against| against.which != Limited::Control;
+    let (of_all, keeps_error) = (largest(&|_| true)?, keeps(&is_of_error));
+    let next = largest(&is_of_error).filter(|_| !keeps_error).unwrap_or(of_all);
+    Some(Shares { next, largest: of_all, keeps_error, keeps_all: keeps(&|_| true) })
+}
+
+/// The limit that is missed by most at a gain.
+fn missed(all: &[Against], sigma: &Rational) -> Option<Failing> {
+    let missed = all.iter().filter(|against| !against.kept);
+    let Against { which, asked, least, .. } = missed.max_by(|a, b| a.share().total_cmp(&b.share()))?;
+    Some(Failing::Limit { which: *which, asked: *asked, least: *least, sigma: sigma.to_f64(), proved: true })
+}
+
+/// The smaller of what holds for every number of oscillators and what is proved for some.
+fn least([steady, peak, control]: [Enclosure; 3], by_count: Option<&ByCount>, counts: &[u32]) -> [Enclosure; 3] {
+    let smaller = |known: Enclosure, of: &dyn Fn(&CountBounds) -> Option<Enclosure>| {
+        let found = by_count.and_then(|found| found.over(counts, of));
+        found.map_or_else(|| known.clone(), |found| known.min(&found))
+    };
+    [
+        smaller(steady, &|bounds| Some(bounds.steady_error.clone())),
+        smaller(peak, &|bounds| Some(bounds.largest.as_ref()?.error.clone())),
+        smaller(control, &CountBounds::largest_control),
+    ]
+}
+
+impl Certification<'_> {
+    /// Bounds of |e| along the periodic solution and in the transient, and of the control, with each of these numbers of oscillators, or with every one
+    /// where there are none, at the gain of the claim: the least that are proved. `None` without a certified claim.
+    #[must_use]
+    pub fn bounds_with(&self, counts: &[u32]) -> Option<[Enclosure; 3]> {
+        let (steady, peak, control) = self.bounds()?;
+        let with = |n_o: &u32| Some(self.error_with(u64::from(*n_o))?.sup);
+        let found: Option<Enclosure> = counts.iter().map(with).reduce(|a, b| Some(a?.max(&b?))).flatten();
+        let steady = found.map_or_else(|| steady.clone(), |found| steady.min(&found));
+        let known = [steady, peak.clone(), &control.steady + &control.transient];
+        Some(least(known, self.by_count.as_ref(), counts))
+    }
+
+    fn against(&self, limits: &Limits) -> Vec<Against> {
+        let bounds = limits.by_count.as_ref().and_then(|counts| self.bounds_with(counts));
+        bounds.map_or_else(Vec::new, |bounds| against(limits, bounds))
+    }
+
+    /// Takes the claim back where a limit was to be kept by what is proved by the number of oscillators, and is not.
+    pub(crate) fn keep_to_counts(&mut self) {
+        let missed = self.sigma_star().and_then(|sigma| missed(&self.against(&self.limits), sigma));
+        if let Some(missed) = missed {
+            self.take_back(missed);
+        }
+    }
+
+    /// How far what is proved is from the limits that are judged by the number of oscillators.
+    pub(crate) fn shares_of_limits(&self, limits: &Limits) -> Option<Shares> {
+        shares(&self.against(limits))
+    }
+}
+
+impl SampledCertification<'_> {
+    /// The same at samples.
+    #[must_use]
+    pub fn bounds_with(&self, counts: &[u32]) -> Option<[Enclosure; 3]> {
+        let evaluation = &self.claim()?.evaluation;
+        let control = &evaluation.control.steady + &evaluation.control.transient;
+        let known = [evaluation.size.e_per.clone(), evaluation.peak.clone(), control];
+        Some(least(known, self.by_count.as_ref(), counts))
+    }
+
+    fn against(&self, limits: &Limits) -> Vec<Against> {
+        let bounds = limits.by_count.as_ref().and_then(|counts| self.bounds_with(counts));
+        bounds.map_or_else(Vec::new, |bounds| against(limits, bounds))
+    }
+
+    /// The same at samples.
+    pub(crate) fn keep_to_counts(&mut self) {
+        let missed = self.claim().and_then(|proof| missed(&self.against(&self.limits), &proof.witness.sigma));
+        if let Some(missed) = missed {
+            self.take_back(missed);
+        }
+    }
+
+    /// The same at samples.
+    pub(crate) fn shares_of_limits(&self, limits: &Limits) -> Option<Shares> {
+        shares(&self.against(limits))
+    }
+}
