@@ -42,6 +42,7 @@ mod fuzz;
 mod gallery;
 mod html;
 mod input_gain;
+mod limits_by_count;
 mod linear_at_samples;
 mod linear_plants;
 mod lmi_decay;

@@ -96,7 +96,9 @@ fn what_is_broken_proves_nothing() {
     let engine = Engine::new(&trial.about(&plant), region, None, None).unwrap();
     let (sigma, at) = (Rational::from(3), [&proof.radii[0], &proof.radii[1]]);
     let (metric, level) = &proof.forms[0];
-    let truth = |metric: &Metric, level: &Level| engine.decide_form((metric, level), &sigma, at, 2000).truth;
+    let truth = |metric: &Metric, level: &Level| {
+        engine.decide_forms(&[(metric.clone(), level.clone())], &sigma, at, 2000).truth
+    };
     assert_eq!(truth(metric, level), Truth::True);
     for (what, metric, level) in [
         ("c_y", Metric { c_y: rational(2, 5), ..metric.clone() }, level.clone()),
@@ -232,7 +234,8 @@ fn along_x_first_both_inequalities_are_asked_for() {
     let s = vec![vec![rational(3, 2), rational(-1, 10)], vec![rational(-1, 10), rational(2, 5)]];
     let (sigma, eta) = (Rational::from(3), rational(1, 1000));
     let truth = |metric: &Metric, level: &Level, s: &[Vec<Rational>], eta: &Rational| {
-        engine.decide_form_x_first((metric, level, s), &sigma, ([&proof.radii[0], &proof.radii[1]], eta), 2000).truth
+        let place = ([&proof.radii[0], &proof.radii[1]], eta);
+        engine.decide_forms_x_first(&[(metric.clone(), level.clone())], &[s.to_vec()], &sigma, place, 2000).truth
     };
     assert_eq!(truth(metric, level, &s, &eta), Truth::True);
     let with = |i: usize, j: usize, value: Rational| {

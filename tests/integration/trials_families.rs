@@ -123,7 +123,9 @@ fn the_gain_of_the_actuator_counts_at_both_ends() {
     // d is between -1 and -0.9 near the trial; (1 - b) sigma moves it by 0.3 up and down.
     let truth = |plant: &Plant, metric: &Metric| {
         let engine = Engine::new(&trial.about(plant), region.clone(), None, None).unwrap();
-        engine.decide_form((metric, level), &sigma, [&proof.radii[0], &proof.radii[1]], 20_000).truth
+        engine
+            .decide_forms(&[(metric.clone(), level.clone())], &sigma, [&proof.radii[0], &proof.radii[1]], 20_000)
+            .truth
     };
     assert_eq!(truth(&plant, metric), Truth::True);
     let nominal = Plant { input_gain: None, ..plant.clone() };

@@ -61,6 +61,14 @@ fn missed(all: &[Against], sigma: &Rational) -> Option<Failing> {
     Some(Failing::Limit { which: *which, asked: *asked, least: *least, sigma: sigma.to_f64(), proved: true })
 }
 
+impl ByCount {
+    /// Whether it has bounds of each of these numbers of oscillators, or of every one where there are none.
+    #[must_use]
+    pub(crate) fn covers(&self, counts: &[u32]) -> bool {
+        self.over(counts, &|bounds| Some(bounds.steady_error.clone())).is_some()
+    }
+}
+
 /// The smaller of what holds for every number of oscillators and what is proved for some.
 fn least([steady, peak, control]: [Enclosure; 3], by_count: Option<&ByCount>, counts: &[u32]) -> [Enclosure; 3] {
     let smaller = |known: Enclosure, of: &dyn Fn(&CountBounds) -> Option<Enclosure>| {

@@ -45,6 +45,8 @@ pub struct Prepared {
     sets: Vec<Oscillators>,
     /// About the smallest gain, where `gain` was not given but found above it.
     found_above: Option<f64>,
+    /// The plant, where it is one: bounds by the number of oscillators are from its formulas.
+    formulas: Option<Box<Plant>>,
     /// The plant, where it is one and the claim need not rest on norms.
     plant: Option<Box<Plant>>,
     /// The data of that plant by norms, where bounds are to be kept: of a larger gain than the least one they may say more.
@@ -138,10 +140,11 @@ impl Prepared {
         Ask { gain, on, rows }: Ask,
         watch: &dyn Watch,
     ) -> Result<Prepared, Vec<SpecErrors>> {
-        let plant = match &subject {
-            Subject::Plant(plant) if on == RestsOn::Either => Some(plant.clone()),
-            _ => None,
+        let formulas = match &subject {
+            Subject::Plant(plant) => Some(plant.clone()),
+            Subject::Specification(_) => None,
         };
+        let plant = formulas.clone().filter(|_| on == RestsOn::Either);
         match subject.sampling().cloned() {
             None => {
                 let beside = match &gain {
@@ -150,12 +153,12 @@ impl Prepared {
                     None => Beside::Nothing,
                 };
                 let (spec, start) = subject.proved_with_alternatives((beside, on), watch)?;
-                Ok(Prepared { plant, ..Prepared::of(spec, Start::Continuous(start), gain) })
+                Ok(Prepared { formulas, plant, ..Prepared::of(spec, Start::Continuous(start), gain) })
             }
             Some(sampling) => {
                 let (spec, start) = subject.proved_at_samples(&sampling, (gain.as_ref(), on), watch)?;
                 let start = Start::Sampled(Box::new(sampling), start);
-                Ok(Prepared { plant, ..Prepared::of(spec, start, gain) })
+                Ok(Prepared { formulas, plant, ..Prepared::of(spec, start, gain) })
             }
         }
     }
@@ -169,6 +172,7 @@ impl Prepared {
             counts: Vec::new(),
             sets: Vec::new(),
             found_above: None,
+            formulas: None,
             plant: None,
             by_norms: None,
             quick: OnceLock::new(),

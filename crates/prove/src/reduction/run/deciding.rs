@@ -61,7 +61,8 @@ impl Prepared {
     ) -> Result<Run<'_>, Vec<SpecErrors>> {
         watch.enter(Stage::Witness);
         let counted = |run: &mut Run<'_>, besides: &[Oscillators]| {
-            if let Some(plant) = self.plant.as_deref().filter(|_| options.compare || self.limits.by_count.is_some()) {
+            let plant = self.formulas.as_deref();
+            if let Some(plant) = plant.filter(|_| options.compare || self.limits.by_count.is_some()) {
                 run.set_counts(plant, besides);
             }
         };
@@ -194,7 +195,7 @@ impl Prepared {
         run.smallest_gain = run.smallest_gain.map(|least| proposal.map_or(least, |known| known.sigma.min(least)));
         if options.compare {
             run.set_gains(pool);
-            if let Some(plant) = self.plant.as_deref() {
+            if let Some(plant) = self.formulas.as_deref() {
                 run.set_counts_of_rows(plant);
             }
         }
@@ -274,7 +275,7 @@ impl Prepared {
         run.norms_from = self.norms_from;
         if options.compare {
             run.set_gains(start.map(|sought| &sought.proposal), options.ladder);
-            if let Some(plant) = self.plant.as_deref() {
+            if let Some(plant) = self.formulas.as_deref() {
                 run.set_counts_of_rows(plant);
             }
         }
@@ -369,6 +370,13 @@ impl Run<'_> {
         }
         if let Some(found) = self.by_count_mut() {
             found.checked = true;
+        }
+    }
+
+    pub(super) fn by_count(&self) -> Option<&ByCount> {
+        match self {
+            Run::Continuous(run) => run.by_count.as_ref(),
+            Run::Sampled(run) => run.by_count.as_ref(),
         }
     }
 

@@ -184,6 +184,10 @@ impl Search<'_> {
     fn tried_with(&self, prepared: &Prepared) -> Option<Tried> {
         let run = prepared.certify_checked(self.options, &|_| Checked::Decided, self.watch).ok()?;
         let sigma = run.certified()?.sigma.clone();
+        // What is proved for every number of oscillators alone is a matter of the conditions of the claim.
+        if self.is_of_plant() && !run.by_count().is_some_and(|found| found.covers(self.counts)) {
+            return None;
+        }
         let shares = match &run {
             Run::Continuous(run) => run.shares_of_limits(&prepared.limits),
             Run::Sampled(run) => run.shares_of_limits(&prepared.limits),
