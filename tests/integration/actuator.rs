@@ -226,7 +226,7 @@ fn a_gain_that_keeps_to_limits() {
     }
     let (code, never) = report(&[&file, "--max-control", "1"]);
     assert_eq!(code, 3);
-    assert!(never["statement"].as_str().unwrap().contains("what is put out is not proved to be at most 1"));
+    assert!(never["statement"].as_str().unwrap().contains("|u| in the transient is not proved to be at most 1"));
     // Below what it is at the start no gain keeps it, in continuous time and at samples.
     let folder = tempfile::tempdir().unwrap();
     let started = text(NAME, &[("/initial_set", object!({ "kind": "at-rest", "X0": "1/10", "E0": "1/10" }))]);

@@ -34,9 +34,8 @@ fn against(limits: &Limits, bounds: [Enclosure; 3]) -> Vec<Against> {
 /// How far what is proved at a gain is from limits.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Shares {
-    /// The largest share that the steady error and the peak have of their limits, which falls with the gain; where these are kept, or not asked for, that
-    /// of the control.
-    pub(crate) next: f64,
+    /// The largest share that the steady error and the peak have of their limits, which falls with the gain; 0 where they have none.
+    pub(crate) error: f64,
     /// The largest share of all.
     pub(crate) largest: f64,
     /// Whether the limits of the error are kept.
@@ -49,9 +48,12 @@ fn shares(all: &[Against]) -> Option<Shares> {
     let largest = |of: &dyn Fn(&&Against) -> bool| all.iter().filter(of).map(Against::share).reduce(f64::max);
     let keeps = |of: &dyn Fn(&&Against) -> bool| all.iter().filter(of).all(|against| against.kept);
     let is_of_error = |against: &&Against| against.which != Limited::Control;
-    let (of_all, keeps_error) = (largest(&|_| true)?, keeps(&is_of_error));
-    let next = largest(&is_of_error).filter(|_| !keeps_error).unwrap_or(of_all);
-    Some(Shares { next, largest: of_all, keeps_error, keeps_all: keeps(&|_| true) })
+    Some(Shares {
+        error: largest(&is_of_error).unwrap_or(0.0),
+        largest: largest(&|_| true)?,
+        keeps_error: keeps(&is_of_error),
+        keeps_all: keeps(&|_| true),
+    })
 }
 
 /// The limit that is missed by most at a gain.
@@ -59,6 +61,13 @@ fn missed(all: &[Against], sigma: &Rational) -> Option<Failing> {
     let missed = all.iter().filter(|against| !against.kept);
     let Against { which, asked, least, .. } = missed.max_by(|a, b| a.share().total_cmp(&b.share()))?;
     Some(Failing::Limit { which: *which, asked: *asked, least: *least, sigma: sigma.to_f64(), proved: true })
+}
+
+impl Shares {
+    /// What is to fall next: that of the error; once it is kept, that of the control.
+    pub(crate) fn next(&self) -> f64 {
+        if self.keeps_error { self.largest } else { self.error }
+    }
 }
 
 impl ByCount {

@@ -39,10 +39,10 @@ impl Tried {
     /// grows.
     fn factor(&self, found: Option<&Tried>) -> f64 {
         let distance = |a: f64, b: f64| (a / b).portable_ln();
-        let falls = found.filter(|found| found.shares.keeps_all).map_or(1.0, |found| {
-            distance(self.shares.next, found.shares.next) / distance(found.sigma.to_f64(), self.sigma.to_f64())
+        let falls = found.filter(|found| !self.shares.keeps_error && found.shares.error > 0.0).map_or(1.0, |found| {
+            distance(self.shares.error, found.shares.error) / distance(found.sigma.to_f64(), self.sigma.to_f64())
         });
-        (distance(self.shares.next, 1.0) / falls).portable_exp()
+        (distance(self.shares.next(), 1.0) / falls).portable_exp()
     }
 }
 
@@ -162,7 +162,7 @@ impl Search<'_> {
                 best = Some((prepared, tried));
                 continue;
             }
-            rises = if tried.shares.next < below.shares.next { 0 } else { rises + 1 };
+            rises = if tried.shares.next() < below.shares.next() { 0 } else { rises + 1 };
             if tried.shares.largest < nearest.1 {
                 nearest = (prepared, tried.shares.largest);
             }
