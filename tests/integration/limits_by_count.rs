@@ -133,3 +133,18 @@ fn rates_at_samples_do_not_take_the_table_away() {
     assert!(last["n_o"] == 6 && last["or_more"] == true && number(&last["steady"]["e"]) < 1e-3, "{last}");
     assert!(!report["gains"].as_array().unwrap().is_empty());
 }
+
+/// The claim is about every set of harmonics, and bounds by their number are not.
+#[test]
+fn of_other_sets_of_harmonics_nothing_is_said() {
+    let folder = tempfile::tempdir().unwrap();
+    let (code, text) = said(folder.path(), &["--peak-error", "5/2"]);
+    assert_eq!(code, 0, "{text}");
+    for words in [
+        "for oscillators at every set of harmonics with 0",
+        "in the transient with every n_o.",
+        "(|e| and |u| with every n_o; both at this gain)",
+    ] {
+        assert!(text.contains(words), "{words}: {text}");
+    }
+}

@@ -11,7 +11,7 @@ use sigmastar_document::{Block, clean};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, write_exact};
 use sigmastar_lang::spec::Specification;
-use sigmastar_prove::certify::{Certification, SampledCertification, claimed_ball};
+use sigmastar_prove::certify::{ByCount, Certification, SampledCertification, claimed_ball};
 use sigmastar_prove::rate::bound::RateBound;
 use sigmastar_prove::rate::found::ForCount;
 use sigmastar_prove::rate::noise::{NoNoiseBound, NoiseBound};
@@ -84,7 +84,11 @@ pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences
     // It grows with the gain, of which the claim says "or any larger".
     let [x, _, zeta, z] = periodic;
     let periodic = [x, steady, zeta, z];
-    let control = Some((&control, " (both at this gain)"));
+    // Bounds by the number of oscillators say nothing of other sets of harmonics, of which the claim is, too.
+    let of_first = run.is_for_every_set() && run.by_count.as_ref().is_some_and(ByCount::is_about_all);
+    let which =
+        if of_first { " ($`|e|`$ and $`|u|`$ with every $`n_o`$; both at this gain)" } else { " (both at this gain)" };
+    let control = Some((&control, which));
     let transient = (upper(&error_box[0]), &peak);
     facts.push(("periodic solution", periodic_solution(run.spec, &periodic, transient, control)));
     facts.push(("assumed", assumed(run.spec, run.largest_arguments(), None)));
@@ -179,8 +183,10 @@ pub(super) fn of_samples(
     facts.extend(for_n_o_at_samples(run).map(|said| ("convergence", said)));
     let [x, _, zeta, z] = periodic.clone();
     let along = [x, steady, zeta, z];
+    let of_first = run.spec.internal_model.asks_every_set() && run.by_count.as_ref().is_some_and(ByCount::is_about_all);
+    let of_first = if of_first { " ($`|e|`$ and $`|u|`$ with every $`n_o`$)" } else { "" };
     let transient = (exact(&witness.d_x, Direction::Up), &peak);
-    facts.push(("periodic solution", periodic_solution(run.spec, &along, transient, Some((&control, "")))));
+    facts.push(("periodic solution", periodic_solution(run.spec, &along, transient, Some((&control, of_first)))));
     facts.extend(uncertain_gain(run.spec).map(|said| ("input gain", said)));
     facts.extend(interval_costs(run.spec, &run.interval_costs, "the gain").map(|said| ("intervals", said)));
     let late = if run.sampling.delayed { "every control put out at the next sample, no" } else { "no delay," };

@@ -70,10 +70,17 @@ fn kept(limits: &Limits, bounds: &Bounds<'_>) -> Option<String> {
     (!all.is_empty()).then(|| all.join(", "))
 }
 
-/// " with n_o = 4, 10", where a bound is one with these; empty where it is for every number.
+/// " with n_o = 4, 10", where a bound is one with these, or " with every n_o": of other sets of harmonics bounds by their number say nothing. Empty where the
+/// conditions of the claim prove it, for all that the claim is about.
 fn with_counts(limits: &Limits) -> String {
-    let counts: Vec<String> = limits.by_count.iter().flatten().map(u32::to_string).collect();
-    if counts.is_empty() { String::new() } else { format!(" with $`n_o = {}`$", counts.join(", ")) }
+    match limits.by_count.as_deref() {
+        None => String::new(),
+        Some([]) => " with every $`n_o`$".to_owned(),
+        Some(counts) => {
+            let counts: Vec<String> = counts.iter().map(u32::to_string).collect();
+            format!(" with $`n_o = {}`$", counts.join(", "))
+        }
+    }
 }
 
 /// "a rate of at least 2 for n_o = 0, 4 (proved: 2.3)"

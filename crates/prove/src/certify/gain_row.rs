@@ -132,8 +132,9 @@ impl ByCount {
         all.into_iter().reduce(|a, b| a.max(&b))
     }
 
-    /// Whether bounds of every number of oscillators are known.
-    fn is_about_all(&self) -> bool {
+    /// Whether there are bounds of every number of oscillators at the first harmonics.
+    #[must_use]
+    pub fn is_about_all(&self) -> bool {
         let first: Vec<u64> = self.counts.iter().filter_map(CountBounds::n_o).collect();
         let last = self.counts.iter().rfind(|bounds| bounds.n_o().is_some());
         first.iter().copied().eq(0..first.len() as u64) && last.is_some_and(|last| last.or_more)

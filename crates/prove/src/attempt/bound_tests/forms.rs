@@ -59,7 +59,7 @@ fn the_boxes_are_those_of_all() {
     let [sigma, x, e] = ["3", "1", "2"].map(rational);
     let [wide, tight] = ["0.1", "1.9"].map(form);
     let boxes = |forms: &[(Metric, Level)]| engine.decide_forms(forms, &sigma, [&x, &e], EFFORT);
-    let [alone, both] = [boxes(&[wide.clone()]), boxes(&[wide.clone(), tight.clone()])];
+    let [alone, both] = [boxes(std::slice::from_ref(&wide)), boxes(&[wide.clone(), tight.clone()])];
     assert!(alone.truth.is_true() && both.truth.is_true() && alone.boxes <= both.boxes, "{alone:?} {both:?}");
     let few = engine.decide_forms(&[wide, tight], &sigma, [&x, &e], both.boxes - 1);
     assert!(!few.truth.is_true() && few.boxes == both.boxes - 1, "{few:?}");
