@@ -28,10 +28,10 @@ static COEFFICIENTS: LazyLock<[[[f64; TERMS]; KNOWN]; 2]> = LazyLock::new(|| {
 
 /// `I_k` near 0.
 fn taylor(family: Family, x: f64, k: usize) -> f64 {
-    let known = COEFFICIENTS[usize::from(family == Family::Wave)].get(k);
-    let coefficients = known.copied().unwrap_or_else(|| coefficients(family, k));
     let terms = ENOUGH.iter().find(|(most, _)| x.abs() <= *most).map_or(TERMS, |(_, terms)| *terms);
-    coefficients[..terms].iter().rev().fold(0.0, |sum, own| sum * x + own)
+    let sum = |all: &[f64; TERMS]| all[..terms].iter().rev().fold(0.0, |sum, own| sum * x + own);
+    let known = COEFFICIENTS[usize::from(family == Family::Wave)].get(k);
+    known.map_or_else(|| sum(&coefficients(family, k)), sum)
 }
 
 /// The derivative of some order of `x/(e^x - 1)`, which is 1 at 0.

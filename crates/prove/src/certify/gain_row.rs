@@ -188,3 +188,41 @@ impl RowNoise {
         found.iter().filter_map(one).collect()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Bounds with these steady errors, for so many oscillators; the last one is for more, too, where that is said.
+    fn with(errors: &[(u32, f64)], or_more: bool) -> ByCount {
+        let bounds = |(n_o, error): &(u32, f64)| CountBounds {
+            oscillators: Oscillators::first(*n_o),
+            or_more: or_more && errors.last().is_some_and(|(last, _)| last == n_o),
+            steady_error: Enclosure::exactly(*error),
+            mean_square: Enclosure::exactly(*error),
+            steady_control: Enclosure::exactly(1.0),
+            largest: None,
+        };
+        ByCount { counts: errors.iter().map(bounds).collect(), proof: CountProof::Trials(Vec::new()), checked: true }
+    }
+
+    #[test]
+    fn bounds_of_some_are_none_of_all() {
+        let over = |found: &ByCount, counts: &[u32]| {
+            found.over(counts, &|bounds| Some(bounds.steady_error.clone())).map(|bound| bound.upper_f64())
+        };
+        let all = with(&[(0, 2.0), (1, 3.0), (2, 1.0)], true);
+        assert_eq!([over(&all, &[]), over(&all, &[0, 7]), over(&all, &[2])], [Some(3.0), Some(2.0), Some(1.0)]);
+        // One number is missing; nothing is said of more; there is none.
+        let gap = with(&[(0, 2.0), (1, 3.0), (3, 1.0)], true);
+        assert_eq!(
+            [over(&gap, &[]), over(&gap, &[2]), over(&gap, &[0, 2]), over(&gap, &[9])],
+            [None, None, None, Some(1.0)]
+        );
+        let few = with(&[(0, 2.0), (1, 3.0)], false);
+        assert_eq!([over(&few, &[]), over(&few, &[2]), over(&few, &[0])], [None, None, Some(2.0)]);
+        assert_eq!(over(&with(&[], true), &[]), None);
+        // What is not known of one is not known of all.
+        assert!(all.over(&[], &CountBounds::largest_control).is_none());
+    }
+}

@@ -7,6 +7,7 @@ use super::sampled::SampledCertification;
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_propose::search::{Failing, Limited};
+use sigmastar_theory::derivation::sampled::SampledEvaluation;
 
 /// A limit beside what is proved.
 struct Against {
@@ -22,13 +23,18 @@ impl Against {
     }
 }
 
-/// What is proved of the steady error, the peak and the control, beside the limits of them.
-fn against(limits: &Limits, bounds: [Enclosure; 3]) -> Vec<Against> {
+/// What is proved of the steady error, the peak and the control for the numbers of oscillators that limits are about, by the conditions of a claim; and what
+/// is proved by the number of oscillators.
+type Judged<'c> = ([Enclosure; 3], Option<&'c ByCount>);
+
+/// What is proved beside the limits that are judged by the number of oscillators.
+fn against(limits: &Limits, (known, by_count): Judged<'_>) -> Vec<Against> {
+    let Some(counts) = &limits.by_count else { return Vec::new() };
     let one = |((which, limit), bound): ((Limited, Option<&Rational>), Enclosure)| {
         let kept = |limit: &Rational| bound.upper_rational().is_some_and(|upper| upper <= *limit);
         limit.map(|limit| Against { which, asked: limit.to_f64(), least: bound.upper_f64(), kept: kept(limit) })
     };
-    limits.named().into_iter().zip(bounds).filter_map(one).collect()
+    limits.named().into_iter().zip(least(known, by_count, counts)).filter_map(one).collect()
 }
 
 /// How far what is proved at a gain is from limits.
@@ -63,6 +69,16 @@ fn missed(all: &[Against], sigma: &Rational) -> Option<Failing> {
     Some(Failing::Limit { which: *which, asked: *asked, least: *least, sigma: sigma.to_f64(), proved: true })
 }
 
+/// Why the limits are not kept by what is proved at a gain; nothing where they are, and where they are not judged by the number of oscillators. What the
+/// independent checker did not decide keeps none: where it would, that is the reason.
+fn why_missed(limits: &Limits, sigma: &Rational, (known, by_count): Judged<'_>) -> Option<Failing> {
+    let missed = missed(&against(limits, (known.clone(), by_count)), sigma)?;
+    let undecided = by_count.filter(|found| !found.checked).map(|found| ByCount { checked: true, ..found.clone() });
+    let would_be_kept =
+        undecided.is_some_and(|found| against(limits, (known, Some(&found))).iter().all(|one| one.kept));
+    Some(if would_be_kept { Failing::NotDecidedAgain { refused: false, sigma: sigma.to_f64() } } else { missed })
+}
+
 impl Shares {
     /// What is to fall next: that of the error; once it is kept, that of the control.
     pub(crate) fn next(&self) -> f64 {
@@ -78,8 +94,9 @@ impl ByCount {
     }
 }
 
-/// The smaller of what holds for every number of oscillators and what is proved for some.
+/// The smaller of what the conditions of a claim prove and what is proved by the number of oscillators, where the independent checker decides that, too.
 fn least([steady, peak, control]: [Enclosure; 3], by_count: Option<&ByCount>, counts: &[u32]) -> [Enclosure; 3] {
+    let by_count = by_count.filter(|found| found.checked);
     let smaller = |known: Enclosure, of: &dyn Fn(&CountBounds) -> Option<Enclosure>| {
         let found = by_count.and_then(|found| found.over(counts, of));
         found.map_or_else(|| known.clone(), |found| known.min(&found))
@@ -92,62 +109,67 @@ fn least([steady, peak, control]: [Enclosure; 3], by_count: Option<&ByCount>, co
 }
 
 impl Certification<'_> {
-    /// Bounds of |e| along the periodic solution and in the transient, and of the control, with each of these numbers of oscillators, or with every one
-    /// where there are none, at the gain of the claim: the least that are proved. `None` without a certified claim.
-    #[must_use]
-    pub fn bounds_with(&self, counts: &[u32]) -> Option<[Enclosure; 3]> {
+    /// What the conditions of the claim, and the table of the regulated error, prove with these numbers of oscillators.
+    fn known(&self, counts: &[u32]) -> Option<[Enclosure; 3]> {
         let (steady, peak, control) = self.bounds()?;
         let with = |n_o: &u32| Some(self.error_with(u64::from(*n_o))?.sup);
         let found: Option<Enclosure> = counts.iter().map(with).reduce(|a, b| Some(a?.max(&b?))).flatten();
         let steady = found.map_or_else(|| steady.clone(), |found| steady.min(&found));
-        let known = [steady, peak.clone(), &control.steady + &control.transient];
-        Some(least(known, self.by_count.as_ref(), counts))
+        Some([steady, peak.clone(), &control.steady + &control.transient])
     }
 
-    fn against(&self, limits: &Limits) -> Vec<Against> {
-        let bounds = limits.by_count.as_ref().and_then(|counts| self.bounds_with(counts));
-        bounds.map_or_else(Vec::new, |bounds| against(limits, bounds))
+    fn judged(&self, limits: &Limits) -> Option<Judged<'_>> {
+        Some((self.known(limits.by_count.as_deref()?)?, self.by_count.as_ref()))
+    }
+
+    /// Bounds of |e| along the periodic solution and in the transient, and of the control, with each of these numbers of oscillators, or with every one
+    /// where there are none, at the gain of the claim: the least that are proved, those by the number of oscillators where the independent checker decides
+    /// them. `None` without a certified claim.
+    #[must_use]
+    pub fn bounds_with(&self, counts: &[u32]) -> Option<[Enclosure; 3]> {
+        Some(least(self.known(counts)?, self.by_count.as_ref(), counts))
+    }
+
+    /// How far what is proved is from the limits that are judged by the number of oscillators; `None` without a certified claim or such limits.
+    pub(crate) fn shares_of_limits(&self, limits: &Limits) -> Option<Shares> {
+        shares(&against(limits, self.judged(limits)?))
     }
 
     /// Takes the claim back where a limit was to be kept by what is proved by the number of oscillators, and is not.
     pub(crate) fn keep_to_counts(&mut self) {
-        let missed = self.sigma_star().and_then(|sigma| missed(&self.against(&self.limits), sigma));
-        if let Some(missed) = missed {
-            self.take_back(missed);
+        let judged = self.sigma_star().zip(self.judged(&self.limits));
+        if let Some(reason) = judged.and_then(|(sigma, judged)| why_missed(&self.limits, sigma, judged)) {
+            self.take_back(reason);
         }
-    }
-
-    /// How far what is proved is from the limits that are judged by the number of oscillators.
-    pub(crate) fn shares_of_limits(&self, limits: &Limits) -> Option<Shares> {
-        shares(&self.against(limits))
     }
 }
 
 impl SampledCertification<'_> {
-    /// The same at samples.
+    /// What the conditions of the claim prove for every number of oscillators.
+    fn known(&self) -> Option<[Enclosure; 3]> {
+        let SampledEvaluation { size, peak, control, .. } = &self.claim()?.evaluation;
+        Some([size.e_per.clone(), peak.clone(), &control.steady + &control.transient])
+    }
+
+    /// Bounds of |e| along the periodic solution and in the transient, between samples too, and of the control, with each of these numbers of oscillators, or
+    /// with every one where there are none, at the gain and the samples of the claim: the least that are proved, those by the number of oscillators where the
+    /// independent checker decides them. `None` without a certified claim.
     #[must_use]
     pub fn bounds_with(&self, counts: &[u32]) -> Option<[Enclosure; 3]> {
-        let evaluation = &self.claim()?.evaluation;
-        let control = &evaluation.control.steady + &evaluation.control.transient;
-        let known = [evaluation.size.e_per.clone(), evaluation.peak.clone(), control];
-        Some(least(known, self.by_count.as_ref(), counts))
+        Some(least(self.known()?, self.by_count.as_ref(), counts))
     }
 
-    fn against(&self, limits: &Limits) -> Vec<Against> {
-        let bounds = limits.by_count.as_ref().and_then(|counts| self.bounds_with(counts));
-        bounds.map_or_else(Vec::new, |bounds| against(limits, bounds))
-    }
-
-    /// The same at samples.
-    pub(crate) fn keep_to_counts(&mut self) {
-        let missed = self.claim().and_then(|proof| missed(&self.against(&self.limits), &proof.witness.sigma));
-        if let Some(missed) = missed {
-            self.take_back(missed);
-        }
-    }
-
-    /// The same at samples.
+    /// How far what is proved is from the limits that are judged by the number of oscillators; `None` without a certified claim or such limits.
     pub(crate) fn shares_of_limits(&self, limits: &Limits) -> Option<Shares> {
-        shares(&self.against(limits))
+        shares(&against(limits, (self.known()?, self.by_count.as_ref())))
+    }
+
+    /// Takes the claim back where a limit was to be kept by what is proved by the number of oscillators, and is not.
+    pub(crate) fn keep_to_counts(&mut self) {
+        let sigma = self.claim().map(|proof| &proof.witness.sigma).zip(self.known());
+        let reason = sigma.and_then(|(sigma, known)| why_missed(&self.limits, sigma, (known, self.by_count.as_ref())));
+        if let Some(reason) = reason {
+            self.take_back(reason);
+        }
     }
 }

@@ -104,7 +104,12 @@ impl Limits {
         self.named().map(|(which, limit)| (which, limit.filter(|_| self.by_count.is_none())))
     }
 
-    /// Whether there are such.
+    /// The same limits, judged by the conditions of a claim alone: what keeps to these keeps to those.
+    pub(super) fn by_conditions(&self) -> Limits {
+        Limits { by_count: None, ..self.clone() }
+    }
+
+    /// Whether something is for the conditions of a claim to prove.
     pub(crate) fn are_of_conditions(&self) -> bool {
         self.of_conditions().iter().any(|(_, limit)| limit.is_some())
     }

@@ -456,7 +456,7 @@ impl SampledCertification<'_> {
     /// The same at samples.
     pub(crate) fn take_back(&mut self, reason: Failing) {
         (self.outcome, self.verdict) = (Outcome::NotFound(reason.into()), Verdict::Undecided);
-        (self.gains, self.for_n_o) = (Vec::new(), Vec::new());
+        (self.gains, self.for_n_o, self.by_count) = (Vec::new(), Vec::new(), None);
     }
 }
 

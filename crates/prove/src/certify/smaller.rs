@@ -56,10 +56,12 @@ impl SampledCertification<'_> {
     /// [`Certification::divisor_that_keeps`] at samples.
     #[must_use]
     pub fn divisor_that_keeps(&self) -> Option<u32> {
+        // Of a smaller set nothing is known by the number of oscillators.
+        let limits = self.limits.by_conditions();
         DIVISORS.into_iter().find(|divisor| {
             let Some(initial_set) = divided(&self.spec.initial_set, *divisor) else { return false };
             let spec = Specification { initial_set, ..self.spec.clone() };
-            let asked = (self.given_gain.as_ref(), &self.limits);
+            let asked = (self.given_gain.as_ref(), &limits);
             let run = certify_sampled_within(&spec, &self.sampling, asked, None, Ladder::default());
             run.is_ok_and(|run| run.claim().is_some())
         })
@@ -73,10 +75,12 @@ impl Certification<'_> {
     /// Guarantee: with it a claim that keeps to the limits is proved.
     #[must_use]
     pub fn divisor_that_keeps(&self) -> Option<u32> {
+        // Of a smaller set nothing is known by the number of oscillators.
+        let limits = self.limits.by_conditions();
         DIVISORS.into_iter().find(|divisor| {
             let Some(initial_set) = divided(&self.spec.initial_set, *divisor) else { return false };
             let spec = Specification { initial_set, ..self.spec.clone() };
-            let wanted = Wanted { gain: self.given_gain.as_ref(), limits: Some(&self.limits), start: None };
+            let wanted = Wanted { gain: self.given_gain.as_ref(), limits: Some(&limits), start: None };
             let run = certify_for(&spec, Options { compare: false, ..self.options }, wanted);
             run.is_ok_and(|run| run.claim().is_some())
         })

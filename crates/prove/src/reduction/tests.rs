@@ -2,15 +2,15 @@
 
 use super::closer::closer;
 use super::{
-    Beside, Checked, PlantRefusal, Prepared, Reduced, Stage, Subject, Unwatched, Watch, bounds_around, reduce,
+    Beside, Checked, PlantRefusal, Prepared, Reduced, Run, Stage, Subject, Unwatched, Watch, bounds_around, reduce,
 };
 use crate::attempt::bound_tests::random_points::random_points;
-use crate::certify::{Limits, Options, Wanted, certify_for};
+use crate::certify::{Limits, Options, Outcome, Wanted, certify_for};
 use rayon::prelude::*;
 use rug::Rational;
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{Document, ProvedValue, Specification};
-use sigmastar_propose::search::{Failing, SharpProposal};
+use sigmastar_propose::search::{Failing, Obstacle, SharpProposal};
 use std::path::Path;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -183,6 +183,41 @@ fn a_limit_is_kept_with_a_smaller_gain_by_values_of_its_own() {
     let [sigma, peak] = gain_and_peak(&smaller, None, &limits).unwrap();
     assert!(sigma < 0.98 * found && peak <= 4.0, "{sigma} {found} {peak}");
     assert!(closer(&plant, [sigma, sigma], within, &Unwatched).is_none());
+}
+
+/// What is proved by the number of oscillators keeps a limit where the independent checker decides it, and where it does not that is the reason.
+#[test]
+fn a_limit_rests_on_what_the_checker_decides() {
+    let document = Document::parse("plant", &plant_with(r#""initial_set":{"kind":"aligned","X0":"1/2","E0":"1/2"},"#));
+    let subject = Subject::read(&document.unwrap()).unwrap();
+    let options = Options { compare: false, ..Options::default() };
+    let prepared = |limits: &Limits| Prepared::seeking(&subject, None, (limits, &[]), options, &Unwatched).unwrap();
+    // One that the conditions of the smallest gain do not keep, and its table does.
+    let none = Limits { peak_error: Some(Rational::from(1000)), ..Limits::default() };
+    let all = prepared(&none);
+    let Run::Continuous(run) = all.certify(options).unwrap() else { panic!("in continuous time") };
+    let (_, of_conditions, _) = run.bounds().unwrap();
+    let [_, of_all, _] = run.bounds_with(&[]).unwrap();
+    assert!(of_all.upper_f64() < 0.9 * of_conditions.upper_f64(), "{of_all:?} {of_conditions:?}");
+    let limits = Limits { peak_error: of_all.upper_rational().map(|most| most * Rational::from((101, 100))), ..none };
+
+    let prepared = prepared(&limits);
+    let asked = |gives_up: bool| {
+        let check = |run: &Run<'_>| match run {
+            Run::Continuous(run) if gives_up && run.by_count.as_ref().is_some_and(|found| found.checked) => {
+                Checked::GivenUp
+            }
+            _ => Checked::Decided,
+        };
+        let mut run = prepared.certify_checked(options, &check, &Unwatched).unwrap();
+        run.prove_rates(&[]).unwrap();
+        let Run::Continuous(run) = run else { panic!("in continuous time") };
+        (run.claim().is_some(), run.sharp)
+    };
+    assert!(asked(false).0);
+    let (certified, outcome) = asked(true);
+    let Outcome::NotFound(Obstacle { failing, .. }) = outcome else { panic!("a claim is left") };
+    assert!(!certified && matches!(failing, Failing::NotDecidedAgain { refused: false, .. }), "{failing:?}");
 }
 
 /// What is in the way of an initial set is told at it; of a set whose sizes are open, which is the smallest, nothing smaller is asked for.
