@@ -4,7 +4,7 @@
 //! small gain and proves that it works, and [`check`] decides the [`Certificate`] again with code of its own.
 //! [`transfer_bound`] proves the transfer bound by itself,
 //! [`regulator_matrices`] and [`sampled_regulator`] give the regulator, a [`Study`] is many cases. [`reread`] decides a stored certificate
-//! again, [`bounding_specification`] bounds a plant, [`sampling`] finds pairs of a gain and a sampling period, [`lyapunov`] a
+//! again, [`design`] proves a table of gains and numbers of oscillators beside what is required, [`bounding_specification`] bounds a plant, [`sampling`] finds pairs of a gain and a sampling period, [`lyapunov`] a
 //! triple. What goes wrong is an [`Error`] with a [`kind`](Error::kind).
 //!
 //! From the text of a file to a claim that others can check:
@@ -80,10 +80,10 @@ mod api;
 pub use api::program;
 pub use api::{
     BoundedPlant, BoundingFunction, Certificate, CertifyOptions, CheckReport, CheckVerdict, Claim, Condition,
-    Diagnostic, Error, ErrorKind, InitialSet, JacobianEntry, OscillatorShare, PeriodicSolution, RegulatorMatrices,
+    Design, DesignOptions, Diagnostic, Error, ErrorKind, InitialSet, JacobianEntry, OscillatorShare, PeriodicSolution, RegulatorMatrices,
     Report, ReportFormat, SampledRegulator, Samples, SamplingPairs, Specification, SpecificationBuilder, Study,
     StudyCase, Subject, TransferBound, TransferChoice, TransferOptions, TransferStudy, TuneGoal, TuneOptions, Tuned,
-    VERSION, Verdict, bounding_specification, certify, check, check_against, lyapunov, regulator_matrices, reread,
+    VERSION, Verdict, bounding_specification, certify, check, check_against, design, lyapunov, regulator_matrices, reread,
     sampled_regulator, sampling, transfer_bound, transfer_study, tune,
 };
 #[cfg(feature = "lab")]

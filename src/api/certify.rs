@@ -89,6 +89,24 @@ pub fn decided<'p>(
     Ok(run)
 }
 
+/// The claim of what is prepared, decided and decided again by the independent checker, with rates for these numbers of oscillators where the claim has
+/// some and the checker decides these, too.
+///
+/// # Errors
+/// What the data are refused for.
+pub(super) fn with_rates<'p>(
+    prepared: &'p Prepared,
+    (options, counts): (Options, &[u32]),
+) -> Result<Run<'p>, Error> {
+    let decided_by = |check: &dyn Fn(&Run<'_>) -> Checked| {
+        prepared.certify_checked(options, check, &Unwatched).map_err(|all| Error::documents(&all))
+    };
+    // As a rule the checker decides all of it at once.
+    let mut run = decided_by(&|_| Checked::Decided)?;
+    let has_rates = run.prove_rates(counts).is_ok() && run.certified().is_some();
+    if has_rates && checked(&run) == Checked::Decided { Ok(run) } else { decided_by(&checked) }
+}
+
 /// What the independent checker says of the certificate of a run.
 fn checked(run: &Run<'_>) -> Checked {
     let Some(certificate) = certificate_of(run) else { return Checked::Decided };

@@ -9,6 +9,7 @@ mod certify;
 mod check;
 mod condition;
 mod constants;
+mod design;
 #[cfg(feature = "lab")]
 mod edge;
 mod error;
@@ -36,6 +37,7 @@ pub use certificate::{Certificate, Claim, InitialSet, PeriodicSolution, Samples}
 pub use certify::certify;
 pub use check::{CheckReport, CheckVerdict, check, check_against};
 pub use condition::Condition;
+pub use design::{Design, DesignOptions, design};
 pub use error::{Diagnostic, Error, ErrorKind};
 #[cfg(feature = "lab")]
 pub use falsify::{Falsification, FalsificationOutcome, falsify};

@@ -5,6 +5,7 @@ pub use super::bound::bounds_of;
 pub use super::certify::{Afterwards, decided};
 pub use super::check::{MAX_CERTIFICATE, check_bytes};
 pub use super::constants::constants_of;
+pub use super::design::{DesignNames, design_of};
 #[cfg(feature = "lab")]
 pub use super::edge::{Drawn, FIGURE_FILES};
 #[cfg(feature = "lab")]

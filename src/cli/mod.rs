@@ -8,6 +8,7 @@ mod colour;
 mod constants;
 mod controller;
 mod counts;
+mod design;
 mod failure;
 mod falsify;
 mod files;
@@ -57,6 +58,7 @@ pub fn run() -> ExitCode {
     // What comes of the command, and how a failure of it is told: in which format, and whether quietly.
     let (outcome, format, quiet) = match cli.command {
         Command::Certify(args) => (certify::run(&args), args.format, args.quiet),
+        Command::Design(args) => (design::run(&args), args.format, args.quiet),
         Command::Sampling(args) => (sampling::run(&args), args.format, args.quiet),
         Command::Sweep(args) => (sweep::run(&args), Format::Text, args.quiet),
         Command::Tune(args) => (tune::run(&args), args.format, args.quiet),

@@ -1,4 +1,4 @@
-//! What is asked beside one claim: polynomials above a plant's bounds, pairs of a gain and a sampling period, parameter studies, and values of
+//! What is asked beside one claim: polynomials above a plant's bounds, the design table, pairs of a gain and a sampling period, parameter studies, and values of
 //! the free numbers that are better. Each claim among the results is a certification by itself.
 
 #![deny(missing_docs)]
@@ -6,6 +6,7 @@
 #![cfg_attr(test, allow(clippy::disallowed_methods))]
 
 pub mod bounding;
+pub mod design;
 pub mod sampling;
 pub mod sweep;
 pub mod tune;

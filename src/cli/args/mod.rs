@@ -11,7 +11,7 @@ pub use claims::{
 };
 pub use files::{ConvertArgs, NewArg, NewArgs, SchemaArgs};
 pub use regulator::{ControllerArgs, FalsifyArgs, PartArg, RegulatorForm, ReproduceArgs, SimulateArgs};
-pub use studies::{SweepArgs, TuneArgs, TuneGoal};
+pub use studies::{DesignArgs, SweepArgs, TuneArgs, TuneGoal};
 
 use clap::{Args, ColorChoice, CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
@@ -39,6 +39,13 @@ pub const CERTIFY_EXAMPLES: &str = "Examples:
   sigmastar certify plant.json --witness plant.certificate.json
   sigmastar certify plant.json --sampling-period 1/1000 --sigma 60
   sigmastar certify - --format json < plant.json";
+
+/// Examples of `design`.
+const DESIGN_EXAMPLES: &str = "Examples:
+  sigmastar design plant.json
+  sigmastar design plant.json --steady-error 0.01 --peak-error 2 --max-control 50 -o plant.certificate.json
+  sigmastar design plant.json --steady-error 0.01 --settle 20 --n-o 0,2,4,6
+  sigmastar design plant.json --sigma 20,40,80 --sampling-period 1/1000";
 
 /// Examples of `sampling`.
 const SAMPLING_EXAMPLES: &str = "Examples:
@@ -131,6 +138,14 @@ pub enum Command {
     /// proved. The report goes to standard output, remarks and errors to standard error.
     #[command(after_help = CERTIFY_EXAMPLES, after_long_help = format!("{CERTIFY_EXAMPLES}\n\n{EXIT_CODES}"))]
     Certify(Box<CertifyArgs>),
+    /// Say which gain and how many oscillators to take: a table of what is proved, beside what is required
+    ///
+    /// Proves bounds of the steady error, of the largest error and control, and rates, at several gains with several numbers of oscillators, each row a claim
+    /// that the independent checker decides. The pair to take has the smallest gain of the table, and there the fewest oscillators, with which every
+    /// requirement is proved to be met. Without requirements the gain to take has a largest error of at most twice the larger of start and steady error,
+    /// and at least half of the largest rate. Exit code 3 says that something required is not proved.
+    #[command(after_help = DESIGN_EXAMPLES, after_long_help = format!("{DESIGN_EXAMPLES}\n\n{EXIT_CODES}"))]
+    Design(DesignArgs),
     /// Show which gains go with which sampling periods: the smallest gain for a period, the longest period for a gain
     ///
     /// Each pair is certified as `certify --sampling-period H --sigma V` does. A gain is certified for its sampling period only:

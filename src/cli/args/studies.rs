@@ -7,6 +7,65 @@ use clap::{Args, ValueEnum, ValueHint};
 use sigmastar::{RegulatorMatrices, TuneOptions};
 use std::path::PathBuf;
 
+/// The flags of `design`.
+#[derive(Args, Debug)]
+pub struct DesignArgs {
+    /// Plant or bounding specification (.json, .jsonc, .toml), or a certificate of one, or `-` for standard input
+    #[arg(value_name = "SPEC", value_hint = ValueHint::FilePath)]
+    pub spec: PathBuf,
+
+    /// Require |e| of the periodic solution to be at most V
+    #[arg(long, value_name = "V")]
+    pub steady_error: Option<String>,
+
+    /// Require |e| at all times, from the whole initial set, to be at most V
+    #[arg(long, value_name = "V")]
+    pub peak_error: Option<String>,
+
+    /// Require |u| at all times, from the whole initial set, to be at most V
+    #[arg(long, value_name = "V")]
+    pub max_control: Option<String>,
+
+    /// Require |e| to be at most the required steady error for good after so many periods
+    #[arg(long, value_name = "PERIODS", requires = "steady_error")]
+    pub settle: Option<String>,
+
+    /// Require what noise, the disturbance and rounding of the document make of e in the limit to be at most V
+    #[arg(long, value_name = "V")]
+    pub noise: Option<String>,
+
+    /// Numbers of oscillators of the table, 8 at most: `0,2,4` or a range `0..6`
+    #[arg(long, value_name = "LIST", default_value = "0,1,2,3,5")]
+    pub n_o: String,
+
+    /// Gains of the table, 20 at most, in the place of the smallest one that is found and multiples of it
+    #[arg(long, value_name = "LIST")]
+    pub sigma: Option<String>,
+
+    /// Take the regulator at samples that are H apart, of which the period is a whole multiple
+    #[arg(long, value_name = "H")]
+    pub sampling_period: Option<String>,
+
+    /// Leave the simulations beside the proved numbers out
+    #[arg(long)]
+    pub no_simulation: bool,
+
+    /// Format of the report
+    #[arg(long, value_enum, value_name = "NAME", default_value_t = Format::Text)]
+    pub format: Format,
+
+    /// Write the certificate of the gain to take to this file
+    #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub output: Option<PathBuf>,
+
+    #[command(flatten)]
+    pub replace: Replace,
+
+    /// No progress and no remarks on standard error; errors are still shown
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
 /// The flags of `sweep`.
 #[derive(Args, Debug)]
 pub struct SweepArgs {

@@ -46,6 +46,7 @@ pub use options::{Limits, Options, TransferChoice};
 pub use outcome::Outcome;
 pub use pool::{Member, Wanted};
 pub use produce::{certify, certify_for, certify_member, recheck};
+pub(crate) use rates::said_of;
 pub use rates::{NoRatesOfClaim, SaidOfCount, apart, rate_counts, rates_in_words};
 pub use refusal::Refusal;
 pub use sampled::{SampledCertification, certify_sampled, certify_sampled_within, recheck_sampled, sampled_model};

@@ -269,7 +269,7 @@ pub struct SaidOfCount<'a> {
     pub noise: Option<[&'a Rational; 2]>,
 }
 
-fn said_of<P, Q>(found: &ForCount<P, Q>) -> Option<SaidOfCount<'_>> {
+pub(crate) fn said_of<P, Q>(found: &ForCount<P, Q>) -> Option<SaidOfCount<'_>> {
     let RateBound { n_o, rate, factor, .. } = found.bound.as_ref()?;
     let noise = found.proved_noise().map(|NoiseBound { limit, peak, .. }| [peak, limit]);
     Some(SaidOfCount { n_o: *n_o, rate, factor, noise })

@@ -43,7 +43,7 @@ pub use proved_at_samples::ReducedSampled;
 pub use reduce::{Beside, reduce, reduce_by_norms};
 pub use refusal::{MAX_STATES, PlantRefusal};
 use run::Ask;
-pub use run::{Certified, Checked, Prepared, Run, StateStart};
+pub use run::{AtGains, Certified, Checked, Prepared, Run, StateStart};
 pub use sampled::{RestsOn, SampledPairs, reduce_sampled, with_sampled_pairs};
 pub use shrunk::{INITIAL_SET, Shrunk, shrunk};
 pub use specification::specification;

@@ -1,9 +1,11 @@
 //! The whole way from a subject to a decided claim, of either regulator.
 
+mod at_gains;
 mod deciding;
 mod seeking;
 mod with_counts;
 
+pub use at_gains::AtGains;
 pub use deciding::Checked;
 
 use super::proofs::{ProvedData, bounds_around};
@@ -11,7 +13,9 @@ use super::reduce::{Beside, reduce_by_norms_watched};
 use super::subject::{Sought, SoughtAtSamples};
 use super::watch::{Searches, Stage, Unwatched, Watch};
 use super::{FreeNumbers, RestsOn, Subject, Witness};
-use crate::certify::{Certification, Limits, NoRatesOfClaim, SampledCertification, Verdict, claimed_ball};
+use crate::certify::{
+    Certification, Limits, NoRatesOfClaim, SaidOfCount, SampledCertification, Verdict, claimed_ball, said_of,
+};
 use rug::Rational;
 use sigmastar_decide::bounds::Engine;
 use sigmastar_exact::enclosure::Enclosure;
@@ -23,7 +27,7 @@ use sigmastar_propose::search::{Failing, SampledProposal};
 use sigmastar_theory::derivation::condition::Condition;
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
 use sigmastar_theory::derivation::sampled::SampledWitness;
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 /// Where a search may start, of the regulator in continuous time or of the one at samples; or the numbers that stand in its place.
 #[derive(Clone)]
@@ -52,8 +56,8 @@ pub struct Prepared {
     /// The data of that plant by norms, where bounds are to be kept: of a larger gain than the least one they may say more.
     by_norms: Option<Box<ProvedData>>,
     /// The data by norms in the coordinates that are proposed first, once the bound of |e| at the smallest gain is found to be far above the
-    /// set.
-    quick: OnceLock<Option<Box<ProvedData>>>,
+    /// set; copies share them.
+    quick: Arc<OnceLock<Option<Box<ProvedData>>>>,
     /// About the gain at which norms prove a claim at samples, where this one rests on a matrix inequality and rates are asked for.
     norms_from: Option<f64>,
     /// Those for a gain with which bounds are kept, once one is found.
@@ -175,7 +179,7 @@ impl Prepared {
             formulas: None,
             plant: None,
             by_norms: None,
-            quick: OnceLock::new(),
+            quick: Arc::default(),
             norms_from: None,
             closer: OnceLock::new(),
             last: OnceLock::new(),
@@ -270,6 +274,25 @@ impl Run<'_> {
         match self {
             Run::Continuous(run) => run.rates().collect(),
             Run::Sampled(run) => run.rates().collect(),
+        }
+    }
+
+    /// What is proved for each number of oscillators that was asked about, where a rate is.
+    #[must_use]
+    pub fn of_counts(&self) -> Vec<SaidOfCount<'_>> {
+        match self {
+            Run::Continuous(run) => run.for_n_o.iter().filter_map(said_of).collect(),
+            Run::Sampled(run) => run.for_n_o.iter().filter_map(said_of).collect(),
+        }
+    }
+
+    /// Bounds of |e| along the periodic solution and in the transient, and of the control, with each of these numbers of oscillators
+    /// ([`Certification::bounds_with`], [`SampledCertification::bounds_with`]); `None` where nothing is certified.
+    #[must_use]
+    pub fn bounds_with(&self, counts: &[u32]) -> Option<[Enclosure; 3]> {
+        match self {
+            Run::Continuous(run) => run.bounds_with(counts),
+            Run::Sampled(run) => run.bounds_with(counts),
         }
     }
 

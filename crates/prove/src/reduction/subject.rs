@@ -8,7 +8,7 @@ use crate::certify::{Alternatives, with_triple};
 use rug::Rational;
 use sigmastar_lang::plant::{self, Plant};
 use sigmastar_lang::spec::{
-    self, Actuator, Constant, Document, ErrorKind, InputGain, InternalModel, Period, Sampling, SpecErrors,
+    self, Actuator, Constant, Disturbances, Document, ErrorKind, InputGain, InternalModel, Period, Sampling, SpecErrors,
     Specification, Value,
 };
 use sigmastar_propose::search::{SampledProposal, SharpProposal};
@@ -164,6 +164,12 @@ impl Subject {
     #[must_use]
     pub fn actuator(&self) -> Option<&Actuator> {
         self.part(|spec| &spec.actuator, |plant| &plant.actuator).as_ref()
+    }
+
+    /// Noise, a disturbance and rounding that the document states.
+    #[must_use]
+    pub fn disturbances(&self) -> &Disturbances {
+        self.part(|spec| &spec.disturbances, |plant| &plant.disturbances)
     }
 
     /// The samples that the regulator is asked for at, if any.

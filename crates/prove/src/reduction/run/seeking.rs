@@ -28,7 +28,7 @@ pub(super) struct Search<'q> {
     /// Without comparisons.
     pub(super) options: Options,
     /// Whether data for larger gains are wanted beside those of the smallest one.
-    rows: bool,
+    pub(super) rows: bool,
     pub(super) watch: &'q dyn Watch,
 }
 

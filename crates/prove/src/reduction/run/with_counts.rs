@@ -8,7 +8,7 @@ use crate::certify::kept::Shares;
 use rug::Rational;
 use sigmastar_exact::number::{Direction, Portable, round_f64};
 use sigmastar_lang::spec::{Constant, SpecErrors};
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 /// Gains that are tried at most.
 const TRIES: usize = 8;
@@ -109,7 +109,7 @@ impl Search<'_> {
     /// What has the smallest gain, and what is proved there.
     fn least(&self, smallest: Prepared, limits: &Limits) -> Option<(Prepared, Tried)> {
         // With the data that the pool has again when all is compared.
-        let quick = OnceLock::from(None);
+        let quick = Arc::new(OnceLock::from(None));
         let least = Prepared { quick, counts: self.counts.to_vec(), ..smallest.within(limits.clone(), self.watch) };
         let tried = self.tried_with(&least)?;
         Some((Prepared { found_above: Some(tried.sigma.to_f64()), ..least }, tried))

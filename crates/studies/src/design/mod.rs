@@ -1,0 +1,13 @@
+//! The design table: what is proved at several gains with several numbers of oscillators, beside what is required of a loop; and the pair to take.
+
+mod choice;
+mod gains;
+mod report;
+mod requirements;
+mod row;
+
+pub use choice::{Choice, choose};
+pub use gains::{Claims, design_table};
+pub use report::DesignReport;
+pub use requirements::{Compared, Requirement, Requirements};
+pub use row::{Cell, Row, Simulated};

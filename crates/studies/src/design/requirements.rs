@@ -1,0 +1,188 @@
+//! What is required of a loop, and whether what is proved keeps it.
+
+use super::row::{Cell, Row};
+use rug::Rational;
+use sigmastar_exact::enclosure::Enclosure;
+
+/// A quantity of which a largest value may be required.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Requirement {
+    /// |e| along the periodic solution.
+    SteadyError,
+    /// |e| at all times.
+    PeakError,
+    /// What is put out at all times.
+    Control,
+    /// After how many periods |e| is at most the required steady error for good.
+    Settling,
+    /// |e - e_per| in the limit, with the noise of the document.
+    Noise,
+}
+
+impl Requirement {
+    /// All, in the order of reports.
+    pub const ALL: [Requirement; 5] = [
+        Requirement::SteadyError,
+        Requirement::PeakError,
+        Requirement::Control,
+        Requirement::Settling,
+        Requirement::Noise,
+    ];
+
+    /// Its name in JSON.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Requirement::SteadyError => "steady_error",
+            Requirement::PeakError => "peak_error",
+            Requirement::Control => "max_control",
+            Requirement::Settling => "settle",
+            Requirement::Noise => "noise",
+        }
+    }
+
+    /// In words, its formulas marked.
+    #[must_use]
+    pub fn words(self) -> &'static str {
+        match self {
+            Requirement::SteadyError => "steady $`|e|`$",
+            Requirement::PeakError => "largest $`|e|`$",
+            Requirement::Control => "largest $`|u|`$",
+            Requirement::Settling => "periods to settle",
+            Requirement::Noise => "noise in $`|e|`$",
+        }
+    }
+
+    /// Whether a larger gain is what helps, as a rule.
+    #[must_use]
+    pub fn falls(self) -> bool {
+        !matches!(self, Requirement::Control | Requirement::Noise)
+    }
+}
+
+/// Largest values, each where one is required.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Requirements {
+    /// Of |e| along the periodic solution.
+    pub steady_error: Option<Rational>,
+    /// Of |e| at all times.
+    pub peak_error: Option<Rational>,
+    /// Of what is put out at all times.
+    pub control: Option<Rational>,
+    /// Of the periods until |e| is at most [`Requirements::steady_error`] for good, which is to be there.
+    pub settling: Option<Rational>,
+    /// Of |e - e_per| in the limit, with the noise of the document.
+    pub noise: Option<Rational>,
+}
+
+/// A requirement beside what is proved.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Compared {
+    /// What is required.
+    pub requirement: Requirement,
+    /// The largest value.
+    pub asked: Rational,
+    /// The least upper bound that is proved; none where there is none.
+    pub proved: Option<Rational>,
+}
+
+impl Compared {
+    /// Whether it is proved to be met.
+    #[must_use]
+    pub fn is_met(&self) -> bool {
+        self.proved.as_ref().is_some_and(|proved| *proved <= self.asked)
+    }
+
+    /// What is proved over what is required, rounded.
+    pub(super) fn share(&self) -> f64 {
+        self.proved.as_ref().map_or(f64::INFINITY, |proved| proved.to_f64() / self.asked.to_f64())
+    }
+}
+
+impl Requirements {
+    /// The value that is required of a quantity.
+    #[must_use]
+    pub fn of(&self, requirement: Requirement) -> Option<&Rational> {
+        match requirement {
+            Requirement::SteadyError => self.steady_error.as_ref(),
+            Requirement::PeakError => self.peak_error.as_ref(),
+            Requirement::Control => self.control.as_ref(),
+            Requirement::Settling => self.settling.as_ref(),
+            Requirement::Noise => self.noise.as_ref(),
+        }
+    }
+
+    /// Whether nothing is required.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        Requirement::ALL.iter().all(|requirement| self.of(*requirement).is_none())
+    }
+
+    /// Each requirement beside what is proved in a cell; `period` is that of [`Cell::settling`].
+    #[must_use]
+    pub fn compared(&self, cell: &Cell, period: &Enclosure) -> Vec<Compared> {
+        let proved = |requirement| match requirement {
+            Requirement::SteadyError => cell.steady_error.upper_rational(),
+            Requirement::PeakError => cell.peak_error.upper_rational(),
+            Requirement::Control => cell.control.upper_rational(),
+            Requirement::Settling => {
+                self.steady_error.as_ref().and_then(|limit| cell.settling(limit, period)?.upper_rational())
+            }
+            Requirement::Noise => cell.noise.clone(),
+        };
+        let one = |requirement: &Requirement| {
+            let asked = self.of(*requirement)?.clone();
+            Some(Compared { requirement: *requirement, asked, proved: proved(*requirement) })
+        };
+        Requirement::ALL.iter().filter_map(one).collect()
+    }
+
+    /// How far a row is from the requirements with the number of oscillators that comes closest to them.
+    pub(super) fn distance(&self, row: &Row, period: &Enclosure) -> f64 {
+        let of = |cell: &Cell| self.compared(cell, period).iter().map(Compared::share).fold(0.0, f64::max);
+        row.cells.iter().map(of).fold(f64::INFINITY, f64::min)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::row::tests::{cell, falling};
+    use super::*;
+
+    /// Each requirement is met, and missed by a little.
+    #[test]
+    fn each_requirement_is_held_against_its_own_bound() {
+        let period = Enclosure::exactly(1.0);
+        let bounds = Cell { noise: Some((1, 4).into()), ..falling(cell(2, [1.0, 2.0, 3.0]), (1, 1), (5, 1)) };
+        let with = |requirement: Requirement, value: (u32, u32)| {
+            let value = Some(Rational::from(value));
+            match requirement {
+                Requirement::SteadyError => Requirements { steady_error: value, ..Requirements::default() },
+                Requirement::PeakError => Requirements { peak_error: value, ..Requirements::default() },
+                Requirement::Control => Requirements { control: value, ..Requirements::default() },
+                Requirement::Settling => {
+                    Requirements { settling: value, steady_error: Some(2.into()), ..Requirements::default() }
+                }
+                Requirement::Noise => Requirements { noise: value, ..Requirements::default() },
+            }
+        };
+        for (requirement, least, below) in [
+            (Requirement::SteadyError, (1, 1), (99, 100)),
+            (Requirement::PeakError, (2, 1), (199, 100)),
+            (Requirement::Control, (3, 1), (299, 100)),
+            // 1 + 5 exp(-t) is 2 at log 5 = 1.6094...
+            (Requirement::Settling, (16095, 10000), (16094, 10000)),
+            (Requirement::Noise, (1, 4), (249, 1000)),
+        ] {
+            let met = |value| {
+                let compared = with(requirement, value).compared(&bounds, &period);
+                compared.iter().find(|one| one.requirement == requirement).map(Compared::is_met)
+            };
+            assert_eq!([met(least), met(below)], [Some(true), Some(false)], "{requirement:?}");
+        }
+        // What is not proved is not met.
+        let unknown = with(Requirement::Noise, (1, 1)).compared(&cell(0, [1.0; 3]), &period);
+        assert!(!unknown[0].is_met() && unknown[0].proved.is_none());
+        assert!(Requirements::default().is_empty() && !with(Requirement::Noise, (1, 1)).is_empty());
+    }
+}

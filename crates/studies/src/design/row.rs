@@ -1,0 +1,135 @@
+//! What is proved at one gain, for each number of oscillators that is asked about.
+
+use rug::Rational;
+use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_prove::reduction::Run;
+
+/// A gain with which everything in its cells is proved, each an upper bound for every solution from the initial set there.
+#[derive(Clone, Debug)]
+pub struct Row {
+    /// The gain.
+    pub sigma: Rational,
+    /// E0 of the initial set. Where the document states no sizes they go with the gain.
+    pub e0: Rational,
+    /// One for each number of oscillators, in rising order.
+    pub cells: Vec<Cell>,
+}
+
+/// What is proved with a number of oscillators.
+#[derive(Clone, Debug)]
+pub struct Cell {
+    /// n_o.
+    pub n_o: u32,
+    /// Of |e| along the periodic solution.
+    pub steady_error: Enclosure,
+    /// Of |e| at all times.
+    pub peak_error: Enclosure,
+    /// Of what is put out at all times.
+    pub control: Enclosure,
+    /// The rate in 1/time, and the factor in the unit of e, where they are proved: `|e - e_per| <= factor exp(-rate (t - t_0))`, at samples at the
+    /// sampling instants.
+    pub decay: Option<Decay>,
+    /// Of what |e - e_per| is in the limit with the noise, disturbance and rounding of the document, where that is proved.
+    pub noise: Option<Rational>,
+    /// What simulations of the nominal plant came to; it proves nothing.
+    pub simulated: Option<Simulated>,
+}
+
+/// An exponential bound.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Decay {
+    /// In 1/time.
+    pub rate: Rational,
+    /// In the unit of e.
+    pub factor: Rational,
+}
+
+/// Figures of simulations.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Simulated {
+    /// sup|e| of the periodic solution.
+    pub steady_error: f64,
+    /// The largest |e| and |u| of the runs from the initial set that were tried; none where a run was not finished.
+    pub largest: Option<[f64; 2]>,
+}
+
+impl Row {
+    /// What a run proves at its gain, its rates included, for these numbers of oscillators in rising order; `None` where nothing is certified.
+    #[must_use]
+    pub fn of(run: &Run<'_>, counts: &[u32]) -> Option<Row> {
+        let certified = run.certified()?;
+        let said = run.of_counts();
+        let cell = |n_o: &u32| {
+            let [steady_error, peak_error, control] = run.bounds_with(&[*n_o])?;
+            let said = said.iter().find(|said| said.n_o == *n_o);
+            Some(Cell {
+                n_o: *n_o,
+                steady_error,
+                peak_error,
+                control,
+                decay: said.map(|said| Decay { rate: said.rate.clone(), factor: said.factor.clone() }),
+                noise: said.and_then(|said| said.noise).map(|[_, limit]| limit.clone()),
+                simulated: None,
+            })
+        };
+        let cells = counts.iter().map(cell).collect::<Option<_>>()?;
+        Some(Row { sigma: certified.sigma.clone(), e0: certified.set.e0.clone(), cells })
+    }
+}
+
+impl Cell {
+    /// After how many periods |e| is at most a limit for good, at most: `log(factor/(limit - steady error))/(rate T)`, or 0 where the factor is at most
+    /// that difference. `None` where no rate is proved, or the steady error is not proved to be below the limit. Hypothesis: `period` is positive, and no
+    /// period of the document is shorter.
+    #[must_use]
+    pub fn settling(&self, limit: &Rational, period: &Enclosure) -> Option<Enclosure> {
+        let Decay { rate, factor } = self.decay.as_ref()?;
+        let precision = period.precision();
+        let exact = |value: &Rational| Enclosure::from_rational(value, precision);
+        let room = &exact(limit) - &self.steady_error;
+        if !room.is_positive().is_true() || !exact(rate).is_positive().is_true() {
+            return None;
+        }
+        let ratio = &exact(factor) / &room;
+        let least = ratio.max(&exact(&Rational::from(1)));
+        Some(&least.log() / &(&exact(rate) * period))
+    }
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use super::*;
+
+    /// A cell with these bounds of the steady error, the peak and the control, without a rate.
+    pub fn cell(n_o: u32, [steady_error, peak_error, control]: [f64; 3]) -> Cell {
+        let bound = Enclosure::exactly;
+        Cell {
+            n_o,
+            steady_error: bound(steady_error),
+            peak_error: bound(peak_error),
+            control: bound(control),
+            decay: None,
+            noise: None,
+            simulated: None,
+        }
+    }
+
+    /// The same with a rate and a factor.
+    pub fn falling(cell: Cell, rate: (u32, u32), factor: (u32, u32)) -> Cell {
+        Cell { decay: Some(Decay { rate: rate.into(), factor: factor.into() }), ..cell }
+    }
+
+    #[test]
+    fn settling_is_what_the_exponential_bound_says() {
+        let period = Enclosure::exactly(0.5);
+        let of = |cell: &Cell, limit: (u32, u32)| cell.settling(&limit.into(), &period).map(|found| found.upper_f64());
+        let falls = falling(cell(0, [1.0, 9.0, 1.0]), (2, 1), (8, 1));
+        // 1 + 8 exp(-2 t) is 3 at t = log 4/2, and one period is 0.5.
+        let found = of(&falls, (3, 1)).unwrap();
+        assert!((found - 4f64.ln()).abs() < 1e-12 && found >= 4f64.ln(), "{found}");
+        // At once; never to what the periodic solution has.
+        assert_eq!(of(&falls, (9, 1)), Some(0.0));
+        assert_eq!(of(&falls, (20, 1)), Some(0.0));
+        assert_eq!([of(&falls, (1, 1)), of(&falls, (1, 2)), of(&cell(0, [1.0, 9.0, 1.0]), (3, 1))], [None; 3]);
+    }
+}

@@ -1,0 +1,63 @@
+//! `sigmastar design`.
+
+use super::args::DesignArgs;
+use super::counts::finite_counts;
+use super::failure::Failure;
+use super::files::Input;
+use super::output;
+use super::progress::working;
+use super::subject::Asked;
+use sigmastar::program::{DesignNames, design_of};
+use sigmastar::{DesignOptions, Verdict};
+
+/// What the arguments are called here.
+const NAMES: DesignNames = DesignNames {
+    asked: ["--n-o", "--sigma", "--sampling-period"],
+    required: ["--steady-error", "--peak-error", "--max-control", "--settle", "--noise"],
+};
+
+/// Runs the command and returns the exit code.
+pub fn run(args: &DesignArgs) -> Result<u8, Failure> {
+    let file = args.replace.asked(args.output.as_deref(), Input::Specification(&args.spec), "the certificate")?;
+    let asked = Asked::read(&args.spec)?;
+    let subject = asked.subject()?;
+    let options = options(args)?;
+    let working = working("proving the rows of the design table", "", args.quiet);
+    let design = design_of((subject, asked.document), &options, &NAMES)?;
+    drop(working);
+    if let Some(file) = &file {
+        if design.is_met() {
+            file.write(design.certificate().to_json())?;
+            if !args.quiet {
+                let (name, sigma) = (file.name(), design.sigma());
+                output::remark(&format!("the certificate of sigma = {sigma} is in `{name}`"));
+            }
+        } else {
+            let name = file.name();
+            output::remark(&format!("`{name}` was not written: not all that is required is proved"));
+        }
+    }
+    let verdict = if design.is_met() { Verdict::Certified } else { Verdict::Undecided };
+    let text = output::report(design.report(), args.format);
+    Ok(output::data(&text).err().unwrap_or(verdict.exit_code()))
+}
+
+fn options(args: &DesignArgs) -> Result<DesignOptions, Failure> {
+    type Set = fn(DesignOptions, String) -> DesignOptions;
+    let texts: [(&Option<String>, Set); 6] = [
+        (&args.steady_error, DesignOptions::steady_error),
+        (&args.peak_error, DesignOptions::peak_error),
+        (&args.max_control, DesignOptions::max_control),
+        (&args.settle, DesignOptions::settle),
+        (&args.noise, DesignOptions::noise),
+        (&args.sampling_period, DesignOptions::sampling_period),
+    ];
+    let mut options = DesignOptions::new().n_o(finite_counts(&args.n_o)?).simulate(!args.no_simulation);
+    for (text, set) in texts {
+        options = text.clone().map_or(options.clone(), |text| set(options, text));
+    }
+    if let Some(sigmas) = &args.sigma {
+        options = options.sigmas(sigmas.split(',').map(str::trim));
+    }
+    Ok(options)
+}
