@@ -10,7 +10,7 @@ use sigmastar_theory::evidence::Part;
 /// takes a fraction of the boxes, and the peaks of the machines in `specs` are larger by half a hundredth at most.
 const MARGINS: [f64; 2] = [1e-3, 1e-5];
 const MARGINS_OF_FAMILY: [f64; 2] = [1e-2, 1e-5];
-const WIDE_MARGINS: [f64; 2] = [0.1, 1e-2];
+const WIDE_MARGINS: [f64; 5] = [0.1, 0.07, 0.05, 0.02, 1e-2];
 /// Of the form that says how near to the trial the solution is, where its defects are more than rounding.
 const NEAR_MARGINS: [f64; 5] = [0.5, 0.3, 0.2, 0.1, 1e-2];
 
