@@ -94,10 +94,7 @@ pub fn decided<'p>(
 ///
 /// # Errors
 /// What the data are refused for.
-pub(super) fn with_rates<'p>(
-    prepared: &'p Prepared,
-    (options, counts): (Options, &[u32]),
-) -> Result<Run<'p>, Error> {
+pub(super) fn with_rates<'p>(prepared: &'p Prepared, (options, counts): (Options, &[u32])) -> Result<Run<'p>, Error> {
     let decided_by = |check: &dyn Fn(&Run<'_>) -> Checked| {
         prepared.certify_checked(options, check, &Unwatched).map_err(|all| Error::documents(&all))
     };

@@ -266,9 +266,8 @@ pub fn design_of(
 }
 
 fn requirements(subject: &Read, options: &DesignOptions, names: &DesignNames) -> Result<Requirements, Error> {
-    let value = |which: usize| {
-        options.required[which].as_ref().map(|text| rational(names.required[which], text)).transpose()
-    };
+    let value =
+        |which: usize| options.required[which].as_ref().map(|text| rational(names.required[which], text)).transpose();
     let requirements = Requirements {
         steady_error: value(0)?,
         peak_error: value(1)?,

@@ -26,6 +26,7 @@ mod controller;
 mod controller_c;
 mod controller_certificate;
 mod delayed;
+mod design;
 mod documents;
 mod effort;
 mod errata_data;

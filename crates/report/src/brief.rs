@@ -2,6 +2,7 @@
 //! assumed. The sections below say more of each.
 
 use super::by_count::section as by_count;
+use super::gains::to_use;
 use super::of_plant::orbit;
 use super::verdict::assumed;
 use super::{Origin, sensitivity, words};
@@ -60,11 +61,15 @@ pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences
         }
         (None, None) => format!("$`sigma* = {sigma}`$ in 1/time, or any larger; {same}"),
     };
-    let mut facts = vec![
+    let mut facts = Vec::new();
+    // Who gives a gain, or limits, has chosen.
+    let is_free = run.given_gain.is_none() && run.limits.is_empty();
+    facts.extend(to_use(&run.gains).filter(|_| is_free));
+    facts.extend([
         ("gain", gain),
         ("initial set", initial_set(run.spec, set, &periodic, "any time")),
         ("next", next(run.spec, origin, false)),
-    ];
+    ]);
     facts.extend(orbit(run.spec).map(|said| ("orbit", said)));
     facts.extend(limited_by(run).map(|said| ("limited by", said)));
     facts.extend(
@@ -170,11 +175,14 @@ pub(super) fn of_samples(
             )
         },
     );
-    let mut facts = vec![
+    let mut facts = Vec::new();
+    let is_free = run.given_gain.is_none() && run.limits.is_empty();
+    facts.extend(to_use(&run.gains).filter(|_| is_free));
+    facts.extend([
         ("gain", gain),
         ("initial set", initial_set(run.spec, &witness.set, &periodic, &when)),
         ("next", next(run.spec, origin, true)),
-    ];
+    ]);
     facts.extend(orbit(run.spec).map(|said| ("orbit", said)));
     facts.extend(run.found.map(|(_, limit)| ("limited by", format!("{} (an estimate)", limit.describe()))));
     // A table stands below where more is known.
@@ -213,12 +221,12 @@ pub(super) fn of_samples(
 fn next(spec: &Specification, origin: Origin, at_samples: bool) -> String {
     let said = match (origin, at_samples) {
         (Origin::Search, false) => {
-            "`-o FILE` writes the certificate; `sigmastar check FILE` decides it again with other code; `sigmastar controller \
-             FILE --n-o N` writes the regulator"
+            "`sigmastar design` finds a gain and $`n_o`$ for your needs; `-o FILE` writes the certificate, `check FILE` decides it \
+             again, `controller FILE --n-o N` writes the regulator"
         }
         (Origin::Search, true) => {
-            "`-o FILE` writes the certificate; `sigmastar check FILE` decides it again; `sigmastar controller FILE --n-o N \
-             --format c -o FILE.c` writes the code"
+            "`sigmastar design` finds a gain and $`n_o`$ for your needs; `-o FILE` writes the certificate, `check FILE` decides it again, \
+             `controller FILE --n-o N --format c` writes the code"
         }
         (Origin::Witness, false) => {
             "`sigmastar check FILE` decides the certificate with other code; `controller FILE --n-o N` writes the regulator"

@@ -7,9 +7,6 @@ use sigmastar_document::{Block, Table};
 use sigmastar_exact::number::{Direction, write_exact};
 use sigmastar_prove::certify::{Certification, GainRow, SHOWN_N_O, SampledCertification};
 
-/// The share of the bound of |e| that a larger gain has to leave to be named.
-const WORTH: f64 = 0.5;
-
 /// The table of a claim in continuous time; nothing where there are no rows but that of the claim.
 pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
     let steady = SHOWN_N_O.map(|n_o| format!("steady $`|e|`$, {n_o}"));
@@ -75,22 +72,25 @@ pub(super) fn rows_json(rows: &[GainRow]) -> Value {
     rows.iter().map(row).collect()
 }
 
-/// That the bound of |e| in the transient is far above the initial set, with a gain that is better where there is one.
-pub(super) fn remark(run: &Certification<'_>) -> Option<String> {
-    let (set, own) = (run.claimed_set()?, run.gains.first()?);
-    if !own.goes_far() {
+/// The gain to use where nothing is required, as JSON: of the rows, that of the claim among them; null without rows.
+pub(super) fn to_use_json(rows: &[GainRow]) -> Value {
+    GainRow::to_use(rows)
+        .map_or(Value::Null, |(row, keeps)| json!({ "sigma": write_exact(&row.sigma), "keeps_rule": keeps }))
+}
+
+/// The gain to use where nothing is required, where that is a larger one than that of the claim, under its name in the report.
+pub(super) fn to_use(rows: &[GainRow]) -> Option<(&'static str, String)> {
+    let (own, (row, keeps)) = rows.first().zip(GainRow::to_use(rows))?;
+    if row.sigma == own.sigma {
         return None;
     }
-    let peak = own.peak.upper_f64();
-    let better = run.gains.iter().skip(1).find(|row| row.peak.upper_f64() <= WORTH * peak);
-    let better = better.map_or_else(String::new, |row| {
-        let e0 = exact(&row.e0, Direction::Down);
-        format!(": at $`sigma = {}`$ it is {}, from {e0}", write_exact(&row.sigma), upper(&row.peak))
-    });
-    Some(format!(
-        "Remark: in the transient $`|e|`$ is proved to be at most {}, from at most {} at the start. A larger gain may help{better}; `--peak-error V` \
-         seeks one.",
-        upper(&own.peak),
-        exact(&set.e0, Direction::Down)
-    ))
+    // A set whose sizes the file does not state goes with the gain.
+    let from = if row.e0 == own.e0 { String::new() } else { format!(" from {}", exact(&row.e0, Direction::Down)) };
+    let said = format!(
+        "$`sigma = {}`$: $`|e| <= {}`${from}, $`|u| <= {}`$ in the transient with every $`n_o`$",
+        write_exact(&row.sigma),
+        upper(&row.peak),
+        upper(&(&row.control.steady + &row.control.transient)),
+    );
+    Some((if keeps { "gain to use" } else { "larger gain" }, said))
 }

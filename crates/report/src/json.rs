@@ -5,7 +5,7 @@ use super::conditions::conditions_with_truth;
 use super::constants::parts_json;
 use super::failures::{FORMAT, VERSION, errors_json};
 use super::for_n_o::rates_json;
-use super::gains::rows_json;
+use super::gains::{rows_json, to_use_json};
 use super::limits;
 use super::obstacles::advice;
 use super::of_plant::plant_json;
@@ -77,6 +77,7 @@ pub(super) fn report(run: &Certification<'_>, consequences: Option<&Consequences
         ("sigma_star_aligned_estimate", json!(run.alternatives.aligned.map(estimate))),
         ("sigma_star_by_norms_estimate", json!(run.alternatives.by_norms.map(estimate))),
         ("consequences", consequences.map_or(Value::Null, consequences_json)),
+        ("gain_to_use", to_use_json(&run.gains)),
         ("gains", rows_json(&run.gains)),
         ("by_n_o", counts_json(run.by_count.as_ref())),
         ("exact_regulation", exact_regulation(run)),

@@ -1,6 +1,5 @@
 //! What the data themselves are to be looked at for; no verdict depends on it.
 
-use super::gains;
 use rug::Rational;
 use sigmastar_decide::conditions::{ExceededBy, NoPlant};
 use sigmastar_document::number::{estimate, exact, upper};
@@ -29,7 +28,6 @@ pub fn remarks(run: &Certification<'_>) -> Vec<String> {
         });
         remarks.push(format!("Remark: $`sigma*`$ is above $`10^4`$ divided by the period.{cause}"));
     }
-    remarks.extend(gains::remark(run));
     remarks.extend(unused_disturbances(run.spec, run.claim().is_some() && run.for_n_o.is_empty()));
     let asked = run.claim().is_some() && run.is_smallest() && !run.for_n_o.is_empty();
     remarks.extend(by_norms(

@@ -330,6 +330,7 @@ impl Readable for SampledReport<'_> {
                     json!({ "error_bounds": bounds_json(by_n_o), "targets": targets_json(targets), "most": most });
             }
             report["by_n_o"] = counts_json(run.by_count.as_ref());
+            report["gain_to_use"] = gains::to_use_json(&run.gains);
             report["gains"] = gains::rows_json(&run.gains);
             if let Some(kept) = limits::sampled_json(run) {
                 report["limits"] = kept;

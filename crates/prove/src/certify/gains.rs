@@ -21,9 +21,12 @@ use std::sync::Arc;
 /// The gains of the rows beside that of a claim, in tenths of it.
 pub const ROWS: [u32; 5] = [12, 15, 20, 30, 50];
 
+/// Digits of these gains.
+const DIGITS: u32 = 4;
+
 /// So many tenths of a gain.
 fn larger(tenths: u32, sigma: &Rational) -> Rational {
-    round_rational(&(Rational::from((tenths, 10)) * sigma), 6, Direction::Up)
+    round_rational(&(Rational::from((tenths, 10)) * sigma), DIGITS, Direction::Up)
 }
 
 /// The row of a proof.

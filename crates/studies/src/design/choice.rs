@@ -2,14 +2,8 @@
 
 use super::requirements::{Compared, Requirements};
 use super::row::{Cell, Row};
-use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
-
-/// By so much more than the larger of start and steady error |e| may be in the transient, where nothing is required.
-const PEAK: u32 = 2;
-
-/// The share of the largest rate of the table that a rate is to be at least, where nothing is required: one over this.
-const RATE: u32 = 2;
+use sigmastar_prove::certify::{Transient, gain_to_use};
 
 /// The pair that is proposed.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -26,10 +20,8 @@ pub struct Choice {
     pub others: Vec<[usize; 2]>,
 }
 
-/// The pair with the smallest gain, and there with the fewest oscillators, that is proved to meet all requirements; where none does, the one that comes
-/// closest. Without requirements the smallest gain at which, with each number of oscillators, the largest |e| is at most twice the larger of E0 and the steady
-/// error, and the rate at least half of the largest in the table; where none does, the one that comes closest. `None` for a table without rows or
-/// cells. Hypothesis: the rows are in the order of their gains, with the same numbers of oscillators.
+/// The pair with the smallest gain, and there with the fewest oscillators, that is proved to meet all requirements; where none does, the one that misses the
+/// fewest of them, and these by least. Without requirements the gain to use ([`gain_to_use`]). `None` for a table without rows or cells. Hypothesis: the rows are in the order of their gains, with the same numbers of oscillators.
 #[must_use]
 pub fn choose(rows: &[Row], requirements: &Requirements, period: &Enclosure) -> Option<Choice> {
     let counts = rows.first()?.cells.len();
@@ -39,11 +31,15 @@ pub fn choose(rows: &[Row], requirements: &Requirements, period: &Enclosure) -> 
     let compared = |[row, cell]: [usize; 2]| requirements.compared(&rows[row].cells[cell], period);
     let pairs = || (0..rows.len()).flat_map(|row| (0..counts).map(move |cell| [row, cell]));
     let is_met = |pair: &[usize; 2]| compared(*pair).iter().all(Compared::is_met);
-    let share = |pair: [usize; 2]| compared(pair).iter().map(Compared::share).fold(0.0, f64::max);
+    // How many requirements are missed, and by how much.
+    let miss = |pair: [usize; 2]| {
+        let all = compared(pair);
+        (all.iter().filter(|one| !one.is_met()).count(), all.iter().map(Compared::share).fold(0.0, f64::max))
+    };
     let found = pairs().find(is_met);
     let [row, cell] = match found {
         Some(pair) => pair,
-        None => pairs().reduce(|a, b| if share(b) < share(a) { b } else { a })?,
+        None => pairs().reduce(|a, b| if miss(b) < miss(a) { b } else { a })?,
     };
     let smallest = |other: usize| (0..rows.len()).map(|row| [row, other]).find(is_met);
     let others = (0..counts).filter(|other| *other != cell).filter_map(smallest).collect();
@@ -51,27 +47,14 @@ pub fn choose(rows: &[Row], requirements: &Requirements, period: &Enclosure) -> 
 }
 
 fn without_requirements(rows: &[Row]) -> Option<Choice> {
-    let rate = |cell: &Cell| cell.decay.as_ref().map(|decay| decay.rate.clone());
-    let best: Vec<Option<Rational>> = (0..rows.first()?.cells.len())
-        .map(|index| rows.iter().filter_map(|row| rate(&row.cells[index])).max())
-        .collect();
-    // What is above 1 misses the rule.
-    let miss = |row: &Row| {
-        let of_cell = |(cell, best): (&Cell, &Option<Rational>)| {
-            let allowed = row.e0.to_f64().max(cell.steady_error.upper_f64()) * f64::from(PEAK);
-            let peak = cell.peak_error.upper_f64() / allowed;
-            let slow = best.as_ref().map_or(0.0, |best| {
-                let own = rate(cell).map_or(0.0, |rate| rate.to_f64());
-                best.to_f64() / (f64::from(RATE) * own)
-            });
-            peak.max(slow)
-        };
-        row.cells.iter().zip(&best).map(of_cell).fold(0.0, f64::max)
-    };
-    let keeps = rows.iter().position(|row| miss(row) <= 1.0);
-    let nearest = || (0..rows.len()).reduce(|a, b| if miss(&rows[b]) < miss(&rows[a]) { b } else { a });
-    let row = keeps.or_else(nearest)?;
-    Some(Choice { row, cell: None, is_met: keeps.is_some(), compared: Vec::new(), others: Vec::new() })
+    fn transient<'r>(row: &'r Row, cell: &'r Cell) -> Transient<'r> {
+        let rate = cell.decay.as_ref().map(|decay| &decay.rate);
+        Transient { start: &row.e0, steady: &cell.steady_error, peak: &cell.peak_error, rate }
+    }
+    let gains: Vec<Vec<Transient<'_>>> =
+        rows.iter().map(|row| row.cells.iter().map(|cell| transient(row, cell)).collect()).collect();
+    let (row, is_met) = gain_to_use(&gains)?;
+    Some(Choice { row, cell: None, is_met, compared: Vec::new(), others: Vec::new() })
 }
 
 #[cfg(test)]

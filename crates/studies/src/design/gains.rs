@@ -57,7 +57,8 @@ pub fn design_table<C: Claims>(
     let mut rows = vec![smallest];
     rows.extend(claims.at(&ROWS.each_ref().map(times)).into_iter().flatten());
     let is_met = |rows: &[Row]| choose(rows, requirements, period).is_none_or(|choice| choice.is_met);
-    let distance = |rows: &[Row]| rows.iter().map(|row| requirements.distance(row, period)).fold(f64::INFINITY, f64::min);
+    let distance =
+        |rows: &[Row]| rows.iter().map(|row| requirements.distance(row, period)).fold(f64::INFINITY, f64::min);
     let helps = |rows: &[Row]| rows.last().is_some_and(|row| misses_what_falls(row, requirements, period));
     let (mut closest, mut rises) = (distance(&rows), 0);
     for tenths in &FURTHER {
@@ -139,7 +140,8 @@ mod tests {
         let rows = design_table(&mut plant, (&requirements, &period), &[]).unwrap();
         assert_eq!(plant.asked.len(), rows.len());
         let found = choose(&rows, &requirements, &period).filter(|choice| choice.is_met);
-        let found = found.map(|choice| (rows[choice.row].sigma.to_f64(), rows[choice.row].cells[choice.cell.unwrap()].n_o));
+        let found =
+            found.map(|choice| (rows[choice.row].sigma.to_f64(), rows[choice.row].cells[choice.cell.unwrap()].n_o));
         (rows.iter().map(|row| row.sigma.to_f64()).collect(), found)
     }
 

@@ -39,10 +39,8 @@ pub struct DesignReport<'d> {
 
 impl Readable for DesignReport<'_> {
     fn blocks(&self) -> Vec<Block> {
-        let mut blocks = vec![
-            Block::Title(format!("{}: design table", clean(self.name))),
-            Block::says(self.sentence()),
-        ];
+        let mut blocks =
+            vec![Block::Title(format!("{}: design table", clean(self.name))), Block::says(self.sentence())];
         if !self.choice.compared.is_empty() {
             blocks.push(Block::heading("What is required"));
             blocks.push(Block::Table(required(&self.choice.compared)));
@@ -175,7 +173,11 @@ impl DesignReport<'_> {
                     (&cell.control, of_runs(1)),
                 ] {
                     cells.push(upper(bound));
-                    cells.extend(simulated.then(|| found.map_or_else(|| "-".to_owned(), |found| estimate(above_rounding(found, cell)))));
+                    cells.extend(
+                        simulated.then(|| {
+                            found.map_or_else(|| "-".to_owned(), |found| estimate(above_rounding(found, cell)))
+                        }),
+                    );
                 }
                 let rate = cell.decay.as_ref().map(|decay| exact(&decay.rate, Direction::Down));
                 cells.push(rate.unwrap_or_else(not_proved));
@@ -213,7 +215,8 @@ impl DesignReport<'_> {
         }
         if self.cells().any(|cell| cell.decay.is_none()) {
             remarks.push(
-                "rates: where none is proved nothing is said about it; fewer oscillators or a larger gain may have one".to_owned(),
+                "rates: where none is proved nothing is said about it; fewer oscillators or a larger gain may have one"
+                    .to_owned(),
             );
         }
         remarks

@@ -1,0 +1,135 @@
+//! `sigmastar design`: the pair to take is the first of the table that is proved to meet every requirement, and its certificate says so.
+
+use super::support::{EXAMPLE, assert_valid, in_one_line, json, number, program, read, stored, utf8};
+use predicates::str::contains;
+use serde_json::{Value, json};
+use std::path::Path;
+
+/// `v' = -v + e + cos(phase)`, with two harmonics in q; period 2.
+fn plant() -> Value {
+    json!({
+        "format": "sigmastar/plant", "version": 1, "name": "designed", "period": 2, "states": ["v"],
+        "f": ["-v + e + cos(phase)"], "q": "v/2 + e/2 + sin(phase) + sin(6*phase)/2",
+        "initial_set": { "kind": "aligned", "X0": "1/2", "E0": "1/2" },
+        "internal_model": {
+            "mu": 1, "base_frequency": "pi", "matched": true, "weights": { "family": "power", "n0": 2, "epsilon": "1/2" },
+        },
+    })
+}
+
+fn design(file: &Path, flags: &[&str], code: i32) -> Value {
+    let mut command = program();
+    command.arg("design").arg(file).args(flags).args(["-q", "--format", "json"]);
+    json(&command.assert().code(code).get_output().stdout)
+}
+
+const REQUIRED: [&str; 3] = ["steady_error", "peak_error", "max_control"];
+
+/// The rows as (sigma, n_o, bounds), in the order of the table.
+fn pairs(report: &Value) -> Vec<(String, u64, [f64; 3])> {
+    let of_row = |row: &Value| {
+        let sigma = row["sigma"].as_str().unwrap().to_owned();
+        let cells = row["cells"].as_array().unwrap().iter();
+        cells
+            .map(|cell| (sigma.clone(), cell["n_o"].as_u64().unwrap(), REQUIRED.map(|name| number(&cell[name]))))
+            .collect::<Vec<_>>()
+    };
+    report["rows"].as_array().unwrap().iter().flat_map(of_row).collect()
+}
+
+#[test]
+fn the_pair_to_take_is_the_first_that_meets_every_requirement() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = stored(folder.path(), "plant.json", &plant());
+    let table = pairs(&design(&file, &["--n-o", "0,1,2", "--no-simulation"], 0));
+    // What the second gain has with one oscillator, which the first has not.
+    let (_, _, [steady, peak, control]) = &table[4];
+    assert!(*peak < table[1].2[1]);
+    let above = |bound: &f64| format!("{:.6}", 1.001 * bound);
+    let flags = ["--steady-error", &above(steady), "--peak-error", &above(peak), "--max-control", &above(control)];
+    let output = folder.path().join("c.json");
+    let report = design(&file, &[&flags[..], &["--n-o", "0,1,2", "-o", output.to_str().unwrap()]].concat(), 0);
+    let take = &report["take"];
+    assert_eq!((&take["met"], take["requirements"].as_array().unwrap().len()), (&json!(true), 3));
+    let limits = [steady, peak, control].map(|bound| number(&json!(above(bound))));
+    let meets = |bounds: &[f64; 3]| bounds.iter().zip(limits).all(|(bound, limit)| *bound <= limit);
+    let rows = pairs(&report);
+    let (sigma, n_o, _) = rows.iter().find(|(_, _, bounds)| meets(bounds)).unwrap();
+    assert_eq!((take["sigma"].as_str(), take["n_o"].as_u64()), (Some(sigma.as_str()), Some(*n_o)));
+    let gains: Vec<f64> = report["rows"].as_array().unwrap().iter().map(|row| number(&row["sigma"])).collect();
+    assert!(gains.windows(2).all(|pair| pair[0] < pair[1]), "{gains:?}");
+    // The certificate is of that gain, has its numbers, and the checker decides it.
+    let certificate = read(&output);
+    assert_eq!(certificate["claim"]["sigma_star"], take["sigma"]);
+    let entry = certificate["claim"]["by_n_o"].as_array().unwrap().iter().find(|entry| entry["n_o"] == *n_o).unwrap();
+    let proved = take["requirements"].as_array().unwrap();
+    assert!((number(&entry["steady_error"]) / number(&proved[0]["proved"]) - 1.0).abs() < 1e-9, "{entry} {proved:?}");
+    assert_valid(&output);
+    // What is simulated is below what is proved, and not far.
+    for row in report["rows"].as_array().unwrap() {
+        for cell in row["cells"].as_array().unwrap() {
+            for name in REQUIRED {
+                let (found, bound) = (cell["simulated"][name].as_f64().unwrap(), number(&cell[name]));
+                assert!(
+                    found <= bound * (1.0 + 1e-6) + 1e-12 && (name == "steady_error" || bound < 3.0 * found),
+                    "{name} {cell}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn what_is_missed_is_told_and_writes_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let (file, output) = (stored(folder.path(), "plant.json", &plant()), folder.path().join("c.json"));
+    let flags = ["--steady-error", "0.2", "--max-control", "0.001", "--n-o", "0,2", "--no-simulation"];
+    let mut command = program();
+    command.arg("design").arg(&file).args(flags).arg("-o").arg(&output);
+    let assert = command.assert().code(3).stderr(contains("not all that is required is proved"));
+    let text = in_one_line(&utf8(assert.get_output().stdout.clone()));
+    assert!(text.contains("comes closest; not met: largest |u|"), "{text}");
+    assert!(!output.exists());
+    // A rate is proved, so it settles; in half a period it does not.
+    let settles = |periods| {
+        let flags = ["--steady-error", "0.2", "--settle", periods, "--n-o", "2", "--no-simulation"];
+        program().arg("design").arg(&file).args(flags).arg("-q").output().unwrap().status.code()
+    };
+    assert_eq!([settles("60"), settles("0.01")], [Some(0), Some(3)]);
+}
+
+#[test]
+fn at_samples_of_gains_and_of_a_specification() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = stored(folder.path(), "plant.json", &plant());
+    let report = design(&file, &["--sampling-period", "1/100", "--sigma", "12,8", "--n-o", "0,1"], 0);
+    assert_eq!(report["sampling"], json!({ "sampling_period": "1/100", "samples": 200 }));
+    let gains: Vec<&Value> = report["rows"].as_array().unwrap().iter().map(|row| &row["sigma"]).collect();
+    assert_eq!(gains, ["8", "12"]);
+    let found = &report["rows"][1]["cells"][0]["simulated"];
+    assert!(found["peak_error"].as_f64().unwrap() <= number(&report["rows"][1]["cells"][0]["peak_error"]), "{found}");
+    // Of a specification there is no plant to simulate, and bounds are by the conditions.
+    let report = design(Path::new(EXAMPLE), &["--n-o", "0,3"], 0);
+    assert_eq!(report["rows"][0]["cells"][0]["simulated"], Value::Null);
+    assert_eq!(report["rows"][0]["sigma"], "39.8018");
+}
+
+#[test]
+fn calls_without_an_answer() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = stored(folder.path(), "plant.json", &plant());
+    let many = (1..=21).map(|gain| gain.to_string()).collect::<Vec<_>>().join(",");
+    for (flags, said) in [
+        (&["--noise", "0.1"][..], "--noise: the document states neither noise nor a disturbance"),
+        (&["--settle", "3"], "--steady-error"),
+        (&["--n-o", "0..20"], "--n-o: 21 numbers of oscillators"),
+        (&["--steady-error", "-1"], "--steady-error"),
+        (&["--sigma", &many], "--sigma: 21 gains"),
+        (&["--sigma", "0.1,x"], "--sigma"),
+        (&["--sampling-period", "1/5", "--n-o", "0,5"], "half of the samples"),
+    ] {
+        program().arg("design").arg(&file).args(flags).assert().code(2).stderr(contains(said));
+    }
+    // A gain that is too small is told with its reason.
+    program().arg("design").arg(&file).args(["--sigma", "0.001"]).assert().code(3);
+}
