@@ -159,7 +159,7 @@ impl Design {
         self.n_o
     }
 
-    /// Whether every requirement is proved to be met with this pair; where nothing is required, whether the rule for the gain is.
+    /// Whether every requirement is proved to be met with this pair; so it is where nothing is required.
     #[must_use]
     pub fn is_met(&self) -> bool {
         self.is_met
@@ -238,19 +238,21 @@ pub fn design_of(
         asked: &asked,
         simulate: options.simulate,
         certificates: Vec::new(),
-        refused: None,
+        refused: Vec::new(),
     };
     let rows = design_table(&mut claims, (&requirements, &period), &sigmas)?;
-    let Proved { certificates, refused, .. } = claims;
+    let Proved { certificates, mut refused, .. } = claims;
     let Some(choice) = choose(&rows, &requirements, &period) else {
         let none = || Error::new(ErrorKind::NotCertified, "none of these gains is certified", "ask for larger ones");
-        return Err(refused.unwrap_or_else(none));
+        return Err(if refused.is_empty() { none() } else { refused.swap_remove(0).1 });
     };
+    let refused: Vec<Rational> = refused.into_iter().map(|(sigma, _)| sigma).collect();
     let report = DesignReport {
         rows: &rows,
         choice: &choice,
         requirements: &requirements,
         period: &period,
+        refused: &refused,
         sampling: asked.read.sampling().map(|sampling| (sampling.text(), sampling.samples)),
         name: asked.read.name(),
         sha256: asked.read.sha256(),
@@ -262,6 +264,7 @@ pub fn design_of(
         return Err(Error::new(ErrorKind::NotCertified, "the gain to take has no certificate", "report this"));
     };
     let n_o = cell.map(|cell| rows[row].cells[cell].n_o);
+    let is_met = is_met || requirements.is_empty();
     Ok(Design { sigma: write_exact(&sigma), n_o, is_met, certificate, report })
 }
 
@@ -302,8 +305,8 @@ struct Proved<'a> {
     asked: &'a Subject,
     simulate: bool,
     certificates: Vec<(Rational, Certificate)>,
-    /// Why the first gain that is not certified is not.
-    refused: Option<Error>,
+    /// The gains that are not certified, and why.
+    refused: Vec<(Rational, Error)>,
 }
 
 impl Claims for Proved<'_> {
@@ -322,14 +325,14 @@ impl Claims for Proved<'_> {
         };
         let found = parallel::map(sigmas, at);
         let mut rows = Vec::with_capacity(found.len());
-        for found in found {
+        for (found, sigma) in found.into_iter().zip(sigmas) {
             match found {
                 Ok((row, certificate)) => {
                     self.certificates.push((row.sigma.clone(), certificate));
                     rows.push(Some(row));
                 }
                 Err(error) => {
-                    self.refused.get_or_insert(error);
+                    self.refused.push((sigma.clone(), error));
                     rows.push(None);
                 }
             }

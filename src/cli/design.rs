@@ -8,7 +8,7 @@ use super::output;
 use super::progress::working;
 use super::subject::Asked;
 use sigmastar::program::{DesignNames, design_of};
-use sigmastar::{DesignOptions, Verdict};
+use sigmastar::{DesignOptions, Error, Verdict};
 
 /// What the arguments are called here.
 const NAMES: DesignNames = DesignNames {
@@ -23,8 +23,12 @@ pub fn run(args: &DesignArgs) -> Result<u8, Failure> {
     let subject = asked.subject()?;
     let options = options(args)?;
     let working = working("proving the rows of the design table", "", args.quiet);
-    let design = design_of((subject, asked.document), &options, &NAMES)?;
+    let design = design_of((subject, asked.document), &options, &NAMES);
     drop(working);
+    let design = match design {
+        Err(error) if error.report().is_some() => return not_certified(&error, args),
+        other => other?,
+    };
     if let Some(file) = &file {
         if design.is_met() {
             file.write(design.certificate().to_json())?;
@@ -40,6 +44,15 @@ pub fn run(args: &DesignArgs) -> Result<u8, Failure> {
     let verdict = if design.is_met() { Verdict::Certified } else { Verdict::Undecided };
     let text = output::report(design.report(), args.format);
     Ok(output::data(&text).err().unwrap_or(verdict.exit_code()))
+}
+
+/// Why there is no table, as `certify` tells it.
+fn not_certified(error: &Error, args: &DesignArgs) -> Result<u8, Failure> {
+    if let Some(output) = &args.output {
+        output::remark(&format!("`{}` was not written: the verdict is {}", output::shown(output), error.verdict()));
+    }
+    let text = error.report().map(|report| output::report(report, args.format)).unwrap_or_default();
+    Ok(output::data(&text).err().unwrap_or(error.verdict().exit_code()))
 }
 
 fn options(args: &DesignArgs) -> Result<DesignOptions, Failure> {

@@ -99,7 +99,7 @@ fn pages(folder: &Path) -> Vec<PathBuf> {
     let certificate = certificate.to_str().expect("a plain name");
     let claim = page(folder, "certify", &["certify", EXAMPLE, "-q", "--force", "-o", certificate], 0);
     let jacobian = "specs/paper-example-jacobian.json";
-    let others: [(&str, &[&str], i32); 12] = [
+    let others: [(&str, &[&str], i32); 13] = [
         ("plant", &["certify", PLANT, "-q"], 0),
         ("sampled", &["certify", AT_REST, "-q", "--sampling-period", "1/1000"], 0),
         ("refuted", &["certify", EXAMPLE, "-q", "--witness", refuted_witness()], 1),
@@ -111,6 +111,7 @@ fn pages(folder: &Path) -> Vec<PathBuf> {
         ("check", &["check", certificate], 0),
         ("errata", &["errata", EXAMPLE], 0),
         ("constants", &["constants", EXAMPLE], 0),
+        ("design", &["design", EXAMPLE, "-q", "--sigma", "50", "--n-o", "0"], 0),
         ("tune", &["tune", EXAMPLE, "-q", "--over", "mu", "--tries", "8"], 0),
     ];
     let others = others.iter().map(|(name, arguments, code)| page(folder, name, arguments, *code));

@@ -18,7 +18,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::OnceLock;
 
 /// How many blocks of each kind there are at least.
-const LEAST: [(&str, usize); 18] = [
+const LEAST: [(&str, usize); 19] = [
     ("bounding-spec", 1),
     ("bounding-spec-part", 10),
     ("plant", 2),
@@ -29,6 +29,7 @@ const LEAST: [(&str, usize); 18] = [
     ("study", 1),
     ("case-fragment", 1),
     ("tune-fragment", 1),
+    ("design-fragment", 1),
     ("transfer-fragment", 2),
     ("check-fragment", 2),
     ("lyapunov-fragment", 1),
@@ -352,6 +353,25 @@ fn written() -> &'static BTreeMap<&'static str, Vec<Value>> {
                 vec![other(&["check", VALID]), run(1, &["check", refuted_witness(), "--format", "json"])],
             ),
             ("case-fragment", lines_of_cases()),
+            (
+                "design-fragment",
+                vec![
+                    other(&[
+                        "design",
+                        "-q",
+                        PLANT,
+                        "--steady-error",
+                        "0.2",
+                        "--settle",
+                        "90",
+                        "--sigma",
+                        "8",
+                        "--n-o",
+                        "0,2",
+                    ]),
+                    other(&["design", "-q", AT_REST, "--sampling-period", "1/1000", "--sigma", "25", "--n-o", "0"]),
+                ],
+            ),
             ("tune-fragment", vec![other(&["tune", "-q", EXAMPLE, "--over", "mu", "--tries", "8"])]),
             ("lyapunov-fragment", vec![other(&["lyapunov", "specs/paper-example-jacobian.json"])]),
             ("errata-fragment", vec![other(&["errata"]), other(&["errata", "specs/linear.json"])]),

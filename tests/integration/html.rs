@@ -166,6 +166,7 @@ fn reports_on_claims_are_pages() {
         (vec!["lyapunov", PLANT], 0, [0, 0]),
         (vec!["errata", EXAMPLE], 0, [0, 2]),
         (vec!["constants", EXAMPLE], 0, [0, 2]),
+        (vec!["design", EXAMPLE, "-q", "--sigma", "50", "--n-o", "0"], 0, [0, 0]),
         (vec!["tune", EXAMPLE, "-q", "--over", "mu", "--tries", "8"], 0, [0, 0]),
     ]);
 }

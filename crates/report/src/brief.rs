@@ -62,8 +62,9 @@ pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences
         (None, None) => format!("$`sigma* = {sigma}`$ in 1/time, or any larger; {same}"),
     };
     let mut facts = Vec::new();
-    // Who gives a gain, or limits, has chosen.
-    let is_free = run.given_gain.is_none() && run.limits.is_empty();
+    // Who gives a gain, limits or targets has chosen.
+    let has_targets = consequences.is_some_and(|all| !all.targets.is_empty());
+    let is_free = run.given_gain.is_none() && run.limits.is_empty() && !has_targets;
     facts.extend(to_use(&run.gains).filter(|_| is_free));
     facts.extend([
         ("gain", gain),
@@ -83,9 +84,7 @@ pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences
     // A table stands below where more is known.
     let by_n_o = consequences.filter(|_| run.by_count.is_none());
     facts.extend(by_n_o.and_then(|all| error(&all.by_n_o)).map(|said| ("steady error", said)));
-    facts.extend(
-        for_n_o(run, consequences.is_some_and(|all| !all.targets.is_empty())).map(|said| ("convergence", said)),
-    );
+    facts.extend(for_n_o(run, has_targets).map(|said| ("convergence", said)));
     // It grows with the gain, of which the claim says "or any larger".
     let [x, _, zeta, z] = periodic;
     let periodic = [x, steady, zeta, z];

@@ -29,6 +29,8 @@ pub struct DesignReport<'d> {
     pub requirements: &'d Requirements,
     /// The shortest period of the document.
     pub period: &'d Enclosure,
+    /// The gains at which nothing is certified.
+    pub refused: &'d [Rational],
     /// The sampling period and the samples of a period, of the law at samples.
     pub sampling: Option<(String, u32)>,
     /// The name of the specification or plant.
@@ -71,7 +73,7 @@ impl Readable for DesignReport<'_> {
                 "sigma": sigma(row), "n_o": cell.map(|cell| n_o(*row, cell)), "met": is_met, "requirements": compared,
                 "others": others,
             },
-            "rows": rows,
+            "rows": rows, "not_certified": self.refused.iter().map(write_exact).collect::<Vec<_>>(),
         })
     }
 }
@@ -125,7 +127,7 @@ impl DesignReport<'_> {
         };
         let simulated = match self.has_simulations() {
             true => {
-                " Simulated columns are of the nominal plant, from some starts on the boundary of the initial set; they prove nothing."
+                " Columns `sim.` are of simulations of the nominal plant, from starts in the initial set that seem to be the worst; they prove nothing."
             }
             false => "",
         };
@@ -153,10 +155,10 @@ impl DesignReport<'_> {
         titles.push("$`n_o`$");
         for title in ["steady $`|e|`$", "largest $`|e|`$", "largest $`|u|`$"] {
             titles.push(title);
-            titles.extend(simulated.then_some("simulated"));
+            titles.extend(simulated.then_some("sim."));
         }
         titles.push("rate");
-        titles.extend(within.map(|_| "periods to settle"));
+        titles.extend(within.map(|_| "settles in"));
         titles.extend(noise.then_some("noise in $`|e|`$"));
         let mut table = Table::new(&titles);
         let not_proved = || "not proved".to_owned();
@@ -209,9 +211,13 @@ impl DesignReport<'_> {
         ];
         if let Some(limit) = &self.requirements.steady_error {
             remarks.push(format!(
-                "settle: after so many periods $`|e|`$ is at most {} for good, by the proved rate and its factor; the true number is smaller, as a rule",
+                "settles in: after so many periods $`|e|`$ is at most {} for good, by the proved rate and its factor; the true number is smaller, as a rule",
                 write_exact(limit)
             ));
+        }
+        if !self.refused.is_empty() {
+            let all: Vec<String> = self.refused.iter().map(write_exact).collect();
+            remarks.push(format!("not certified: $`sigma = {}`$", all.join(", ")));
         }
         if self.cells().any(|cell| cell.decay.is_none()) {
             remarks.push(
