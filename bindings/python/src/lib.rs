@@ -11,7 +11,8 @@ use dict::Dict;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use sigmastar::{
-    CertifyOptions, Error, SimulationOptions, Study, Subject, TransferChoice, TransferOptions, TuneGoal, TuneOptions,
+    CertifyOptions, DesignOptions, Error, SimulationOptions, Study, Subject, TransferChoice, TransferOptions, TuneGoal,
+    TuneOptions,
 };
 use std::cell::RefCell;
 use told::answer;
@@ -102,6 +103,38 @@ fn sampling(py: Python<'_>, file: File, periods: Option<Vec<String>>, sigmas: Op
         let sigmas: Option<Vec<&str>> = sigmas.as_ref().map(|all| all.iter().map(String::as_str).collect());
         sigmastar::sampling(subject(&file)?, periods.as_deref(), sigmas.as_deref()).map(told::pairs)
     })
+}
+
+/// The options of `design`.
+#[derive(FromPyObject)]
+struct Wanted {
+    n_o: Vec<u32>,
+    sigmas: Vec<String>,
+    sampling_period: Option<String>,
+    steady_error: Option<String>,
+    peak_error: Option<String>,
+    max_control: Option<String>,
+    settle: Option<String>,
+    noise: Option<String>,
+    simulate: bool,
+}
+
+impl From<Wanted> for DesignOptions {
+    fn from(wanted: Wanted) -> DesignOptions {
+        let options = DesignOptions::new().n_o(wanted.n_o).sigmas(wanted.sigmas).simulate(wanted.simulate);
+        let options = wanted.sampling_period.into_iter().fold(options, DesignOptions::sampling_period);
+        let options = wanted.steady_error.into_iter().fold(options, DesignOptions::steady_error);
+        let options = wanted.peak_error.into_iter().fold(options, DesignOptions::peak_error);
+        let options = wanted.max_control.into_iter().fold(options, DesignOptions::max_control);
+        let options = wanted.settle.into_iter().fold(options, DesignOptions::settle);
+        wanted.noise.into_iter().fold(options, DesignOptions::noise)
+    }
+}
+
+#[pyfunction]
+fn design(py: Python<'_>, file: File, wanted: Wanted) -> PyResult<Dict> {
+    let options = DesignOptions::from(wanted);
+    outside(py, move || sigmastar::design(subject(&file)?, &options).map(told::designed))
 }
 
 #[pyfunction]
@@ -235,8 +268,8 @@ fn study_results(py: Python<'_>, files: StudyFiles, lines: Vec<String>) -> PyRes
 mod _native {
     #[pymodule_export]
     use super::{
-        bound, certify, check, falsify, lyapunov, regulator, reread, run_case, sampled_regulator, sampling, simulate,
-        study_case, study_count, study_results, study_subject, transfer, tune,
+        bound, certify, check, design, falsify, lyapunov, regulator, reread, run_case, sampled_regulator, sampling,
+        simulate, study_case, study_count, study_results, study_subject, transfer, tune,
     };
     use sigmastar::{CertifyOptions, Subject};
 

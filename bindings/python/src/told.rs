@@ -2,9 +2,9 @@
 
 use crate::dict::{Dict, Value};
 use sigmastar::{
-    BoundedPlant, Certificate, CheckReport, CheckVerdict, Condition, Diagnostic, Error, ErrorKind, Falsification,
-    FalsificationOutcome, InitialSet, PeriodicSolution, RegulatorMatrices, Report, ReportFormat, SampledRegulator,
-    SamplingPairs, Simulation, StudyCase, TransferStudy, Tuned,
+    BoundedPlant, Certificate, CheckReport, CheckVerdict, Condition, Design, Diagnostic, Error, ErrorKind,
+    Falsification, FalsificationOutcome, InitialSet, PeriodicSolution, RegulatorMatrices, Report, ReportFormat,
+    SampledRegulator, SamplingPairs, Simulation, StudyCase, TransferStudy, Tuned,
 };
 
 /// A result, or why there is none: one of both.
@@ -191,6 +191,16 @@ pub fn tuning(tuned: Tuned) -> Dict {
         .with("has_claim", tuned.has_claim())
         .with("document", tuned.document().map(str::to_owned))
         .with("reports", reports(tuned.report()))
+}
+
+/// A design table.
+pub fn designed(design: Design) -> Dict {
+    Dict::new()
+        .with("sigma", design.sigma().to_owned())
+        .with("n_o", design.n_o())
+        .with("is_met", design.is_met())
+        .with("certificate", certificate(design.certificate().clone()))
+        .with("reports", reports(design.report()))
 }
 
 /// A simulation.

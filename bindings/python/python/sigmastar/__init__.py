@@ -14,8 +14,8 @@ A claim is proved: no floating-point number decides it. What is not certified is
 `InputError`), never a certificate.
 """
 
-from ._beside import BoundedPlant, Lyapunov, Pair, SamplingPairs, Tuned, Tuning
-from ._calls import bound, certify, check, controller, falsify, load, lyapunov, sampling, simulate, transfer, tune
+from ._beside import BoundedPlant, Design, Lyapunov, Pair, SamplingPairs, Tuned, Tuning
+from ._calls import bound, certify, check, controller, design, falsify, load, lyapunov, sampling, simulate, transfer, tune
 from ._condition import Condition
 from ._errors import Diagnostic, InputError, RefutedError, SigmastarError, UndecidedError
 from ._exact import Exact
@@ -43,6 +43,7 @@ __all__ = [
     "Check",
     "ClaimedRate",
     "Condition",
+    "Design",
     "Diagnostic",
     "ErrorBound",
     "Exact",
@@ -71,6 +72,7 @@ __all__ = [
     "certify",
     "check",
     "controller",
+    "design",
     "falsify",
     "load",
     "load_study",

@@ -7,9 +7,9 @@ import os
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Dict, List, Optional, Tuple, Union
 
-from ._exact import Exact, Shown, digits, stated
+from ._exact import Exact, Shown, Side, digits, stated
 from ._report import Reported
-from ._results import write
+from ._results import Certificate, write
 from ._table import axes, dataframe
 
 if TYPE_CHECKING:
@@ -123,6 +123,44 @@ class SamplingPairs(Reported):
 
     def __repr__(self) -> str:
         return f"<SamplingPairs: {len(self.by_sampling_period) + len(self.by_sigma)} certified>"
+
+
+@dataclass(frozen=True, repr=False)
+class Design(Reported):
+    """What is proved at several gains with several numbers of oscillators, beside what is required, and the pair to take. It is true where
+    every requirement is proved to be met."""
+
+    sigma: Exact
+    """The gain to take."""
+    n_o: Optional[int]
+    """The number of oscillators to take; None where nothing is required: the gain is for each number of the table."""
+    is_met: bool
+    """Whether every requirement is proved to be met with this pair; so it is where nothing is required."""
+    certificate: Certificate
+    """The certificate of the gain to take."""
+    _reports: Dict[str, str] = field(repr=False)
+
+    @property
+    def rows(self) -> List[Dict[str, Any]]:
+        """The cells of the table, each with its `sigma`: `n_o`, `steady_error`, `peak_error`, `max_control`, `rate`, `factor`, `settle`, `noise`, of
+        which each is text or None, and `simulated` (docs/formats.md)."""
+        return [{"sigma": row["sigma"], **cell} for row in self.data["rows"] for cell in row["cells"]]
+
+    def to_dataframe(self) -> DataFrame:
+        """The table of pandas, which has to be installed: proved numbers rounded to their side."""
+        sides: Dict[str, Side] = {"steady_error": "up", "peak_error": "up", "max_control": "up", "rate": "down", "factor": "up", "settle": "up", "noise": "up"}
+        columns: Dict[str, List[Any]] = {"sigma": [float(stated(row["sigma"])) for row in self.rows]}
+        columns["n_o"] = [row["n_o"] for row in self.rows]
+        for name, side in sides.items():
+            columns[name] = [None if row[name] is None else float(stated(row[name], side)) for row in self.rows]
+        return dataframe(columns)
+
+    def __bool__(self) -> bool:
+        return self.is_met
+
+    def __repr__(self) -> str:
+        met = "" if self.is_met else ", not all that is required"
+        return f"<Design: sigma={self.sigma.exact}, n_o={self.n_o}{met}>"
 
 
 @dataclass(frozen=True, repr=False)

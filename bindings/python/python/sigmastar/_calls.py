@@ -6,7 +6,7 @@ import os
 from typing import Iterable, List, Literal, Mapping, NamedTuple, Optional, Tuple, Union, overload
 
 from . import _native
-from ._beside import BoundedPlant, Lyapunov, SamplingPairs, Tuning
+from ._beside import BoundedPlant, Design, Lyapunov, SamplingPairs, Tuning
 from ._document import Document, File, file, is_certificate, read
 from ._errors import found
 from ._exact import Number, stated, text
@@ -38,6 +38,18 @@ class _Options(NamedTuple):
     peak_error: Optional[str]
     max_control: Optional[str]
     rate: Optional[str]
+
+
+class _Wanted(NamedTuple):
+    n_o: List[int]
+    sigmas: List[str]
+    sampling_period: Optional[str]
+    steady_error: Optional[str]
+    peak_error: Optional[str]
+    max_control: Optional[str]
+    settle: Optional[str]
+    noise: Optional[str]
+    simulate: bool
 
 
 class _Run(NamedTuple):
@@ -182,6 +194,40 @@ def sampling(
     """
     told = found(_native.sampling(_asked(document), _texts(sampling_periods), _texts(sigmas)))
     return SamplingPairs(told["has_pair"], told["reports"])
+
+
+def design(
+    document: Union[Certificate, Document],
+    *,
+    steady_error: Optional[Number] = None,
+    peak_error: Optional[Number] = None,
+    max_control: Optional[Number] = None,
+    settle: Optional[Number] = None,
+    noise: Optional[Number] = None,
+    n_o: Union[int, Iterable[int]] = (0, 1, 2, 3, 5),
+    sigmas: Iterable[Number] = (),
+    sampling_period: Optional[Number] = None,
+    simulate: bool = True,
+) -> Design:
+    """Proves what several gains give with several numbers of oscillators, beside what is required, and names the pair to take, as
+    `sigmastar design`. Each row is a claim of its own that the independent checker has decided.
+
+    - `steady_error`, `peak_error`, `max_control`: |e| along the periodic solution, |e| at all times, and the control at all times are to
+      be at most this;
+    - `settle`: after so many periods |e| is to be at most `steady_error` for good;
+    - `noise`: what the noise, disturbance and rounding of the document make of e in the limit is to be at most this;
+    - `n_o`: the numbers of oscillators of the table;
+    - `sigmas`: its gains, in the place of the smallest one and multiples of it;
+    - `sampling_period`: the regulator at samples this far apart;
+    - `simulate`: whether simulations of the nominal plant stand beside the proved numbers.
+
+    Raises what `certify` raises; where something required is not proved to be met the answer is false.
+    """
+    required = (_maybe(steady_error), _maybe(peak_error), _maybe(max_control), _maybe(settle), _maybe(noise))
+    gains = [text(sigma) for sigma in sigmas]
+    wanted = _Wanted(_counts(n_o), gains, _maybe(sampling_period), *required, simulate)
+    told = found(_native.design(_asked(document), wanted))
+    return Design(stated(told["sigma"]), told["n_o"], told["is_met"], _certificate(told["certificate"]), told["reports"])
 
 
 def tune(

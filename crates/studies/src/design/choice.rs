@@ -84,7 +84,7 @@ mod tests {
         ];
         assert_eq!(chosen(&rows, &of((1, 1), 5)), (0, Some(0), true));
         assert_eq!(chosen(&rows, &of((1, 2), 9)), (0, Some(1), true));
-        assert_eq!(chosen(&rows, &of((1, 2), 4)).2, false);
+        assert!(!chosen(&rows, &of((1, 2), 4)).2);
         assert_eq!(chosen(&rows, &of((2, 10), 6)), (0, Some(2), true));
         assert_eq!(chosen(&rows, &of((6, 100), 9)), (1, Some(2), true));
         // With fewer oscillators it takes the larger gain.
