@@ -296,6 +296,12 @@ impl Run<'_> {
         }
     }
 
+    /// Whether there are bounds with a number of oscillators that the independent checker decides.
+    #[must_use]
+    pub fn has_checked_bounds(&self, n_o: u32) -> bool {
+        self.by_count().is_some_and(|found| found.checked && found.covers(&[n_o]))
+    }
+
     /// The verdict.
     #[must_use]
     pub fn verdict(&self) -> Verdict {

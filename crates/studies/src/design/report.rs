@@ -125,6 +125,7 @@ impl DesignReport<'_> {
             ),
             None => String::new(),
         };
+        let noise = if self.has_noise() { " They are without noise, of which the last column is." } else { "" };
         let simulated = match self.has_simulations() {
             true => {
                 " Columns `sim.` are of simulations of the nominal plant, from starts in the initial set that seem to be the worst; they prove nothing."
@@ -132,7 +133,7 @@ impl DesignReport<'_> {
             false => "",
         };
         format!(
-            "Steady is along the periodic solution, largest is at all times from the initial set. Each row is a claim of its own that the independent \
+            "Steady is along the periodic solution, largest is at all times from the initial set.{noise} Each row is a claim of its own that the independent \
              checker has decided, for every plant and gain of the actuator of the document.{samples}{simulated}"
         )
     }
@@ -141,13 +142,17 @@ impl DesignReport<'_> {
         self.cells().any(|cell| cell.simulated.is_some())
     }
 
+    fn has_noise(&self) -> bool {
+        self.cells().any(|cell| cell.noise.is_some())
+    }
+
     fn cells(&self) -> impl Iterator<Item = &Cell> {
         self.rows.iter().flat_map(|row| &row.cells)
     }
 
     fn table(&self) -> Table {
         let simulated = self.has_simulations();
-        let noise = self.cells().any(|cell| cell.noise.is_some());
+        let noise = self.has_noise();
         let e0 = self.rows.windows(2).any(|pair| pair[0].e0 != pair[1].e0);
         let within = self.requirements.steady_error.as_ref();
         let mut titles = vec!["$`sigma`$"];
@@ -211,9 +216,17 @@ impl DesignReport<'_> {
         ];
         if let Some(limit) = &self.requirements.steady_error {
             remarks.push(format!(
-                "settles in: after so many periods $`|e|`$ is at most {} for good, by the proved rate and its factor; the true number is smaller, as a rule",
-                write_exact(limit)
+                "settles in: after so many periods $`|e|`$ is at most {} for good{}, by the proved rate and its factor; the true number is smaller, as a rule",
+                write_exact(limit),
+                if self.sampling.is_some() { " at the sampling instants" } else { "" }
             ));
+        }
+        if self.cells().any(|cell| !cell.steady_is_checked) {
+            remarks.push(
+                "steady error: where the certificate has no bounds by the number of oscillators, that of a number follows from the claim by formulas that no \
+                 independent program decides"
+                    .to_owned(),
+            );
         }
         if !self.refused.is_empty() {
             let all: Vec<String> = self.refused.iter().map(write_exact).collect();

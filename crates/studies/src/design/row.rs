@@ -22,6 +22,8 @@ pub struct Cell {
     pub n_o: u32,
     /// Of |e| along the periodic solution.
     pub steady_error: Enclosure,
+    /// Whether the certificate has bounds with so many oscillators, so that the independent checker decides that one, too.
+    pub steady_is_checked: bool,
     /// Of |e| at all times.
     pub peak_error: Enclosure,
     /// Of what is put out at all times.
@@ -65,6 +67,7 @@ impl Row {
             Some(Cell {
                 n_o: *n_o,
                 steady_error,
+                steady_is_checked: run.has_checked_bounds(*n_o),
                 peak_error,
                 control,
                 decay: said.map(|said| Decay { rate: said.rate.clone(), factor: said.factor.clone() }),
@@ -106,6 +109,7 @@ pub(super) mod tests {
         Cell {
             n_o,
             steady_error: bound(steady_error),
+            steady_is_checked: true,
             peak_error: bound(peak_error),
             control: bound(control),
             decay: None,
