@@ -49,5 +49,5 @@ def norm(sigma: float, n_o: int) -> float:
 
 NUMBERS = (0, 1, 3, 10, 30)
 print("sigma   " + "".join(f"  n_o = {n_o:2}" for n_o in NUMBERS))
-for sigma in (1, 10, 100, 657.982, 3000):
+for sigma in (1, 10, 100, 657.387, 3000):
     print(f"{sigma:<8}" + "".join(f"  {norm(sigma, n_o):8.4f}" for n_o in NUMBERS))

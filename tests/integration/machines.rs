@@ -3,8 +3,8 @@
 
 use crate::controller::installed;
 use crate::controller_c::gcc;
-use crate::gallery::{compare_response, error_bound, is_rounded, page, table, wrong_cells_are_found};
-use crate::support::{ROOT, assert_valid, every, json, program, utf8};
+use crate::gallery::{compare_response, is_rounded, page, table, wrong_cells_are_found};
+use crate::support::{ROOT, assert_valid, every, json, number, program, utf8};
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -22,7 +22,10 @@ int main(void)
 "#;
 
 fn machines() -> BTreeMap<String, Vec<String>> {
-    table(&page("machines.md"), "| machine | states | sigma* | sigma | ball | e | n_o = 0 | n_o = 10 | u | h |")
+    table(
+        &page("machines.md"),
+        "| machine | states | sigma* | sigma | ball | e | n_o = 0 | n_o = 3 | largest e | largest u | h |",
+    )
 }
 
 /// The certificate of a machine with further flags, written into a folder, and its report.
@@ -35,6 +38,18 @@ fn certified(folder: &Path, name: &str, flags: &[&str]) -> (PathBuf, Value) {
     (file, report)
 }
 
+/// The bounds with a number of oscillators.
+fn of_count(report: &Value, n_o: u64) -> &Value {
+    let rows = report["by_n_o"].as_array().expect("bounds by the number of oscillators");
+    let row = rows.iter().rev().find(|row| row["n_o"].as_u64().is_some_and(|own| own <= n_o));
+    row.filter(|row| row["or_more"] == true || row["n_o"] == n_o).unwrap_or(&Value::Null)
+}
+
+fn largest_control(row: &Value) -> Value {
+    let control = &row["control"];
+    format!("{:.12e}", number(&control["steady"]) + number(&control["transient"])).into()
+}
+
 /// What is wrong in the row of a machine beside the report at its gain.
 fn wrong(cells: &[String], states: usize, report: &Value) -> Vec<&'static str> {
     [
@@ -42,9 +57,10 @@ fn wrong(cells: &[String], states: usize, report: &Value) -> Vec<&'static str> {
         ("sigma", report["sigma_star"] == *cells[3]),
         ("ball", is_rounded(&cells[4], &report["plant"]["ball"], false)),
         ("e", is_rounded(&cells[5], &report["initial_set"]["E0"], false)),
-        ("n_o = 0", is_rounded(&cells[6], error_bound(report, 0), true)),
-        ("n_o = 10", is_rounded(&cells[7], error_bound(report, 10), true)),
-        ("u", is_rounded(&cells[8], &report["control"]["steady"], true)),
+        ("n_o = 0", is_rounded(&cells[6], &of_count(report, 0)["steady_error"], true)),
+        ("n_o = 3", is_rounded(&cells[7], &of_count(report, 3)["steady_error"], true)),
+        ("largest e", is_rounded(&cells[8], &of_count(report, 3)["peak_error"], true)),
+        ("largest u", is_rounded(&cells[9], &largest_control(of_count(report, 3)), true)),
     ]
     .into_iter()
     .filter_map(|(column, right)| (!right).then_some(column))
@@ -74,7 +90,7 @@ fn assert_as_documented(name: &str, cells: &[String]) {
     assert_valid(&certificate);
     let output = program().args(["falsify", "-q", "--trials", "2"]).arg(&certificate).output().unwrap();
     assert!(output.status.success(), "{name}: {}", utf8(output.stderr));
-    let (certificate, _) = certified(folder.path(), name, &[gain[0], gain[1], "--sampling-period", &cells[9]]);
+    let (certificate, _) = certified(folder.path(), name, &[gain[0], gain[1], "--sampling-period", &cells[10]]);
     assert_valid(&certificate);
     compiles(folder.path(), &certificate);
 }
@@ -126,11 +142,16 @@ fn the_figures_of_the_machines_are_what_the_program_draws() {
 #[test]
 fn figures_that_are_not_the_programs_are_found() {
     let report = serde_json::json!({
-        "sigma_star": "3000", "plant": { "ball": "0.05" }, "control": { "steady": "0.151432" },
-        "initial_set": { "E0": "20" },
-        "consequences": { "error_bounds": [{ "n_o": 0, "sup": "1.31586" }, { "n_o": 10, "sup": "0.030052" }] },
+        "sigma_star": "3000", "plant": { "ball": "0.05" }, "initial_set": { "E0": "20" },
+        "by_n_o": [
+            { "n_o": 0, "or_more": false, "steady_error": "1.31586" },
+            {
+                "n_o": 2, "or_more": true, "steady_error": "0.030052", "peak_error": "20.811",
+                "control": { "steady": "0.1", "transient": "0.051432" },
+            },
+        ],
     });
-    let right = ["`a`", "1", "656.774", "3000", "0.05", "20", "1.316", "0.03006", "0.1515", "1/20000"];
+    let right = ["`a`", "1", "656.774", "3000", "0.05", "20", "1.316", "0.03006", "20.82", "0.1515", "1/20000"];
     let right = right.map(str::to_owned);
     let cases = [
         (1, "2", "states"),
@@ -138,8 +159,9 @@ fn figures_that_are_not_the_programs_are_found() {
         (4, "0.051", "ball"),
         (5, "21", "e"),
         (6, "1.315", "n_o = 0"),
-        (7, "0.03005", "n_o = 10"),
-        (8, "0.1514", "u"),
+        (7, "0.03005", "n_o = 3"),
+        (8, "20.81", "largest e"),
+        (9, "0.1514", "largest u"),
     ];
     wrong_cells_are_found(&right, |cells| wrong(cells, 1, &report), &cases);
 }

@@ -114,6 +114,21 @@ fn of_a_plant_only_what_its_file_states_is_compared() {
     }
 }
 
+/// The numbers of oscillators that are asked for are those whose steady error is said.
+#[test]
+fn the_steady_error_is_said_of_the_numbers_that_are_asked_for() {
+    let said = |flags: &[&str]| {
+        let text = in_one_line(&certify(&[&["specs/paper-example.json", "--no-alternatives"], flags].concat()));
+        text.split_once("steady error: ")
+            .and_then(|(_, rest)| rest.split_once(" oscillators"))
+            .expect("a line")
+            .0
+            .to_owned()
+    };
+    assert!(said(&["--n-o", "0,7"]).ends_with(" with 7") && said(&["--n-o", "0,7"]).matches(" with ").count() == 2);
+    assert!(said(&[]).ends_with(" with 100"));
+}
+
 /// The significant digits of a word, if it is a number.
 fn significant(word: &str) -> Option<usize> {
     let word = word.trim_matches(|c: char| "[](),;:".contains(c)).trim_end_matches('.');

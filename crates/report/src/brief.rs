@@ -83,7 +83,7 @@ pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences
     facts.extend(interval_costs(run.spec, &run.interval_costs, "$`sigma*`$").map(|said| ("intervals", said)));
     // A table stands below where more is known.
     let by_n_o = consequences.filter(|_| run.by_count.is_none());
-    facts.extend(by_n_o.and_then(|all| error(&all.by_n_o)).map(|said| ("steady error", said)));
+    facts.extend(by_n_o.and_then(|all| of_error(run, all)).map(|said| ("steady error", said)));
     facts.extend(for_n_o(run, has_targets).map(|said| ("convergence", said)));
     // It grows with the gain, of which the claim says "or any larger".
     let [x, _, zeta, z] = periodic;
@@ -99,6 +99,13 @@ pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences
     let asked: Vec<u32> = run.for_n_o.iter().map(|asked| asked.n_o).collect();
     let known = by_count(run.spec, run.by_count.as_ref(), &asked);
     [Block::facts(facts)].into_iter().chain(known).chain([Block::says(norms(run.spec, "$`sigma`$"))]).collect()
+}
+
+/// The bounds of the error for the numbers of oscillators that were asked about, or else for a few.
+fn of_error(run: &Certification<'_>, all: &Consequences) -> Option<String> {
+    let asked = run.for_n_o.iter().map(|asked| u64::from(asked.n_o));
+    let asked: Vec<(u64, ErrorBounds)> = asked.filter_map(|n_o| Some((n_o, run.error_with(n_o)?))).collect();
+    if asked.is_empty() { few(&all.by_n_o) } else { error(asked.iter()) }
 }
 
 /// How fast the error decays for the numbers of oscillators that were asked about; without any, how to ask, where nothing else was `asked`.
@@ -186,7 +193,7 @@ pub(super) fn of_samples(
     facts.extend(run.found.map(|(_, limit)| ("limited by", format!("{} (an estimate)", limit.describe()))));
     // A table stands below where more is known.
     let by_n_o = consequences.filter(|_| run.by_count.is_none());
-    facts.extend(by_n_o.and_then(|all| error(&all.by_n_o)).map(|said| ("steady error", said)));
+    facts.extend(by_n_o.and_then(|all| few(&all.by_n_o)).map(|said| ("steady error", said)));
     facts.extend(for_n_o_at_samples(run).map(|said| ("convergence", said)));
     let [x, _, zeta, z] = periodic.clone();
     let along = [x, steady, zeta, z];
@@ -337,8 +344,12 @@ fn interval_costs(spec: &Specification, all: &[(String, Option<f64>)], gain: &st
 }
 
 /// The bounds of the error for a few n_o.
-fn error(by_n_o: &[(u64, ErrorBounds)]) -> Option<String> {
-    let shown = by_n_o.iter().filter(|(n_o, _)| SHOWN.contains(n_o));
+fn few(by_n_o: &[(u64, ErrorBounds)]) -> Option<String> {
+    error(by_n_o.iter().filter(|(n_o, _)| SHOWN.contains(n_o)))
+}
+
+/// Bounds of the error.
+fn error<'b>(shown: impl Iterator<Item = &'b (u64, ErrorBounds)>) -> Option<String> {
     let shown: Vec<String> = shown.map(|(n_o, bounds)| format!("{} with {n_o}", upper(&bounds.sup))).collect();
     (!shown.is_empty()).then(|| format!("$`sup|e|`$ at most {} oscillators", shown.join(", ")))
 }
