@@ -164,8 +164,10 @@ def test_options_that_are_none():
             sigmastar.certify(EXAMPLE, **options)
     with pytest.raises(TypeError):
         sigmastar.certify(EXAMPLE, sigma=True)
-    with pytest.raises(ValueError):
-        sigmastar.certify(EXAMPLE, sigma=float("nan"))
+    for value in (float("nan"), float("inf"), Decimal("nan")):
+        with pytest.raises(sigmastar.InputError) as caught:
+            sigmastar.certify(EXAMPLE, sigma=value)
+        assert caught.value.kind == "range" and caught.value.diagnostics[0].message.endswith("is no number here")
 
 
 def test_errors_have_places(document, tmp_path):

@@ -63,6 +63,23 @@ class InputError(SigmastarError, ValueError):
     """A document, an option or a call is wrong."""
 
 
+def no_number(value: object) -> InputError:
+    """That a value which is not finite is no number."""
+    message = f"{value} is no number here"
+    help = "give a finite number: a text, an int, a float, a Fraction or a Decimal"
+    told = Diagnostic("call", "", "", None, None, message, None, help)
+    return InputError(
+        {
+            "text": f"{message}\n  help: {help}",
+            "kind": "range",
+            "verdict": "bad-input",
+            "diagnostics": [vars(told)],
+            "conditions": [],
+            "reports": None,
+        }
+    )
+
+
 class UndecidedError(SigmastarError):
     """Nothing was found to be wrong, and the claim could not be proved: nothing is claimed either way."""
 

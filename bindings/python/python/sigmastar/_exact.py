@@ -9,6 +9,7 @@ from fractions import Fraction
 from numbers import Integral
 from typing import ClassVar, Dict, Literal, Tuple, Union
 
+from ._errors import no_number
 from ._formula import formula, is_sympy, powers
 
 Number = Union[str, int, float, Fraction, Decimal]
@@ -90,7 +91,7 @@ class Shown:
 def text(value: Number) -> str:
     """A number as an exact constant.
 
-    Raises TypeError for what is no such number, ValueError for one that is not finite.
+    Raises TypeError for what is no such number, InputError for one that is not finite.
     """
     if isinstance(value, str):
         return powers(value)
@@ -106,10 +107,10 @@ def text(value: Number) -> str:
         return f"{value.numerator}/{value.denominator}" if value.denominator != 1 else str(value.numerator)
     if isinstance(value, float):
         if value != value or value in (float("inf"), float("-inf")):
-            raise ValueError(f"{float.__repr__(value)} is no number here")
+            raise no_number(float.__repr__(value))
         return float.__repr__(value)
     if isinstance(value, Decimal):
         if not value.is_finite():
-            raise ValueError(f"{value} is no number here")
+            raise no_number(value)
         return str(value)
     raise TypeError(f"a {type(value).__name__} is no exact number: give a text, an int, a float, a Fraction or a Decimal")
