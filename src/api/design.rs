@@ -13,6 +13,7 @@ use sigmastar_exact::parallel;
 use sigmastar_lang::spec::Document;
 use sigmastar_prove::certify::{NoRatesOfClaim, Options, rate_counts};
 use sigmastar_prove::reduction::{AtGains, Prepared, Subject as Read, Unwatched, at_samples};
+use sigmastar_report::run_set_and_assumptions;
 use sigmastar_studies::design::{Choice, Claims, DesignReport, Requirements, Row, choose, design_table};
 
 /// The numbers of oscillators where none are asked for.
@@ -30,7 +31,7 @@ const MAX_GAINS: usize = 20;
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct DesignOptions {
-    n_o: Vec<u32>,
+    n_o: Option<Vec<u32>>,
     sigmas: Vec<String>,
     sampling_period: Option<String>,
     /// Of the steady error, the peak, the control, the periods to settle, the noise.
@@ -45,11 +46,11 @@ impl Default for DesignOptions {
 }
 
 impl DesignOptions {
-    /// Nothing is required, and the table has 0, 1, 2, 3 and 5 oscillators at the smallest gain and multiples of it.
+    /// Nothing is required, and the table has 0, 1, 2, 3 and 5 oscillators, as far as the samples tell these apart, at the smallest gain and multiples of it.
     #[must_use]
     pub fn new() -> DesignOptions {
         DesignOptions {
-            n_o: N_O.to_vec(),
+            n_o: None,
             sigmas: Vec::new(),
             sampling_period: None,
             required: [const { None }; 5],
@@ -60,7 +61,7 @@ impl DesignOptions {
     /// The numbers of oscillators of the table (at most 8, up to 100).
     #[must_use]
     pub fn n_o(mut self, counts: impl Into<Vec<u32>>) -> DesignOptions {
-        self.n_o = counts.into();
+        self.n_o = Some(counts.into());
         self
     }
 
@@ -96,7 +97,8 @@ impl DesignOptions {
         self.requiring(2, limit.into())
     }
 
-    /// |e| is to be at most [`DesignOptions::steady_error`] for good after so many periods, a positive rational number.
+    /// |e| is to be at most [`DesignOptions::steady_error`] for good after so many periods, a positive rational number; at samples at the sampling
+    /// instants.
     #[must_use]
     pub fn settle(self, periods: impl Into<String>) -> DesignOptions {
         self.requiring(3, periods.into())
@@ -209,7 +211,12 @@ pub fn design_of(
             Subject { read, source }
         }
     };
-    let counts = rate_counts(&options.n_o).map_err(|reason| Error::no_rates(reason, of_counts))?;
+    let asked_counts = options.n_o.clone().unwrap_or_else(|| {
+        // Those that the samples tell apart.
+        let fits = |n_o: &u32| asked.read.sampling().is_none_or(|sampling| 2 * n_o < sampling.samples);
+        N_O.into_iter().filter(fits).collect()
+    });
+    let counts = rate_counts(&asked_counts).map_err(|reason| Error::no_rates(reason, of_counts))?;
     if counts.is_empty() {
         let message = format!("{of_counts}: a design table needs a number of oscillators, and there is none");
         return Err(Error::new(ErrorKind::Options, message, "ask for some, as 0,1,2,3"));
@@ -247,22 +254,25 @@ pub fn design_of(
         return Err(if refused.is_empty() { none() } else { refused.swap_remove(0).1 });
     };
     let refused: Vec<Rational> = refused.into_iter().map(|(sigma, _)| sigma).collect();
+    let taken = certificates.into_iter().find(|proved| proved.sigma == rows[choice.row].sigma);
+    let Some(Taken { sigma, certificate, set_and_assumptions }) = taken else {
+        return Err(Error::new(ErrorKind::NotCertified, "the gain to take has no certificate", "report this"));
+    };
     let report = DesignReport {
         rows: &rows,
         choice: &choice,
         requirements: &requirements,
         period: &period,
         refused: &refused,
+        disturbed: has_disturbances(&asked.read),
+        notes: certificate.remarks(),
+        set_and_assumptions: &set_and_assumptions,
         sampling: asked.read.sampling().map(|sampling| (sampling.text(), sampling.samples)),
         name: asked.read.name(),
         sha256: asked.read.sha256(),
     };
     let report = Report::of(&report);
     let Choice { row, cell, is_met, .. } = choice;
-    let taken = certificates.into_iter().find(|(sigma, _)| *sigma == rows[row].sigma);
-    let Some((sigma, certificate)) = taken else {
-        return Err(Error::new(ErrorKind::NotCertified, "the gain to take has no certificate", "report this"));
-    };
     let n_o = cell.map(|cell| rows[row].cells[cell].n_o);
     let is_met = is_met || requirements.is_empty();
     Ok(Design { sigma: write_exact(&sigma), n_o, is_met, certificate, report })
@@ -283,6 +293,17 @@ fn requirements(subject: &Read, options: &DesignOptions, names: &DesignNames) ->
         let message = format!("{of_settling}: |e| is to settle to something, and no steady error is required");
         return Err(Error::new(ErrorKind::Options, message, &format!("say with {of_steady} to what")));
     }
+    if requirements.settling.is_some() && subject.sampling().is_some_and(|sampling| sampling.delayed) {
+        return Err(Error::no_rates(NoRatesOfClaim::WithDelay, of_settling));
+    }
+    let of_no_noise = match subject.sampling() {
+        Some(sampling) if sampling.delayed => Some("`delay_samples`"),
+        _ => subject.actuator().map(|_| "an `actuator`"),
+    };
+    if let Some(other) = of_no_noise.filter(|_| requirements.noise.is_some()) {
+        let message = format!("{of_noise}: nothing is proved of noise with {other}");
+        return Err(Error::new(ErrorKind::Options, message, "leave one of both out"));
+    }
     if requirements.noise.is_some() && !has_disturbances(subject) {
         let message = format!("{of_noise}: the document states neither noise nor a disturbance");
         let help = "state `noise` or `disturbance` in the document, or leave this out";
@@ -297,6 +318,13 @@ fn has_disturbances(subject: &Read) -> bool {
     if subject.sampling().is_some() { stated.any_at_samples() } else { stated.any() }
 }
 
+/// A gain that is certified, with what its report says of the set and of what is assumed.
+struct Taken {
+    sigma: Rational,
+    certificate: Certificate,
+    set_and_assumptions: [String; 2],
+}
+
 /// Rows that are proved and decided by the independent checker, with their certificates.
 struct Proved<'a> {
     gains: &'a AtGains<'a>,
@@ -304,7 +332,7 @@ struct Proved<'a> {
     counts: &'a [u32],
     asked: &'a Subject,
     simulate: bool,
-    certificates: Vec<(Rational, Certificate)>,
+    certificates: Vec<Taken>,
     /// The gains that are not certified, and why.
     refused: Vec<(Rational, Error)>,
 }
@@ -313,8 +341,8 @@ impl Claims for Proved<'_> {
     type Refusal = Error;
 
     fn smallest(&mut self) -> Result<Row, Error> {
-        let (row, certificate) = self.row(&self.gains.smallest())?;
-        self.certificates.push((row.sigma.clone(), certificate));
+        let (row, certified) = self.row(&self.gains.smallest())?;
+        self.certificates.push(certified);
         Ok(row)
     }
 
@@ -327,8 +355,8 @@ impl Claims for Proved<'_> {
         let mut rows = Vec::with_capacity(found.len());
         for (found, sigma) in found.into_iter().zip(sigmas) {
             match found {
-                Ok((row, certificate)) => {
-                    self.certificates.push((row.sigma.clone(), certificate));
+                Ok((row, certified)) => {
+                    self.certificates.push(certified);
                     rows.push(Some(row));
                 }
                 Err(error) => {
@@ -342,11 +370,14 @@ impl Claims for Proved<'_> {
 }
 
 impl Proved<'_> {
-    fn row(&self, prepared: &Prepared) -> Result<(Row, Certificate), Error> {
+    fn row(&self, prepared: &Prepared) -> Result<(Row, Taken), Error> {
         let run = with_rates(prepared, (self.options, self.counts))?;
-        let row = Row::of(&run, self.counts).zip(Certificate::new(&run, self.asked, false));
-        let (row, certificate) = row.ok_or_else(|| not_certified(&run))?;
-        Ok((if self.simulate { simulated(row, &certificate) } else { row }, certificate))
+        let row = Row::of(&run, self.counts);
+        let certificate = Certificate::new(&run, self.asked, false).zip(run_set_and_assumptions(&run));
+        let (row, (certificate, set_and_assumptions)) = row.zip(certificate).ok_or_else(|| not_certified(&run))?;
+        let row = if self.simulate { simulated(row, &certificate) } else { row };
+        let sigma = row.sigma.clone();
+        Ok((row, Taken { sigma, certificate, set_and_assumptions }))
     }
 }
 

@@ -65,7 +65,10 @@ fn options(args: &DesignArgs) -> Result<DesignOptions, Failure> {
         (&args.noise, DesignOptions::noise),
         (&args.sampling_period, DesignOptions::sampling_period),
     ];
-    let mut options = DesignOptions::new().n_o(finite_counts(&args.n_o)?).simulate(!args.no_simulation);
+    let mut options = DesignOptions::new().simulate(!args.no_simulation);
+    if let Some(counts) = &args.n_o {
+        options = options.n_o(finite_counts(counts)?);
+    }
     for (text, set) in texts {
         options = text.clone().map_or(options.clone(), |text| set(options, text));
     }

@@ -56,6 +56,13 @@ fn reports_and_certificates_say_so() {
         // There may be one about the gain besides.
         let says = |remark: &&Value| remark.as_str().is_some_and(|remark| remark.contains("no plant with a state x"));
         assert_eq!(report["remarks"].as_array().unwrap().iter().filter(says).count(), 1, "{}", report["remarks"]);
+        if by == "rate" {
+            let (_, table, _) = run(&["design", &path, "-q", "--n-o", "0", "--sigma", "5"]);
+            assert!(
+                table.split_whitespace().collect::<Vec<_>>().join(" ").contains("no plant with a state x"),
+                "{table}"
+            );
+        }
         let reason = &written["no_plant"];
         assert_eq!(reason["exceeded_by"], by);
         assert!(reason["X"].is_string() && reason["rate_at_most"].as_array().unwrap().len() == 2);

@@ -108,7 +108,7 @@ fn sampling(py: Python<'_>, file: File, periods: Option<Vec<String>>, sigmas: Op
 /// The options of `design`.
 #[derive(FromPyObject)]
 struct Wanted {
-    n_o: Vec<u32>,
+    n_o: Option<Vec<u32>>,
     sigmas: Vec<String>,
     sampling_period: Option<String>,
     steady_error: Option<String>,
@@ -121,7 +121,8 @@ struct Wanted {
 
 impl From<Wanted> for DesignOptions {
     fn from(wanted: Wanted) -> DesignOptions {
-        let options = DesignOptions::new().n_o(wanted.n_o).sigmas(wanted.sigmas).simulate(wanted.simulate);
+        let options = DesignOptions::new().sigmas(wanted.sigmas).simulate(wanted.simulate);
+        let options = wanted.n_o.into_iter().fold(options, DesignOptions::n_o);
         let options = wanted.sampling_period.into_iter().fold(options, DesignOptions::sampling_period);
         let options = wanted.steady_error.into_iter().fold(options, DesignOptions::steady_error);
         let options = wanted.peak_error.into_iter().fold(options, DesignOptions::peak_error);

@@ -4,7 +4,8 @@ use super::Origin;
 use super::certification::Report;
 use super::remarks::{remarks, sampled_remarks};
 use super::sampled::{self, SampledReport};
-use super::verdict::sentence;
+use super::verdict::{assumed, sentence};
+use super::words;
 use sigmastar_document::{Extent, Readable, plain, plain_all};
 use sigmastar_prove::reduction::Run;
 use sigmastar_theory::derivation::targets::Target;
@@ -25,6 +26,17 @@ pub fn run_sentence(run: &Run<'_>) -> String {
         Run::Continuous(run) => sentence(run),
         Run::Sampled(run) => sampled::sentence(run),
     })
+}
+
+/// The initial set of a certified run, and what is assumed of the plant, in clauses with their formulas marked; `None` where nothing is certified.
+#[must_use]
+pub fn run_set_and_assumptions(run: &Run<'_>) -> Option<[String; 2]> {
+    let set = words::set(run.spec(), run.certified()?.set);
+    let used = match run {
+        Run::Continuous(run) => run.largest_arguments(),
+        Run::Sampled(run) => run.largest_arguments(),
+    };
+    Some([set, assumed(run.spec(), used, None)])
 }
 
 /// What the data of a certified claim are to be looked at for.

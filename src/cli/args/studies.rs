@@ -26,7 +26,7 @@ pub struct DesignArgs {
     #[arg(long, value_name = "V")]
     pub max_control: Option<String>,
 
-    /// Require |e| to be at most the required steady error for good after so many periods
+    /// Require |e| to be at most the required steady error for good after so many periods; at samples at the sampling instants
     #[arg(long, value_name = "PERIODS", requires = "steady_error")]
     pub settle: Option<String>,
 
@@ -34,9 +34,9 @@ pub struct DesignArgs {
     #[arg(long, value_name = "V")]
     pub noise: Option<String>,
 
-    /// Numbers of oscillators of the table, 8 at most: `0,2,4` or a range `0..6`
-    #[arg(long, value_name = "LIST", default_value = "0,1,2,3,5")]
-    pub n_o: String,
+    /// Numbers of oscillators of the table, 8 at most: `0,2,4` or a range `0..6` (default: 0,1,2,3,5)
+    #[arg(long, value_name = "LIST")]
+    pub n_o: Option<String>,
 
     /// Gains of the table, 20 at most, in the place of the smallest one that is found and multiples of it
     #[arg(long, value_name = "LIST")]

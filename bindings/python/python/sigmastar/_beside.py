@@ -143,7 +143,7 @@ class Design(Reported):
     @property
     def rows(self) -> List[Dict[str, Any]]:
         """The cells of the table, each with its `sigma`: `n_o`, `steady_error`, `peak_error`, `max_control`, `rate`, `factor`, `settle`, `noise`, of
-        which each is text or None, and `simulated` (docs/formats.md)."""
+        which each is text or None, and `not_in_certificate` and `simulated` (docs/formats.md)."""
         return [{"sigma": row["sigma"], **cell} for row in self.data["rows"] for cell in row["cells"]]
 
     def to_dataframe(self) -> DataFrame:

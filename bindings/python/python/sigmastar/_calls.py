@@ -41,7 +41,7 @@ class _Options(NamedTuple):
 
 
 class _Wanted(NamedTuple):
-    n_o: List[int]
+    n_o: Optional[List[int]]
     sigmas: List[str]
     sampling_period: Optional[str]
     steady_error: Optional[str]
@@ -204,7 +204,7 @@ def design(
     max_control: Optional[Number] = None,
     settle: Optional[Number] = None,
     noise: Optional[Number] = None,
-    n_o: Union[int, Iterable[int]] = (0, 1, 2, 3, 5),
+    n_o: Union[int, Iterable[int], None] = None,
     sigmas: Iterable[Number] = (),
     sampling_period: Optional[Number] = None,
     simulate: bool = True,
@@ -214,9 +214,9 @@ def design(
 
     - `steady_error`, `peak_error`, `max_control`: |e| along the periodic solution, |e| at all times, and the control at all times are to
       be at most this;
-    - `settle`: after so many periods |e| is to be at most `steady_error` for good;
+    - `settle`: after so many periods |e| is to be at most `steady_error` for good, at samples at the sampling instants;
     - `noise`: what the noise, disturbance and rounding of the document make of e in the limit is to be at most this;
-    - `n_o`: the numbers of oscillators of the table;
+    - `n_o`: the numbers of oscillators of the table (0, 1, 2, 3 and 5);
     - `sigmas`: its gains, in the place of the smallest one and multiples of it;
     - `sampling_period`: the regulator at samples this far apart;
     - `simulate`: whether simulations of the nominal plant stand beside the proved numbers.
@@ -225,7 +225,7 @@ def design(
     """
     required = (_maybe(steady_error), _maybe(peak_error), _maybe(max_control), _maybe(settle), _maybe(noise))
     gains = [text(sigma) for sigma in sigmas]
-    wanted = _Wanted(_counts(n_o), gains, _maybe(sampling_period), *required, simulate)
+    wanted = _Wanted(None if n_o is None else _counts(n_o), gains, _maybe(sampling_period), *required, simulate)
     told = found(_native.design(_asked(document), wanted))
     return Design(stated(told["sigma"]), told["n_o"], told["is_met"], _certificate(told["certificate"]), told["reports"])
 

@@ -22,12 +22,15 @@ const PERIODS: usize = 2;
 const SAMPLES: usize = 256;
 const BETWEEN: usize = 2;
 
+/// The most components of a start that are moved, each in a run of its own.
+const MOST_MOVED: usize = 24;
+
 /// Figures of simulations of one loop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LoopFigures {
     /// sup|e| of the periodic solution.
     pub steady_error: f64,
-    /// The largest |e| and |u| of the runs; none where one was not finished.
+    /// The largest |e| and |u| of the runs; none where one was not finished, or the start has too many components for a run of each.
     pub largest: Option<[f64; 2]>,
 }
 
@@ -106,7 +109,9 @@ struct Set<'c> {
 impl Set<'_> {
     /// Components of y, of e and of z.
     fn parts(&self) -> [usize; 3] {
-        let z = if self.claim.initial.z0.is_some() { self.regulator.dimension() } else { 0 };
+        // A start at rest, or with z = M e, has no z of its own.
+        let moves = self.claim.initial.z0.is_some_and(|z0| z0 > 0.0);
+        let z = if moves { self.regulator.dimension() } else { 0 };
         [self.own.plant.states(), 1, z]
     }
 
@@ -125,12 +130,14 @@ impl Set<'_> {
         match initial.z0 {
             None => start.extend(self.regulator.m().iter().map(|m| m * e)),
             Some(z0) => {
-                let part = |(index, share): (usize, &f64)| {
-                    let mut unit = vec![0.0; self.regulator.dimension()];
+                let mut unit = vec![0.0; self.regulator.dimension()];
+                for (index, share) in shares[n + 1..].iter().enumerate() {
                     unit[index] = 1.0;
-                    share * z0 / self.regulator.weighted_norm(&unit)
-                };
-                start.extend(shares[n + 1..].iter().enumerate().map(part));
+                    let size = self.regulator.weighted_norm(&unit);
+                    unit[index] = 0.0;
+                    start.push(share * z0 / size);
+                }
+                start.resize(n + 1 + unit.len(), 0.0);
             }
         }
         start
@@ -139,6 +146,9 @@ impl Set<'_> {
     /// The largest |e| and |u| of all runs; `None` where one does not come to its end.
     fn largest(&self, run: impl Fn(f64, &[f64]) -> Option<Series>) -> Option<[f64; 2]> {
         let middle = self.middle();
+        if middle.len() > MOST_MOVED {
+            return None;
+        }
         let mut largest = [0.0_f64; 2];
         for phase in PHASES {
             let run = |shares: &[f64]| run(phase, &self.start(phase, shares));

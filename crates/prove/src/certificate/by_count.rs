@@ -12,22 +12,14 @@ use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::write_exact;
 use sigmastar_lang::plant::CurveTerm;
 use sigmastar_lang::spec::{Level, Metric, Specification};
-use std::sync::LazyLock;
 
 /// The name of both parts.
 pub(super) const BY_N_O: &str = "by_n_o";
 
-/// By what share the numbers of a claim are above what is found: the size of a curve is bounded in another way by the checker.
-static OF_LINEAR: LazyLock<Rational> = LazyLock::new(|| Rational::from((1, 10_000)));
-static OF_TRIALS: LazyLock<Rational> = LazyLock::new(|| Rational::from((1, 5_000_000)));
-
 /// The part of the claim; none where nothing is claimed.
 pub(super) fn claimed_counts(found: Option<&ByCount>) -> Option<(&'static str, Value)> {
     let found = found.filter(|found| found.checked)?;
-    let room = match &found.proof {
-        CountProof::Linear { .. } => &*OF_LINEAR,
-        CountProof::Trials(_) => &*OF_TRIALS,
-    };
+    let room = found.room();
     let one = |bounds: &CountBounds| {
         let CountBounds { oscillators, or_more, steady_error, mean_square, steady_control, largest } = bounds;
         let numbers = |numbers: &[(&'static str, &Enclosure)]| {
@@ -95,14 +87,15 @@ pub(super) fn counts_in_words(
 
 /// The part of the witness.
 pub(super) fn count_witness(found: Option<&ByCount>) -> Option<(&'static str, Value)> {
-    let part = match &found.filter(|found| found.checked)?.proof {
-        CountProof::Linear { forms, sizes } => ("linear", linear(forms, sizes)),
+    let found = found.filter(|found| found.checked)?;
+    let part = match &found.proof {
+        CountProof::Linear { forms, sizes } => ("linear", linear((forms, sizes), found.room())),
         CountProof::Trials(trials) => ("trials", trials.iter().map(|(trial, proof)| of_trial(trial, proof)).collect()),
     };
     Some((BY_N_O, object([part])))
 }
 
-fn linear(forms: &[Falling], sizes: &[[Enclosure; 3]]) -> Value {
+fn linear((forms, sizes): (&[Falling], &[[Enclosure; 3]]), room: &Rational) -> Value {
     let form = |Falling { matrix, p_up, weight, k_p, held }: &Falling| {
         let numbers = [("P", rows(matrix)), ("p_up", exact(p_up)), ("w", exact(weight)), ("k_p", exact(k_p))];
         let past = held.as_ref().and_then(|held| held.past.as_ref());
@@ -112,9 +105,9 @@ fn linear(forms: &[Falling], sizes: &[[Enclosure; 3]]) -> Value {
     let has_states = forms.iter().any(|form| !form.matrix.is_empty());
     let has_past = forms.iter().any(|form| form.held.as_ref().is_some_and(|held| held.past.is_some()));
     let size = |[states, zeta, mean]: &[_; 3]| {
-        let states = has_states.then(|| ("x", with_room(states, &OF_LINEAR)));
-        let mean = has_past.then(|| ("y", with_room(mean, &OF_LINEAR)));
-        object(states.into_iter().chain([("zeta", with_room(zeta, &OF_LINEAR))]).chain(mean))
+        let states = has_states.then(|| ("x", with_room(states, room)));
+        let mean = has_past.then(|| ("y", with_room(mean, room)));
+        object(states.into_iter().chain([("zeta", with_room(zeta, room))]).chain(mean))
     };
     object([("forms", forms.iter().map(form).collect()), ("sizes", sizes.iter().map(size).collect())])
 }

@@ -1,5 +1,6 @@
 //! JSON with exact numbers.
 
+use crate::certify::CLAIM_DIGITS;
 use rug::{Integer, Rational};
 use serde_json::Value;
 use sigmastar_exact::enclosure::Enclosure;
@@ -49,9 +50,6 @@ pub(super) fn vector(values: &[Rational]) -> Value {
 pub fn rows(matrix: &[Vec<Rational>]) -> Value {
     matrix.iter().map(|row| vector(row)).collect()
 }
-
-/// Significant digits of the upper ends in a claim.
-const CLAIM_DIGITS: u32 = 12;
 
 /// An upper end, rounded up; the text "inf" when there is none.
 pub(super) fn upper_end(value: &Enclosure) -> Value {

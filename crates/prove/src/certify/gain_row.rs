@@ -6,10 +6,11 @@ use sigmastar_decide::conditions::{SampledProof, SharpProof};
 use sigmastar_decide::linear::Falling;
 use sigmastar_decide::trial::{Trial, TubeProof};
 use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_exact::number::{Direction, round_rational};
 use sigmastar_lang::spec::{Oscillators, Specification};
 use sigmastar_theory::derivation::control::Control;
 use sigmastar_theory::derivation::targets::{Target, TargetKind};
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 
 /// The numbers of oscillators of which the steady error is bounded in continuous time.
 pub const SHOWN_N_O: [u64; 2] = [0, 10];
@@ -100,7 +101,34 @@ pub enum CountProof {
     Trials(Vec<(Trial, TubeProof)>),
 }
 
+/// By what share the numbers of a claim are above what is found: the size of a curve is bounded in another way by the checker.
+static OF_LINEAR: LazyLock<Rational> = LazyLock::new(|| Rational::from((1, 10_000)));
+static OF_TRIALS: LazyLock<Rational> = LazyLock::new(|| Rational::from((1, 5_000_000)));
+
+/// Significant digits of the upper ends in a claim.
+pub(crate) const CLAIM_DIGITS: u32 = 12;
+
+/// The upper end of a bound as a claim has it, with few digits, rounded up; none where there is no upper end.
+pub(crate) fn written(bound: &Enclosure) -> Enclosure {
+    let upper = bound.upper_rational().map(|upper| round_rational(&upper, CLAIM_DIGITS, Direction::Up));
+    upper.map_or_else(|| bound.clone(), |upper| Enclosure::from_rational(&upper, bound.precision()))
+}
+
 impl ByCount {
+    /// By what share the numbers that a certificate has are above what is found.
+    pub(crate) fn room(&self) -> &'static Rational {
+        match &self.proof {
+            CountProof::Linear { .. } => &OF_LINEAR,
+            CountProof::Trials(_) => &OF_TRIALS,
+        }
+    }
+
+    /// A bound as a certificate has it: what the independent checker decides is that number, no smaller one.
+    pub(crate) fn stated(&self, bound: &Enclosure) -> Enclosure {
+        let one = Enclosure::one(bound.precision());
+        written(&(bound * (Enclosure::from_rational(self.room(), bound.precision()) + one)))
+    }
+
     /// Those for a number of oscillators.
     #[must_use]
     pub fn at(&self, n_o: u64) -> Option<&CountBounds> {

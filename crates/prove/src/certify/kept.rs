@@ -1,12 +1,13 @@
 //! Limits that are judged by all that is proved at the gain of a claim, bounds by the number of oscillators included (derivation, 13.5, 14).
 
 use super::certification::Certification;
-use super::gain_row::{ByCount, CountBounds};
+use super::gain_row::{ByCount, CountBounds, written};
 use super::options::Limits;
 use super::sampled::SampledCertification;
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_propose::search::{Failing, Limited};
+use sigmastar_theory::derivation::control::Control;
 use sigmastar_theory::derivation::sampled::SampledEvaluation;
 
 /// A limit beside what is proved.
@@ -94,11 +95,12 @@ impl ByCount {
     }
 }
 
-/// The smaller of what the conditions of a claim prove and what is proved by the number of oscillators, where the independent checker decides that, too.
+/// The smaller of what the conditions of a claim prove and what its certificate has by the number of oscillators, where the independent checker decides
+/// that, too.
 fn least([steady, peak, control]: [Enclosure; 3], by_count: Option<&ByCount>, counts: &[u32]) -> [Enclosure; 3] {
     let by_count = by_count.filter(|found| found.checked);
     let smaller = |known: Enclosure, of: &dyn Fn(&CountBounds) -> Option<Enclosure>| {
-        let found = by_count.and_then(|found| found.over(counts, of));
+        let found = by_count.and_then(|found| Some(found.stated(&found.over(counts, of)?)));
         found.map_or_else(|| known.clone(), |found| known.min(&found))
     };
     [
@@ -108,7 +110,71 @@ fn least([steady, peak, control]: [Enclosure; 3], by_count: Option<&ByCount>, co
     ]
 }
 
+/// A bound, and whether it is in the certificate, so that the independent checker decides it.
+#[derive(Clone, Debug)]
+pub struct Stated {
+    /// Its upper end is what counts.
+    pub bound: Enclosure,
+    /// Whether it is in the certificate.
+    pub is_in_certificate: bool,
+}
+
+/// What is proved with one number of oscillators at the gain of a claim.
+#[derive(Clone, Debug)]
+pub struct BoundsOfCount {
+    /// Of |e| along the periodic solution.
+    pub steady_error: Stated,
+    /// Of |e| at all times from the initial set.
+    pub peak_error: Stated,
+    /// Of what is put out at all times from the initial set; it is in the certificate.
+    pub control: Enclosure,
+}
+
+impl BoundsOfCount {
+    /// From bounds that the certificate has for every number of oscillators: of |e| along the periodic solution, and of the control along it and in the
+    /// transient; from that of the peak by the conditions, which it has not; from those by the number of oscillators; and from one of the steady error that
+    /// only this program evaluates, which counts where nothing else is known by the number of oscillators.
+    fn of(
+        [steady, peak]: [&Enclosure; 2],
+        control: &Control<Enclosure>,
+        (by_count, n_o): (Option<&ByCount>, u32),
+        by_formulas: Option<Enclosure>,
+    ) -> BoundsOfCount {
+        let control = written(&control.steady) + written(&control.transient);
+        let in_certificate = |bound: Enclosure| Stated { bound, is_in_certificate: true };
+        let outside = |bound: Enclosure| Stated { bound, is_in_certificate: false };
+        let steady = written(steady);
+        let found = by_count.filter(|found| found.checked);
+        match found.and_then(|found| Some((found, found.at(u64::from(n_o))?))) {
+            None => BoundsOfCount {
+                steady_error: match by_formulas {
+                    Some(other) if other.lt(&steady).is_true() => outside(other),
+                    _ => in_certificate(steady),
+                },
+                peak_error: outside(peak.clone()),
+                control,
+            },
+            Some((found, own)) => BoundsOfCount {
+                steady_error: in_certificate(steady.min(&found.stated(&own.steady_error))),
+                peak_error: match &own.largest {
+                    Some(largest) => in_certificate(found.stated(&largest.error)),
+                    None => outside(peak.clone()),
+                },
+                control: own.largest_control().map_or(control.clone(), |own| control.min(&found.stated(&own))),
+            },
+        }
+    }
+}
+
 impl Certification<'_> {
+    /// What is proved with a number of oscillators, and which of it is in the certificate; `None` without a certified claim.
+    #[must_use]
+    pub fn bounds_of(&self, n_o: u32) -> Option<BoundsOfCount> {
+        let (steady, peak, control) = self.bounds()?;
+        let by_formulas = self.error_with(u64::from(n_o)).map(|error| error.sup);
+        Some(BoundsOfCount::of([steady, peak], control, (self.by_count.as_ref(), n_o), by_formulas))
+    }
+
     /// What the conditions of the claim, and the table of the regulated error, prove with these numbers of oscillators.
     fn known(&self, counts: &[u32]) -> Option<[Enclosure; 3]> {
         let (steady, peak, control) = self.bounds()?;
@@ -145,6 +211,13 @@ impl Certification<'_> {
 }
 
 impl SampledCertification<'_> {
+    /// What is proved with a number of oscillators, and which of it is in the certificate; `None` without a certified claim.
+    #[must_use]
+    pub fn bounds_of(&self, n_o: u32) -> Option<BoundsOfCount> {
+        let SampledEvaluation { size, peak, control, .. } = &self.claim()?.evaluation;
+        Some(BoundsOfCount::of([&size.e_per, peak], control, (self.by_count.as_ref(), n_o), None))
+    }
+
     /// What the conditions of the claim prove for every number of oscillators.
     fn known(&self) -> Option<[Enclosure; 3]> {
         let SampledEvaluation { size, peak, control, .. } = &self.claim()?.evaluation;

@@ -14,7 +14,8 @@ use super::subject::{Sought, SoughtAtSamples};
 use super::watch::{Searches, Stage, Unwatched, Watch};
 use super::{FreeNumbers, RestsOn, Subject, Witness};
 use crate::certify::{
-    Certification, Limits, NoRatesOfClaim, SaidOfCount, SampledCertification, Verdict, claimed_ball, said_of,
+    BoundsOfCount, Certification, Limits, NoRatesOfClaim, SaidOfCount, SampledCertification, Verdict, claimed_ball,
+    said_of,
 };
 use rug::Rational;
 use sigmastar_decide::bounds::Engine;
@@ -286,20 +287,13 @@ impl Run<'_> {
         }
     }
 
-    /// Bounds of |e| along the periodic solution and in the transient, and of the control, with each of these numbers of oscillators
-    /// ([`Certification::bounds_with`], [`SampledCertification::bounds_with`]); `None` where nothing is certified.
+    /// What is proved with a number of oscillators, and which of it is in the certificate; `None` where nothing is certified.
     #[must_use]
-    pub fn bounds_with(&self, counts: &[u32]) -> Option<[Enclosure; 3]> {
+    pub fn bounds_of(&self, n_o: u32) -> Option<BoundsOfCount> {
         match self {
-            Run::Continuous(run) => run.bounds_with(counts),
-            Run::Sampled(run) => run.bounds_with(counts),
+            Run::Continuous(run) => run.bounds_of(n_o),
+            Run::Sampled(run) => run.bounds_of(n_o),
         }
-    }
-
-    /// Whether there are bounds with a number of oscillators that the independent checker decides.
-    #[must_use]
-    pub fn has_checked_bounds(&self, n_o: u32) -> bool {
-        self.by_count().is_some_and(|found| found.checked && found.covers(&[n_o]))
     }
 
     /// The verdict.

@@ -31,6 +31,12 @@ pub struct DesignReport<'d> {
     pub period: &'d Enclosure,
     /// The gains at which nothing is certified.
     pub refused: &'d [Rational],
+    /// Whether the document states noise, a disturbance or rounding that counts.
+    pub disturbed: bool,
+    /// What the data are to be looked at for, in sentences, of the claim with the gain to take.
+    pub notes: &'d [String],
+    /// The initial set of that claim, and what is assumed of the plant, in clauses.
+    pub set_and_assumptions: &'d [String; 2],
     /// The sampling period and the samples of a period, of the law at samples.
     pub sampling: Option<(String, u32)>,
     /// The name of the specification or plant.
@@ -43,9 +49,10 @@ impl Readable for DesignReport<'_> {
     fn blocks(&self) -> Vec<Block> {
         let mut blocks =
             vec![Block::Title(format!("{}: design table", clean(self.name))), Block::says(self.sentence())];
+        blocks.extend(self.notes.iter().map(|note| Block::says(note.clone())));
         if !self.choice.compared.is_empty() {
             blocks.push(Block::heading("What is required"));
-            blocks.push(Block::Table(required(&self.choice.compared)));
+            blocks.push(Block::Table(required(&self.choice.compared, self.sampling.is_some())));
             blocks.extend(self.others().map(Block::says));
         }
         blocks.push(Block::heading("Gains and numbers of oscillators"));
@@ -70,9 +77,11 @@ impl Readable for DesignReport<'_> {
             "specification": { "name": self.name, "sha256": self.sha256 },
             "sampling": sampling.map(|(step, samples)| json!({ "sampling_period": step, "samples": samples })),
             "take": {
-                "sigma": sigma(row), "n_o": cell.map(|cell| n_o(*row, cell)), "met": is_met, "requirements": compared,
-                "others": others,
+                "sigma": sigma(row), "n_o": cell.map(|cell| n_o(*row, cell)), "met": is_met | cell.is_none(),
+                "keeps_rule": cell.is_none().then_some(is_met), "requirements": compared, "others": others,
             },
+            "notes": self.notes, "initial_set": plain(&self.set_and_assumptions[0]),
+            "assumed": plain(&self.set_and_assumptions[1]), "without_noise": self.disturbed,
             "rows": rows, "not_certified": self.refused.iter().map(write_exact).collect::<Vec<_>>(),
         })
     }
@@ -87,20 +96,31 @@ impl DesignReport<'_> {
         let Some(n_o) = cell.map(|cell| row.cells[cell].n_o) else {
             return match is_met {
                 true => format!(
-                    "Take $`sigma = {sigma}`$: the smallest gain of the table at which, with each number of oscillators, the largest $`|e|`$ is at most \
-                     twice the larger of $`E0`$ and the steady error, and the rate is at least half of the largest in the table."
+                    "Take $`sigma = {sigma}`$: the smallest gain of the table at which, with each number of oscillators, the bound of the largest $`|e|`$ is \
+                     at most twice the larger of $`E0`$ and the bound of the steady error, and each proved rate at least half of the largest one for that \
+                     number."
                 ),
                 false => format!(
-                    "No gain of the table has, with each number of oscillators, a largest $`|e|`$ of at most twice the larger of $`E0`$ and the steady error \
-                     and at least half of the largest rate. $`sigma = {sigma}`$ comes closest."
+                    "No gain of the table has, with each number of oscillators, a bound of the largest $`|e|`$ of at most twice the larger of $`E0`$ and the \
+                     bound of the steady error, and at least half of the largest rate that is proved for that number. $`sigma = {sigma}`$ comes closest."
                 ),
             };
         };
         if *is_met {
-            return format!("Take $`sigma = {sigma}`$ with $`n_o = {n_o}`$: every requirement is proved to be met.");
+            let without = match self.disturbed {
+                false => "",
+                true if self.requirements.noise.is_some() => ", all but that of noise in the loop without noise",
+                true => " in the loop without noise",
+            };
+            return format!(
+                "Take $`sigma = {sigma}`$ with $`n_o = {n_o}`$: every requirement is proved to be met{without}."
+            );
         }
-        let missed: Vec<&str> =
-            compared.iter().filter(|one| !one.is_met()).map(|one| one.requirement.words()).collect();
+        let missed: Vec<&str> = compared
+            .iter()
+            .filter(|one| !one.is_met())
+            .map(|one| one.requirement.words(self.sampling.is_some()))
+            .collect();
         format!(
             "No pair of the table is proved to meet every requirement. $`sigma = {sigma}`$ with $`n_o = {n_o}`$ comes closest; not met: {}.",
             missed.join(", ")
@@ -125,7 +145,13 @@ impl DesignReport<'_> {
             ),
             None => String::new(),
         };
-        let noise = if self.has_noise() { " They are without noise, of which the last column is." } else { "" };
+        let noise = match (self.disturbed, self.has_noise()) {
+            (false, _) => "",
+            (true, true) => " All of it but the last column is about the loop without noise, disturbance and rounding.",
+            (true, false) => {
+                " All of it is about the loop without noise, disturbance and rounding; nothing is proved of these."
+            }
+        };
         let simulated = match self.has_simulations() {
             true => {
                 " Columns `sim.` are of simulations of the nominal plant, from starts in the initial set that seem to be the worst; they prove nothing."
@@ -133,8 +159,9 @@ impl DesignReport<'_> {
             false => "",
         };
         format!(
-            "Steady is along the periodic solution, largest is at all times from the initial set.{noise} Each row is a claim of its own that the independent \
-             checker has decided, for every plant and gain of the actuator of the document.{samples}{simulated}"
+            "Steady is along the periodic solution, largest is at all times from the initial set, for every plant, period and gain of the actuator of the \
+             document. Each row is a claim of its own that the independent checker has decided, and its numbers are those of the certificate, but where a \
+             remark says otherwise.{noise}{samples}{simulated}"
         )
     }
 
@@ -221,12 +248,22 @@ impl DesignReport<'_> {
                 if self.sampling.is_some() { " at the sampling instants" } else { "" }
             ));
         }
-        if self.cells().any(|cell| !cell.steady_is_checked) {
-            remarks.push(
-                "steady error: where the certificate has no bounds by the number of oscillators, that of a number follows from the claim by formulas that no \
-                 independent program decides"
-                    .to_owned(),
-            );
+        let [set, assumed] = self.set_and_assumptions;
+        remarks.push(format!(
+            "initial set, of the gain to take: {set}; a size that the file does not state goes with the gain"
+        ));
+        remarks.push(format!("assumed: {assumed}"));
+        for (which, said) in [
+            "steady error: where the certificate has no bounds by the number of oscillators, that of a number follows from the claim by formulas that only \
+             this program evaluates",
+            "largest error: where the certificate has no bounds by the number of oscillators, it follows from what proves the claim, by this program alone",
+        ]
+        .into_iter()
+        .enumerate()
+        {
+            if self.cells().any(|cell| !cell.are_in_certificate[which]) {
+                remarks.push(said.to_owned());
+            }
         }
         if !self.refused.is_empty() {
             let all: Vec<String> = self.refused.iter().map(write_exact).collect();
@@ -249,7 +286,7 @@ impl DesignReport<'_> {
                 "n_o": cell.n_o, "steady_error": full(&cell.steady_error), "peak_error": full(&cell.peak_error),
                 "max_control": full(&cell.control), "rate": decay.map(|decay| write_exact(&decay.rate)),
                 "factor": decay.map(|decay| write_exact(&decay.factor)), "settle": settling.as_ref().map(full),
-                "noise": cell.noise.as_ref().map(write_exact), "simulated": cell.simulated.map(simulated_json),
+                "noise": cell.noise.as_ref().map(write_exact), "not_in_certificate": outside(cell), "simulated": cell.simulated.map(simulated_json),
             })
         };
         let cells: Vec<Value> = row.cells.iter().map(cell).collect();
@@ -262,6 +299,12 @@ fn above_rounding(found: f64, cell: &Cell) -> f64 {
     if found < ROUNDING * cell.peak_error.upper_f64() { 0.0 } else { found }
 }
 
+/// The bounds of a cell that are in no certificate.
+fn outside(cell: &Cell) -> Vec<&'static str> {
+    let named = ["steady_error", "peak_error"].into_iter().zip(cell.are_in_certificate);
+    named.filter(|(_, is_in)| !is_in).map(|(name, _)| name).collect()
+}
+
 fn simulated_json(Simulated { steady_error, largest }: Simulated) -> Value {
     json!({
         "steady_error": steady_error, "peak_error": largest.map(|[error, _]| error),
@@ -269,12 +312,12 @@ fn simulated_json(Simulated { steady_error, largest }: Simulated) -> Value {
     })
 }
 
-fn required(compared: &[Compared]) -> Table {
+fn required(compared: &[Compared], at_samples: bool) -> Table {
     let mut table = Table::new(&["<required", "at most", "proved", "<"]);
     for one in compared {
         let proved = one.proved.as_ref().map_or_else(|| "nothing".to_owned(), |proved| exact(proved, Direction::Up));
         let met = if one.is_met() { "met" } else { "missed" };
-        table.push([one.requirement.words().to_owned(), write_exact(&one.asked), proved, met.to_owned()]);
+        table.push([one.requirement.words(at_samples).to_owned(), write_exact(&one.asked), proved, met.to_owned()]);
     }
     table
 }

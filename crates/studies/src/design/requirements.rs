@@ -13,7 +13,7 @@ pub enum Requirement {
     PeakError,
     /// What is put out at all times.
     Control,
-    /// After how many periods |e| is at most the required steady error for good.
+    /// After how many periods |e| is at most the required steady error for good, at samples at the sampling instants.
     Settling,
     /// |e - e_per| in the limit, with the noise of the document.
     Noise,
@@ -41,10 +41,11 @@ impl Requirement {
         }
     }
 
-    /// In words, its formulas marked.
+    /// In words, its formulas marked; of the law at samples, or not.
     #[must_use]
-    pub fn words(self) -> &'static str {
+    pub fn words(self, at_samples: bool) -> &'static str {
         match self {
+            Requirement::Settling if at_samples => "periods to settle, at samples",
             Requirement::SteadyError => "steady $`|e|`$",
             Requirement::PeakError => "largest $`|e|`$",
             Requirement::Control => "largest $`|u|`$",

@@ -2,9 +2,11 @@
 
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_prove::certify::BoundsOfCount;
 use sigmastar_prove::reduction::Run;
 
-/// A gain with which everything in its cells is proved, each an upper bound for every solution from the initial set there.
+/// A gain with which everything in its cells is proved, each an upper bound for every solution from the initial set there, in the loop without noise. Where
+/// the certificate of the gain has a bound, it is the number that stands there.
 #[derive(Clone, Debug)]
 pub struct Row {
     /// The gain.
@@ -22,10 +24,10 @@ pub struct Cell {
     pub n_o: u32,
     /// Of |e| along the periodic solution.
     pub steady_error: Enclosure,
-    /// Whether the certificate has bounds with so many oscillators, so that the independent checker decides that one, too.
-    pub steady_is_checked: bool,
     /// Of |e| at all times.
     pub peak_error: Enclosure,
+    /// Whether these two are in the certificate, so that the independent checker decides them; the others are.
+    pub are_in_certificate: [bool; 2],
     /// Of what is put out at all times.
     pub control: Enclosure,
     /// The rate in 1/time, and the factor in the unit of e, where they are proved: `|e - e_per| <= factor exp(-rate (t - t_0))`, at samples at the
@@ -62,13 +64,13 @@ impl Row {
         let certified = run.certified()?;
         let said = run.of_counts();
         let cell = |n_o: &u32| {
-            let [steady_error, peak_error, control] = run.bounds_with(&[*n_o])?;
+            let BoundsOfCount { steady_error, peak_error, control } = run.bounds_of(*n_o)?;
             let said = said.iter().find(|said| said.n_o == *n_o);
             Some(Cell {
                 n_o: *n_o,
-                steady_error,
-                steady_is_checked: run.has_checked_bounds(*n_o),
-                peak_error,
+                are_in_certificate: [steady_error.is_in_certificate, peak_error.is_in_certificate],
+                steady_error: steady_error.bound,
+                peak_error: peak_error.bound,
                 control,
                 decay: said.map(|said| Decay { rate: said.rate.clone(), factor: said.factor.clone() }),
                 noise: said.and_then(|said| said.noise).map(|[_, limit]| limit.clone()),
@@ -81,7 +83,7 @@ impl Row {
 }
 
 impl Cell {
-    /// After how many periods |e| is at most a limit for good, at most: `log(factor/(limit - steady error))/(rate T)`, or 0 where the factor is at most
+    /// After how many periods |e| is at most a limit for good, at samples at the sampling instants, at most: `log(factor/(limit - steady error))/(rate T)`, or 0 where the factor is at most
     /// that difference. `None` where no rate is proved, or the steady error is not proved to be below the limit. Hypothesis: `period` is positive, and no
     /// period of the document is shorter.
     #[must_use]
@@ -109,7 +111,7 @@ pub(super) mod tests {
         Cell {
             n_o,
             steady_error: bound(steady_error),
-            steady_is_checked: true,
+            are_in_certificate: [true; 2],
             peak_error: bound(peak_error),
             control: bound(control),
             decay: None,

@@ -36,14 +36,14 @@ impl<'q> AtGains<'q> {
         self.asked(self.smallest.clone())
     }
 
-    /// What is prepared for a gain: in continuous time with the data of the smallest one, at samples with data of its own.
+    /// What is prepared for a gain: in continuous time with the data of the smallest one, at samples and where these are for larger gains with data of its own.
     ///
     /// # Errors
     /// Those of [`Prepared::new`].
     pub fn at(&self, gain: &Rational) -> Result<Prepared, Vec<SpecErrors>> {
         let prepared = match self.subject.sampling() {
-            None => Prepared { gain: Some(gain.clone()), ..self.smallest.clone() },
-            Some(_) => search((self.subject, self.counts), &Limits::default(), self.options, self.watch)
+            None if self.smallest.reaches(Some(gain)) => Prepared { gain: Some(gain.clone()), ..self.smallest.clone() },
+            _ => search((self.subject, self.counts), &Limits::default(), self.options, self.watch)
                 .at(Some(gain.clone()))?,
         };
         Ok(self.asked(prepared))

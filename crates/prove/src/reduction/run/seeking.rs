@@ -72,7 +72,7 @@ impl Prepared {
 
 impl Prepared {
     /// Whether a gain that is given is not below the smallest one of the data in continuous time; at samples they are those of the gain.
-    fn reaches(&self, gain: Option<&Rational>) -> bool {
+    pub(super) fn reaches(&self, gain: Option<&Rational>) -> bool {
         match (&self.start, gain) {
             (Start::Continuous(Some(sought)), Some(gain)) => sought.proposal.sigma <= gain.to_f64(),
             _ => true,
