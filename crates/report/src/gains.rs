@@ -87,7 +87,7 @@ pub(super) fn to_use(rows: &[GainRow]) -> Option<(&'static str, String)> {
     // A set whose sizes the file does not state goes with the gain.
     let from = if row.e0 == own.e0 { String::new() } else { format!(" from {}", exact(&row.e0, Direction::Down)) };
     let said = format!(
-        "$`sigma = {}`$: $`|e| <= {}`${from}, $`|u| <= {}`$ in the transient with every $`n_o`$",
+        "$`sigma = {}`$: $`|e| <= {}`${from}, $`|u| <= {}`$ at all times with every $`n_o`$",
         write_exact(&row.sigma),
         upper(&row.peak),
         upper(&(&row.control.steady + &row.control.transient)),
