@@ -147,8 +147,11 @@ fn what_counts_is_the_number_of_the_certificate() {
     let folder = tempfile::tempdir().unwrap();
     let file = stored(folder.path(), "plant.json", &plant());
     let flags = ["--sigma", "3", "--n-o", "0", "--no-simulation"];
-    let report = design(&file, &flags, 0);
+    let output = folder.path().join("c.json");
+    let report = design(&file, &[&flags[..], &["-o", output.to_str().unwrap()]].concat(), 0);
     let bound = number(&report["rows"][0]["cells"][0]["peak_error"]);
+    let stated = number(&read(&output)["claim"]["by_n_o"][0]["largest"]["e"]);
+    assert!((bound / stated - 1.0).abs() < 1e-11, "{bound} {stated}");
     let with = |limit: f64, code| {
         let limit = format!("{limit:.9}");
         let report = design(&file, &[&flags[..], &["--peak-error", &limit]].concat(), code);
