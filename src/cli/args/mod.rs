@@ -142,8 +142,8 @@ pub enum Command {
     ///
     /// Proves bounds of the steady error, of the largest error and control, and rates, at several gains with several numbers of oscillators, each row a claim
     /// that the independent checker decides. The pair to take has the smallest gain of the table, and there the fewest oscillators, with which every
-    /// requirement is proved to be met. Without requirements the gain to take has a largest error of at most twice the larger of start and steady error,
-    /// and at least half of the largest rate. Exit code 3 says that something required is not proved.
+    /// requirement is proved to be met. Without requirements the gain to take has a bound of the largest error of at most twice the larger of E0 and
+    /// that of the steady error, and each proved rate is at least half of the largest one for its number of oscillators. Exit code 3 says that something required is not proved.
     #[command(after_help = DESIGN_EXAMPLES, after_long_help = format!("{DESIGN_EXAMPLES}\n\n{EXIT_CODES}"))]
     Design(DesignArgs),
     /// Show which gains go with which sampling periods: the smallest gain for a period, the longest period for a gain

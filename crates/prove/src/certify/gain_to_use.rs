@@ -5,11 +5,8 @@ use super::gain_row::GainRow;
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 
-/// |e| is to be at most so many times the larger of E0 and the steady error at all times.
-const PEAK: f64 = 2.0;
-
-/// A rate is to be at least this share of the largest one.
-const RATE: f64 = 0.5;
+/// |e| is to be at most so many times the larger of E0 and the steady error at all times, and the largest rate at most so many times a rate.
+const TIMES: u32 = 2;
 
 /// What is proved of the transient at a gain, for one number of oscillators or for every one.
 #[derive(Clone, Copy, Debug)]
@@ -28,25 +25,29 @@ pub struct Transient<'a> {
 /// larger of E0 and the steady error, and each rate at least half of the largest for its number of oscillators; or the one that comes closest, and false.
 /// `None` where there are no gains.
 ///
-/// Guarantee: none: it compares in doubles what is proved.
+/// Guarantee: the rule is decided from the upper ends of the bounds, exactly; which gain comes closest is seen in doubles.
 #[must_use]
 pub fn gain_to_use(gains: &[Vec<Transient<'_>>]) -> Option<(usize, bool)> {
-    let rate = |transient: &Transient<'_>| transient.rate.map_or(0.0, Rational::to_f64);
-    let best = |index: usize| gains.iter().filter_map(|gain| gain.get(index)).map(rate).fold(0.0, f64::max);
-    // What is above 1 misses the rule.
+    let best = |index: usize| gains.iter().filter_map(|gain| gain.get(index)?.rate).max();
+    let keeps_rule = |gain: &Vec<Transient<'_>>| {
+        gain.iter().enumerate().all(|(index, Transient { start, steady, peak, rate })| {
+            let is_fast = best(index).is_none_or(|best| rate.is_some_and(|rate| *best <= Rational::from(TIMES * rate)));
+            let ends = steady.upper_rational().zip(peak.upper_rational());
+            is_fast && ends.is_some_and(|(steady, peak)| peak <= TIMES * steady.max((*start).clone()))
+        })
+    };
+    if let Some(index) = gains.iter().position(keeps_rule) {
+        return Some((index, true));
+    }
     let miss = |gain: &Vec<Transient<'_>>| {
-        let of_one = |(index, transient): (usize, &Transient<'_>)| {
-            let allowed = PEAK * transient.start.to_f64().max(transient.steady.upper_f64());
-            let best = best(index);
-            let slow = if best > 0.0 { RATE * best / rate(transient) } else { 0.0 };
-            slow.max(transient.peak.upper_f64() / allowed)
+        let of_one = |(index, Transient { start, steady, peak, rate }): (usize, &Transient<'_>)| {
+            let slow = best(index).map_or(0.0, |best| best.to_f64() / rate.map_or(0.0, Rational::to_f64));
+            slow.max(peak.upper_f64() / start.to_f64().max(steady.upper_f64()))
         };
         gain.iter().enumerate().map(of_one).fold(0.0, f64::max)
     };
     let misses: Vec<f64> = gains.iter().map(miss).collect();
-    let keeps = misses.iter().position(|miss| *miss <= 1.0);
-    let nearest = || (0..misses.len()).reduce(|a, b| if misses[b] < misses[a] { b } else { a });
-    keeps.or_else(nearest).map(|index| (index, keeps.is_some()))
+    (0..misses.len()).reduce(|a, b| if misses[b] < misses[a] { b } else { a }).map(|index| (index, false))
 }
 
 impl GainRow {

@@ -16,7 +16,7 @@ const FORMAT: &str = "sigmastar/design";
 /// Its version.
 const VERSION: u64 = 1;
 
-/// The share of the largest error below which a simulated size is shown as 0.
+/// The share of the largest error below which a simulated steady error is shown as 0.
 const ROUNDING: f64 = 1e-12;
 
 /// A design table of what has this name.
@@ -131,7 +131,7 @@ impl DesignReport<'_> {
     fn others(&self) -> Option<String> {
         let pair = |[row, cell]: &[usize; 2]| {
             let row = &self.rows[*row];
-            format!("$`n_o = {}`$ from $`sigma = {}`$", row.cells[*cell].n_o, write_exact(&row.sigma))
+            format!("$`n_o = {}`$ with $`sigma = {}`$", row.cells[*cell].n_o, write_exact(&row.sigma))
         };
         let all: Vec<String> = self.choice.others.iter().map(pair).collect();
         (!all.is_empty()).then(|| format!("In the table these meet every requirement, too: {}.", all.join(", ")))
@@ -202,16 +202,12 @@ impl DesignReport<'_> {
                 cells.extend(e0.then(|| exact(&row.e0, Direction::Down)));
                 cells.push(cell.n_o.to_string());
                 for (bound, found) in [
-                    (&cell.steady_error, found.map(|found| found.steady_error)),
+                    (&cell.steady_error, found.map(|found| above_rounding(found.steady_error, cell))),
                     (&cell.peak_error, of_runs(0)),
                     (&cell.control, of_runs(1)),
                 ] {
                     cells.push(upper(bound));
-                    cells.extend(
-                        simulated.then(|| {
-                            found.map_or_else(|| "-".to_owned(), |found| estimate(above_rounding(found, cell)))
-                        }),
-                    );
+                    cells.extend(simulated.then(|| found.map_or_else(|| "-".to_owned(), estimate)));
                 }
                 let rate = cell.decay.as_ref().map(|decay| exact(&decay.rate, Direction::Down));
                 cells.push(rate.unwrap_or_else(not_proved));
@@ -294,7 +290,7 @@ impl DesignReport<'_> {
     }
 }
 
-/// A simulated size, or 0 where it is what rounding leaves of numbers like the largest error.
+/// A simulated steady error, or 0 where it is what rounding leaves of numbers like the largest error.
 fn above_rounding(found: f64, cell: &Cell) -> f64 {
     if found < ROUNDING * cell.peak_error.upper_f64() { 0.0 } else { found }
 }
