@@ -9,7 +9,7 @@ use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use std::collections::HashMap;
 
-/// Bits of the enclosures.
+/// Bits of the coefficients. Of rests the size alone counts: doubles do.
 pub(crate) const PRECISION: u32 = 96;
 
 /// A function on the box.
@@ -20,7 +20,7 @@ pub(crate) const PRECISION: u32 = 96;
 pub(crate) struct Model {
     /// Of the monomials in the order of [`Space`]; those that are left out are 0.
     pub(super) coefficients: Vec<Enclosure>,
-    /// How far the function is from the polynomial at most.
+    /// How far the function is from the polynomial at most: a number as [`size`] gives it.
     pub(super) rest: Enclosure,
 }
 
@@ -40,6 +40,21 @@ pub(crate) struct Space {
 
 fn zero() -> Enclosure {
     Enclosure::zero(PRECISION)
+}
+
+/// What |value| is at most, in a double, as an enclosure of nothing else; undefined where no bound is known.
+fn size(value: &Enclosure) -> Enclosure {
+    Enclosure::exactly(value.upper_f64().max(-value.lower_f64()))
+}
+
+/// The size of 0.
+fn no_size() -> Enclosure {
+    Enclosure::exactly(0.0)
+}
+
+/// A value with what is nearer to it than a size.
+fn around(middle: &Enclosure, reach: &Enclosure) -> Enclosure {
+    middle + reach.negate().hull(reach)
 }
 
 fn is_nothing(value: &Enclosure) -> bool {
@@ -82,7 +97,7 @@ impl Space {
 
     /// A number.
     pub(crate) fn constant(&self, value: Enclosure) -> Model {
-        Model { coefficients: vec![value], rest: zero() }
+        Model { coefficients: vec![value], rest: no_size() }
     }
 
     /// `middle + reach x_i`.
@@ -98,14 +113,14 @@ impl Space {
                 model.coefficients[place] = reach;
             }
             // Of degree 0.
-            None => model.rest = reach.abs(),
+            None => model.rest = size(&reach),
         }
         model
     }
 
     /// `sum_j values_j x_0^j`, up to the rest.
     pub(crate) fn in_time(&self, values: &[Enclosure], rest: Enclosure) -> Model {
-        let mut model = Model { coefficients: Vec::new(), rest };
+        let mut model = Model { coefficients: Vec::new(), rest: size(&rest) };
         for (place, powers) in self.monomials.iter().enumerate() {
             let alone = powers.iter().skip(1).all(|power| *power == 0);
             if let Some(value) = powers.first().filter(|_| alone).and_then(|power| values.get(usize::from(*power))) {
@@ -118,16 +133,16 @@ impl Space {
 
     /// What the coefficients of each degree are at most.
     fn by_degree(&self, model: &Model) -> Vec<Enclosure> {
-        let mut sums = vec![zero(); self.degree + 1];
+        let mut sums = vec![no_size(); self.degree + 1];
         for (value, degree) in model.coefficients.iter().zip(&self.degrees).filter(|(value, _)| !is_nothing(value)) {
-            sums[*degree] = &sums[*degree] + value.abs();
+            sums[*degree] = &sums[*degree] + size(value);
         }
         sums
     }
 
     /// Of |model| on the box.
     pub(crate) fn bound(&self, model: &Model) -> Enclosure {
-        model.coefficients.iter().fold(model.rest.clone(), |sum, value| sum + value.abs())
+        model.coefficients.iter().fold(model.rest.clone(), |sum, value| sum + size(value))
     }
 
     pub(crate) fn sum(&self, a: &Model, b: &Model) -> Model {
@@ -142,7 +157,7 @@ impl Space {
 
     pub(crate) fn scaled(&self, a: &Model, factor: &Enclosure) -> Model {
         let coefficients = a.coefficients.iter().map(|value| value * factor).collect();
-        Model { coefficients, rest: &a.rest * factor.abs() }
+        Model { coefficients, rest: &a.rest * size(factor) }
     }
 
     pub(crate) fn product(&self, a: &Model, b: &Model) -> Model {
@@ -152,7 +167,7 @@ impl Space {
     /// The product with what is above a degree in the rest.
     fn product_up_to(&self, a: &Model, b: &Model, limit: usize) -> Model {
         let (of_a, of_b) = (self.by_degree(a), self.by_degree(b));
-        let all = |sums: &[Enclosure]| sums.iter().fold(zero(), |sum, value| sum + value);
+        let all = |sums: &[Enclosure]| sums.iter().fold(no_size(), |sum, value| sum + value);
         let mut rest = &a.rest * (all(&of_b) + &b.rest) + &b.rest * all(&of_a);
         for (i, a) in of_a.iter().enumerate() {
             for b in of_b.iter().skip((limit + 1).saturating_sub(i)).filter(|b| !is_nothing(b)) {
@@ -179,11 +194,16 @@ impl Space {
     pub(super) fn composed(&self, a: &Model, series: impl Fn(&Taylor, usize) -> Taylor) -> Model {
         let (middle, apart) = self.about_middle(a);
         let reach = self.bound(&apart);
-        let at = |value: Enclosure, order: usize| series(&vec![value, Enclosure::one(PRECISION)], order);
+        let at = |value: Enclosure, order: usize| {
+            let one = Enclosure::one(value.precision());
+            series(&vec![value, one], order)
+        };
         let about = at(middle.clone(), self.degree);
-        let over = at(&middle + reach.negate().hull(&reach), self.degree + 1);
+        // For the rest: doubles do.
+        let [low, high] = [Enclosure::lower_f64, Enclosure::upper_f64].map(|end| end(&around(&middle, &reach)));
+        let over = at(Enclosure::exactly(low).hull(&Enclosure::exactly(high)), self.degree + 1);
         let smooth = over.iter().chain(&about).all(Enclosure::is_defined);
-        let mut result = Model { coefficients: Vec::new(), rest: zero() };
+        let mut result = Model { coefficients: Vec::new(), rest: no_size() };
         // Of what is to be multiplied by the j-th power of what has no constant the degrees up to the largest less j count.
         for (j, value) in about.iter().enumerate().rev() {
             result = self.sum(
@@ -193,8 +213,8 @@ impl Space {
         }
         let last = match (smooth, over.get(self.degree + 1)) {
             (false, _) => Enclosure::undefined(PRECISION),
-            (true, None) => zero(),
-            (true, Some(last)) => (0..=self.degree).fold(last.abs(), |rest, _| rest * &reach),
+            (true, None) => no_size(),
+            (true, Some(last)) => (0..=self.degree).fold(size(last), |rest, _| rest * &reach),
         };
         result.rest = result.rest + last;
         result
@@ -211,7 +231,7 @@ impl Space {
     pub(super) fn range(&self, a: &Model) -> Enclosure {
         let (middle, apart) = self.about_middle(a);
         let reach = self.bound(&apart);
-        middle + reach.negate().hull(&reach)
+        around(&middle, &reach)
     }
 
     /// The model on the half of the box where x_i is below 0, or above.
@@ -241,7 +261,8 @@ impl Space {
     /// An upper bound of |model| on the box, by halves of it while it is not at most `enough` and they help, up to so many times.
     pub(crate) fn largest(&self, model: &Model, enough: f64, times: u32) -> Enclosure {
         let bound = self.bound(model);
-        if times == 0 || bound.upper_f64() <= enough || model.rest.upper_f64() > enough {
+        let may_help = model.rest.upper_f64() <= enough && bound.upper_f64() > enough;
+        if times == 0 || !may_help {
             return bound;
         }
         let variables = self.monomials.first().map_or(0, Vec::len);

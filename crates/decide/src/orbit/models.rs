@@ -31,7 +31,8 @@ impl Models<'_> {
     fn by_series(&self, a: &Model, of: impl Fn(&mut TaylorAlgebra<'_>, &Taylor) -> Taylor) -> Model {
         self.space.composed(a, |series, order| {
             let time = Taylor::new();
-            let mut algebra = TaylorAlgebra { time: &time, states: &[], parameters: &[], order, precision: PRECISION };
+            let precision = series.first().map_or(PRECISION, Enclosure::precision);
+            let mut algebra = TaylorAlgebra { time: &time, states: &[], parameters: &[], order, precision };
             of(&mut algebra, series)
         })
     }

@@ -37,12 +37,19 @@ impl From<&TrigonometricVector> for FloatCurve {
 impl FloatCurve {
     /// The curve of a member, time in periods.
     pub(super) fn at(&self, time: f64, deviations: &[f64]) -> Vec<f64> {
+        let of_parts = self.sensitivities.iter().map(|part| part.harmonics.len());
+        let last = of_parts.fold(self.harmonics.len(), usize::max);
+        let turn = |k: usize| libm::sincos(std::f64::consts::TAU * time * k as f64);
+        self.turned(&(1..=last).map(turn).collect::<Vec<_>>(), deviations)
+    }
+
+    /// The same from the sines and cosines of the harmonics.
+    fn turned(&self, turns: &[(f64, f64)], deviations: &[f64]) -> Vec<f64> {
         let mut x = self.mean.clone();
         for (part, deviation) in self.sensitivities.iter().zip(deviations) {
-            x.iter_mut().zip(part.at(time, &[])).for_each(|(x, part)| *x += deviation * part);
+            x.iter_mut().zip(part.turned(turns, &[])).for_each(|(x, part)| *x += deviation * part);
         }
-        for ([a, b], k) in self.harmonics.iter().zip(1..) {
-            let (sin, cos) = libm::sincos(std::f64::consts::TAU * time * f64::from(k));
+        for ([a, b], (sin, cos)) in self.harmonics.iter().zip(turns) {
             for ((x, a), b) in x.iter_mut().zip(a).zip(b) {
                 *x += a * cos + b * sin;
             }

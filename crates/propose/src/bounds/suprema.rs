@@ -12,7 +12,7 @@ use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{Bound, Parameters, PeriodicMatrix};
 use sigmastar_theory::evidence::of_table;
 use sigmastar_theory::input_gain::moves;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
 
 /// The precision of the ends of an input gain, in bits.
@@ -487,8 +487,8 @@ struct Single<'a> {
     pointwise: Pointwise,
     evaluator: Evaluator,
     slow: Evaluator,
-    /// Most steps leave the time as it is.
-    moment: Option<Moment>,
+    /// Those that were met, by the bits of their times and their members: a search comes back to most of them.
+    moments: HashMap<(u64, usize), Moment>,
     x: Vec<f64>,
     outputs: Vec<f64>,
 }
@@ -501,7 +501,7 @@ impl<'a> Single<'a> {
             pointwise: suprema.pointwise(),
             evaluator: Evaluator::new(suprema.program.clone()),
             slow: Evaluator::new(suprema.velocity.clone()),
-            moment: None,
+            moments: HashMap::new(),
             x: vec![0.0; suprema.order],
             outputs: vec![0.0; asked.outputs(suprema.order)],
         }
@@ -512,15 +512,13 @@ impl<'a> Single<'a> {
         Point { time, y, e, member }: &Point,
         value_of: impl FnOnce(&mut Pointwise, Outputs<'_>) -> T,
     ) -> T {
-        let Single { suprema, at: [reach, largest], pointwise, evaluator, slow, moment, x, outputs } = self;
-        let known = moment.take().filter(|known| known.time == *time && known.member == *member);
-        let known = known.unwrap_or_else(|| suprema.moment(*time, *member, evaluator, slow));
-        suprema.load(&known, evaluator);
-        suprema.place(&known.orbit, y, *reach, x);
+        let Single { suprema, at: [reach, largest], pointwise, evaluator, slow, moments, x, outputs } = self;
+        let of_time = || suprema.moment(*time, *member, evaluator, slow);
+        let moment = &*moments.entry((time.to_bits(), *member)).or_insert_with(of_time);
+        suprema.load(moment, evaluator);
+        suprema.place(&moment.orbit, y, *reach, x);
         evaluator.evaluate(x, e * *largest, outputs);
-        let value = value_of(pointwise, Outputs { outputs, moment: &known, matrices: &suprema.matrices_at(&known) });
-        *moment = Some(known);
-        value
+        value_of(pointwise, Outputs { outputs, moment, matrices: &suprema.matrices_at(moment) })
     }
 }
 
