@@ -7,6 +7,7 @@ use clarabel::algebra::CscMatrix;
 use clarabel::solver::{
     DefaultSettings, DefaultSettingsBuilder, DefaultSolver, IPSolver, PSDTriangleConeT, SolverStatus, SupportedConeT,
 };
+use sigmastar_matrix::doubles::largest_of;
 use sigmastar_matrix::{AffineMatrix, Symmetric};
 use thiserror::Error;
 
@@ -128,6 +129,73 @@ pub fn propose(cost: &[f64], constraints: &[AffineMatrix<f64>]) -> Result<Solver
     candidate(solution.status, solution.x, &solution.z, &orders)
 }
 
+/// Up to so many constraints are posed all at once; of more, so many at first, spread evenly, and so many more at a time.
+const AT_ONCE: usize = 32;
+const MORE: usize = 8;
+
+/// How often constraints are added before all of them are posed.
+const ADDITIONS: usize = 12;
+
+/// What a constraint may be violated by, as a share of its largest entry: less than the margins that callers pose.
+const VIOLATION: f64 = 1e-7;
+
+/// Minimises as [`propose`] does, where many of the constraints are alike, as those at neighbouring points are, and few of them count: of `many` a few
+/// are posed with `others`, and then those besides that the solution violates most, until it violates none.
+///
+/// Guarantee: none about the result, which is a proposal to be verified; but it is finite.
+///
+/// # Errors
+/// Those of [`propose`].
+pub fn propose_among(
+    cost: &[f64],
+    many: &[AffineMatrix<f64>],
+    others: &[AffineMatrix<f64>],
+) -> Result<Vec<f64>, SolverFailure> {
+    let posed = |places: &[usize]| {
+        let chosen = places.iter().map(|place| &many[*place]).chain(others);
+        propose(cost, &chosen.cloned().collect::<Vec<_>>()).map(|found| found.x)
+    };
+    let all: Vec<usize> = (0..many.len()).collect();
+    if many.len() <= AT_ONCE {
+        return posed(&all);
+    }
+    let mut places: Vec<usize> = (0..AT_ONCE).map(|i| i * many.len() / AT_ONCE).collect();
+    for _ in 0..ADDITIONS {
+        let x = match posed(&places) {
+            Ok(x) => x,
+            // With more constraints it is no better.
+            Err(SolverFailure::Infeasible) => return Err(SolverFailure::Infeasible),
+            Err(_) => break,
+        };
+        let lacks = all.iter().filter(|place| !places.contains(place)).map(|place| (lack(&many[*place], &x), *place));
+        let mut violated: Vec<(f64, usize)> = lacks.filter(|(lack, _)| *lack > VIOLATION).collect();
+        if violated.is_empty() {
+            return Ok(x);
+        }
+        // Of those that are equal the first.
+        violated.sort_by(|(a, _), (b, _)| b.total_cmp(a));
+        places.extend(violated.iter().take(MORE).map(|(_, place)| *place));
+        places.sort_unstable();
+    }
+    posed(&all)
+}
+
+/// By how much a matrix is not positive semidefinite at a point, as a share of its largest entry.
+fn lack(matrix: &AffineMatrix<f64>, x: &[f64]) -> f64 {
+    let order = matrix.order();
+    let value = |i: usize, k: usize| {
+        let terms = matrix.terms().iter().zip(x).map(|(term, x)| term.at(i, k) * x);
+        terms.fold(*matrix.constant().at(i, k), |sum, term| sum + term)
+    };
+    let values = Symmetric::from_fn(order, value);
+    let size = values.entries().iter().fold(0.0_f64, |size, entry| size.max(entry.abs()));
+    if size == 0.0 {
+        return 0.0;
+    }
+    let mut opposite: Vec<f64> = values.rows().concat().into_iter().map(|entry| -entry / size).collect();
+    largest_of(&mut opposite, order)
+}
+
 /// Only `Solved` gives a candidate without a remark; where the solver came close, its last point is one with a remark.
 fn candidate(status: SolverStatus, x: Vec<f64>, z: &[f64], orders: &[usize]) -> Result<SolverPoint, SolverFailure> {
     let remark = match status {
@@ -239,6 +307,39 @@ mod tests {
         for (found, expected) in dual.entries().iter().zip([0.5, 0.0, 0.0, -0.5, 0.0, 0.5]) {
             assert!((found - expected).abs() <= 1e-6, "{dual:?}");
         }
+    }
+
+    /// The largest x + y on a disc, by its tangents: few of them count, and those were not among the first.
+    #[test]
+    fn of_many_constraints_those_count_that_are_violated() {
+        let tangent = |count: u32, i: u32| {
+            let (sin, cos) = libm::sincos(std::f64::consts::TAU * f64::from(i) / f64::from(count));
+            AffineMatrix::from_fn(1, 2, |_, _| 1.0, |variable, _, _| if variable == 0 { -cos } else { -sin })
+        };
+        // Whether some tangent touches where the sum is largest, at an eighth of a turn.
+        for (count, expected) in [
+            (8, 2.0_f64.sqrt()),
+            (1000, 2.0_f64.sqrt()),
+            (1004, 2.0_f64.sqrt() / libm::cos(std::f64::consts::PI / 1004.0)),
+        ] {
+            let many: Vec<_> = (0..count).map(|i| tangent(count, i)).collect();
+            let found = propose_among(&[-1.0, -1.0], &many, &[]).expect("solved");
+            assert!((found[0] + found[1] - expected).abs() <= 1e-6, "{count}: {found:?}, {expected}");
+            // A constraint besides them counts too.
+            let found = propose_among(&[-1.0, -1.0], &many, &[scalar_of([0.5, -1.0, 0.0])]).expect("solved");
+            let expected = if count == 8 { std::f64::consts::SQRT_2 } else { 0.5 + 0.75_f64.sqrt() };
+            assert!((found[0] + found[1] - expected).abs() <= 1e-4, "{count}: {found:?}");
+            assert!(found[0] <= 0.5 + 1e-6, "{count}: {found:?}");
+        }
+        // Where they contradict each other, that is said, also of what is not among the first.
+        let mut many: Vec<_> = (0..100).map(|i| tangent(100, i)).collect();
+        many[7] = scalar_of([-3.0, 1.0, 0.0]);
+        assert_eq!(propose_among(&[-1.0, -1.0], &many, &[]), Err(SolverFailure::Infeasible));
+    }
+
+    /// `c + a x + b y` of order 1.
+    fn scalar_of([c, a, b]: [f64; 3]) -> AffineMatrix<f64> {
+        AffineMatrix::from_fn(1, 2, |_, _| c, |variable, _, _| if variable == 0 { a } else { b })
     }
 
     #[test]

@@ -125,6 +125,10 @@ impl Enclosure {
             }
         };
         let ([x1, x2], [y1, y2]) = (self.long(), exponent.long());
+        if exponent.is_exact() && !exponent.contains_zero() {
+            let (least, largest) = if *y1 > 0 { (&x1, &x2) } else { (&x2, &x1) };
+            return Enclosure::new(corner(least, &y1, Round::Down), corner(largest, &y1, Round::Up));
+        }
         let corners = [(&*x1, &*y1), (&*x1, &*y2), (&*x2, &*y1), (&*x2, &*y2)];
         let extreme = |round: Round, choose: fn(Float, &Float) -> Float| {
             corners

@@ -2,7 +2,7 @@
 //! points at which the derivatives are known.
 
 use super::pointwise::Slopes;
-use crate::semidefinite::propose;
+use crate::semidefinite::propose_among;
 use sigmastar_matrix::AffineMatrix;
 use sigmastar_matrix::doubles::{largest, largest_of};
 use sigmastar_matrix::symmetric::{Symmetric, triangle};
@@ -131,6 +131,7 @@ impl PeakProgram {
         let d_e = positive(self.start[1], 1.0);
         let d_x = positive(self.start[0], d_e);
         let ratio = d_e / d_x;
+        let mut at_points: Vec<AffineMatrix<f64>> = Vec::new();
         let mut constraints: Vec<AffineMatrix<f64>> = Vec::new();
         for (part, point) in &self.points {
             for b in self.gain {
@@ -153,7 +154,7 @@ impl PeakProgram {
                     };
                     value - margin * kept
                 };
-                constraints.push(match part {
+                at_points.push(match part {
                     Part::States => {
                         let skip = |i: usize| if i == n { n + 1 } else { i };
                         let term = |variable: usize, i: usize, k: usize| term(variable, skip(i), skip(k));
@@ -215,7 +216,7 @@ impl PeakProgram {
                 AffineMatrix::from_fn(3, v.count(), constant, term)
             }
         });
-        let found = propose(&cost, &constraints).ok()?.x;
+        let found = propose_among(&cost, &at_points, &constraints).ok()?;
         let level = cost.iter().zip(&found).map(|(cost, value)| cost * value).sum::<f64>() * d_e * d_e;
         // In units of e^2.
         let matrix = Symmetric::from_entries(n, &found).map(|_, _, value| value * ratio * ratio).rows();

@@ -10,6 +10,9 @@ use std::cmp::Ordering;
 /// The largest exponent of a power that is multiplied out in doubles.
 const SHORT_POWER: i32 = 8;
 
+/// The largest exponent, times four, of a power that is taken by square roots and products.
+const LARGEST_QUARTERS: f64 = 32.0;
+
 /// One of MPFR's correctly rounded functions.
 fn by(f: fn(&mut Float, Round) -> Ordering) -> impl Fn(Float, Round) -> Float {
     move |mut x, round| {
@@ -177,19 +180,132 @@ impl Interval {
 
     /// x^y for x > 0, or for x >= 0 and y > 0; undefined otherwise. x^y is monotone in x and in y, so its extremes are
     /// at corners.
+    ///
+    /// | y                       | how                                                              |
+    /// |-------------------------|------------------------------------------------------------------|
+    /// | m/4, m not above 32     | x^m, sqrt(x)^m or sqrt(sqrt(x))^m: x is not negative             |
+    /// | another number, below 0 | from hi^y to lo^y                                                |
+    /// | another number, above 0 | from lo^y to hi^y                                                |
+    /// | an interval             | the hull of the four corners                                     |
     pub fn pow(&self, exponent: &Interval) -> Interval {
         let p = self.precision().max(exponent.precision());
         let defined = self.is_positive() || (self.is_nonnegative() && exponent.is_positive());
-        // Four corners, each rounded both ways.
-        let paid = (0..4).all(|_| effort::elementary(p));
-        if !paid || !defined || !self.is_bounded() || !exponent.is_bounded() {
+        if !defined || !self.is_bounded() || !exponent.is_bounded() {
             return Interval::undefined(p);
         }
-        let corner = |x: &Float, y: &Float| {
-            Interval::new(rounded(p, Pow::pow(x, y), Round::Down), rounded(p, Pow::pow(x, y), Round::Up))
-        };
+        // What is multiplied is no less precise than what is asked for.
+        if let Some((root, n)) = exponent.as_quarters().filter(|_| self.precision() >= exponent.precision()) {
+            let base = (0..root).fold(self.clone(), |base, _| base.sqrt());
+            return base.powi(n);
+        }
+        let end = |x: &Float, y: &Float, round: Round| rounded(p, Pow::pow(x, y), round);
         let (lo, hi, at_lo, at_hi) = (self.lo(), self.hi(), exponent.lo(), exponent.hi());
+        if exponent.is_point() {
+            let falls = exponent.is_negative();
+            let (least, largest) = if falls { (&hi, &lo) } else { (&lo, &hi) };
+            return match effort::elementary(p) && effort::elementary(p) {
+                true => Interval::new(end(least, &at_lo, Round::Down), end(largest, &at_lo, Round::Up)),
+                false => Interval::undefined(p),
+            };
+        }
+        // Four corners, each rounded both ways.
+        if !(0..4).all(|_| effort::elementary(p)) {
+            return Interval::undefined(p);
+        }
+        let corner = |x: &Float, y: &Float| Interval::new(end(x, y, Round::Down), end(x, y, Round::Up));
         let left = corner(&lo, &at_lo).hull(&corner(&lo, &at_hi));
         left.hull(&corner(&hi, &at_lo)).hull(&corner(&hi, &at_hi))
+    }
+
+    /// The number as `n/2^root` with root 0, 1 or 2, where it is one, and n is not large.
+    fn as_quarters(&self) -> Option<(u32, i32)> {
+        let value = self.lo().to_f64();
+        let quarters = 4.0 * value;
+        // The end itself, and not what a double makes of it.
+        if !self.is_point() || *self.lo() != value || quarters.fract() != 0.0 || quarters.abs() > LARGEST_QUARTERS {
+            return None;
+        }
+        let mut n = quarters as i32;
+        let mut root = 2;
+        while root > 0 && n % 2 == 0 {
+            (root, n) = (root - 1, n / 2);
+        }
+        Some((root, n))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rug::Rational;
+
+    /// Many bits, and the few of doubles: both ends of x and y.
+    fn between(lo: f64, hi: f64, precision: u32) -> Interval {
+        let end = |value: f64| Interval::point(&Float::with_val(precision, value));
+        end(lo).hull(&end(hi))
+    }
+
+    /// Each value at a corner, and one between, at 300 bits lies in the interval; and the interval has no room beside those.
+    #[test]
+    fn powers_enclose_their_values_and_little_besides() {
+        let bases = [[0.3, 0.3], [0.3, 0.75], [1.0, 1.0], [0.9, 1.2], [2.0, 1e6], [1e-9, 3.0]];
+        let exponents =
+            [-8.0, -1.75, -1.5, -1.0, -0.25, 0.0, 0.25, 0.5, 0.75, 1.0, 2.0, 2.25, 3.5, 7.75, 0.3, -2.2, 9.125];
+        for precision in [53, 96, 200] {
+            for [lo, hi] in bases {
+                for y in exponents {
+                    let found = between(lo, hi, precision).pow(&between(y, y, precision));
+                    let value =
+                        |x: f64| Float::with_val(300, Pow::pow(Float::with_val(300, x), Float::with_val(300, y)));
+                    let [least, largest] = if y < 0.0 { [value(hi), value(lo)] } else { [value(lo), value(hi)] };
+                    assert!(*found.lo() <= least && largest <= *found.hi(), "{lo}..{hi} ^ {y} at {precision}");
+                    let room = |end: &Float, value: &Float| Float::with_val(300, end - value).abs() / value;
+                    let few = Float::with_val(300, 1) >> (precision as i32 - 8);
+                    assert!(room(&found.lo(), &least) <= few, "{lo}..{hi} ^ {y} at {precision}: {found:?}");
+                    assert!(room(&found.hi(), &largest) <= few, "{lo}..{hi} ^ {y} at {precision}: {found:?}");
+                }
+                // An interval of exponents has the corners of both.
+                let all = between(lo, hi, precision).pow(&between(-0.5, 2.25, precision));
+                for (x, y) in [(lo, -0.5), (lo, 2.25), (hi, -0.5), (hi, 2.25)] {
+                    let value = Float::with_val(300, Pow::pow(Float::with_val(300, x), Float::with_val(300, y)));
+                    assert!(*all.lo() <= value && value <= *all.hi(), "{x}^{y}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn powers_of_what_may_be_negative_or_0() {
+        let zero = Interval::int(0, 53);
+        let unit = between(0.0, 1.0, 53);
+        assert!(zero.pow(&between(0.25, 0.25, 53)).is_zero() && zero.pow(&between(0.3, 0.3, 53)).is_zero());
+        let root = unit.pow(&between(0.5, 0.5, 53));
+        assert!(*root.lo() == 0 && *root.hi() == 1, "{root:?}");
+        for y in [-1.75, -0.3, 0.0] {
+            assert!(!unit.pow(&between(y, y, 53)).is_defined(), "{y}");
+        }
+        for y in [-1.0, 0.25, 0.3, 1.0, 2.0] {
+            assert!(!between(-1e-300, 1.0, 53).pow(&between(y, y, 53)).is_defined(), "{y}");
+        }
+    }
+
+    /// A number with more bits than a double has is not taken for a quarter; one of more bits than the base has does not lose its bits.
+    #[test]
+    fn quarters_are_those_alone() {
+        let near =
+            Interval::rational(&Rational::from((1, 4)), 200) + Interval::point(&(Float::with_val(200, 1) >> 150));
+        assert_eq!(near.as_quarters(), None);
+        for (value, expected) in [(0.25, Some((2, 1))), (-1.5, Some((1, -3))), (8.0, Some((0, 8))), (0.0, Some((0, 0)))]
+        {
+            assert_eq!(between(value, value, 53).as_quarters(), expected);
+        }
+        for value in [8.25, -9.0, 0.125, 0.3, f64::INFINITY] {
+            assert_eq!(between(value, value, 53).as_quarters(), None, "{value}");
+        }
+        assert_eq!(between(0.25, 0.5, 53).as_quarters(), None);
+        let found = between(2.0, 2.0, 53).pow(&between(0.5, 0.5, 200));
+        let exact = Float::with_val(300, 2).sqrt();
+        assert!(*found.lo() <= exact && exact <= *found.hi() && found.precision() == 200);
+        assert!(Float::with_val(300, &*found.hi() - &*found.lo()) < 1e-50);
     }
 }

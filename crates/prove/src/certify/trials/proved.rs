@@ -99,22 +99,17 @@ impl Around<'_> {
         Some((x_first, peaks))
     }
 
-    /// What is proved on a box: at least the first form.
-    pub(super) fn proof(
+    /// What follows from forms on a box if these fall there, with everything but that proved.
+    pub(super) fn promised(
         &self,
         prepared: &Prepared,
         [x, e]: [Rational; 2],
-        mut forms: Vec<(Metric, Level)>,
+        forms: Vec<(Metric, Level)>,
     ) -> Option<TubeProof> {
         let Prepared { engine, samples, .. } = prepared;
         let has_states = self.asked.plant.states() > 0;
         self.in_domain(prepared, [&x, &e])?;
         engine.smooth(&x, &e).ok()?;
-        // The first is that of Theorem T.
-        let holding = holding(forms.len(), |those| {
-            engine.decide_forms(&forms[those], self.asked.sigma, [&x, &e], self.effort())
-        })?;
-        forms = kept(forms, &holding);
         let first = forms.first()?;
         let slope = |bound| prove_value(engine, samples, bound, &x, &e).map(|proved| proved.value);
         let of_states = |bound| if has_states { slope(bound) } else { Some(Rational::new()) };
@@ -137,6 +132,16 @@ impl Around<'_> {
             }
         };
         Some(TubeProof { defects: [d_x, d_q], radii: [x, e], slopes, forms, states, or_more, x_first: None })
+    }
+
+    /// What is proved of it: at least that the first form falls.
+    pub(super) fn kept(&self, prepared: &Prepared, promised: TubeProof) -> Option<TubeProof> {
+        let TubeProof { radii: [x, e], forms, .. } = &promised;
+        // The first is that of Theorem T.
+        let holding = holding(forms.len(), |those| {
+            prepared.engine.decide_forms(&forms[those], self.asked.sigma, [x, e], self.effort())
+        })?;
+        Some(TubeProof { forms: kept(promised.forms, &holding), ..promised })
     }
 
     fn effort(&self) -> usize {
