@@ -73,6 +73,7 @@ mod plants_random;
 mod positive_part;
 mod rates_by_matrices;
 mod rates_of_claims;
+mod recipes;
 mod rejected;
 mod removable;
 mod report_words;

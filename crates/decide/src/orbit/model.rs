@@ -9,7 +9,7 @@ use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use std::collections::HashMap;
 
-/// Bits of the coefficients. Of rests the size alone counts: doubles do.
+/// Bits of the coefficients. Rests are sizes, for which doubles are precise enough.
 pub(crate) const PRECISION: u32 = 96;
 
 /// A function on the box.
@@ -20,7 +20,7 @@ pub(crate) const PRECISION: u32 = 96;
 pub(crate) struct Model {
     /// Of the monomials in the order of [`Space`]; those that are left out are 0.
     pub(super) coefficients: Vec<Enclosure>,
-    /// How far the function is from the polynomial at most: a number as [`size`] gives it.
+    /// How far the function is from the polynomial at most: its upper end counts.
     pub(super) rest: Enclosure,
 }
 
@@ -38,13 +38,17 @@ pub(crate) struct Space {
     products: Vec<Vec<(usize, usize)>>,
 }
 
+/// Bits of sizes.
+const SIZE_PRECISION: u32 = f64::MANTISSA_DIGITS;
+
 fn zero() -> Enclosure {
     Enclosure::zero(PRECISION)
 }
 
-/// What |value| is at most, in a double, as an enclosure of nothing else; undefined where no bound is known.
+/// What |value| is at most: its upper end counts. A double where it is in the range of doubles.
 fn size(value: &Enclosure) -> Enclosure {
-    Enclosure::exactly(value.upper_f64().max(-value.lower_f64()))
+    let largest = value.upper_f64().max(-value.lower_f64());
+    if largest.is_normal() || largest == 0.0 { Enclosure::exactly(largest) } else { value.abs() }
 }
 
 /// The size of 0.
@@ -52,7 +56,7 @@ fn no_size() -> Enclosure {
     Enclosure::exactly(0.0)
 }
 
-/// A value with what is nearer to it than a size.
+/// All that is at most a size away from a value.
 fn around(middle: &Enclosure, reach: &Enclosure) -> Enclosure {
     middle + reach.negate().hull(reach)
 }
@@ -199,9 +203,8 @@ impl Space {
             series(&vec![value, one], order)
         };
         let about = at(middle.clone(), self.degree);
-        // For the rest: doubles do.
-        let [low, high] = [Enclosure::lower_f64, Enclosure::upper_f64].map(|end| end(&around(&middle, &reach)));
-        let over = at(Enclosure::exactly(low).hull(&Enclosure::exactly(high)), self.degree + 1);
+        // For the rest, a size.
+        let over = at(around(&middle, &reach).at_precision(SIZE_PRECISION), self.degree + 1);
         let smooth = over.iter().chain(&about).all(Enclosure::is_defined);
         let mut result = Model { coefficients: Vec::new(), rest: no_size() };
         // Of what is to be multiplied by the j-th power of what has no constant the degrees up to the largest less j count.
@@ -279,6 +282,26 @@ impl Space {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Coefficients beyond the range of doubles have no size in doubles, and what follows from them is bounded all the same.
+    #[test]
+    fn what_is_enormous_has_a_size() {
+        let space = Space::new(1, 3);
+        let huge = Enclosure::from_integer(10, PRECISION).pow_integer(&340.into());
+        let tiny = huge.recip();
+        let x = space.variable(0, huge.clone(), huge.clone());
+        let by_hand = |model: &Model, low: &Enclosure, high: &Enclosure| {
+            let bound = space.bound(model);
+            assert!(low.le(&bound).is_true() && bound.le(high).is_true(), "{bound:?}");
+        };
+        by_hand(&x, &(&huge * 3 / 2), &(&huge * 3));
+        let small = space.scaled(&space.product(&x, &x), &(&tiny * &tiny));
+        by_hand(&small, &Enclosure::from_integer(3, PRECISION), &(Enclosure::from_integer(41, PRECISION) / 10));
+        let nothing = space.product(&x, &space.constant(Enclosure::zero(PRECISION)));
+        assert!(space.bound(&nothing).upper_f64() == 0.0);
+        assert!(!space.bound(&space.constant(Enclosure::undefined(PRECISION))).is_bounded());
+        assert!(!space.bound(&space.constant(Enclosure::entire(PRECISION))).is_bounded());
+    }
 
     /// T_5(x_1) of size 1 has coefficients with a sum of 41.
     #[test]

@@ -192,6 +192,16 @@ mod tests {
         }
     }
 
+    /// About a point so near a singularity that its series has coefficients beyond the range of doubles.
+    #[test]
+    fn a_root_of_what_is_tiny_is_smooth() {
+        for (text, value) in [("sqrt(1e-60*v)", 1e-30 * 2.25_f64.sqrt()), ("log(1e-340*(v + 1)/v)", -782.0)] {
+            let space = Space::new(2, 12);
+            let bound = space.bound(&evaluated(text, &space)).upper_f64();
+            assert!(bound >= value.abs() && bound <= 2.0 * value.abs() + 1.0, "{text}: {bound}");
+        }
+    }
+
     #[test]
     fn what_is_not_smooth_on_the_box_has_no_bound() {
         let space = Space::new(2, 5);

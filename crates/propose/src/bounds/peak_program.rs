@@ -131,10 +131,11 @@ impl PeakProgram {
         let d_e = positive(self.start[1], 1.0);
         let d_x = positive(self.start[0], d_e);
         let ratio = d_e / d_x;
+        let gains = if self.gain[0] == self.gain[1] { &self.gain[..1] } else { &self.gain[..] };
         let mut at_points: Vec<AffineMatrix<f64>> = Vec::new();
         let mut constraints: Vec<AffineMatrix<f64>> = Vec::new();
         for (part, point) in &self.points {
-            for b in self.gain {
+            for b in gains.iter().copied() {
                 // In the order (x, e, y).
                 let term = |variable: usize, i: usize, k: usize| {
                     let kept = f64::from(i == k)

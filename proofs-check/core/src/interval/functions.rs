@@ -10,7 +10,7 @@ use std::cmp::Ordering;
 /// The largest exponent of a power that is multiplied out in doubles.
 const SHORT_POWER: i32 = 8;
 
-/// The largest exponent, times four, of a power that is taken by square roots and products.
+/// The largest exponent, times four, of a power that is taken by square roots and an integer power.
 const LARGEST_QUARTERS: f64 = 32.0;
 
 /// One of MPFR's correctly rounded functions.
@@ -181,12 +181,12 @@ impl Interval {
     /// x^y for x > 0, or for x >= 0 and y > 0; undefined otherwise. x^y is monotone in x and in y, so its extremes are
     /// at corners.
     ///
-    /// | y                       | how                                                              |
-    /// |-------------------------|------------------------------------------------------------------|
-    /// | m/4, m not above 32     | x^m, sqrt(x)^m or sqrt(sqrt(x))^m: x is not negative             |
-    /// | another number, below 0 | from hi^y to lo^y                                                |
-    /// | another number, above 0 | from lo^y to hi^y                                                |
-    /// | an interval             | the hull of the four corners                                     |
+    /// | y                                                | how                                              |
+    /// |--------------------------------------------------|--------------------------------------------------|
+    /// | n, n/2 or n/4 up to 8, with no more bits than x  | x^n, sqrt(x)^n or sqrt(sqrt(x))^n: x is not < 0  |
+    /// | another number below 0                           | from hi^y to lo^y                                |
+    /// | another number                                   | from lo^y to hi^y                                |
+    /// | an interval                                      | the hull of the four corners                     |
     pub fn pow(&self, exponent: &Interval) -> Interval {
         let p = self.precision().max(exponent.precision());
         let defined = self.is_positive() || (self.is_nonnegative() && exponent.is_positive());
@@ -239,13 +239,13 @@ mod tests {
     use super::*;
     use rug::Rational;
 
-    /// Many bits, and the few of doubles: both ends of x and y.
+    /// An interval with these ends.
     fn between(lo: f64, hi: f64, precision: u32) -> Interval {
         let end = |value: f64| Interval::point(&Float::with_val(precision, value));
         end(lo).hull(&end(hi))
     }
 
-    /// Each value at a corner, and one between, at 300 bits lies in the interval; and the interval has no room beside those.
+    /// The values at the corners, at 300 bits, lie in the interval, and it has little room beside them.
     #[test]
     fn powers_enclose_their_values_and_little_besides() {
         let bases = [[0.3, 0.3], [0.3, 0.75], [1.0, 1.0], [0.9, 1.2], [2.0, 1e6], [1e-9, 3.0]];

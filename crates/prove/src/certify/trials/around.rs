@@ -76,8 +76,11 @@ pub(super) struct Prepared {
     pub(super) distances: [f64; 3],
 }
 
-/// A bound in short numbers.
+/// A bound in short numbers; none of what is no number.
 pub(super) fn up(value: f64, digits: u32) -> Option<Rational> {
+    if value.is_nan() {
+        return None;
+    }
     // Of 0 too a bound that is above it: what is proved is strict.
     round_f64(value.max(f64::MIN_POSITIVE), digits, Direction::Up)
 }
@@ -176,6 +179,10 @@ impl Around<'_> {
         let room = if self.is_family() { ROOM_OF_FAMILY } else { ROOM };
         let met = sampled_defects(about, &FloatSeries::from(&states), &doubles).map(|defect| room * defect);
         let small = self.small(trial, own)?;
+        // Beyond the range of doubles no claim is made: it would not be of numbers that are written.
+        if !met.iter().chain(&small).all(|size| *size < f64::INFINITY) {
+            return None;
+        }
         let enough = [0, 1, 2].map(|i| small[i].max(met[i]));
         let found = trial.defects(self.asked.plant, &own.inverse, enough).ok()?;
         // What decides it again has as much room.

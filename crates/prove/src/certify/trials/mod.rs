@@ -11,7 +11,7 @@ mod proved;
 use super::gain_row::{ByCount, CountBounds, CountProof, Largest};
 use around::{Around, Prepared};
 use boxes::Fit;
-use proved::{rounded, short};
+use proved::{Promised, rounded, short};
 use rug::Rational;
 use sigmastar_decide::linear::PRECISION;
 use sigmastar_decide::trial::{Concluded, Peaks, Trial, TubeProof};
@@ -69,7 +69,7 @@ impl Around<'_> {
         let alone = |(radii, forms): ([Rational; 2], Vec<(Metric, Level)>)| {
             let promised = self.promised(&prepared, radii, forms)?;
             let concluded = self.concluded(&prepared, &promised)?;
-            Some((self.kept(&prepared, promised)?, concluded, None))
+            Some((self.decided(&prepared, promised)?, concluded, None))
         };
         let small = || {
             SMALL_BOXES.into_iter().find_map(|share| {
@@ -151,17 +151,17 @@ impl Around<'_> {
     fn with_peaks(&self, prepared: &Prepared, radii: [Rational; 2], forms: Vec<(Metric, Level)>) -> Option<Proved> {
         let promised = self.promised(prepared, radii, forms)?;
         let concluded = self.concluded(prepared, &promised)?;
-        let peaks = |proof: &TubeProof| self.peaks(prepared, &concluded, (&proof.radii, &proof.forms));
+        let peaks_of = |proof: &TubeProof| self.peaks(prepared, &concluded, (&proof.radii, &proof.forms));
         // To decide forms costs most: none is decided from which no peak would follow.
-        peaks(&promised)?;
-        let proof = self.kept(prepared, promised)?;
-        let peaks = peaks(&proof)?;
+        peaks_of(promised.if_decided())?;
+        let proof = self.decided(prepared, promised)?;
+        let peaks = peaks_of(&proof)?;
         Some((proof, concluded, Some(peaks)))
     }
 
-    /// The bounds of Theorem T; they rest on the first form, which stays where others do not hold.
-    fn concluded(&self, prepared: &Prepared, proof: &TubeProof) -> Option<Concluded> {
-        Concluded::of(&prepared.trial, proof, &self.known(prepared))
+    /// The bounds of Theorem T, which hold once [`Around::decided`] has an answer: they rest on the first form, which stays where others do not hold.
+    fn concluded(&self, prepared: &Prepared, promised: &Promised) -> Option<Concluded> {
+        Concluded::of(&prepared.trial, promised.if_decided(), &self.known(prepared))
     }
 
     /// (ii) of 14.4.

@@ -87,6 +87,8 @@ impl Around<'_> {
         let [x, e] = x_first.radii.each_ref();
         self.in_domain(prepared, [x, e])?;
         engine.smooth(x, e).ok()?;
+        // To decide forms costs most: none is decided from which no peak would follow.
+        self.peaks(prepared, concluded, (&x_first.radii, &x_first.forms))?;
         // The box was fitted to the first.
         let holding = holding(x_first.forms.len(), |those| {
             let place = ([x, e], &x_first.eta);
@@ -99,13 +101,13 @@ impl Around<'_> {
         Some((x_first, peaks))
     }
 
-    /// What follows from forms on a box if these fall there, with everything but that proved.
+    /// What is proved around a trial if forms fall on a box, with everything but that proved.
     pub(super) fn promised(
         &self,
         prepared: &Prepared,
         [x, e]: [Rational; 2],
         forms: Vec<(Metric, Level)>,
-    ) -> Option<TubeProof> {
+    ) -> Option<Promised> {
         let Prepared { engine, samples, .. } = prepared;
         let has_states = self.asked.plant.states() > 0;
         self.in_domain(prepared, [&x, &e])?;
@@ -131,11 +133,12 @@ impl Around<'_> {
                 Some(form)
             }
         };
-        Some(TubeProof { defects: [d_x, d_q], radii: [x, e], slopes, forms, states, or_more, x_first: None })
+        let proof = TubeProof { defects: [d_x, d_q], radii: [x, e], slopes, forms, states, or_more, x_first: None };
+        Some(Promised(proof))
     }
 
-    /// What is proved of it: at least that the first form falls.
-    pub(super) fn kept(&self, prepared: &Prepared, promised: TubeProof) -> Option<TubeProof> {
+    /// The proof, with the forms that are decided: at least the first.
+    pub(super) fn decided(&self, prepared: &Prepared, Promised(promised): Promised) -> Option<TubeProof> {
         let TubeProof { radii: [x, e], forms, .. } = &promised;
         // The first is that of Theorem T.
         let holding = holding(forms.len(), |those| {
@@ -178,6 +181,16 @@ impl Around<'_> {
             c: round_rational(&Rational::from(&metric.c_x / 4u32), DIGITS, Direction::Down),
             gamma: up(gamma, SHORT)?,
         })
+    }
+}
+
+/// A proof whose forms are not decided yet.
+pub(super) struct Promised(TubeProof);
+
+impl Promised {
+    /// What would be proved.
+    pub(super) fn if_decided(&self) -> &TubeProof {
+        &self.0
     }
 }
 
