@@ -184,7 +184,8 @@ pub fn propose_among(
     posed(&all)
 }
 
-/// By how much a matrix is not positive semidefinite at a point, as a share of the largest sum of sizes that is an entry.
+/// By how much a matrix is not positive semidefinite at a point, as a share of the largest sum of sizes that is an entry; no number where that is not
+/// finite.
 fn lack(matrix: &AffineMatrix<f64>, x: &[f64]) -> f64 {
     let order = matrix.order();
     let terms = |i: usize, k: usize| {
@@ -192,6 +193,9 @@ fn lack(matrix: &AffineMatrix<f64>, x: &[f64]) -> f64 {
         std::iter::once(*matrix.constant().at(i, k)).chain(own)
     };
     let sizes = Symmetric::from_fn(order, |i, k| terms(i, k).map(f64::abs).sum::<f64>());
+    if !sizes.entries().iter().all(|size| size.is_finite()) {
+        return f64::NAN;
+    }
     let size = sizes.entries().iter().copied().fold(0.0, f64::max);
     if size == 0.0 {
         return 0.0;
