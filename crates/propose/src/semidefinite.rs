@@ -317,9 +317,10 @@ mod tests {
         }
     }
 
-    /// The largest x + y with `(x - a)^2 + (y - b)^2 <= 1` about many points (a, b) of a circle: none of those that count is among the first.
+    /// The largest x + 2 y at most 1 from each of many points of a circle, of which the farthest are not among the first.
     #[test]
     fn of_many_constraints_those_count_that_are_violated() {
+        const COST: [f64; 2] = [-1.0, -2.0];
         let disc = |count: u32, i: u32| {
             let (b, a) = libm::sincos(std::f64::consts::TAU * (f64::from(i) + 0.5) / f64::from(count));
             let constant = move |i: usize, k: usize| match (i, k) {
@@ -331,20 +332,20 @@ mod tests {
         };
         for count in [8, 900] {
             let many: Vec<_> = (0..count).map(|i| disc(count, i)).collect();
-            let found = propose_among(&[-1.0, -1.0], &many, &[]).expect("solved");
-            let all = propose(&[-1.0, -1.0], &many).expect("solved").x;
-            assert!((found[0] + found[1] - all[0] - all[1]).abs() <= 1e-6, "{count}: {found:?}, {all:?}");
+            let found = propose_among(&COST, &many, &[]).expect("solved");
+            let all = propose(&COST, &many).expect("solved").x;
+            assert!((found[0] - all[0] + 2.0 * (found[1] - all[1])).abs() <= 1e-6, "{count}: {found:?}, {all:?}");
             // A constraint besides them counts too.
-            let found = propose_among(&[-1.0, -1.0], &many, &[scalar_of([-0.25, -1.0, 0.0])]).expect("solved");
+            let found = propose_among(&COST, &many, &[scalar_of([-0.25, -1.0, 0.0])]).expect("solved");
             assert!(found[0] <= -0.25 + 1e-6, "{count}: {found:?}");
             assert!(many.iter().all(|disc| lack(disc, &found) <= 1e-6), "{count}: {found:?}");
         }
         // Where they contradict each other, that is said, also of what is not among the first.
         let mut many: Vec<_> = (0..100).map(|i| disc(100, i)).collect();
         many[7] = scalar_of([-3.0, 1.0, 0.0]);
-        assert_eq!(propose_among(&[-1.0, -1.0], &many, &[]), Err(SolverFailure::Infeasible));
+        assert_eq!(propose_among(&COST, &many, &[]), Err(SolverFailure::Infeasible));
         many[7] = scalar_of([f64::NAN, 1.0, 0.0]);
-        assert_eq!(propose_among(&[-1.0, -1.0], &many, &[]), Err(SolverFailure::Unusable));
+        assert_eq!(propose_among(&COST, &many, &[]), Err(SolverFailure::Unusable));
     }
 
     /// `c + a x + b y` of order 1.

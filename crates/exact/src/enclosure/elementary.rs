@@ -125,6 +125,7 @@ impl Enclosure {
             }
         };
         let ([x1, x2], [y1, y2]) = (self.long(), exponent.long());
+        // With one exponent it rises in x above 0, and falls below.
         if exponent.is_exact() && !exponent.contains_zero() {
             let (least, largest) = if *y1 > 0 { (&x1, &x2) } else { (&x2, &x1) };
             return Enclosure::new(corner(least, &y1, Round::Down), corner(largest, &y1, Round::Up));

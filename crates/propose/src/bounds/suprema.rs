@@ -487,7 +487,7 @@ struct Single<'a> {
     pointwise: Pointwise,
     evaluator: Evaluator,
     slow: Evaluator,
-    /// Those that were met, by the bits of their times and their members: a search comes back to most of them.
+    /// The moments that were met, by the bits of the time and the member: a search comes back to most of them.
     moments: HashMap<(u64, usize), Moment>,
     x: Vec<f64>,
     outputs: Vec<f64>,

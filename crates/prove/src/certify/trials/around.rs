@@ -179,7 +179,7 @@ impl Around<'_> {
         let room = if self.is_family() { ROOM_OF_FAMILY } else { ROOM };
         let met = sampled_defects(about, &FloatSeries::from(&states), &doubles).map(|defect| room * defect);
         let small = self.small(trial, own)?;
-        // Beyond the range of doubles no claim is made: it would not be of numbers that are written.
+        // Beyond the range of doubles there is no bound to write.
         if !met.iter().chain(&small).all(|size| *size < f64::INFINITY) {
             return None;
         }
@@ -207,5 +207,18 @@ impl Around<'_> {
         let scale = own.inverse.iter().flatten().map(|entry| entry.to_f64().abs()).fold(0.0, f64::max);
         let share = if self.is_family() { SMALL_OF_FAMILY } else { SMALL };
         Some([share * velocity * scale, share * q, if self.or_more { share * q * frequency } else { f64::MAX }])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A bound that is no number would be read as one that is as small as possible.
+    #[test]
+    fn bounds_are_written_above_what_they_bound() {
+        assert_eq!([f64::NAN, f64::INFINITY].map(|value| up(value, SHORT)), [None, None]);
+        assert!(up(0.0, SHORT).is_some_and(|bound| bound > 0));
+        assert!(up(0.123456, SHORT).is_some_and(|bound| bound == Rational::from((1235, 10_000))));
     }
 }

@@ -245,3 +245,37 @@ pub(super) fn rounded(form: &FallingForm) -> Option<(Metric, Level)> {
     };
     Some((metric, level))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use sigmastar_exact::enclosure::Truth;
+
+    /// The forms that are kept of some with these answers, which are asked about alone and together.
+    fn kept_of(answers: &[Truth]) -> Option<Vec<usize>> {
+        let decide = |those: Range<usize>| {
+            let truth = answers[those].iter().fold(Truth::True, |all, one| all.and(*one));
+            Decision { truth, boxes: 1 }
+        };
+        holding(answers.len(), decide).map(|holding| kept((0..answers.len()).collect(), &holding))
+    }
+
+    /// Only what is certainly so is kept, and nothing without the first form, on which Theorem T rests.
+    #[test]
+    fn forms_that_are_not_decided_are_left_out() {
+        use Truth::{False, True, Undecided};
+        for other in [False, Undecided] {
+            for (answers, expected) in [
+                (vec![], None),
+                (vec![True], Some(vec![0])),
+                (vec![other], None),
+                (vec![other, True], None),
+                (vec![True, other], Some(vec![0])),
+                (vec![True, other, True], Some(vec![0, 2])),
+                (vec![True, True, True], Some(vec![0, 1, 2])),
+            ] {
+                assert_eq!(kept_of(&answers), expected, "{answers:?}");
+            }
+        }
+    }
+}
