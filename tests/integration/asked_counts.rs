@@ -77,6 +77,27 @@ fn of_a_linear_plant_the_table_shows_what_is_asked_for() {
 }
 
 #[test]
+fn rows_of_larger_gains_are_about_what_is_asked_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let of_rows = |flags: &[&str]| {
+        let (_, report) = certified_in(folder.path(), &straight(), flags);
+        let rows = report["gains"].as_array().unwrap().iter();
+        let bound = |one: &Value| (one["n_o"].as_u64().unwrap(), number(&one["sup"]));
+        rows.map(|row| row["steady_error"].as_array().unwrap().iter().map(bound).collect()).collect::<Vec<Vec<_>>>()
+    };
+    let asked = of_rows(&["--n-o", "6,1"]);
+    assert_eq!(asked.len(), 6, "the gain of the claim and larger ones");
+    for row in &asked {
+        // The last harmonic is the sixth.
+        let [(1, one), (6, six)] = row[..] else { panic!("{row:?}") };
+        assert!(six < 1e-6 && one > 1e-3, "{row:?}");
+    }
+    for row in of_rows(&[]) {
+        assert_eq!(row.iter().map(|(n_o, _)| *n_o).collect::<Vec<_>>(), [0, 10]);
+    }
+}
+
+#[test]
 fn targets_are_answered_by_the_smaller_bounds() {
     let folder = tempfile::tempdir().unwrap();
     let target = |flag: &str, value: &str| {

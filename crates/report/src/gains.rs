@@ -5,12 +5,13 @@ use serde_json::{Value, json};
 use sigmastar_document::number::{exact, full, upper};
 use sigmastar_document::{Block, Table};
 use sigmastar_exact::number::{Direction, write_exact};
-use sigmastar_prove::certify::{Certification, GainRow, SHOWN_N_O, SampledCertification};
+use sigmastar_prove::certify::{Certification, GainRow, SampledCertification};
 
 /// The table of a claim in continuous time; nothing where there are no rows but that of the claim.
 pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
-    let steady = SHOWN_N_O.map(|n_o| format!("steady $`|e|`$, {n_o}"));
-    let says = "Steady is along the periodic solution, of the error with 0 and with 10 oscillators; largest is in the transient from $`|e| <= E0`$ and the rest \
+    let of_first = run.gains.first().map_or(&[][..], |row| &row.steady_with);
+    let steady: Vec<String> = of_first.iter().map(|(n_o, _)| format!("steady $`|e|`$, {n_o}")).collect();
+    let says = "Steady is along the periodic solution, of the error with so many oscillators as the column says; largest is in the transient from $`|e| <= E0`$ and the rest \
                 of the initial set, of which a size that the file does not state goes with the gain: it is at least twice the bound of the periodic solution there. \
                 Each row is proved, for every $`n_o`$ but where one is named, with a witness of its own that no independent program checks: \
                 `certify --sigma V -o FILE` writes a certificate, and `sampling` lists the longest sampling periods of such gains.";
@@ -34,13 +35,15 @@ fn table(rows: &[GainRow], steady: &[String], says: &str) -> Vec<Block> {
         .chain(rates.iter().map(String::as_str))
         .collect();
     let mut table = Table::new(&titles);
-    for GainRow { sigma, e0, steady, peak, control, rates, .. } in rows {
+    for GainRow { sigma, e0, steady, steady_with, peak, control, rates, .. } in rows {
+        let steady =
+            if steady_with.is_empty() { vec![steady] } else { steady_with.iter().map(|(_, own)| own).collect() };
         let largest = &control.steady + &control.transient;
         let rate = |(_, rate): &(u32, Option<Rational>)| {
             rate.as_ref().map_or_else(|| "not proved".to_owned(), |rate| exact(rate, Direction::Down))
         };
         let cells = std::iter::once(write_exact(sigma))
-            .chain(steady.iter().map(upper))
+            .chain(steady.into_iter().map(upper))
             .chain([exact(e0, Direction::Down), upper(peak), upper(&control.steady), upper(&largest)])
             .chain(rates.iter().map(rate));
         table.push(cells);
@@ -50,13 +53,11 @@ fn table(rows: &[GainRow], steady: &[String], says: &str) -> Vec<Block> {
 
 /// The rows as JSON.
 pub(super) fn rows_json(rows: &[GainRow]) -> Value {
-    let row = |GainRow { sigma, e0, steady, peak, control, rates, .. }: &GainRow| {
+    let row = |GainRow { sigma, e0, steady, steady_with, peak, control, rates, .. }: &GainRow| {
         // At samples it is one bound for every n_o.
-        let steady: Value = match steady.as_slice() {
-            [all] => json!([{ "sup": full(all) }]),
-            named => {
-                SHOWN_N_O.iter().zip(named).map(|(n_o, bound)| json!({ "n_o": n_o, "sup": full(bound) })).collect()
-            }
+        let steady: Value = match steady_with.is_empty() {
+            true => json!([{ "sup": full(steady) }]),
+            false => steady_with.iter().map(|(n_o, bound)| json!({ "n_o": n_o, "sup": full(bound) })).collect(),
         };
         let mut value = json!({
             "sigma": write_exact(sigma), "E0": write_exact(e0), "steady_error": steady, "peak_error": full(peak),

@@ -1,7 +1,7 @@
 //! Bounds for each number of oscillators, of plants that are linear in x and e (derivation, 14.3, 14.5; at samples 14.6).
 
 use super::certification::Certification;
-use super::gain_row::{ByCount, CountBounds, CountProof, GainRow, Largest, RowProof, SHOWN_N_O};
+use super::gain_row::{ByCount, CountBounds, CountProof, GainRow, Largest, RowProof};
 use super::sampled::SampledCertification;
 use super::trials::{Asked, by_trials};
 use rug::Rational;
@@ -178,17 +178,17 @@ fn of_numbers(matrix: &[Vec<f64>], weight: f64, k_p: f64) -> Option<Falling> {
 impl GainRow {
     /// The row with the bounds for every number of oscillators where these are smaller.
     fn with(&mut self, found: &ByCount) {
-        let of_all = found.largest(|bounds| Some(&bounds.steady_error));
-        match (self.steady.as_mut_slice(), of_all) {
-            // One for every n_o.
-            ([bound], Some(of_all)) => *bound = bound.min(&of_all),
-            ([_], None) => {}
-            (all, _) => {
-                for (bound, n_o) in all.iter_mut().zip(SHOWN_N_O) {
-                    if let Some(own) = found.at(n_o) {
-                        *bound = bound.min(&own.steady_error);
-                    }
-                }
+        let at_samples = self.steady_with.is_empty();
+        let of_steady = match at_samples {
+            true => found.largest(|bounds| Some(&bounds.steady_error)),
+            false => found.at(0).map(|own| own.steady_error.clone()),
+        };
+        if let Some(bound) = of_steady {
+            self.steady = self.steady.min(&bound);
+        }
+        for (n_o, bound) in &mut self.steady_with {
+            if let Some(own) = found.at(u64::from(*n_o)) {
+                *bound = bound.min(&own.steady_error);
             }
         }
         if let Some(peak) = found.largest(|bounds| Some(&bounds.largest.as_ref()?.error)) {

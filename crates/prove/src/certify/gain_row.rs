@@ -12,8 +12,13 @@ use sigmastar_theory::derivation::control::Control;
 use sigmastar_theory::derivation::targets::{Target, TargetKind};
 use std::sync::{Arc, LazyLock};
 
-/// The numbers of oscillators of which the steady error is bounded in continuous time.
-pub const SHOWN_N_O: [u64; 2] = [0, 10];
+/// The numbers of oscillators of which the steady error is bounded in continuous time where none are asked about.
+const SHOWN_N_O: [u32; 2] = [0, 10];
+
+/// Those that are asked about, or these.
+pub(super) fn shown(asked: &[u32]) -> &[u32] {
+    if asked.is_empty() { &SHOWN_N_O } else { asked }
+}
 
 /// Bounds at one gain, for every solution from the initial set there: where the specification states no sizes of it they are those of the
 /// periodic solution at this gain.
@@ -25,8 +30,10 @@ pub struct GainRow {
     pub sigma: Rational,
     /// E0 of the initial set.
     pub e0: Rational,
-    /// Of |e| along the periodic solution, for the numbers of oscillators of [`SHOWN_N_O`]; at samples one, for every n_o.
-    pub steady: Vec<Enclosure>,
+    /// Of |e| along the periodic solution: in continuous time with 0 oscillators, at samples with every number of them.
+    pub steady: Enclosure,
+    /// The same for each number of oscillators that was asked about, or for 0 and 10; none at samples.
+    pub steady_with: Vec<(u32, Enclosure)>,
     /// Of |e| on the way, for every n_o.
     pub peak: Enclosure,
     /// Of what is put out, for every n_o.
@@ -190,7 +197,7 @@ impl GainRow {
     /// Whether the bound of |e| on the way is far above what |e| is at the start, and along the periodic solution.
     #[must_use]
     pub fn goes_far(&self) -> bool {
-        let start = self.e0.to_f64().max(self.steady[0].upper_f64());
+        let start = self.e0.to_f64().max(self.steady.upper_f64());
         self.peak.upper_f64() > FAR * start
     }
 }

@@ -55,7 +55,7 @@ impl GainRow {
     #[must_use]
     pub fn to_use(rows: &[GainRow]) -> Option<(&GainRow, bool)> {
         fn transients(GainRow { e0, steady, peak, rates, .. }: &GainRow) -> Vec<Transient<'_>> {
-            let with = |rate| Transient { start: e0, steady: &steady[0], peak, rate };
+            let with = |rate| Transient { start: e0, steady, peak, rate };
             let all: Vec<Transient<'_>> = rates.iter().map(|(_, rate)| with(rate.as_ref())).collect();
             if all.is_empty() { vec![with(None)] } else { all }
         }

@@ -1,7 +1,7 @@
 //! What larger gains bring (derivation, 13.5): bounds at multiples of the gain of a claim.
 
 use super::certification::Certification;
-use super::gain_row::{GainRow, RowProof, SHOWN_N_O};
+use super::gain_row::{GainRow, RowProof, shown};
 use super::outcome::is_better;
 use super::pool::{Member, Wanted};
 use super::sampled::{SampledCertification, certify_sampled};
@@ -29,17 +29,19 @@ fn larger(tenths: u32, sigma: &Rational) -> Rational {
     round_rational(&(Rational::from((tenths, 10)) * sigma), DIGITS, Direction::Up)
 }
 
-/// The row of a proof.
-fn row_of(spec: &Specification, proof: SharpProof, other: Option<Arc<Specification>>) -> GainRow {
+/// The row of a proof, with the steady errors of these numbers of oscillators.
+fn row_of(spec: &Specification, proof: SharpProof, other: Option<Arc<Specification>>, counts: &[u32]) -> GainRow {
     let data = Data::new(spec, proof.precision);
     let (evaluation, mistuning) = (&proof.evaluation, Mistuning::new(&data));
     let sigma = data.rational(&proof.witness.sigma);
     let e_per = &evaluation.periodic.e_per;
-    let sup = |n_o| error_bounds(&data, &evaluation.excitation, mistuning.as_ref(), &sigma, e_per, n_o).sup;
+    let sup =
+        |n_o: u32| error_bounds(&data, &evaluation.excitation, mistuning.as_ref(), &sigma, e_per, u64::from(n_o)).sup;
     GainRow {
         sigma: proof.witness.sigma.clone(),
         e0: proof.witness.set.e0.clone(),
-        steady: SHOWN_N_O.map(sup).into(),
+        steady: sup(0),
+        steady_with: counts.iter().map(|n_o| (*n_o, sup(*n_o))).collect(),
         peak: evaluation.peak.clone(),
         control: evaluation.control.clone(),
         rates: Vec::new(),
@@ -49,7 +51,7 @@ fn row_of(spec: &Specification, proof: SharpProof, other: Option<Arc<Specificati
 
 /// The rows of larger gains than that of a claim: the best that the members of a pool have there; where that gain is given the
 /// pool may have data of its own for it. One at which nothing is proved has none.
-fn larger_rows(own: &Specification, proof: &SharpProof, pool: &[Member<'_>]) -> Vec<GainRow> {
+fn larger_rows(own: &Specification, proof: &SharpProof, pool: &[Member<'_>], counts: &[u32]) -> Vec<GainRow> {
     let reach = proof.decided().reach();
     let row = |tenths: &u32| {
         let sigma = larger(*tenths, &proof.witness.sigma);
@@ -59,7 +61,7 @@ fn larger_rows(own: &Specification, proof: &SharpProof, pool: &[Member<'_>]) -> 
         let within = reach.as_ref().is_some_and(|[known_x, known_e]| x <= *known_x && e <= *known_e);
         let known = spec.domain.is_some() || spec.plant().is_some() || within || prove_up_to(spec, &x, &e).is_ok();
         let other = (!std::ptr::eq(spec, own)).then(|| Arc::new(spec.clone()));
-        known.then(|| row_of(spec, proof, other))
+        known.then(|| row_of(spec, proof, other, counts))
     };
     parallel::map(&ROWS, row).into_iter().flatten().collect()
 }
@@ -77,19 +79,19 @@ impl Member<'_> {
     /// Whether at the smallest gain the bound of |e| on the way is far above what |e| is at the start; `None` where no gain is proved.
     #[must_use]
     pub fn goes_far(&self) -> Option<bool> {
-        self.smallest().map(|proof| row_of(self.spec, proof.clone(), None).goes_far())
+        self.smallest().map(|proof| row_of(self.spec, proof.clone(), None, &[]).goes_far())
     }
 }
 
 impl Certification<'_> {
     /// The rows of a run that is certified without an actuator; of one with an actuator nothing is said of another gain. Hypothesis: the data of the
-    /// pool are of the same subject; in the same coordinates, where the set is stated in them.
-    pub fn set_gains(&mut self, pool: &[Member<'_>]) {
+    /// pool are of the same subject; in the same coordinates, where the set is stated in them. `counts`: the numbers of oscillators that are asked about.
+    pub fn set_gains(&mut self, pool: &[Member<'_>], counts: &[u32]) {
         let Some(proof) = self.sharp.proved().filter(|_| self.claim().is_some() && self.spec.actuator.is_none()) else {
             return;
         };
-        let mut rows = vec![row_of(self.spec, proof.clone(), None)];
-        rows.extend(larger_rows(self.spec, proof, pool));
+        let mut rows = vec![row_of(self.spec, proof.clone(), None, shown(counts))];
+        rows.extend(larger_rows(self.spec, proof, pool, shown(counts)));
         self.gains = rows;
     }
 }
@@ -102,7 +104,8 @@ impl SampledCertification<'_> {
         let row = |proof: &SampledProof| GainRow {
             sigma: proof.witness.sigma.clone(),
             e0: proof.witness.set.e0.clone(),
-            steady: vec![proof.evaluation.size.e_per.clone()],
+            steady: proof.evaluation.size.e_per.clone(),
+            steady_with: Vec::new(),
             peak: proof.evaluation.peak.clone(),
             control: proof.evaluation.control.clone(),
             rates: Vec::new(),

@@ -53,7 +53,7 @@ pub fn certify_for<'s>(
     let member = Member::new(spec, asked.start, options);
     let mut run = certify_member(&member, options, asked)?;
     if options.compare {
-        run.set_gains(&[member]);
+        run.set_gains(&[member], &[]);
     }
     Ok(run)
 }

@@ -194,7 +194,7 @@ impl Prepared {
         let proposal = start.map(|sought| &sought.proposal);
         run.smallest_gain = run.smallest_gain.map(|least| proposal.map_or(least, |known| known.sigma.min(least)));
         if options.compare {
-            run.set_gains(pool);
+            run.set_gains(pool, &self.counts);
             if let Some(plant) = self.formulas.as_deref() {
                 run.set_counts_of_rows(plant);
             }
