@@ -253,7 +253,7 @@ pub fn design_of(
         let none = || Error::new(ErrorKind::NotCertified, "none of these gains is certified", "ask for larger ones");
         return Err(if refused.is_empty() { none() } else { refused.swap_remove(0).1 });
     };
-    let refused: Vec<Rational> = refused.into_iter().map(|(sigma, _)| sigma).collect();
+    let refused: Vec<(Rational, String)> = refused.into_iter().map(|(sigma, why)| (sigma, why.sentence())).collect();
     let taken = certificates.into_iter().find(|proved| proved.sigma == rows[choice.row].sigma);
     let Some(Taken { sigma, certificate, set_and_assumptions }) = taken else {
         return Err(Error::new(ErrorKind::NotCertified, "the gain to take has no certificate", "report this"));

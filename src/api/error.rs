@@ -126,6 +126,11 @@ impl Error {
         &self.conditions
     }
 
+    /// What is wrong, in a sentence: of several errors the first.
+    pub(super) fn sentence(&self) -> String {
+        self.diagnostics.first().map_or_else(|| self.text.clone(), |first| first.message.clone())
+    }
+
     /// What was found in documents and arguments, for the program, which shows it in its source; empty for an error without a place.
     #[doc(hidden)]
     #[must_use]

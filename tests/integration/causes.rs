@@ -106,6 +106,22 @@ fn drive() -> Value {
     })
 }
 
+/// With h sigma above 1 nothing else is the cause, whatever the search fails at: here the numbers of error boxes that it cannot find.
+#[test]
+fn a_gain_beyond_the_samples_is_told() {
+    let plant = object!({
+        "format": "sigmastar/plant", "version": 1, "name": "pump", "period": "10", "states": ["p"],
+        "parameters": { "k": { "nominal": "0.6", "low": "0.4", "high": "0.8" } },
+        "f": ["0.5*(e + 2 + 0.5*sin(phase)) - 0.4*p"], "q": "-k*(e + 2 + 0.5*sin(phase)) - 0.8*p + 15/4 + 0.3*cos(2*phase)",
+        "input_gain": { "nominal": "3", "low": "2.7", "high": "3.3" },
+        "initial_set": { "kind": "aligned", "ball": "1", "E0": "1" }, "internal_model": internal_model("2", "2*pi/10"),
+    });
+    for period in ["1/8", "1/4"] {
+        let (code, text) = certify(&plant, &["--no-alternatives", "--sampling-period", period, "--sigma", "8.85"]);
+        assert!(code == 3 && text.contains("h sigma") && !text.contains("double precision"), "{period}: {text}");
+    }
+}
+
 /// At samples a gain is found wherever one that is given is certified, and the gain grows with the sampling period until there is none; then no
 /// bound of a linear plant is said to have no value.
 #[test]

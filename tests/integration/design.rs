@@ -139,6 +139,36 @@ fn calls_without_an_answer() {
     assert!(code == 3 && text.contains("0.001 is below the smallest one found"), "{text}");
     let report = design(&file, &["--sigma", "0.001,2", "--n-o", "0", "--no-simulation"], 0);
     assert_eq!((&report["not_certified"], &report["rows"][0]["sigma"]), (&json!(["0.001"]), &json!("2")));
+    let flags = ["--sigma", "0.001,2", "--n-o", "0", "--no-simulation", "-q"];
+    let (_, text) = told(program().arg("design").arg(&file).args(flags));
+    assert!(text.contains("not certified: sigma = 0.001: ") && text.contains("the gain 0.001"), "{text}");
+}
+
+/// What is missed is told with what helps, and with its cause where nothing does; of a table without a pair to take nothing is said of that pair.
+#[test]
+fn what_is_missed_is_told_with_what_helps() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = stored(folder.path(), "plant.json", &plant());
+    let told_of = |flags: &[&str]| {
+        let (code, text) =
+            told(program().arg("design").arg(&file).args(flags).args(["--sigma", "2,3", "-q", "--no-simulation"]));
+        (code, text)
+    };
+    let (code, text) = told_of(&["--n-o", "0", "--steady-error", "1e-6", "--settle", "4", "--max-control", "1e-3"]);
+    assert_eq!(code, 3);
+    for said in [
+        "steady |e|: more oscillators (`--n-o`)",
+        "largest |u|: a smaller initial set",
+        "periods to settle: the steady error is not proved to be below",
+    ] {
+        assert!(text.contains(said), "{said}: {text}");
+    }
+    assert!(!text.contains("gain to take") && !text.contains("next:"), "{text}");
+    let (code, text) = told_of(&["--n-o", "2", "--steady-error", "0.2", "--settle", "0.01", "--peak-error", "0.001"]);
+    assert!(code == 3 && text.contains("periods to settle: fewer oscillators"), "{text}");
+    assert!(text.contains("at the start, so no gain can do that"), "{text}");
+    let (code, text) = told_of(&["--n-o", "2", "--steady-error", "0.2"]);
+    assert!(code == 0 && text.contains("next: `-o FILE` writes the certificate of the gain to take"), "{text}");
 }
 
 /// What is proved is what the certificate says, so a limit between that and what the search found is missed.

@@ -80,6 +80,12 @@ pub fn reduce_sampled(
     })
 }
 
+/// What is missing first where a gain is given with h sigma above 1: whatever else a search fails at is a consequence.
+fn beyond_the_hold(sampling: &spec::Sampling, gain: Option<&Rational>) -> Option<PlantRefusal> {
+    let sigma = gain.filter(|gain| !sampling.fits(gain).is_true())?.to_f64();
+    Some(PlantRefusal::NoGain(Failing::Hold { sigma, largest: sampling.step.to_f64().recip(), given: true }.into()))
+}
+
 /// The choice of a gain by matrix inequalities.
 fn near((along, chosen): &(Along, Chosen), narrow: f64, gain: f64) -> Near {
     let (coordinates, start) = (along.coordinates.clone(), Start::from(chosen));
@@ -204,13 +210,14 @@ impl<'p> SampledPairs<'p> {
             Some(gain) => self.reduce_by_norms_at(sampling, gain),
         };
         if norms_alone {
-            return of_norms;
+            return of_norms.map_err(|refusal| beyond_the_hold(sampling, gain).unwrap_or(refusal));
         }
         let straight = self.of_rough().or_else(|| self.near_norms(true));
         let straight = straight.or_else(|| if of_norms.is_err() { self.near_norms(false) } else { None });
         let known = of_norms.as_ref().ok().filter(|_| gain.is_none()).map(|found| found.proposal.sigma);
         match (straight.and_then(|straight| by_matrix(straight, known)), of_norms) {
-            (None, of_norms) => of_norms,
+            (None, Ok(of_norms)) => Ok(of_norms),
+            (None, Err(refusal)) => Err(beyond_the_hold(sampling, gain).unwrap_or(refusal)),
             (Some(found), Ok(of_norms)) if gain.is_some() => {
                 let others = std::iter::once((of_norms.spec, of_norms.proposal)).chain(of_norms.others).collect();
                 Ok(ReducedSampled { others, ..found })

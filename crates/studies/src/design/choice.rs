@@ -31,10 +31,12 @@ pub fn choose(rows: &[Row], requirements: &Requirements, period: &Enclosure) -> 
     let compared = |[row, cell]: [usize; 2]| requirements.compared(&rows[row].cells[cell], period);
     let pairs = || (0..rows.len()).flat_map(|row| (0..counts).map(move |cell| [row, cell]));
     let is_met = |pair: &[usize; 2]| compared(*pair).iter().all(Compared::is_met);
-    // How many requirements are missed, and by how much.
+    // How many requirements are missed, of how many nothing is proved, and by how much the others are missed: a share of what is not proved says nothing.
     let miss = |pair: [usize; 2]| {
         let all = compared(pair);
-        (all.iter().filter(|one| !one.is_met()).count(), all.iter().map(Compared::share).fold(0.0, f64::max))
+        let missed = all.iter().filter(|one| !one.is_met()).count();
+        let (proved, unknown): (Vec<&Compared>, Vec<_>) = all.iter().partition(|one| one.proved.is_some());
+        (missed, unknown.len(), proved.iter().map(|one| one.share()).fold(0.0, f64::max))
     };
     let found = pairs().find(is_met);
     let [row, cell] = match found {
@@ -93,6 +95,18 @@ mod tests {
         // The one that misses by least: 0.05/0.04 with |u| at 9/9.
         assert_eq!(chosen(&rows, &of((4, 100), 9)), (1, Some(2), false));
         assert!(choose(&[], &of((1, 1), 1), &Enclosure::exactly(1.0)).is_none());
+    }
+
+    #[test]
+    fn what_is_not_proved_at_any_gain_does_not_hide_what_is() {
+        // No rate is proved anywhere, so nothing is of the time to settle.
+        let rows = [row(10, vec![cell(0, [5.0, 3.0, 5.0])]), row(20, vec![cell(0, [2.0, 3.0, 5.0])])];
+        let required = Requirements { settling: Some(4.into()), ..of((1, 1), 9) };
+        assert_eq!(chosen(&rows, &required), (1, Some(0), false));
+        // One that is proved and missed is closer than one of which nothing is proved.
+        let slow = falling(cell(0, [0.5, 3.0, 5.0]), (1, 100), (8, 1));
+        let rows = [row(10, vec![cell(0, [0.5, 3.0, 5.0])]), row(20, vec![slow])];
+        assert_eq!(chosen(&rows, &required), (1, Some(0), false));
     }
 
     #[test]

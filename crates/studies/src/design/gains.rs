@@ -14,11 +14,13 @@ const FURTHER: [u32; 5] = [80, 120, 200, 500, 1000];
 /// So many of them in turn that bring the table no closer to what is required.
 const RISES: usize = 2;
 
-/// Gains that are tried between one that does and one that does not.
+/// Gains that are tried between one that keeps what falls with the gain and one that does not; so many more where nothing keeps all that is required.
 const STEPS: usize = 4;
+const MORE_STEPS: usize = 4;
 
-/// Two gains that are closer are not told apart.
+/// Two gains that are closer are not told apart; where nothing keeps all that is required.
 const CLOSE: f64 = 1.03;
+const CLOSER: f64 = 1.002;
 
 /// Digits of a gain.
 const DIGITS: u32 = 4;
@@ -87,11 +89,15 @@ fn keeps_what_falls(compared: &[Compared]) -> bool {
 fn between<C: Claims>(claims: &mut C, rows: &mut Vec<Row>, (requirements, period): (&Requirements, &Enclosure)) {
     let Some(cell) = choose(rows, requirements, period).and_then(|choice| choice.cell) else { return };
     let keeps = |row: &Row| keeps_what_falls(&requirements.compared(&row.cells[cell], period));
-    for _ in 0..STEPS {
+    for step in 0..STEPS + MORE_STEPS {
         let Some(above) = rows.iter().position(keeps).filter(|above| *above > 0) else { return };
+        let is_met = choose(rows, requirements, period).is_some_and(|choice| choice.is_met);
+        if is_met && step >= STEPS {
+            return;
+        }
         let [low, high] = [above - 1, above].map(|row| rows[row].sigma.to_f64());
         let middle = round_f64((low * high).sqrt(), DIGITS, Direction::Up);
-        let Some(middle) = middle.filter(|_| high > low * CLOSE) else { return };
+        let Some(middle) = middle.filter(|_| high > low * if is_met { CLOSE } else { CLOSER }) else { return };
         if middle <= rows[above - 1].sigma || middle >= rows[above].sigma {
             return;
         }
@@ -157,9 +163,12 @@ mod tests {
         // Only gains from 35 to 36 do: none of the first table.
         let (gains, found) = table((10, 35), Some(36));
         assert!(found.is_some_and(|(sigma, n_o)| n_o == 1 && (35.0..=36.0).contains(&sigma)), "{found:?} {gains:?}");
+        // Gains from 35.2 to 36 do.
+        let (gains, found) = table((1000, 3520), Some(36));
+        assert!(found.is_some_and(|(sigma, _)| sigma <= 36.0), "{found:?} {gains:?}");
         // Nothing does, and no gain beyond the table helps.
         let (gains, found) = table((10, 35), Some(5));
-        assert!(found.is_none() && gains.len() <= 6 + STEPS, "{gains:?}");
+        assert!(found.is_none() && gains.len() <= 6 + STEPS + MORE_STEPS, "{gains:?}");
     }
 
     #[test]

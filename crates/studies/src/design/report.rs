@@ -29,8 +29,8 @@ pub struct DesignReport<'d> {
     pub requirements: &'d Requirements,
     /// The shortest period of the document.
     pub period: &'d Enclosure,
-    /// The gains at which nothing is certified.
-    pub refused: &'d [Rational],
+    /// The gains at which nothing is certified, and why.
+    pub refused: &'d [(Rational, String)],
     /// Whether the document states noise, a disturbance or rounding that counts.
     pub disturbed: bool,
     /// What the data are to be looked at for, in sentences, of the claim with the gain to take.
@@ -82,7 +82,7 @@ impl Readable for DesignReport<'_> {
             },
             "notes": self.notes, "initial_set": plain(&self.set_and_assumptions[0]),
             "assumed": plain(&self.set_and_assumptions[1]), "without_noise": self.disturbed,
-            "rows": rows, "not_certified": self.refused.iter().map(write_exact).collect::<Vec<_>>(),
+            "rows": rows, "not_certified": self.refused.iter().map(|(sigma, _)| write_exact(sigma)).collect::<Vec<_>>(),
         })
     }
 }
@@ -160,8 +160,8 @@ impl DesignReport<'_> {
         };
         format!(
             "Steady is along the periodic solution, largest is at all times from the initial set, for every plant, period and gain of the actuator of the \
-             document. Each row is a claim of its own that the independent checker has decided, and its numbers are those of the certificate, but where a \
-             remark says otherwise.{noise}{samples}{simulated}"
+             document; $`u`$ is what is put out. Each row is a claim of its own. The independent checker has decided it, and the numbers are those of its \
+             certificate, except where a remark says otherwise.{noise}{samples}{simulated}"
         )
     }
 
@@ -180,7 +180,7 @@ impl DesignReport<'_> {
     fn table(&self) -> Table {
         let simulated = self.has_simulations();
         let noise = self.has_noise();
-        let e0 = self.rows.windows(2).any(|pair| pair[0].e0 != pair[1].e0);
+        let e0 = self.e0_moves();
         let within = self.requirements.steady_error.as_ref();
         let mut titles = vec!["$`sigma`$"];
         titles.extend(e0.then_some("$`E0`$"));
@@ -224,19 +224,25 @@ impl DesignReport<'_> {
     }
 
     fn remarks(&self) -> Vec<String> {
-        let n_o = match self.choice.cell {
-            Some(cell) => self.rows[self.choice.row].cells[cell].n_o.to_string(),
-            None => "N".to_owned(),
-        };
-        let mut remarks = vec![
-            format!(
+        let Choice { row, cell, is_met, .. } = self.choice;
+        let row = &self.rows[*row];
+        let n_o = cell.map_or_else(|| "N".to_owned(), |cell| row.cells[cell].n_o.to_string());
+        let is_taken = *is_met || cell.is_none();
+        let mut remarks = Vec::new();
+        if is_taken {
+            remarks.push(format!(
                 "next: `-o FILE` writes the certificate of the gain to take; `sigmastar check FILE` decides it again, `sigmastar controller FILE --n-o {n_o}` \
                  writes the regulator"
-            ),
-            "rule: the smallest gain of the table with which every requirement is proved to be met, with the fewest oscillators; without requirements \
-             the one that the first sentence says"
-                .to_owned(),
-        ];
+            ));
+        } else {
+            remarks.extend(self.choice.compared.iter().filter(|one| !one.is_met()).map(|one| self.remedy(row, one)));
+        }
+        if !self.choice.compared.is_empty() {
+            remarks.push(
+                "rule: the smallest gain of the table with which every requirement is proved to be met, with the fewest oscillators"
+                    .to_owned(),
+            );
+        }
         if let Some(limit) = &self.requirements.steady_error {
             remarks.push(format!(
                 "settles in: after so many periods $`|e|`$ is at most {} for good{}, by the proved rate and its factor; the true number is smaller, as a rule",
@@ -245,9 +251,13 @@ impl DesignReport<'_> {
             ));
         }
         let [set, assumed] = self.set_and_assumptions;
-        remarks.push(format!(
-            "initial set, of the gain to take: {set}; a size that the file does not state goes with the gain"
-        ));
+        let of_gain = if is_taken {
+            "of the gain to take".to_owned()
+        } else {
+            format!("at $`sigma = {}`$", write_exact(&row.sigma))
+        };
+        let goes = if self.e0_moves() { "; sizes that the file does not state go with the gain" } else { "" };
+        remarks.push(format!("initial set, {of_gain}: {set}{goes}"));
         remarks.push(format!("assumed: {assumed}"));
         for (which, said) in [
             "steady error: where the certificate has no bounds by the number of oscillators, that of a number follows from the claim by formulas that only \
@@ -261,10 +271,10 @@ impl DesignReport<'_> {
                 remarks.push(said.to_owned());
             }
         }
-        if !self.refused.is_empty() {
-            let all: Vec<String> = self.refused.iter().map(write_exact).collect();
-            remarks.push(format!("not certified: $`sigma = {}`$", all.join(", ")));
-        }
+        let refused = |(sigma, why): &(Rational, String)| {
+            format!("not certified: $`sigma = {}`$: {}", write_exact(sigma), clean(why))
+        };
+        remarks.extend(self.refused.iter().map(refused));
         if self.cells().any(|cell| cell.decay.is_none()) {
             remarks.push(
                 "rates: where none is proved nothing is said about it; fewer oscillators or a larger gain may have one"
@@ -272,6 +282,37 @@ impl DesignReport<'_> {
             );
         }
         remarks
+    }
+
+    /// Whether E0 goes with the gain.
+    fn e0_moves(&self) -> bool {
+        self.rows.windows(2).any(|pair| pair[0].e0 != pair[1].e0)
+    }
+
+    /// What helps, as a rule, to meet a requirement that is missed in this row.
+    fn remedy(&self, row: &Row, one: &Compared) -> String {
+        let fewer_or = "fewer oscillators (`--n-o`) or";
+        let help = match one.requirement {
+            Requirement::PeakError if one.asked < row.e0 => format!(
+                "the initial set has $`|e|`$ up to $`E0 = {}`$ at the start, so no gain can do that; state a smaller set",
+                exact(&row.e0, Direction::Down)
+            ),
+            Requirement::PeakError => "a larger gain (`--sigma`) or a smaller initial set may help".to_owned(),
+            Requirement::SteadyError => "more oscillators (`--n-o`) or a larger gain (`--sigma`) may help".to_owned(),
+            Requirement::Control => format!("a smaller initial set, {fewer_or} a smaller gain (`--sigma`) may help"),
+            Requirement::Settling if one.proved.is_none() && self.misses(Requirement::SteadyError) => {
+                "the steady error is not proved to be below what is required, so no time is".to_owned()
+            }
+            Requirement::Settling => format!(
+                "{fewer_or} a larger gain (`--sigma`) may help, or another `mu`; the true number is smaller, as a rule"
+            ),
+            Requirement::Noise => format!("less noise, {fewer_or} a smaller gain (`--sigma`) may help"),
+        };
+        format!("{}: {help}", one.requirement.words(self.sampling.is_some()))
+    }
+
+    fn misses(&self, requirement: Requirement) -> bool {
+        self.choice.compared.iter().any(|one| one.requirement == requirement && !one.is_met())
     }
 
     fn row_json(&self, row: &Row) -> Value {
@@ -311,7 +352,7 @@ fn simulated_json(Simulated { steady_error, largest }: Simulated) -> Value {
 fn required(compared: &[Compared], at_samples: bool) -> Table {
     let mut table = Table::new(&["<required", "at most", "proved", "<"]);
     for one in compared {
-        let proved = one.proved.as_ref().map_or_else(|| "nothing".to_owned(), |proved| exact(proved, Direction::Up));
+        let proved = one.proved.as_ref().map_or_else(|| "none".to_owned(), |proved| exact(proved, Direction::Up));
         let met = if one.is_met() { "met" } else { "missed" };
         table.push([one.requirement.words(at_samples).to_owned(), write_exact(&one.asked), proved, met.to_owned()]);
     }

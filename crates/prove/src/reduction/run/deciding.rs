@@ -303,8 +303,26 @@ struct Counts<'c, 's> {
     asked: &'c [Oscillators],
 }
 
-/// The first claim that the checker decides; where there is none, the best run with its claim taken back. What a certificate says by the number of
-/// oscillators is no part of it where the checker does not decide that: first what is asked for, then all of it.
+impl<'s> Counts<'_, 's> {
+    /// A claim that the checker decides with what its certificate says by the number of oscillators, as far as the checker decides that: where it does not,
+    /// first what is asked for is left out, then all of it.
+    fn added(&self, mut run: Run<'s>, check: &dyn Fn(&Run<'_>) -> Checked) -> Run<'s> {
+        (self.of)(&mut run, self.asked);
+        let has_more = |run: &Run<'_>| run.by_count().is_some() && check(run) != Checked::Decided;
+        let mut is_too_much = has_more(&run);
+        if is_too_much && !self.asked.is_empty() {
+            (self.of)(&mut run, &[]);
+            is_too_much = has_more(&run);
+        }
+        if let Some(found) = run.by_count_mut().filter(|_| is_too_much) {
+            found.checked = false;
+        }
+        run
+    }
+}
+
+/// The first claim that the checker decides; where there is none, the best run with its claim taken back. What takes long to find is added to a claim that
+/// is decided alone.
 fn first_decided<'s>(
     claims: impl Fn(Batch) -> Result<Vec<Run<'s>>, Refusal>,
     counts: &Counts<'_, 's>,
@@ -322,18 +340,8 @@ fn first_decided<'s>(
                 best = best.or(Some(run));
                 continue;
             }
-            (counts.of)(&mut run, counts.asked);
-            let mut answer_of = check(&run);
-            if answer_of != Checked::Decided && run.by_count_mut().is_some() && !counts.asked.is_empty() {
-                (counts.of)(&mut run, &[]);
-                answer_of = check(&run);
-            }
-            if let Some(found) = run.by_count_mut().filter(|_| answer_of != Checked::Decided) {
-                found.checked = false;
-                answer_of = check(&run);
-            }
-            match answer_of {
-                Checked::Decided => return Ok(run),
+            match check(&run) {
+                Checked::Decided => return Ok(counts.added(run, check)),
                 // The first claim, in the place of a run without one.
                 other if answer == Checked::Decided => (best, answer) = (Some(run), other),
                 _ => {}
