@@ -8,23 +8,26 @@ use serde_json::Value;
 type Case = (&'static str, &'static str, f64);
 
 const PLANTS: [Case; 2] = [
-    ("motor-axis", "22.5852", 0.02),
+    ("motor-axis", "22.5783", 0.02),
     // (M) on a path with a corner: Proposition R_P.
-    ("paper-example", "9.0905", 1.0),
+    ("paper-example", "9.06723", 1.0),
 ];
 
 /// Those of the search tier.
-const MORE: [Case; 3] =
-    [("pendulum", "0.673", 1.0), ("relative-degree-2", "1.5109", 1.0), ("relative-degree-2-domain", "3.9105", 1.0)];
+const MORE: [Case; 3] = [
+    ("pendulum", "0.670455", 1.0),
+    ("relative-degree-2", "1.509495", 1.0),
+    ("relative-degree-2-domain", "3.85647", 1.0),
+];
 
 /// Those of a night.
 const ALL: [Case; 6] = [
-    ("chain", "3.50122", 1.0),
-    ("converter", "1315.99", 0.02),
-    ("duffing", "0.49209", 2.0),
-    ("paper-example-ball", "37.3513", 1.0),
-    ("paper-example-paper-set", "15.8281", 1.0),
-    ("paper-example-rotated", "9.1", 1.0),
+    ("chain", "3.50382", 1.0),
+    ("converter", "1316.8455", 0.02),
+    ("duffing", "0.488922", 2.0),
+    ("paper-example-ball", "37.2858", 1.0),
+    ("paper-example-paper-set", "15.9531", 1.0),
+    ("paper-example-rotated", "9.085455", 1.0),
 ];
 
 fn answer(arguments: &[&str]) -> Value {
