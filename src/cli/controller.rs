@@ -203,8 +203,8 @@ fn npz(export: &Export<'_>, output: Option<&OutputFile>) -> Result<u8, Failure> 
 }
 
 fn needs_file() -> Failure {
-    let help = "give it with -o, ending in `.c`; the header goes beside it";
-    Failure::call("the C source needs the name of a file", help)
+    let help = "give it with -o, as `-o regulator.c`; the header goes beside it";
+    Failure::call("the C source needs a file whose name ends in `.c`", help)
 }
 
 /// The files of C code, checked before the work starts.

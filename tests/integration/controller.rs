@@ -372,7 +372,11 @@ fn wrong_calls_are_refused() {
         (&[spec, "--sigma", "2", "--n-o", "1001"], "1001 is not in"),
         (&[spec, "--sigma", "2", "--n-o", "1", "--format", "npz"], "name a file with -o"),
         (&[spec, "--sigma", "2", "--n-o", "1", "--format", "c", "-o", "/tmp/x.c"], "--discretise"),
-        (&[spec, "--sigma", "2", "--n-o", "1", "--discretise", "1", "--format", "c"], "ending in `.c`"),
+        (&[spec, "--sigma", "2", "--n-o", "1", "--discretise", "1", "--format", "c"], "ends in `.c`"),
+        (
+            &[spec, "--sigma", "2", "--n-o", "1", "--discretise", "1", "--format", "c", "-o", "/tmp/x.cpp"],
+            "ends in `.c`",
+        ),
         (&[spec, "--sigma", "2", "--n-o", "1", "--discretise", "-1"], "must be positive"),
         (&[spec, "--n-o", "1"], "no gain is given"),
         (&[spec, "--sigma", "2", "--n-o", "1", "--saturation", "1"], "--discretise"),

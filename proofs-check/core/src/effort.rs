@@ -6,7 +6,7 @@
 
 use std::cell::Cell;
 
-/// What a claim may cost, and again what is proposed for it: five to ten seconds of arithmetic. The shipped plants take a tenth of it at
+/// What a claim may cost, and again what is proposed for it: half a minute of arithmetic. The shipped plants take a quarter of it at
 /// most.
 pub const LIMIT: u64 = 800_000_000;
 

@@ -37,7 +37,7 @@ const PRECISION: u32 = 256;
 /// Reads `actuator`: one positive constant, in which the names of a plant's constants may stand.
 ///
 /// # Errors
-/// Reports a field that is missing or unknown, and a number that is not positive.
+/// Reports a field that is missing or unknown, limits that are not symmetric, and a number that is not positive.
 pub fn read_actuator(value: &Value<'_>, names: &Definitions, errors: &mut Errors) -> Result<Actuator, Reported> {
     if let Some(max) = value.text().or_else(|| value.numeral()) {
         let error = value.error(ErrorKind::Type, format!("{} is {}", value.name(), value.type_name()));
@@ -45,6 +45,12 @@ pub fn read_actuator(value: &Value<'_>, names: &Definitions, errors: &mut Errors
         return Err(errors.report(error.expected("expected an object").help(help)));
     }
     let mut object = value.object(errors)?;
+    if let Some(min) = value.member("min") {
+        let error = min.error(ErrorKind::Range, "the limits of an actuator are symmetric here: |u| is at most `max`");
+        let help = "for limits from LO to HI let u be measured from their middle: the middle (LO + HI)/2, times the gain of the actuator, goes into `q`, \
+                    and `max` is (HI - LO)/2";
+        return Err(errors.report(error.expected("expected `max` alone").help(help)));
+    }
     let max = object.required("max", errors).and_then(|value| positive_constant_in(&value, names, errors));
     object.finish(errors);
     Ok(Actuator { max: max? })

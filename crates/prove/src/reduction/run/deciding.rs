@@ -335,7 +335,7 @@ fn first_decided<'s>(
         if matches!(batch, Batch::Last) && answer == Checked::Decided {
             break;
         }
-        for mut run in claims(batch)? {
+        for run in claims(batch)? {
             if run.certified().is_none() {
                 best = best.or(Some(run));
                 continue;
