@@ -248,7 +248,10 @@ pub(super) const SLOWER: &str = "a smaller rate, or fewer oscillators";
 /// What a limit that is not kept asks for.
 pub(super) fn wider(which: Limited) -> &'static str {
     match which {
-        Limited::Actuator => "a larger `actuator.max`",
+        Limited::Actuator => {
+            "a larger `actuator.max`, or for a plant --max-control in the place of `actuator`: there the bounds by the number of \
+             oscillators count, which may be far smaller"
+        }
         Limited::SteadyError | Limited::PeakError | Limited::Control => "a larger limit",
     }
 }

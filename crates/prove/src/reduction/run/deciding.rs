@@ -189,7 +189,9 @@ impl Prepared {
         watch: &dyn Watch,
     ) -> Run<'s> {
         let Run::Continuous(mut run) = run else { return run };
-        watch.enter(Stage::Comparison);
+        if options.compare {
+            watch.enter(Stage::Comparison);
+        }
         // The data that were proved for the smallest gain know it best.
         let proposal = start.map(|sought| &sought.proposal);
         run.smallest_gain = run.smallest_gain.map(|least| proposal.map_or(least, |known| known.sigma.min(least)));
