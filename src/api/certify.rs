@@ -1,7 +1,7 @@
 //! Certifying: the whole way from a document to a certificate, or to the reason why there is none.
 
 use super::certificate::Certificate;
-use super::check::{CheckVerdict, verdict_on};
+use super::check::{CheckVerdict, verdict_within};
 use super::condition::Condition;
 use super::error::{Error, ErrorKind};
 use super::json_text;
@@ -84,7 +84,7 @@ pub fn decided<'p>(
     run.prove_rates(counts).map_err(|reason| Error::no_rates(reason, n_o))?;
     if !counts.is_empty() {
         begin(Afterwards::Checked);
-        run.answered(checked(&run));
+        run.answered(checked_within(1, &run));
     }
     Ok(run)
 }
@@ -104,13 +104,21 @@ pub(super) fn with_rates<'p>(prepared: &'p Prepared, (options, counts): (Options
         return Ok(run);
     }
     let has_rates = run.prove_rates(counts).is_ok();
-    if has_rates && checked(&run) == Checked::Decided { Ok(run) } else { decided_by(&checked) }
+    if has_rates && checked_within(1, &run) == Checked::Decided { Ok(run) } else { decided_by(&checked) }
 }
 
-/// What the independent checker says of the certificate of a run.
+/// What a claim without rates may take of what the checker spends: the rest is for its rates, and in reserve.
+const SHARE: u64 = 2;
+
+/// What the independent checker says of the certificate of a run without rates.
 fn checked(run: &Run<'_>) -> Checked {
+    checked_within(SHARE, run)
+}
+
+/// What the independent checker says of the certificate of a run, within a share of its effort.
+fn checked_within(share: u64, run: &Run<'_>) -> Checked {
     let Some(certificate) = certificate_of(run) else { return Checked::Decided };
-    match verdict_on(&json_text(&certificate)) {
+    match verdict_within(share, &json_text(&certificate)) {
         CheckVerdict::Valid => Checked::Decided,
         CheckVerdict::Undecided => Checked::GivenUp,
         _ => Checked::Refused,

@@ -42,12 +42,9 @@ pub fn check_bytes(certificate: &[u8], subject: Option<&[u8]>, verbose: bool) ->
     CheckReport::new(&proofs_check::check_against(certificate, subject), verbose)
 }
 
-/// What a claim that is made may take of the steps that the checker spends: a stored certificate keeps as much in reserve.
-const SHARE: u64 = 2;
-
-/// The answer alone, to a claim that is to be made.
-pub(super) fn verdict_on(certificate: &str) -> CheckVerdict {
-    proofs_check::check_within(certificate.as_bytes(), None, proofs_check::effort::LIMIT / SHARE).verdict
+/// The answer alone, within all that the checker spends on a certificate divided by `share`.
+pub(super) fn verdict_within(share: u64, certificate: &str) -> CheckVerdict {
+    proofs_check::check_within(certificate.as_bytes(), None, proofs_check::effort::LIMIT / share).verdict
 }
 
 impl CheckReport {
