@@ -107,12 +107,12 @@ pub(super) fn with_rates<'p>(prepared: &'p Prepared, (options, counts): (Options
     if has_rates && checked_within(1, &run) == Checked::Decided { Ok(run) } else { decided_by(&checked) }
 }
 
-/// What a claim without rates may take of what the checker spends: the rest is for its rates, and in reserve.
+/// What a claim may take of what the checker spends with its bounds by the number of oscillators: the rest is for rates.
 const SHARE: u64 = 2;
 
-/// What the independent checker says of the certificate of a run without rates.
+/// What the independent checker says of the certificate of a run without rates: within all of its effort of a claim alone, so that it says what `check` says.
 fn checked(run: &Run<'_>) -> Checked {
-    checked_within(SHARE, run)
+    checked_within(if run.says_by_count() { SHARE } else { 1 }, run)
 }
 
 /// What the independent checker says of the certificate of a run, within a share of its effort.

@@ -265,6 +265,7 @@ pub fn design_of(
         period: &period,
         refused: &refused,
         disturbed: has_disturbances(&asked.read),
+        states_e0: asked.read.states_e0(),
         notes: certificate.remarks(),
         set_and_assumptions: &set_and_assumptions,
         sampling: asked.read.sampling().map(|sampling| (sampling.text(), sampling.samples)),

@@ -135,7 +135,7 @@ pub fn run(args: &CertifyArgs) -> Result<u8, Failure> {
         None => Shortened::new(&*report, args.format, args.full),
     };
     let code = tell(args, &run, &shown, output.as_ref())?;
-    if let Some(remark) = without_bounds(&run, &args.harmonics).filter(|_| !args.quiet) {
+    if let Some(remark) = without_bounds(&run, &args.harmonics, args.options().compare).filter(|_| !args.quiet) {
         output::remark(&remark);
     }
     if let Some(far) = plant.and_then(|plant| far_start(&run, plant)) {
@@ -159,7 +159,7 @@ fn fits(sets: &[Oscillators], subject: &Subject) -> Result<(), Failure> {
 }
 
 /// Of which sets that were asked for a certified run has no bounds of their own, in words.
-fn without_bounds(run: &Run<'_>, sets: &[Oscillators]) -> Option<String> {
+fn without_bounds(run: &Run<'_>, sets: &[Oscillators], compare: bool) -> Option<String> {
     run.certified()?;
     let found = match run {
         Run::Continuous(run) => &run.by_count,
@@ -169,9 +169,12 @@ fn without_bounds(run: &Run<'_>, sets: &[Oscillators]) -> Option<String> {
     let is_missing = |set: &&Oscillators| set.n_o().is_none() && found.iter().all(|bounds| bounds.oscillators != **set);
     let missing: Vec<String> = sets.iter().filter(is_missing).map(Oscillators::to_string).collect();
     let why = match run {
-        Run::Sampled(_) => "at samples they are proved of plants that are linear in x and e, without noise",
+        _ if !compare => "`--no-alternatives` leaves them out",
+        Run::Sampled(_) => {
+            "at samples they are proved of plants that are linear in x and e, without noise, where the independent checker decides them"
+        }
         Run::Continuous(_) => {
-            "they are proved of plants in continuous time, with a matched base frequency and without noise"
+            "they are proved of plants, with a matched base frequency and without noise, where the independent checker decides them"
         }
     };
     (!missing.is_empty()).then(|| {

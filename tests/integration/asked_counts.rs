@@ -92,7 +92,9 @@ fn rows_of_larger_gains_are_about_what_is_asked_for() {
         let [(1, one), (6, six)] = row[..] else { panic!("{row:?}") };
         assert!(six < 1e-6 && one > 1e-3, "{row:?}");
     }
-    for row in of_rows(&[]) {
+    let plain = of_rows(&[]);
+    assert_eq!(plain.len(), 6);
+    for row in plain {
         assert_eq!(row.iter().map(|(n_o, _)| *n_o).collect::<Vec<_>>(), [0, 10]);
     }
 }

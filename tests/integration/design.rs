@@ -167,6 +167,14 @@ fn what_is_missed_is_told_with_what_helps() {
     let (code, text) = told_of(&["--n-o", "2", "--steady-error", "0.2", "--settle", "0.01", "--peak-error", "0.001"]);
     assert!(code == 3 && text.contains("periods to settle: fewer oscillators"), "{text}");
     assert!(text.contains("at the start, so no gain can do that"), "{text}");
+    // Where E0 is left open it falls with the gain.
+    let mut open = plant();
+    open["initial_set"] = json!({ "kind": "aligned" });
+    let open = stored(folder.path(), "open.json", &open);
+    let flags = ["--sigma", "3", "--n-o", "2", "--peak-error", "0.001", "-q", "--no-simulation"];
+    let (code, text) = told(program().arg("design").arg(&open).args(flags));
+    assert!(code == 3 && text.contains("state a smaller `E0`, or take a larger gain"), "{text}");
+    assert!(!text.contains("no gain can do that"), "{text}");
     let (code, text) = told_of(&["--n-o", "2", "--steady-error", "0.2"]);
     assert!(code == 0 && text.contains("next: `-o FILE` writes the certificate of the gain to take"), "{text}");
 }

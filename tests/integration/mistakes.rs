@@ -91,6 +91,22 @@ fn a_base_frequency_in_hertz_is_told_in_radians() {
     }
 }
 
+/// Revolutions per minute and degrees are told as what they are, in the file and in formulas.
+#[test]
+fn other_units_of_angles_and_frequencies_are_told() {
+    let base = "/internal_model/base_frequency";
+    for (frequency, said) in [("60", "revolutions per minute"), ("360", "degrees per unit of time")] {
+        let (code, text) = of(&[(base, frequency.into())], &[]);
+        assert!(code == 2 && text.contains(said) && !text.contains("`matched` to false"), "{text}");
+    }
+    for (q, said) in [("sin(360*t)", true), ("sin(350*t)", false)] {
+        let (code, text) = of(&[("/q", q.into())], &[]);
+        assert!(code == 2 && text.contains("angles are in radians") == said, "{q}: {text}");
+    }
+    let (code, text) = of(&[("/internal_model/weights", json!([2, 1, 1]))], &[]);
+    assert!(code == 2 && text.contains("\"family\": \"power\""), "{text}");
+}
+
 #[test]
 fn an_input_gain_of_two_units_is_a_wide_interval() {
     const WIDE: &str = "the input gain is known to a factor of ";

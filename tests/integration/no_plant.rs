@@ -90,7 +90,7 @@ fn reports_and_certificates_say_so() {
         // There is nothing to try.
         let (code, text, _) = run(&["falsify", certificate, "--trials", "3", "--quiet"]);
         assert_eq!(code, Some(3), "{text}");
-        assert!(text.contains("in 0 every bound holds") && text.contains("no plant with a state x"), "{text}");
+        assert!(text.contains("0 keep every bound") && text.contains("no plant with a state x"), "{text}");
     }
 }
 

@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use sigmastar_document::number::{exact, full, upper};
 use sigmastar_document::{Block, Table};
 use sigmastar_exact::number::{Direction, write_exact};
-use sigmastar_prove::certify::{Certification, GainRow, SampledCertification};
+use sigmastar_prove::certify::{ByCount, Certification, CountProof, GainRow, SampledCertification};
 
 /// The table of a claim in continuous time; nothing where there are no rows but that of the claim.
 pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
@@ -15,7 +15,13 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
                 of the initial set, of which a size that the file does not state goes with the gain: it is at least twice the bound of the periodic solution there. \
                 Each row is proved, for every $`n_o`$ but where one is named, with a witness of its own that no independent program checks: \
                 `certify --sigma V -o FILE` writes a certificate, and `sampling` lists the longest sampling periods of such gains.";
-    table(&run.gains, &steady, says)
+    let own = match &run.by_count {
+        Some(ByCount { proof: CountProof::Trials { .. }, .. }) => {
+            " The first row counts the bounds by the number of oscillators, the others do not: theirs may be far smaller, too."
+        }
+        _ => "",
+    };
+    table(&run.gains, &steady, &format!("{says}{own}"))
 }
 
 /// The table of a claim at samples; nothing where there are no rows but that of the claim.

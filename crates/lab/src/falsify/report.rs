@@ -61,8 +61,8 @@ fn blocks(claim: &TriedClaim, outcome: &Falsification) -> Vec<Block> {
     let of_one_gain = claim.sampled.is_some() || claim.spec.actuator.is_some();
     let name = if of_one_gain { "sigma" } else { "sigma*" };
     blocks.push(Block::says(format!(
-        "{} trials {gains} $`{name} = {}`$, base frequency $`{}`$, seed {}: in {held} every bound holds, in {violated} one \
-         does not, {} could not be finished. Floating point: what is found can be simulated again, what is not found is no \
+        "{} trials {gains} $`{name} = {}`$, base frequency $`{}`$, seed {}: {held} keep every bound, {violated} break one, \
+         {} could not be finished. Floating point: what is found can be simulated again, what is not found is no \
          proof.",
         outcome.findings.len(),
         round_f64(claim.sigma, 9, Direction::Nearest).map_or_else(|| claim.sigma.to_string(), |sigma| write_exact(&sigma)),
@@ -126,7 +126,7 @@ fn plant_blocks(worst: &Closest<'_>, seed: u64) -> Vec<Block> {
     vec![
         Block::heading("The worst plant"),
         Block::says(format!(
-            "Trial {}, $`sigma = {:?}`$, $`n_o = {}`${}{}, came closest to the bound of a size: {quantity} is {share:.3} of it. \
+            "Trial {}, $`sigma = {:?}`$, $`n_o = {}`${}{}, came closest to one of the bounds: {quantity} is {share:.3} of its bound. \
              (The multiplier and the Lyapunov function are close to theirs with any plant.) `sigmastar falsify` with \
              `--seed {seed} --trial {} -o FILE` writes it as a plant file, with the call of `simulate` in its description; so \
              for any other trial.",

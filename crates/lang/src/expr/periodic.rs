@@ -20,6 +20,11 @@ pub enum PeriodicityReason {
     /// The frequency is another.
     #[error("the coefficient of t times the period is not a whole multiple of 2 pi")]
     Frequency,
+    /// The frequency is another, as one in degrees.
+    #[error(
+        "the coefficient of t times the period is a whole multiple of 360, not of 2 pi: angles are in radians, with 2*pi in the place of 360"
+    )]
+    Degrees,
     /// Nothing can be compared with the period.
     #[error("the period is not known exactly: write it in rational multiples of pi")]
     Period,
@@ -68,11 +73,20 @@ impl Prover<'_> {
         }
     }
 
-    /// Whether `slope T/(2 pi)` is a whole number.
-    fn fits(&self, slope: &Monomial) -> bool {
-        let turn = Monomial::rational(Rational::from(2)).mul(&Monomial::pi());
+    /// Whether `slope T` is a whole multiple of a turn, 2 pi or another number.
+    fn fits(&self, slope: &Monomial, turn: Option<Monomial>) -> bool {
         let turns = turn.and_then(|turn| slope.mul(self.period)?.div(&turn));
         turns.is_some_and(|turns| turns.as_rational().is_some_and(Rational::is_integer))
+    }
+
+    /// A sine, cosine or tangent of a line.
+    fn wave(&mut self, slope: &Monomial) -> Part {
+        let number = |value: u32| Monomial::rational(Rational::from(value));
+        match [number(2).mul(&Monomial::pi()), Some(number(360))].map(|turn| self.fits(slope, turn)) {
+            [true, _] => Part::Wave,
+            [false, true] => self.refuse(PeriodicityReason::Degrees),
+            [false, false] => self.refuse(PeriodicityReason::Frequency),
+        }
     }
 }
 
@@ -100,10 +114,7 @@ impl Algebra<PlantVariable> for Prover<'_> {
             (_, Part::Free(exact)) => Part::Free(Algebra::<PlantVariable>::unary(&mut Constants, operation, exact)),
             (_, Part::Wave) => Part::Wave,
             (Unary::Neg, Part::Line(slope)) => Part::Line(slope.neg()),
-            (Unary::Sin | Unary::Cos | Unary::Tan, Part::Line(slope)) => match self.fits(&slope) {
-                true => Part::Wave,
-                false => self.refuse(PeriodicityReason::Frequency),
-            },
+            (Unary::Sin | Unary::Cos | Unary::Tan, Part::Line(slope)) => self.wave(&slope),
             (_, Part::Line(_)) => self.refuse(PeriodicityReason::Outside),
         }
     }
@@ -232,8 +243,12 @@ mod tests {
 
     #[test]
     fn what_is_not_proved_to_have_it_is_refused_in_its_place() {
-        use PeriodicityReason::{Coefficient, Frequency, Outside, Period};
+        use PeriodicityReason::{Coefficient, Degrees, Frequency, Outside, Period};
         for (text, period, blamed, reason) in [
+            ("sin(360*t)", "1", "sin(360*t)", Degrees),
+            ("cos(9000*t)", "1/25", "cos(9000*t)", Degrees),
+            ("sin(359*t)", "1", "sin(359*t)", Frequency),
+            ("sin(360*pi*t)", "1/7", "sin(360*pi*t)", Frequency),
             ("1 + sin(t)", "1", "sin(t)", Frequency),
             ("sin(pi*t)", "1", "sin(pi*t)", Frequency),
             ("sin(pi*t)^2", "1", "sin(pi*t)", Frequency),

@@ -47,8 +47,8 @@ pub fn read_actuator(value: &Value<'_>, names: &Definitions, errors: &mut Errors
     let mut object = value.object(errors)?;
     if let Some(min) = value.member("min") {
         let error = min.error(ErrorKind::Range, "the limits of an actuator are symmetric here: |u| is at most `max`");
-        let help = "for limits from LO to HI let u be measured from their middle: the middle (LO + HI)/2, times the gain of the actuator, goes into `q`, \
-                    and `max` is (HI - LO)/2";
+        let help = "for limits from LO to HI let u be measured from their middle: the middle (LO + HI)/2, times the gain of the actuator, goes into `q` \
+                    (with an interval as a parameter that stands in `input_gain`, too), and `max` is (HI - LO)/2";
         return Err(errors.report(error.expected("expected `max` alone").help(help)));
     }
     let max = object.required("max", errors).and_then(|value| positive_constant_in(&value, names, errors));

@@ -5,13 +5,21 @@ use super::period::Period;
 use rug::Rational;
 use sigmastar_exact::number::{parse_decimal, write_exact};
 
-/// By how much a base frequency in Hz may be off 1/period, as of a period that is rounded.
+/// By how much, relative, a base frequency in another unit may be off, as of a period that is rounded.
 const NEAR: f64 = 0.01;
 
-/// Whether a base frequency is about 1/period, in the place of 2 pi/period.
+/// Other units of a frequency: what stands over the period, and what that is.
+const UNITS: [(f64, &str); 3] = [
+    (1.0, "1/period, a frequency in cycles per unit of time (Hz)"),
+    (60.0, "60/period, a frequency in revolutions per minute if time is in seconds"),
+    (360.0, "360/period, a frequency in degrees per unit of time"),
+];
+
+/// What a base frequency is that is about 2 pi/period in another unit.
 #[must_use]
-pub fn is_in_hertz(frequency: &Constant, period: &Constant) -> bool {
-    (frequency.to_f64() * period.to_f64() - 1.0).abs() < NEAR
+pub fn in_another_unit(frequency: &Constant, period: &Constant) -> Option<&'static str> {
+    let turns = frequency.to_f64() * period.to_f64();
+    UNITS.iter().find(|(turn, _)| (turns / turn - 1.0).abs() < NEAR).map(|(_, unit)| *unit)
 }
 
 /// 2 pi/period as it is written.
@@ -100,10 +108,24 @@ mod tests {
     }
 
     #[test]
-    fn a_base_frequency_in_hertz_is_told_apart_from_others() {
+    fn a_base_frequency_in_another_unit_is_told_apart_from_others() {
         let period = constant("1/50");
-        let is = |frequency: &str| is_in_hertz(&constant(frequency), &period);
-        assert!(is("50") && is("49.9") && !is("100*pi") && !is("314") && !is("25") && !is("51"));
+        let unit = |frequency: &str| in_another_unit(&constant(frequency), &period);
+        for (frequencies, meant) in [
+            (["50", "49.9"], Some("(Hz)")),
+            (["3000", "2990"], Some("revolutions per minute")),
+            (["18000", "18100"], Some("degrees")),
+            (["100*pi", "314"], None),
+            (["25", "51"], None),
+            (["2900", "9000"], None),
+        ] {
+            for frequency in frequencies {
+                let found = unit(frequency);
+                let is =
+                    found.zip(meant).map_or(found.is_none() && meant.is_none(), |(found, meant)| found.contains(meant));
+                assert!(is, "{frequency}: {found:?}");
+            }
+        }
         assert_eq!([&period, &constant("2"), &constant("pi")].map(matched_frequency), ["100*pi", "pi", "2*pi/(pi)"]);
     }
 }

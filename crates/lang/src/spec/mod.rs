@@ -63,7 +63,7 @@ pub use jacobian::MAX_STATES;
 pub use joint_inequality::{JointInequality, JointStability, Level, Metric};
 pub use limits::{MAX_BYTES, MAX_NESTING, MAX_VALUES};
 pub use matrix_inequality::{MatrixInequality, Splitting};
-pub use meant::{is_in_hertz, matched_frequency, rounded_from};
+pub use meant::{in_another_unit, matched_frequency, rounded_from};
 pub use model::{
     Constant, Domain, InitialSet, InternalModel, Jacobian, JacobianEntry, Lyapunov, LyapunovSource, OrbitCurve,
     PeriodicMatrix, RelativeDegree, SIZES, Specification, StartSizes, TrigonometricVector,

@@ -11,7 +11,7 @@ use super::document::{Document, Value};
 use super::error::{ErrorKind, Errors, Reported, SpecErrors};
 use super::initial_set;
 use super::input_gain::read_input_gain;
-use super::meant::{is_in_hertz, matched_frequency};
+use super::meant::{in_another_unit, matched_frequency};
 use super::model::{InternalModel, LyapunovSource, Specification};
 use super::object::Object;
 use super::parameters::Parameters;
@@ -286,10 +286,9 @@ fn prove_matched(
             whole(value, ErrorKind::Undecided, message).expected(format!("write it in multiples of pi, as `{right}`"))
         }
     };
-    if is_in_hertz(frequency, period) {
+    if let Some(unit) = in_another_unit(frequency, period) {
         let help = format!(
-            "this is 1/period, a frequency in cycles per unit of time (Hz); the base frequency is in radians per unit of time, 2*pi/period, \
-             which is `{right}`"
+            "this is {unit}; the base frequency is in radians per unit of time, 2*pi/period, which is `{right}`"
         );
         return Err(errors.report(error.help(help)));
     }

@@ -229,8 +229,8 @@ impl Obstacle {
                 "a number of the proof is beyond the range of double precision for every candidate that was tried{place}"
             ),
             Failing::Beyond { known: Known::Samples, .. } => format!(
-                "every error box that was tried reaches a million times as far as the orbit and the initial set are large, or further: \
-                 nobody looks at the plant there; the smallest was{place}"
+                "every error box that was tried is at least a million times as large as the orbit and the initial set, and no bounds of the \
+                 plant are sought that far out; the smallest was{place}"
             ),
             Failing::Beyond { known: Known::Proofs, .. } => format!(
                 "every error box that was tried reaches further than the bounds of the plant are proved; the smallest was{place}"

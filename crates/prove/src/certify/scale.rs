@@ -1,7 +1,7 @@
 //! Numbers of a file that can be certified and are likely to be meant in another way. Floating point: no claim rests on it.
 
 use sigmastar_exact::number::{Direction, round_f64, write_exact};
-use sigmastar_lang::spec::{InputGain, InternalModel, Period, is_in_hertz, matched_frequency, rounded_from};
+use sigmastar_lang::spec::{InputGain, InternalModel, Period, in_another_unit, matched_frequency, rounded_from};
 
 /// mu times the period of regulators as they are built, and how many times outside of it is far.
 const USUAL: [f64; 2] = [1.0, 20.0];
@@ -13,7 +13,7 @@ const WIDE: f64 = 3.0;
 /// What of these data is likely to be meant in another way, each in a sentence without a final stop.
 #[must_use]
 pub fn unusual(model: &InternalModel, period: &Period, gain: Option<&InputGain>) -> Vec<String> {
-    [rounded(period), in_hertz(model, period), unusual_mu(model, period), gain.and_then(wide)]
+    [rounded(period), unmatched(model, period), unusual_mu(model, period), gain.and_then(wide)]
         .into_iter()
         .flatten()
         .collect()
@@ -25,17 +25,15 @@ fn rounded(period: &Period) -> Option<String> {
     Some(format!("the period is exactly {} here: if {meant} is meant, write \"{meant}\"", period.nominal().text))
 }
 
-/// That a base frequency that is not matched is 1/period.
-fn in_hertz(model: &InternalModel, period: &Period) -> Option<String> {
+/// That a base frequency that is not matched is 2 pi/period in another unit.
+fn unmatched(model: &InternalModel, period: &Period) -> Option<String> {
     let frequency = &model.base_frequency;
-    (!model.matched && is_in_hertz(frequency, period.nominal())).then(|| {
-        format!(
-            "the base frequency {} is 1/period, a frequency in cycles per unit of time (Hz): the oscillators then meet no harmonic; in radians \
-             per unit of time it is {}, with `matched`",
-            frequency.text,
-            matched_frequency(period.nominal())
-        )
-    })
+    let unit = in_another_unit(frequency, period.nominal()).filter(|_| !model.matched)?;
+    Some(format!(
+        "the base frequency {} is {unit}: the oscillators then meet no harmonic; in radians per unit of time it is {}, with `matched`",
+        frequency.text,
+        matched_frequency(period.nominal())
+    ))
 }
 
 /// That the interval of an input gain is wide.

@@ -154,6 +154,15 @@ impl Subject {
         self.part(|spec| &spec.initial_set, |plant| &plant.initial_set).is_aligned()
     }
 
+    /// Whether the document states E0 of the initial set; else it goes with the gain.
+    #[must_use]
+    pub fn states_e0(&self) -> bool {
+        match self {
+            Subject::Specification(spec) => spec.initial_set.given()[1].is_some(),
+            Subject::Plant(plant) => plant.initial_set.given()[1].is_some(),
+        }
+    }
+
     /// The gain of the actuator, where the document has one.
     #[must_use]
     pub fn input_gain(&self) -> Option<&InputGain> {

@@ -1,6 +1,6 @@
 //! Which pair of a gain and a number of oscillators to take.
 
-use super::requirements::{Compared, Requirements};
+use super::requirements::{Compared, Requirements, distance};
 use super::row::{Cell, Row};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_prove::certify::{Transient, gain_to_use};
@@ -21,7 +21,7 @@ pub struct Choice {
 }
 
 /// The pair with the smallest gain, and there with the fewest oscillators, that is proved to meet all requirements; where none does, the one that misses the
-/// fewest of them, and these by least. Without requirements the gain to use ([`gain_to_use`]). `None` for a table without rows or cells. Hypothesis: the rows are in the order of their gains, with the same numbers of oscillators.
+/// fewest of them, has something proved of the most of these, and misses these by least. Without requirements the gain to use ([`gain_to_use`]). `None` for a table without rows or cells. Hypothesis: the rows are in the order of their gains, with the same numbers of oscillators.
 #[must_use]
 pub fn choose(rows: &[Row], requirements: &Requirements, period: &Enclosure) -> Option<Choice> {
     let counts = rows.first()?.cells.len();
@@ -31,12 +31,9 @@ pub fn choose(rows: &[Row], requirements: &Requirements, period: &Enclosure) -> 
     let compared = |[row, cell]: [usize; 2]| requirements.compared(&rows[row].cells[cell], period);
     let pairs = || (0..rows.len()).flat_map(|row| (0..counts).map(move |cell| [row, cell]));
     let is_met = |pair: &[usize; 2]| compared(*pair).iter().all(Compared::is_met);
-    // How many requirements are missed, of how many nothing is proved, and by how much the others are missed: a share of what is not proved says nothing.
     let miss = |pair: [usize; 2]| {
         let all = compared(pair);
-        let missed = all.iter().filter(|one| !one.is_met()).count();
-        let (proved, unknown): (Vec<&Compared>, Vec<_>) = all.iter().partition(|one| one.proved.is_some());
-        (missed, unknown.len(), proved.iter().map(|one| one.share()).fold(0.0, f64::max))
+        (all.iter().filter(|one| !one.is_met()).count(), distance(&all))
     };
     let found = pairs().find(is_met);
     let [row, cell] = match found {

@@ -1,7 +1,7 @@
 //! At which gains a design table is made.
 
 use super::choice::choose;
-use super::requirements::{Compared, Requirements};
+use super::requirements::{Compared, Requirements, closest};
 use super::row::Row;
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
@@ -14,12 +14,16 @@ const FURTHER: [u32; 5] = [80, 120, 200, 500, 1000];
 /// So many of them in turn that bring the table no closer to what is required.
 const RISES: usize = 2;
 
-/// Gains that are tried between one that keeps what falls with the gain and one that does not; so many more where nothing keeps all that is required.
+/// Gains that are tried between one that keeps what falls with the gain and one that does not.
 const STEPS: usize = 4;
+
+/// So many more where only a gain between these may keep everything.
 const MORE_STEPS: usize = 4;
 
-/// Two gains that are closer are not told apart; where nothing keeps all that is required.
+/// Two gains that are closer are not told apart where one keeps everything.
 const CLOSE: f64 = 1.03;
+
+/// Nor two that are closer where none does.
 const CLOSER: f64 = 1.002;
 
 /// Digits of a gain.
@@ -59,18 +63,17 @@ pub fn design_table<C: Claims>(
     let mut rows = vec![smallest];
     rows.extend(claims.at(&ROWS.each_ref().map(times)).into_iter().flatten());
     let is_met = |rows: &[Row]| choose(rows, requirements, period).is_none_or(|choice| choice.is_met);
-    let distance =
-        |rows: &[Row]| rows.iter().map(|row| requirements.distance(row, period)).fold(f64::INFINITY, f64::min);
+    let distance = |rows: &[Row]| closest(rows.iter().map(|row| requirements.distance(row, period)));
     let helps = |rows: &[Row]| rows.last().is_some_and(|row| misses_what_falls(row, requirements, period));
-    let (mut closest, mut rises) = (distance(&rows), 0);
+    let (mut nearest, mut rises) = (distance(&rows), 0);
     for tenths in &FURTHER {
         if requirements.is_empty() || is_met(&rows) || rises >= RISES || !helps(&rows) {
             break;
         }
         rows.extend(claims.at(&[times(tenths)]).into_iter().flatten());
         let now = distance(&rows);
-        rises = if now < closest { 0 } else { rises + 1 };
-        closest = now;
+        rises = if now < nearest { 0 } else { rises + 1 };
+        nearest = now;
     }
     between(claims, &mut rows, (requirements, period));
     Ok(rows)
@@ -85,6 +88,10 @@ fn keeps_what_falls(compared: &[Compared]) -> bool {
     compared.iter().filter(|one| one.requirement.falls()).all(Compared::is_met)
 }
 
+fn keeps_what_grows(compared: &[Compared]) -> bool {
+    compared.iter().filter(|one| !one.requirement.falls()).all(Compared::is_met)
+}
+
 /// Puts rows in between: with the number of oscillators of the choice, below the smallest gain that keeps what falls with the gain.
 fn between<C: Claims>(claims: &mut C, rows: &mut Vec<Row>, (requirements, period): (&Requirements, &Enclosure)) {
     let Some(cell) = choose(rows, requirements, period).and_then(|choice| choice.cell) else { return };
@@ -92,7 +99,9 @@ fn between<C: Claims>(claims: &mut C, rows: &mut Vec<Row>, (requirements, period
     for step in 0..STEPS + MORE_STEPS {
         let Some(above) = rows.iter().position(keeps).filter(|above| *above > 0) else { return };
         let is_met = choose(rows, requirements, period).is_some_and(|choice| choice.is_met);
-        if is_met && step >= STEPS {
+        // What grows with the gain and is missed by the smaller one is missed between them, too.
+        let may_do = keeps_what_grows(&requirements.compared(&rows[above - 1].cells[cell], period));
+        if step >= STEPS && (is_met || !may_do) {
             return;
         }
         let [low, high] = [above - 1, above].map(|row| rows[row].sigma.to_f64());
@@ -168,7 +177,7 @@ mod tests {
         assert!(found.is_some_and(|(sigma, _)| sigma <= 36.0), "{found:?} {gains:?}");
         // Nothing does, and no gain beyond the table helps.
         let (gains, found) = table((10, 35), Some(5));
-        assert!(found.is_none() && gains.len() <= 6 + STEPS + MORE_STEPS, "{gains:?}");
+        assert!(found.is_none() && gains.len() <= 6 + STEPS, "{gains:?}");
     }
 
     #[test]

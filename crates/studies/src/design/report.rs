@@ -33,6 +33,8 @@ pub struct DesignReport<'d> {
     pub refused: &'d [(Rational, String)],
     /// Whether the document states noise, a disturbance or rounding that counts.
     pub disturbed: bool,
+    /// Whether the document states E0; else it goes with the gain.
+    pub states_e0: bool,
     /// What the data are to be looked at for, in sentences, of the claim with the gain to take.
     pub notes: &'d [String],
     /// The initial set of that claim, and what is assumed of the plant, in clauses.
@@ -256,8 +258,7 @@ impl DesignReport<'_> {
         } else {
             format!("at $`sigma = {}`$", write_exact(&row.sigma))
         };
-        let goes = if self.e0_moves() { "; sizes that the file does not state go with the gain" } else { "" };
-        remarks.push(format!("initial set, {of_gain}: {set}{goes}"));
+        remarks.push(format!("initial set, {of_gain}: {set}; sizes that the file leaves open go with the gain"));
         remarks.push(format!("assumed: {assumed}"));
         for (which, said) in [
             "steady error: where the certificate has no bounds by the number of oscillators, that of a number follows from the claim by formulas that only \
@@ -293,19 +294,24 @@ impl DesignReport<'_> {
     fn remedy(&self, row: &Row, one: &Compared) -> String {
         let fewer_or = "fewer oscillators (`--n-o`) or";
         let help = match one.requirement {
-            Requirement::PeakError if one.asked < row.e0 => format!(
-                "the initial set has $`|e|`$ up to $`E0 = {}`$ at the start, so no gain can do that; state a smaller set",
-                exact(&row.e0, Direction::Down)
-            ),
+            Requirement::PeakError if one.asked < row.e0 => {
+                let e0 = exact(&row.e0, Direction::Down);
+                match self.states_e0 {
+                    true => format!(
+                        "the initial set has $`|e|`$ up to $`E0 = {e0}`$ at the start, so no gain can do that; state a smaller set"
+                    ),
+                    false => format!(
+                        "at this gain the initial set has $`|e|`$ up to $`E0 = {e0}`$ at the start; state a smaller `E0`, or take a larger gain (`--sigma`)"
+                    ),
+                }
+            }
             Requirement::PeakError => "a larger gain (`--sigma`) or a smaller initial set may help".to_owned(),
             Requirement::SteadyError => "more oscillators (`--n-o`) or a larger gain (`--sigma`) may help".to_owned(),
             Requirement::Control => format!("a smaller initial set, {fewer_or} a smaller gain (`--sigma`) may help"),
             Requirement::Settling if one.proved.is_none() && self.misses(Requirement::SteadyError) => {
-                "the steady error is not proved to be below what is required, so no time is".to_owned()
+                "the steady error is not proved to be below what is required, so no time to settle is proved".to_owned()
             }
-            Requirement::Settling => format!(
-                "{fewer_or} a larger gain (`--sigma`) may help, or another `mu`; the true number is smaller, as a rule"
-            ),
+            Requirement::Settling => format!("{fewer_or} a larger gain (`--sigma`) may help, or another `mu`"),
             Requirement::Noise => format!("less noise, {fewer_or} a smaller gain (`--sigma`) may help"),
         };
         format!("{}: {help}", one.requirement.words(self.sampling.is_some()))

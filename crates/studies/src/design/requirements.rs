@@ -138,11 +138,22 @@ impl Requirements {
         Requirement::ALL.iter().filter_map(one).collect()
     }
 
-    /// How far a row is from the requirements with the number of oscillators that comes closest to them.
-    pub(super) fn distance(&self, row: &Row, period: &Enclosure) -> f64 {
-        let of = |cell: &Cell| self.compared(cell, period).iter().map(Compared::share).fold(0.0, f64::max);
-        row.cells.iter().map(of).fold(f64::INFINITY, f64::min)
+    /// How far a row is from the requirements with the number of oscillators that comes closest to them: of how many nothing is proved, and the largest
+    /// share of the others.
+    pub(super) fn distance(&self, row: &Row, period: &Enclosure) -> (usize, f64) {
+        closest(row.cells.iter().map(|cell| distance(&self.compared(cell, period))))
     }
+}
+
+/// Of how many requirements nothing is proved, and the largest share of the others, rounded: a share of what is not proved says nothing.
+pub(super) fn distance(compared: &[Compared]) -> (usize, f64) {
+    let proved = compared.iter().filter(|one| one.proved.is_some());
+    (compared.len() - proved.clone().count(), proved.map(Compared::share).fold(0.0, f64::max))
+}
+
+/// The least of these.
+pub(super) fn closest(all: impl Iterator<Item = (usize, f64)>) -> (usize, f64) {
+    all.fold((usize::MAX, f64::INFINITY), |least, one| if one < least { one } else { least })
 }
 
 #[cfg(test)]

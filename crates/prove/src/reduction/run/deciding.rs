@@ -107,7 +107,9 @@ impl Prepared {
         let plant = self.plant.as_ref().filter(|plant| plant.initial_set.given()[0].is_none());
         let plant = plant.filter(|_| options.compare || self.gain.is_some());
         if let Some(plant) = plant.filter(|_| pool[0].goes_far() == Some(true)) {
-            watch.enter(Stage::Comparison);
+            if options.compare {
+                watch.enter(Stage::Comparison);
+            }
             let quick = || reduce_by_norms_quickly(plant).ok().map(|found| Box::new((found.spec, found.proposal)));
             if let Some((spec, proposal)) = self.quick.get_or_init(quick).as_deref() {
                 pool.push(Member::new(spec, Some(proposal), options));
@@ -381,6 +383,12 @@ impl Run<'_> {
         if let Some(found) = self.by_count_mut() {
             found.checked = true;
         }
+    }
+
+    /// Whether its certificate says something by the number of oscillators.
+    #[must_use]
+    pub fn says_by_count(&self) -> bool {
+        self.by_count().is_some_and(|found| found.checked)
     }
 
     pub(super) fn by_count(&self) -> Option<&ByCount> {
