@@ -81,7 +81,7 @@ impl CertifyOptions {
         self
     }
 
-    /// Whether what else would give is worked out too, as bounds at larger gains and what intervals of parameters cost, of a plant the bounds by the
+    /// Whether what else would give is worked out too, as bounds at larger gains and what intervals of parameters cost, for a plant also the bounds by the
     /// number of oscillators, and the repaired derivation, whose free numbers are in the certificate (default: yes). Without it a run is faster, and
     /// the claim is the same or nearly so. Bounds by the number of oscillators are worked out without it where a limit needs them.
     #[must_use]

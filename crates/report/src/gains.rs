@@ -17,7 +17,8 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
                 `certify --sigma V -o FILE` writes a certificate, and `sampling` lists the longest sampling periods of such gains.";
     let own = match &run.by_count {
         Some(ByCount { proof: CountProof::Trials { .. }, .. }) => {
-            " The first row counts the bounds by the number of oscillators, the others do not: theirs may be far smaller, too."
+            " Only the first row counts the bounds by the number of oscillators. Those at the other gains are in the reports of these gains, and may be \
+             far smaller than these rows."
         }
         _ => "",
     };

@@ -250,10 +250,10 @@ pub(super) const SLOWER: &str = "a smaller rate, or fewer oscillators";
 
 /// What may keep a control of a plant within an actuator where the conditions of the claim do not; `None` where nothing is proved by the number of
 /// oscillators, or another limit is meant.
-pub(super) fn by_count(which: Limited, spec: &Specification) -> Option<&'static str> {
+fn by_count(which: Limited, spec: &Specification) -> Option<&'static str> {
     let has_bounds = spec.plant().is_some() && spec.internal_model.matched && !spec.disturbances.any();
     (which == Limited::Actuator && has_bounds).then_some(
-        "--max-control in the place of `actuator`: there the bounds by the number of oscillators count, which may be far smaller",
+        "--max-control in the place of `actuator`: there the bounds by the number of oscillators count, where some are proved, and these may be far smaller",
     )
 }
 

@@ -98,7 +98,7 @@ pub struct CertifyArgs {
     pub precision_limit: u32,
 
     /// Leave out what other choices would give: bounds at larger gains, what intervals of parameters cost, a limit that can be kept, a smaller
-    /// initial set where a plant is not certified; of a plant the bounds by the number of oscillators, unless a limit such as `--peak-error` needs
+    /// initial set where a plant is not certified; for a plant also the bounds by the number of oscillators, unless a limit such as `--peak-error` needs
     /// them; and, in a whole report and a certificate, the search of the paper's derivations
     #[arg(long, alias = "no-compare")]
     pub no_alternatives: bool,

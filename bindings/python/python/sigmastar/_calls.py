@@ -120,8 +120,8 @@ def certify(
     - `rate`: certify a gain with which the rates for the numbers of `n_o` are at least this, in 1/time (the smallest found);
     - `transfer`: the proof of the transfer bound, `best`, `boxes` or `closed-form`;
     - `precision_limit`: the precision in bits at which an undecided condition is given up;
-    - `compare`: whether what else would give is worked out too, as bounds at larger gains, of a plant the bounds by the number of
-      oscillators (without it only where a limit needs them), and the repaired derivation, for the report and the certificate.
+    - `compare`: whether what else would give is worked out too, as bounds at larger gains, for a plant also the bounds by the number of
+      oscillators (with `compare=False` only where a limit needs them), and the repaired derivation, for the report and the certificate.
 
     Raises InputError where the document or an option is wrong, UndecidedError where nothing is claimed either way, RefutedError
     where what was asked for is proved not to hold, and OSError for a file that cannot be read.

@@ -39,12 +39,9 @@ const PRECISION: u32 = 256;
 /// # Errors
 /// Reports a field that is missing or unknown, limits that are not symmetric, and a number that is not positive.
 pub fn read_actuator(value: &Value<'_>, names: &Definitions, errors: &mut Errors) -> Result<Actuator, Reported> {
-    if let Some(max) = value.text().or_else(|| value.numeral()) {
-        let error = value.error(ErrorKind::Type, format!("{} is {}", value.name(), value.type_name()));
-        let help = format!("write `{{ \"max\": \"{}\" }}`: |u| up to it is put out as it is", shown(max));
-        return Err(errors.report(error.expected("expected an object").help(help)));
-    }
-    let mut object = value.object(errors)?;
+    let max = value.text().or_else(|| value.numeral()).map_or("30".into(), shown);
+    let help = format!("write `{{ \"max\": \"{max}\" }}`: |u| up to it is put out as it is");
+    let mut object = value.object_or(&help, errors)?;
     if let Some(min) = value.member("min") {
         let error = min.error(ErrorKind::Range, "the limits of an actuator are symmetric here: |u| is at most `max`");
         let help = "for limits from LO to HI let u be measured from their middle: the middle (LO + HI)/2, times the gain of the actuator, goes into `q` \

@@ -432,11 +432,6 @@ impl<'d> Value<'d> {
         (data, digest)
     }
 
-    /// Whether the value is an object.
-    pub fn is_object(&self) -> bool {
-        matches!(self.node.content, Content::Object(_))
-    }
-
     /// The member of an object, if the value is one and has it.
     pub fn member(&self, name: &str) -> Option<Value<'d>> {
         self.raw_members().iter().find(|member| member.key == name).map(|member| self.of_member(member))

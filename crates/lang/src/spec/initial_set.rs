@@ -37,12 +37,8 @@ fn read_kinds(
     names: &Definitions,
     errors: &mut Errors,
 ) -> Result<(InitialSet, Option<Constant>), Reported> {
-    if let Some(kind) = value.text() {
-        let error =
-            value.error(ErrorKind::Type, format!("{} is a string", value.name())).expected("expected an object");
-        return Err(errors.report(error.help(format!("write `{{ \"kind\": \"{}\" }}`", shown(kind)))));
-    }
-    let mut object = value.object(errors)?;
+    let help = format!("write `{{ \"kind\": \"{}\" }}`", value.text().map_or("aligned".into(), shown));
+    let mut object = value.object_or(&help, errors)?;
     let kind = object.required("kind", errors);
     // Without a kind the other fields have no meaning to check.
     let kind =

@@ -5,21 +5,19 @@ use super::period::Period;
 use rug::Rational;
 use sigmastar_exact::number::{parse_decimal, write_exact};
 
-/// By how much, relative, a base frequency in another unit may be off, as of a period that is rounded.
-const NEAR: f64 = 0.01;
-
-/// Other units of a frequency: what stands over the period, and what that is.
-const UNITS: [(f64, &str); 3] = [
-    (1.0, "1/period, a frequency in cycles per unit of time (Hz)"),
-    (60.0, "60/period, a frequency in revolutions per minute if time is in seconds"),
-    (360.0, "360/period, a frequency in degrees per unit of time"),
+/// Other units of a frequency: what stands over the period; by how much of it a number may be off, as of a period that is rounded, short of what may be a
+/// harmonic or half of one (57 times 2 pi is 358.1, 19/2 times 2 pi is 59.7); and what that is.
+const UNITS: [(f64, f64, &str); 3] = [
+    (1.0, 0.01, "1/period, a frequency in cycles per unit of time (Hz)"),
+    (60.0, 0.004, "60/period, a frequency in revolutions per minute if time is in seconds"),
+    (360.0, 0.004, "360/period, a frequency in degrees per unit of time"),
 ];
 
 /// What a base frequency is that is about 2 pi/period in another unit.
 #[must_use]
 pub fn in_another_unit(frequency: &Constant, period: &Constant) -> Option<&'static str> {
     let turns = frequency.to_f64() * period.to_f64();
-    UNITS.iter().find(|(turn, _)| (turns / turn - 1.0).abs() < NEAR).map(|(_, unit)| *unit)
+    UNITS.iter().find(|(turn, near, _)| (turns / turn - 1.0).abs() < *near).map(|(_, _, unit)| *unit)
 }
 
 /// 2 pi/period as it is written.
@@ -114,10 +112,12 @@ mod tests {
         for (frequencies, meant) in [
             (["50", "49.9"], Some("(Hz)")),
             (["3000", "2990"], Some("revolutions per minute")),
-            (["18000", "18100"], Some("degrees")),
+            (["18000", "18050"], Some("degrees")),
             (["100*pi", "314"], None),
             (["25", "51"], None),
             (["2900", "9000"], None),
+            // Harmonics, and half of one.
+            (["57*100*pi", "19*50*pi"], None),
         ] {
             for frequency in frequencies {
                 let found = unit(frequency);

@@ -44,6 +44,20 @@ impl<'d> Value<'d> {
             _ => Err(self.wrong_type("an object", errors)),
         }
     }
+
+    /// The same where something else often stands in its place: `help` says what to write.
+    ///
+    /// # Errors
+    /// Reports a value that is not an object.
+    pub fn object_or(&self, help: &str, errors: &mut Errors) -> Result<Object<'d>, Reported> {
+        match self.node.content {
+            Content::Object(_) => Ok(Object::new(self.clone())),
+            _ => {
+                let error = self.error(ErrorKind::Type, format!("{} is {}", self.name(), self.type_name()));
+                Err(errors.report(error.expected("expected an object").help(help)))
+            }
+        }
+    }
 }
 
 impl<'d> Object<'d> {

@@ -288,7 +288,7 @@ fn prove_matched(
     };
     if let Some(unit) = in_another_unit(frequency, period) {
         let help = format!(
-            "this is {unit}; the base frequency is in radians per unit of time, 2*pi/period, which is `{right}`"
+            "this is about {unit}; the base frequency is in radians per unit of time, 2*pi/period, which is `{right}`"
         );
         return Err(errors.report(error.help(help)));
     }

@@ -16,12 +16,8 @@ pub const MAX_WEIGHTS: usize = 1000;
 /// Reports what cannot be read, an explicit list without a tail, and the first condition that fails (naming its l and
 /// the numbers) or cannot be decided.
 pub(super) fn read(value: &Value<'_>, errors: &mut Errors) -> Result<Weights, Reported> {
-    if !value.is_object() {
-        let error = value.error(ErrorKind::Type, format!("{} is {}", value.name(), value.type_name()));
-        let help = "write `{ \"family\": \"power\", \"n0\": \"2\", \"epsilon\": \"1/2\" }`, or `{ \"family\": \"explicit\", \"values\": [...], \"tail\": ... }`";
-        return Err(errors.report(error.expected("expected an object").help(help)));
-    }
-    let mut object = value.object(errors)?;
+    let help = "write `{ \"family\": \"power\", \"n0\": \"2\", \"epsilon\": \"1/2\" }`, or `{ \"family\": \"explicit\", \"values\": [...], \"tail\": ... }`";
+    let mut object = value.object_or(help, errors)?;
     let family = object.required("family", errors);
     let family = family.and_then(|value| choose(&value, "family of weights", &["power", "explicit"], errors));
     // Without a family the other fields have no meaning to check.

@@ -30,7 +30,7 @@ fn unmatched(model: &InternalModel, period: &Period) -> Option<String> {
     let frequency = &model.base_frequency;
     let unit = in_another_unit(frequency, period.nominal()).filter(|_| !model.matched)?;
     Some(format!(
-        "the base frequency {} is {unit}: the oscillators then meet no harmonic; in radians per unit of time it is {}, with `matched`",
+        "the base frequency {} is about {unit}: if that is meant, the oscillators miss the harmonics; in radians per unit of time it is {}, with `matched`",
         frequency.text,
         matched_frequency(period.nominal())
     ))

@@ -80,9 +80,9 @@ pub fn reduce_sampled(
     })
 }
 
-/// What is missing where a gain is given with h sigma above 1: no gain is certified so, whatever else a search fails at.
+/// What is missing where a gain is given with h sigma certainly above 1: no gain is certified so, whatever else a search fails at.
 fn beyond_the_hold(sampling: &spec::Sampling, gain: Option<&Rational>) -> Option<PlantRefusal> {
-    let sigma = gain.filter(|gain| !sampling.fits(gain).is_true())?.to_f64();
+    let sigma = gain.filter(|gain| sampling.fits(gain).is_false())?.to_f64();
     Some(PlantRefusal::NoGain(Failing::Hold { sigma, largest: sampling.step.to_f64().recip(), given: true }.into()))
 }
 

@@ -11,6 +11,7 @@ use rug::Rational;
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{Document, ProvedValue, Specification};
 use sigmastar_propose::search::{Failing, Obstacle, SharpProposal};
+use std::cell::RefCell;
 use std::path::Path;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -218,6 +219,30 @@ fn a_limit_rests_on_what_the_checker_decides() {
     let (certified, outcome) = asked(true);
     let Outcome::NotFound(Obstacle { failing, .. }) = outcome else { panic!("a claim is left") };
     assert!(!certified && matches!(failing, Failing::NotDecidedAgain { refused: false, .. }), "{failing:?}");
+}
+
+/// What takes long is sought for a claim that the checker decides alone, and is left out of the certificate where it gives up on that.
+#[test]
+fn bounds_by_the_number_of_oscillators_are_added_to_a_decided_claim() {
+    let document = Document::parse("plant", &plant_with(r#""initial_set":{"kind":"aligned","X0":"1/2","E0":"1/2"},"#));
+    let subject = Subject::read(&document.unwrap()).unwrap();
+    let options = Options::default();
+    let prepared = Prepared::seeking(&subject, None, (&Limits::default(), &[]), options, &Unwatched).unwrap();
+    // The checks in turn, whether each was of a claim with such bounds; and whether there is a claim, with bounds that are decided.
+    let with = |gives_up: fn(bool) -> bool| {
+        let seen = RefCell::new(Vec::new());
+        let check = |run: &Run<'_>| {
+            seen.borrow_mut().push(run.says_by_count());
+            if gives_up(run.says_by_count()) { Checked::GivenUp } else { Checked::Decided }
+        };
+        let run = prepared.certify_checked(options, &check, &Unwatched).unwrap();
+        let Run::Continuous(run) = run else { panic!("in continuous time") };
+        (seen.into_inner(), run.claim().is_some(), run.by_count.as_ref().map(|found| found.checked))
+    };
+    assert_eq!(with(|_| false), (vec![false, true], true, Some(true)));
+    assert_eq!(with(|says_by_count| says_by_count), (vec![false, true], true, Some(false)));
+    let (seen, is_certified, found) = with(|_| true);
+    assert!(!seen.is_empty() && !seen.contains(&true) && !is_certified && found.is_none(), "{seen:?} {found:?}");
 }
 
 /// What is in the way of an initial set is told at it; of a set whose sizes are open, which is the smallest, nothing smaller is asked for.
