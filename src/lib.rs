@@ -83,7 +83,7 @@ pub use api::{
     DesignOptions, Diagnostic, Error, ErrorKind, InitialSet, JacobianEntry, OscillatorShare, PeriodicSolution,
     RegulatorMatrices, Report, ReportFormat, SampledRegulator, Samples, SamplingPairs, Specification,
     SpecificationBuilder, Study, StudyCase, Subject, TransferBound, TransferChoice, TransferOptions, TransferStudy,
-    TuneGoal, TuneOptions, Tuned, VERSION, Verdict, bounding_specification, certify, check, check_against, design,
+    TuneGoal, TuneOptions, Tuned, VERSION, Verdict, bounding_specification, certify, certify_telling, check, check_against, design,
     lyapunov, regulator_matrices, reread, sampled_regulator, sampling, transfer_bound, transfer_study, tune,
 };
 #[cfg(feature = "lab")]

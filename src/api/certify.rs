@@ -10,8 +10,10 @@ use super::report::Report;
 use super::subject::Subject;
 use sigmastar_prove::certificate::certificate_of;
 use sigmastar_prove::certify::Options;
-use sigmastar_prove::reduction::{Checked, Prepared, Run, Subject as Read, Unwatched, Watch, at_samples};
+use sigmastar_prove::reduction::{Checked, Prepared, Run, Stage, Subject as Read, Unwatched, Watch, at_samples};
 use sigmastar_report::run_sentence;
+use std::fmt;
+use std::sync::{Mutex, PoisonError};
 
 /// Certifies a specification or a plant: a Lyapunov triple for a Jacobian or the orbit and bounds of a plant, the search for a
 /// small gain, and the rigorous decision of every condition.
@@ -34,10 +36,48 @@ use sigmastar_report::run_sentence;
 ///
 /// [`Error::verdict`] is the verdict of the program.
 pub fn certify(subject: impl Into<Subject>, options: &CertifyOptions) -> Result<Certificate, Error> {
-    run(&subject.into(), options)
+    run(&subject.into(), options, (&Unwatched, &|_| {}))
 }
 
-fn run(subject: &Subject, options: &CertifyOptions) -> Result<Certificate, Error> {
+/// [`certify`], which tells what it is at: a phrase for each stage as it begins, as "proving the bounds of the formulas". A stage may come again. Nothing
+/// that is found depends on it.
+///
+/// # Errors
+/// Those of [`certify`].
+pub fn certify_telling(
+    subject: impl Into<Subject>,
+    options: &CertifyOptions,
+    tell: &(dyn Fn(&str) + Sync),
+) -> Result<Certificate, Error> {
+    let telling = Telling { tell, last: Mutex::new(None) };
+    run(&subject.into(), options, (&telling, &|next| tell(&next.to_string())))
+}
+
+/// Tells a stage when it begins.
+struct Telling<'t> {
+    tell: &'t (dyn Fn(&str) + Sync),
+    last: Mutex<Option<Stage>>,
+}
+
+impl Watch for Telling<'_> {
+    fn enter(&self, stage: Stage) {
+        let last = self.last.lock().unwrap_or_else(PoisonError::into_inner).replace(stage);
+        if last != Some(stage) {
+            (self.tell)(&stage.to_string());
+        }
+    }
+
+    fn part(&self, _: usize, _: usize) {}
+
+    fn tried(&self, _: usize) {}
+
+    fn searched(&self, _: usize, _: usize, _: usize) {}
+}
+
+/// Who is told of the stages, and of those that follow the claim.
+type Told<'t> = (&'t dyn Watch, &'t dyn Fn(Afterwards));
+
+fn run(subject: &Subject, options: &CertifyOptions, (watch, begin): Told<'_>) -> Result<Certificate, Error> {
     let Asked { options, gain, step, counts, limits } = options.checked()?;
     let asked = match &step {
         None => subject.clone(),
@@ -51,9 +91,9 @@ fn run(subject: &Subject, options: &CertifyOptions) -> Result<Certificate, Error
     if let Some([message, help]) = options.misfit(kind, "`transfer`") {
         return Err(Error::new(ErrorKind::Options, message, &help));
     }
-    let prepared = Prepared::seeking(&asked.read, gain, (&limits, &counts), options, &Unwatched)
+    let prepared = Prepared::seeking(&asked.read, gain, (&limits, &counts), options, watch)
         .map_err(|all| Error::documents(&all))?;
-    let run = decided(&prepared, (options, &counts), "`n_o`", &Unwatched, &|_| {})?;
+    let run = decided(&prepared, (options, &counts), "`n_o`", watch, begin)?;
     Certificate::new(&run, &asked, false).ok_or_else(|| not_certified(&run))
 }
 
@@ -64,6 +104,15 @@ pub enum Afterwards {
     Rates,
     /// The certificate with these rates, by the independent checker.
     Checked,
+}
+
+impl fmt::Display for Afterwards {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Afterwards::Rates => "proving rates",
+            Afterwards::Checked => "letting the independent checker decide",
+        })
+    }
 }
 
 /// The claim of what is prepared, decided and decided again by the independent checker, with rates for these numbers of oscillators, whose

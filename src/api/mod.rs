@@ -34,7 +34,7 @@ mod tune;
 
 pub use bound::{BoundedPlant, bounding_specification};
 pub use certificate::{Certificate, Claim, InitialSet, PeriodicSolution, Samples};
-pub use certify::certify;
+pub use certify::{certify, certify_telling};
 pub use check::{CheckReport, CheckVerdict, check, check_against};
 pub use condition::Condition;
 pub use design::{Design, DesignOptions, design};

@@ -9,6 +9,9 @@ use sigmastar_lang::spec::Sampling;
 use sigmastar_prove::reduction::{Subject as Read, with_sampled_pairs};
 use sigmastar_studies::sampling::{OfPlant, OfSpecification, SamplingReport, SamplingStudy, Unfit, sampling_figure};
 
+/// What the two lists are called in errors.
+const NAMES: [&str; 2] = ["sampling_period", "sigma"];
+
 /// Certified pairs of a gain and a sampling period.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
@@ -33,6 +36,15 @@ impl SamplingPairs {
     #[must_use]
     pub fn has_pair(&self) -> bool {
         self.study.has_pair()
+    }
+
+    /// The longest sampling periods for gains, positive rational numbers.
+    pub(super) fn of_gains(subject: Read, sigmas: &[&str]) -> Result<SamplingPairs, Error> {
+        pairs_of(subject, [None, Some(sigmas)], NAMES, |_| {})
+    }
+
+    pub(super) fn study(&self) -> &SamplingStudy {
+        &self.study
     }
 
     /// The certified pairs, drawn, for the program.
@@ -62,7 +74,7 @@ pub fn sampling(
     periods: Option<&[&str]>,
     sigmas: Option<&[&str]>,
 ) -> Result<SamplingPairs, Error> {
-    pairs_of(subject.into().read, [periods, sigmas], ["sampling_period", "sigma"], |_| {})
+    pairs_of(subject.into().read, [periods, sigmas], NAMES, |_| {})
 }
 
 /// [`sampling`] of a document that was read, with the names of the two lists; what `waiting` returns of a part is dropped after it.

@@ -14,6 +14,8 @@ use sigmastar::{DesignOptions, Error, Verdict};
 const NAMES: DesignNames = DesignNames {
     asked: ["--n-o", "--sigma", "--sampling-period"],
     required: ["--steady-error", "--peak-error", "--max-control", "--settle", "--noise"],
+    choose: "--choose",
+    sampling_periods: "--sampling-periods",
 };
 
 /// Runs the command and returns the exit code.
@@ -65,7 +67,10 @@ fn options(args: &DesignArgs) -> Result<DesignOptions, Failure> {
         (&args.noise, DesignOptions::noise),
         (&args.sampling_period, DesignOptions::sampling_period),
     ];
-    let mut options = DesignOptions::new().simulate(!args.no_simulation);
+    let mut options = DesignOptions::new().simulate(!args.no_simulation).sampling_periods(args.sampling_periods);
+    if let Some(numbers) = &args.choose {
+        options = options.choose(numbers);
+    }
     if let Some(counts) = &args.n_o {
         options = options.n_o(finite_counts(counts)?);
     }

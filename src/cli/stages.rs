@@ -44,20 +44,13 @@ impl Step {
 
 impl fmt::Display for Step {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Step::Of(Stage::Orbit) => "finding and proving the periodic orbit",
-            Step::Of(Stage::Coordinates) => "choosing coordinates and a gain over samples",
-            Step::Of(Stage::Bounds) => "proving the bounds of the formulas",
-            Step::Of(Stage::Metrics) => "proposing and proving joint metrics",
-            Step::Of(Stage::Triple) => "finding and proving the triple of the Jacobian",
-            Step::Of(Stage::Witness) => "searching the free numbers, deciding the conditions",
-            Step::Of(Stage::Limits) => "seeking a gain that keeps to what is asked for",
-            Step::Of(Stage::Comparison) => "working out what else would give (`--no-alternatives` leaves it out)",
-            Step::Decision => "deciding the conditions",
-            Step::After(Afterwards::Rates) => "proving rates",
-            Step::After(Afterwards::Checked) => "letting the independent checker decide",
-            Step::Figures => "simulating for the figures",
-        })
+        match self {
+            Step::Of(stage @ Stage::Comparison) => write!(f, "{stage} (`--no-alternatives` leaves it out)"),
+            Step::Of(stage) => stage.fmt(f),
+            Step::Decision => f.write_str("deciding the conditions"),
+            Step::After(next) => next.fmt(f),
+            Step::Figures => f.write_str("simulating for the figures"),
+        }
     }
 }
 

@@ -221,3 +221,81 @@ fn noise_and_data_of_no_plant_are_told() {
     assert!(text.contains("nothing is proved of these"), "{text}");
     program().arg("design").arg(&file).args(flags).assert().code(2).stderr(contains("nothing is proved of noise with"));
 }
+
+/// The longest sampling period of a row is certified with its gain, and is that of `sampling`.
+#[test]
+fn the_longest_sampling_period_of_each_gain() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = stored(folder.path(), "plant.json", &plant());
+    let flags = ["--sigma", "2,9", "--n-o", "0", "--no-simulation", "--sampling-periods"];
+    let report = design(&file, &flags, 0);
+    let pairs = program().arg("sampling").arg(&file).args(["--sigma", "2,9", "-q", "--format", "json"]).output().unwrap();
+    let pairs = json(&pairs.stdout);
+    for (index, row) in report["rows"].as_array().unwrap().iter().enumerate() {
+        let round = &row["longest_h"]["round"];
+        assert_eq!(round["sampling_period"], pairs["round"][index]["sampling_period"], "{row}");
+        let [longest, round_samples] = ["longest", "round"].map(|name| row["longest_h"][name]["samples"].as_u64().unwrap());
+        assert!(longest <= round_samples, "{row}");
+        let step = round["sampling_period"].as_str().unwrap();
+        let sigma = row["sigma"].as_str().unwrap();
+        let call = ["--sigma", sigma, "--sampling-period", step, "-q", "--no-alternatives"];
+        program().arg("certify").arg(&file).args(call).assert().code(0);
+    }
+    let (_, text) = told(program().arg("design").arg(&file).args(flags).arg("-q"));
+    let taken = report["rows"].as_array().unwrap().iter().find(|row| row["sigma"] == report["take"]["sigma"]).unwrap();
+    let step = taken["longest_h"]["round"]["sampling_period"].as_str().unwrap();
+    assert!(text.contains(&format!("At samples it is certified with the sampling period h = {step}")), "{text}");
+    // A gain that asks for more samples than are taken has none; of samples that are given nothing is asked.
+    let flags = ["--sigma", "100000", "--n-o", "0", "--no-simulation", "--sampling-periods"];
+    assert_eq!(design(&file, &flags, 0)["rows"][0]["longest_h"], Value::Null);
+    let (_, text) = told(program().arg("design").arg(&file).args(flags).arg("-q"));
+    assert!(text.contains("At samples nothing is certified with sigma = 100000"), "{text}");
+    let flags = ["--sampling-periods", "--sampling-period", "1/100"];
+    program().arg("design").arg(&file).args(flags).assert().code(2).stderr(contains("cannot be used with"));
+    let mut sampled = plant();
+    sampled["internal_model"]["sampling_period"] = json!("1/100");
+    let sampled = stored(folder.path(), "sampled.json", &sampled);
+    let call = program().arg("design").arg(&sampled).arg("--sampling-periods").assert();
+    call.code(2).stderr(contains("--sampling-periods: the table is about samples that are given"));
+}
+
+/// Of the values of mu that are tried the best one is in the certificate, and no better one was seen.
+#[test]
+fn values_of_free_numbers_are_chosen() {
+    let folder = tempfile::tempdir().unwrap();
+    let (file, output) = (stored(folder.path(), "plant.json", &plant()), folder.path().join("c.json"));
+    let required = ["--steady-error", "0.2", "--n-o", "2", "--sigma", "4,6", "--no-simulation"];
+    let report = design(&file, &[&required[..], &["--choose", "mu=1/8..2", "-o", output.to_str().unwrap()]].concat(), 0);
+    let tried = report["values"]["tried"].as_array().unwrap();
+    // Its own first, then those in the middle of four equal parts of the range in logarithms.
+    let values: Vec<&str> = tried.iter().map(|one| one["values"]["mu"].as_str().unwrap()).collect();
+    assert_eq!(values, ["1", "0.18", "0.35", "0.71", "1.4"]);
+    let taken = report["values"]["taken"]["mu"].as_str().unwrap();
+    let best = tried.iter().find(|one| one["values"]["mu"] == taken).unwrap();
+    let rate = |one: &Value| if one["rate"].is_null() { 0.0 } else { number(&one["rate"]) };
+    for one in tried {
+        let missed = |one: &Value| one["missed"].as_u64().unwrap();
+        assert!((missed(best), -rate(best)) <= (missed(one), -rate(one)), "{taken}: {one}");
+    }
+    assert!(rate(best) > rate(&tried[0]), "{tried:?}");
+    // The row is that of the file with this value, and so is the certificate.
+    let mut with = plant();
+    with["internal_model"]["mu"] = json!(taken);
+    let with = stored(folder.path(), "with.json", &with);
+    let same = design(&with, &required, 0);
+    assert_eq!((&same["rows"], &same["specification"]), (&report["rows"], &report["specification"]));
+    assert_eq!(read(&output)["plant"]["internal_model"]["mu"], taken);
+    assert_valid(&output);
+    let said = format!("with n_o = 2 and mu = {taken}: every requirement is proved to be met");
+    assert!(report["sentence"].as_str().unwrap().contains(&said), "{}", report["sentence"]);
+    // With the values of the file alone nothing is told of values, and it is the same file.
+    let plain = design(&file, &required, 0);
+    assert_eq!(plain["values"], Value::Null);
+    for (numbers, said) in [
+        ("nu", "--choose: `nu` is no number that can be tuned here"),
+        ("mu=2..1", "--choose: `2..1` is no range for `mu`"),
+        ("base_frequency", "--choose: the base frequency is not free"),
+    ] {
+        program().arg("design").arg(&file).args(["--choose", numbers]).assert().code(2).stderr(contains(said));
+    }
+}

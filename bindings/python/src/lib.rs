@@ -16,7 +16,7 @@ use sigmastar::{
 };
 use std::cell::RefCell;
 use told::answer;
-use work::outside;
+use work::{outside, outside_telling};
 
 /// A document: what errors call it, and its bytes.
 type File = (String, Vec<u8>);
@@ -70,9 +70,11 @@ impl Options {
 }
 
 #[pyfunction]
-fn certify(py: Python<'_>, file: File, options: Options) -> PyResult<Dict> {
+fn certify(py: Python<'_>, file: File, options: Options, progress: Option<Py<PyAny>>) -> PyResult<Dict> {
     let options = options.read()?;
-    outside(py, move || sigmastar::certify(subject(&file)?, &options).map(told::certificate))
+    outside_telling(py, progress, move |tell| {
+        sigmastar::certify_telling(subject(&file)?, &options, tell).map(told::certificate)
+    })
 }
 
 #[pyfunction]
@@ -117,11 +119,15 @@ struct Wanted {
     settle: Option<String>,
     noise: Option<String>,
     simulate: bool,
+    sampling_periods: bool,
+    choose: Option<String>,
 }
 
 impl From<Wanted> for DesignOptions {
     fn from(wanted: Wanted) -> DesignOptions {
         let options = DesignOptions::new().sigmas(wanted.sigmas).simulate(wanted.simulate);
+        let options = options.sampling_periods(wanted.sampling_periods);
+        let options = wanted.choose.into_iter().fold(options, DesignOptions::choose);
         let options = wanted.n_o.into_iter().fold(options, DesignOptions::n_o);
         let options = wanted.sampling_period.into_iter().fold(options, DesignOptions::sampling_period);
         let options = wanted.steady_error.into_iter().fold(options, DesignOptions::steady_error);

@@ -244,3 +244,33 @@ def test_an_interrupt_is_heard(tmp_path):
     time.sleep(0.3)
     process.send_signal(signal.SIGINT)
     assert process.wait(timeout=60) == 7
+
+
+def test_what_noise_does_is_a_part_of_a_rate():
+    plant = json.loads((ROOT / "specs" / "plants" / "linear.json").read_text())
+    plain = sigmastar.certify(plant, sigma=4, n_o=1, compare=False)
+    assert [(rate.noise_limit, rate.noise_peak) for rate in plain.rates] == [(None, None)]
+    plant["measurement"] = {"noise": "1/1000"}
+    noisy = sigmastar.certify(plant, sigma=4, n_o=1, compare=False)
+    (rate,) = noisy.rates
+    (row,) = json.loads(noisy.to_json())["claim"]["for_n_o"]
+    assert (rate.noise_limit.exact, rate.noise_peak.exact) == (row["noise"]["limit"], row["noise"]["peak"])
+    assert 0.001 < rate.noise_limit <= rate.noise_peak
+
+
+def test_the_stages_are_told():
+    told = []
+    plant = ROOT / "specs" / "plants" / "linear.json"
+    certificate = sigmastar.certify(plant, n_o=1, compare=False, progress=told.append)
+    assert told[0] == "finding and proving the periodic orbit" and told[-1] == "letting the independent checker decide"
+    assert "proving rates" in told
+    assert certificate.to_json() == sigmastar.certify(plant, n_o=1, compare=False).to_json()
+
+    class Enough(Exception):
+        pass
+
+    def stop(_):
+        raise Enough
+
+    with pytest.raises(Enough):
+        sigmastar.certify(plant, progress=stop)

@@ -34,3 +34,19 @@ def test_the_table_as_a_table_of_pandas():
     pytest.importorskip("pandas")
     table = sigmastar.design(PLANT, n_o=[0, 1], sigmas=[2], simulate=False).to_dataframe()
     assert list(table["n_o"]) == [0, 1] and (table["peak_error"] >= table["steady_error"]).all()
+
+
+def test_numbers_are_chosen_and_sampling_periods_told(program):
+    design = sigmastar.design(
+        PLANT, n_o=1, sigmas=[4], simulate=False, choose={"mu": ("1/2", 4)}, sampling_periods=True
+    )
+    call = ("design", PLANT, "--n-o", "1", "--sigma", "4", "--no-simulation", "--choose", "mu=1/2..4", "--sampling-periods", "--quiet")
+    assert design.report("json").encode() == program(*call, "--format", "json")[1]
+    assert design.values == design.data["values"]["taken"] and set(design.values) == {"mu"}
+    (row,) = design.rows
+    h = row["longest_h"]
+    assert sigmastar.certify(design.certificate, sigma=4, sampling_period=h, compare=False).samples.period == h
+    plain = sigmastar.design(PLANT, n_o=1, sigmas=[4], simulate=False)
+    assert plain.values == {} and "longest_h" not in plain.rows[0]
+    with pytest.raises(sigmastar.InputError, match="did you mean `mu`"):
+        sigmastar.design(PLANT, choose="mo")

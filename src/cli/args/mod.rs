@@ -45,7 +45,8 @@ const DESIGN_EXAMPLES: &str = "Examples:
   sigmastar design plant.json
   sigmastar design plant.json --steady-error 0.01 --peak-error 2 --max-control 50 -o plant.certificate.json
   sigmastar design plant.json --steady-error 0.01 --settle 20 --n-o 0,2,4,6
-  sigmastar design plant.json --sigma 20,40,80 --sampling-period 1/1000";
+  sigmastar design plant.json --sigma 20,40,80 --sampling-period 1/1000
+  sigmastar design plant.json --steady-error 0.01 --choose mu --sampling-periods";
 
 /// Examples of `sampling`.
 const SAMPLING_EXAMPLES: &str = "Examples:

@@ -46,6 +46,15 @@ pub struct DesignArgs {
     #[arg(long, value_name = "H")]
     pub sampling_period: Option<String>,
 
+    /// Show the longest sampling period that is certified with each gain, too
+    #[arg(long, conflicts_with = "sampling_period")]
+    pub sampling_periods: bool,
+
+    /// Choose these numbers of the file: mu, n0, epsilon and others, as `tune --over` names them, each with a range if wanted, `mu=1/10..10`; a table is made
+    /// of the values of the file and of four others of each number in turn, and the best one is shown (usual range of mu, with the period T: 1/T..8/T)
+    #[arg(long, value_name = "LIST")]
+    pub choose: Option<String>,
+
     /// Leave the simulations beside the proved numbers out
     #[arg(long)]
     pub no_simulation: bool,

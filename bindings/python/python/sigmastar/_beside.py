@@ -143,8 +143,16 @@ class Design(Reported):
     @property
     def rows(self) -> List[Dict[str, Any]]:
         """The cells of the table, each with its `sigma`: `n_o`, `steady_error`, `peak_error`, `max_control`, `rate`, `factor`, `settle`, `noise`, of
-        which each is text or None, and `not_in_certificate` and `simulated` (docs/formats.md)."""
-        return [{"sigma": row["sigma"], **cell} for row in self.data["rows"] for cell in row["cells"]]
+        which each is text or None, and `not_in_certificate` and `simulated` (docs/formats.md); with `sampling_periods` also `longest_h`, of the
+        regulator at samples: the longest round sampling period that is certified with the gain, or None."""
+        return [
+            {"sigma": row["sigma"], **_longest(row), **cell} for row in self.data["rows"] for cell in row["cells"]
+        ]
+
+    @property
+    def values(self) -> Dict[str, str]:
+        """The values of the numbers that were chosen, exactly; all else is about the document with these."""
+        return dict((self.data["values"] or {}).get("taken") or {})
 
     def to_dataframe(self) -> DataFrame:
         """The table of pandas, which has to be installed: proved numbers rounded to their side."""
@@ -161,6 +169,13 @@ class Design(Reported):
     def __repr__(self) -> str:
         met = "" if self.is_met else ", not all that is required"
         return f"<Design: sigma={self.sigma.exact}, n_o={self.n_o}{met}>"
+
+
+def _longest(row: Dict[str, Any]) -> Dict[str, Optional[str]]:
+    if "longest_h" not in row:
+        return {}
+    found = row["longest_h"]
+    return {"longest_h": found and (found["round"] or found["longest"])["sampling_period"]}
 
 
 @dataclass(frozen=True, repr=False)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from typing import Iterable, List, Literal, Mapping, NamedTuple, Optional, Tuple, Union, overload
+from typing import Callable, Iterable, List, Literal, Mapping, NamedTuple, Optional, Tuple, Union, overload
 
 from . import _native
 from ._beside import BoundedPlant, Design, Lyapunov, SamplingPairs, Tuning
@@ -50,6 +50,8 @@ class _Wanted(NamedTuple):
     settle: Optional[str]
     noise: Optional[str]
     simulate: bool
+    sampling_periods: bool
+    choose: Optional[str]
 
 
 class _Run(NamedTuple):
@@ -76,6 +78,7 @@ def certify(
     transfer: Transfer = ...,
     precision_limit: int = ...,
     compare: bool = ...,
+    progress: Optional[Callable[[str], object]] = ...,
 ) -> Certificate: ...
 @overload
 def certify(
@@ -91,6 +94,7 @@ def certify(
     transfer: Transfer = ...,
     precision_limit: int = ...,
     compare: bool = ...,
+    progress: Optional[Callable[[str], object]] = ...,
 ) -> SampledCertificate: ...
 def certify(
     document: Union[Certificate, Document],
@@ -105,6 +109,7 @@ def certify(
     transfer: Transfer = "best",
     precision_limit: int = _native.LARGEST_PRECISION_LIMIT,
     compare: bool = True,
+    progress: Optional[Callable[[str], object]] = None,
 ) -> Certificate:
     """Certifies a bounding specification or a plant: a path, or the document as a dictionary; of a certificate what it is about, anew.
 
@@ -121,14 +126,15 @@ def certify(
     - `transfer`: the proof of the transfer bound, `best`, `boxes` or `closed-form`;
     - `precision_limit`: the precision in bits at which an undecided condition is given up;
     - `compare`: whether what else would give is worked out too, as bounds at larger gains, for a plant also the bounds by the number of
-      oscillators (with `compare=False` only where a limit needs them), and the repaired derivation, for the report and the certificate.
+      oscillators (with `compare=False` only where a limit needs them), and the repaired derivation, for the report and the certificate;
+    - `progress`: called with a phrase as each stage begins, `progress=print`, say; what it raises ends the call.
 
     Raises InputError where the document or an option is wrong, UndecidedError where nothing is claimed either way, RefutedError
     where what was asked for is proved not to hold, and OSError for a file that cannot be read.
     """
     limits = (_maybe(steady_error), _maybe(peak_error), _maybe(max_control), _maybe(rate))
     options = _Options(transfer, precision_limit, compare, _maybe(sigma), _maybe(sampling_period), _counts(n_o), *limits)
-    return _certificate(found(_native.certify(_asked(document), options)))
+    return _certificate(found(_native.certify(_asked(document), options, progress)))
 
 
 def load(path: Union[str, "os.PathLike[str]"]) -> Certificate:
@@ -208,6 +214,8 @@ def design(
     sigmas: Iterable[Number] = (),
     sampling_period: Optional[Number] = None,
     simulate: bool = True,
+    sampling_periods: bool = False,
+    choose: Union[str, Iterable[str], Mapping[str, Optional[Tuple[Number, Number]]]] = (),
 ) -> Design:
     """Proves what several gains give with several numbers of oscillators, beside what is required, and names the pair to take, as
     `sigmastar design`. Each row is a claim of its own that the independent checker has decided.
@@ -219,15 +227,29 @@ def design(
     - `n_o`: the numbers of oscillators of the table (0, 1, 2, 3 and 5);
     - `sigmas`: its gains, in the place of the smallest one and multiples of it;
     - `sampling_period`: the regulator at samples this far apart;
-    - `simulate`: whether simulations of the nominal plant stand beside the proved numbers.
+    - `simulate`: whether simulations of the nominal plant stand beside the proved numbers;
+    - `sampling_periods`: whether the longest sampling period that is certified with each gain stands beside it;
+    - `choose`: numbers of the document that are to be chosen, as `over` of `tune`: a table is made with its values and with four others of
+      each number in turn, and the answer is about the best. The certificate has these values.
 
     Raises what `certify` raises; where something required is not proved to be met the answer is false.
     """
     required = (_maybe(steady_error), _maybe(peak_error), _maybe(max_control), _maybe(settle), _maybe(noise))
     gains = [text(sigma) for sigma in sigmas]
-    wanted = _Wanted(None if n_o is None else _counts(n_o), gains, _maybe(sampling_period), *required, simulate)
+    numbers = _names(choose) or None
+    wanted = _Wanted(
+        None if n_o is None else _counts(n_o), gains, _maybe(sampling_period), *required, simulate, sampling_periods, numbers
+    )
     told = found(_native.design(_asked(document), wanted))
     return Design(stated(told["sigma"]), told["n_o"], told["is_met"], _certificate(told["certificate"]), told["reports"])
+
+
+def _names(over: Union[str, Iterable[str], Mapping[str, Optional[Tuple[Number, Number]]]]) -> str:
+    """Names of numbers, each with its range where it has one, as the program reads them."""
+    if isinstance(over, Mapping):
+        ranges = {name: "" if ends is None else f"={text(ends[0])}..{text(ends[1])}" for name, ends in over.items()}
+        over = [name + ends for name, ends in ranges.items()]
+    return over if isinstance(over, str) else ",".join(over)
 
 
 def tune(
@@ -250,10 +272,7 @@ def tune(
     """
     if minimise not in ("sigma_star", "feedback"):
         raise ValueError(f"minimise: {minimise!r} is none of 'sigma_star', 'feedback'")
-    if isinstance(over, Mapping):
-        ranges = {name: "" if ends is None else f"={text(ends[0])}..{text(ends[1])}" for name, ends in over.items()}
-        over = [name + ends for name, ends in ranges.items()]
-    names = over if isinstance(over, str) else ",".join(over)
+    names = _names(over)
     at = None if error_at is None else _count(error_at)
     told = found(_native.tune(_asked(document), names, minimise == "feedback", at, _count(tries, "tries")))
     return Tuning(told["has_claim"], told["document"], told["reports"])

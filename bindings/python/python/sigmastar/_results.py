@@ -78,9 +78,10 @@ class ErrorBound(Shown):
 @dataclass(frozen=True, repr=False)
 class ClaimedRate(Shown):
     """What the claim says of one number of oscillators, at its gain alone: `|e - e_per| <= factor exp(-rate (t - t_0))`
-    in the undisturbed loop; at samples at the sampling instants."""
+    in the undisturbed loop; at samples at the sampling instants. With the noise, disturbance and rounding of the document
+    `|e - e_per|` is at most `noise_limit` in the end and `noise_peak` at all times."""
 
-    _sides = {"rate": "down", "factor": "up"}
+    _sides = {"rate": "down", "factor": "up", "noise_limit": "up", "noise_peak": "up"}
 
     n_o: int
     """The number of oscillators."""
@@ -88,6 +89,10 @@ class ClaimedRate(Shown):
     """The rate, in 1/time, rounded down."""
     factor: Exact
     """The factor, for every start in the initial set, rounded up."""
+    noise_limit: Optional[Exact] = None
+    """Rounded up; None where the document states nothing of this kind, or nothing is proved."""
+    noise_peak: Optional[Exact] = None
+    """Rounded up; None where `noise_limit` is."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -142,8 +147,7 @@ class Certificate(Reported):
     @property
     def rates(self) -> List[ClaimedRate]:
         """What `certify` was asked with `n_o`."""
-        rows = self.data.get("for_n_o") or []
-        return [ClaimedRate(row["n_o"], stated(row["rate"], "down"), stated(row["factor"], "up")) for row in rows]
+        return [_rate(row) for row in self.data.get("for_n_o") or []]
 
     def plot(self, ax: Optional[Axes] = None) -> Axes:
         """The bounds of the error against the number of oscillators, with matplotlib, which has to be installed."""
@@ -232,6 +236,12 @@ class TransferBound(Reported):
 
     def __repr__(self) -> str:
         return f"<TransferBound: k0={digits(self.k0, 'up')}, k1={digits(self.k1, 'up')}>"
+
+
+def _rate(row: Dict[str, Any]) -> ClaimedRate:
+    noise = row.get("noise") or {}
+    limit, peak = (None if noise.get(name) is None else stated(noise[name], "up") for name in ("limit", "peak"))
+    return ClaimedRate(row["n_o"], stated(row["rate"], "down"), stated(row["factor"], "up"), limit, peak)
 
 
 def exact(told: Optional[Tuple[float, str]]) -> Any:

@@ -1,5 +1,6 @@
 //! What a run is at, for whoever waits for it. Nothing that is worked out depends on it.
 
+use std::fmt;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// A part of the way from a document to a decided claim.
@@ -21,6 +22,21 @@ pub enum Stage {
     Limits,
     /// What other data would give, beside the claim.
     Comparison,
+}
+
+impl fmt::Display for Stage {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Stage::Orbit => "finding and proving the periodic orbit",
+            Stage::Coordinates => "choosing coordinates and a gain over samples",
+            Stage::Bounds => "proving the bounds of the formulas",
+            Stage::Metrics => "proposing and proving joint metrics",
+            Stage::Triple => "finding and proving the triple of the Jacobian",
+            Stage::Witness => "searching the free numbers, deciding the conditions",
+            Stage::Limits => "seeking a gain that keeps to what is asked for",
+            Stage::Comparison => "working out what else would give",
+        })
+    }
 }
 
 /// Hears of the stages of a run. A stage may come again, where another choice is tried.

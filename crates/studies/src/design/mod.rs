@@ -2,12 +2,16 @@
 
 mod choice;
 mod gains;
+mod period;
 mod report;
 mod requirements;
 mod row;
+mod values;
 
 pub use choice::{Choice, choose};
 pub use gains::{Claims, design_table};
+pub use period::LongestPeriod;
 pub use report::DesignReport;
 pub use requirements::{Compared, Requirement, Requirements};
 pub use row::{Cell, Row, Simulated};
+pub use values::{Merit, TriedValues, best_values, mu_by_the_period};

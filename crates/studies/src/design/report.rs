@@ -1,14 +1,18 @@
 //! The report on a design table: which pair to take, what is required beside what is proved, and the table.
 
 use super::choice::Choice;
+use super::period::LongestPeriod;
 use super::requirements::{Compared, Requirement, Requirements};
 use super::row::{Cell, Row, Simulated};
+use super::values::{Merit, TriedValues};
+use crate::tune::Parameter;
 use rug::Rational;
 use serde_json::{Value, json};
 use sigmastar_document::number::{estimate, exact, full, upper};
 use sigmastar_document::{Block, Readable, Table, clean, plain};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, write_exact};
+use sigmastar_lang::spec::Sampling;
 
 /// The format of the JSON.
 const FORMAT: &str = "sigmastar/design";
@@ -31,6 +35,10 @@ pub struct DesignReport<'d> {
     pub period: &'d Enclosure,
     /// The gains at which nothing is certified, and why.
     pub refused: &'d [(Rational, String)],
+    /// The longest sampling period of each row, where these are asked for.
+    pub longest: Option<&'d [Option<LongestPeriod>]>,
+    /// The numbers that were to be chosen, and the values that were tried before this table; the document has the best of them.
+    pub values: (&'d [Parameter], &'d [TriedValues]),
     /// Whether the document states noise, a disturbance or rounding that counts.
     pub disturbed: bool,
     /// Whether the document states E0; else it goes with the gain.
@@ -51,7 +59,13 @@ impl Readable for DesignReport<'_> {
     fn blocks(&self) -> Vec<Block> {
         let mut blocks =
             vec![Block::Title(format!("{}: design table", clean(self.name))), Block::says(self.sentence())];
+        blocks.extend(self.at_samples().map(Block::says));
         blocks.extend(self.notes.iter().map(|note| Block::says(note.clone())));
+        if !self.values.1.is_empty() {
+            blocks.push(Block::heading("Values that were tried"));
+            blocks.push(Block::says(self.values_taken()));
+            blocks.push(Block::Table(self.values_tried()));
+        }
         if !self.choice.compared.is_empty() {
             blocks.push(Block::heading("What is required"));
             blocks.push(Block::Table(required(&self.choice.compared, self.sampling.is_some())));
@@ -72,7 +86,7 @@ impl Readable for DesignReport<'_> {
         let compared: Vec<Value> = compared.iter().map(compared_json).collect();
         let others: Vec<Value> =
             others.iter().map(|[row, cell]| json!({ "sigma": sigma(row), "n_o": n_o(*row, *cell) })).collect();
-        let rows: Vec<Value> = self.rows.iter().map(|row| self.row_json(row)).collect();
+        let rows: Vec<Value> = self.rows.iter().enumerate().map(|(index, row)| self.row_json(index, row)).collect();
         let sampling = self.sampling.as_ref();
         json!({
             "format": FORMAT, "version": VERSION, "sentence": plain(&self.sentence()),
@@ -84,7 +98,7 @@ impl Readable for DesignReport<'_> {
             },
             "notes": self.notes, "initial_set": plain(&self.set_and_assumptions[0]),
             "assumed": plain(&self.set_and_assumptions[1]), "without_noise": self.disturbed,
-            "rows": rows, "not_certified": self.refused.iter().map(|(sigma, _)| write_exact(sigma)).collect::<Vec<_>>(),
+            "values": self.values_json(), "rows": rows, "not_certified": self.refused.iter().map(|(sigma, _)| write_exact(sigma)).collect::<Vec<_>>(),
         })
     }
 }
@@ -94,17 +108,17 @@ impl DesignReport<'_> {
     fn sentence(&self) -> String {
         let Choice { row, cell, is_met, compared, .. } = self.choice;
         let row = &self.rows[*row];
-        let sigma = write_exact(&row.sigma);
+        let (sigma, values) = (write_exact(&row.sigma), self.with_values());
         let Some(n_o) = cell.map(|cell| row.cells[cell].n_o) else {
             return match is_met {
                 true => format!(
-                    "Take $`sigma = {sigma}`$: the smallest gain of the table at which, with each number of oscillators, the bound of the largest $`|e|`$ is \
+                    "Take $`sigma = {sigma}`${values}: the smallest gain of the table at which, with each number of oscillators, the bound of the largest $`|e|`$ is \
                      at most twice the larger of $`E0`$ and the bound of the steady error, and each proved rate at least half of the largest one for that \
                      number."
                 ),
                 false => format!(
                     "No gain of the table has, with each number of oscillators, a bound of the largest $`|e|`$ of at most twice the larger of $`E0`$ and the \
-                     bound of the steady error, and at least half of the largest rate that is proved for that number. $`sigma = {sigma}`$ comes closest."
+                     bound of the steady error, and at least half of the largest rate that is proved for that number. $`sigma = {sigma}`${values} comes closest."
                 ),
             };
         };
@@ -115,7 +129,7 @@ impl DesignReport<'_> {
                 true => " in the loop without noise",
             };
             return format!(
-                "Take $`sigma = {sigma}`$ with $`n_o = {n_o}`$: every requirement is proved to be met{without}."
+                "Take $`sigma = {sigma}`$ with $`n_o = {n_o}`${values}: every requirement is proved to be met{without}."
             );
         }
         let missed: Vec<&str> = compared
@@ -124,9 +138,23 @@ impl DesignReport<'_> {
             .map(|one| one.requirement.words(self.sampling.is_some()))
             .collect();
         format!(
-            "No pair of the table is proved to meet every requirement. $`sigma = {sigma}`$ with $`n_o = {n_o}`$ comes closest; not met: {}.",
+            "No pair of the table is proved to meet every requirement. $`sigma = {sigma}`$ with $`n_o = {n_o}`${values} comes closest; not met: {}.",
             missed.join(", ")
         )
+    }
+
+    /// Which sampling period goes with the gain to take, where that is asked.
+    fn at_samples(&self) -> Option<String> {
+        let row = &self.rows[self.choice.row];
+        let sigma = write_exact(&row.sigma);
+        self.longest?;
+        Some(match self.longest_of(self.choice.row) {
+            Some(longest) => format!(
+                "At samples it is certified with the sampling period $`h = {}`$, too, by a claim of its own.",
+                clean(&longest.text())
+            ),
+            None => format!("At samples nothing is certified with $`sigma = {sigma}`$."),
+        })
     }
 
     /// The other numbers of oscillators with which every requirement is met.
@@ -194,9 +222,11 @@ impl DesignReport<'_> {
         titles.push("rate");
         titles.extend(within.map(|_| "settles in"));
         titles.extend(noise.then_some("noise in $`|e|`$"));
+        titles.extend(self.longest.map(|_| "longest $`h`$"));
         let mut table = Table::new(&titles);
         let not_proved = || "not proved".to_owned();
-        for row in self.rows {
+        for (index, row) in self.rows.iter().enumerate() {
+            let longest = self.longest.map(|all| all[index].as_ref().map_or_else(not_proved, LongestPeriod::text));
             for cell in &row.cells {
                 let found = cell.simulated;
                 let of_runs = |index: usize| found.and_then(|found| Some(found.largest?[index]));
@@ -219,6 +249,7 @@ impl DesignReport<'_> {
                 }));
                 let limit = cell.noise.as_ref().map(|limit| exact(limit, Direction::Up));
                 cells.extend(noise.then(|| limit.unwrap_or_else(not_proved)));
+                cells.extend(longest.clone());
                 table.push(cells);
             }
         }
@@ -244,6 +275,14 @@ impl DesignReport<'_> {
                 "rule: the smallest gain of the table with which every requirement is proved to be met, with the fewest oscillators"
                     .to_owned(),
             );
+        }
+        if self.longest.is_some() {
+            let sigma = write_exact(&row.sigma);
+            let step = self.longest_of(self.choice.row).map_or_else(|| "H".to_owned(), LongestPeriod::text);
+            remarks.push(format!(
+                "longest $`h`$: the longest round sampling period that was found with which the regulator at samples is certified with this gain, for every \
+                 number of oscillators; a claim about this $`h`$ alone, whose bounds are others: `--sigma {sigma} --sampling-period {step}` shows them"
+            ));
         }
         if let Some(limit) = &self.requirements.steady_error {
             remarks.push(format!(
@@ -285,6 +324,81 @@ impl DesignReport<'_> {
         remarks
     }
 
+    /// The longest sampling period of a row.
+    fn longest_of(&self, row: usize) -> Option<&LongestPeriod> {
+        self.longest.and_then(|all| all[row].as_ref())
+    }
+
+    /// The values of the document of this table: the best of those that were tried.
+    fn taken_values(&self) -> Option<&TriedValues> {
+        let own = Merit::of(self.rows, self.choice);
+        self.values.1.iter().find(|tried| tried.outcome.as_ref() == Ok(&own))
+    }
+
+    /// " and mu = 3", the numbers that were to be chosen.
+    fn with_values(&self) -> String {
+        let (parameters, _) = self.values;
+        let taken = self.taken_values().map_or(&[][..], |tried| &tried.values);
+        let named = parameters.iter().zip(taken).map(|(parameter, value)| format!(" and $`{} = {}`$", parameter.name, clean(value)));
+        named.collect()
+    }
+
+    fn values_taken(&self) -> String {
+        let written: Vec<String> = self
+            .values
+            .0
+            .iter()
+            .map(|parameter| format!("$`{} = {}`$", parameter.name, clean(&parameter.written)))
+            .collect();
+        format!(
+            "The file has {}. All that follows is about the file with the best of these values, and so is its certificate. Best is what misses the fewest \
+             requirements; of equals what has the largest rate with the number of oscillators to take (without requirements, the least rate of the table), \
+             then the smallest gain.",
+            written.join(", ")
+        )
+    }
+
+    fn values_tried(&self) -> Table {
+        let (parameters, tried) = self.values;
+        let mut titles: Vec<String> = parameters.iter().map(|parameter| clean(&parameter.name)).collect();
+        titles.extend(["$`sigma`$", "$`n_o`$", "missed", "rate"].map(str::to_owned));
+        let titles: Vec<&str> = titles.iter().map(String::as_str).collect();
+        let mut table = Table::new(&titles);
+        for one in tried {
+            let mut cells: Vec<String> = one.values.iter().map(|value| clean(value)).collect();
+            cells.extend(match &one.outcome {
+                Ok(Merit { sigma, n_o, missed, rate, .. }) => [
+                    write_exact(sigma),
+                    n_o.map_or_else(|| "all".to_owned(), |n_o| n_o.to_string()),
+                    missed.to_string(),
+                    rate.as_ref().map_or_else(|| "not proved".to_owned(), |rate| exact(rate, Direction::Down)),
+                ],
+                Err(_) => ["not certified", "-", "-", "-"].map(str::to_owned),
+            });
+            table.push(cells);
+        }
+        table
+    }
+
+    fn values_json(&self) -> Value {
+        let (parameters, tried) = self.values;
+        let named = |values: &[String]| -> serde_json::Map<String, Value> {
+            parameters.iter().zip(values).map(|(parameter, value)| (parameter.name.clone(), json!(value))).collect()
+        };
+        let one = |tried: &TriedValues| match &tried.outcome {
+            Ok(Merit { sigma, n_o, missed, rate, .. }) => json!({
+                "values": named(&tried.values), "sigma": write_exact(sigma), "n_o": n_o, "missed": missed,
+                "rate": rate.as_ref().map(write_exact),
+            }),
+            Err(why) => json!({ "values": named(&tried.values), "not_certified": why }),
+        };
+        if tried.is_empty() {
+            return Value::Null;
+        }
+        let taken = self.taken_values().map(|taken| named(&taken.values));
+        json!({ "taken": taken, "tried": tried.iter().map(one).collect::<Vec<_>>() })
+    }
+
     /// Whether E0 goes with the gain.
     fn e0_moves(&self) -> bool {
         self.rows.windows(2).any(|pair| pair[0].e0 != pair[1].e0)
@@ -321,7 +435,7 @@ impl DesignReport<'_> {
         self.choice.compared.iter().any(|one| one.requirement == requirement && !one.is_met())
     }
 
-    fn row_json(&self, row: &Row) -> Value {
+    fn row_json(&self, index: usize, row: &Row) -> Value {
         let cell = |cell: &Cell| {
             let settling = self.requirements.steady_error.as_ref().and_then(|limit| cell.settling(limit, self.period));
             let decay = cell.decay.as_ref();
@@ -333,7 +447,14 @@ impl DesignReport<'_> {
             })
         };
         let cells: Vec<Value> = row.cells.iter().map(cell).collect();
-        json!({ "sigma": write_exact(&row.sigma), "E0": write_exact(&row.e0), "cells": cells })
+        let mut said = json!({ "sigma": write_exact(&row.sigma), "E0": write_exact(&row.e0), "cells": cells });
+        if let Some(longest) = self.longest {
+            let sampling = |at: &Sampling| json!({ "sampling_period": at.text(), "samples": at.samples });
+            said["longest_h"] = json!(longest[index].as_ref().map(|LongestPeriod { longest, round }| json!({
+                "longest": sampling(longest), "round": round.as_ref().map(sampling),
+            })));
+        }
+        said
     }
 }
 

@@ -4,7 +4,7 @@
 //! other, and each descent has tries of its own, so the number of threads changes nothing.
 
 use super::figures::{Figures, Goal};
-use super::parameter::Parameter;
+use super::parameter::{Parameter, with_values};
 use rayon::prelude::*;
 use rug::Rational;
 use sigmastar_document::progress::Progress;
@@ -140,7 +140,7 @@ pub fn tune(
         (now, None) => now.is_some(),
         (None, Some(_)) => false,
     });
-    let after = better.map(|best| subject.with(&best.values).map(|document| (best, document))).transpose()?;
+    let after = better.map(|best| with_values(document, &parameters, &best.values).map(|document| (best, document))).transpose()?;
     let proposed = || all.iter().filter(|tried| tried.values != before.values);
     let mut without_claim = BTreeMap::new();
     for verdict in proposed().filter_map(|tried| tried.outcome.as_ref().err()) {
@@ -170,27 +170,8 @@ impl Subject<'_> {
         self.parameters.iter().zip(point).map(value).collect()
     }
 
-    /// The document with these values and nothing else changed.
-    fn with(&self, values: &[String]) -> Result<Document, SpecErrors> {
-        let mut places: Vec<_> = self
-            .parameters
-            .iter()
-            .zip(values)
-            .filter_map(|(parameter, value)| Some((self.document.at(&parameter.pointer)?.span(), value)))
-            .collect();
-        places.sort_by_key(|(span, _)| span.start);
-        let mut text = self.document.text().to_owned();
-        // From the end, so that what comes before stays where it is.
-        for (span, value) in places.into_iter().rev() {
-            // A string in every notation.
-            text.replace_range(span, &format!("\"{value}\""));
-        }
-        Document::parse_as(self.document.label(), &text, self.document.notation())
-    }
-
     fn certify(&self, values: &[String]) -> Tried {
-        let outcome = self
-            .with(values)
+        let outcome = with_values(self.document, self.parameters, values)
             .map_err(|_| Verdict::BadInput)
             .and_then(|document| Figures::of(&document, self.settings.n_o));
         Tried { values: values.to_vec(), outcome }

@@ -12,5 +12,5 @@ mod report;
 
 pub use descent::{MAX_TRIES, Settings, Tried, Tuning, tune};
 pub use figures::{Figures, Goal};
-pub use parameter::{Parameter, TuneError, parameters};
+pub use parameter::{Parameter, TuneError, parameters, with_values};
 pub use report::TuningReport;

@@ -3,7 +3,7 @@
 use super::ranges::{given, usual};
 use rug::Rational;
 use sigmastar_exact::number::Portable;
-use sigmastar_lang::spec::{Document, Errors, InternalModel, Weights, any_constant, nearest};
+use sigmastar_lang::spec::{Document, Errors, InternalModel, SpecErrors, Weights, any_constant, nearest};
 use thiserror::Error;
 
 /// The most numbers that are tuned together.
@@ -26,7 +26,7 @@ pub struct Parameter {
 
 impl Parameter {
     /// The logarithms of the ends.
-    pub(super) fn logarithms(&self) -> [f64; 2] {
+    pub(crate) fn logarithms(&self) -> [f64; 2] {
         self.range.each_ref().map(|end| end.to_f64().portable_ln())
     }
 }
@@ -158,6 +158,32 @@ pub fn parameters(text: &str, document: &Document, model: &InternalModel) -> Res
         }
     }
     Ok(all)
+}
+
+/// The document with these values of the parameters, in their order, and nothing else changed.
+///
+/// # Errors
+/// A document that is too large with them.
+pub fn with_values(
+    document: &Document,
+    parameters: &[Parameter],
+    values: &[String],
+) -> Result<Document, SpecErrors> {
+    let mut places: Vec<_> = parameters
+        .iter()
+        .zip(values)
+        // What stays as it is keeps its notation.
+        .filter(|(parameter, value)| **value != parameter.written)
+        .filter_map(|(parameter, value)| Some((document.at(&parameter.pointer)?.span(), value)))
+        .collect();
+    places.sort_by_key(|(span, _)| span.start);
+    let mut text = document.text().to_owned();
+    // From the end, so that what comes before stays where it is.
+    for (span, value) in places.into_iter().rev() {
+        // A string in every notation.
+        text.replace_range(span, &format!("\"{value}\""));
+    }
+    Document::parse_as(document.label(), &text, document.notation())
 }
 
 fn parameter(

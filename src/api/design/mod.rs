@@ -1,0 +1,244 @@
+//! The design table, and the pair of a gain and a number of oscillators to take.
+
+mod options;
+mod proved;
+
+pub use options::{DesignNames, DesignOptions};
+
+use super::certificate::Certificate;
+use super::error::{Error, ErrorKind};
+use super::report::Report;
+use super::sampling::SamplingPairs;
+use super::subject::Subject;
+use super::{positive, rational};
+use options::{MAX_GAINS, N_O, NAMES, has_disturbances, requirements};
+use proved::{Proved, Taken};
+use rug::Rational;
+use sigmastar_exact::enclosure::{DEFAULT_PRECISION, Enclosure};
+use sigmastar_exact::number::write_exact;
+use sigmastar_lang::spec::Document;
+use sigmastar_prove::certify::{NoRatesOfClaim, Options, rate_counts};
+use sigmastar_prove::reduction::{AtGains, Subject as Read, Unwatched, at_samples};
+use sigmastar_studies::design::{
+    Choice, DesignReport, LongestPeriod, Merit, Requirements, Row, TriedValues, best_values, choose, design_table,
+    mu_by_the_period,
+};
+use sigmastar_studies::tune::{Parameter, parameters, with_values};
+
+/// A design table, and the pair to take.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct Design {
+    sigma: String,
+    n_o: Option<u32>,
+    is_met: bool,
+    certificate: Certificate,
+    report: Report,
+}
+
+impl Design {
+    /// The gain to take, exactly: a decimal or a fraction.
+    #[must_use]
+    pub fn sigma(&self) -> &str {
+        &self.sigma
+    }
+
+    /// The number of oscillators to take; `None` where nothing is required: the gain is for each number of the table.
+    #[must_use]
+    pub fn n_o(&self) -> Option<u32> {
+        self.n_o
+    }
+
+    /// Whether every requirement is proved to be met with this pair; so it is where nothing is required.
+    #[must_use]
+    pub fn is_met(&self) -> bool {
+        self.is_met
+    }
+
+    /// The certificate of the claim with the gain to take.
+    #[must_use]
+    pub fn certificate(&self) -> &Certificate {
+        &self.certificate
+    }
+
+    /// The report of `sigmastar design`, with the table.
+    #[must_use]
+    pub fn report(&self) -> &Report {
+        &self.report
+    }
+}
+
+/// What is proved at several gains with several numbers of oscillators, beside what is required; and the pair to take: the smallest gain of the table, and there
+/// the fewest oscillators, with which every requirement is proved to be met.
+///
+/// Guarantee: each row is a claim of its own that the independent checker decides. A requirement is met only where an upper bound that is proved is not above it.
+///
+/// # Errors
+/// Those of [`certify`](crate::certify) for the document and for the smallest gain, where no gains are asked for;
+/// [`Options`](ErrorKind::Options) for a requirement that does not go with the document or with the others, and too many gains; of gains that are asked
+/// for [`NotCertified`](ErrorKind::NotCertified) where none is certified.
+pub fn design(subject: impl Into<Subject>, options: &DesignOptions) -> Result<Design, Error> {
+    let Subject { read, source } = subject.into();
+    design_of((read, source), options, &NAMES)
+}
+
+/// [`design`] of a document that was read, with other names of arguments.
+///
+/// # Errors
+/// Those of [`design`].
+pub fn design_of(
+    (read, source): (Read, Document),
+    options: &DesignOptions,
+    names: &DesignNames,
+) -> Result<Design, Error> {
+    let Some(over) = &options.choose else {
+        let table = Table::new(Subject { read, source }, options, names)?;
+        return table.design((&[], &[]), options.sampling_periods);
+    };
+    let wrong = |error: sigmastar_studies::tune::TuneError| {
+        Error::new(ErrorKind::Options, format!("{}: {error}", names.choose), &error.way_out())
+    };
+    let over = mu_by_the_period(over, read.period());
+    let free: Vec<Parameter> = parameters(&over, &source, read.internal_model()).map_err(wrong)?;
+    // What the values of the document are refused for, all are.
+    Asked::new(&Subject { read, source: source.clone() }, options, names)?;
+    let made = |values: &[String]| {
+        let document = with_values(&source, &free, values)?;
+        let table = Table::new(Subject { read: Read::read(&document)?, source: document }, options, names)?;
+        Ok((Merit::of(&table.rows, &table.choice), table))
+    };
+    let (tried, table) = best_values(&free, made, Error::sentence)?;
+    table.design((&free, &tried), options.sampling_periods)
+}
+
+/// What is asked of a document, read.
+struct Asked {
+    subject: Subject,
+    counts: Vec<u32>,
+    sigmas: Vec<Rational>,
+    requirements: Requirements,
+}
+
+impl Asked {
+    fn new(subject: &Subject, options: &DesignOptions, names: &DesignNames) -> Result<Asked, Error> {
+        let [of_counts, of_sigmas, of_step] = names.asked;
+        let mut subject = subject.clone();
+        if let Some(step) = &options.sampling_period {
+            subject.read = Read::read(&at_samples(&subject.source, &positive(of_step, step)?)?)?;
+        }
+        let read = &subject.read;
+        let asked_counts = options.n_o.clone().unwrap_or_else(|| {
+            // Those that the samples tell apart.
+            let fits = |n_o: &u32| read.sampling().is_none_or(|sampling| 2 * n_o < sampling.samples);
+            N_O.into_iter().filter(fits).collect()
+        });
+        let counts = rate_counts(&asked_counts).map_err(|reason| Error::no_rates(reason, of_counts))?;
+        if counts.is_empty() {
+            let message = format!("{of_counts}: a design table needs a number of oscillators, and there is none");
+            return Err(Error::new(ErrorKind::Options, message, "ask for some, as 0,1,2,3"));
+        }
+        if let Some((sampling, n_o)) = read.sampling().zip(counts.last())
+            && 2 * u64::from(*n_o) >= u64::from(sampling.samples)
+        {
+            return Err(Error::no_rates(NoRatesOfClaim::NotBelowHalf(*n_o, sampling.samples), of_counts));
+        }
+        let mut sigmas: Vec<Rational> =
+            options.sigmas.iter().map(|sigma| rational(of_sigmas, sigma)).collect::<Result<_, _>>()?;
+        sigmas.sort();
+        sigmas.dedup();
+        if sigmas.len() > MAX_GAINS {
+            let message = format!("{of_sigmas}: {} gains; at most {MAX_GAINS} go into one table", sigmas.len());
+            return Err(Error::new(ErrorKind::Options, message, "ask for fewer"));
+        }
+        let of_periods = names.sampling_periods;
+        if options.sampling_periods && read.sampling().is_some() {
+            let message = format!("{of_periods}: the table is about samples that are given");
+            return Err(Error::new(ErrorKind::Options, message, "leave it or the sampling period out"));
+        }
+        if options.sampling_periods && !read.is_matched() {
+            let message = format!("{of_periods}: no regulator at samples is proved without a matched base frequency");
+            return Err(Error::new(ErrorKind::Options, message, "leave it out, or match the base frequency"));
+        }
+        let requirements = requirements(read, options, names)?;
+        Ok(Asked { subject, counts, sigmas, requirements })
+    }
+}
+
+/// A table with the pair to take.
+struct Table {
+    asked: Asked,
+    period: Enclosure,
+    rows: Vec<Row>,
+    choice: Choice,
+    taken: Taken,
+    refused: Vec<(Rational, String)>,
+}
+
+impl Table {
+    fn new(subject: Subject, options: &DesignOptions, names: &DesignNames) -> Result<Table, Error> {
+        let asked = Asked::new(&subject, options, names)?;
+        let read = &asked.subject.read;
+        let period = read.period().shortest().enclose(DEFAULT_PRECISION);
+        let run_options = Options { compare: false, ..Options::default() };
+        let gains = AtGains::new(read, &asked.counts, run_options, &Unwatched).map_err(|all| Error::documents(&all))?;
+        let mut claims = Proved {
+            gains: &gains,
+            options: run_options,
+            counts: &asked.counts,
+            asked: &asked.subject,
+            simulate: options.simulate,
+            certificates: Vec::new(),
+            refused: Vec::new(),
+        };
+        let rows = design_table(&mut claims, (&asked.requirements, &period), &asked.sigmas)?;
+        let Proved { certificates, mut refused, .. } = claims;
+        let Some(choice) = choose(&rows, &asked.requirements, &period) else {
+            let none = || Error::new(ErrorKind::NotCertified, "none of these gains is certified", "ask for larger ones");
+            return Err(if refused.is_empty() { none() } else { refused.swap_remove(0).1 });
+        };
+        let refused = refused.into_iter().map(|(sigma, why)| (sigma, why.sentence())).collect();
+        let taken = certificates.into_iter().find(|proved| proved.sigma == rows[choice.row].sigma);
+        let no_certificate =
+            || Error::new(ErrorKind::NotCertified, "the gain to take has no certificate", "report this");
+        let taken = taken.ok_or_else(no_certificate)?;
+        drop(gains);
+        Ok(Table { asked, period, rows, choice, taken, refused })
+    }
+
+    /// The answer, with what was tried before it.
+    fn design(self, values: (&[Parameter], &[TriedValues]), periods: bool) -> Result<Design, Error> {
+        let Table { asked: Asked { subject, requirements, .. }, period, rows, choice, taken, refused } = self;
+        let Taken { sigma, certificate, set_and_assumptions } = taken;
+        let read = &subject.read;
+        let longest = periods.then(|| longest(read, &rows)).transpose()?;
+        let report = DesignReport {
+            rows: &rows,
+            choice: &choice,
+            requirements: &requirements,
+            period: &period,
+            refused: &refused,
+            longest: longest.as_deref(),
+            values,
+            disturbed: has_disturbances(read),
+            states_e0: read.states_e0(),
+            notes: certificate.remarks(),
+            set_and_assumptions: &set_and_assumptions,
+            sampling: read.sampling().map(|sampling| (sampling.text(), sampling.samples)),
+            name: read.name(),
+            sha256: read.sha256(),
+        };
+        let report = Report::of(&report);
+        let Choice { row, cell, is_met, .. } = choice;
+        let n_o = cell.map(|cell| rows[row].cells[cell].n_o);
+        let is_met = is_met || requirements.is_empty();
+        Ok(Design { sigma: write_exact(&sigma), n_o, is_met, certificate, report })
+    }
+}
+
+/// The longest sampling periods that are certified with the gains of a table.
+fn longest(read: &Read, rows: &[Row]) -> Result<Vec<Option<LongestPeriod>>, Error> {
+    let gains: Vec<String> = rows.iter().map(|row| write_exact(&row.sigma)).collect();
+    let gains: Vec<&str> = gains.iter().map(String::as_str).collect();
+    let pairs = SamplingPairs::of_gains(read.clone(), &gains)?;
+    Ok(rows.iter().map(|row| LongestPeriod::of(pairs.study(), &row.sigma)).collect())
+}

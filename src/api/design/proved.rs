@@ -1,0 +1,97 @@
+//! Rows of a design table: claims that the independent checker decides.
+
+use super::super::certificate::Certificate;
+use super::super::certify::{not_certified, with_rates};
+use super::super::error::Error;
+use super::super::subject::Subject;
+use rug::Rational;
+use sigmastar_exact::parallel;
+use sigmastar_lang::spec::Document;
+use sigmastar_prove::certify::Options;
+use sigmastar_prove::reduction::{AtGains, Prepared};
+use sigmastar_report::run_set_and_assumptions;
+use sigmastar_studies::design::{Claims, Row};
+
+/// A gain that is certified, with what its report says of the set and of what is assumed.
+pub(super) struct Taken {
+    pub(super) sigma: Rational,
+    pub(super) certificate: Certificate,
+    pub(super) set_and_assumptions: [String; 2],
+}
+
+/// Rows that are proved and decided by the independent checker, with their certificates.
+pub(super) struct Proved<'a> {
+    pub(super) gains: &'a AtGains<'a>,
+    pub(super) options: Options,
+    pub(super) counts: &'a [u32],
+    pub(super) asked: &'a Subject,
+    pub(super) simulate: bool,
+    pub(super) certificates: Vec<Taken>,
+    /// The gains that are not certified, and why.
+    pub(super) refused: Vec<(Rational, Error)>,
+}
+
+impl Claims for Proved<'_> {
+    type Refusal = Error;
+
+    fn smallest(&mut self) -> Result<Row, Error> {
+        let (row, certified) = self.row(&self.gains.smallest())?;
+        self.certificates.push(certified);
+        Ok(row)
+    }
+
+    fn at(&mut self, sigmas: &[Rational]) -> Vec<Option<Row>> {
+        let at = |sigma: &Rational| {
+            let prepared = self.gains.at(sigma).map_err(|all| Error::documents(&all));
+            prepared.and_then(|prepared| self.row(&prepared))
+        };
+        let found = parallel::map(sigmas, at);
+        let mut rows = Vec::with_capacity(found.len());
+        for (found, sigma) in found.into_iter().zip(sigmas) {
+            match found {
+                Ok((row, certified)) => {
+                    self.certificates.push(certified);
+                    rows.push(Some(row));
+                }
+                Err(error) => {
+                    self.refused.push((sigma.clone(), error));
+                    rows.push(None);
+                }
+            }
+        }
+        rows
+    }
+}
+
+impl Proved<'_> {
+    fn row(&self, prepared: &Prepared) -> Result<(Row, Taken), Error> {
+        let run = with_rates(prepared, (self.options, self.counts))?;
+        let row = Row::of(&run, self.counts);
+        let certificate = Certificate::new(&run, self.asked, false).zip(run_set_and_assumptions(&run));
+        let (row, (certificate, set_and_assumptions)) = row.zip(certificate).ok_or_else(|| not_certified(&run))?;
+        let row = if self.simulate { simulated(row, &certificate) } else { row };
+        let sigma = row.sigma.clone();
+        Ok((row, Taken { sigma, certificate, set_and_assumptions }))
+    }
+}
+
+/// A row with what simulations of the nominal plant come to.
+#[cfg(feature = "lab")]
+fn simulated(mut row: Row, certificate: &Certificate) -> Row {
+    use sigmastar_lab::falsify::{LoopFigures, TriedClaim, nominal_figures};
+    use sigmastar_studies::design::Simulated;
+    let document = Document::parse("the certificate", certificate.to_json());
+    let claim = document.and_then(|document| TriedClaim::from_document(&document));
+    let Ok(claim) = claim else { return row };
+    let counts: Vec<u32> = row.cells.iter().map(|cell| cell.n_o).collect();
+    let found = parallel::map(&counts, |n_o| nominal_figures(&claim, *n_o));
+    for (cell, found) in row.cells.iter_mut().zip(found) {
+        cell.simulated = found.map(|LoopFigures { steady_error, largest }| Simulated { steady_error, largest });
+    }
+    row
+}
+
+#[cfg(not(feature = "lab"))]
+fn simulated(row: Row, _: &Certificate) -> Row {
+    row
+}
