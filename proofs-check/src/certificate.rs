@@ -42,7 +42,7 @@ pub fn check(json: &Json, other: Option<&Json>, lines: &mut Vec<String>) -> Outc
         None => (file.required("specification")?, "specification"),
     };
     let mut witness = file.required("witness")?.fields()?;
-    let (spec, cells) = match about {
+    let (mut spec, cells) = match about {
         "plant" => proofs_plants::read::read(&embedded, &mut witness).map(|(spec, cells)| (spec, Some(cells)))?,
         _ => (Specification::read(&embedded, &mut witness)?, None),
     };
@@ -56,6 +56,9 @@ pub fn check(json: &Json, other: Option<&Json>, lines: &mut Vec<String>) -> Outc
 
     let has_states = spec.plant.as_ref().is_some_and(|plant| plant.states > 0);
     let claim = Claim::read(&file.required("claim")?, has_states)?;
+    if let Some(actuator) = &mut spec.actuator {
+        actuator.by_n_o = claim.keeps_to_actuator_by_n_o()?;
+    }
     let derivation = match &claim.sampled {
         Some(regulator) => Derivation::read_sampled(&mut witness, regulator, (claim.set.clone(), claim.scope()))?,
         None => Derivation::read(&mut witness, claim.sigma.clone(), (claim.set.clone(), claim.scope()))?,
@@ -117,6 +120,11 @@ pub fn check(json: &Json, other: Option<&Json>, lines: &mut Vec<String>) -> Outc
             let about = by_n_o::About { sigma, set, error_box, periodic, transfer, weights, stability, at_samples };
             proofs_plants::by_n_o::prove(&spec, cells, &about, (&claim.by_n_o, witness), lines)?;
         }
+    }
+    // By what is proved by now.
+    if let Some(actuator) = spec.actuator.as_ref().filter(|actuator| actuator.by_n_o) {
+        claim.keep_to_actuator(actuator)?;
+        lines.push("actuator: with every n_o what is put out is at most its max, by what is said by n_o".to_owned());
     }
     if let Some((jacobian, witness)) = &spec.jacobian {
         for witness in [witness].into_iter().chain(spec.existence.iter().map(|(witness, _)| witness)) {

@@ -49,6 +49,10 @@ pub(super) fn decided_again<T>(
     // A document of its own, so that it can be asked for whatever a file can be asked for.
     let kind = if document.at("/plant").is_some() { "plant" } else { "specification" };
     let subject = Subject::new(Document::parse(&format!("{kind} of {name}"), &json_text(&copy.to_json()))?)?;
+    let subject = match subject.read.as_claimed(document) {
+        Some(read) => Subject { read, ..subject },
+        None => subject,
+    };
     let witness = read_for(document, &subject.read)?;
     let of_another = witness.of_another;
     let prepared = Prepared::again(&subject.read, witness).map_err(|all| Error::documents(&all))?;
@@ -59,5 +63,6 @@ pub(super) fn decided_again<T>(
     if let (Some(counts), prove::Subject::Plant(plant)) = (stated_by_count(document), &subject.read) {
         run.set_counts(plant, &counts);
     }
+    run.keep_to_actuator();
     then(&run, &subject, !of_another && is_stated(&run, document))
 }

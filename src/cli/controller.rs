@@ -85,6 +85,7 @@ pub fn run(args: &ControllerArgs) -> Result<u8, Failure> {
         discrete,
         aligned: subject.starts_aligned(),
         actuator,
+        middle: subject.actuator().and_then(Actuator::middle).map(|middle| middle.to_f64()),
         certificate: certificate.as_ref(),
     };
     let text = match args.format {

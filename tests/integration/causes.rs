@@ -57,7 +57,7 @@ fn the_least_actuator_that_is_named_certifies() {
     let (code, text) = certify(&changed(&tight(), &[("/actuator/max", object!("1"))]), &[]);
     assert!(
         code == 3
-            && text.contains("a larger `actuator.max`")
+            && text.contains("an actuator that takes more")
             && text.contains("--max-control")
             && !text.contains("initial set:"),
         "{text}"

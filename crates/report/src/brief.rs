@@ -34,10 +34,13 @@ pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences
     let sigma = write_exact(sigma);
     let same = words::the_same_for(run.is_for_every_set());
     let gain = match (&run.given_gain, &run.spec.actuator) {
-        (_, Some(actuator)) => format!(
-            "$`sigma = {sigma}`$ in 1/time, this one alone; $`|u|`$ never exceeds the {} that the actuator takes; {same}",
-            clean(&actuator.max.text)
-        ),
+        (_, Some(actuator)) => {
+            let kept = match &actuator.range {
+                None => format!("$`|u|`$ never exceeds the {} that the actuator takes", clean(&actuator.max.text)),
+                Some(_) => format!("{} at all times, as the actuator takes it", words::taken(actuator)),
+            };
+            format!("$`sigma = {sigma}`$ in 1/time, this one alone; {kept}; {same}")
+        }
         (Some(_), None) => {
             format!("$`sigma = {sigma}`$ in 1/time, as it was given, or any larger; {same}")
         }

@@ -13,7 +13,7 @@ use super::relative_degree::gains_json;
 use super::remarks::remarks;
 use super::sensitivity;
 use super::verdict::{basis, sentence};
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 use sigmastar_document::number::{estimate, full};
 use sigmastar_document::{plain, plain_all};
 use sigmastar_exact::enclosure::Enclosure;
@@ -112,7 +112,17 @@ pub(super) fn input_gain(spec: &Specification) -> Option<Value> {
 
 /// What the actuator takes, where that is stated.
 pub(super) fn actuator(spec: &Specification) -> Option<Value> {
-    spec.actuator.as_ref().map(|actuator| json!({ "max": actuator.max.text }))
+    let actuator = spec.actuator.as_ref()?;
+    let middle = actuator.middle();
+    Some(match &actuator.range {
+        None => json!({ "max": actuator.max.text }),
+        Some(_) => {
+            let mut value: Map<String, Value> =
+                actuator.written().into_iter().map(|(name, number)| (name.to_owned(), json!(number))).collect();
+            value.insert("u_from".to_owned(), json!(middle.as_ref().map_or_else(|| "0".to_owned(), write_exact)));
+            value.into()
+        }
+    })
 }
 
 /// The gain with each interval closed to its nominal value.

@@ -1,8 +1,8 @@
 //! What a claim keeps to at its gain: limits that were asked for, and what the actuator takes.
 
+use super::words;
 use rug::Rational;
 use serde_json::{Map, Value, json};
-use sigmastar_document::clean;
 use sigmastar_document::number::{exact, full, upper};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, write_exact};
@@ -140,9 +140,7 @@ fn kept_json(limits: &Limits, bounds: &Bounds<'_>) -> Option<Value> {
 /// " and an actuator that takes |u| <= 50 (u does not exceed it from the set)"; nothing where there is none.
 pub(super) fn of_actuator(spec: &Specification) -> String {
     spec.actuator.as_ref().map_or_else(String::new, |actuator| {
-        format!(
-            " and an actuator that takes $`|u| <= {}`$ ($`u`$ does not exceed it from the set)",
-            clean(&actuator.max.text)
-        )
+        let kept = if actuator.range.is_none() { "$`u`$ does not exceed it from the set" } else { "so it is from the set" };
+        format!(" and an actuator that takes {} ({kept})", words::taken(actuator))
     })
 }

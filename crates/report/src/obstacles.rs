@@ -260,7 +260,7 @@ fn by_count(which: Limited, spec: &Specification) -> Option<&'static str> {
 /// What a limit that is not kept asks for.
 pub(super) fn wider(which: Limited) -> &'static str {
     match which {
-        Limited::Actuator => "a larger `actuator.max`",
+        Limited::Actuator => "an actuator that takes more",
         Limited::SteadyError | Limited::PeakError | Limited::Control => "a larger limit",
     }
 }

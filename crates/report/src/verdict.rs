@@ -147,7 +147,7 @@ pub(super) fn assumed(spec: &Specification, used: Option<[Enclosure; 2]>, furthe
     let of_the_period = words::period(spec)
         .map_or_else(String::new, |interval| format!(", and that the period is one constant from {interval}"));
     let of_its_limit = spec.actuator.as_ref().map_or_else(String::new, |actuator| {
-        format!(", and that the actuator takes $`|u| <= {}`$ as it is", clean(&actuator.max.text))
+        format!(", and that the actuator takes {} as it is", words::taken(actuator))
     });
     assumed_of_the_plant(spec, used, further) + &of_the_actuator + &of_its_limit + &of_the_period
 }

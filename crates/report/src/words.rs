@@ -5,9 +5,9 @@ use rug::Rational;
 use sigmastar_document::clean;
 use sigmastar_document::number::{estimate, exact};
 use sigmastar_exact::enclosure::Enclosure;
-use sigmastar_exact::number::Direction;
+use sigmastar_exact::number::{Direction, write_exact};
 use sigmastar_lang::expr::quoted;
-use sigmastar_lang::spec::{Constant, InputGain, Specification, StartSizes};
+use sigmastar_lang::spec::{Actuator, Constant, InputGain, Specification, StartSizes};
 use sigmastar_prove::certificate::members;
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
 
@@ -24,6 +24,18 @@ pub(super) fn the_same_for(every_set: bool) -> &'static str {
     match every_set {
         false => "the same for every $`n_o`$",
         true => "the same for every set of oscillators",
+    }
+}
+
+/// What an actuator takes: `|u| <= 30`, or `0 <= 1.95 + u <= 3.9` where u is measured from the middle of its range; a formula.
+pub(super) fn taken(actuator: &Actuator) -> String {
+    match &actuator.range {
+        None => format!("$`|u| <= {}`$", clean(&actuator.max.text)),
+        Some(range) => {
+            let [min, max] = [&range.min, &range.max].map(|limit| clean(&limit.text));
+            let put_out = actuator.middle().map_or_else(|| "u".to_owned(), |middle| format!("{} + u", write_exact(&middle)));
+            format!("$`{min} <= {put_out} <= {max}`$")
+        }
     }
 }
 

@@ -102,20 +102,33 @@ pub(super) fn input_gain() -> Field {
 }
 
 /// `actuator`.
-pub(super) fn actuator() -> Field {
-    let fields = vec![must(
-        "max",
+pub(super) fn actuator(of_plant: bool) -> Field {
+    const MAX: (&str, &str) = (
         "Greatest control",
-        "The greatest size of what is put out that the actuator takes, in the units of that: with an input gain of the control over the \
-         nominal gain.",
-        POSITIVE,
-    )];
+        "The greatest size of what is put out that the actuator takes, in the units of that: with an input gain of the control over the nominal gain.",
+    );
+    let of_size = Shape::Object(vec![must("max", MAX.0, MAX.1, POSITIVE)]);
+    let shape = match of_plant {
+        false => of_size,
+        true => Shape::OneOf(vec![
+            of_size,
+            Shape::Object(vec![
+                must(
+                    "min",
+                    "Lower limit",
+                    "What is put out acts as it is from `min` to `max`, rational numbers: u is measured from the middle of both.",
+                    Shape::Constant(Sign::Any),
+                ),
+                must("max", "Upper limit", "Above `min`.", Shape::Constant(Sign::Any)),
+            ]),
+        ]),
+    };
     may(
         "actuator",
         "Actuator",
         "An actuator that saturates: what is put out acts as it is up to `max` in size. A claim then is about one gain, and from its set, \
          without noise, the actuator never saturates.",
-        Shape::Object(fields),
+        shape,
     )
 }
 

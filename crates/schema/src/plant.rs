@@ -61,7 +61,7 @@ pub(super) fn fields() -> Vec<Field> {
         may("domain", "Domain", "Where the model holds; everywhere without it.", Shape::Object(domain)),
         internal_model(),
         input_gain(),
-        actuator(),
+        actuator(true),
         measurement(),
         disturbance(),
         arithmetic(),

@@ -38,7 +38,7 @@ pub(super) fn fields() -> Vec<Field> {
         may("domain", "Domain", "Where the bounding functions hold; everywhere without it.", Shape::Object(domain)),
         internal_model(),
         input_gain(),
-        actuator(),
+        actuator(false),
         measurement(),
         disturbance(),
         arithmetic(),

@@ -401,6 +401,12 @@ impl Expr {
         Expr { ops: ops.collect() }
     }
 
+    /// The sum of an expression and a number times another one, of the same variables.
+    pub fn plus(&self, factor: &Rational, other: &Expr) -> Expr {
+        let after = [Op::Number(factor.clone()), Op::Mul, Op::Add];
+        Expr { ops: self.ops.iter().chain(&other.ops).cloned().chain(after).collect() }
+    }
+
     /// The opposite of an expression.
     pub fn negated(&self) -> Expr {
         Expr { ops: self.ops.iter().cloned().chain([Op::Neg]).collect() }

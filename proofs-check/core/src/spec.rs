@@ -194,7 +194,7 @@ impl Specification {
         let regulator = InternalModel::read(&file.required("internal_model")?, &period, &[])?;
         let (initial_set, _) = read_set(&file.required("initial_set")?, (false, false), &[])?;
         let input_gain = input_gain::read(&mut file, &[], &[])?;
-        let actuator = actuator::read(&mut file, &[])?;
+        let actuator = actuator::read(&mut file, &[], false)?;
         let noise = Noise::read(&mut file)?;
         file.part("relative_degree", filter)?;
         file.finish()?;

@@ -6,7 +6,7 @@ use super::parts::{Forcing, Orbit};
 use super::time::Wave;
 use proofs_core::actuator;
 use proofs_core::constant::{Constant, positive_with};
-use proofs_core::expr::{Expr, Named};
+use proofs_core::expr::{Expr, Named, TIME};
 use proofs_core::input_gain;
 use proofs_core::jacobian;
 use proofs_core::json::{Field, Fields, Json};
@@ -115,7 +115,19 @@ pub fn read(field: &Field<'_>, witness: &mut Fields<'_>) -> Outcome<(Specificati
     };
     let domain = file.part("domain", |field| field.object(ends))?;
     let input_gain = input_gain::read(&mut file, &constants, &intervals)?;
-    let actuator = actuator::read(&mut file, &constants)?;
+    let actuator = actuator::read(&mut file, &constants, true)?;
+    let stated = field.fields()?.optional("input_gain");
+    let time: Vec<&str> = TIME.iter().copied().chain(variables.iter().copied()).collect();
+    let q = Formula {
+        expr: actuator::from_middle(
+            q.expr,
+            actuator.as_ref(),
+            (input_gain.as_ref(), stated.as_ref()),
+            &time,
+            &constants,
+        )?,
+        ..q
+    };
     let noise = Noise::read(&mut file)?;
     let regulator = spec::InternalModel::read(&file.required("internal_model")?, &period, &constants)?;
     file.finish()?;

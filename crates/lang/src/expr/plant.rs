@@ -258,6 +258,15 @@ impl PlantExpr {
         PlantExpr { text: self.text.clone(), nodes: self.nodes.iter().flat_map(timed).collect() }
     }
 
+    /// The expression plus a number times another one, of the same names: its text stays, as the place of what is added.
+    #[must_use]
+    pub fn plus(&self, factor: &Rational, other: &PlantExpr) -> PlantExpr {
+        let place = |kind| Node { kind, span: 0..self.text.len() };
+        let added = other.nodes.iter().map(|node| place(node.kind.clone()));
+        let after = [NodeKind::Number(factor.clone()), NodeKind::Binary(Binary::Mul), NodeKind::Binary(Binary::Add)];
+        self.with_nodes(self.nodes.iter().cloned().chain(added).chain(after.map(place)).collect())
+    }
+
     /// The expression with other operations: its text stays.
     pub(super) fn with_nodes(&self, nodes: Vec<Node<PlantVariable>>) -> PlantExpr {
         PlantExpr { text: self.text.clone(), nodes: nodes.into() }

@@ -31,7 +31,8 @@ pub struct Plant {
     pub parameters: Parameters,
     /// f, one expression for each state; parameters are their values there.
     pub f: Vec<PlantExpr>,
-    /// q.
+    /// q; with an actuator whose middle is not 0 that of the file plus the gain of the actuator times the middle, so that u is measured from there. Its text is
+    /// that of the file.
     pub q: PlantExpr,
     /// Where simulations start.
     pub initial: Initial,

@@ -3,7 +3,7 @@
 use super::{Initial, InitialRegulator, Plant, periodicity};
 use crate::expr::{Definitions, Phase, PlantExpr, PlantNames, Program};
 use crate::spec::{
-    Constant, Document, Domain, ErrorKind, Errors, InitialSet, Parameters, Period, Reported, SpecErrors, Value,
+    Actuator, Constant, Document, Domain, ErrorKind, Errors, InitialSet, InputGain, Parameters, Period, Reported, SpecErrors, Value,
     any_constant_in, positive_constant_in, read_actuator, read_disturbances, read_input_gain, read_internal_model,
     read_parameters, read_period, read_with_ball, rounded_from,
 };
@@ -62,6 +62,13 @@ fn read(value: &Value<'_>, errors: &mut Errors) -> Result<Plant, Reported> {
     let input_gain =
         object.optional("input_gain").map(|value| read_input_gain(&value, &parameters, errors)).transpose();
     let actuator = object.optional("actuator").map(|value| read_actuator(&value, constants, errors)).transpose();
+    let gain_of_middle = match (&input_gain, &actuator) {
+        (Ok(gain), Ok(Some(actuator))) if actuator.middle().is_some() => {
+            let member = |name| value.member(name);
+            gain_of_middle(gain.as_ref(), (member("actuator"), member("input_gain")), constants, errors)
+        }
+        _ => Ok(None),
+    };
     let disturbances = read_disturbances(&mut object, errors);
     object.finish(errors);
     // Without the names of the states the right sides have no meaning to check, and the rest has.
@@ -121,6 +128,9 @@ fn read(value: &Value<'_>, errors: &mut Errors) -> Result<Plant, Reported> {
     };
     periodic?;
     let ((_, f), (_, q)) = (f?, q?);
+    let actuator = actuator?;
+    let middle = actuator.as_ref().and_then(Actuator::middle).zip(gain_of_middle?);
+    let q = middle.map_or(q.clone(), |(middle, gain)| q.plus(&middle, &gain));
     let (initial_set, ball) = initial_set?;
     schema?;
     let (document, sha256) = value.embedded();
@@ -141,13 +151,44 @@ fn read(value: &Value<'_>, errors: &mut Errors) -> Result<Plant, Reported> {
         domain: domain?,
         internal_model: internal_model?,
         input_gain: input_gain?,
-        actuator: actuator?,
+        actuator,
         disturbances: disturbances?,
         document,
         sha256,
         source: value.document().clone(),
         pointer: value.pointer().to_owned(),
     })
+}
+
+/// The gain of the actuator as one expression, with which the middle of its range acts on the plant: 1 where none is stated. `None` where there is no value to
+/// read it from.
+///
+/// # Errors
+/// Reports a gain of which only ends are stated: which constant between them acts on the middle is the one that acts on u.
+fn gain_of_middle(
+    gain: Option<&InputGain>,
+    (actuator, stated): (Option<Value<'_>>, Option<Value<'_>>),
+    constants: &Definitions,
+    errors: &mut Errors,
+) -> Result<Option<PlantExpr>, Reported> {
+    let text = |name| {
+        let member = stated.as_ref().and_then(|stated| stated.member(name));
+        member.and_then(|value| value.text().or_else(|| value.numeral()).map(|text| text.trim().to_owned()))
+    };
+    let one_for_all = match gain {
+        None => Some("1".to_owned()),
+        Some(gain) if gain.is_nominal() && !gain.of_parameters() => text("nominal"),
+        Some(_) => text("low").filter(|low| text("high").as_ref() == Some(low)),
+    };
+    let (Some(actuator), Some(one_for_all)) = (&actuator, one_for_all) else {
+        let Some(actuator) = actuator else { return Ok(None) };
+        let message = "with `min` the gain of the actuator has to be one expression: it acts on the middle of the range, too";
+        let help = "make the gain a parameter with an interval, `\"g\": { \"nominal\": ..., \"low\": ..., \"high\": ... }`, and state `\"input_gain\": { \"nominal\": \
+                    \"g\", \"low\": \"g\", \"high\": \"g\" }`";
+        return Err(errors.report(actuator.error(ErrorKind::Range, message).help(help)));
+    };
+    let read = PlantExpr::of_parameters(&one_for_all, constants);
+    read.map(Some).map_err(|error| errors.report(actuator.expression_error(&error)))
 }
 
 fn read_names(value: &Value<'_>, errors: &mut Errors) -> Result<PlantNames, Reported> {

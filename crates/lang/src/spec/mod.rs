@@ -48,7 +48,7 @@ pub mod weights;
 mod weights_proof;
 mod weights_read;
 
-pub use actuator::{Actuator, read_actuator};
+pub use actuator::{Actuator, ActuatorRange, KEPT_BY, read_actuator, read_claimed_actuator};
 pub use bound::Bound;
 pub use bounding::Bounds;
 pub use constant::{any_constant, any_constant_in, nonnegative_constant, positive_constant, positive_constant_in};

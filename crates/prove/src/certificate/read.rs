@@ -7,8 +7,8 @@ use rug::Rational;
 use sigmastar_decide::conditions::GivenWitness;
 use sigmastar_lang::spec::model::PeriodicMatrix;
 use sigmastar_lang::spec::{
-    Actuator, Document, ErrorKind, Errors, InputGain, Object, Parameters, Reported, SpecErrors, Value, read_actuator,
-    read_input_gain, read_parameters,
+    Actuator, Document, ErrorKind, Errors, InputGain, Object, Parameters, Reported, SpecErrors, Value,
+    read_claimed_actuator, read_input_gain, read_parameters,
 };
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
 use sigmastar_theory::derivation::sharp::SharpWitness;
@@ -208,7 +208,7 @@ pub(super) fn own_actuator(
 ) -> Result<(), Reported> {
     let gain = own_part(claim, value, subject, ("input_gain", read_input_gain, InputGain::is), errors);
     let read = |value: &Value<'_>, parameters: &Parameters, errors: &mut Errors| {
-        read_actuator(value, parameters.definitions(), errors)
+        read_claimed_actuator(value, parameters.definitions(), errors)
     };
     gain.and(own_part(claim, value, subject, ("actuator", read, Actuator::is), errors))
 }

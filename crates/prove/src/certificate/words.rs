@@ -112,12 +112,15 @@ fn every_input_gain(spec: &Specification) -> String {
 
 /// ", with an actuator that takes ..."; nothing where there is none.
 fn within_actuator(spec: &Specification) -> String {
-    spec.actuator.as_ref().map_or_else(String::new, |Actuator { max }| {
-        format!(
-            ", with an actuator that takes what is put out up to {} in size and cuts off what is beyond (which nothing is from the set below)",
-            max.words()
-        )
-    })
+    let Some(Actuator { max, range, .. }) = &spec.actuator else { return String::new() };
+    let beyond = "and cuts off what is beyond (which nothing is from the set below)";
+    match range {
+        None => format!(", with an actuator that takes what is put out up to {} in size {beyond}", max.words()),
+        Some(range) => {
+            let [min, max] = [range.min.words(), range.max.words()];
+            format!(", with an actuator that takes what is put out from {min} to {max} (u is measured from the middle of these) {beyond}")
+        }
+    }
 }
 
 /// What converges to what: of all plants of the data, or of the plant whose formulas are in the certificate; `start` says when

@@ -12,7 +12,7 @@ use serde_json::{Map, Value};
 use sigmastar_decide::conditions::{Decided, ExceededBy, NoPlant, Proof, Witness};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::write_exact;
-use sigmastar_lang::spec::{Actuator, Constant, Interval, Specification};
+use sigmastar_lang::spec::{Constant, Interval, KEPT_BY, Specification};
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::condition::Condition;
 use sigmastar_theory::derivation::control::Control;
@@ -143,8 +143,10 @@ pub(super) fn input_gain_json(spec: &Specification) -> Option<(&'static str, Val
 
 /// What the actuator takes, where the claim keeps to it.
 pub(super) fn actuator_json(spec: &Specification) -> Option<(&'static str, Value)> {
-    let Actuator { max } = spec.actuator.as_ref()?;
-    Some(("actuator", object([("max", text(constant(max)))])))
+    let actuator = spec.actuator.as_ref()?;
+    let kept_by = actuator.by_count.then(|| (KEPT_BY[0], KEPT_BY[1].to_owned()));
+    let written = actuator.written().into_iter().chain(kept_by);
+    Some(("actuator", object(written.map(|(name, value)| (name, text(value))))))
 }
 
 /// The intervals of the parameters, for all of which the claim is; none of a single plant.

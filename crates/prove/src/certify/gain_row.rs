@@ -175,6 +175,11 @@ impl ByCount {
         first.iter().copied().eq(0..first.len() as u64) && last.is_some_and(|last| last.or_more)
     }
 
+    /// Of what is put out at all times with every number of oscillators, as the certificate has it; none where it is not proved of one.
+    pub(crate) fn stated_control(&self) -> Option<Enclosure> {
+        self.over(&[], &CountBounds::largest_control).map(|found| self.stated(&found))
+    }
+
     /// The largest of a bound over all numbers of oscillators; none where not all are known.
     pub(super) fn largest(&self, of: impl Fn(&CountBounds) -> Option<&Enclosure>) -> Option<Enclosure> {
         self.over(&[], &|bounds| of(bounds).cloned())

@@ -37,7 +37,8 @@ impl FloatLimits {
     pub(super) fn new(spec: &Specification, limits: &Limits) -> Option<FloatLimits> {
         let [steady, peak, control] = limits.of_conditions().map(|(_, limit)| limit);
         let float = |limit: Option<&Rational>| limit.map(Rational::to_f64);
-        let actuator = spec.actuator.as_ref().map(|actuator| actuator.max.to_f64());
+        let actuator = spec.actuator.as_ref().filter(|actuator| !actuator.by_count);
+        let actuator = actuator.map(|actuator| actuator.max.to_f64());
         let limits = [
             (Limited::SteadyError, float(steady)),
             (Limited::PeakError, float(peak)),
@@ -188,7 +189,7 @@ pub(super) fn with_limit(
         Limited::SteadyError => limits.steady_error = Some(value.clone()),
         Limited::PeakError => limits.peak_error = Some(value.clone()),
         Limited::Control => limits.control = Some(value.clone()),
-        Limited::Actuator => spec.actuator = Some(Actuator { max: Constant::rational(value) }),
+        Limited::Actuator => spec.actuator = Some(Actuator::symmetric(Constant::rational(value))),
     }
     (spec, limits)
 }

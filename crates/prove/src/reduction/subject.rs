@@ -8,7 +8,7 @@ use crate::certify::{Alternatives, with_triple};
 use rug::Rational;
 use sigmastar_lang::plant::{self, Plant};
 use sigmastar_lang::spec::{
-    self, Actuator, Constant, Disturbances, Document, ErrorKind, InputGain, InternalModel, Period, Sampling,
+    self, Actuator, AskedHarmonics, Constant, Disturbances, Document, ErrorKind, InputGain, InternalModel, KEPT_BY, Period, Sampling,
     SpecErrors, Specification, Value,
 };
 use sigmastar_propose::search::{SampledProposal, SharpProposal};
@@ -90,6 +90,30 @@ impl Subject {
             return Ok(Subject::Plant(Box::new(Plant::from_value(value)?)));
         }
         Ok(Subject::Specification(Box::new(Specification::from_value(value)?)))
+    }
+
+    /// The subject whose claim is to keep to its actuator by the bounds for every number of oscillators, and the limit that it has by that; about the first n_o
+    /// harmonics. `None` without an actuator, and where there are no such bounds: of bounding functions, without a matched base frequency, with noise or a
+    /// disturbance, and for a claim that is asked to be about every set of harmonics.
+    pub(super) fn kept_by_count(&self) -> Option<(Subject, Rational)> {
+        let Subject::Plant(plant) = self else { return None };
+        let mut plant = plant.clone();
+        let actuator = plant.actuator.as_mut()?;
+        actuator.by_count = true;
+        let max = actuator.largest()?;
+        let model = &mut plant.internal_model;
+        if !model.matched || model.asks_every_set() || plant.disturbances.any() {
+            return None;
+        }
+        model.harmonics = Some(AskedHarmonics::First);
+        Some((Subject::Plant(plant), max))
+    }
+
+    /// The subject as a certificate is about it that keeps to its actuator in that way.
+    #[must_use]
+    pub fn as_claimed(&self, certificate: &Document) -> Option<Subject> {
+        certificate.at(&format!("/claim/actuator/{}", KEPT_BY[0]))?;
+        self.kept_by_count().map(|(subject, _)| subject)
     }
 
     /// What it is called: `specification` or `plant`.

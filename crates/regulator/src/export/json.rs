@@ -73,6 +73,9 @@ pub fn json(export: &Export<'_>) -> Value {
     if let Some(actuator) = export.actuator {
         file["actuator"] = object!({ "max": actuator.limit() });
     }
+    if let Some(middle) = export.middle {
+        file["middle"] = middle.into();
+    }
     file
 }
 

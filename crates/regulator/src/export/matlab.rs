@@ -25,6 +25,9 @@ pub fn matlab(export: &Export<'_>) -> String {
     if let Some(actuator) = export.actuator {
         script.push_str(&format!("actuator_max = {};\n", decimal(actuator.limit())));
     }
+    if let Some(middle) = export.middle {
+        script.push_str(&format!("middle = {}; % added to u before it is put out\n", decimal(middle)));
+    }
     script.push_str(&format!("frequencies = [{}];\n", row(&regulator.frequencies)));
     script.push_str(&format!("weights = [{}];\n", row(&regulator.weights)));
     let dimension = regulator.dimension();

@@ -30,6 +30,8 @@ pub struct Export<'r> {
     pub aligned: bool,
     /// What the actuator takes, where the document states it and no other limit was asked for.
     pub actuator: Option<&'r Actuator>,
+    /// What u is measured from, where that is not 0: the middle of the range of the actuator, which is added to u before it is put out.
+    pub middle: Option<f64>,
     /// The certificate, where one was given for this plant.
     pub certificate: Option<&'r Provenance>,
 }

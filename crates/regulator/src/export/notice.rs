@@ -10,8 +10,13 @@ pub const DELAYED_LAW: &str = "e1 = e + s, z_next = R (z - M e) + M e1, v = M'N 
                                s_next = -h sigma e1";
 
 /// When what happens, with a delay.
-const DELAY: &str = "The computation has a whole sample (delay_samples: 1): e_k is measured at the sample k, u_(k+1) is computed from \
-                     it, and put out at the sample k + 1. Until the first one is, put out 0.";
+fn delay(export: &Export<'_>) -> String {
+    format!(
+        "The computation has a whole sample (delay_samples: 1): e_k is measured at the sample k, u_(k+1) is computed from it, and put out at the sample \
+         k + 1. Until the first one is, put out {}.",
+        super::decimal(export.middle.unwrap_or(0.0))
+    )
+}
 
 /// What a certificate says of a regulator.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -110,7 +115,7 @@ pub fn notice(export: &Export<'_>) -> Vec<String> {
     }
     let delayed = export.discrete.is_some_and(|(discrete, _)| discrete.prediction.is_some());
     if delayed {
-        lines.push(DELAY.to_owned());
+        lines.push(delay(export));
     }
     if export.aligned {
         lines.push("Start with z = M e, e the error at the first instant: the initial set is `aligned`.".to_owned());
@@ -123,6 +128,12 @@ pub fn notice(export: &Export<'_>) -> Vec<String> {
         lines.push(format!(
             "u is what the actuator is given: the control of the law is divided by the nominal input gain {}.{sampled}",
             super::decimal(nominal)
+        ));
+    }
+    if let Some(middle) = export.middle {
+        lines.push(format!(
+            "u is measured from the middle of the range of the actuator: put out {} + u. The C code returns that.",
+            super::decimal(middle)
         ));
     }
     let claimed = (export.certificate.map(|certificate| certificate.scope), export.actuator);
@@ -152,8 +163,9 @@ pub fn notice(export: &Export<'_>) -> Vec<String> {
 
 /// Where u is clipped, or is to be; with an actuator, what the certificate says of that.
 fn clipped(export: &Export<'_>, scope: Option<Scope>) -> Option<String> {
-    let of_max = export.actuator.map_or_else(String::new, |actuator| {
-        format!(", the least double that is not below the {} that the actuator takes", plain(&actuator.max.text))
+    let of_max = export.actuator.map_or_else(String::new, |actuator| match actuator.range {
+        None => format!(", the least double that is not below the {} that the actuator takes", plain(&actuator.max.text)),
+        Some(_) => format!(", the least double that is not below half of the range of the actuator, {}", plain(&actuator.max.text)),
     });
     let proved = match (export.actuator.and(scope), export.discrete) {
         (Some(Scope::Samples), Some(_)) | (Some(Scope::Continuous), None) => {

@@ -8,7 +8,7 @@ use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, DateTime, ZipWriter};
 
 /// The regulator as a NumPy `.npz` archive (stored, no time stamps): `sigma`, `mu`, `nominal` (the gain of the actuator, by which u is
-/// divided, where there is one), `frequencies`, `weights`, `Phi`,
+/// divided, where there is one), `middle` (of the range of the actuator, which is added to u, where it is not 0), `frequencies`, `weights`, `Phi`,
 /// `Gamma`, `M`, `N`, `aligned` (whether z = M e at the first instant; else z = 0 there), `notice` (what is claimed and what is not:
 /// bytes of UTF-8) and, with a discretisation, `step`, `K`,
 /// `weight_sum`, `decay`, `Phi_d`, `Gamma_d`, `C_d`, `D_d`, `saturation` where u is clipped, with a delay `delay_samples` and `prediction`
@@ -26,6 +26,9 @@ pub fn npz(export: &Export<'_>) -> ZipResult<Vec<u8>> {
     archive.number("mu", regulator.mu)?;
     if let Some(nominal) = regulator.nominal {
         archive.number("nominal", nominal)?;
+    }
+    if let Some(middle) = export.middle {
+        archive.number("middle", middle)?;
     }
     archive.vector("frequencies", &regulator.frequencies)?;
     archive.vector("weights", &regulator.weights)?;

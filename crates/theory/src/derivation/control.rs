@@ -42,7 +42,8 @@ impl Control<Enclosure> {
     /// solution of the loop with the saturation, too.
     #[must_use]
     pub fn condition(&self, data: &Data<'_>) -> Option<Condition> {
-        let max = data.spec.actuator.as_ref()?.max.enclose(data.precision);
+        let actuator = data.spec.actuator.as_ref().filter(|actuator| !actuator.by_count)?;
+        let max = actuator.max.enclose(data.precision);
         Some(Condition::at_most("C6", "steady + transient <= max of the actuator", &self.steady + &self.transient, max))
     }
 }

@@ -7,7 +7,7 @@ use super::rates::claimed::Rate;
 use super::rates::demand_noise;
 use super::sampled::claim::{N_O, Regulator};
 use super::set::ClaimedSet;
-use crate::actuator;
+use crate::actuator::{self, Actuator};
 use crate::constant::Constant;
 use crate::data::Data;
 use crate::input_gain;
@@ -161,6 +161,16 @@ impl<'a> Claim<'a> {
     /// Which oscillators it is about.
     pub fn scope(&self) -> Scope {
         Scope::of_claim(self.harmonics.as_ref())
+    }
+
+    /// Whether it says that it keeps to its actuator by what it says by the number of oscillators.
+    pub fn keeps_to_actuator_by_n_o(&self) -> Outcome<bool> {
+        actuator::says_by_n_o(self.actuator.as_ref())
+    }
+
+    /// That it does: what it says by n_o is proved.
+    pub fn keep_to_actuator(&self, actuator: &Actuator) -> Outcome<()> {
+        actuator::kept_by_n_o(actuator, &self.by_n_o, self.scope() == Scope::EverySet, &self.pointer)
     }
 
     /// Whether it says something of noise.

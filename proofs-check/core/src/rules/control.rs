@@ -57,10 +57,11 @@ pub fn put_out(d: &Data<'_>, bounds: [Interval; 2]) -> [Interval; 2] {
     }
 }
 
-/// C6: of a solution from the claimed set what is put out is never larger than the actuator takes. So it is a solution of the loop with the
+/// C6, where the claim does not keep to the actuator by what it says by n_o: of a solution from the claimed set what is put out is never larger than the actuator takes. So it is a solution of the loop with the
 /// saturation, too, whose solutions are unique.
 pub fn saturation(d: &Data<'_>, [steady, transient]: &[Interval; 2]) -> Option<Condition> {
-    let max = d.spec.actuator.as_ref()?.max.enclose(d.precision);
+    let actuator = d.spec.actuator.as_ref().filter(|actuator| !actuator.by_n_o)?;
+    let max = actuator.max.enclose(d.precision);
     Some(Condition::at_most("C6", "steady + transient <= max of the actuator", steady + transient, max))
 }
 

@@ -33,7 +33,17 @@ impl<'q> AtGains<'q> {
     /// What is prepared for the smallest gain. With an actuator it is the smallest that keeps to that.
     #[must_use]
     pub fn smallest(&self) -> Prepared {
-        self.asked(self.smallest.clone())
+        self.keeping(self.asked(self.smallest.clone()), None)
+    }
+
+    /// What is prepared, or where that does not keep to an actuator what does so by the number of oscillators.
+    fn keeping(&self, prepared: Prepared, gain: Option<Rational>) -> Prepared {
+        if self.subject.actuator().is_none() || prepared.has_claim(self.options, self.watch) {
+            return prepared;
+        }
+        let none = Limits::default();
+        let other = Prepared::seeking_by_count(self.subject, gain, (&none, self.counts), self.options, self.watch);
+        other.unwrap_or(prepared)
     }
 
     /// What is prepared for a gain: in continuous time with the data of the smallest one, at samples and where these are for larger gains with data of its own.
@@ -46,7 +56,7 @@ impl<'q> AtGains<'q> {
             _ => search((self.subject, self.counts), &Limits::default(), self.options, self.watch)
                 .at(Some(gain.clone()))?,
         };
-        Ok(self.asked(prepared))
+        Ok(self.keeping(self.asked(prepared), Some(gain.clone())))
     }
 
     fn asked(&self, prepared: Prepared) -> Prepared {

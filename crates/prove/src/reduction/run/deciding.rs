@@ -12,10 +12,11 @@ use crate::reduction::reduce::{reduce_by_norms_quickly, reduce_by_norms_watched}
 use crate::reduction::subject::{Sought, SoughtAtSamples};
 use crate::reduction::{FreeNumbers, RestsOn, Stage, Unwatched, Watch, reduce_sampled};
 use rug::Rational;
+use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::parallel;
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{Oscillators, Sampling, SpecErrors, Specification};
-use sigmastar_propose::search::SharpProposal;
+use sigmastar_propose::search::{Failing, Limited, SharpProposal};
 
 /// What the independent checker says of the certificate of a claim.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -68,7 +69,7 @@ impl Prepared {
         };
         let asked: Vec<Oscillators> =
             self.counts.iter().copied().map(Oscillators::first).chain(self.sets.iter().cloned()).collect();
-        let counts = Counts { of: &counted, asked: &asked };
+        let counts = Counts { of: &counted, asked: &asked, keep: true };
         let run = match &self.start {
             Start::Continuous(start) => {
                 let pool = self.pool(start.as_deref(), options, watch);
@@ -83,7 +84,7 @@ impl Prepared {
             }
             Start::Given(numbers) => {
                 let claims = |batch: Batch| Ok(self.given(numbers, options, batch)?.into_iter().collect());
-                first_decided(claims, &Counts { of: &|_, _| (), asked: &[] }, check)
+                first_decided(claims, &Counts { of: &|_, _| (), asked: &[], keep: false }, check)
             }
         };
         run.map_err(|refusal: Refusal| refusal.errors(&self.spec))
@@ -305,9 +306,26 @@ impl Prepared {
 struct Counts<'c, 's> {
     of: &'c dyn Fn(&mut Run<'s>, &[Oscillators]),
     asked: &'c [Oscillators],
+    /// Whether a claim that keeps to its actuator by them is to be judged.
+    keep: bool,
 }
 
 impl<'s> Counts<'_, 's> {
+    /// A claim that is to keep to its actuator by what it says by the number of oscillators, with that, and the answer of the checker: where that takes too
+    /// much what is asked for is left out. One that does not keep to it the checker is not asked about: whether it does is judged with the limits
+    /// ([`Run::prove_rates`]).
+    fn kept(&self, mut run: Run<'s>, check: &dyn Fn(&Run<'_>) -> Checked) -> (Run<'s>, Checked) {
+        let mut answer = Checked::Decided;
+        for asked in [self.asked, &[]] {
+            (self.of)(&mut run, asked);
+            answer = if run.keeps_actuator() { check(&run) } else { Checked::Decided };
+            if answer != Checked::GivenUp || self.asked.is_empty() {
+                break;
+            }
+        }
+        (run, answer)
+    }
+
     /// A claim that the checker decides with what its certificate says by the number of oscillators, as far as the checker decides that: where it does not,
     /// first what is asked for is left out, then all of it.
     fn added(&self, mut run: Run<'s>, check: &dyn Fn(&Run<'_>) -> Checked) -> Run<'s> {
@@ -344,7 +362,16 @@ fn first_decided<'s>(
                 best = best.or(Some(run));
                 continue;
             }
-            match check(&run) {
+            let by_count = counts.keep && run.spec().actuator.as_ref().is_some_and(|actuator| actuator.by_count);
+            let (run, answered) = match by_count {
+                true => counts.kept(run, check),
+                false => {
+                    let answered = check(&run);
+                    (run, answered)
+                }
+            };
+            match answered {
+                Checked::Decided if by_count => return Ok(run),
                 Checked::Decided => return Ok(counts.added(run, check)),
                 // The first claim, in the place of a run without one.
                 other if answer == Checked::Decided => (best, answer) = (Some(run), other),
@@ -382,6 +409,35 @@ impl Run<'_> {
         }
         if let Some(found) = self.by_count_mut() {
             found.checked = true;
+        }
+    }
+
+    /// Takes the claim back where it is to keep to its actuator by what is proved for every number of oscillators, and does not.
+    pub fn keep_to_actuator(&mut self) {
+        let Some(sigma) = self.certified().map(|claim| claim.sigma.to_f64()).filter(|_| !self.keeps_actuator()) else {
+            return;
+        };
+        let asked = self.spec().actuator.as_ref().map_or(f64::NAN, |actuator| actuator.max.to_f64());
+        let least = self.stated_control().map_or(f64::INFINITY, |found| found.upper_f64());
+        self.take_back(Failing::Limit { which: Limited::Actuator, asked, least, sigma, proved: true });
+    }
+
+    /// Of what is put out at all times with every number of oscillators, as the certificate has it; none where it says nothing of that.
+    fn stated_control(&self) -> Option<Enclosure> {
+        self.by_count().filter(|found| found.checked).and_then(ByCount::stated_control)
+    }
+
+    /// Whether what is proved for every number of oscillators keeps to the actuator, where a claim is to keep to it by that.
+    fn keeps_actuator(&self) -> bool {
+        let Some(actuator) = self.spec().actuator.as_ref().filter(|actuator| actuator.by_count) else { return true };
+        let upper = self.stated_control().and_then(|found| found.upper_rational());
+        upper.zip(actuator.largest()).is_some_and(|(upper, largest)| upper <= largest)
+    }
+
+    fn take_back(&mut self, reason: Failing) {
+        match self {
+            Run::Continuous(run) => run.take_back(reason),
+            Run::Sampled(run) => run.take_back(reason),
         }
     }
 

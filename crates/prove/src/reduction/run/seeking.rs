@@ -55,6 +55,47 @@ impl Prepared {
         options: Options,
         watch: &dyn Watch,
     ) -> Result<Prepared, Vec<SpecErrors>> {
+        let prepared = Prepared::seeking_by_conditions(subject, gain.clone(), (limits, counts), options, watch)?;
+        let by_count = || Prepared::seeking_by_count(subject, gain, (limits, counts), options, watch);
+        let is_kept = subject.actuator().is_none() || prepared.has_claim(options, watch);
+        Ok(if is_kept { prepared } else { by_count().unwrap_or(prepared) })
+    }
+
+    /// The same for a claim that keeps to its actuator by the bounds for every number of oscillators. `None` where there is none.
+    pub(super) fn seeking_by_count(
+        subject: &Subject,
+        gain: Option<Rational>,
+        (limits, counts): (&Limits, &[u32]),
+        options: Options,
+        watch: &dyn Watch,
+    ) -> Option<Prepared> {
+        let (subject, max) = subject.kept_by_count().filter(|_| limits.rate.is_none())?;
+        let control = limits.control.clone().map_or(max.clone(), |limit| limit.min(max));
+        let limits = Limits { control: Some(control), ..limits.clone() };
+        let prepared = Prepared::seeking_by_conditions(&subject, gain, (&limits, &[]), options, watch).ok()?;
+        let limits = Limits { by_count: Some(Vec::new()), ..limits };
+        let prepared = Prepared { counts: counts.to_vec(), limits, ..prepared };
+        prepared.has_claim(options, watch).then_some(prepared)
+    }
+
+    /// Whether something is certified that keeps to the limits, those that are judged by the number of oscillators and the actuator included.
+    pub(super) fn has_claim(&self, options: Options, watch: &dyn Watch) -> bool {
+        let options = Options { compare: false, ..options };
+        let run = self.certify_checked(options, &|_| Checked::Decided, watch).ok();
+        run.is_some_and(|mut run| {
+            let judged = run.prove_rates(&[]).is_ok();
+            run.keep_to_actuator();
+            judged && run.certified().is_some()
+        })
+    }
+
+    fn seeking_by_conditions(
+        subject: &Subject,
+        gain: Option<Rational>,
+        (limits, counts): (&Limits, &[u32]),
+        options: Options,
+        watch: &dyn Watch,
+    ) -> Result<Prepared, Vec<SpecErrors>> {
         let rows = options.compare || !limits.is_empty() || subject.actuator().is_some();
         let search = Search { subject, limits, counts, options: Options { compare: false, ..options }, rows, watch };
         let prepared = match (&limits.rate, gain) {

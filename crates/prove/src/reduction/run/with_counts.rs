@@ -25,6 +25,9 @@ const ROOM: f64 = 1.002;
 const STEP: f64 = 1.1;
 const FAR: f64 = 3.0;
 
+/// The gains over mu that are tried where nothing by the number of oscillators is proved at the smallest one.
+const OF_MU: [f64; 4] = [0.1, 0.3, 1.0, 3.0];
+
 /// Digits of a gain.
 const DIGITS: u32 = 5;
 
@@ -55,7 +58,8 @@ impl Search<'_> {
             return Ok(self.within_limits(smallest));
         }
         let limits = self.by_count();
-        let Some((least, below)) = self.least(smallest.clone(), &limits) else {
+        let first = self.least(smallest.clone(), &limits).or_else(|| self.next(&smallest, &limits));
+        let Some((least, below)) = first else {
             return Ok(self.within_limits(smallest));
         };
         if below.shares.keeps_all {
@@ -115,15 +119,37 @@ impl Search<'_> {
         Some((Prepared { found_above: Some(tried.sigma.to_f64()), ..least }, tried))
     }
 
+    /// The same at the first of a few larger gains at which something is proved for these numbers of oscillators: the smallest one may be so far below the
+    /// rates of the regulator that nothing is there.
+    fn next(&self, smallest: &Prepared, limits: &Limits) -> Option<(Prepared, Tried)> {
+        let sigma = self.certified(smallest)?;
+        let mu = smallest.spec.internal_model.mu.to_f64();
+        let gains = OF_MU.iter().filter_map(|share| round_f64(share * mu, DIGITS, Direction::Up));
+        let at = |gain: Rational| self.at_larger(smallest, limits, (gain, sigma.to_f64()));
+        gains.filter(|gain| *gain > sigma).find_map(at)
+    }
+
+    /// What is prepared for a gain above the smallest one, and what is proved there.
+    fn at_larger(&self, smallest: &Prepared, limits: &Limits, (gain, least): (Rational, f64)) -> Option<(Prepared, Tried)> {
+        // In continuous time what is proved for the smallest gain and its rows serves larger ones.
+        let prepared = match self.subject.sampling() {
+            None => Prepared { gain: Some(gain), ..smallest.clone() },
+            Some(_) => self.at(Some(gain)).ok()?,
+        };
+        let counts = self.counts.to_vec();
+        let prepared = Prepared { found_above: Some(least), counts, ..prepared.within(limits.clone(), self.watch) };
+        self.tried_with(&prepared).map(|tried| (prepared, tried))
+    }
+
     /// What is prepared for the smallest gain that is found above the least one and below the known one, and true; or for the one that misses the limits by
-    /// least, and false. In continuous time what is proved for the smallest gain and its rows serves larger ones.
+    /// least, and false.
     fn smaller(
         &self,
         (limits, smallest): (&Limits, &Prepared),
         (least, mut below): (Prepared, Tried),
         known: Option<&Rational>,
     ) -> (Prepared, bool) {
-        let found_above = Some(below.sigma.to_f64());
+        let found_above = least.found_above.unwrap_or_else(|| below.sigma.to_f64());
         // With the least gain that keeps to the limits of the error the control is the smallest, as a rule.
         let mut best: Option<(Prepared, Tried)> = None;
         let (mut nearest, mut rises) = ((least, below.shares.largest), 0);
@@ -145,16 +171,7 @@ impl Search<'_> {
             let sigma = round_f64(next, DIGITS, Direction::Up);
             let is_below = |sigma: &Rational| above.is_none_or(|above| sigma.to_f64() < above);
             let Some(sigma) = sigma.filter(is_below) else { break };
-            let prepared = match self.subject.sampling() {
-                None => Some(Prepared { gain: Some(sigma.clone()), ..smallest.clone() }),
-                Some(_) => self.at(Some(sigma.clone())).ok(),
-            };
-            let tried = prepared.and_then(|prepared| {
-                let counts = self.counts.to_vec();
-                let prepared = Prepared { found_above, counts, ..prepared.within(limits.clone(), self.watch) };
-                self.tried_with(&prepared).map(|tried| (prepared, tried))
-            });
-            let Some((prepared, tried)) = tried else {
+            let Some((prepared, tried)) = self.at_larger(smallest, limits, (sigma.clone(), found_above)) else {
                 below.sigma = sigma;
                 continue;
             };

@@ -1,8 +1,14 @@
 //! A program for exported C code: a first run on a small plant.
 
+use super::literal::literal;
 use super::{CNames, harmless};
 use crate::Discrete;
 use crate::export::{Export, decimal};
+
+/// A double as the right side of a difference.
+fn signed(value: f64) -> String {
+    if value < 0.0 { format!("({})", decimal(value)) } else { decimal(value) }
+}
 
 /// A `main` that runs the regulator on e' = q(t) + u for a number of periods and prints the largest error of each.
 pub(super) fn example(export: &Export<'_>, discrete: &Discrete, names: &CNames) -> String {
@@ -14,12 +20,16 @@ pub(super) fn example(export: &Export<'_>, discrete: &Discrete, names: &CNames) 
     // Half of what the control can do.
     let amplitude = discrete.saturation.map_or(1.0, |limit| limit / 2.0);
     // What the actuator makes of u.
-    let acting = export.regulator.nominal.map_or_else(|| "u".to_owned(), |gain| format!("{} * u", decimal(gain)));
+    let from_middle = export.middle.map_or_else(|| "u".to_owned(), |middle| format!("(u - {})", signed(middle)));
+    let acting = export.regulator.nominal.map_or(from_middle.clone(), |gain| format!("{} * {from_middle}", decimal(gain)));
     let argument = if export.aligned { ", e" } else { "" };
     // With a delay the control that is returned acts in the next sample.
     let (declared, called, kept) = match discrete.prediction {
-        Some(_) => ("    double u = 0.0;\n", "double next", "            u = next;\n"),
-        None => ("", "double u", ""),
+        Some(_) => {
+            let first = export.middle.map_or_else(|| "0.0".to_owned(), literal);
+            (format!("    double u = {first};\n"), "double next", "            u = next;\n")
+        }
+        None => (String::new(), "double u", ""),
     };
     format!(
         "/* A first run of the regulator for: {}\n\

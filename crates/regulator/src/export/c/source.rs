@@ -18,7 +18,8 @@ pub(super) fn source(export: &Export<'_>, discrete: &Discrete, prefix: &Prefix) 
     let numbers = [("sigma", regulator.sigma), ("gain", discrete.gain), kept];
     let saturation = discrete.saturation.map(|limit| [("step", discrete.step), ("limit", limit)]);
     let nominal = regulator.nominal.map(|nominal| ("nominal", nominal));
-    for (name, value) in numbers.into_iter().chain(nominal).chain(saturation.into_iter().flatten()) {
+    let middle = export.middle.map(|middle| ("middle", middle));
+    for (name, value) in numbers.into_iter().chain(nominal).chain(middle).chain(saturation.into_iter().flatten()) {
         source.push_str(&format!("static const double {name} = {};\n", literal(value)));
     }
     source.push_str(&array("weight", &regulator.weights));
@@ -29,7 +30,12 @@ pub(super) fn source(export: &Export<'_>, discrete: &Discrete, prefix: &Prefix) 
     let upper = prefix.upper();
     let delayed = discrete.prediction.is_some();
     source.push_str(&reset(&upper, prefix, (!cosines.is_empty(), delayed), export.aligned));
-    let put_out = PutOut { saturation: discrete.saturation.is_some(), nominal: regulator.nominal.is_some(), delayed };
+    let put_out = PutOut {
+        saturation: discrete.saturation.is_some(),
+        nominal: regulator.nominal.is_some(),
+        moved: export.middle.is_some(),
+        delayed,
+    };
     source.push_str(&step(&upper, prefix, !cosines.is_empty(), put_out));
     source
 }
@@ -66,13 +72,15 @@ struct PutOut {
     saturation: bool,
     /// Whether it is divided by a nominal gain.
     nominal: bool,
+    /// Whether it is measured from the middle of a range.
+    moved: bool,
     /// Whether it is put out at the next sample.
     delayed: bool,
 }
 
 /// The operations of the Rust stepper, in its order.
 fn step(upper: &str, prefix: &Prefix, oscillators: bool, put_out: PutOut) -> String {
-    let PutOut { saturation, nominal, delayed } = put_out;
+    let PutOut { saturation, nominal, moved, delayed } = put_out;
     let wanted = match (saturation, nominal) {
         (false, _) => "",
         (true, false) => ", wanted",
@@ -137,6 +145,9 @@ fn step(upper: &str, prefix: &Prefix, oscillators: bool, put_out: PutOut) -> Str
     if delayed {
         text.push_str("    controller->ahead = carry;\n");
     }
-    text.push_str("    return u;\n}\n");
+    text.push_str(match moved {
+        true => "    /* u is measured from the middle of the range of the actuator. */\n    return middle + u;\n}\n",
+        false => "    return u;\n}\n",
+    });
     text
 }
