@@ -1,6 +1,7 @@
 //! What a certificate is about: the claim in words, the specification, what it takes for granted; and whether that is the
 //! specification of somebody else's file.
 
+use proofs_core::actuator::Actuator;
 use proofs_core::bound::{BOUND_NAMES, Bound};
 use proofs_core::input_gain;
 use proofs_core::json::{Field, Json, join, rational};
@@ -75,7 +76,7 @@ impl Subject {
                 match &claim.sampled {
                     Some(sampled) => {
                         list.extend(sampled.assumed([spec.actuator.is_some(), claim.says_of_noise(), rounded]));
-                        list.extend(spec.input_gain.as_ref().map(|gain| format!("the regulator{}", output(gain))));
+                        list.extend(output(spec).map(|said| format!("the regulator{said}")));
                     }
                     None => list.push(regulator(spec, claim.says_of_noise())),
                 }
@@ -167,13 +168,25 @@ fn period(range: &Range) -> String {
 
 /// What reaches the plant.
 fn input(spec: &Specification) -> &'static str {
-    if spec.input_gain.is_some() { "g v, v what the regulator puts out and g its gain," } else { "u" }
+    match (&spec.input_gain, spec.actuator.as_ref().and_then(Actuator::middle_in_words)) {
+        (Some(_), _) => "g v, v what the regulator puts out and g its gain,",
+        (None, Some(_)) => "what the regulator puts out,",
+        (None, None) => "u",
+    }
 }
 
 /// What is put out where that is not u, and what becomes of it.
-fn output(gain: &Range) -> String {
+fn output(spec: &Specification) -> Option<String> {
+    let middle = spec.actuator.as_ref().and_then(Actuator::middle_in_words);
+    let put_out = spec.input_gain.as_ref().map(input_gain::output);
+    let whole = match (middle, put_out) {
+        (None, None) => return None,
+        (None, Some(put_out)) => put_out,
+        (Some(middle), put_out) => format!("{middle} + {}", put_out.as_deref().unwrap_or("u")),
+    };
+    let Some(gain) = &spec.input_gain else { return Some(format!(" puts out {whole}, which is what acts in e'")) };
     let [low, high] = [&gain.low, &gain.high].map(|constant| &constant.words);
-    format!(" puts out v = {}; g is one constant in [{low}, {high}]", input_gain::output(gain))
+    Some(format!(" puts out v = {whole}; g is one constant in [{low}, {high}]"))
 }
 
 /// What is assumed where something is said of noise.
@@ -188,7 +201,7 @@ const ROUNDING: &str = "where noise is said: the regulator computes in doubles a
 /// What it takes for granted of a continuous regulator; `noisy`: something is said of noise.
 fn regulator(spec: &Specification, noisy: bool) -> String {
     let frequency = if spec.regulator.matched { ", with base_frequency exactly 2 pi/period" } else { "" };
-    let output = spec.input_gain.as_ref().map_or_else(String::new, |gain| format!(", and{}", output(gain)));
+    let output = output(spec).map_or_else(String::new, |said| format!(", and{said}"));
     format!(
         "the regulator runs in continuous time with exactly the mu, weights and base frequency stated{frequency}{output}: no \
          {} or noise{}",

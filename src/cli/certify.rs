@@ -85,6 +85,10 @@ pub fn run(args: &CertifyArgs) -> Result<u8, Failure> {
     let prepared = match &witness {
         None => Prepared::seeking(&subject, gain.clone(), (&limits, &counts), args.options(), &stages),
         Some(certificate) => {
+            if subject.as_claimed(certificate).is_some() {
+                let message = "the certificate keeps to its actuator by its bounds by the number of oscillators, which --witness does not decide";
+                return Err(Failure::call(message, "`sigmastar check` decides it"));
+            }
             let witness = read_for(certificate, &subject)?;
             if witness.of_another && !args.quiet {
                 let kind = subject.kind();

@@ -67,10 +67,11 @@ fn one_positive_constant() {
         let errors = read(wrong.clone()).unwrap_err();
         assert!(errors.errors().iter().any(|error| error.pointer == place), "{wrong}: {}", errors.render(false));
     }
-    // Limits to one side have an answer of their own, and it is the only one.
+    // Limits to both sides have an answer of their own, and it is the only one.
     let one_sided = read(object!({ "min": "0", "max": "3.9" })).unwrap_err();
     let text = one_sided.render(false);
-    assert!(one_sided.errors().len() == 1 && text.contains("symmetric") && text.contains("(LO + HI)/2"), "{text}");
+    let said = text.contains("for plants by their formulas") && text.contains("(min + max)/2");
+    assert!(one_sided.errors().len() == 1 && said, "{text}");
 }
 
 /// A claim is certified down to about the least max that is told, at one gain, and below that nothing is claimed.

@@ -41,10 +41,13 @@ fn evaluate(certificate: &Value, precision: u32) -> Checked {
         Some(plant) => proofs_check::plants::read::read(plant, &mut witness).map(|(spec, _)| spec),
         None => file.required("specification").and_then(|field| Specification::read(&field, &mut witness)),
     };
-    let spec = spec.expect("it is read");
+    let mut spec = spec.expect("it is read");
     let has_states = spec.plant.as_ref().is_some_and(|plant| plant.states > 0);
     let field = file.required("claim").expect("a claim");
     let claim = Claim::read(&field, has_states).expect("it is read");
+    if let Some(actuator) = &mut spec.actuator {
+        actuator.by_n_o = claim.keeps_to_actuator_by_n_o().expect("it is read");
+    }
     let derivation = match &claim.sampled {
         Some(regulator) => Derivation::read_sampled(&mut witness, regulator, (claim.set.clone(), claim.scope())),
         None => Derivation::read(&mut witness, claim.sigma.clone(), (claim.set.clone(), claim.scope())),

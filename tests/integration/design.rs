@@ -229,12 +229,14 @@ fn the_longest_sampling_period_of_each_gain() {
     let file = stored(folder.path(), "plant.json", &plant());
     let flags = ["--sigma", "2,9", "--n-o", "0", "--no-simulation", "--sampling-periods"];
     let report = design(&file, &flags, 0);
-    let pairs = program().arg("sampling").arg(&file).args(["--sigma", "2,9", "-q", "--format", "json"]).output().unwrap();
+    let pairs =
+        program().arg("sampling").arg(&file).args(["--sigma", "2,9", "-q", "--format", "json"]).output().unwrap();
     let pairs = json(&pairs.stdout);
     for (index, row) in report["rows"].as_array().unwrap().iter().enumerate() {
         let round = &row["longest_h"]["round"];
         assert_eq!(round["sampling_period"], pairs["round"][index]["sampling_period"], "{row}");
-        let [longest, round_samples] = ["longest", "round"].map(|name| row["longest_h"][name]["samples"].as_u64().unwrap());
+        let [longest, round_samples] =
+            ["longest", "round"].map(|name| row["longest_h"][name]["samples"].as_u64().unwrap());
         assert!(longest <= round_samples, "{row}");
         let step = round["sampling_period"].as_str().unwrap();
         let sigma = row["sigma"].as_str().unwrap();
@@ -265,7 +267,8 @@ fn values_of_free_numbers_are_chosen() {
     let folder = tempfile::tempdir().unwrap();
     let (file, output) = (stored(folder.path(), "plant.json", &plant()), folder.path().join("c.json"));
     let required = ["--steady-error", "0.2", "--n-o", "2", "--sigma", "4,6", "--no-simulation"];
-    let report = design(&file, &[&required[..], &["--choose", "mu=1/8..2", "-o", output.to_str().unwrap()]].concat(), 0);
+    let report =
+        design(&file, &[&required[..], &["--choose", "mu=1/8..2", "-o", output.to_str().unwrap()]].concat(), 0);
     let tried = report["values"]["tried"].as_array().unwrap();
     // Its own first, then those in the middle of four equal parts of the range in logarithms.
     let values: Vec<&str> = tried.iter().map(|one| one["values"]["mu"].as_str().unwrap()).collect();

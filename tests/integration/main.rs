@@ -62,6 +62,7 @@ mod notations;
 mod notations_random;
 mod obstacles;
 mod one_pool;
+mod one_sided;
 mod packages;
 mod parameters;
 mod periodic_bounds;

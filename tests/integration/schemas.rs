@@ -152,9 +152,9 @@ fn compared(read: Reader<'_>, document: &Value, schema: &Value) -> usize {
                 let (accepted, known) = (properties(&one), known(read, document, &pointer));
                 let all: BTreeSet<String> =
                     schema["oneOf"].as_array().into_iter().flatten().flat_map(properties).collect();
-                // The ways to give the values of a parameter, or how far x may be, exclude each other: a reader that knows
-                // one knows the others, to say so.
-                let exclusive = ["pointer", "ball"].iter().any(|name| all.contains(*name));
+                // The ways to give the values of a parameter, how far x may be, or what an actuator takes, exclude each other: a reader that
+                // knows one knows the others, to say so.
+                let exclusive = ["pointer", "ball", "min"].iter().any(|name| all.contains(*name));
                 let same =
                     if exclusive { accepted.is_subset(&known) && known.is_subset(&all) } else { accepted == known };
                 assert!(same, "{pointer}: schema {accepted:?}, reader {known:?}");
@@ -251,6 +251,7 @@ fn plants() -> Vec<Value> {
                 ("disturbance", json!(2)),
             ],
         ),
+        with(file, &[("actuator", json!({ "min": "-1/2", "max": 4 }))]),
         set(json!({ "kind": "paper" })),
         set(json!({ "kind": "at-rest" })),
         set(json!({ "kind": "at-rest", "ball": 1, "E0": 1 })),

@@ -7,7 +7,7 @@ use sigmastar_document::{Block, clean};
 use sigmastar_exact::enclosure::Truth;
 use sigmastar_exact::number::write_exact;
 use sigmastar_lang::expr::BoundingFailure;
-use sigmastar_lang::spec::{InitialSet, SIZES, Specification};
+use sigmastar_lang::spec::{InitialSet, SIZES};
 use sigmastar_propose::search::{Failing, Limited, Obstacle};
 use sigmastar_prove::certify::{Certification, Outcome, SmallerChoice, Verdict};
 use sigmastar_theory::derivation::condition::Condition;
@@ -206,9 +206,6 @@ fn obstacle_advice(run: &Certification<'_>, obstacle: Obstacle, add: &mut dyn Fn
                 add(gain);
             }
             add(wider(which));
-            if let Some(flag) = by_count(which, run.spec) {
-                add(flag);
-            }
             if let Some(divisor) = run.divisor_that_keeps() {
                 add(&smaller_by(divisor));
             }
@@ -247,15 +244,6 @@ pub(super) fn smaller_by(divisor: u32) -> String {
 
 /// What a rate that is not proved asks for.
 pub(super) const SLOWER: &str = "a smaller rate, or fewer oscillators";
-
-/// What may keep a control of a plant within an actuator where the conditions of the claim do not; `None` where nothing is proved by the number of
-/// oscillators, or another limit is meant.
-fn by_count(which: Limited, spec: &Specification) -> Option<&'static str> {
-    let has_bounds = spec.plant().is_some() && spec.internal_model.matched && !spec.disturbances.any();
-    (which == Limited::Actuator && has_bounds).then_some(
-        "--max-control in the place of `actuator`: there the bounds by the number of oscillators count, where some are proved, and these may be far smaller",
-    )
-}
 
 /// What a limit that is not kept asks for.
 pub(super) fn wider(which: Limited) -> &'static str {

@@ -33,7 +33,8 @@ pub(super) fn taken(actuator: &Actuator) -> String {
         None => format!("$`|u| <= {}`$", clean(&actuator.max.text)),
         Some(range) => {
             let [min, max] = [&range.min, &range.max].map(|limit| clean(&limit.text));
-            let put_out = actuator.middle().map_or_else(|| "u".to_owned(), |middle| format!("{} + u", write_exact(&middle)));
+            let put_out =
+                actuator.middle().map_or_else(|| "u".to_owned(), |middle| format!("{} + u", write_exact(&middle)));
             format!("$`{min} <= {put_out} <= {max}`$")
         }
     }

@@ -34,6 +34,14 @@ struct Limits {
     middle: Rational,
 }
 
+impl Actuator {
+    /// What u is measured from, `(min + max)/2`, where limits to both sides are stated.
+    pub fn middle_in_words(&self) -> Option<String> {
+        let Limits { min, max, .. } = self.limits.as_ref()?;
+        Some(format!("({} + {})/2", min.words, max.words))
+    }
+}
+
 /// Takes `actuator` out of a file, if it is there. Names of a plant's constants may stand in its numbers. Bounding functions know no middle (`of_plant`).
 pub fn read(file: &mut Fields<'_>, constants: &[Named], of_plant: bool) -> Outcome<Option<Actuator>> {
     file.part("actuator", |field| {
@@ -80,7 +88,10 @@ pub fn from_middle(
             let [low, high] = ["low", "high"].map(|name| fields.required(name));
             let (low, high) = (low?, high?);
             if low.numeral()?.trim() != high.numeral()?.trim() {
-                return bad(&stated.pointer, "with `min` of the actuator both ends of its gain have to be one expression");
+                return bad(
+                    &stated.pointer,
+                    "with `min` of the actuator both ends of its gain have to be one expression",
+                );
             }
             expression_with(&low, variables, constants)?.0
         }
@@ -128,7 +139,11 @@ pub fn says_by_n_o(claimed: Option<&Field<'_>>) -> Outcome<bool> {
 pub fn kept_by_n_o(actuator: &Actuator, entries: &[Entry<'_>], every_set: bool, claim: &str) -> Outcome<()> {
     let pointer = format!("{claim}/actuator/{KEPT_BY}");
     if every_set {
-        return invalid(RULE, &pointer, "what is said by n_o is about the first harmonics, and the claim is about every set");
+        return invalid(
+            RULE,
+            &pointer,
+            "what is said by n_o is about the first harmonics, and the claim is about every set",
+        );
     }
     let first: Vec<&Entry<'_>> = entries.iter().filter(|entry| entry.oscillators.n_o().is_some()).collect();
     for (n_o, entry) in (0_u32..).zip(&first) {
@@ -155,7 +170,9 @@ pub fn in_words(actuator: Option<&Actuator>) -> String {
         None => format!(", with an actuator that takes what is put out up to {} in size {beyond}", max.words),
         Some(Limits { min, max, .. }) => {
             let [min, max] = [&min.words, &max.words];
-            format!(", with an actuator that takes what is put out from {min} to {max} (u is measured from the middle of these) {beyond}")
+            format!(
+                ", with an actuator that takes what is put out from {min} to {max} (u is measured from the middle of these) {beyond}"
+            )
         }
     }
 }

@@ -193,7 +193,8 @@ impl Table {
         let rows = design_table(&mut claims, (&asked.requirements, &period), &asked.sigmas)?;
         let Proved { certificates, mut refused, .. } = claims;
         let Some(choice) = choose(&rows, &asked.requirements, &period) else {
-            let none = || Error::new(ErrorKind::NotCertified, "none of these gains is certified", "ask for larger ones");
+            let none =
+                || Error::new(ErrorKind::NotCertified, "none of these gains is certified", "ask for larger ones");
             return Err(if refused.is_empty() { none() } else { refused.swap_remove(0).1 });
         };
         let refused = refused.into_iter().map(|(sigma, why)| (sigma, why.sentence())).collect();

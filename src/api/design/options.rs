@@ -154,8 +154,11 @@ pub(super) const NAMES: DesignNames = DesignNames {
     sampling_periods: "sampling_periods",
 };
 
-
-pub(super) fn requirements(subject: &Read, options: &DesignOptions, names: &DesignNames) -> Result<Requirements, Error> {
+pub(super) fn requirements(
+    subject: &Read,
+    options: &DesignOptions,
+    names: &DesignNames,
+) -> Result<Requirements, Error> {
     let value =
         |which: usize| options.required[which].as_ref().map(|text| rational(names.required[which], text)).transpose();
     let requirements = Requirements {
@@ -194,4 +197,3 @@ pub(super) fn has_disturbances(subject: &Read) -> bool {
     let stated = subject.disturbances();
     if subject.sampling().is_some() { stated.any_at_samples() } else { stated.any() }
 }
-

@@ -5,8 +5,10 @@ use super::run::{Integrator, LongRun, NoisyRun, PeriodFigures, Simulation, Stead
 use super::{ClosedLoop, IntegrationFailure, SteadyState};
 use serde_json::{Value, json};
 use sigmastar_document::{Block, Readable, Table, clean, plain};
+use sigmastar_exact::number::write_exact;
 use sigmastar_lang::expr::quoted;
 use sigmastar_lang::plant::{Initial, InitialRegulator, Plant};
+use sigmastar_lang::spec::Actuator;
 
 /// The report on a simulation.
 pub struct SimulationReport<'r> {
@@ -16,6 +18,12 @@ pub struct SimulationReport<'r> {
     pub closed_loop: &'r ClosedLoop,
     /// What came of it.
     pub simulation: &'r Simulation,
+}
+
+/// "; u is measured from 4", the middle of the range of the actuator; nothing where that is 0.
+pub(super) fn measured_from(plant: &Plant) -> String {
+    let middle = plant.actuator.as_ref().and_then(Actuator::middle);
+    middle.map_or_else(String::new, |middle| format!("; $`u`$ is measured from {}", write_exact(&middle)))
 }
 
 impl Readable for SimulationReport<'_> {
@@ -28,8 +36,9 @@ impl Readable for SimulationReport<'_> {
                 regulator_words(&closed_loop.regulator, closed_loop.period),
                 number(closed_loop.period),
                 closed_loop.limit().map_or_else(String::new, |limit| format!(
-                    " The actuator takes $`|u| <= {}`$ and cuts off what is beyond.",
-                    number(limit)
+                    " The actuator takes $`|u| <= {}`$ and cuts off what is beyond{}.",
+                    number(limit),
+                    measured_from(plant)
                 ))
             )),
             Block::heading("Steady state"),

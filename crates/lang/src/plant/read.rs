@@ -3,9 +3,9 @@
 use super::{Initial, InitialRegulator, Plant, periodicity};
 use crate::expr::{Definitions, Phase, PlantExpr, PlantNames, Program};
 use crate::spec::{
-    Actuator, Constant, Document, Domain, ErrorKind, Errors, InitialSet, InputGain, Parameters, Period, Reported, SpecErrors, Value,
-    any_constant_in, positive_constant_in, read_actuator, read_disturbances, read_input_gain, read_internal_model,
-    read_parameters, read_period, read_with_ball, rounded_from,
+    Actuator, Constant, Document, Domain, ErrorKind, Errors, InitialSet, InputGain, Parameters, Period, Reported,
+    SpecErrors, Value, any_constant_in, positive_constant_in, read_actuator, read_disturbances, read_input_gain,
+    read_internal_model, read_parameters, read_period, read_with_ball, rounded_from,
 };
 use rug::Rational;
 
@@ -182,7 +182,8 @@ fn gain_of_middle(
     };
     let (Some(actuator), Some(one_for_all)) = (&actuator, one_for_all) else {
         let Some(actuator) = actuator else { return Ok(None) };
-        let message = "with `min` the gain of the actuator has to be one expression: it acts on the middle of the range, too";
+        let message =
+            "with `min` the gain of the actuator has to be one expression: it acts on the middle of the range, too";
         let help = "make the gain a parameter with an interval, `\"g\": { \"nominal\": ..., \"low\": ..., \"high\": ... }`, and state `\"input_gain\": { \"nominal\": \
                     \"g\", \"low\": \"g\", \"high\": \"g\" }`";
         return Err(errors.report(actuator.error(ErrorKind::Range, message).help(help)));

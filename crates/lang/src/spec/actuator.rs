@@ -92,7 +92,23 @@ const PRECISION: u32 = 256;
 /// # Errors
 /// Reports a field that is missing or unknown, limits that are not in order or not rational, and a number that is not positive where it stands alone.
 pub fn read_actuator(value: &Value<'_>, names: &Definitions, errors: &mut Errors) -> Result<Actuator, Reported> {
-    read(value, names, false, errors)
+    read(value, names, Place::Plant, errors)
+}
+
+/// Reads that of bounding functions, which know no middle.
+///
+/// # Errors
+/// Those of [`read_actuator`], and limits to both sides.
+pub(super) fn read_symmetric(value: &Value<'_>, errors: &mut Errors) -> Result<Actuator, Reported> {
+    read(value, Definitions::none(), Place::Specification, errors)
+}
+
+/// Where an actuator is stated.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Place {
+    Plant,
+    Specification,
+    Claim,
 }
 
 /// Reads that of a claim, which may have `kept_by`.
@@ -104,19 +120,26 @@ pub fn read_claimed_actuator(
     names: &Definitions,
     errors: &mut Errors,
 ) -> Result<Actuator, Reported> {
-    read(value, names, true, errors)
+    read(value, names, Place::Claim, errors)
 }
 
 /// The field of a claim that says by what it keeps to its actuator, and its one value.
 pub const KEPT_BY: [&str; 2] = ["kept_by", "by_n_o"];
 
-fn read(value: &Value<'_>, names: &Definitions, claimed: bool, errors: &mut Errors) -> Result<Actuator, Reported> {
+fn read(value: &Value<'_>, names: &Definitions, place: Place, errors: &mut Errors) -> Result<Actuator, Reported> {
     let max = value.text().or_else(|| value.numeral()).map_or("30".into(), shown);
     let help = format!("write `{{ \"max\": \"{max}\" }}`: |u| up to it is put out as it is");
     let mut object = value.object_or(&help, errors)?;
-    let min = object.optional("min");
+    let stated = value.member("min").filter(|_| place == Place::Specification);
+    if let Some(min) = stated {
+        let error = min.error(ErrorKind::Range, "limits to both sides are for plants by their formulas");
+        let help = "let u be measured from the middle (min + max)/2: state the bounding functions of `q` plus the gain of the actuator times it, and \
+                    `{ \"max\": ... }` with (max - min)/2";
+        return Err(errors.report(error.expected("expected `max` alone").help(help)));
+    }
+    let min = if place == Place::Specification { None } else { object.optional("min") };
     let max = object.required("max", errors);
-    let kept_by = if claimed { object.optional(KEPT_BY[0]) } else { None };
+    let kept_by = if place == Place::Claim { object.optional(KEPT_BY[0]) } else { None };
     object.finish(errors);
     let by_count = kept_by.is_some();
     if let Some(value) = kept_by.filter(|value| value.text() != Some(KEPT_BY[1])) {
@@ -145,7 +168,11 @@ fn read(value: &Value<'_>, names: &Definitions, claimed: bool, errors: &mut Erro
         return Err(errors.report(error.expected(format!("expected less than {max_text}"))));
     }
     let (half, middle) = (Rational::from(&high - &low) / 2, (low + high) / 2);
-    Ok(Actuator { max: Constant::rational(&half), range: Some(ActuatorRange { min: lower, max: upper, middle }), by_count })
+    Ok(Actuator {
+        max: Constant::rational(&half),
+        range: Some(ActuatorRange { min: lower, max: upper, middle }),
+        by_count,
+    })
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! From a document to a specification.
 
-use super::actuator::{Actuator, read_actuator};
+use super::actuator::read_symmetric;
 use super::bound::{Bound, Role};
 use super::bounding::Bounds;
 use super::constant::{
@@ -94,8 +94,7 @@ fn read(value: &Value<'_>, errors: &mut Errors) -> Result<Specification, Reporte
     let initial_set = object.required("initial_set", errors).and_then(|value| initial_set::read(&value, errors));
     let input_gain =
         object.optional("input_gain").map(|value| read_input_gain(&value, &Parameters::default(), errors)).transpose();
-    let actuator =
-        object.optional("actuator").map(|value| read_symmetric(&value, errors)).transpose();
+    let actuator = object.optional("actuator").map(|value| read_symmetric(&value, errors)).transpose();
     let disturbances = read_disturbances(&mut object, errors);
     let relative_degree =
         object.optional("relative_degree").map(|value| read_relative_degree(&value, errors)).transpose();
@@ -125,18 +124,6 @@ fn read(value: &Value<'_>, errors: &mut Errors) -> Result<Specification, Reporte
 }
 
 /// The triple or the Jacobian, and the contraction rate that may stand next to a triple.
-/// Reads `actuator` of bounding functions: these know no middle.
-fn read_symmetric(value: &Value<'_>, errors: &mut Errors) -> Result<Actuator, Reported> {
-    let actuator = read_actuator(value, Definitions::none(), errors)?;
-    if actuator.range.is_none() {
-        return Ok(actuator);
-    }
-    let error = value.error(ErrorKind::Range, "limits to both sides are for plants by their formulas");
-    let help = "let u be measured from the middle (min + max)/2: state the bounding functions of `q` plus the gain of the actuator times it, and \
-                `{ \"max\": ... }` with (max - min)/2";
-    Err(errors.report(error.expected("expected `max` alone").help(help)))
-}
-
 fn read_lyapunov(
     value: &Value<'_>,
     period: Option<&Period>,

@@ -125,7 +125,7 @@ impl Limited {
             Limited::SteadyError => "the steady |e| is not proved to be at most",
             Limited::PeakError => "|e| in the transient is not proved to be at most",
             Limited::Control => "|u| in the transient is not proved to be at most",
-            Limited::Actuator => "C6: |u| in the transient is not proved to be at most the max of the actuator,",
+            Limited::Actuator => "|u| in the transient is not proved to be at most what the actuator takes,",
         }
     }
 }

@@ -118,7 +118,9 @@ fn within_actuator(spec: &Specification) -> String {
         None => format!(", with an actuator that takes what is put out up to {} in size {beyond}", max.words()),
         Some(range) => {
             let [min, max] = [range.min.words(), range.max.words()];
-            format!(", with an actuator that takes what is put out from {min} to {max} (u is measured from the middle of these) {beyond}")
+            format!(
+                ", with an actuator that takes what is put out from {min} to {max} (u is measured from the middle of these) {beyond}"
+            )
         }
     }
 }

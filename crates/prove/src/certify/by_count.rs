@@ -210,9 +210,7 @@ impl Certification<'_> {
         let (steady, peak, control) = self.bounds()?;
         let own = self.gains.first();
         let (peak, control) = own.map_or((peak, control), |row| (&row.peak, &row.control));
-        let by_count = self.by_count.as_ref().and_then(|found| found.largest(|bounds| Some(&bounds.steady_error)));
-        let steady = by_count.map_or_else(|| steady.clone(), |found| steady.min(&found));
-        Some((steady, peak.clone(), control.clone()))
+        Some(least_of((steady, peak, control), self.by_count.as_ref()))
     }
 
     /// Bounds by the number of oscillators at the gain of the claim: for every number where the plant is linear in x and e; where nothing of it is an
@@ -339,15 +337,22 @@ impl SampledCertification<'_> {
     #[must_use]
     pub fn best_bounds(&self) -> Option<(Enclosure, Enclosure, Control<Enclosure>)> {
         let evaluation = &self.claim()?.evaluation;
-        let known = (evaluation.size.e_per.clone(), evaluation.peak.clone(), evaluation.control.clone());
-        let Some(found) = &self.by_count else { return Some(known) };
-        let (steady, peak, Control { steady: of_u, transient }) = known;
-        let least = |known: Enclosure, own: Option<Enclosure>| own.map_or(known.clone(), |own| known.min(&own));
-        let control = Control {
-            steady: least(of_u, found.largest(|bounds| Some(&bounds.steady_control))),
-            transient: least(transient, found.largest(|bounds| Some(&bounds.largest.as_ref()?.transient))),
-        };
-        let steady = least(steady, found.largest(|bounds| Some(&bounds.steady_error)));
-        Some((steady, least(peak, found.largest(|bounds| Some(&bounds.largest.as_ref()?.error))), control))
+        Some(least_of((&evaluation.size.e_per, &evaluation.peak, &evaluation.control), self.by_count.as_ref()))
     }
+}
+
+/// Bounds of the steady error, the peak and the control, or what is proved of these for every number of oscillators where that is smaller.
+fn least_of(
+    (steady, peak, Control { steady: of_u, transient }): (&Enclosure, &Enclosure, &Control<Enclosure>),
+    by_count: Option<&ByCount>,
+) -> (Enclosure, Enclosure, Control<Enclosure>) {
+    let least = |known: &Enclosure, of: &dyn Fn(&CountBounds) -> Option<&Enclosure>| {
+        by_count.and_then(|found| found.largest(of)).map_or_else(|| known.clone(), |own| known.min(&own))
+    };
+    let control = Control {
+        steady: least(of_u, &|bounds| Some(&bounds.steady_control)),
+        transient: least(transient, &|bounds| Some(&bounds.largest.as_ref()?.transient)),
+    };
+    let peak = least(peak, &|bounds| Some(&bounds.largest.as_ref()?.error));
+    (least(steady, &|bounds| Some(&bounds.steady_error)), peak, control)
 }

@@ -8,8 +8,8 @@ use crate::certify::{Alternatives, with_triple};
 use rug::Rational;
 use sigmastar_lang::plant::{self, Plant};
 use sigmastar_lang::spec::{
-    self, Actuator, AskedHarmonics, Constant, Disturbances, Document, ErrorKind, InputGain, InternalModel, KEPT_BY, Period, Sampling,
-    SpecErrors, Specification, Value,
+    self, Actuator, AskedHarmonics, Constant, Disturbances, Document, ErrorKind, InputGain, InternalModel, KEPT_BY,
+    Period, Sampling, SpecErrors, Specification, Value,
 };
 use sigmastar_propose::search::{SampledProposal, SharpProposal};
 

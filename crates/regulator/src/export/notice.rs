@@ -164,8 +164,13 @@ pub fn notice(export: &Export<'_>) -> Vec<String> {
 /// Where u is clipped, or is to be; with an actuator, what the certificate says of that.
 fn clipped(export: &Export<'_>, scope: Option<Scope>) -> Option<String> {
     let of_max = export.actuator.map_or_else(String::new, |actuator| match actuator.range {
-        None => format!(", the least double that is not below the {} that the actuator takes", plain(&actuator.max.text)),
-        Some(_) => format!(", the least double that is not below half of the range of the actuator, {}", plain(&actuator.max.text)),
+        None => {
+            format!(", the least double that is not below the {} that the actuator takes", plain(&actuator.max.text))
+        }
+        Some(_) => format!(
+            ", the least double that is not below half of the range of the actuator, {}",
+            plain(&actuator.max.text)
+        ),
     });
     let proved = match (export.actuator.and(scope), export.discrete) {
         (Some(Scope::Samples), Some(_)) | (Some(Scope::Continuous), None) => {

@@ -339,7 +339,10 @@ impl DesignReport<'_> {
     fn with_values(&self) -> String {
         let (parameters, _) = self.values;
         let taken = self.taken_values().map_or(&[][..], |tried| &tried.values);
-        let named = parameters.iter().zip(taken).map(|(parameter, value)| format!(" and $`{} = {}`$", parameter.name, clean(value)));
+        let named = parameters
+            .iter()
+            .zip(taken)
+            .map(|(parameter, value)| format!(" and $`{} = {}`$", parameter.name, clean(value)));
         named.collect()
     }
 

@@ -140,7 +140,9 @@ pub fn tune(
         (now, None) => now.is_some(),
         (None, Some(_)) => false,
     });
-    let after = better.map(|best| with_values(document, &parameters, &best.values).map(|document| (best, document))).transpose()?;
+    let after = better
+        .map(|best| with_values(document, &parameters, &best.values).map(|document| (best, document)))
+        .transpose()?;
     let proposed = || all.iter().filter(|tried| tried.values != before.values);
     let mut without_claim = BTreeMap::new();
     for verdict in proposed().filter_map(|tried| tried.outcome.as_ref().err()) {

@@ -164,11 +164,7 @@ pub fn parameters(text: &str, document: &Document, model: &InternalModel) -> Res
 ///
 /// # Errors
 /// A document that is too large with them.
-pub fn with_values(
-    document: &Document,
-    parameters: &[Parameter],
-    values: &[String],
-) -> Result<Document, SpecErrors> {
+pub fn with_values(document: &Document, parameters: &[Parameter], values: &[String]) -> Result<Document, SpecErrors> {
     let mut places: Vec<_> = parameters
         .iter()
         .zip(values)

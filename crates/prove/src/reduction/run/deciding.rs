@@ -2,8 +2,8 @@
 
 use super::{Last, Prepared, Run, Start};
 use crate::certify::{
-    Alternatives, ByCount, Certification, Member, Options, Refusal, Wanted, certify_member, certify_sampled_within,
-    recheck, recheck_sampled,
+    Alternatives, ByCount, Certification, Member, Options, Outcome, Refusal, Wanted, certify_member,
+    certify_sampled_within, recheck, recheck_sampled,
 };
 use crate::reduction::closer::closer;
 use crate::reduction::interval_costs::{costs_at_samples, interval_costs};
@@ -420,6 +420,24 @@ impl Run<'_> {
         let asked = self.spec().actuator.as_ref().map_or(f64::NAN, |actuator| actuator.max.to_f64());
         let least = self.stated_control().map_or(f64::INFINITY, |found| found.upper_f64());
         self.take_back(Failing::Limit { which: Limited::Actuator, asked, least, sigma, proved: true });
+    }
+
+    /// Of a run without a claim, by how much the limit is missed that keeps it from one; infinite where that is none.
+    pub(super) fn missed_share(&self) -> f64 {
+        let failing = match self {
+            Run::Continuous(run) => match &run.sharp {
+                Outcome::NotFound(obstacle) => Some(&obstacle.failing),
+                _ => None,
+            },
+            Run::Sampled(run) => match &run.outcome {
+                Outcome::NotFound(obstacle) => Some(&obstacle.failing),
+                _ => None,
+            },
+        };
+        match failing {
+            Some(Failing::Limit { asked, least, .. }) => least / asked,
+            _ => f64::INFINITY,
+        }
     }
 
     /// Of what is put out at all times with every number of oscillators, as the certificate has it; none where it says nothing of that.

@@ -56,12 +56,25 @@ impl Prepared {
         watch: &dyn Watch,
     ) -> Result<Prepared, Vec<SpecErrors>> {
         let prepared = Prepared::seeking_by_conditions(subject, gain.clone(), (limits, counts), options, watch)?;
-        let by_count = || Prepared::seeking_by_count(subject, gain, (limits, counts), options, watch);
-        let is_kept = subject.actuator().is_none() || prepared.has_claim(options, watch);
-        Ok(if is_kept { prepared } else { by_count().unwrap_or(prepared) })
+        if subject.actuator().is_none() {
+            return Ok(prepared);
+        }
+        let of_conditions = prepared.judged(options, watch);
+        if of_conditions.as_ref().is_some_and(|run| run.certified().is_some()) {
+            return Ok(prepared);
+        }
+        let Some(other) = Prepared::seeking_by_count(subject, gain, (limits, counts), options, watch) else {
+            return Ok(prepared);
+        };
+        let is_closer = match (other.judged(options, watch), &of_conditions) {
+            (Some(run), _) if run.certified().is_some() => true,
+            (Some(run), Some(known)) => run.missed_share() < known.missed_share(),
+            (run, _) => run.is_some(),
+        };
+        Ok(if is_closer { other } else { prepared })
     }
 
-    /// The same for a claim that keeps to its actuator by the bounds for every number of oscillators. `None` where there is none.
+    /// The same for a claim that is to keep to its actuator by the bounds for every number of oscillators. `None` where there can be none.
     pub(super) fn seeking_by_count(
         subject: &Subject,
         gain: Option<Rational>,
@@ -74,19 +87,16 @@ impl Prepared {
         let limits = Limits { control: Some(control), ..limits.clone() };
         let prepared = Prepared::seeking_by_conditions(&subject, gain, (&limits, &[]), options, watch).ok()?;
         let limits = Limits { by_count: Some(Vec::new()), ..limits };
-        let prepared = Prepared { counts: counts.to_vec(), limits, ..prepared };
-        prepared.has_claim(options, watch).then_some(prepared)
+        Some(Prepared { counts: counts.to_vec(), limits, ..prepared })
     }
 
-    /// Whether something is certified that keeps to the limits, those that are judged by the number of oscillators and the actuator included.
-    pub(super) fn has_claim(&self, options: Options, watch: &dyn Watch) -> bool {
+    /// The run without comparisons, judged by the limits, those by the number of oscillators and the actuator included.
+    pub(super) fn judged(&self, options: Options, watch: &dyn Watch) -> Option<Run<'_>> {
         let options = Options { compare: false, ..options };
-        let run = self.certify_checked(options, &|_| Checked::Decided, watch).ok();
-        run.is_some_and(|mut run| {
-            let judged = run.prove_rates(&[]).is_ok();
-            run.keep_to_actuator();
-            judged && run.certified().is_some()
-        })
+        let mut run = self.certify_checked(options, &|_| Checked::Decided, watch).ok()?;
+        run.prove_rates(&[]).ok()?;
+        run.keep_to_actuator();
+        Some(run)
     }
 
     fn seeking_by_conditions(

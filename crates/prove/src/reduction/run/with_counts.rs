@@ -130,7 +130,12 @@ impl Search<'_> {
     }
 
     /// What is prepared for a gain above the smallest one, and what is proved there.
-    fn at_larger(&self, smallest: &Prepared, limits: &Limits, (gain, least): (Rational, f64)) -> Option<(Prepared, Tried)> {
+    fn at_larger(
+        &self,
+        smallest: &Prepared,
+        limits: &Limits,
+        (gain, least): (Rational, f64),
+    ) -> Option<(Prepared, Tried)> {
         // In continuous time what is proved for the smallest gain and its rows serves larger ones.
         let prepared = match self.subject.sampling() {
             None => Prepared { gain: Some(gain), ..smallest.clone() },

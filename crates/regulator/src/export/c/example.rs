@@ -21,7 +21,8 @@ pub(super) fn example(export: &Export<'_>, discrete: &Discrete, names: &CNames) 
     let amplitude = discrete.saturation.map_or(1.0, |limit| limit / 2.0);
     // What the actuator makes of u.
     let from_middle = export.middle.map_or_else(|| "u".to_owned(), |middle| format!("(u - {})", signed(middle)));
-    let acting = export.regulator.nominal.map_or(from_middle.clone(), |gain| format!("{} * {from_middle}", decimal(gain)));
+    let acting =
+        export.regulator.nominal.map_or(from_middle.clone(), |gain| format!("{} * {from_middle}", decimal(gain)));
     let argument = if export.aligned { ", e" } else { "" };
     // With a delay the control that is returned acts in the next sample.
     let (declared, called, kept) = match discrete.prediction {
