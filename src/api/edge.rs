@@ -7,9 +7,10 @@ use serde_json::Value;
 use sigmastar_document::plot::Figure;
 use sigmastar_document::{Block, Made, Readable};
 use sigmastar_exact::enclosure::Enclosure;
-use sigmastar_lab::falsify::{Edge, ProvedBounds, TriedClaim, from_the_edge};
+use sigmastar_lab::falsify::{Edge, ProvedBounds, Shown, TriedClaim, from_the_edge};
 use sigmastar_lang::spec::Document;
 use sigmastar_prove::certificate::certificate_of;
+use sigmastar_prove::certify::ByCount;
 use sigmastar_prove::reduction::Run;
 use sigmastar_theory::derivation::control::Control;
 
@@ -26,11 +27,12 @@ impl Drawn {
     /// The figures of a run; nothing without a claim.
     pub fn of(run: &Run<'_>) -> Option<Drawn> {
         let (certificate, proved) = (certificate_of(run)?, proved(run)?);
-        Some(match edge(&certificate) {
+        Some(match edge(&certificate, &shown(run)) {
             Ok(edge) => {
                 let words = format!(
-                    "Proved, of every solution from the set: the thick line holds at all times, the bands hold in the limit, and are drawn over the \
-                     second half of the time that is shown. Thin lines: a simulation {}, floating point, which proves nothing.",
+                    "Proved, of every solution from the set: the thick line holds at all times{}; what holds in the limit is drawn over the second half of the \
+                     time that is shown, of |e| by thin lines, of |u| by a band. The other lines: a simulation {}, floating point, which proves nothing.",
+                    if is_of_first(run) { " with every n_o" } else { "" },
                     edge.words
                 );
                 Drawn { words, figures: Some(edge.figures(&proved)) }
@@ -58,19 +60,37 @@ impl Drawn {
     }
 }
 
-fn edge(certificate: &Value) -> Result<Edge, String> {
+/// The numbers of oscillators where none are asked about, and how many of those that are.
+const N_O: [u32; 3] = [0, 3, 10];
+const MOST: usize = 4;
+
+/// The numbers of oscillators that are asked about, or a few, each with what is proved of its steady error.
+fn shown(run: &Run<'_>) -> Vec<Shown> {
+    let asked: Vec<u32> = run.rates().into_iter().map(|(n_o, _)| n_o).take(MOST).collect();
+    let numbers = if asked.is_empty() { N_O.to_vec() } else { asked };
+    let bound = |n_o: u32| run.bounds_of(n_o).map(|bounds| bounds.steady_error.bound.upper_f64());
+    numbers.into_iter().map(|n_o| (n_o, bound(n_o).filter(|bound| bound.is_finite()))).collect()
+}
+
+/// Whether the bounds at all times are of the first harmonics, and the claim of every set of them.
+fn is_of_first(run: &Run<'_>) -> bool {
+    let (by_count, every_set) = match run {
+        Run::Continuous(run) => (&run.by_count, run.is_for_every_set()),
+        Run::Sampled(run) => (&run.by_count, run.spec.internal_model.asks_every_set()),
+    };
+    every_set && by_count.as_ref().is_some_and(ByCount::is_about_all)
+}
+
+fn edge(certificate: &Value, shown: &[Shown]) -> Result<Edge, String> {
     let claim = Document::parse("certificate", &json_text(certificate));
     let claim = claim.and_then(|document| TriedClaim::from_document(&document));
-    from_the_edge(&claim.map_err(|errors| errors.to_string())?)
+    from_the_edge(&claim.map_err(|errors| errors.to_string())?, shown)
 }
 
 fn proved(run: &Run<'_>) -> Option<ProvedBounds> {
     let (steady, peak, control) = match run {
         Run::Continuous(run) => run.best_bounds()?,
-        Run::Sampled(run) => {
-            let evaluation = &run.claim()?.evaluation;
-            (evaluation.size.e_per.clone(), evaluation.peak.clone(), evaluation.control.clone())
-        }
+        Run::Sampled(run) => run.best_bounds()?,
     };
     let Control { steady: along, transient } = &control;
     let [steady, error, along, largest] = [&steady, &peak, along, &(along + transient)].map(Enclosure::upper_f64);

@@ -38,8 +38,8 @@ fn answer(args: &CheckArgs) -> Result<(CheckReport, Option<Report>), Failure> {
     let (certificate, specification) = (bytes(certificate)?, specification.map(bytes).transpose()?);
     let answer = check_bytes(&certificate, specification.as_deref(), args.verbose);
     match answer.verdict() {
-        CheckVerdict::Invalid => tell_difference(args),
-        CheckVerdict::BadInput => tell_no_certificate(&args.certificate),
+        CheckVerdict::Invalid if !args.quiet => tell_difference(args),
+        CheckVerdict::BadInput if !args.quiet => tell_no_certificate(&args.certificate),
         CheckVerdict::Valid if args.format == Format::Html => {
             let page = page_of(args, &certificate, &answer);
             return Ok((answer, page));
@@ -52,7 +52,7 @@ fn answer(args: &CheckArgs) -> Result<(CheckReport, Option<Report>), Failure> {
 /// The page of a valid certificate; where the same claim is not proved from it here, there is none, and a remark says what tells more.
 fn page_of(args: &CheckArgs, certificate: &[u8], answer: &CheckReport) -> Option<Report> {
     let page = page(&shown(&args.certificate), certificate, answer.text().to_owned()).ok().flatten();
-    if page.is_none() {
+    if page.is_none() && !args.quiet {
         output::remark(
             "the page has the words of the checker alone: this version does not prove the same claim from the \
              certificate; `certify FILE --witness FILE` says what it proves",
@@ -72,7 +72,7 @@ fn specification(path: &Path, args: &CheckArgs) -> Result<Box<dyn Read>, Failure
     if let Some(text) = &args.sampling_period {
         document = with_sampling_period(&document, text)?;
     }
-    if !is_json {
+    if !is_json && !args.quiet {
         let name = shown(path);
         output::remark(&format!(
             "the independent checker reads JSON alone: what it compares is what `sigmastar convert {name}` writes"

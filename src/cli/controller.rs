@@ -74,7 +74,9 @@ pub fn run(args: &ControllerArgs) -> Result<u8, Failure> {
         None => None,
         Some((discrete, step)) => {
             let sampled = Convergence::new(&design, step, &regulator, discrete).ok_or_else(beyond)?;
-            remarks((&design, step), (&regulator, discrete), sampled, certificate.as_ref());
+            if !args.quiet {
+                remarks((&design, step), (&regulator, discrete), sampled, certificate.as_ref());
+            }
             Some((discrete, sampled))
         }
     };

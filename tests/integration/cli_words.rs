@@ -193,3 +193,16 @@ fn quiet_is_quiet_with_a_jacobian() {
     let arguments = ["certify", "specs/paper-example-jacobian.json", "--no-alternatives", "--quiet", "--full"];
     sigmastar(&arguments).assert().code(0).stderr(is_empty()).stdout(contains("finding and proving").not());
 }
+
+/// What `check` and `controller` remark is left out with `-q`.
+#[test]
+fn quiet_is_quiet_beside_a_certificate() {
+    let controller = ["controller", "specs/linear.json", "--sigma", "2", "--n-o", "1", "--discretise", "0.03"];
+    for (call, code, said) in
+        [(&controller[..], 0, "not a whole number"), (&["check", "specs/plants/linear.json"], 2, "is a plant, not")]
+    {
+        sigmastar(call).assert().code(code).stderr(contains(said));
+        let quiet = sigmastar(call).arg("-q").assert().code(code);
+        assert!(!utf8(quiet.get_output().stderr.clone()).contains(said), "{call:?}");
+    }
+}

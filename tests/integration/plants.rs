@@ -77,6 +77,7 @@ fn certified_and_checked(name: &str, most: f64) -> f64 {
 
 /// The gain does not depend on the units and the axes in which a plant is written.
 #[test]
+#[ignore = "search tier"]
 fn a_shipped_plant_is_certified_and_checked_in_any_axes() {
     let most = BTreeMap::from(CERTIFIED);
     let [plain, rotated] =

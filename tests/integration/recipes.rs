@@ -30,6 +30,7 @@ fn each_recipe_certifies_as_the_page_says() {
 }
 
 #[test]
+#[ignore = "search tier"]
 fn the_rates_by_mu_are_those_of_the_page() {
     let text = page("guide/recipes.md");
     let header = "| mu | rate, n_o = 0 | rate, n_o = 3 |";

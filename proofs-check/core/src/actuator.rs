@@ -4,12 +4,11 @@
 //! second case the regulator puts out `m + u`, `m = (min + max)/2`, and `|u| <= (max - min)/2`: with the gain g of the actuator the plant is `e' = q + g (m + u)`,
 //! that of `q + g m` ([`from_middle`]). A claim with it is about one gain, names the same limits, and is proved with C6 ([`crate::rules::control`]).
 
-use crate::constant::{Constant, Number, expression_with, positive_with};
+use crate::constant::{Constant, expression_with, positive_with};
 use crate::expr::{Expr, Named, Written};
 use crate::json::{Field, Fields};
 use crate::range::{Range, both, states};
-use crate::rules::by_n_o::claimed::Entry;
-use crate::verdict::{Outcome, bad, demand, invalid};
+use crate::verdict::{Outcome, bad, demand};
 use rug::Rational;
 
 /// The name of the rule.
@@ -22,7 +21,7 @@ pub struct Actuator {
     pub max: Constant,
     /// Its limits, where `min` is stated.
     limits: Option<Limits>,
-    /// Whether the claim keeps to it by what it says by the number of oscillators ([`kept_by_n_o`]), in the place of C6. No file says that.
+    /// Whether the claim keeps to it by what it says by the number of oscillators ([`crate::rules::by_n_o::kept`]), in the place of C6. No file says that.
     pub by_n_o: bool,
 }
 
@@ -119,7 +118,7 @@ fn agree(fields: &mut Fields<'_>, asked: &Actuator) -> Outcome<()> {
 }
 
 /// The field of a claim that says by what it keeps to its actuator.
-const KEPT_BY: &str = "kept_by";
+pub const KEPT_BY: &str = "kept_by";
 
 /// Whether a claim says that it keeps to its actuator by what it says by the number of oscillators.
 pub fn says_by_n_o(claimed: Option<&Field<'_>>) -> Outcome<bool> {
@@ -129,37 +128,6 @@ pub fn says_by_n_o(claimed: Option<&Field<'_>>) -> Outcome<bool> {
         Some(kept_by) if kept_by.text()? == "by_n_o" => Ok(true),
         Some(kept_by) => bad(&kept_by.pointer, "expected `by_n_o`"),
     }
-}
-
-/// That a claim keeps to its actuator by what it says by the number of oscillators (docs/mathematics.md, section 14.5): of every number of them, from 0 on, it
-/// says how large what is put out is at all times, and that is not above `max`. Hypothesis: what it says by n_o is proved of the loop without the saturation.
-///
-/// Guarantee: for every n_o no solution from the claimed set saturates, so it is one of the loop with the saturation, too, whose solutions are unique. Of
-/// oscillators at other harmonics nothing follows: `every_set` is refused.
-pub fn kept_by_n_o(actuator: &Actuator, entries: &[Entry<'_>], every_set: bool, claim: &str) -> Outcome<()> {
-    let pointer = format!("{claim}/actuator/{KEPT_BY}");
-    if every_set {
-        return invalid(
-            RULE,
-            &pointer,
-            "what is said by n_o is about the first harmonics, and the claim is about every set",
-        );
-    }
-    let first: Vec<&Entry<'_>> = entries.iter().filter(|entry| entry.oscillators.n_o().is_some()).collect();
-    for (n_o, entry) in (0_u32..).zip(&first) {
-        let is_next = entry.oscillators.n_o() == Some(n_o);
-        demand(Some(is_next), RULE, &entry.pointer, format!("something is said of n_o = {n_o}"))?;
-    }
-    let all = first.last().is_some_and(|last| last.or_more);
-    demand(Some(all), RULE, &pointer, "something is said of every n_o")?;
-    for entry in first {
-        let Some([_, u]) = &entry.largest else {
-            return invalid(RULE, &entry.pointer, "it says nothing of what is put out at all times");
-        };
-        let kept = Number::rational(u.clone()).le(&actuator.max.number());
-        demand(kept, RULE, &entry.pointer, "what is put out <= max of the actuator")?;
-    }
-    Ok(())
 }
 
 /// What a claim is about besides, where there is one.

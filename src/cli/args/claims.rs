@@ -221,6 +221,10 @@ pub struct CheckArgs {
     /// Format of the answer
     #[arg(long, value_enum, value_name = "NAME", default_value_t = Format::Text)]
     pub format: Format,
+
+    /// No remarks on standard error; errors are still shown
+    #[arg(short, long)]
+    pub quiet: bool,
 }
 
 /// The flags of `errata`.

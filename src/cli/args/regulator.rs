@@ -72,6 +72,10 @@ pub struct ControllerArgs {
 
     #[command(flatten)]
     pub replace: Replace,
+
+    /// No remarks on standard error; errors, and what --uncertified overrides, are still shown
+    #[arg(short, long)]
+    pub quiet: bool,
 }
 
 /// The flags of `simulate`.

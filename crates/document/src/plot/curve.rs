@@ -11,6 +11,8 @@ pub enum Style {
     Points,
     /// As a thick black line: what bounds the others.
     Bound,
+    /// As a thin line with the colour of the curve that comes next, which it bounds.
+    Limit,
     /// As an area of a light tone: where the curve that comes next lies, with the colour of that one. The points go around it.
     Band,
 }

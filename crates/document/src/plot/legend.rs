@@ -25,8 +25,8 @@ impl Entry {
     {
         let label = curve.label.clone();
         let bound = Entry { label, colour: BLACK, width: 3, band: false, line: Some(None), mark: None };
-        if let (Style::Band, Some((colour, ..))) = (curve.style, looks.peek()) {
-            return Entry { colour: *colour, width: 1, band: true, ..bound };
+        if let (Style::Band | Style::Limit, Some((colour, ..))) = (curve.style, looks.peek()) {
+            return Entry { colour: *colour, width: 1, band: curve.style == Style::Band, ..bound };
         }
         if curve.style == Style::Bound {
             return bound;
@@ -36,7 +36,7 @@ impl Entry {
             Style::Points => (None, Some(mark)),
             // Marks tell such curves apart; dashes between them would be cut.
             Style::Marked => (Some(None), Some(mark)),
-            Style::Line | Style::Bound | Style::Band => (Some(dash), None),
+            Style::Line | Style::Bound | Style::Band | Style::Limit => (Some(dash), None),
         };
         Entry { colour, width: 2, line, mark, ..bound }
     }

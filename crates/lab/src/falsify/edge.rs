@@ -1,4 +1,4 @@
-//! What a claim looks like: runs from the edge of its set with 0, 3 and 10 oscillators, beside the bounds that are proved.
+//! What a claim looks like: runs from the edge of its set with a few numbers of oscillators, beside the bounds that are proved.
 //!
 //! The runs are floating point and of one plant and one start each; they decide nothing, and no claim depends on them.
 
@@ -13,8 +13,8 @@ use sigmastar_exact::number::{Direction, round_f64, write_exact};
 use sigmastar_lang::plant::Plant;
 use sigmastar_regulator::Regulator;
 
-/// The numbers of oscillators.
-const SHOWN_N_O: [u32; 3] = [0, 3, 10];
+/// A number of oscillators that is shown, and a bound of |e| along its periodic solution where one is proved.
+pub type Shown = (u32, Option<f64>);
 
 /// The operations that each run may take: about a second.
 const EFFORT: u64 = 1_000_000_000;
@@ -73,11 +73,11 @@ pub struct ProvedBounds {
     pub steady: f64,
 }
 
-/// Runs the plant of a claim, or of a claim about data the linear member with the largest gains.
+/// Runs the plant of a claim, or of a claim about data the linear member with the largest gains, with these numbers of oscillators, in rising order.
 ///
 /// # Errors
 /// In words: why there is nothing to be shown.
-pub fn from_the_edge(claim: &TriedClaim) -> Result<Edge, String> {
+pub fn from_the_edge(claim: &TriedClaim, numbers: &[Shown]) -> Result<Edge, String> {
     let (plant, words) = match &claim.own {
         Some(own) => (own.plant.clone(), "of the plant"),
         None => (member(claim)?, "of the linear plant with the largest gains that the data allow"),
@@ -86,8 +86,8 @@ pub fn from_the_edge(claim: &TriedClaim) -> Result<Edge, String> {
     let mut why = "no regulator is in double precision".to_owned();
     let mut periods = None;
     // The most oscillators take longest; the others run as long.
-    for n_o in SHOWN_N_O.into_iter().rev() {
-        match one(claim, &plant, n_o, periods) {
+    for shown in numbers.iter().rev() {
+        match one(claim, &plant, *shown, periods) {
             Ok(Some(run)) => {
                 periods = periods.or(Some(run.ends.len()));
                 runs.push(run);
@@ -138,10 +138,11 @@ fn start(claim: &TriedClaim, states: usize, regulator: &Regulator) -> Vec<f64> {
 fn one(
     claim: &TriedClaim,
     plant: &Plant,
-    n_o: u32,
+    (n_o, proved): Shown,
     periods: Option<usize>,
 ) -> Result<Option<EdgeRun>, IntegrationFailure> {
-    let limit = claim.error_bounds(claim.sigma, n_o).map(|[_, sup]| sup).filter(|sup| sup.is_finite());
+    let by_formulas = claim.error_bounds(claim.sigma, n_o).map(|[_, sup]| sup).filter(|sup| sup.is_finite());
+    let limit = by_formulas.into_iter().chain(proved).reduce(f64::min);
     let run = EdgeRun { n_o, limit, ..EdgeRun::default() };
     let bound = limit.unwrap_or(claim.periodic[1]);
     if let Some(law) = &claim.sampled {
@@ -253,19 +254,22 @@ impl Edge {
         let one = self.runs.iter().all(|run| run.limit.is_none());
         for (index, (run, bound)) in self.runs.iter().zip(&bounds).enumerate() {
             // What is proved of the limit belongs to the end of the run.
-            if *bound > 0.0 && !(one && index > 0) {
-                let half = 0.5 * end;
-                let corners = [(half, floor), (half, *bound), (end, *bound), (end, floor)];
+            if *bound >= floor && !(one && index > 0) {
                 let whose = if one { "every n_o".to_owned() } else { format!("n_o = {}", run.n_o) };
                 curves.push(Curve {
                     label: format!("proved, {whose}: in the limit at most {}", up(*bound)),
-                    points: corners.to_vec(),
-                    style: Style::Band,
+                    points: vec![(0.5 * end, *bound), (end, *bound)],
+                    style: Style::Limit,
                 });
             }
             let points = run.largest();
             let stride = (points.len() / DRAWN).max(1);
-            let mut label = format!("simulated, n_o = {}", run.n_o);
+            let unseen = if *bound < floor && !one {
+                format!(" (proved in the limit: at most {})", up(*bound))
+            } else {
+                String::new()
+            };
+            let mut label = format!("simulated, n_o = {}{unseen}", run.n_o);
             match points.last() {
                 Some((_, last)) if *last < floor => label += &format!(", to {}", number_short(*last)),
                 Some((_, last)) if last > bound => label += ", not settled yet",
@@ -347,8 +351,14 @@ mod tests {
             include_str!("../../../../proofs-check/tests/plants/paper-example.certificate.json"),
         ] {
             let claim = claim(text);
-            let edge = from_the_edge(&claim).unwrap();
-            assert_eq!(edge.runs.iter().map(|run| run.n_o).collect::<Vec<_>>(), SHOWN_N_O);
+            let edge = from_the_edge(&claim, &[(0, None), (3, Some(1e3)), (10, None)]).unwrap();
+            assert_eq!(edge.runs.iter().map(|run| run.n_o).collect::<Vec<_>>(), [0, 3, 10]);
+            // The smaller of two bounds is the one that counts.
+            let least = from_the_edge(&claim, &[(0, Some(1e-3))]).unwrap().runs[0].limit;
+            assert_eq!(
+                (least, edge.runs[1].limit == Some(1e3)),
+                (Some(1e-3), claim.error_bounds(claim.sigma, 3).is_none())
+            );
             let periods = edge.runs[0].ends.len();
             for run in &edge.runs {
                 assert_eq!(run.error[0].1.abs(), claim.initial.e0);
@@ -362,10 +372,9 @@ mod tests {
             }
             let proved = ProvedBounds { error: 10.0, control: [10.0, 1e6], steady: 1.0 };
             let [error, control] = edge.figures(&proved);
-            // A bound at all times, and for each n_o one in the limit, or one for all.
-            let limits = edge.runs.iter().filter(|run| run.limit.is_some()).count();
-            let bands = if limits == 0 { 1 } else { edge.runs.len() };
-            assert_eq!((error.curves.len(), error.scale), (1 + bands + edge.runs.len(), Scale::LogY));
+            // A bound at all times, and for each n_o one in the limit.
+            assert_eq!((error.curves.len(), error.scale), (1 + 2 * edge.runs.len(), Scale::LogY));
+            assert!(error.curves.iter().all(|curve| curve.style != Style::Band), "areas would lie over each other");
             assert_eq!((control.curves.len(), control.scale), (5, Scale::LogY));
             let near = ProvedBounds { control: [10.0, 20.0], ..proved };
             assert_eq!(edge.figures(&near)[1].scale, Scale::Linear);

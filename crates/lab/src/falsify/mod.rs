@@ -39,7 +39,7 @@ mod trial;
 pub use claim::TriedClaim;
 pub use counterexample::{counterexample_plant, flags};
 pub use draw::draw;
-pub use edge::{Edge, ProvedBounds, from_the_edge};
+pub use edge::{Edge, ProvedBounds, Shown, from_the_edge};
 pub use family::{Family, FamilyBound, Harmonic};
 pub use figures::{LoopFigures, nominal_figures};
 pub use finding::{Falsification, Finding, Trial, TrialSettings, TriedPlant, Violation};

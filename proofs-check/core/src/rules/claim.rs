@@ -1,6 +1,7 @@
 //! Rule: the claim says what the witness proves, and nothing that it does not.
 
 use super::by_n_o::claimed::Entry;
+use super::by_n_o::kept::demand_kept;
 use super::common::Evaluated;
 use super::control::NAMES;
 use super::rates::claimed::Rate;
@@ -170,7 +171,7 @@ impl<'a> Claim<'a> {
 
     /// That it does: what it says by n_o is proved.
     pub fn keep_to_actuator(&self, actuator: &Actuator) -> Outcome<()> {
-        actuator::kept_by_n_o(actuator, &self.by_n_o, self.scope() == Scope::EverySet, &self.pointer)
+        demand_kept(actuator, &self.by_n_o, self.scope() == Scope::EverySet, &self.pointer)
     }
 
     /// Whether it says something of noise.

@@ -9,6 +9,7 @@
 pub mod claimed;
 pub mod curves;
 mod form;
+pub mod kept;
 pub mod linear;
 pub mod oscillators;
 pub mod peaks;
