@@ -1,11 +1,12 @@
 //! A bounding specification from the formulas of a plant.
 
-use super::error::Error;
+use super::error::{Error, ErrorKind};
 use super::subject::Subject;
 use super::{json_text, rational};
 use rug::Rational;
 use sigmastar_exact::number::write_exact;
 use sigmastar_lang::plant::Plant;
+use sigmastar_lang::spec::Actuator;
 use sigmastar_prove::reduction::{PlantRefusal, reduce_by_norms};
 
 /// A bounding specification whose every number is proved of a plant.
@@ -57,6 +58,14 @@ pub fn bounding_specification(plant: impl Into<Subject>, domain: Option<[&str; 2
 /// # Errors
 /// What could not be proved of the plant.
 pub fn bounds_of(plant: &Plant, domain: Option<[Rational; 2]>) -> Result<BoundedPlant, Error> {
+    if let Some(middle) = plant.actuator.as_ref().and_then(Actuator::middle) {
+        let message = format!(
+            "the actuator has limits to both sides: u is measured from {}, and bounding functions know no such number",
+            write_exact(&middle)
+        );
+        let help = "leave `actuator` out, and put the gain of the actuator times that number into `q`";
+        return Err(Error::new(ErrorKind::Options, message, help));
+    }
     let refused = |refusal: PlantRefusal| Error::documents(&refusal.errors(plant));
     let reduced = reduce_by_norms(plant).map_err(refused)?;
     let bounded = sigmastar_studies::bounding::bounding_specification(plant, &reduced.spec, domain).map_err(refused)?;

@@ -153,7 +153,13 @@ pub(super) fn with_rates<'p>(prepared: &'p Prepared, (options, counts): (Options
         return Ok(run);
     }
     let has_rates = run.prove_rates(counts).is_ok();
-    if has_rates && checked_within(1, &run) == Checked::Decided { Ok(run) } else { decided_by(&checked) }
+    if has_rates && checked_within(1, &run) == Checked::Decided {
+        return Ok(run);
+    }
+    let mut run = decided_by(&checked)?;
+    // Without numbers it judges what is kept by the number of oscillators.
+    run.prove_rates(&[]).map_err(|reason| Error::no_rates(reason, "`n_o`"))?;
+    Ok(run)
 }
 
 /// What a claim may take of what the checker spends with its bounds by the number of oscillators: the rest is for rates.

@@ -59,10 +59,9 @@ pub(super) fn decided_again<T>(
     let options = Options { compare: false, ..Options::default() };
     let mut run = prepared.certify(options).map_err(|all| Error::documents(&all))?;
     let no_rates = |reason| Error::no_rates(reason, "`n_o`");
-    run.prove_rates(&rate_counts(&stated_counts(document)).map_err(no_rates)?).map_err(no_rates)?;
     if let (Some(counts), prove::Subject::Plant(plant)) = (stated_by_count(document), &subject.read) {
         run.set_counts(plant, &counts);
     }
-    run.keep_to_actuator();
+    run.prove_rates(&rate_counts(&stated_counts(document)).map_err(no_rates)?).map_err(no_rates)?;
     then(&run, &subject, !of_another && is_stated(&run, document))
 }

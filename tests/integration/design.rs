@@ -251,7 +251,7 @@ fn the_longest_sampling_period_of_each_gain() {
     let flags = ["--sigma", "100000", "--n-o", "0", "--no-simulation", "--sampling-periods"];
     assert_eq!(design(&file, &flags, 0)["rows"][0]["longest_h"], Value::Null);
     let (_, text) = told(program().arg("design").arg(&file).args(flags).arg("-q"));
-    assert!(text.contains("At samples nothing is certified with sigma = 100000"), "{text}");
+    assert!(text.contains("No sampling period was found that is certified with sigma = 100000"), "{text}");
     let flags = ["--sampling-periods", "--sampling-period", "1/100"];
     program().arg("design").arg(&file).args(flags).assert().code(2).stderr(contains("cannot be used with"));
     let mut sampled = plant();

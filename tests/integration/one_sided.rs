@@ -84,6 +84,9 @@ fn the_bounds_by_the_number_keep_to_an_actuator() {
         "{text}"
     );
     assert_eq!(report["actuator"], object!({ "min": "2.9", "max": "5.1", "u_from": "4" }));
+    // Nobody asked for a limit; and what the claim rests on is said.
+    assert!(report.get("limits").is_none(), "{}", report["limits"]);
+    assert!(report["basis"].to_string().contains("14.5 for the actuator, by the number"), "{}", report["basis"]);
     assert!(tried(&made, 24, 3).counterexample().is_none());
     // Decided again from its witness it is the same; `--witness` does not decide it.
     let again = sigmastar::reread("certificate", made.to_string().as_bytes()).unwrap();
@@ -102,6 +105,36 @@ fn the_bounds_by_the_number_keep_to_an_actuator() {
         code == 3 && text.contains("what the actuator takes, 0.8: the least for which a proof is found is 0.98"),
         "{text}"
     );
+}
+
+/// Limits that are about some numbers of oscillators stay so, beside an actuator that is about every number.
+#[test]
+fn limits_of_some_numbers_and_an_actuator() {
+    let folder = tempfile::tempdir().unwrap();
+    let plant = bath("2.9", "5.1");
+    let (file, report) = certified(folder.path(), &plant, &["--steady-error", "0.05", "--n-o", "1"]);
+    assert_valid(&file);
+    assert_eq!(report["limits"]["steady_error"]["n_o"], object!([1]));
+    assert_eq!(read(&file)["claim"]["actuator"]["kept_by"], "by_n_o");
+    let (file, _) = certified(folder.path(), &plant, &["--max-control", "0.9", "--n-o", "0"]);
+    assert_valid(&file);
+    // About every number, 0.9 is less than two of them need.
+    let file = stored(folder.path(), "plant.json", &plant);
+    let (code, text) = told(program().arg("certify").arg(&file).args(["--max-control", "0.9", "-q"]));
+    assert!(code == 3 && text.contains("the least for which a proof is found is 0.98"), "{text}");
+}
+
+/// A smaller set is named with a gain that is certified with it, actuator and all.
+#[test]
+fn the_smaller_set_that_is_named_keeps_to_the_actuator() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut plant = read(Path::new("specs/plants/duffing.json"));
+    plant["initial_set"] = object!({ "kind": "box", "ball": "50", "E0": "50", "Z0": "0" });
+    plant["actuator"] = object!({ "max": "0.1" });
+    let file = stored(folder.path(), "far.json", &plant);
+    let (code, text) = told(program().arg("certify").arg(&file).arg("-q"));
+    // No set helps: u of the periodic solution alone is larger.
+    assert!(code != 0 && !text.contains("is certified"), "{text}");
 }
 
 /// Each part of it forged.
@@ -175,7 +208,16 @@ fn the_gain_acts_on_the_middle_too() {
     plain["actuator"] = object!({ "min": "0", "max": "16" });
     let (file, _) = certified(folder.path(), &plain, &["--no-alternatives"]);
     assert_valid(&file);
-    // Bounding functions know no middle.
+    // A middle of 0 asks for no gain, in either program.
+    plain["input_gain"] = object!({ "nominal": 2, "low": "1.9", "high": "2.1" });
+    plain["q"] = "w/2 - e + 0.3*cos(phase)".into();
+    plain["actuator"] = object!({ "min": "-9", "max": "9" });
+    let (file, _) = certified(folder.path(), &plain, &["--no-alternatives"]);
+    assert_valid(&file);
+    // Bounding functions know no middle, and none are made of a plant with one.
+    let file = stored(folder.path(), "bath.json", &bath("2.9", "5.1"));
+    let (code, text) = told(program().arg("bound").arg(&file));
+    assert!(code == 2 && text.contains("u is measured from 4, and bounding functions know no such number"), "{text}");
     let mut spec: Value = read(Path::new(super::support::EXAMPLE));
     spec["actuator"] = object!({ "min": "0", "max": "60" });
     let error = sigmastar::Specification::from_json(&spec.to_string()).unwrap_err().to_string();
@@ -196,7 +238,8 @@ fn the_exported_code_puts_out_what_the_heater_takes() {
     };
     let exported = json(&export("json").assert().success().get_output().stdout);
     assert_eq!((&exported["middle"], &exported["actuator"]["max"]), (&object!(4.0), &object!(1.1)));
-    assert!(exported["notice"].to_string().contains("put out 4 + u"), "{}", exported["notice"]);
+    let notice = exported["notice"].to_string();
+    assert!(notice.contains("put out 4 + u") && !notice.contains("what the actuator is given"), "{notice}");
     let script = utf8(export("matlab").assert().success().get_output().stdout.clone());
     assert!(script.contains("\nmiddle = 4;"), "{script}");
     export("c").arg("-o").arg(&source).assert().success();

@@ -13,7 +13,7 @@ use super::obstacles::{
 use super::of_plant::plant_json;
 use super::remarks::sampled_remarks;
 use super::sets::{Boxes, Sizes};
-use super::verdict::of_the_data;
+use super::verdict::{of_actuator, of_the_data};
 use super::words;
 use super::{Origin, about, brief, conditions, consequences, gains, of_plant};
 use rug::Rational;
@@ -52,7 +52,7 @@ impl<'r> SampledReport<'r> {
                 [
                     if run.sampling.delayed { ", 13.4 for the delay" } else { "" },
                     if run.spec.input_gain.is_some() { ", 13.1 for the input gain" } else { "" },
-                    if run.spec.actuator.is_some() { ", 13.5 for the actuator" } else { "" },
+                    of_actuator(run.spec),
                 ]
                 .concat()
             ),

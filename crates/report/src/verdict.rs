@@ -83,7 +83,7 @@ pub(super) fn basis(run: &Certification<'_>) -> Vec<String> {
         (false, None) => "",
     };
     let of_gain = if run.spec.input_gain.is_some() { ", 13.1 for the input gain" } else { "" };
-    let of_actuator = if run.spec.actuator.is_some() { ", 13.5 for the actuator" } else { "" };
+    let of_actuator = of_actuator(run.spec);
     let derivation =
         format!("Derivation: sharp (sections 2, 3, 5 and 10 of the mathematics{of_gain}{of_actuator}{of_stability}).");
     let mut items = vec![derivation];
@@ -136,6 +136,15 @@ pub(super) fn of_the_data(
         .to_owned(),
     );
     items
+}
+
+/// The sections behind what is claimed of an actuator.
+pub(super) fn of_actuator(spec: &Specification) -> &'static str {
+    match &spec.actuator {
+        None => "",
+        Some(actuator) if actuator.by_count => ", 13.5 and 14.5 for the actuator, by the number of oscillators",
+        Some(_) => ", 13.5 for the actuator",
+    }
 }
 
 /// What nobody proves: that the formulas are the plant, or that the data of a specification bound it up to the arguments that

@@ -32,7 +32,8 @@ pub(super) fn taken(actuator: &Actuator) -> String {
     match &actuator.range {
         None => format!("$`|u| <= {}`$", clean(&actuator.max.text)),
         Some(range) => {
-            let [min, max] = [&range.min, &range.max].map(|limit| clean(&limit.text));
+            let [min, max] = [&range.min, &range.max]
+                .map(|limit| limit.as_rational().map_or_else(|| clean(&limit.text), write_exact));
             let put_out =
                 actuator.middle().map_or_else(|| "u".to_owned(), |middle| format!("{} + u", write_exact(&middle)));
             format!("$`{min} <= {put_out} <= {max}`$")

@@ -77,7 +77,8 @@ pub fn from_middle(
     variables: &[&str],
     constants: &[Named],
 ) -> Outcome<Expr> {
-    let Some(limits) = actuator.and_then(|actuator| actuator.limits.as_ref()) else { return Ok(q) };
+    let limits = actuator.and_then(|actuator| actuator.limits.as_ref()).filter(|limits| limits.middle != 0);
+    let Some(limits) = limits else { return Ok(q) };
     let factor = match (gain, stated) {
         (None, _) => Expr::number(Rational::from(1)),
         (Some(gain), _) if gain.is_nominal() => gain.nominal.expr().clone(),

@@ -149,7 +149,7 @@ pub enum Command {
     Design(DesignArgs),
     /// Show which gains go with which sampling periods: the smallest gain for a period, the longest period for a gain
     ///
-    /// Each pair is certified as `certify --sampling-period H --sigma V` does. A gain is certified for its sampling period only:
+    /// Each pair is certified as `certify --sampling-period H --sigma V` does, with an `actuator` by the conditions alone. A gain is certified for its sampling period only:
     /// neither a larger gain nor a shorter period follows.
     #[command(after_help = SAMPLING_EXAMPLES, after_long_help = format!("{SAMPLING_EXAMPLES}\n\n{EXIT_CODES}"))]
     Sampling(SamplingArgs),

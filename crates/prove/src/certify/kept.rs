@@ -6,7 +6,6 @@ use super::options::Limits;
 use super::sampled::SampledCertification;
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
-use sigmastar_lang::spec::Specification;
 use sigmastar_propose::search::{Failing, Limited};
 use sigmastar_theory::derivation::control::Control;
 use sigmastar_theory::derivation::sampled::SampledEvaluation;
@@ -73,21 +72,8 @@ fn missed(all: &[Against], sigma: &Rational) -> Option<Failing> {
 
 /// Why the limits are not kept by what is proved at a gain; nothing where they are, and where they are not judged by the number of oscillators. What the
 /// independent checker did not decide keeps none: where it would, that is the reason.
-fn why_missed(
-    spec: &Specification,
-    limits: &Limits,
-    sigma: &Rational,
-    (known, by_count): Judged<'_>,
-) -> Option<Failing> {
-    let mut missed = missed(&against(limits, (known.clone(), by_count)), sigma)?;
-    // A limit of the control may be that of the actuator.
-    if let (Failing::Limit { which, .. }, Some(actuator)) = (&mut missed, &spec.actuator)
-        && actuator.by_count
-        && *which == Limited::Control
-        && limits.control == actuator.largest()
-    {
-        *which = Limited::Actuator;
-    }
+fn why_missed(limits: &Limits, sigma: &Rational, (known, by_count): Judged<'_>) -> Option<Failing> {
+    let missed = missed(&against(limits, (known.clone(), by_count)), sigma)?;
     let undecided = by_count.filter(|found| !found.checked).map(|found| ByCount { checked: true, ..found.clone() });
     let would_be_kept =
         undecided.is_some_and(|found| against(limits, (known, Some(&found))).iter().all(|one| one.kept));
@@ -218,7 +204,7 @@ impl Certification<'_> {
     /// Takes the claim back where a limit was to be kept by what is proved by the number of oscillators, and is not.
     pub(crate) fn keep_to_counts(&mut self) {
         let judged = self.sigma_star().zip(self.judged(&self.limits));
-        if let Some(reason) = judged.and_then(|(sigma, judged)| why_missed(self.spec, &self.limits, sigma, judged)) {
+        if let Some(reason) = judged.and_then(|(sigma, judged)| why_missed(&self.limits, sigma, judged)) {
             self.take_back(reason);
         }
     }
@@ -254,8 +240,7 @@ impl SampledCertification<'_> {
     /// Takes the claim back where a limit was to be kept by what is proved by the number of oscillators, and is not.
     pub(crate) fn keep_to_counts(&mut self) {
         let sigma = self.claim().map(|proof| &proof.witness.sigma).zip(self.known());
-        let reason = sigma
-            .and_then(|(sigma, known)| why_missed(self.spec, &self.limits, sigma, (known, self.by_count.as_ref())));
+        let reason = sigma.and_then(|(sigma, known)| why_missed(&self.limits, sigma, (known, self.by_count.as_ref())));
         if let Some(reason) = reason {
             self.take_back(reason);
         }

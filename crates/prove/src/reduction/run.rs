@@ -230,7 +230,8 @@ fn around_again(spec: &Specification) -> Option<(Engine, FloatSuprema)> {
 impl Run<'_> {
     /// Proves rates for these numbers of oscillators at the gain of the claim, by norms or from the derivatives of the plant
     /// ([`Certification::prove_rates`], [`Certification::prove_rates_around`], [`SampledCertification::prove_rates`]). Where a least rate is to be
-    /// kept and one of them is not proved to be as large there is no claim any more; nor where the steady error with some of them is not kept.
+    /// kept and one of them is not proved to be as large there is no claim any more; nor where the steady error with some of them is not kept, or an actuator
+    /// is not that is to be kept to by the number of oscillators.
     ///
     /// # Errors
     /// Theirs.
@@ -253,6 +254,7 @@ impl Run<'_> {
                 run.keep_to_counts();
             }
         }
+        self.keep_to_actuator();
         Ok(())
     }
 

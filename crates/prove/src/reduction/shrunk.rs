@@ -80,7 +80,7 @@ fn certified(
         false => Prepared::seeking(&subject, gain.cloned(), (limits, counts), options, &Unwatched),
     };
     let prepared = prepared.ok()?;
-    let run = prepared.certify(options).ok()?;
+    let run = prepared.judged(options, &Unwatched)?;
     Some(run.certified()?.sigma.clone())
 }
 

@@ -125,10 +125,11 @@ pub fn notice(export: &Export<'_>) -> Vec<String> {
             Some(_) => " What is said of the sampled loop is for exactly this gain.",
             None => "",
         };
-        lines.push(format!(
-            "u is what the actuator is given: the control of the law is divided by the nominal input gain {}.{sampled}",
-            super::decimal(nominal)
-        ));
+        let nominal = super::decimal(nominal);
+        lines.push(match export.middle {
+            None => format!("u is what the actuator is given: the control of the law is divided by the nominal input gain {nominal}.{sampled}"),
+            Some(_) => format!("u is the control of the law over the nominal input gain {nominal}.{sampled}"),
+        });
     }
     if let Some(middle) = export.middle {
         lines.push(format!(

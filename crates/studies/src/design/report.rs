@@ -153,7 +153,7 @@ impl DesignReport<'_> {
                 "At samples it is certified with the sampling period $`h = {}`$, too, by a claim of its own.",
                 clean(&longest.text())
             ),
-            None => format!("At samples nothing is certified with $`sigma = {sigma}`$."),
+            None => format!("No sampling period was found that is certified with $`sigma = {sigma}`$."),
         })
     }
 

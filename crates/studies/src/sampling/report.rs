@@ -29,7 +29,7 @@ impl Readable for SamplingReport<'_> {
         let mut blocks = vec![
             Block::Title(format!("{}: gains and sampling periods", clean(self.name))),
             Block::says(
-                "Each pair is certified by itself, as `certify --sampling-period H --sigma V` does. A gain is a value for its \
+                "Each pair is certified by itself, as `certify --sampling-period H --sigma V` does (with an `actuator` by the conditions alone). A gain is a value for its \
                  sampling period, not a threshold: nothing follows for a larger gain, a shorter period, or between two rows.",
             ),
         ];

@@ -70,7 +70,7 @@ impl Readable for TuningReport<'_> {
 }
 
 /// What is claimed, and what is not.
-const BASIS: &str = "Each proposal was certified as `sigmastar certify` of a file with these values does it. The figures that \
+const BASIS: &str = "Each proposal was certified as `sigmastar certify` of a file with these values does it (with an `actuator` by the conditions alone). The figures that \
                      are shown are certified; that no other values in the ranges are better is not claimed.";
 
 impl TuningReport<'_> {

@@ -413,7 +413,7 @@ impl Run<'_> {
     }
 
     /// Takes the claim back where it is to keep to its actuator by what is proved for every number of oscillators, and does not.
-    pub fn keep_to_actuator(&mut self) {
+    pub(super) fn keep_to_actuator(&mut self) {
         let Some(sigma) = self.certified().map(|claim| claim.sigma.to_f64()).filter(|_| !self.keeps_actuator()) else {
             return;
         };

@@ -74,7 +74,8 @@ impl Prepared {
         Ok(if is_closer { other } else { prepared })
     }
 
-    /// The same for a claim that is to keep to its actuator by the bounds for every number of oscillators. `None` where there can be none.
+    /// The same for a claim that is to keep to its actuator by the bounds for every number of oscillators. `None` where there can be none. Limits that are about
+    /// some numbers alone are sought first, and the actuator is judged at the gain that keeps to these.
     pub(super) fn seeking_by_count(
         subject: &Subject,
         gain: Option<Rational>,
@@ -83,19 +84,21 @@ impl Prepared {
         watch: &dyn Watch,
     ) -> Option<Prepared> {
         let (subject, max) = subject.kept_by_count().filter(|_| limits.rate.is_none())?;
+        let of_some = limits.bounds_anything() && !counts.is_empty();
         let control = limits.control.clone().map_or(max.clone(), |limit| limit.min(max));
-        let limits = Limits { control: Some(control), ..limits.clone() };
-        let prepared = Prepared::seeking_by_conditions(&subject, gain, (&limits, &[]), options, watch).ok()?;
-        let limits = Limits { by_count: Some(Vec::new()), ..limits };
+        let with_actuator = Limits { control: Some(control), ..limits.clone() };
+        let (sought, about) = if of_some { (limits, counts) } else { (&with_actuator, &[][..]) };
+        let prepared = Prepared::seeking_by_conditions(&subject, gain, (sought, about), options, watch).ok()?;
+        // What is asked for is told; the actuator is judged beside it.
+        let limits = Limits { by_count: Some(about.to_vec()), ..limits.clone() };
         Some(Prepared { counts: counts.to_vec(), limits, ..prepared })
     }
 
     /// The run without comparisons, judged by the limits, those by the number of oscillators and the actuator included.
-    pub(super) fn judged(&self, options: Options, watch: &dyn Watch) -> Option<Run<'_>> {
+    pub(in crate::reduction) fn judged(&self, options: Options, watch: &dyn Watch) -> Option<Run<'_>> {
         let options = Options { compare: false, ..options };
         let mut run = self.certify_checked(options, &|_| Checked::Decided, watch).ok()?;
         run.prove_rates(&[]).ok()?;
-        run.keep_to_actuator();
         Some(run)
     }
 
