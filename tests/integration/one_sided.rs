@@ -239,7 +239,7 @@ fn the_exported_code_puts_out_what_the_heater_takes() {
     let exported = json(&export("json").assert().success().get_output().stdout);
     assert_eq!((&exported["middle"], &exported["actuator"]["max"]), (&object!(4.0), &object!(1.1)));
     let notice = exported["notice"].to_string();
-    assert!(notice.contains("put out 4 + u") && !notice.contains("what the actuator is given"), "{notice}");
+    assert!(notice.contains("is to be given 4 + u") && !notice.contains("what the actuator is given"), "{notice}");
     let script = utf8(export("matlab").assert().success().get_output().stdout.clone());
     assert!(script.contains("\nmiddle = 4;"), "{script}");
     export("c").arg("-o").arg(&source).assert().success();
@@ -267,4 +267,28 @@ fn the_exported_code_puts_out_what_the_heater_takes() {
     let largest = number(&entry["largest"]["u"]);
     assert!(low >= 4.0 - largest && high <= 4.0 + largest && high - low > 0.4, "{low} {high} {largest}");
     assert!(last <= number(&entry["steady"]["e"]) * 1.01 + 1e-4, "{last} {entry}");
+}
+
+/// The sum of the middle and u is rounded: what is put out is cut off at the limits themselves.
+#[test]
+fn rounding_never_leaves_the_range() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut plant = bath("0", "4.1");
+    plant["q"] = "-4.1 + w/2 - e + 0.3*cos(phase)".into();
+    let (file, _) =
+        certified(folder.path(), &plant, &["--no-alternatives", "--sampling-period", "1/50", "--sigma", "1/2"]);
+    let source = folder.path().join("heater.c");
+    let call = ["--n-o", "0", "-q", "--format", "c", "-o"];
+    program().arg("controller").arg(&file).args(call).arg(&source).assert().success();
+    let text = std::fs::read_to_string(&source).unwrap();
+    assert!(text.contains("if (u < lowest)") && text.contains("if (u > highest)"), "{text}");
+    if !installed("gcc", &["--version"]) {
+        return;
+    }
+    let main = "#include \"heater.h\"\n#include <stdio.h>\nint main(void)\n{\n    sigmastar_controller c;\n\n    sigmastar_reset(&c, 0.0);\n\
+        \x20   printf(\"%.17g \", sigmastar_step(&c, 100.0));\n    sigmastar_reset(&c, 0.0);\n    printf(\"%.17g\\n\", sigmastar_step(&c, -100.0));\n    return 0;\n}\n";
+    let (main_file, run) = (folder.path().join("main.c"), folder.path().join("main"));
+    std::fs::write(&main_file, main).unwrap();
+    gcc(&[&source, &main_file], &run);
+    assert_eq!(utf8(Process::new(&run).output().unwrap().stdout).trim(), "0 4.0999999999999996");
 }

@@ -184,7 +184,16 @@ pub fn is_hidden(c: char) -> bool {
 /// length.
 #[must_use]
 pub fn clean(text: &str) -> String {
-    const LONGEST: usize = 80;
+    shortened(text, 80)
+}
+
+/// A sentence in which words of a stranger may stand, as [`clean`] makes it, but longer.
+#[must_use]
+pub fn clean_sentence(text: &str) -> String {
+    shortened(text, 1000)
+}
+
+fn shortened(text: &str, longest: usize) -> String {
     let visible = |c: char| match c {
         '`' => '\'',
         c if is_hidden(c) => ' ',
@@ -193,10 +202,10 @@ pub fn clean(text: &str) -> String {
     let line: String = text.chars().map(visible).collect();
     let words: Vec<&str> = line.split_whitespace().collect();
     let line = words.join(" ");
-    if line.chars().count() <= LONGEST {
+    if line.chars().count() <= longest {
         return line;
     }
-    line.chars().take(LONGEST - 3).chain("...".chars()).collect()
+    line.chars().take(longest - 3).chain("...".chars()).collect()
 }
 
 #[cfg(test)]

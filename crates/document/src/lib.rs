@@ -18,7 +18,7 @@ pub mod progress;
 mod span;
 mod text;
 
-pub use block::{Align, Block, Column, Extent, Table, clean, is_hidden};
+pub use block::{Align, Block, Column, Extent, Table, clean, clean_sentence, is_hidden};
 pub use made::Made;
 pub use span::{plain, plain_all};
 

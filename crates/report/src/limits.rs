@@ -140,8 +140,11 @@ fn kept_json(limits: &Limits, bounds: &Bounds<'_>) -> Option<Value> {
 /// " and an actuator that takes |u| <= 50 (u does not exceed it from the set)"; nothing where there is none.
 pub(super) fn of_actuator(spec: &Specification) -> String {
     spec.actuator.as_ref().map_or_else(String::new, |actuator| {
-        let kept =
-            if actuator.range.is_none() { "$`u`$ does not exceed it from the set" } else { "so it is from the set" };
+        let kept = if actuator.range.is_none() {
+            "$`u`$ does not exceed it from the set"
+        } else {
+            "from the set it stays there"
+        };
         format!(" and an actuator that takes {} ({kept})", words::taken(actuator))
     })
 }

@@ -58,8 +58,8 @@ pub(super) fn detail(run: &Certification<'_>) -> Vec<Block> {
         blocks.push(about::facts(run.spec, None));
         if run.spec.actuator.is_some() {
             blocks.push(Block::says(
-                "The claim is about this gain alone: the bounds of the control, which the actuator has to take, grow with it. From the set, \
-                 without noise, the control never exceeds what the actuator takes, so that the saturation changes nothing.",
+                "The claim is about this gain alone: at another one the control may exceed what the actuator takes. From the set, \
+                 without noise, it never does, so that the saturation changes nothing.",
             ));
         } else if run.given_gain.is_some() {
             blocks.push(Block::says(

@@ -16,7 +16,7 @@ use proved::{Proved, Taken};
 use rug::Rational;
 use sigmastar_exact::enclosure::{DEFAULT_PRECISION, Enclosure};
 use sigmastar_exact::number::write_exact;
-use sigmastar_lang::spec::Document;
+use sigmastar_lang::spec::{Actuator, Document};
 use sigmastar_prove::certify::{NoRatesOfClaim, Options, rate_counts};
 use sigmastar_prove::reduction::{AtGains, Subject as Read, Unwatched, at_samples};
 use sigmastar_studies::design::{
@@ -157,7 +157,11 @@ impl Asked {
         }
         if options.sampling_periods && !read.is_matched() {
             let message = format!("{of_periods}: no regulator at samples is proved without a matched base frequency");
-            return Err(Error::new(ErrorKind::Options, message, "leave it out, or match the base frequency"));
+            return Err(Error::new(
+                ErrorKind::Options,
+                message,
+                "leave it out; or state `matched`: true, with 2 pi over the period as the base frequency",
+            ));
         }
         let requirements = requirements(read, options, names)?;
         Ok(Asked { subject, counts, sigmas, requirements })
@@ -211,6 +215,7 @@ impl Table {
         let Table { asked: Asked { subject, requirements, .. }, period, rows, choice, taken, refused } = self;
         let Taken { sigma, certificate, set_and_assumptions } = taken;
         let read = &subject.read;
+        let middle = read.actuator().and_then(Actuator::middle);
         let longest = periods.then(|| longest(read, &rows)).transpose()?;
         let report = DesignReport {
             rows: &rows,
@@ -225,6 +230,7 @@ impl Table {
             notes: certificate.remarks(),
             set_and_assumptions: &set_and_assumptions,
             sampling: read.sampling().map(|sampling| (sampling.text(), sampling.samples)),
+            middle: middle.as_ref(),
             name: read.name(),
             sha256: read.sha256(),
         };

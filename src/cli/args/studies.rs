@@ -22,7 +22,8 @@ pub struct DesignArgs {
     #[arg(long, value_name = "V")]
     pub peak_error: Option<String>,
 
-    /// Require |u| at all times, from the whole initial set, to be at most V
+    /// Require |u| at all times, from the whole initial set, to be at most V: the control over `nominal` where the file has `input_gain`, measured from the
+    /// middle of the range where its `actuator` has two limits
     #[arg(long, value_name = "V")]
     pub max_control: Option<String>,
 
@@ -30,7 +31,7 @@ pub struct DesignArgs {
     #[arg(long, value_name = "PERIODS", requires = "steady_error")]
     pub settle: Option<String>,
 
-    /// Require what noise, the disturbance and rounding of the document make of e in the limit to be at most V
+    /// Require the error that the noise, disturbance and rounding of the document cause in the limit to be at most V
     #[arg(long, value_name = "V")]
     pub noise: Option<String>,
 
@@ -46,7 +47,7 @@ pub struct DesignArgs {
     #[arg(long, value_name = "H")]
     pub sampling_period: Option<String>,
 
-    /// Show the longest sampling period that is certified with each gain, too
+    /// Also show, for each gain, the longest sampling period that is certified with it
     #[arg(long, conflicts_with = "sampling_period")]
     pub sampling_periods: bool,
 

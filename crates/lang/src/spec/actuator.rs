@@ -60,6 +60,14 @@ impl Actuator {
         }
     }
 
+    /// The least double that is not below `min` and the largest one that is not above `max`, where both are stated: what is put out is cut off there, so
+    /// that it never leaves the range by rounding.
+    #[must_use]
+    pub fn ends(&self) -> Option<[f64; 2]> {
+        let range = self.range.as_ref()?;
+        Some([range.min.enclose(PRECISION).upper_f64(), range.max.enclose(PRECISION).lower_f64()])
+    }
+
     /// A rational number up to which |u| certainly is taken as it is: `max` where that is rational.
     #[must_use]
     pub fn largest(&self) -> Option<Rational> {
@@ -128,7 +136,11 @@ pub const KEPT_BY: [&str; 2] = ["kept_by", "by_n_o"];
 
 fn read(value: &Value<'_>, names: &Definitions, place: Place, errors: &mut Errors) -> Result<Actuator, Reported> {
     let max = value.text().or_else(|| value.numeral()).map_or("30".into(), shown);
-    let help = format!("write `{{ \"max\": \"{max}\" }}`: |u| up to it is put out as it is");
+    let both = match place {
+        Place::Specification => "",
+        _ => "; or both limits of a range, `{ \"min\": \"0\", \"max\": \"4\" }`",
+    };
+    let help = format!("write `{{ \"max\": \"{max}\" }}`: |u| up to it is put out as it is{both}");
     let mut object = value.object_or(&help, errors)?;
     let stated = value.member("min").filter(|_| place == Place::Specification);
     if let Some(min) = stated {

@@ -8,6 +8,7 @@ use super::sampled::{SampledCertification, certify_sampled_within};
 use rug::Rational;
 use sigmastar_decide::conditions::Ladder;
 use sigmastar_exact::number::{Direction, round_f64, round_rational};
+use sigmastar_lang::spec::Actuator;
 use sigmastar_lang::spec::model::{Constant, InitialSet, Specification};
 use sigmastar_propose::search::{FloatModel, smaller_set};
 use sigmastar_theory::data::Data;
@@ -56,16 +57,21 @@ impl SampledCertification<'_> {
     /// [`Certification::divisor_that_keeps`] at samples.
     #[must_use]
     pub fn divisor_that_keeps(&self) -> Option<u32> {
-        // Of a smaller set nothing is known by the number of oscillators.
+        // Of a smaller set nothing is known by the number of oscillators: neither limits nor an actuator are kept to by that.
         let limits = self.limits.by_conditions();
         DIVISORS.into_iter().find(|divisor| {
             let Some(initial_set) = divided(&self.spec.initial_set, *divisor) else { return false };
-            let spec = Specification { initial_set, ..self.spec.clone() };
+            let spec = Specification { initial_set, actuator: by_conditions(self.spec), ..self.spec.clone() };
             let asked = (self.given_gain.as_ref(), &limits);
             let run = certify_sampled_within(&spec, &self.sampling, asked, None, Ladder::default());
             run.is_ok_and(|run| run.claim().is_some())
         })
     }
+}
+
+/// The actuator, to be kept to by condition C6.
+fn by_conditions(spec: &Specification) -> Option<Actuator> {
+    spec.actuator.clone().map(|actuator| Actuator { by_count: false, ..actuator })
 }
 
 impl Certification<'_> {
@@ -75,11 +81,11 @@ impl Certification<'_> {
     /// Guarantee: with it a claim that keeps to the limits is proved.
     #[must_use]
     pub fn divisor_that_keeps(&self) -> Option<u32> {
-        // Of a smaller set nothing is known by the number of oscillators.
+        // Of a smaller set nothing is known by the number of oscillators: neither limits nor an actuator are kept to by that.
         let limits = self.limits.by_conditions();
         DIVISORS.into_iter().find(|divisor| {
             let Some(initial_set) = divided(&self.spec.initial_set, *divisor) else { return false };
-            let spec = Specification { initial_set, ..self.spec.clone() };
+            let spec = Specification { initial_set, actuator: by_conditions(self.spec), ..self.spec.clone() };
             let wanted = Wanted { gain: self.given_gain.as_ref(), limits: Some(&limits), start: None };
             let run = certify_for(&spec, Options { compare: false, ..self.options }, wanted);
             run.is_ok_and(|run| run.claim().is_some())

@@ -133,7 +133,8 @@ pub fn notice(export: &Export<'_>) -> Vec<String> {
     }
     if let Some(middle) = export.middle {
         lines.push(format!(
-            "u is measured from the middle of the range of the actuator: put out {} + u. The C code returns that.",
+            "u is measured from the middle of the range of the actuator, which is to be given {} + u. The step function of C code returns that sum: put it \
+             out as it is.",
             super::decimal(middle)
         ));
     }

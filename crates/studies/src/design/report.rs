@@ -9,7 +9,7 @@ use crate::tune::Parameter;
 use rug::Rational;
 use serde_json::{Value, json};
 use sigmastar_document::number::{estimate, exact, full, upper};
-use sigmastar_document::{Block, Readable, Table, clean, plain};
+use sigmastar_document::{Block, Readable, Table, clean, clean_sentence, plain};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, write_exact};
 use sigmastar_lang::spec::Sampling;
@@ -49,6 +49,8 @@ pub struct DesignReport<'d> {
     pub set_and_assumptions: &'d [String; 2],
     /// The sampling period and the samples of a period, of the law at samples.
     pub sampling: Option<(String, u32)>,
+    /// What u is measured from, where the actuator has two limits with another middle than 0.
+    pub middle: Option<&'d Rational>,
     /// The name of the specification or plant.
     pub name: &'d str,
     /// SHA-256 of its canonical form.
@@ -182,6 +184,9 @@ impl DesignReport<'_> {
                 " All of it is about the loop without noise, disturbance and rounding; nothing is proved of these."
             }
         };
+        let middle = self.middle.map_or_else(String::new, |middle| {
+            format!(" less {}, the middle of the range of the actuator", write_exact(middle))
+        });
         let simulated = match self.has_simulations() {
             true => {
                 " Columns `sim.` are of simulations of the nominal plant, from starts in the initial set that seem to be the worst; they prove nothing."
@@ -190,7 +195,7 @@ impl DesignReport<'_> {
         };
         format!(
             "Steady is along the periodic solution, largest is at all times from the initial set, for every plant, period and gain of the actuator of the \
-             document; $`u`$ is what is put out. Each row is a claim of its own. The independent checker has decided it, and the numbers are those of its \
+             document; $`u`$ is what is put out{middle}. Each row is a claim of its own. The independent checker has decided it, and the numbers are those of its \
              certificate, except where a remark says otherwise.{noise}{samples}{simulated}"
         )
     }
@@ -312,7 +317,7 @@ impl DesignReport<'_> {
             }
         }
         let refused = |(sigma, why): &(Rational, String)| {
-            format!("not certified: $`sigma = {}`$: {}", write_exact(sigma), clean(why))
+            format!("not certified: $`sigma = {}`$: {}", write_exact(sigma), clean_sentence(why))
         };
         remarks.extend(self.refused.iter().map(refused));
         if self.cells().any(|cell| cell.decay.is_none()) {
@@ -354,9 +359,9 @@ impl DesignReport<'_> {
             .map(|parameter| format!("$`{} = {}`$", parameter.name, clean(&parameter.written)))
             .collect();
         format!(
-            "The file has {}. All that follows is about the file with the best of these values, and so is its certificate. Best is what misses the fewest \
-             requirements; of equals what has the largest rate with the number of oscillators to take (without requirements, the least rate of the table), \
-             then the smallest gain.",
+            "The file has {}. All that follows is about the file with the best of these values, and so is its certificate. The best ones miss the fewest \
+             requirements; of equal ones they have the largest rate with the number of oscillators to take (without requirements, the largest value of the \
+             least rate of the table), then the smallest gain.",
             written.join(", ")
         )
     }

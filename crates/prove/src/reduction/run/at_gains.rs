@@ -36,17 +36,8 @@ impl<'q> AtGains<'q> {
         self.keeping(self.asked(self.smallest.clone()), None)
     }
 
-    /// What is prepared, or where that does not keep to an actuator what does so by the number of oscillators.
     fn keeping(&self, prepared: Prepared, gain: Option<Rational>) -> Prepared {
-        let has_claim = |prepared: &Prepared| {
-            prepared.judged(self.options, self.watch).is_some_and(|run| run.certified().is_some())
-        };
-        if self.subject.actuator().is_none() || has_claim(&prepared) {
-            return prepared;
-        }
-        let none = Limits::default();
-        let other = Prepared::seeking_by_count(self.subject, gain, (&none, self.counts), self.options, self.watch);
-        other.filter(has_claim).unwrap_or(prepared)
+        prepared.keeping_actuator(self.subject, gain, (&Limits::default(), self.counts), self.options, self.watch)
     }
 
     /// What is prepared for a gain: in continuous time with the data of the smallest one, at samples and where these are for larger gains with data of its own.

@@ -435,6 +435,8 @@ impl Run<'_> {
             },
         };
         match failing {
+            // No gain and no bound helps.
+            Some(Failing::Start { .. }) => 0.0,
             Some(Failing::Limit { asked, least, .. }) => least / asked,
             _ => f64::INFINITY,
         }

@@ -56,22 +56,33 @@ impl Prepared {
         watch: &dyn Watch,
     ) -> Result<Prepared, Vec<SpecErrors>> {
         let prepared = Prepared::seeking_by_conditions(subject, gain.clone(), (limits, counts), options, watch)?;
+        Ok(prepared.keeping_actuator(subject, gain, (limits, counts), options, watch))
+    }
+
+    /// What is prepared; where that does not keep to an actuator by the conditions, what does so by the number of oscillators, or comes closer to it.
+    pub(super) fn keeping_actuator(
+        self,
+        subject: &Subject,
+        gain: Option<Rational>,
+        asked: (&Limits, &[u32]),
+        options: Options,
+        watch: &dyn Watch,
+    ) -> Prepared {
         if subject.actuator().is_none() {
-            return Ok(prepared);
+            return self;
         }
-        let of_conditions = prepared.judged(options, watch);
-        if of_conditions.as_ref().is_some_and(|run| run.certified().is_some()) {
-            return Ok(prepared);
+        let own = self.judged(options, watch);
+        if own.as_ref().is_some_and(|run| run.certified().is_some()) {
+            return self;
         }
-        let Some(other) = Prepared::seeking_by_count(subject, gain, (limits, counts), options, watch) else {
-            return Ok(prepared);
-        };
-        let is_closer = match (other.judged(options, watch), &of_conditions) {
+        let Some(other) = Prepared::seeking_by_count(subject, gain, asked, options, watch) else { return self };
+        let is_closer = match (other.judged(options, watch), &own) {
             (Some(run), _) if run.certified().is_some() => true,
             (Some(run), Some(known)) => run.missed_share() < known.missed_share(),
             (run, _) => run.is_some(),
         };
-        Ok(if is_closer { other } else { prepared })
+        drop(own);
+        if is_closer { other } else { self }
     }
 
     /// The same for a claim that is to keep to its actuator by the bounds for every number of oscillators. `None` where there can be none. Limits that are about

@@ -4,6 +4,7 @@ use super::Prefix;
 use super::literal::{array, literal};
 use crate::Discrete;
 use crate::export::Export;
+use sigmastar_lang::spec::Actuator;
 
 /// The source below the inclusion of its header.
 pub(super) fn source(export: &Export<'_>, discrete: &Discrete, prefix: &Prefix) -> String {
@@ -19,6 +20,9 @@ pub(super) fn source(export: &Export<'_>, discrete: &Discrete, prefix: &Prefix) 
     let saturation = discrete.saturation.map(|limit| [("step", discrete.step), ("limit", limit)]);
     let nominal = regulator.nominal.map(|nominal| ("nominal", nominal));
     let middle = export.middle.map(|middle| ("middle", middle));
+    let ends = export.actuator.and_then(Actuator::ends).filter(|_| middle.is_some());
+    let of_ends = ends.map(|[lowest, highest]| [("lowest", lowest), ("highest", highest)]);
+    let middle = middle.into_iter().chain(of_ends.into_iter().flatten());
     for (name, value) in numbers.into_iter().chain(nominal).chain(middle).chain(saturation.into_iter().flatten()) {
         source.push_str(&format!("static const double {name} = {};\n", literal(value)));
     }
@@ -34,6 +38,7 @@ pub(super) fn source(export: &Export<'_>, discrete: &Discrete, prefix: &Prefix) 
         saturation: discrete.saturation.is_some(),
         nominal: regulator.nominal.is_some(),
         moved: export.middle.is_some(),
+        within: ends.is_some(),
         delayed,
     };
     source.push_str(&step(&upper, prefix, !cosines.is_empty(), put_out));
@@ -74,13 +79,15 @@ struct PutOut {
     nominal: bool,
     /// Whether it is measured from the middle of a range.
     moved: bool,
+    /// Whether it then is cut off at the ends of that range, which it may leave by rounding alone.
+    within: bool,
     /// Whether it is put out at the next sample.
     delayed: bool,
 }
 
 /// The operations of the Rust stepper, in its order.
 fn step(upper: &str, prefix: &Prefix, oscillators: bool, put_out: PutOut) -> String {
-    let PutOut { saturation, nominal, moved, delayed } = put_out;
+    let PutOut { saturation, nominal, moved, within, delayed } = put_out;
     let wanted = match (saturation, nominal) {
         (false, _) => "",
         (true, false) => ", wanted",
@@ -145,9 +152,15 @@ fn step(upper: &str, prefix: &Prefix, oscillators: bool, put_out: PutOut) -> Str
     if delayed {
         text.push_str("    controller->ahead = carry;\n");
     }
-    text.push_str(match moved {
-        true => "    /* u is measured from the middle of the range of the actuator. */\n    return middle + u;\n}\n",
-        false => "    return u;\n}\n",
-    });
+    if moved {
+        text.push_str("    /* u is measured from the middle of the range of the actuator. */\n    u = middle + u;\n");
+    }
+    if within {
+        text.push_str(
+            "    /* Rounding alone may bring it out of the range. */\n    if (u > highest) {\n        u = highest;\n    }\n\
+             \x20   if (u < lowest) {\n        u = lowest;\n    }\n",
+        );
+    }
+    text.push_str("    return u;\n}\n");
     text
 }
