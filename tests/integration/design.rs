@@ -116,6 +116,14 @@ fn at_samples_of_gains_and_of_a_specification() {
     let report = design(Path::new(EXAMPLE), &["--n-o", "0,3"], 0);
     assert_eq!(report["rows"][0]["cells"][0]["simulated"], Value::Null);
     assert_eq!(report["rows"][0]["sigma"], "39.8018");
+    // At samples nothing of it depends on their number, which is told.
+    let said = "here more oscillators do not lower what is proved";
+    let text = |flags: &[&str]| told(program().args(["design", EXAMPLE, "-q", "--sigma", "60"]).args(flags)).1;
+    let sampled = text(&["--sampling-period", "1/1000", "--n-o", "0,3"]);
+    assert!(sampled.contains(said), "{sampled}");
+    assert!(
+        !text(&["--n-o", "0,3"]).contains(said) && !text(&["--sampling-period", "1/1000", "--n-o", "3"]).contains(said)
+    );
 }
 
 #[test]

@@ -316,6 +316,14 @@ impl DesignReport<'_> {
                 remarks.push(said.to_owned());
             }
         }
+        let known_by_count = |cell: &Cell| cell.are_in_certificate[1];
+        if self.sampling.is_some() && row.cells.len() > 1 && !self.cells().any(known_by_count) {
+            remarks.push(
+                "steady error: at samples there are bounds by the number of oscillators for plants that are linear in x and e; here more oscillators do not \
+                 lower what is proved"
+                    .to_owned(),
+            );
+        }
         let refused = |(sigma, why): &(Rational, String)| {
             format!("not certified: $`sigma = {}`$: {}", write_exact(sigma), clean_sentence(why))
         };
