@@ -35,3 +35,40 @@ pub fn demand_kept(actuator: &Actuator, entries: &[Entry<'_>], every_set: bool, 
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::actuator;
+    use crate::json::{Field, parse};
+
+    /// Whether entries, as a claim has them, keep to an actuator that takes 3.
+    fn keeps(entries: &str) -> bool {
+        let text = format!(r#"{{ "actuator": {{ "max": "3" }}, "by_n_o": [{entries}] }}"#);
+        let json = parse(text.as_bytes()).unwrap();
+        let mut file = Field { json: &json, pointer: String::new() }.fields().unwrap();
+        let actuator = actuator::read(&mut file, &[], true).unwrap().unwrap();
+        let entries = Entry::read_all(&file.required("by_n_o").unwrap(), None).unwrap();
+        demand_kept(&actuator, &entries, false, "/claim").is_ok()
+    }
+
+    fn entry(n_o: u32, u: &str, more: &str) -> String {
+        let steady = r#""steady": { "e": "1", "e_rms": "1", "u": "1" }"#;
+        format!(r#"{{ "n_o": {n_o}, {more}{steady}, "largest": {{ "e": "1", "u": "{u}" }} }}"#)
+    }
+
+    #[test]
+    fn every_number_once_and_none_above_the_limit() {
+        const OR_MORE: &str = r#""or_more": true, "#;
+        let all = |list: &[String]| keeps(&list.join(", "));
+        let last = |n_o| entry(n_o, "3", OR_MORE);
+        assert!(all(&[last(0)]) && all(&[entry(0, "2", ""), entry(1, "3", ""), last(2)]));
+        // A number that is left out, at the start too; no last one; one that is above the limit.
+        assert!(!all(&[entry(0, "2", ""), last(2)]) && !all(&[last(1)]));
+        assert!(!all(&[entry(0, "2", ""), entry(1, "2", "")]));
+        assert!(!all(&[entry(0, "3.0001", ""), last(1)]));
+        // A set beside them is not looked at: the claim is about the first harmonics.
+        let set = r#"{ "harmonics": [0, 2], "steady": { "e": "1", "e_rms": "1", "u": "9" } }"#;
+        assert!(all(&[last(0), set.to_owned()]) && !all(&[set.to_owned()]));
+    }
+}
