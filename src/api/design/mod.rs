@@ -20,7 +20,7 @@ use sigmastar_lang::spec::{Actuator, Document};
 use sigmastar_prove::certify::{NoRatesOfClaim, Options, rate_counts};
 use sigmastar_prove::reduction::{AtGains, Subject as Read, Unwatched, at_samples};
 use sigmastar_studies::design::{
-    Choice, DesignReport, LongestPeriod, Merit, Requirements, Row, TriedValues, best_values, choose, design_table,
+    Choice, DesignReport, LongestPeriod, Merit, Requirements, Row, ValuesTried, best_values, choose, design_table,
     mu_by_the_period,
 };
 use sigmastar_studies::tune::{Parameter, parameters, with_values};
@@ -93,7 +93,7 @@ pub fn design_of(
 ) -> Result<Design, Error> {
     let Some(over) = &options.choose else {
         let table = Table::new(Subject { read, source }, options, names)?;
-        return table.design((&[], &[]), options.sampling_periods);
+        return table.design(None, options.sampling_periods);
     };
     let wrong = |error: sigmastar_studies::tune::TuneError| {
         Error::new(ErrorKind::Options, format!("{}: {error}", names.choose), &error.way_out())
@@ -107,8 +107,8 @@ pub fn design_of(
         let table = Table::new(Subject { read: Read::read(&document)?, source: document }, options, names)?;
         Ok((Merit::of(&table.rows, &table.choice), table))
     };
-    let (tried, table) = best_values(&free, made, Error::sentence)?;
-    table.design((&free, &tried), options.sampling_periods)
+    let (tried, table) = best_values(free.clone(), made, Error::sentence)?;
+    table.design(Some(&tried), options.sampling_periods)
 }
 
 /// What is asked of a document, read.
@@ -211,7 +211,7 @@ impl Table {
     }
 
     /// The answer, with what was tried before it.
-    fn design(self, values: (&[Parameter], &[TriedValues]), periods: bool) -> Result<Design, Error> {
+    fn design(self, values: Option<&ValuesTried>, periods: bool) -> Result<Design, Error> {
         let Table { asked: Asked { subject, requirements, .. }, period, rows, choice, taken, refused } = self;
         let Taken { sigma, certificate, set_and_assumptions } = taken;
         let read = &subject.read;

@@ -6,6 +6,7 @@ mod period;
 mod report;
 mod requirements;
 mod row;
+mod tried;
 mod values;
 
 pub use choice::{Choice, choose};
@@ -14,4 +15,4 @@ pub use period::LongestPeriod;
 pub use report::DesignReport;
 pub use requirements::{Compared, Requirement, Requirements};
 pub use row::{Cell, Row, Simulated};
-pub use values::{Merit, TriedValues, best_values, mu_by_the_period};
+pub use values::{Merit, TriedValues, ValuesTried, best_values, mu_by_the_period};

@@ -4,8 +4,7 @@ use super::choice::Choice;
 use super::period::LongestPeriod;
 use super::requirements::{Compared, Requirement, Requirements};
 use super::row::{Cell, Row, Simulated};
-use super::values::{Merit, TriedValues};
-use crate::tune::Parameter;
+use super::values::ValuesTried;
 use rug::Rational;
 use serde_json::{Value, json};
 use sigmastar_document::number::{estimate, exact, full, upper};
@@ -37,8 +36,8 @@ pub struct DesignReport<'d> {
     pub refused: &'d [(Rational, String)],
     /// The longest sampling period of each row, where these are asked for.
     pub longest: Option<&'d [Option<LongestPeriod>]>,
-    /// The numbers that were to be chosen, and the values that were tried before this table; the document has the best of them.
-    pub values: (&'d [Parameter], &'d [TriedValues]),
+    /// The numbers that were to be chosen, where there were some, and the values that were tried; the document has the best of them.
+    pub values: Option<&'d ValuesTried>,
     /// Whether the document states noise, a disturbance or rounding that counts.
     pub disturbed: bool,
     /// Whether the document states E0; else it goes with the gain.
@@ -63,10 +62,10 @@ impl Readable for DesignReport<'_> {
             vec![Block::Title(format!("{}: design table", clean(self.name))), Block::says(self.sentence())];
         blocks.extend(self.at_samples().map(Block::says));
         blocks.extend(self.notes.iter().map(|note| Block::says(note.clone())));
-        if !self.values.1.is_empty() {
+        if let Some(values) = self.values {
             blocks.push(Block::heading("Values that were tried"));
-            blocks.push(Block::says(self.values_taken()));
-            blocks.push(Block::Table(self.values_tried()));
+            blocks.push(Block::says(values.words()));
+            blocks.push(Block::Table(values.table()));
         }
         if !self.choice.compared.is_empty() {
             blocks.push(Block::heading("What is required"));
@@ -100,7 +99,7 @@ impl Readable for DesignReport<'_> {
             },
             "notes": self.notes, "initial_set": plain(&self.set_and_assumptions[0]),
             "assumed": plain(&self.set_and_assumptions[1]), "without_noise": self.disturbed,
-            "values": self.values_json(), "rows": rows, "not_certified": self.refused.iter().map(|(sigma, _)| write_exact(sigma)).collect::<Vec<_>>(),
+            "values": self.values.map(ValuesTried::json), "rows": rows, "not_certified": self.refused.iter().map(|(sigma, _)| write_exact(sigma)).collect::<Vec<_>>(),
         })
     }
 }
@@ -110,7 +109,7 @@ impl DesignReport<'_> {
     fn sentence(&self) -> String {
         let Choice { row, cell, is_met, compared, .. } = self.choice;
         let row = &self.rows[*row];
-        let (sigma, values) = (write_exact(&row.sigma), self.with_values());
+        let (sigma, values) = (write_exact(&row.sigma), self.values.map_or_else(String::new, ValuesTried::taken));
         let Some(n_o) = cell.map(|cell| row.cells[cell].n_o) else {
             return match is_met {
                 true => format!(
@@ -340,79 +339,6 @@ impl DesignReport<'_> {
     /// The longest sampling period of a row.
     fn longest_of(&self, row: usize) -> Option<&LongestPeriod> {
         self.longest.and_then(|all| all[row].as_ref())
-    }
-
-    /// The values of the document of this table: the best of those that were tried.
-    fn taken_values(&self) -> Option<&TriedValues> {
-        let own = Merit::of(self.rows, self.choice);
-        self.values.1.iter().find(|tried| tried.outcome.as_ref() == Ok(&own))
-    }
-
-    /// " and mu = 3", the numbers that were to be chosen.
-    fn with_values(&self) -> String {
-        let (parameters, _) = self.values;
-        let taken = self.taken_values().map_or(&[][..], |tried| &tried.values);
-        let named = parameters
-            .iter()
-            .zip(taken)
-            .map(|(parameter, value)| format!(" and $`{} = {}`$", parameter.name, clean(value)));
-        named.collect()
-    }
-
-    fn values_taken(&self) -> String {
-        let written: Vec<String> = self
-            .values
-            .0
-            .iter()
-            .map(|parameter| format!("$`{} = {}`$", parameter.name, clean(&parameter.written)))
-            .collect();
-        format!(
-            "The file has {}. All that follows is about the file with the best of these values, and so is its certificate. The best ones miss the fewest \
-             requirements; of equal ones they have the largest rate with the number of oscillators to take (without requirements, the largest value of the \
-             least rate of the table), then the smallest gain.",
-            written.join(", ")
-        )
-    }
-
-    fn values_tried(&self) -> Table {
-        let (parameters, tried) = self.values;
-        let mut titles: Vec<String> = parameters.iter().map(|parameter| clean(&parameter.name)).collect();
-        titles.extend(["$`sigma`$", "$`n_o`$", "missed", "rate"].map(str::to_owned));
-        let titles: Vec<&str> = titles.iter().map(String::as_str).collect();
-        let mut table = Table::new(&titles);
-        for one in tried {
-            let mut cells: Vec<String> = one.values.iter().map(|value| clean(value)).collect();
-            cells.extend(match &one.outcome {
-                Ok(Merit { sigma, n_o, missed, rate, .. }) => [
-                    write_exact(sigma),
-                    n_o.map_or_else(|| "all".to_owned(), |n_o| n_o.to_string()),
-                    missed.to_string(),
-                    rate.as_ref().map_or_else(|| "not proved".to_owned(), |rate| exact(rate, Direction::Down)),
-                ],
-                Err(_) => ["not certified", "-", "-", "-"].map(str::to_owned),
-            });
-            table.push(cells);
-        }
-        table
-    }
-
-    fn values_json(&self) -> Value {
-        let (parameters, tried) = self.values;
-        let named = |values: &[String]| -> serde_json::Map<String, Value> {
-            parameters.iter().zip(values).map(|(parameter, value)| (parameter.name.clone(), json!(value))).collect()
-        };
-        let one = |tried: &TriedValues| match &tried.outcome {
-            Ok(Merit { sigma, n_o, missed, rate, .. }) => json!({
-                "values": named(&tried.values), "sigma": write_exact(sigma), "n_o": n_o, "missed": missed,
-                "rate": rate.as_ref().map(write_exact),
-            }),
-            Err(why) => json!({ "values": named(&tried.values), "not_certified": why }),
-        };
-        if tried.is_empty() {
-            return Value::Null;
-        }
-        let taken = self.taken_values().map(|taken| named(&taken.values));
-        json!({ "taken": taken, "tried": tried.iter().map(one).collect::<Vec<_>>() })
     }
 
     /// Whether E0 goes with the gain.

@@ -83,6 +83,17 @@ pub fn mu_by_the_period(over: &str, period: &Period) -> String {
     over.split(',').map(with_range).collect::<Vec<_>>().join(",")
 }
 
+/// Numbers that were to be chosen, and what was tried.
+#[derive(Clone, Debug, Default)]
+pub struct ValuesTried {
+    /// The numbers, as the document has them.
+    pub parameters: Vec<Parameter>,
+    /// What was tried, in this order; the values of the document first.
+    pub all: Vec<TriedValues>,
+    /// Which of these are best.
+    pub best: usize,
+}
+
 /// The values that are tried, beside its own, of a number that is sought between two positive ends: in the middle of equal parts of that range in
 /// logarithms, rounded to two digits.
 #[must_use]
@@ -100,40 +111,39 @@ pub fn values_of(parameter: &Parameter) -> Vec<String> {
 }
 
 /// Makes a table of the values of the document and then, number by number, of other values of it with the best ones of those before. Returns all that
-/// were tried, in that order, and the best table; where there is none, why there is none with the values of the document. Of equals the first is best.
+/// were tried, and the best table; where there is none, why there is none with the values of the document. Of equals the first is best.
 ///
 /// Guarantee: `made` is asked once for each combination of values, the tables themselves are not looked into.
 ///
 /// # Errors
 /// No values have a table.
 pub fn best_values<T, E>(
-    parameters: &[Parameter],
+    parameters: Vec<Parameter>,
     mut made: impl FnMut(&[String]) -> Result<(Merit, T), E>,
     told: impl Fn(&E) -> String,
-) -> Result<(Vec<TriedValues>, T), E> {
-    let own: Vec<String> = parameters.iter().map(|parameter| parameter.written.clone()).collect();
+) -> Result<(ValuesTried, T), E> {
     let mut tried = Vec::new();
     let mut try_values = |values: &[String]| {
         let found = made(values);
         let outcome = found.as_ref().map(|(merit, _)| merit.clone()).map_err(&told);
         tried.push(TriedValues { values: values.to_vec(), outcome });
-        found
+        (tried.len() - 1, found)
     };
-    let mut values = own.clone();
-    let mut best = try_values(&own);
-    for (index, parameter) in parameters.iter().enumerate() {
+    let mut values: Vec<String> = parameters.iter().map(|parameter| parameter.written.clone()).collect();
+    let (mut index, mut best) = try_values(&values);
+    for (place, parameter) in parameters.iter().enumerate() {
         let mut next = values.clone();
         for value in values_of(parameter) {
-            values[index] = value;
-            let Ok((merit, table)) = try_values(&values) else { continue };
+            values[place] = value;
+            let (at, Ok((merit, table))) = try_values(&values) else { continue };
             if best.as_ref().map_or(true, |(known, _)| merit.is_better_than(known)) {
                 next.clone_from(&values);
-                best = Ok((merit, table));
+                (index, best) = (at, Ok((merit, table)));
             }
         }
         values = next;
     }
-    best.map(|(_, table)| (tried, table))
+    best.map(|(_, table)| (ValuesTried { parameters, all: tried, best: index }, table))
 }
 
 #[cfg(test)]
@@ -229,13 +239,14 @@ mod tests {
             let rate = Rational::from_f64(n0 - (mu - 5.0).abs()).unwrap();
             Ok((Merit { rate: Some(rate), ..merit(10, None, 0, 0.0) }, values.to_vec()))
         };
-        let (tried, best) = best_values(&free, made, Clone::clone).unwrap();
-        assert_eq!(best, ["5.7", "23"]);
+        let (found, best) = best_values(free.clone(), made, Clone::clone).unwrap();
+        let tried = &found.all;
+        assert_eq!((&best[..], &tried[found.best].values), (&["5.7".to_owned(), "23".to_owned()][..], &best));
         assert_eq!((tried.len(), asked.len(), &tried[0].values[..]), (9, 9, &["1".to_owned(), "2".to_owned()][..]));
         assert!(tried[5..].iter().all(|one| one.values[0] == "5.7"), "{tried:?}");
         assert_eq!(tried[4].outcome, Err("mu = 11".to_owned()));
         // None of them: the reason is that of the document itself.
-        let none = best_values::<(), _>(&free, |values| Err(values.join(" ")), Clone::clone).unwrap_err();
+        let none = best_values::<(), _>(free, |values| Err(values.join(" ")), Clone::clone).unwrap_err();
         assert_eq!(none, "1 2");
     }
 }

@@ -36,6 +36,7 @@ impl<'q> AtGains<'q> {
         self.keeping(self.asked(self.smallest.clone()), None)
     }
 
+    /// What is prepared, or what keeps to an actuator by the number of oscillators ([`Prepared::keeping_actuator`]).
     fn keeping(&self, prepared: Prepared, gain: Option<Rational>) -> Prepared {
         prepared.keeping_actuator(self.subject, gain, (&Limits::default(), self.counts), self.options, self.watch)
     }

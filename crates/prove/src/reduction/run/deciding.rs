@@ -50,7 +50,8 @@ impl Prepared {
     }
 
     /// Searches, rounds and decides, and has a checker decide the claims again: the best claim that it decides, and none where it decides
-    /// none. Hypothesis: that of [`Prepared::certify`].
+    /// none. Hypothesis: that of [`Prepared::certify`]. A claim that is to keep to its actuator by the number of oscillators is one only once
+    /// [`Run::prove_rates`] has judged that, without numbers too: before, it may be a claim that does not, of which the checker was not asked.
     ///
     /// # Errors
     /// Those of [`Prepared::certify`].
