@@ -62,7 +62,9 @@ pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 
 use rug::Rational;
 use sigmastar_exact::enclosure::{DEFAULT_PRECISION, Enclosure};
-use sigmastar_lang::spec::{Constant, Document, Errors, Reported, Value, positive_constant};
+use sigmastar_lang::spec::{
+    Constant, Document, ErrorKind as SpecErrorKind, Errors, Reported, Value, any_constant, positive_constant,
+};
 
 /// The smallest double that is not below an exact number.
 fn rounded_up(value: &Rational) -> f64 {
@@ -79,9 +81,29 @@ fn nearest(value: &Rational) -> f64 {
     Enclosure::from_rational(value, DEFAULT_PRECISION).midpoint_f64()
 }
 
+/// What may be asked for in the place of an error of exactly 0.
+const SMALL_ERROR: &str = "ask for a small positive bound, such as `1e-6`; where an error of exactly 0 is proved, as of a linear plant whose \
+                           `q` has few harmonics, the table shows 0";
+
+/// The largest error along the periodic solution that is asked for; `name` is what errors call it.
+fn steady_error(name: &str, text: &str) -> Result<Rational, Error> {
+    let constant = constant(name, text, |value, errors| {
+        let stated = any_constant(value, &mut Errors::new()).ok();
+        if stated.is_some_and(|stated| stated.as_rational().is_some_and(|number| *number == 0)) {
+            let error = value.error(SpecErrorKind::Range, format!("`{name}` must be positive, but it is 0"));
+            return Err(errors.report(error.expected("expected a positive number").help(SMALL_ERROR)));
+        }
+        positive_constant(value, errors)
+    })?;
+    known_rational(name, &constant)
+}
+
 /// An argument that is a positive rational number; `name` is what errors call it.
 fn rational(name: &str, text: &str) -> Result<Rational, Error> {
-    let constant = positive(name, text)?;
+    known_rational(name, &positive(name, text)?)
+}
+
+fn known_rational(name: &str, constant: &Constant) -> Result<Rational, Error> {
     let help = "write it as a decimal or a fraction";
     let refused = || Error::new(ErrorKind::Range, format!("{name} is not a rational number"), help);
     constant.as_rational().cloned().ok_or_else(refused)

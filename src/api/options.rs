@@ -1,7 +1,7 @@
 //! What a run of [`certify`](super::certify) does.
 
 use super::error::{Error, ErrorKind};
-use super::{positive, rational};
+use super::{positive, rational, steady_error};
 use rug::Rational;
 use sigmastar_decide::conditions::Ladder;
 use sigmastar_exact::enclosure::{DEFAULT_PRECISION, MAX_PRECISION};
@@ -187,7 +187,7 @@ impl CertifyOptions {
         let limit = |name, text: &Option<String>| text.as_ref().map(|text| rational(name, text)).transpose();
         let [steady, peak, control, rate] = &self.limits;
         let limits = Limits {
-            steady_error: limit("steady_error", steady)?,
+            steady_error: steady.as_ref().map(|text| steady_error("steady_error", text)).transpose()?,
             peak_error: limit("peak_error", peak)?,
             control: limit("max_control", control)?,
             rate: limit("rate", rate)?,

@@ -56,3 +56,11 @@ pub fn real(flag: &str, text: &str) -> Result<Constant, Error> {
 pub fn rational(flag: &str, text: &str) -> Result<Rational, Error> {
     super::rational(flag, text)
 }
+
+/// The value of a flag that bounds the error along the periodic solution.
+///
+/// # Errors
+/// Those of [`rational`]; of 0 with what may be asked for in its place.
+pub fn steady_error(flag: &str, text: &str) -> Result<Rational, Error> {
+    super::steady_error(flag, text)
+}

@@ -254,7 +254,11 @@ fn no_rates(reason: NoRatesOfClaim) -> Failure {
 fn limits(args: &CertifyArgs) -> Result<Limits, Failure> {
     let limit = |flag: &str, text: &Option<String>| text.as_deref().map(|text| input::rational(flag, text)).transpose();
     Ok(Limits {
-        steady_error: limit("--steady-error", &args.steady_error)?,
+        steady_error: args
+            .steady_error
+            .as_deref()
+            .map(|text| input::steady_error("--steady-error", text))
+            .transpose()?,
         peak_error: limit("--peak-error", &args.peak_error)?,
         control: limit("--max-control", &args.max_control)?,
         rate: limit("--rate", &args.rate)?,

@@ -8,7 +8,7 @@ use std::io::{self, ErrorKind, Read};
 use std::path::Path;
 
 /// Constants from flags.
-pub use sigmastar::program::{nonnegative, positive, rational, real};
+pub use sigmastar::program::{nonnegative, positive, rational, real, steady_error};
 
 /// Reads a document that people write, in the notation that the name of its file says, or from standard input for `-`, in
 /// JSON; never more than the limit on documents.

@@ -181,3 +181,27 @@ fn rates_of_a_claim_by_a_matrix_inequality_at_samples() {
     let why = found["for_n_o"][0]["limited_by"].as_str().unwrap();
     assert!(why.contains("(Ms)") && !why.contains("at the gain"), "{why}");
 }
+
+/// Two limits that one gain does not keep are named together, and each alone is kept.
+#[test]
+fn two_limits_that_contradict_each_other_are_named_together() {
+    let plant = object!({
+        "format": "sigmastar/plant", "version": 1, "name": "two limits", "period": "1", "states": [], "f": [],
+        "q": "e/4 + 2*cos(2*pi*t)", "internal_model": internal_model("1", "2*pi"),
+        "initial_set": { "kind": "box", "E0": "1", "Z0": "0" },
+    });
+    let [peak, control] = [["--peak-error", "1.1"], ["--max-control", "16"]];
+    for alone in [&peak, &control] {
+        let (code, text) = certify(&plant, alone);
+        assert_eq!(code, 0, "{alone:?} {text}");
+    }
+    let (code, text) = certify(&plant, &[peak, control].concat());
+    assert_eq!(code, 3, "{text}");
+    for said in ["|u| in the transient", "|e| in the transient", "at most 1.1", "at most 16", "together with"] {
+        assert!(text.contains(said), "{said}: {text}");
+    }
+    let advice = "a larger limit of |u| in the transient, or a larger limit of |e| in the transient";
+    let other = "a larger limit of |e| in the transient, or a larger limit of |u| in the transient";
+    assert!(text.contains(advice) || text.contains(other), "{text}");
+    assert!(text.contains("a larger gain lowers |e| and raises |u|"), "{text}");
+}

@@ -271,3 +271,73 @@ fn sampling_periods_that_divide_the_period_are_offered() {
     let (code, text) = of(&third, &["--sampling-period", "1/1200"]);
     assert!(code == 0 && !text.contains("samples in a period), `"), "{text}");
 }
+
+/// The limits of an actuator in another form than that of the file are told with the numbers that stand there.
+#[test]
+fn the_limits_of_an_actuator_in_another_form() {
+    const MEANT: &str = r#"write `"actuator": { "min": "0", "max": "4" }`"#;
+    let actuator = |value: Value| of(&[("/actuator", value)], &[]);
+    for (value, said) in [
+        (json!([0, 4]), "the limits of an actuator are no list"),
+        (json!({ "low": 0, "high": "4" }), "called `min` and `max`, not `low` and `high`"),
+    ] {
+        let (code, text) = actuator(value);
+        assert!(code == 2 && text.contains(said) && text.contains(MEANT), "{text}");
+    }
+    let (code, text) = actuator(json!({ "min": -2 }));
+    let both = r#"state both limits, as `"actuator": { "min": "-2", "max": "..." }`"#;
+    assert!(code == 2 && text.contains("the upper limit, is missing") && text.contains(both), "{text}");
+    // Three numbers are no limits, and the form that is meant is none.
+    let (code, text) = actuator(json!([0, 1, 4]));
+    assert!(code == 2 && text.contains("expected an object") && !text.contains("are no list"), "{text}");
+    assert!(!actuator(json!({ "min": "0", "max": "400" })).1.contains("actuator are"));
+}
+
+/// A name without an argument is no misspelt function: a parameter is missing, or misspelt.
+#[test]
+fn a_parameter_that_is_not_there() {
+    let q = |text: &str, parameters: Value| of(&[("/q", text.into()), ("/parameters", parameters)], &[]);
+    let (code, text) = q("Pmax*sin(2*pi*t)", json!({}));
+    let add = r#"give it a value in the field `parameters` of the file, as `"parameters": { "Pmax": "1" }`"#;
+    assert!(code == 2 && text.contains("`Pmax` is not a known name") && text.contains(add), "{text}");
+    assert!(!text.contains("did you mean max?"), "{text}");
+    for name in ["Pmx", "pmax"] {
+        let (code, text) = q(&format!("{name}*sin(2*pi*t)"), json!({ "Pmax": "3" }));
+        assert!(code == 2 && (text.contains("did you mean Pmax?") || text.contains("write Pmax")), "{text}");
+    }
+    let (code, text) = q("maxx(1, sin(2*pi*t))", json!({}));
+    assert!(code == 2 && text.contains("did you mean max?") && !text.contains("give it a value"), "{text}");
+}
+
+/// Why no interval of the input gain contains 0, and what to write.
+#[test]
+fn an_input_gain_that_may_be_0() {
+    for (value, from) in [
+        (json!({ "nominal": 1, "low": 0, "high": 2 }), "from 0 to 2"),
+        (json!({ "nominal": "1", "low": "-1", "high": "2" }), "from -1 to 2"),
+        (json!([-1, 1]), "from -1 to 1"),
+    ] {
+        let (code, text) = of(&[("/input_gain", value)], &[]);
+        assert!(code == 2 && text.contains(&format!("the input gain may be 0: its interval is {from}")), "{text}");
+        assert!(text.contains("the control does nothing") && text.contains("the smallest positive gain"), "{text}");
+    }
+    // A negative one has another sign.
+    let negative = json!({ "nominal": -1, "low": -2, "high": "-1/2" });
+    let (code, text) = of(&[("/input_gain", negative)], &[]);
+    assert!(
+        code == 2 && text.contains("count the control with the other sign") && !text.contains("may be 0"),
+        "{text}"
+    );
+}
+
+#[test]
+fn a_steady_error_of_0_is_told_what_to_ask_for() {
+    let (_folder, path) = file("plant.json", &changed(&[]));
+    for command in ["design", "certify"] {
+        let (code, text) = told(&[command], Some(&path), &["--steady-error", "0"]);
+        assert!(code == 2 && text.contains("`--steady-error` must be positive, but it is 0"), "{text}");
+        assert!(text.contains("ask for a small positive bound, such as `1e-6`"), "{text}");
+    }
+    let (code, text) = told(&["design"], Some(&path), &["--steady-error", "-1"]);
+    assert!(code == 2 && text.contains("must be positive, but it is -1") && !text.contains("1e-6"), "{text}");
+}

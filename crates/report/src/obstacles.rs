@@ -201,11 +201,11 @@ fn obstacle_advice(run: &Certification<'_>, obstacle: Obstacle, add: &mut dyn Fn
             add("smaller $`q_x`$, $`f_e`$");
         }
         Failing::Gain { .. } => add("a larger gain, or none: without --sigma the smallest one is sought"),
-        Failing::Limit { which, .. } => {
+        Failing::Limit { which, beside, .. } => {
             if let Some(gain) = run.given_gain.as_ref().map(|_| other_gain(which)) {
                 add(gain);
             }
-            add(wider(which));
+            add(&wider(which, beside.map(|(other, _)| other)));
             if let Some(divisor) = run.divisor_that_keeps() {
                 add(&smaller_by(divisor));
             }
@@ -245,12 +245,24 @@ pub(super) fn smaller_by(divisor: u32) -> String {
 /// What a rate that is not proved asks for.
 pub(super) const SLOWER: &str = "a smaller rate, or fewer oscillators";
 
-/// What a limit that is not kept asks for.
-pub(super) fn wider(which: Limited) -> &'static str {
-    match which {
-        Limited::Actuator => "an actuator that takes more",
-        Limited::SteadyError | Limited::PeakError | Limited::Control => "a larger limit",
-    }
+/// What a limit that is not kept asks for, where `beside` is the other one that is asked for at the same time.
+pub(super) fn wider(which: Limited, beside: Option<Limited>) -> String {
+    let Some(beside) = beside else {
+        return match which {
+            Limited::Actuator => "an actuator that takes more",
+            Limited::SteadyError | Limited::PeakError | Limited::Control => "a larger limit",
+        }
+        .to_owned();
+    };
+    let larger = |limited: Limited| match limited {
+        Limited::Actuator => "an actuator that takes more".to_owned(),
+        _ => format!("a larger limit of {}", limited.quantity()),
+    };
+    let opposite = match which.is_of_control() == beside.is_of_control() {
+        true => "",
+        false => " (far above $`sigma*`$ a larger gain lowers $`|e|`$ and raises $`|u|`$)",
+    };
+    format!("{}, or {}{opposite}", larger(which), larger(beside))
 }
 
 /// What another gain than the one that is given may do for a limit: far above the smallest gain the control grows with it and the error falls;

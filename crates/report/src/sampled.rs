@@ -155,11 +155,11 @@ fn obstacle_advice(run: &SampledCertification<'_>, failing: Failing, add: &mut d
             add("a shorter sampling period: `sigmastar sampling` lists which gains go with which");
             add("a smaller $`mu`$: $`theta = h mu Nbar^2/2`$ is what the oscillators lose to the sampling");
         }
-        Failing::Limit { which, .. } => {
+        Failing::Limit { which, beside, .. } => {
             if run.given_gain.is_some() {
                 add(other_gain(which));
             }
-            add(&format!("{}, or a shorter sampling period", wider(which)));
+            add(&format!("{}, or a shorter sampling period", wider(which, beside.map(|(other, _)| other))));
             if let Some(divisor) = run.divisor_that_keeps() {
                 add(&smaller_by(divisor));
             }
@@ -178,8 +178,8 @@ fn certified(run: &SampledCertification<'_>, proof: &SampledProof) -> String {
     let sets = spec.internal_model.asks_every_set().then(|| format!("set of harmonics below {samples}/2"));
     format!(
         "Certified: the regulator at samples $`h = {}`$ apart ({samples} in a period){} with $`sigma = {}`$ and $`K = {}`$, $`mu = {}`$ and base \
-         frequency $`{}`$, for {} and every phase of the samples{}{}: every solution that \
-         starts, at a sampling instant, from {}{} converges exponentially to a T-periodic solution, $`T = {}`$.{}",
+         frequency $`{}`$, for {} and every phase of the samples{}{}. The closed loop has a T-periodic solution, $`T = {}`$. Every solution that \
+         starts, at a sampling instant, from {}{} converges exponentially to it.{}",
         clean(&witness.sampling.text()),
         if witness.sampling.delayed { ", each control computed in the sample before it acts," } else { "" },
         write_exact(&witness.sigma),
@@ -189,6 +189,7 @@ fn certified(run: &SampledCertification<'_>, proof: &SampledProof) -> String {
         words::oscillators(&format!("n_o < {samples}/2"), sets.as_deref()),
         words::of_all(spec),
         limits::of_actuator(spec),
+        clean(&spec.period.nominal().text),
         words::set(spec, &witness.set),
         match &witness.delay {
             None => String::new(),
@@ -197,7 +198,6 @@ fn certified(run: &SampledCertification<'_>, proof: &SampledProof) -> String {
                 exact(&delay.y_0, Direction::Down)
             ),
         },
-        clean(&spec.period.nominal().text),
         limits::sampled_sentence(run),
     )
 }

@@ -1,7 +1,7 @@
 //! What is asked of a design table.
 
 use super::super::error::{Error, ErrorKind};
-use super::super::rational;
+use super::super::{rational, steady_error};
 use sigmastar_prove::certify::NoRatesOfClaim;
 use sigmastar_prove::reduction::Subject as Read;
 use sigmastar_studies::design::Requirements;
@@ -161,8 +161,10 @@ pub(super) fn requirements(
 ) -> Result<Requirements, Error> {
     let value =
         |which: usize| options.required[which].as_ref().map(|text| rational(names.required[which], text)).transpose();
+    let text = options.required[0].as_ref();
+    let of_steady = text.map(|text| steady_error(names.required[0], text)).transpose()?;
     let requirements = Requirements {
-        steady_error: value(0)?,
+        steady_error: of_steady,
         peak_error: value(1)?,
         control: value(2)?,
         settling: value(3)?,

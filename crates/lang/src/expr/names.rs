@@ -80,6 +80,12 @@ pub(super) trait Scope {
         None
     }
 
+    /// How a name that is not known may be given a value, where that can be done.
+    fn definable(&self, name: &str) -> Option<String> {
+        let _ = name;
+        None
+    }
+
     /// A product of one-letter variables written without operators (`XE`), with them (`X*E`); any other name itself.
     fn spelled_out(&self, name: &str) -> String {
         let letters = || name.chars().map(String::from);
@@ -140,15 +146,19 @@ impl Scope for Variables {
 
 /// Whether a name has a meaning of its own, so that no variable can have it.
 pub(super) fn is_taken(name: &str) -> bool {
-    name == "pi" || UNARY.iter().any(|f| f.0 == name) || FOLDED.iter().any(|f| f.0 == name)
+    name == "pi" || is_function(name)
+}
+
+fn is_function(name: &str) -> bool {
+    UNARY.iter().any(|f| f.0 == name) || FOLDED.iter().any(|f| f.0 == name)
 }
 
 fn known<S: Scope>(scope: &S) -> impl Iterator<Item = &str> {
     scope.names().chain(UNARY.iter().map(|f| f.0)).chain(FOLDED.iter().map(|f| f.0)).chain(["pi"])
 }
 
-/// A suggestion for an unknown name, as a sentence.
-pub(super) fn suggest<S: Scope>(name: &str, scope: &S) -> Option<String> {
+/// A suggestion for an unknown name, as a sentence; `called`: whether an argument stands behind it, as behind a function.
+pub(super) fn suggest<S: Scope>(name: &str, called: bool, scope: &S) -> Option<String> {
     if let Some(advice) = scope.instead_of(name) {
         return Some(advice.to_owned());
     }
@@ -199,7 +209,9 @@ pub(super) fn suggest<S: Scope>(name: &str, scope: &S) -> Option<String> {
     known(scope)
         // A variable is one letter: every short name would be a misspelling of it.
         .filter(|known| known.len() > 1)
-        .map(|known| (strsim::osa_distance(&lower, known), known))
+        // A number is no misspelling of a function.
+        .filter(|known| called || !is_function(known))
+        .map(|known| (strsim::osa_distance(&lower, &known.to_lowercase()), known))
         .filter(|(edits, known)| *edits <= MAX_EDITS && *edits < known.len() && *edits < name.chars().count())
         // Of two or three letters, two others are another word.
         .filter(|(edits, _)| *edits == 1 || name.chars().count() > 3)
@@ -214,7 +226,7 @@ mod tests {
 
     #[test]
     fn suggestions() {
-        let suggest = |name| suggest(name, &Variables::XAndE);
+        let suggest = |name| suggest(name, true, &Variables::XAndE);
         for (name, meant) in [
             ("sqr", "did you mean sqrt?"),
             ("x", "write X"),
@@ -239,11 +251,14 @@ mod tests {
         }
         let advice = suggest("t").unwrap();
         assert!(advice.contains("take the supremum over t, or give the plant itself (`sigmastar/plant`)"), "{advice}");
-        assert_eq!(super::suggest("t", &Variables::Time).as_deref(), Some("write t"));
+        assert_eq!(super::suggest("t", false, &Variables::Time).as_deref(), Some("write t"));
         for name in ["sign", "sgn", "SIGNUM"] {
             assert!(suggest(name).unwrap().contains("write tanh(20*x) for sign(x)"), "{name}");
         }
-        assert_eq!(super::suggest("T", &Variables::Time).as_deref(), Some("write the period as the number that it is"));
+        assert_eq!(
+            super::suggest("T", false, &Variables::Time).as_deref(),
+            Some("write the period as the number that it is")
+        );
         assert_eq!(suggest("sinn").as_deref(), Some("did you mean sin?"));
         for (name, meant) in
             [("asin", "write atan(u/sqrt(1 - u^2)) for the arcsine of u"), ("cosh", "write (exp(u) + exp(-u))/2")]
@@ -254,8 +269,11 @@ mod tests {
         assert_eq!(suggest("asqrt").as_deref(), Some("did you mean sqrt?"));
         assert_eq!(suggest("twp"), None);
         assert_eq!(suggest("q"), None);
+        // Without an argument it is no function.
+        assert_eq!(super::suggest("Pmax", false, &Variables::XAndE), None);
+        assert_eq!(super::suggest("sqr", false, &Variables::XAndE), None);
         assert_eq!(suggest("velocity"), None);
-        assert_eq!(super::suggest("e", &Variables::None).as_deref(), Some("Euler's number is exp(1)"));
-        assert_eq!(super::suggest("XE", &Variables::None), None);
+        assert_eq!(super::suggest("e", false, &Variables::None).as_deref(), Some("Euler's number is exp(1)"));
+        assert_eq!(super::suggest("XE", false, &Variables::None), None);
     }
 }

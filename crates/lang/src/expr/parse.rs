@@ -223,7 +223,9 @@ impl<S: Scope> Parser<'_, S> {
         let folded = FOLDED.iter().find(|f| f.0 == name).map(|f| f.1);
         if unary.is_none() && folded.is_none() {
             let kind = ExprErrorKind::UnknownName { name: shortened(name) };
-            let (expected, help) = (Some(self.scope.operand()), suggest(name, self.scope));
+            let called = self.peek_symbol() == Some('(');
+            let define = || if called { None } else { self.scope.definable(name) };
+            let (expected, help) = (Some(self.scope.operand()), suggest(name, called, self.scope).or_else(define));
             return Err(ExprError { kind, span: span.clone(), expected, help });
         }
         let open = self.start()..self.start() + 1;
@@ -349,7 +351,7 @@ impl<S: Scope> Parser<'_, S> {
         }
         let number = self.at.checked_sub(1).is_some_and(|at| self.tokens[at].kind == TokenKind::Numeral);
         let called = self.tokens.get(self.at + 1).is_some_and(|next| next.kind == TokenKind::Symbol('('));
-        match suggest(right, self.scope) {
+        match suggest(right, called, self.scope) {
             // A name with a well-known meaning, under another name here.
             Some(advice) => match advice.strip_prefix("write ") {
                 Some(meant) => product(meant),

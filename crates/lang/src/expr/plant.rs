@@ -167,6 +167,14 @@ impl Scope for PlantNames {
         }
     }
 
+    fn definable(&self, name: &str) -> Option<String> {
+        is_name(name).then(|| {
+            format!(
+                "give it a value in the field `parameters` of the file, as `\"parameters\": {{ \"{name}\": \"1\" }}`"
+            )
+        })
+    }
+
     fn names(&self) -> impl Iterator<Item = &str> {
         let times = [self.knows_time().then_some("t"), self.phase.as_ref().map(|_| PHASE)];
         times
@@ -337,7 +345,11 @@ mod tests {
         let names = names(&["x1", "v"]).unwrap();
         assert!(PlantExpr::parse("-x1 + v*e*sin(2*pi*t)", &names).is_ok());
         for (text, message, help) in [
-            ("X", "`X` is not a known name", None),
+            (
+                "X",
+                "`X` is not a known name",
+                Some("give it a value in the field `parameters` of the file, as `\"parameters\": { \"X\": \"1\" }`"),
+            ),
             ("E + 1", "`E` is not a known name", Some("write e")),
             ("x2", "`x2` is not a known name", Some("did you mean x1?")),
             ("vt", "`vt` is not a known name", Some("write v*t")),
@@ -372,6 +384,7 @@ mod tests {
         }
         for (text, help) in [
             ("stifness*x1", "did you mean stiffness?"),
+            ("Stifness*x1", "did you mean stiffness?"),
             ("2k", "write 2*k"),
             ("k(x1)", "write k*("),
             ("kv", "write k*v"),

@@ -2,7 +2,7 @@
 
 use super::constant::{any_constant_in, positive_constant_in};
 use super::document::Value;
-use super::error::{ErrorKind, Errors, Reported, shown};
+use super::error::{ErrorKind, Errors, Reported, SpecError, shown};
 use super::parts::Constant;
 use super::quantity::Quantity;
 use crate::expr::Definitions;
@@ -141,6 +141,9 @@ fn read(value: &Value<'_>, names: &Definitions, place: Place, errors: &mut Error
         _ => "; or both limits of a range, `{ \"min\": \"0\", \"max\": \"4\" }`",
     };
     let help = format!("write `{{ \"max\": \"{max}\" }}`: |u| up to it is put out as it is{both}");
+    if let Some(error) = (place == Place::Plant).then(|| two_limits_meant(value)).flatten() {
+        return Err(errors.report(error));
+    }
     let mut object = value.object_or(&help, errors)?;
     let stated = value.member("min").filter(|_| place == Place::Specification);
     if let Some(min) = stated {
@@ -187,6 +190,28 @@ fn read(value: &Value<'_>, names: &Definitions, place: Place, errors: &mut Error
     })
 }
 
+/// What is wrong where limits to both sides are meant and stated in another form: as a list, by the names of an interval, or by the lower one alone.
+fn two_limits_meant(value: &Value<'_>) -> Option<SpecError> {
+    let written = |limit: &Value<'_>| limit.text().or_else(|| limit.numeral()).map(shown);
+    let both = |min: &str, max: &str| format!("`\"actuator\": {{ \"min\": \"{min}\", \"max\": \"{max}\" }}`");
+    if let [low, high] = value.elements().as_slice() {
+        let message = "the limits of an actuator are no list";
+        let help = format!("write {}", both(&written(low)?, &written(high)?));
+        let error = value.error(ErrorKind::Type, message).expected("expected an object with `min` and `max`");
+        return Some(error.help(help));
+    }
+    let [min, max] = ["min", "max"].map(|name| value.member(name));
+    if let (None, None, Some(low), Some(high)) = (&min, &max, value.member("low"), value.member("high")) {
+        let message = "the limits of an actuator are called `min` and `max`, not `low` and `high`";
+        let help = format!("write {}", both(&written(&low)?, &written(&high)?));
+        return Some(value.error(ErrorKind::UnknownField, message).expected("expected `min` and `max`").help(help));
+    }
+    let min = min.filter(|_| max.is_none())?;
+    let help = format!("state both limits, as {}; `max` alone stands for -max and max", both(&written(&min)?, "..."));
+    let error = value.error(ErrorKind::MissingField, "the field `max`, the upper limit, is missing");
+    Some(error.expected("expected `max` beside `min`").help(help))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -224,7 +249,11 @@ mod tests {
             (r#"{ "min": 3.9, "max": 0 }"#, "min = 3.9 is not below max = 0"),
             (r#"{ "min": 0, "max": "pi" }"#, "with two limits each has to be a rational number"),
             (r#"{ "min": "sqrt(2)", "max": 2 }"#, "with two limits each has to be a rational number"),
-            (r#"{ "min": 0 }"#, "max"),
+            (r#"{ "min": 0 }"#, r#"`"actuator": { "min": "0", "max": "..." }`"#),
+            (r#"[0, "3.9"]"#, r#"`"actuator": { "min": "0", "max": "3.9" }`"#),
+            (r#"[1, 2, 3]"#, "is an array"),
+            (r#"{ "low": 0, "high": 4 }"#, r#"`"actuator": { "min": "0", "max": "4" }`"#),
+            (r#"{ "low": 0, "max": 4 }"#, "unknown field `low`"),
             (r#"{ "max": -1 }"#, "must be positive"),
             (r#"{ "min": 0, "max": 1, "middle": 0 }"#, "middle"),
         ] {

@@ -476,7 +476,8 @@ impl<'d> Value<'d> {
         }
     }
 
-    fn elements(&self) -> Vec<Value<'d>> {
+    /// The elements of an array; none of any other value.
+    pub(super) fn elements(&self) -> Vec<Value<'d>> {
         let elements = match &self.node.content {
             Content::Array(elements) => elements.as_slice(),
             _ => &[],

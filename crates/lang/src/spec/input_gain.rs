@@ -1,8 +1,8 @@
 //! An actuator whose gain is known to an interval (derivation, 13.1): e' = q(t,x,e) + b u with a constant b.
 
-use super::constant::{exchanged, not_in_order, positive_constant_in, whole};
+use super::constant::{any_constant, exchanged, not_in_order, positive_constant_in, whole};
 use super::document::Value;
-use super::error::{ErrorKind, Errors, Reported};
+use super::error::{ErrorKind, Errors, Reported, SpecError};
 use super::interval::no_list;
 use super::parameters::Parameters;
 use super::parts::Constant;
@@ -115,6 +115,9 @@ impl InputGain {
 /// that fails or is not decided.
 pub fn read_input_gain(value: &Value<'_>, parameters: &Parameters, errors: &mut Errors) -> Result<InputGain, Reported> {
     let help = "the true gain lies in [low, high], and the regulator divides its output by `nominal`";
+    if let Some(error) = contains_zero(value) {
+        return Err(errors.report(error));
+    }
     let mut formulas = [None, None];
     let [nominal, low, high] = ordered_by(value, help, errors, |name, value, errors| {
         let text = value.text().filter(|text| parameters.definitions().vary(text));
@@ -126,6 +129,26 @@ pub fn read_input_gain(value: &Value<'_>, parameters: &Parameters, errors: &mut 
         }
     })?;
     Ok(InputGain { nominal, low, high, formulas })
+}
+
+/// What is wrong where the interval contains 0, as far as its ends are numbers.
+fn contains_zero(value: &Value<'_>) -> Option<SpecError> {
+    // What is wrong in a number is told where it is read.
+    let number = |end: &Value<'_>| any_constant(end, &mut Errors::new()).ok()?.as_rational().cloned();
+    let ends = match (value.member("low"), value.member("high")) {
+        (Some(low), Some(high)) => vec![low, high],
+        _ => value.elements(),
+    };
+    let numbers: Vec<Rational> = ends.iter().map(number).collect::<Option<_>>()?;
+    let (low, high) = (numbers.iter().min()?, numbers.iter().max()?);
+    if numbers.len() < 2 || *low > 0 || *high < 0 {
+        return None;
+    }
+    let [low, high] = [low, high].map(write_exact);
+    let message = format!("the input gain may be 0: its interval is from {low} to {high}");
+    let help = "with the gain 0 the control does nothing, and with a negative gain it acts the wrong way, so one regulator cannot serve the whole interval; \
+                write as `low` the smallest positive gain that the actuator may have, as `\"low\": \"1/2\"`";
+    Some(whole(value, ErrorKind::Range, message).expected("expected only positive gains").help(help))
 }
 
 /// The number of an end that is an expression of parameters: below (`end` 0) or above (1) what it is on the box.

@@ -66,6 +66,8 @@ pub enum Failing {
         which: Limited,
         /// What it is to be.
         asked: f64,
+        /// The other limit that is asked for at the same time and comes closest to being missed, and what that is to be.
+        beside: Option<(Limited, f64)>,
         /// The least that is found to do.
         least: f64,
         /// The gain for which that does.
@@ -118,6 +120,22 @@ pub enum Limited {
 }
 
 impl Limited {
+    /// What is bounded.
+    #[must_use]
+    pub fn quantity(self) -> &'static str {
+        match self {
+            Limited::SteadyError => "the steady |e|",
+            Limited::PeakError => "|e| in the transient",
+            Limited::Control | Limited::Actuator => "|u| in the transient",
+        }
+    }
+
+    /// Whether it is a limit of what is put out, not of e.
+    #[must_use]
+    pub fn is_of_control(self) -> bool {
+        matches!(self, Limited::Control | Limited::Actuator)
+    }
+
     /// What is to be at most what it is asked to be.
     #[must_use]
     pub fn describe(self) -> &'static str {
@@ -276,10 +294,13 @@ impl Obstacle {
             Failing::Sampling => {
                 format!("C5h: the decay from sample to sample is not positive for any error box that was tried{place}")
             }
-            Failing::Limit { which, asked, least, sigma, proved } => format!(
-                "{} {}: {} {}, at the gain {}",
+            Failing::Limit { which, asked, beside, least, sigma, proved } => format!(
+                "{} {}{}: {} {}, at the gain {}",
                 which.describe(),
                 short(asked),
+                beside.map_or_else(String::new, |(other, asked)| {
+                    format!(", together with {} at most {}", other.quantity(), short(asked))
+                }),
                 if proved {
                     "the least for which a proof is found is"
                 } else {

@@ -65,9 +65,11 @@ fn shares(all: &[Against]) -> Option<Shares> {
 
 /// The limit that is missed by most at a gain.
 fn missed(all: &[Against], sigma: &Rational) -> Option<Failing> {
-    let missed = all.iter().filter(|against| !against.kept);
-    let Against { which, asked, least, .. } = missed.max_by(|a, b| a.share().total_cmp(&b.share()))?;
-    Some(Failing::Limit { which: *which, asked: *asked, least: *least, sigma: sigma.to_f64(), proved: true })
+    let by_share = |a: &&Against, b: &&Against| a.share().total_cmp(&b.share());
+    let Against { which, asked, least, .. } = all.iter().filter(|against| !against.kept).max_by(by_share)?;
+    let second = all.iter().filter(|against| against.which != *which).max_by(by_share);
+    let beside = second.map(|other| (other.which, other.asked));
+    Some(Failing::Limit { which: *which, asked: *asked, beside, least: *least, sigma: sigma.to_f64(), proved: true })
 }
 
 /// Why the limits are not kept by what is proved at a gain; nothing where they are, and where they are not judged by the number of oscillators. What the

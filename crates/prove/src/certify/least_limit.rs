@@ -27,7 +27,7 @@ pub(super) fn with_least_kept(
     failing: Failing,
     proves: impl Fn(&Specification, &Limits, FloatLimits) -> Option<f64>,
 ) -> Failing {
-    let Failing::Limit { which, asked, least, .. } = failing else { return failing };
+    let Failing::Limit { which, asked, beside, least, .. } = failing else { return failing };
     let kept = |limit: f64| {
         let limit = round_f64(limit, DIGITS, Direction::Up)?;
         let (spec, limits) = with_limit(spec, limits, which, &limit);
@@ -48,5 +48,5 @@ pub(super) fn with_least_kept(
             _ => below = middle,
         }
     }
-    Failing::Limit { which, asked, least: Rational::to_f64(&limit), sigma: gain, proved: true }
+    Failing::Limit { which, asked, beside, least: Rational::to_f64(&limit), sigma: gain, proved: true }
 }

@@ -72,11 +72,14 @@ impl FloatLimits {
         };
         let shares = self.limits.iter().filter_map(|(which, limit)| {
             let (asked, least) = ((*limit)?, of(*which));
-            Some(Missed { which: *which, asked, least, sigma: f64::NAN })
+            Some(Missed { which: *which, asked, beside: None, least, sigma: f64::NAN })
         });
         // There is one at least.
-        let none = Missed { which: Limited::Control, asked: 1.0, least: f64::INFINITY, sigma: f64::NAN };
-        shares.reduce(|worst, next| if next.share() > worst.share() { next } else { worst }).unwrap_or(none)
+        let none = Missed { which: Limited::Control, asked: 1.0, beside: None, least: f64::INFINITY, sigma: f64::NAN };
+        let worse = |worst: Missed, next: Missed| if next.share() > worst.share() { next } else { worst };
+        let worst = shares.clone().reduce(worse).unwrap_or(none);
+        let second = shares.filter(|one| one.which != worst.which).reduce(worse);
+        Missed { beside: second.map(|one| (one.which, one.asked)), ..worst }
     }
 
     /// The best proposal at a gain, for whichever goal.
@@ -222,6 +225,8 @@ impl<P> Found<P> {
 struct Missed {
     which: Limited,
     asked: f64,
+    /// The other limit that comes closest to being missed.
+    beside: Option<(Limited, f64)>,
     least: f64,
     sigma: f64,
 }
@@ -233,7 +238,7 @@ impl Missed {
     }
 
     fn failing(self) -> Failing {
-        let Missed { which, asked, least, sigma } = self;
-        Failing::Limit { which, asked, least, sigma, proved: false }
+        let Missed { which, asked, beside, least, sigma } = self;
+        Failing::Limit { which, asked, beside, least, sigma, proved: false }
     }
 }

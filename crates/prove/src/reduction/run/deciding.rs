@@ -420,7 +420,7 @@ impl Run<'_> {
         };
         let asked = self.spec().actuator.as_ref().map_or(f64::NAN, |actuator| actuator.max.to_f64());
         let least = self.stated_control().map_or(f64::INFINITY, |found| found.upper_f64());
-        self.take_back(Failing::Limit { which: Limited::Actuator, asked, least, sigma, proved: true });
+        self.take_back(Failing::Limit { which: Limited::Actuator, asked, beside: None, least, sigma, proved: true });
     }
 
     /// Of a run without a claim, by how much the limit is missed that keeps it from one; infinite where that is none.
