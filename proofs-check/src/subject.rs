@@ -186,7 +186,8 @@ fn output(spec: &Specification) -> Option<String> {
     };
     let Some(gain) = &spec.input_gain else { return Some(format!(" puts out {whole}, which is what acts in e'")) };
     let [low, high] = [&gain.low, &gain.high].map(|constant| &constant.words);
-    Some(format!(" puts out v = {whole}; g is one constant in [{low}, {high}]"))
+    let value = if low == high { format!("the constant {low}") } else { format!("one constant in [{low}, {high}]") };
+    Some(format!(" puts out v = {whole}; g is {value}"))
 }
 
 /// What is assumed where something is said of noise.

@@ -170,8 +170,8 @@ fn remarks(
 ) {
     if let Some(Provenance { scope: Scope::Continuous, .. }) = certificate {
         output::remark(&format!(
-            "the certificate is about the law in continuous time and does not cover sampling; `certify --sampling-period {}` makes one of the \
-             law at samples",
+            "the certificate is about the law in continuous time and does not cover sampling; `certify --sampling-period {}` makes one for \
+             the law at samples",
             clean(&step.text)
         ));
     }

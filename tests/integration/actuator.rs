@@ -105,7 +105,10 @@ fn the_claim_is_about_one_gain() {
     assert!(claim["sigma"].is_string() && claim.get("sigma_star").is_none());
     assert_eq!(claim["actuator"], object!({ "max": "26" }));
     let statement = claim["statement"].as_str().unwrap();
-    assert!(statement.contains("the gain sigma = ") && statement.contains("up to 26 in size"), "{statement}");
+    assert!(
+        statement.contains("the gain sigma = ") && statement.contains("limits what is put out to 26 in size"),
+        "{statement}"
+    );
     assert!(certificate.get("comparison").is_none() && certificate["witness"].get("exact_regulation").is_none());
     let answer = proofs_check::check(certificate.to_string().as_bytes());
     assert!(answer.is_valid(), "{}", answer.text(false));

@@ -197,7 +197,7 @@ fn exported_c_starts_aligned() {
 #[test]
 fn every_export_says_the_start() {
     let folder = tempfile::tempdir().unwrap();
-    let words = "Start with z = M e, e the error at the first instant: the initial set is `aligned`.";
+    let words = "The initial set is `aligned`: start with z = M e, where e is the error at the first instant.";
     for (file, sigma, is_aligned) in [(STORED, None, true), ("specs/linear.json", Some("2"), false)] {
         let export = |format: &str, file_out: &Path| {
             let mut call = controller(&[file, "--n-o", "1", "--format", format, "--force", "-o"]);

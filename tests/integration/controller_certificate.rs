@@ -44,7 +44,7 @@ fn a_certificate_says_everything_but_the_oscillators() {
     assert_eq!(json(&assert.get_output().stdout)["sigma"].as_f64(), Some(3.0));
 
     let statement = held["claim"]["statement"].as_str().unwrap();
-    let sampling = "The certificate is about the continuous-time law: it does not cover sampling.";
+    let sampling = "The certificate is about the continuous-time law. It does not cover sampling.";
     let told = |text: &str, mark: &str| {
         let text: Vec<&str> = text.lines().map(|line| line.trim().trim_start_matches(mark).trim()).collect();
         let text = text.join(" ");
@@ -81,7 +81,7 @@ fn a_gain_below_the_certificate_is_refused() {
     let export = json(&assert.get_output().stdout);
     assert_eq!(export["certificate"]["covers_sigma"].as_bool(), Some(false));
     let notice = export["notice"].to_string();
-    assert!(notice.contains("says nothing about this regulator") && !notice.contains("It claims"), "{notice}");
+    assert!(notice.contains("says nothing about this regulator") && !notice.contains("Its claim"), "{notice}");
     call("specs/linear.json", "3/2", &[]).success().stderr("");
     // One that is about something else is refused, or left out.
     let other = "made for another specification: it says nothing about this regulator";

@@ -37,7 +37,10 @@ fn limits_to_both_sides_are_those_around_the_middle() {
         let own = read(&file);
         assert_eq!(own["claim"]["actuator"], object!({ "min": "0", "max": "8" }));
         let statement = own["claim"]["statement"].as_str().unwrap();
-        assert!(statement.contains("takes what is put out from 0 to 8 (u is measured from the middle"), "{statement}");
+        assert!(
+            statement.contains("limits what is put out to the range from 0 to 8 (u is measured from its middle"),
+            "{statement}"
+        );
         let mut by_hand = bath("0", "8");
         by_hand["q"] = "-7.5 + 2*4 + w/2 - e + 0.3*cos(phase) + 0.1*cos(2*phase)".into();
         by_hand["actuator"] = object!({ "max": "4" });

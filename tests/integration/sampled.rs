@@ -313,7 +313,7 @@ fn the_program_certifies_checks_its_file_and_exports_the_law() {
     program().args(["controller", &certificate, "--n-o", "10", "--format", "c", "-o", &source]).assert().code(0);
     let header = std::fs::read_to_string(path("axis.h")).unwrap();
     let words = in_one_line(&header.replace("\n *", " "));
-    assert!(words.contains("The law at samples here is the one that is claimed"), "{header}");
+    assert!(words.contains("The claim is about this law at samples"), "{header}");
     assert!(
         words.contains("every phase of the sampling grid") && !words.contains("does not cover sampling"),
         "{header}"

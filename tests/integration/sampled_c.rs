@@ -153,7 +153,7 @@ fn export(folder: &Path, (certificate, says): (&Path, [&str; 2]), sigma: &Consta
     program().arg("controller").arg(certificate).args(arguments).arg(&source).assert().success();
     let header = std::fs::read_to_string(source.with_extension("h")).unwrap();
     let header = header.split_whitespace().filter(|word| *word != "*").collect::<Vec<_>>().join(" ");
-    for words in ["The law at samples here is the one that is claimed"].into_iter().chain(says) {
+    for words in ["The claim is about this law at samples"].into_iter().chain(says) {
         assert!(header.contains(words), "{header}");
     }
     std::fs::write(&main, MAIN).unwrap();

@@ -134,14 +134,18 @@ pub fn says_by_n_o(claimed: Option<&Field<'_>>) -> Outcome<bool> {
 /// What a claim is about besides, where there is one.
 pub fn in_words(actuator: Option<&Actuator>) -> String {
     let Some(Actuator { max, limits, .. }) = actuator else { return String::new() };
-    let beyond = "and cuts off what is beyond (which nothing is from the set below)";
     match limits {
-        None => format!(", with an actuator that takes what is put out up to {} in size {beyond}", max.words),
+        None => format!(", with an actuator that limits what is put out to {} in size", max.words),
         Some(Limits { min, max, .. }) => {
             let [min, max] = [&min.words, &max.words];
             format!(
-                ", with an actuator that takes what is put out from {min} to {max} (u is measured from the middle of these) {beyond}"
+                ", with an actuator that limits what is put out to the range from {min} to {max} (u is measured from its middle)"
             )
         }
     }
+}
+
+/// What the solutions of the claim do not ask of the actuator, where there is one.
+pub fn never_cut_off(actuator: Option<&Actuator>) -> &'static str {
+    if actuator.is_some() { " For these solutions the actuator cuts nothing off." } else { "" }
 }

@@ -75,10 +75,12 @@ pub fn agrees(asked: Option<&Range>, claimed: Option<&Field<'_>>, claim: &str) -
 /// What a claim is about besides, where there is a gain.
 pub fn in_words(gain: Option<&Range>) -> String {
     let Some(Range { nominal, low, high }) = gain else { return String::new() };
-    format!(
-        " and every input gain in [{}, {}] (one constant; the regulator divides by the nominal {})",
-        low.words, high.words, nominal.words
-    )
+    let [nominal, low, high] = [nominal, low, high].map(|constant| &constant.words);
+    let which = match low == high {
+        true => format!("the input gain {low} (constant"),
+        false => format!("every input gain in [{low}, {high}] (one constant"),
+    };
+    format!(" and {which}; the regulator divides by the nominal {nominal})")
 }
 
 /// What the regulator puts out, in words: u over the nominal gain.

@@ -169,7 +169,9 @@ fn limits_to_both_sides_kept_by_the_number_of_oscillators() {
     assert!(report.lines.iter().any(|line| line == said), "{:?}", report.lines);
     let subject = report.subject.as_ref().unwrap();
     assert!(
-        subject.statement.contains("takes what is put out from 2.9 to 5.1 (u is measured from the middle"),
+        subject
+            .statement
+            .contains("limits what is put out to the range from 2.9 to 5.1 (u is measured from its middle"),
         "{}",
         subject.statement
     );

@@ -111,11 +111,11 @@ fn no_name_of_the_file_is_taken_for_a_letter_of_the_claim() {
 fn the_solution_of_a_plant_in_cells_is_that_of_a_cell() {
     let of_cells = "x is the vector of the states, L the matrix `coordinates` of this certificate, and x_0(t) for any of the `cells` that \
                     contains the parameters of the plant the T-periodic solution of x' = f(t,x,0) that is proved within `radius` of `orbit` \
-                    of that cell, in the norm of L^-1 x; the set contains |x - x_0| <= ";
+                    of that cell, in the norm of L^-1 x. The set contains |x - x_0| <= ";
     let report = judged(&family());
     assert!(said(&report).contains(of_cells), "{}", said(&report));
     let report = judged(&parsed("plants", "family.certificate"));
-    let of_one = "and x_0(t) the T-periodic solution of x' = f(t,x,0) that is proved within `radius` of `orbit`, in the norm of L^-1 x; the set";
+    let of_one = "and x_0(t) the T-periodic solution of x' = f(t,x,0) that is proved within `radius` of `orbit`, in the norm of L^-1 x. The set";
     assert!(said(&report).contains(of_one) && !said(&report).contains("cells"), "{}", said(&report));
 }
 

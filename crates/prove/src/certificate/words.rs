@@ -8,7 +8,7 @@ use rug::Rational;
 use sigmastar_exact::number::write_exact;
 use sigmastar_lang::expr::{in_words, quoted};
 use sigmastar_lang::spec::model::LyapunovSource;
-use sigmastar_lang::spec::{Actuator, Bound, InputGain, Interval, OfPlant, Parameters, Specification};
+use sigmastar_lang::spec::{Actuator, Bound, Constant, InputGain, Interval, OfPlant, Parameters, Specification};
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
 use sigmastar_theory::derivation::sampled::{DelayWitness, SampledWitness};
 
@@ -98,38 +98,42 @@ pub(super) fn at_samples(
     )
 }
 
-/// " and every input gain in [9, 11] (...)"; nothing where there is none.
+/// " and every input gain in [9, 11] (...)", or " and the input gain 5 (...)" where both ends are written alike; nothing where there is none.
 fn every_input_gain(spec: &Specification) -> String {
     spec.input_gain.as_ref().map_or_else(String::new, |InputGain { nominal, low, high, .. }| {
-        format!(
-            " and every input gain in [{}, {}] (one constant; the regulator divides by the nominal {})",
-            low.words(),
-            high.words(),
-            nominal.words()
-        )
+        let [nominal, low, high] = [nominal, low, high].map(Constant::words);
+        let which = match low == high {
+            true => format!("the input gain {low} (constant"),
+            false => format!("every input gain in [{low}, {high}] (one constant"),
+        };
+        format!(" and {which}; the regulator divides by the nominal {nominal})")
     })
 }
 
-/// ", with an actuator that takes ..."; nothing where there is none.
+/// ", with an actuator that limits ..."; nothing where there is none.
 fn within_actuator(spec: &Specification) -> String {
     let Some(Actuator { max, range, .. }) = &spec.actuator else { return String::new() };
-    let beyond = "and cuts off what is beyond (which nothing is from the set below)";
     match range {
-        None => format!(", with an actuator that takes what is put out up to {} in size {beyond}", max.words()),
+        None => format!(", with an actuator that limits what is put out to {} in size", max.words()),
         Some(range) => {
             let [min, max] = [range.min.words(), range.max.words()];
             format!(
-                ", with an actuator that takes what is put out from {min} to {max} (u is measured from the middle of these) {beyond}"
+                ", with an actuator that limits what is put out to the range from {min} to {max} (u is measured from its middle)"
             )
         }
     }
+}
+
+/// What the solutions of the claim do not ask of the actuator; nothing where there is none.
+fn never_cut_off(spec: &Specification) -> &'static str {
+    if spec.actuator.is_some() { " For these solutions the actuator cuts nothing off." } else { "" }
 }
 
 /// What converges to what: of all plants of the data, or of the plant whose formulas are in the certificate; `start` says when
 /// a solution may start.
 fn conclusion(spec: &Specification, (set, ball): (&ClaimedSet, Option<&Rational>), start: &str) -> String {
     if let Some(plant) = spec.plant() {
-        return conclusion_of_plant(plant, (set, ball), start);
+        return conclusion_of_plant((spec, plant), (set, ball), start);
     }
     let domain = spec
         .domain
@@ -151,14 +155,19 @@ fn conclusion(spec: &Specification, (set, ball): (&ClaimedSet, Option<&Rational>
     let harmonics = if spec.q_0.is_some() { " and harmonics of q(t,0,0) within `q_0` (given, not proved)" } else { "" };
     format!(
         "every plant within the bounding functions{domain} and {triple}{rate}{harmonics} has a T-periodic solution of the \
-         closed loop to which every solution from |x| <= {}, {}, {start}, converges exponentially.",
+         closed loop. Every solution from |x| <= {}, {}, {start}, converges exponentially to it.{}",
         write_exact(&set.x0),
         of_regulator(set),
+        never_cut_off(spec),
     )
 }
 
 /// What converges to what, of the plant whose formulas are in the certificate; nothing of it is assumed.
-fn conclusion_of_plant(plant: &OfPlant, (set, ball): (&ClaimedSet, Option<&Rational>), start: &str) -> String {
+fn conclusion_of_plant(
+    (spec, plant): (&Specification, &OfPlant),
+    (set, ball): (&ClaimedSet, Option<&Rational>),
+    start: &str,
+) -> String {
     let domain = plant.domain.as_ref().map_or_else(String::new, |domain| {
         let of_x = if plant.states() > 0 { format!("|x - x_0| <= {}, ", domain.x.words()) } else { String::new() };
         format!(" (a model that holds for {of_x}|e| <= {})", domain.e.words())
@@ -169,8 +178,8 @@ fn conclusion_of_plant(plant: &OfPlant, (set, ball): (&ClaimedSet, Option<&Ratio
         Some(ball) => (
             format!("|L^-1 (x - x_0)| <= {x0}, "),
             format!(
-                "; x is the vector of the states, L the matrix `coordinates` of this certificate, and x_0(t) {}, in the norm of L^-1 x; the \
-                 set contains |x - x_0| <= {}",
+                " Here x is the vector of the states, L the matrix `coordinates` of this certificate, and x_0(t) {}, in the norm of L^-1 x. \
+                 The set contains |x - x_0| <= {}.",
                 solution(plant),
                 write_exact(ball)
             ),
@@ -181,9 +190,10 @@ fn conclusion_of_plant(plant: &OfPlant, (set, ball): (&ClaimedSet, Option<&Ratio
         Some(members) => format!("every plant of these formulas with {members}"),
     };
     format!(
-        "{which}{domain} has a T-periodic solution of the closed loop to which every solution from \
-         {state}{}, {start}, converges exponentially{orbit}.",
-        of_regulator(set)
+        "{which}{domain} has a T-periodic solution of the closed loop. Every solution from {state}{}, {start}, converges \
+         exponentially to it.{}{orbit}",
+        of_regulator(set),
+        never_cut_off(spec),
     )
 }
 

@@ -75,10 +75,10 @@ impl Scope {
             Scope::Continuous | Scope::Samples => None,
             Scope::BelowSigmaStar => Some(format!("sigma is below its sigma* = {sigma_star}")),
             Scope::OtherGain => Some(format!(
-                "with the actuator that it states it is about sigma = {sigma_star} alone, and this is another gain"
+                "it states an actuator, so it is about sigma = {sigma_star} alone, and this is another gain"
             )),
             Scope::OtherHarmonics { .. } => Some(
-                "it is about the first n_o harmonics, and the oscillators of this regulator are at other ones"
+                "it is about oscillators at the first n_o harmonics, and those of this regulator are at other harmonics"
                     .to_owned(),
             ),
             Scope::OtherSamples => Some(format!(
@@ -96,15 +96,14 @@ pub fn notice(export: &Export<'_>) -> Vec<String> {
         None => vec!["No certificate was given: nothing is claimed.".to_owned()],
         Some(Provenance { sha256, sigma_star, statement, scope, .. }) => {
             let named = format!("Certificate with SHA-256 {sha256} (of its canonical form)");
-            let claims = format!("{named}; `sigmastar check` decides it. It claims: {}", plain(statement));
+            let decided = format!("{named}. `sigmastar check` decides it.");
+            let claim = format!("Its claim: {}", plain(statement));
             let about = match scope {
-                Scope::Samples => {
-                    "The law at samples here is the one that is claimed: this gain, this sampling period, this K."
-                }
-                _ => "The certificate is about the continuous-time law: it does not cover sampling.",
+                Scope::Samples => "The claim is about this law at samples: this gain, this sampling period, this K.",
+                _ => "The certificate is about the continuous-time law. It does not cover sampling.",
             };
             match scope.obstacle(sigma_star) {
-                None => vec![claims, about.to_owned()],
+                None => vec![decided, claim, about.to_owned()],
                 Some(why) => vec![format!("{named}: it says nothing about this regulator, because {why}.")],
             }
         }
@@ -118,7 +117,9 @@ pub fn notice(export: &Export<'_>) -> Vec<String> {
         lines.push(delay(export));
     }
     if export.aligned {
-        lines.push("Start with z = M e, e the error at the first instant: the initial set is `aligned`.".to_owned());
+        lines.push(
+            "The initial set is `aligned`: start with z = M e, where e is the error at the first instant.".to_owned(),
+        );
     }
     if let Some(nominal) = export.regulator.nominal {
         let sampled = match export.discrete {

@@ -285,8 +285,8 @@ impl<'a> Claim<'a> {
             Some((_, field)) => (
                 format!("|L^-1 (x - x_0)| <= {x0}, "),
                 format!(
-                    "; x is the vector of the states, L the matrix `coordinates` of this certificate, and x_0(t) {}, in the \
-                     norm of L^-1 x; the set contains |x - x_0| <= {}",
+                    " Here x is the vector of the states, L the matrix `coordinates` of this certificate, and x_0(t) {}, in the \
+                     norm of L^-1 x. The set contains |x - x_0| <= {}.",
                     solution(plant),
                     field.numeral()?
                 ),
@@ -294,8 +294,9 @@ impl<'a> Claim<'a> {
         };
         let (regulator, when) = self.regulator(spec, y_0);
         Ok(format!(
-            "{regulator}, {about}{domain} has a T-periodic solution of the closed loop to which \
-             every solution from {states}{start}, at any {when}, converges exponentially{orbit}.",
+            "{regulator}, {about}{domain} has a T-periodic solution of the closed loop. Every solution from {states}{start}, at \
+             any {when}, converges exponentially to it.{}{orbit}",
+            actuator::never_cut_off(spec.actuator.as_ref()),
         ))
     }
 
@@ -334,8 +335,9 @@ impl<'a> Claim<'a> {
         let (regulator, when) = self.regulator(spec, y_0);
         format!(
             "{regulator}, every plant within the bounding functions{domain} and {triple}{rate}{harmonics} \
-             has a T-periodic solution of the closed loop to which every solution from |x| <= {x0}, {start}, at \
-             any {when}, converges exponentially.",
+             has a T-periodic solution of the closed loop. Every solution from |x| <= {x0}, {start}, at any {when}, converges \
+             exponentially to it.{}",
+            actuator::never_cut_off(spec.actuator.as_ref()),
         )
     }
 }

@@ -62,7 +62,7 @@ pub(super) fn header(
         "/*\n{}\x20*/\n\
          #ifndef {upper}_CONTROLLER_ID\n\
          #define {upper}_CONTROLLER_ID 0x{id}UL\n\n\
-         /* The names end in the number of this regulator, so that the linker takes none of another for them. */\n\
+         /* The names end in the number of this regulator, so that the linker does not take those of another for them. */\n\
          #define {prefix}_controller {prefix}_controller_{id}\n\
          #define {prefix}_reset {prefix}_reset_{id}\n\
          #define {prefix}_step {prefix}_step_{id}\n\n\
