@@ -25,22 +25,22 @@ pub struct CertifyArgs {
     #[arg(long, value_name = "V", allow_hyphen_values = true)]
     pub sigma: Option<String>,
 
-    /// Certify a gain that keeps |e| of the periodic solution at most V (the smallest found), for every n_o, or with --n-o for the numbers
-    /// of LIST, which often needs a far smaller gain
+    /// Certify the smallest gain found that keeps |e| of the periodic solution at most V. This holds for every n_o, or with --n-o for the
+    /// numbers of LIST, which often needs a far smaller gain
     #[arg(long, value_name = "V", allow_hyphen_values = true)]
     pub steady_error: Option<String>,
 
-    /// Certify a gain that keeps |e| at most V in the transient from the initial set (the smallest found), for every n_o, or with --n-o for the
-    /// numbers of LIST
+    /// Certify the smallest gain found that keeps |e| at most V in the transient from the initial set. This holds for every n_o, or with --n-o
+    /// for the numbers of LIST
     #[arg(long, value_name = "V", allow_hyphen_values = true)]
     pub peak_error: Option<String>,
 
-    /// Certify a gain that keeps the control, with `input_gain` over `nominal`, at most V in the transient from the initial set (the
-    /// smallest found), for every n_o, or with --n-o for the numbers of LIST
+    /// Certify the smallest gain found that keeps the size of the control at most V in the transient from the initial set; with `input_gain` it
+    /// is the control divided by `nominal`. This holds for every n_o, or with --n-o for the numbers of LIST
     #[arg(long, value_name = "V", allow_hyphen_values = true)]
     pub max_control: Option<String>,
 
-    /// Certify a gain with which the rates for the numbers of --n-o are at least V, in 1/time (the smallest found)
+    /// Certify the smallest gain found with a rate of at least V, in 1/time, for each number of --n-o
     #[arg(long, value_name = "V", allow_hyphen_values = true, requires = "n_o")]
     pub rate: Option<String>,
 
@@ -72,23 +72,25 @@ pub struct CertifyArgs {
     #[command(flatten)]
     pub replace: Replace,
 
-    /// Find the smallest n_o that certifies sup|e| <= V, of all bounds by the number of oscillators, an exact constant such as `1e-3` or `1/1000`
+    /// Find the smallest n_o with which any bound by the number of oscillators certifies sup|e| <= V; V is an exact constant such as `1e-3` or
+    /// `1/1000`
     #[arg(long, value_name = "V", allow_hyphen_values = true)]
     pub target_sup: Option<String>,
 
-    /// Find the smallest n_o that certifies rms(e) <= V, of all bounds by the number of oscillators, an exact constant such as `1e-3` or `1/1000`
+    /// Find the smallest n_o with which any bound by the number of oscillators certifies rms(e) <= V; V is an exact constant such as `1e-3` or
+    /// `1/1000`
     #[arg(long, value_name = "V", allow_hyphen_values = true)]
     pub target_rms: Option<String>,
 
-    /// Prove for each of these numbers of oscillators (at most 8, up to 100), at the gain of the claim alone, a rate and a factor with
-    /// |e - e_per| <= factor exp(-rate (t - t_0)) in the undisturbed loop, and with `measurement`, `disturbance` or, at samples, `arithmetic` in FILE what these do
-    /// to e in the limit and in the transient, and put them into the certificate; e.g. `0,4,10`. Where the report has bounds by the number of
-    /// oscillators, these are among them
+    /// Prove more for each of these numbers of oscillators (at most 8, up to 100), at the gain of the claim alone; e.g. `0,4,10`. It is a rate and
+    /// a factor with |e - e_per| <= factor exp(-rate (t - t_0)) in the undisturbed loop. Where FILE states `measurement`, `disturbance` or, at
+    /// samples, `arithmetic`, it is also what these do to e in the limit and in the transient. The certificate has all of this. Bounds by the
+    /// number of oscillators in the report are shown for these numbers, too
     #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
     pub n_o: Option<String>,
 
-    /// Certify for every finite set of harmonics that contains 0, and show bounds for oscillators at these, such as `0,1,5,7`; several times for several
-    /// sets. It sets or replaces `harmonics` of the internal model
+    /// Certify for every finite set of harmonics that contains 0, and show bounds for oscillators at these harmonics, such as `0,1,5,7`; repeat
+    /// the flag for several sets. It sets or replaces `harmonics` of the internal model
     #[arg(long, value_name = "LIST", value_parser = harmonics(MAX_OSCILLATORS, MAX_OSCILLATORS))]
     pub harmonics: Vec<Oscillators>,
 
@@ -98,12 +100,12 @@ pub struct CertifyArgs {
     pub precision_limit: u32,
 
     /// Leave out what other choices would give: bounds at larger gains, what intervals of parameters cost, a limit that can be kept, a smaller
-    /// initial set where a plant is not certified; for a plant also the bounds by the number of oscillators, unless a limit such as `--peak-error` needs
-    /// them; and, in a whole report and a certificate, the search of the paper's derivations
+    /// initial set where a plant is not certified; for a plant also the bounds by the number of oscillators, unless a limit such as
+    /// `--peak-error` needs them; and, in a whole report and a certificate, the search of the paper's derivations
     #[arg(long, alias = "no-compare")]
     pub no_alternatives: bool,
 
-    /// Tell the stages of the work on standard error, a line for each; on a terminal they are shown anyhow where it takes longer
+    /// Show the stages of the work on standard error, one a line. On a terminal they are shown without this flag where the work takes longer
     #[arg(long, conflicts_with = "quiet")]
     pub progress: bool,
 
@@ -205,12 +207,12 @@ pub struct CheckArgs {
     #[arg(value_name = "CERTIFICATE", value_hint = ValueHint::FilePath)]
     pub certificate: PathBuf,
 
-    /// Specification or plant (.json; of .jsonc and .toml what `convert` writes) that the certificate has to be about: other data
-    /// make it invalid
+    /// The specification or plant that the certificate must be about (.json; of a .jsonc or .toml file the output of `convert`). With other data
+    /// the answer is invalid
     #[arg(long, value_name = "SPEC", value_hint = ValueHint::FilePath)]
     pub spec: Option<PathBuf>,
 
-    /// Sampling period with which `certify` was called: it goes into SPEC before the two are compared
+    /// The sampling period with which `certify` was called; it is put into SPEC before the two are compared
     #[arg(long, value_name = "H", requires = "spec", allow_hyphen_values = true)]
     pub sampling_period: Option<String>,
 
@@ -230,7 +232,7 @@ pub struct CheckArgs {
 /// The flags of `errata`.
 #[derive(Args, Debug)]
 pub struct ErrataArgs {
-    /// Bounding specification (.json, .jsonc, .toml) to look at each item from, or a certificate of one, or `-` for standard input
+    /// Bounding specification (.json, .jsonc, .toml) for which each item is evaluated, or a certificate of one, or `-` for standard input
     #[arg(value_name = "SPEC", value_hint = ValueHint::FilePath)]
     pub spec: Option<PathBuf>,
 
@@ -297,10 +299,10 @@ pub struct BoundArgs {
 /// A choice of transfer constants.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub enum TransferArg {
-    /// Those of a matched base frequency where the specification asserts it, else boxes
+    /// The proof for a matched base frequency where the file asserts one, else boxes
     Best,
     /// Proved by boxes, valid for every base frequency
     Boxes,
-    /// The closed form, valid for every base frequency, larger
+    /// A closed form, valid for every base frequency; its bound is larger
     ClosedForm,
 }

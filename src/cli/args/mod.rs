@@ -141,28 +141,29 @@ pub enum Command {
     Certify(Box<CertifyArgs>),
     /// Say which gain and how many oscillators to take: a table of what is proved, beside what is required
     ///
-    /// Proves bounds of the steady error, of the largest error and control, and rates, at several gains with several numbers of oscillators, each row a claim
-    /// that the independent checker decides. The pair to take has the smallest gain of the table, and there the fewest oscillators, with which every
-    /// requirement is proved to be met. Without requirements the gain to take has a bound of the largest error of at most twice the larger of E0 and
-    /// that of the steady error, and each proved rate is at least half of the largest one for its number of oscillators. Exit code 3 says that something required is not proved.
+    /// Proves bounds of the steady error, of the largest error and control, and rates, at several gains with several numbers of oscillators,
+    /// each row a claim that the independent checker decides. The pair to take has the smallest gain of the table with which every requirement
+    /// is proved to be met, and at this gain the fewest oscillators. Without requirements the gain to take passes two tests. Its bound of the
+    /// largest error is at most twice E0 or twice the bound of the steady error, whichever is larger. Each of its proved rates is at least half
+    /// of the largest rate proved for the same number of oscillators. Exit code 3 says that something required is not proved.
     #[command(after_help = DESIGN_EXAMPLES, after_long_help = format!("{DESIGN_EXAMPLES}\n\n{EXIT_CODES}"))]
     Design(DesignArgs),
     /// Show which gains go with which sampling periods: the smallest gain for a period, the longest period for a gain
     ///
-    /// Each pair is certified as `certify --sampling-period H --sigma V` does, with an `actuator` by the conditions alone. A gain is certified for its sampling period only:
-    /// neither a larger gain nor a shorter period follows.
+    /// Each pair is certified as by `certify --sampling-period H --sigma V`. An `actuator` is judged by the conditions of the claim alone. A
+    /// gain is certified for its sampling period only: neither a larger gain nor a shorter period follows.
     #[command(after_help = SAMPLING_EXAMPLES, after_long_help = format!("{SAMPLING_EXAMPLES}\n\n{EXIT_CODES}"))]
     Sampling(SamplingArgs),
     /// Certify a specification or plant with many values put in: a grid or a Latin hypercube
     ///
-    /// Each case is certified by itself, as `certify` does it, on all cores of this machine, and is a row of one table. Nothing is
-    /// claimed between the cases, and no certificates are written. For more machines the Python package has a study as calls.
+    /// Each case is certified by itself, as `certify` does it, on all cores of this machine, and is a row of one table. Nothing is claimed
+    /// between the cases, and no certificates are written. The Python package has a study as calls, which can run on several machines.
     #[command(after_help = SWEEP_EXAMPLES)]
     Sweep(SweepArgs),
     /// Look for values of mu, the weights and other free numbers with a smaller certified gain
     ///
-    /// Each proposal is certified by itself, as `certify` does it. Within their ranges the numbers are sought in logarithms, from
-    /// several starts. Says what the better values cost: a smaller sigma* may be paid for by mu Nbar^2.
+    /// Each proposal is certified by itself, as `certify` does it. The search runs over the logarithms of the numbers within their ranges, from
+    /// several starts. The report says what the better values cost: a smaller sigma* may come with a larger mu Nbar^2.
     #[command(after_help = TUNE_EXAMPLES, after_long_help = format!("{TUNE_EXAMPLES}\n\n{EXIT_CODES}"))]
     Tune(TuneArgs),
     /// Prove the transfer bound T(x) <= k0 + k1 x^2 for every number of oscillators
@@ -179,9 +180,9 @@ pub enum Command {
     Check(CheckArgs),
     /// Write the regulator of a specification, plant or certificate: matrices, the law for a computer, C code
     ///
-    /// Every number is the exact one rounded once to double precision (the limit of an actuator upwards). For a certificate the gain is its sigma* unless
-    /// --sigma gives another. The command refuses what is known to be bad: sampling that cannot tell the oscillators apart, DT sigma > 1, a gain
-    /// below sigma* of the certificate. Only a certificate with a sampling period covers the sampling.
+    /// Every number is the exact one, rounded once to double precision (the limit of an actuator is rounded up). For a certificate the gain is
+    /// its sigma* unless --sigma gives another. The command refuses what is known to be bad: sampling that cannot tell the oscillators apart, DT
+    /// sigma > 1, a gain below sigma* of the certificate. Only a certificate with a sampling period covers the sampling.
     #[command(after_help = CONTROLLER_EXAMPLES)]
     Controller(ControllerArgs),
     /// Simulate a plant with a regulator: steady state, long run, measurement noise
@@ -195,9 +196,9 @@ pub enum Command {
     Reproduce(ReproduceArgs),
     /// Try to break a certificate by simulation
     ///
-    /// Draws plants within the bounding functions, or takes the plant of the certificate, starts on the boundary of the initial
-    /// set and checks every bound of the claim a little above sigma*, or of the law at samples with exactly its gain. Finding
-    /// nothing proves nothing; exit code 1 and a plant file if it finds one.
+    /// Draws plants within the bounding functions, or takes the plant of the certificate. Each trial starts on the boundary of the initial set
+    /// and checks every bound of the claim, a little above sigma*; a claim at samples is tried with exactly its gain. If no counterexample is
+    /// found, nothing is proved. If one is found, the exit code is 1 and `-o` writes its plant file.
     #[command(after_help = FALSIFY_EXAMPLES)]
     Falsify(FalsifyArgs),
     /// List what is wrong in the paper, with evidence
@@ -212,8 +213,8 @@ pub enum Command {
     Constants(ConstantsArgs),
     /// Find and prove the Lyapunov triple of a Jacobian, or the orbit of a plant
     ///
-    /// Prints P, the triple that is proved for every t, and the Floquet exponents (floating point) beside. Of a plant: the
-    /// periodic solution of its zero dynamics, proved, and the rate along it.
+    /// Prints P, the triple that is proved for every t, and the Floquet exponents (floating point). Of a plant it proves the periodic solution
+    /// of its zero dynamics and the rate along it.
     Lyapunov(LyapunovArgs),
     /// Write a bounding specification for a plant: polynomials in X and E, each proved
     ///

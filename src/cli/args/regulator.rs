@@ -28,7 +28,7 @@ pub struct ControllerArgs {
           value_parser = one_count(RegulatorMatrices::MAX_OSCILLATORS))]
     pub n_o: Option<u32>,
 
-    /// The harmonics of the oscillators in the place of the first n_o, 0 among them: `0,1,5,7,11,13`
+    /// The harmonics of the oscillators instead of the first n_o; 0 is one of them: `0,1,5,7,11,13`
     #[arg(long, value_name = "LIST", conflicts_with = "n_o", value_parser = harmonics(RegulatorMatrices::MAX_OSCILLATORS, LARGEST_HARMONIC))]
     pub harmonics: Option<Oscillators>,
 
@@ -36,8 +36,8 @@ pub struct ControllerArgs {
     #[arg(long, value_name = "DT", allow_hyphen_values = true)]
     pub discretise: Option<String>,
 
-    /// 1: the law whose control is computed in the sample before the one in which it acts, 0: the one without such a delay
-    /// (`delay_samples` of the file, or of the certificate, without this flag)
+    /// 1: the control is computed in the sample before the one in which it acts; 0: without this delay [default: `delay_samples` of the file, or
+    /// of the certificate]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=1))]
     pub delay_samples: Option<u32>,
 
@@ -49,8 +49,8 @@ pub struct ControllerArgs {
     #[arg(long)]
     pub uncertified: bool,
 
-    /// Clip the control to |u| <= U, an exact positive constant, without windup; outside every claim [default: `actuator` of the file,
-    /// where it has one]
+    /// Clip the control to |u| <= U, an exact positive constant, without windup; no claim covers this [default: `actuator` of the file, where it
+    /// has one]
     #[arg(long, value_name = "U", allow_hyphen_values = true, requires = "discretise")]
     pub saturation: Option<String>,
 
@@ -94,7 +94,7 @@ pub struct SimulateArgs {
           value_parser = one_count(MAX_SIMULATED_OSCILLATORS))]
     pub n_o: Option<u32>,
 
-    /// The harmonics of the oscillators in the place of the first n_o, 0 among them: `0,1,5,7,11,13`
+    /// The harmonics of the oscillators instead of the first n_o; 0 is one of them: `0,1,5,7,11,13`
     #[arg(long, value_name = "LIST", conflicts_with = "n_o", value_parser = harmonics(MAX_SIMULATED_OSCILLATORS, LARGEST_HARMONIC))]
     pub harmonics: Option<Oscillators>,
 
@@ -112,8 +112,8 @@ pub struct SimulateArgs {
           conflicts_with_all = ["high_gain", "fixed", "noise_power", "noise_everywhere"])]
     pub sampled: Option<String>,
 
-    /// 1: the law whose control acts at the next sample, 0: the one without such a delay (`delay_samples` of the plant file
-    /// without this flag; a file of --controller has its own)
+    /// 1: the control acts at the next sample; 0: without this delay [default: `delay_samples` of the plant file; a file of --controller has its
+    /// own]
     #[arg(long, value_name = "N", conflicts_with = "controller",
           value_parser = clap::value_parser!(u32).range(0..=1))]
     pub delay_samples: Option<u32>,
@@ -143,16 +143,16 @@ pub struct SimulateArgs {
     #[arg(long, value_name = "STEPS", value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_FIXED_STEPS)))]
     pub fixed: Option<u32>,
 
-    /// The true gain of the actuator, an exact positive constant; the nominal one of the plant file's `input_gain` without this flag
+    /// The true gain of the actuator, an exact positive constant [default: the nominal one of the plant file's `input_gain`]
     #[arg(long, value_name = "V", allow_hyphen_values = true)]
     pub input_gain: Option<String>,
 
-    /// The true period, an exact positive constant; the nominal one of the plant file's `period` without this flag
+    /// The true period, an exact positive constant [default: the nominal one of the plant file's `period`]
     #[arg(long, value_name = "V", allow_hyphen_values = true)]
     pub period: Option<String>,
 
-    /// Another value of a parameter of the plant file than the nominal one, an exact constant; several times for several. The
-    /// regulator stays that of the file
+    /// Simulate with another value of a parameter than the nominal one, an exact constant; repeat the flag for several parameters. The regulator
+    /// stays that of the file
     #[arg(long, value_name = "NAME=VALUE", allow_hyphen_values = true)]
     pub parameter: Vec<String>,
 
@@ -270,8 +270,8 @@ pub struct FalsifyArgs {
     #[arg(long, value_name = "LIST", value_delimiter = ',', allow_hyphen_values = true)]
     pub base_frequency: Vec<String>,
 
-    /// Try this value of a parameter with an interval alone, an exact number; several times for several. Without it the corners of the
-    /// intervals come first
+    /// Try only this value of a parameter that has an interval, an exact number; repeat the flag for several parameters. Without it the corners
+    /// of the intervals come first
     #[arg(long, value_name = "NAME=VALUE", conflicts_with = "base_frequency", allow_hyphen_values = true)]
     pub parameter: Vec<String>,
 

@@ -22,8 +22,8 @@ pub struct DesignArgs {
     #[arg(long, value_name = "V")]
     pub peak_error: Option<String>,
 
-    /// Require |u| at all times, from the whole initial set, to be at most V: the control over `nominal` where the file has `input_gain`, measured from the
-    /// middle of the range where its `actuator` has two limits
+    /// Require |u| at all times, from the whole initial set, to be at most V: the control over `nominal` where the file has `input_gain`,
+    /// measured from the middle of the range where its `actuator` has two limits
     #[arg(long, value_name = "V")]
     pub max_control: Option<String>,
 
@@ -51,8 +51,9 @@ pub struct DesignArgs {
     #[arg(long, conflicts_with = "sampling_period")]
     pub sampling_periods: bool,
 
-    /// Choose these numbers of the file: mu, n0, epsilon and others, as `tune --over` names them, each with a range if wanted, `mu=1/10..10`; a table is made
-    /// of the values of the file and of four others of each number in turn, and the best one is shown (usual range of mu, with the period T: 1/T..8/T)
+    /// Choose these numbers of the file: mu, n0, epsilon and others, as `tune --over` names them, each with a range if wanted, `mu=1/10..10`; a
+    /// table is made of the values of the file and of four others of each number in turn, and the best one is shown (usual range of mu, with the
+    /// period T: 1/T..8/T)
     #[arg(long, value_name = "LIST")]
     pub choose: Option<String>,
 
@@ -161,6 +162,6 @@ pub enum TuneGoal {
     /// The certified gain
     #[value(name = "sigma_star")]
     SigmaStar,
-    /// sigma* + mu Nbar^2, what the law multiplies e by at most
+    /// sigma* + mu Nbar^2, the largest factor by which the law multiplies e
     Feedback,
 }
