@@ -21,7 +21,7 @@ fn a_simulation_at_samples_reports_writes_samples_and_draws() {
     let words = predicate::str::contains("sup|e| = 0.01829 (0.01814 at the samples)")
         .and(predicate::str::contains("at samples h = 0.01000"))
         .and(predicate::str::contains("100 samples a period"))
-        .and(predicate::str::contains("multiplier 0.848528"));
+        .and(predicate::str::contains("multiplier is 0.848528"));
     call.assert().success().stdout(words);
     let text = std::fs::read_to_string(csv).unwrap();
     let lines: Vec<&str> = text.lines().collect();

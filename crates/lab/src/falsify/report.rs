@@ -62,8 +62,8 @@ fn blocks(claim: &TriedClaim, outcome: &Falsification) -> Vec<Block> {
     let name = if of_one_gain { "sigma" } else { "sigma*" };
     blocks.push(Block::says(format!(
         "{} trials {gains} $`{name} = {}`$, base frequency $`{}`$, seed {}: {held} keep every bound, {violated} break one, \
-         {} could not be finished. Floating point: what is found can be simulated again, what is not found is no \
-         proof.",
+         {} could not be finished. The trials are in floating point: a counterexample can be simulated again, and finding none proves \
+         nothing.",
         outcome.findings.len(),
         round_f64(claim.sigma, 9, Direction::Nearest).map_or_else(|| claim.sigma.to_string(), |sigma| write_exact(&sigma)),
         claim.spec.internal_model.base_frequency.text,
@@ -82,7 +82,7 @@ fn blocks(claim: &TriedClaim, outcome: &Falsification) -> Vec<Block> {
         )));
     }
     if let Some(worst) = outcome.worst() {
-        blocks.push(Block::heading("How much of each bound was used, at most"));
+        blocks.push(Block::heading("The largest share of each bound that was reached"));
         let number = worst.trial.number;
         let mut table = Table::new(&["<quantity", "found/bound", "in trial", &format!("trial {number}")]);
         let shown = shown(claim, outcome);
@@ -126,10 +126,10 @@ fn plant_blocks(worst: &Closest<'_>, seed: u64) -> Vec<Block> {
     vec![
         Block::heading("The worst plant"),
         Block::says(format!(
-            "Trial {}, $`sigma = {:?}`$, $`n_o = {}`${}{}, came closest to one of the bounds: {quantity} is {share:.3} of its bound. \
-             (The multiplier and the Lyapunov function are close to theirs with any plant.) `sigmastar falsify` with \
-             `--seed {seed} --trial {} -o FILE` writes it as a plant file, with the call of `simulate` in its description; so \
-             for any other trial.",
+            "Trial {}, $`sigma = {:?}`$, $`n_o = {}`${}{}, came closest to one of the bounds: {quantity} reached {share:.3} of its bound. \
+             (The multiplier and the Lyapunov function come close to their bounds with any plant.) `sigmastar falsify` with \
+             `--seed {seed} --trial {} -o FILE` writes it as a plant file, with the call of `simulate` in its description. Another \
+             number writes another trial.",
             trial.number,
             trial.sigma,
             trial.n_o,

@@ -36,7 +36,7 @@ impl Readable for SimulationReport<'_> {
                 regulator_words(&closed_loop.regulator, closed_loop.period),
                 number(closed_loop.period),
                 closed_loop.limit().map_or_else(String::new, |limit| format!(
-                    " The actuator takes $`|u| <= {}`$ and cuts off what is beyond{}.",
+                    " The actuator limits u to $`|u| <= {}`${}.",
                     number(limit),
                     measured_from(plant)
                 ))
@@ -167,7 +167,7 @@ fn steady_blocks(plant: &Plant, steady: &SteadyState, figures: &SteadyFigures) -
     let verdict = if slowest < 1.0 { "it attracts its neighbours" } else { "it does not attract its neighbours" };
     // Six digits are shown.
     let doubt = match steady.uncertainty > 1e-6 {
-        true => format!(" (uncertain: the derivative that it is of is known to {:.0e} only)", steady.uncertainty),
+        true => format!(" (uncertain: its derivative is known only to {:.0e})", steady.uncertainty),
         false => String::new(),
     };
     let scale = figures.sup;
@@ -177,7 +177,7 @@ fn steady_blocks(plant: &Plant, steady: &SteadyState, figures: &SteadyFigures) -
     }
     vec![
         Block::says(format!(
-            "$`sup|e| = {}`$, $`rms(e) = {}`$. Periodic to {:.1e}; largest Floquet multiplier {}{doubt}: {verdict}.",
+            "$`sup|e| = {}`$, $`rms(e) = {}`$. It is periodic to {:.1e}. Its largest Floquet multiplier is {}{doubt}: {verdict}.",
             number(figures.sup),
             number(figures.rms),
             steady.residual,
@@ -200,11 +200,11 @@ pub(super) fn period_words(plant: &Plant, figures: &PeriodFigures) -> String {
 
 fn long_words(plant: &Plant, run: &LongRun) -> String {
     let settled = match run.settled {
-        Some(period) => format!("Steady to 1e-6 from period {period} on"),
-        None => "Not steady to 1e-6 at the end".to_owned(),
+        Some(period) => format!("It is steady to 1e-6 from period {period} on"),
+        None => "It is not steady to 1e-6 at the end".to_owned(),
     };
     format!(
-        "{} periods. {settled}. Over the last period: largest $`|e| = {}`$, $`rms(e) = {}`$, {}. Over all: largest $`|u| = {}`$.",
+        "The run has {} periods. {settled}. Over the last period: largest $`|e| = {}`$, $`rms(e) = {}`$, {}. Over all: largest $`|u| = {}`$.",
         run.return_distances.len(),
         number(run.sup),
         number(run.rms),

@@ -114,15 +114,17 @@ fn steady_blocks(plant: &Plant, steady: &SampledSteady, sums: &PeriodSums) -> Ve
     let stability = match steady.largest_multiplier() {
         // Six digits are shown.
         Some(largest) if 1.0 - largest <= steady.uncertainty => format!(
-            "; largest Floquet multiplier {largest:.9}, known to {:.0e} only: it cannot be told whether it attracts its neighbours",
+            " Its largest Floquet multiplier is {largest:.9}, known only to {:.0e}: it cannot be told whether it attracts its neighbours.",
             steady.uncertainty
         ),
-        Some(largest) => format!("; largest Floquet multiplier {}: it attracts its neighbours", multiplier(largest)),
-        None => ": a run settles on it; a loop that quantises has no multipliers".to_owned(),
+        Some(largest) => {
+            format!(" Its largest Floquet multiplier is {}: it attracts its neighbours.", multiplier(largest))
+        }
+        None => " A run settles on it. A loop that quantises has no multipliers.".to_owned(),
     };
     vec![
         Block::says(format!(
-            "$`sup|e| = {}`$ ({} at the samples), $`rms(e) = {}`$. Periodic to {:.1e}{stability}.",
+            "$`sup|e| = {}`$ ({} at the samples), $`rms(e) = {}`$. It is periodic to {:.1e}.{stability}",
             number(sums.sup),
             number(sums.sup_at_samples),
             number(sums.rms),
@@ -137,13 +139,13 @@ fn long_words(plant: &Plant, sampled: &SampledLoop, run: &SampledLongRun) -> Str
     let last = run.return_distances.last().copied().unwrap_or_default();
     let settled = match (sampled.samples(), run.settled) {
         (None, _) => "The samples fall differently in every period, so nothing is periodic".to_owned(),
-        (Some(_), Some(period)) => format!("Steady to 1e-6 from period {period} on"),
+        (Some(_), Some(period)) => format!("It is steady to 1e-6 from period {period} on"),
         (Some(_), None) => {
-            format!("Not steady to 1e-6 at the end: the last period differs by {last:.1e} from the one before")
+            format!("It is not steady to 1e-6 at the end: the last period differs by {last:.1e} from the one before")
         }
     };
     format!(
-        "{} periods. {settled}. Over the last period: largest $`|e| = {}`$ ({} at the samples), $`rms(e) = {}`$, {}. Over all: largest $`|u| = {}`$.",
+        "The run has {} periods. {settled}. Over the last period: largest $`|e| = {}`$ ({} at the samples), $`rms(e) = {}`$, {}. Over all: largest $`|u| = {}`$.",
         run.return_distances.len(),
         number(run.last_period.sup),
         number(run.last_period.sup_at_samples),
