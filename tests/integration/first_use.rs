@@ -145,7 +145,7 @@ fn the_term_without_the_period_is_named() {
 
 #[test]
 fn what_rates_at_samples_cost_is_told() {
-    const REMARK: &str = "with `--n-o` the claim rests on norms, from which rates at samples are proved";
+    const REMARK: &str = "with `--n-o` the claim rests on norms, because rates at samples are proved from them";
     let with = |flags: &[&str]| {
         let call = [&CERTIFY, &["--sampling-period", "1/10000"][..], flags].concat();
         told(&call, "specs/plants/motor-axis.json", |_| {})
@@ -262,7 +262,7 @@ fn the_smallest_gain_beside_a_limit_is_that_of_the_plant() {
 
 /// Of each size of the set it is said where it is from: stated, of the ball that is stated, or a multiple of the bound of the periodic solution.
 fn assert_said_where_sizes_are_from(cases: &[(&str, &str)]) {
-    const ROW: &str = "at any time; so from |x - x_0| <= ";
+    const ROW: &str = "at any time; it contains |x - x_0| <= ";
     for (set, expected) in cases {
         let (code, text) = of_text(&CERTIFY, "pump.toml", &PUMP.replace("{ kind = \"aligned\" }", set));
         let row = text.split_once(ROW).and_then(|(_, row)| row.split_once("; "));

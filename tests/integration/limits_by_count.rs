@@ -147,7 +147,7 @@ fn of_other_sets_of_harmonics_nothing_is_said() {
     for words in [
         "for oscillators at every set of harmonics with 0",
         "in the transient with every n_o.",
-        "(|e| and |u| with every n_o; both at this gain)",
+        "(all at this gain; |e| and |u| with every n_o)",
     ] {
         assert!(text.contains(words), "{words}: {text}");
     }

@@ -168,7 +168,7 @@ fn certified(flags: &[&str]) -> (i32, String) {
 fn the_words_of_a_claim_say_what_it_keeps_to() {
     let (code, text) = certified(&["--max-control", "300", "--peak-error", "10"]);
     let (words, facts) = text.split_once(" - gain: ").unwrap();
-    assert!(code == 0 && words.contains("T = 1. At sigma = ") && !facts.contains("(proved: "), "{text}");
+    assert!(code == 0 && words.contains("exponentially to it. At sigma = ") && !facts.contains("(proved: "), "{text}");
     assert!(
         words.contains(", |e| <= 10 (proved: ") && words.contains(") in the transient, |u| <= 300 (proved: "),
         "{text}"

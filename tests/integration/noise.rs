@@ -155,8 +155,8 @@ fn the_way_from_an_aligned_start_is_bounded_by_the_peak() {
         let words = [
             " (t - t_0)) undisturbed, disturbed at most ",
             " (t - t_0)), disturbed + ",
-            "exp(-rate (t - t_0)), in the loop without noise, disturbance and rounding: a part of the claim",
-            "exp(-rate (t - t_0)): a part of the claim",
+            "exp(-rate (t - t_0)), in the loop without noise, disturbance and rounding. This is a part of the claim",
+            "exp(-rate (t - t_0)). This is a part of the claim",
             "the start is z = M e of the measured e",
             "exp(-rate (t - t_0)) + the limit",
         ];

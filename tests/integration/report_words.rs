@@ -158,8 +158,8 @@ fn a_report_has_four_digits_and_the_exact_gain_once() {
 fn what_is_said_of_the_rate_is_what_was_asked_for() {
     let said = "The rate of convergence depends on n_o and is ";
     for (flags, expected) in [
-        (&["--n-o", "1"][..], "part of the claim for the numbers below alone; sigma*"),
-        (&[], "not part of the claim; sigma*"),
+        (&["--n-o", "1"][..], "part of the claim only for the numbers that were asked for. sigma is"),
+        (&[], "not part of the claim. sigma is"),
     ] {
         let flags = [&["specs/paper-example.json", "--full", "--no-alternatives", "--sigma", "60"], flags].concat();
         let text = in_one_line(&certify(&flags));

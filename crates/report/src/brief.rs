@@ -39,7 +39,7 @@ pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences
                 None => format!("$`|u|`$ never exceeds the {} that the actuator takes", clean(&actuator.max.text)),
                 Some(_) => format!("{} at all times, as the actuator takes it", words::taken(actuator)),
             };
-            format!("$`sigma = {sigma}`$ in 1/time, this one alone; {kept}; {same}")
+            format!("$`sigma = {sigma}`$ in 1/time, this gain alone; {kept}; {same}")
         }
         (Some(_), None) => {
             format!("$`sigma = {sigma}`$ in 1/time, as it was given, or any larger; {same}")
@@ -47,13 +47,13 @@ pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences
         (None, None) if !run.limits.is_empty() => {
             let least = run.smallest_gain.map_or_else(String::new, |least| {
                 format!(
-                    "; $`sigma*`$, the smallest gain for which the loop is proved, is about {} (an estimate)",
+                    "; without these limits the smallest gain $`sigma*`$ is about {} (an estimate)",
                     estimate(least)
                 )
             });
             format!(
-                "$`sigma = {sigma}`$ in 1/time, the smallest one found that keeps to what was asked for; the loop is proved for every \
-                 larger one, too, with other bounds; {same}{least}{}",
+                "$`sigma = {sigma}`$ in 1/time, the smallest gain found that keeps the limits asked for; every larger gain is certified, too, but \
+                 with other bounds; {same}{least}{}",
                 // The limit holds for every n_o, so without oscillators too.
                 match run.limits.steady_error {
                     Some(_) if run.for_n_o.is_empty() =>
@@ -94,7 +94,7 @@ pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences
     // Bounds by the number of oscillators say nothing of other sets of harmonics, of which the claim is, too.
     let of_first = run.is_for_every_set() && run.by_count.as_ref().is_some_and(ByCount::is_about_all);
     let which =
-        if of_first { " ($`|e|`$ and $`|u|`$ with every $`n_o`$; both at this gain)" } else { " (both at this gain)" };
+        if of_first { " (all at this gain; $`|e|`$ and $`|u|`$ with every $`n_o`$)" } else { " (all at this gain)" };
     let control = Some((&control, which));
     let transient = (upper(&error_box[0]), &peak);
     facts.push(("periodic solution", periodic_solution(run.spec, &periodic, transient, control)));
@@ -171,7 +171,7 @@ pub(super) fn of_samples(
     let witness = &proof.witness;
     // That gain stands exactly in the sentence above: the claim is about no other.
     let gain = format!(
-        "$`sigma = {}`$ in 1/time and $`h = {}`$ only; neither a larger gain nor faster sampling follows",
+        "only $`sigma = {}`$ in 1/time with $`h = {}`$; the claim says nothing about a larger gain or a shorter sampling period",
         write_exact(&witness.sigma),
         clean(&run.sampling.step.text)
     );
@@ -274,8 +274,8 @@ fn norms(spec: &Specification, what: &str) -> String {
 /// The initial set, of a plant the ball in it, and where its sizes are from.
 fn initial_set(spec: &Specification, set: &ClaimedSet, [x, e, ..]: &[Enclosure; 4], when: &str) -> String {
     let ball = spec.plant().and_then(|plant| claimed_ball(plant, &set.x0));
-    let ball =
-        ball.map_or_else(String::new, |ball| format!("; so from $`|x - x_0| <= {}`$", exact(&ball, Direction::Down)));
+    let ball = ball
+        .map_or_else(String::new, |ball| format!("; it contains $`|x - x_0| <= {}`$", exact(&ball, Direction::Down)));
     let own = words::origin_of_sizes(spec, set, [x, e]);
     format!("{}, at {when}{ball}; {own}", words::set(spec, set))
 }
@@ -308,7 +308,7 @@ fn periodic_solution(
 /// The mechanism that asks for most of sigma*, and the datum that would lower it most.
 fn limited_by(run: &Certification<'_>) -> Option<String> {
     let binding = run.binding.filter(|_| run.given_gain.is_none())?;
-    let best = run.sensitivities.first().map(|(datum, gain)| {
+    let best = run.sensitivities.first().filter(|(_, gain)| *gain >= sensitivity::TOLD).map(|(datum, gain)| {
         format!(
             "; {} lowers $`sigma*`$ by about {} %",
             sensitivity::one_per_cent(run.spec, *datum),
@@ -331,17 +331,18 @@ const SHORT: usize = 12;
 
 /// The interval of the input gain.
 fn uncertain_gain(spec: &Specification) -> Option<String> {
-    let (interval, gain) = (words::input_gain(spec)?, spec.input_gain.as_ref()?);
+    let gain = spec.input_gain.as_ref()?;
+    let which = words::input_gain(spec, ["the constant", "any constant from"])?;
     let exact = gain.nominal.as_rational().map_or_else(|| clean(&gain.nominal.text), write_exact);
     let nominal = if exact.len() <= SHORT { exact } else { format!("about {}", estimate(gain.nominal.to_f64())) };
-    Some(format!("any constant from {interval}; the regulator divides its output by the nominal gain, {nominal}"))
+    Some(format!("{which}; the regulator divides its output by the nominal gain, {nominal}"))
 }
 
 /// What the intervals of parameters cost.
 fn interval_costs(spec: &Specification, all: &[(String, Option<f64>)], gain: &str) -> Option<String> {
     let found = all.iter().filter_map(|(name, sigma)| Some((name, (*sigma)?)));
     let costs: Vec<String> = found
-        .map(|(name, sigma)| format!("{} with {} known exactly", estimate(sigma), words::of_interval(spec, name)))
+        .map(|(name, sigma)| format!("{} if {} were known exactly", estimate(sigma), words::of_interval(spec, name)))
         .collect();
     (!costs.is_empty()).then(|| format!("{gain} would be about {} (estimates)", costs.join(", ")))
 }

@@ -31,14 +31,16 @@ pub(super) fn section(spec: &Specification, found: Option<&ByCount>, asked: &[u3
     }
     let is_family = spec.plant().is_some_and(|plant| plant.parameters.intervals().next().is_some());
     let all = is_family || spec.input_gain.is_some();
-    let says = "Proved at this gain by the number of oscillators: steady along the periodic solution, largest at all times from the initial set";
     let of = if all { ", for every plant and gain of the actuator of the claim" } else { "" };
-    let who = if *checked {
-        "; the certificate has them, a ten-thousandth larger at most."
-    } else {
-        "; no independent program checks them."
+    let who = match checked {
+        true => "The certificate has them, at most 0.01 % larger.",
+        false => "No independent program checks them.",
     };
-    vec![Block::says(format!("{says}{of}{who}")), Block::Table(table)]
+    let says = format!(
+        "Proved at this gain for each number of oscillators{of}: steady values along the periodic solution, largest values at all times from the initial set. \
+         {who}"
+    );
+    vec![Block::says(says), Block::Table(table)]
 }
 
 /// `0, 1, 5`.

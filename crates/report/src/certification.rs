@@ -52,7 +52,9 @@ impl Readable for Report<'_> {
             blocks.extend(constants::sections(run));
         }
         blocks.extend(sensitivity::section(run));
-        blocks.extend(self.consequences.iter().flat_map(|all| consequences::section(run.spec, all)));
+        blocks.extend(
+            self.consequences.iter().flat_map(|all| consequences::section(run.spec, all, run.by_count.is_some())),
+        );
         blocks.extend(gains::section(run));
         blocks.extend(exact_regulation::section(run, rechecked));
         blocks.extend(relative_degree::section(run));

@@ -18,20 +18,27 @@ const PRACTICAL: u64 = 1000;
 /// Where there is no claim.
 pub(super) const UNANSWERED: &str = "The targets are not answered: without a certified gain there is no error bound.";
 
-/// The section of the report.
-pub(super) fn section(spec: &Specification, consequences: &Consequences) -> Vec<Block> {
+/// The section of the report; `by_count`: whether a table of bounds by the number of oscillators stands above, which are of one gain.
+pub(super) fn section(spec: &Specification, consequences: &Consequences, by_count: bool) -> Vec<Block> {
     let mut blocks = vec![Block::heading("The regulated error"), Block::List(psi_items(spec, consequences))];
     let (at, which) = match spec.actuator {
         None => (
             "at $`sigma*`$ and for every larger $`sigma`$",
-            " $`psi_1/sigma`$ says how $`sup|e|`$ falls with $`sigma`$ whatever $`n_o`$ is, the table what each $`n_o`$ is worth at $`sigma*`$: both hold, and the \
-             smaller bound counts.",
+            " $`psi_1/sigma`$ shows how $`sup|e|`$ falls with $`sigma`$ for every $`n_o`$; the table shows what each $`n_o`$ brings at $`sigma*`$. Both \
+             hold: use the smaller bound.",
         ),
         Some(_) => ("at the gain of the claim", ""),
     };
+    let weaker = match by_count {
+        true => {
+            " The table near the top of the report is worked out for one number of oscillators at a time and for one gain alone, so its bounds are smaller \
+                 as a rule. Where both give a bound, use the smaller one."
+        }
+        false => "",
+    };
     blocks.push(Block::says(format!(
-        "Bounds of the error along the periodic solution, {at}, by the number of oscillators.{which} They follow from the claim, are \
-         computed with enclosures, and have no independent check:"
+        "Bounds of the error along the periodic solution for each number of oscillators, {at}.{which}{weaker} This program computes them from the \
+         claim with enclosures; no independent program checks them:"
     )));
     blocks.push(Block::Table(table(&consequences.by_n_o)));
     blocks.extend(consequences.mistuned.as_ref().map(|mistuned| Block::says(mistuned_words(spec, mistuned))));
@@ -51,7 +58,7 @@ fn mistuned_words(spec: &Specification, mistuned: &MistunedSummary) -> String {
         upper(largest)
     );
     let worth = match (*last_that_pays, *enough) {
-        (0, _) => "With this no oscillator lowers a bound: the table is the same for every $`n_o`$.".to_owned(),
+        (0, _) => "At this distance no oscillator lowers a bound: the table is the same for every $`n_o`$.".to_owned(),
         (last, enough) => {
             let last_words = match last == MAX_TUNED as u64 {
                 true => format!(
@@ -69,9 +76,9 @@ fn mistuned_words(spec: &Specification, mistuned: &MistunedSummary) -> String {
 
 /// The section of the report on the regulator at samples.
 pub(super) fn sampled_section(consequences: &SampledConsequences) -> Vec<Block> {
-    let says = "Bounds of the error along the periodic solution, between samples too, at this gain and sampling period alone, by the number of \
-                oscillators, up to the largest that the samples can tell apart. They follow from the claim, are computed with enclosures, and have \
-                no independent check:";
+    let says = "Bounds of the error along the periodic solution, between samples too, for each number of oscillators that the samples can tell apart. They \
+                hold at this gain and sampling period alone. This program computes them from the claim with enclosures; no independent program \
+                checks them:";
     vec![Block::heading("The regulated error"), Block::says(says), Block::Table(table(&consequences.by_n_o))]
 }
 

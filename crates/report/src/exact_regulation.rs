@@ -16,7 +16,7 @@ pub(super) fn section(run: &Certification<'_>, rechecked: bool) -> Vec<Block> {
             let set = &proof.witness.set;
             format!(
                 "$`sigma*_oo = {}`$: with infinitely many oscillators and any $`sigma >= sigma*_oo`$, every solution from {} is \
-                 bounded, and {}. No rate is claimed, and nothing about $`z`$. This uses the bounding functions up to {}.",
+                 bounded, and {}. Nothing is claimed about a rate or about $`z`$. This uses the bounding functions up to {}.",
                 write_exact(&claim.witness.sigma),
                 words::set(run.spec, set),
                 words::limit(run.spec),

@@ -21,8 +21,8 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
     let mut blocks = vec![
         Block::heading("For given numbers of oscillators"),
         Block::says(format!(
-            "For every start in the set $`|e(t) - e_per(t)| <= factor exp(-rate (t - t_0))`${}: a part of the claim, for this $`n_o`$ and this gain \
-             alone, proved from the bounds on the error box, or from the derivatives there. The factor is for the whole set at once, and far above what most \
+            "For every start in the set $`|e(t) - e_per(t)| <= factor exp(-rate (t - t_0))`${}. This is a part of the claim, for this $`n_o`$ and this gain \
+             alone. It is proved from the bounds on the error box, or from the derivatives there. The factor is for the whole set at once and far above what most \
              starts need. What limits the rate is an estimate. `not proved` says nothing either way.",
             undisturbed(run.spec.disturbances.any())
         )),
@@ -31,8 +31,8 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
     blocks.extend(not_proved(&run.for_n_o, &run.why_no_rate()));
     if run.matrix_arguments().is_some() && run.for_n_o.iter().any(|found| found.bound.is_none()) {
         blocks.push(Block::says(
-            "The claim rests on a matrix inequality, and its rates on the first derivatives on the whole error box: where the loop would grow with \
-             some of them that stay as they are, no rate is proved, although a solution does not stay there.",
+            "The claim rests on a matrix inequality. A rate needs the first derivatives on the whole error box: no rate is proved if the loop would grow \
+             with some of these derivatives held constant, although no solution stays where they are so.",
         ));
     }
     blocks.extend(noise_section(run));
@@ -89,11 +89,11 @@ fn at_other_gains(
             |row: &RowNoise| format!("{} at the gain {}", exact(&row.limit, Direction::Up), write_exact(&row.sigma));
         let mut parts = Vec::new();
         if noise.is_err() {
-            parts.push(format!("of the larger gains that are compared it is proved first with {}", at(first)));
+            parts.push(format!("it is proved at a larger gain of the table, first with the limit {}", at(first)));
         }
         let than = noise.as_ref().map_or(&first.limit, |own| &own.limit);
         if least.limit.to_f64() < LESS * than.to_f64() {
-            parts.push(format!("the least in the limit that is proved is {}", at(least)));
+            parts.push(format!("the smallest limit that is proved is {}", at(least)));
         }
         if !parts.is_empty() {
             blocks.push(Block::says(format!("$`n_o = {n_o}`$: {}.", parts.join("; "))));
@@ -164,7 +164,7 @@ fn disturbed(spec: &Specification, asked: Vec<(u32, Result<Shown, NoNoiseBound>)
         Block::heading(*title),
         Block::says(format!(
             "{words} $`|e(t) - e_per(t)|`$ is at most this in the limit and at all times from the start on, for every \
-             start in the set: a part of the claim, for this $`n_o`$ and this gain alone. $`e_per`$ is of the periodic solution without {without}{}.",
+             start in the set. This is a part of the claim, for this $`n_o`$ and this gain alone. $`e_per`$ is of the periodic solution without {without}{}.",
             match words::limit_adds_to_the_way(spec) {
                 true => format!(
                     "; in the transient $`|e(t) - e_per(t)| <= factor exp(-rate (t - t_0)) + the limit`${place}"

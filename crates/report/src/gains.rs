@@ -5,32 +5,45 @@ use serde_json::{Value, json};
 use sigmastar_document::number::{exact, full, upper};
 use sigmastar_document::{Block, Table};
 use sigmastar_exact::number::{Direction, write_exact};
+use sigmastar_lang::spec::Specification;
 use sigmastar_prove::certify::{ByCount, Certification, CountProof, GainRow, SampledCertification};
 
 /// The table of a claim in continuous time; nothing where there are no rows but that of the claim.
 pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
     let of_first = run.gains.first().map_or(&[][..], |row| &row.steady_with);
     let steady: Vec<String> = of_first.iter().map(|(n_o, _)| format!("steady $`|e|`$, {n_o}")).collect();
-    let says = "Steady is along the periodic solution, of the error with so many oscillators as the column says; largest is in the transient from $`|e| <= E0`$ and the rest \
-                of the initial set, of which a size that the file does not state goes with the gain: it is at least twice the bound of the periodic solution there. \
-                Each row is proved, for every $`n_o`$ but where one is named, with a witness of its own that no independent program checks: \
-                `certify --sigma V -o FILE` writes a certificate, and `sampling` lists the longest sampling periods of such gains.";
+    let says = "Steady values hold along the periodic solution; the number in the title of a column is the number of oscillators. Largest values hold in the \
+                transient from the initial set, where $`|e| <= E0`$.";
+    let proved = "Each row is proved, for every $`n_o`$ unless the title names one. No independent program checks the rows: `certify --sigma V -o FILE` writes a \
+                  certificate of one, and `sampling` lists the longest sampling periods of such gains.";
+    let sizes = sizes(run.spec);
     let own = match &run.by_count {
         Some(ByCount { proof: CountProof::Trials { .. }, .. }) => {
-            " Only the first row counts the bounds by the number of oscillators. Those at the other gains are in the reports of these gains, and may be \
-             far smaller than these rows."
+            " Only the first row uses the bounds by the number of oscillators. At the other gains such bounds may be far smaller than the row says: \
+             `certify --sigma V` shows them."
         }
         _ => "",
     };
-    table(&run.gains, &steady, &format!("{says}{own}"))
+    table(&run.gains, &steady, &format!("{says}{sizes} {proved}{own}"))
 }
 
 /// The table of a claim at samples; nothing where there are no rows but that of the claim.
 pub(super) fn sampled_section(run: &SampledCertification<'_>) -> Vec<Block> {
-    let says = "At the same samples; steady is along the periodic solution, largest in the transient from $`|e| <= E0`$ and the rest of the initial set, of which a \
-                size that the file does not state goes with the gain: it is at least twice the bound of the periodic solution there. Each row is proved, for every $`n_o`$ below half of \
-                the samples but where one is named, and for that gain alone; no independent program checks it: `certify --sigma V -o FILE` writes a certificate.";
-    table(&run.gains, &["steady $`|e|`$".to_owned()], says)
+    let says = "The sampling period is the same in all rows. Steady values hold along the periodic solution, largest values in the transient from the initial set, where $`|e| <= E0`$.";
+    let proved = "Each row is proved for its gain alone, for every $`n_o`$ below half of the samples unless the title names one. No independent program checks the \
+                  rows: `certify --sigma V -o FILE` writes a certificate of one.";
+    let sizes = sizes(run.spec);
+    table(&run.gains, &["steady $`|e|`$".to_owned()], &format!("{says}{sizes} {proved}"))
+}
+
+/// Which sizes of the initial set differ from row to row; nothing where the document states all of them.
+fn sizes(spec: &Specification) -> &'static str {
+    match spec.initial_set.given() {
+        [x0, e0] if e0.is_none() || (x0.is_none() && spec.state_name().is_some()) => {
+            " The file leaves sizes of this set open: at each gain they are at least twice the bound of the periodic solution there."
+        }
+        _ => "",
+    }
 }
 
 fn table(rows: &[GainRow], steady: &[String], says: &str) -> Vec<Block> {
@@ -92,10 +105,13 @@ pub(super) fn to_use(rows: &[GainRow]) -> Option<(&'static str, String)> {
     if row.sigma == own.sigma {
         return None;
     }
-    // A set whose sizes the file does not state goes with the gain.
-    let from = if row.e0 == own.e0 { String::new() } else { format!(" from {}", exact(&row.e0, Direction::Down)) };
+    // A set whose sizes the file does not state has other ones at another gain.
+    let set = match row.e0 == own.e0 {
+        true => String::new(),
+        false => format!("; its initial set has $`|e| <= {}`$", exact(&row.e0, Direction::Down)),
+    };
     let said = format!(
-        "$`sigma = {}`$: $`|e| <= {}`${from}, $`|u| <= {}`$ at all times with every $`n_o`$",
+        "$`sigma = {}`$ keeps $`|e| <= {}`$ and $`|u| <= {}`$ at all times, with every $`n_o`${set}",
         write_exact(&row.sigma),
         upper(&row.peak),
         upper(&(&row.control.steady + &row.control.transient)),

@@ -137,14 +137,12 @@ fn kept_json(limits: &Limits, bounds: &Bounds<'_>) -> Option<Value> {
     (!fields.is_empty()).then(|| fields.into())
 }
 
-/// " and an actuator that takes |u| <= 50 (u does not exceed it from the set)"; nothing where there is none.
+/// " and an actuator that takes |u| <= 50 (u stays within it)"; nothing where there is none.
 pub(super) fn of_actuator(spec: &Specification) -> String {
     spec.actuator.as_ref().map_or_else(String::new, |actuator| {
-        let kept = if actuator.range.is_none() {
-            "$`u`$ does not exceed it from the set"
-        } else {
-            "from the set it stays there"
-        };
-        format!(" and an actuator that takes {} ({kept})", words::taken(actuator))
+        format!(
+            " and an actuator that takes {} (solutions from the set below stay within this limit)",
+            words::taken(actuator)
+        )
     })
 }

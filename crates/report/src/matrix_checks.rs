@@ -78,7 +78,7 @@ pub(super) fn section(checks: &MatrixChecks, sylvester: Option<&SylvesterCheck>)
             None => "",
         };
         format!(
-            "Contraction in mean squares, asked for by no condition: the spectral radius of the matrix M of upper bounds \
+            "Contraction in mean squares (no condition needs it): the spectral radius of the matrix M of upper bounds \
              lies in [{}, {}], {unique}{stein}.",
             exact(low, Direction::Down),
             exact(up, Direction::Up)

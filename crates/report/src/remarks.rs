@@ -76,8 +76,8 @@ fn far_above_its_samples(entries: &[ProvedValue]) -> Option<String> {
     let rated = entries.iter().filter_map(|entry| Some((ratio(&entry)?, entry)));
     let (_, entry) = rated.max_by(|(one, _), (other, _)| one.total_cmp(other))?;
     Some(format!(
-        " One bound is far above its samples: $`{}`$ ($`{}`$) is proved to be at most {}, and samples reach {}. A formula that is \
-         less steep, or a smaller `domain`, may bring the two together, and a smaller gain.",
+        " One bound is far above its samples: $`{}`$ ($`{}`$) is proved to be at most {}, and samples reach {}. A less steep formula \
+         or a smaller `domain` may bring the two together, and so lower the gain.",
         entry.bound.field(),
         entry.bound.of_what(),
         exact(&entry.value, Direction::Up),
@@ -115,7 +115,7 @@ fn by_norms(spec: &Specification, asked: bool, what: &str) -> Option<String> {
         values.inequality.is_some() || values.joint_stability.is_some() || values.at_samples.stability.is_some();
     (asked && spec.plant().is_some_and(|plant| plant.states() > 0) && !by_matrix).then(|| {
         format!(
-            "Remark: with `--n-o` the claim rests on norms, from which {what} proved; without it a matrix inequality may serve for a smaller gain."
+            "Remark: with `--n-o` the claim rests on norms, because {what} proved from them. Without `--n-o` a matrix inequality may prove a smaller gain."
         )
     })
 }
@@ -133,16 +133,16 @@ fn no_worth_of_oscillators(run: &Certification<'_>) -> Option<String> {
     }
     let advice = match (run.spec.period.interval(), run.spec.internal_model.matched) {
         (Some(_), _) => {
-            "the oscillators are not at the harmonics where the period is known by an interval alone. A narrower interval"
+            "only an interval of the period is known, so the oscillators are not at the harmonics. A narrower interval"
         }
         (None, false) => {
-            "`matched` is false, so that the oscillators are not at the harmonics. A `base_frequency` of 2*pi/period, exactly, with `matched`"
+            "`matched` is false, so the oscillators are not at the harmonics. A `base_frequency` of exactly 2*pi/period, with `matched`,"
         }
-        (None, true) => "at this gain it is the size of the loop that bounds the error. A smaller load",
+        (None, true) => "at this gain the size of the loop bounds the error. A smaller load",
     };
     Some(format!(
-        "Remark: the bound of the steady error hardly falls with the number of oscillators, {} with none and {} with {MANY}: {advice} lets it \
-         fall; a larger gain lowers all of them (`--steady-error V` seeks one).",
+        "Remark: the bound of the steady error hardly falls with the number of oscillators: it is {} with none and {} with {MANY}, because {advice} lets it \
+         fall. A larger gain lowers the bounds for every number of oscillators (`--steady-error V` seeks one).",
         upper(&none),
         upper(&many)
     ))

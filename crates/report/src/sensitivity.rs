@@ -11,6 +11,9 @@ use sigmastar_propose::search::Datum;
 use sigmastar_prove::certify::{Certification, Verdict};
 use sigmastar_theory::transfer::TransferProof;
 
+/// The least share of sigma* that a better datum has to save to be told: what is less is rounding of the search.
+pub(super) const TOLD: f64 = 1e-6;
+
 /// The binding condition and the sensitivities of the sharp derivation.
 pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
     if run.verdict != Verdict::Certified {
@@ -27,8 +30,8 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
     ];
     blocks.extend(run.alternatives.by_norms.map(|sigma| {
         Block::says(format!(
-            "By norms in the place of the matrix inequality: $`sigma*`$ about {} (an estimate at few samples; better coordinates may \
-             bring less).",
+            "With norms instead of the matrix inequality $`sigma*`$ would be about {} (an estimate at few samples; better coordinates may \
+             lower it).",
             estimate(sigma)
         ))
     }));
@@ -40,24 +43,24 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
     );
     if !run.interval_costs.is_empty() {
         blocks.push(Block::says(
-            "What each interval costs: $`sigma*`$ with it closed to its nominal value, sought the whole way again and not decided.",
+            "What each interval costs: $`sigma*`$ if this value were exactly the nominal one. It comes from a full search and is not proved.",
         ));
         let costs = run.interval_costs.iter().map(|(name, sigma)| [of_interval(run.spec, name), found(*sigma)]);
         blocks.push(Block::Table(Table::of(&["<exactly known", "$`sigma*`$"], costs)));
     }
     blocks.extend(ingredients(run).map(Block::Table));
     if !run.without_optional.is_empty() {
-        blocks.push(Block::says("What the optional data bring: $`sigma*`$ without each."));
+        blocks.push(Block::says("What each optional datum brings: $`sigma*`$ without it."));
         let without =
             run.without_optional.iter().map(|(datum, sigma)| [format!("$`{}`$", datum.field()), found(*sigma)]);
         blocks.push(Block::Table(Table::of(&["<without", "$`sigma*`$"], without)));
     }
-    let shown: Vec<_> = run.sensitivities.iter().filter(|(_, gain)| *gain >= 1e-6).collect();
+    let shown: Vec<_> = run.sensitivities.iter().filter(|(_, gain)| *gain >= TOLD).collect();
     if let Some((datum, gain)) = shown.first() {
         let sentence = one_per_cent(run.spec, *datum);
         blocks.push(Block::says(format!(
-            "{}{} lowers $`sigma*`$ by about {} %, more than any other of what is compared: {}. Floating point, re-optimised \
-             locally, not certified.",
+            "{}{} lowers $`sigma*`$ by about {} %, more than anything else that is compared: {}. These are estimates in floating point, \
+             re-optimised locally.",
             sentence[..1].to_uppercase(),
             &sentence[1..],
             estimate(100.0 * gain),
@@ -77,12 +80,12 @@ fn found(sigma: Option<f64>) -> String {
 
 /// What a start with z = M e would bring.
 pub(super) fn aligned(sigma: f64) -> String {
-    format!("$`sigma*`$ about {}, with the initial set `\"kind\": \"aligned\"` (an estimate)", estimate(sigma))
+    format!("$`sigma*`$ would be about {} with the initial set `\"kind\": \"aligned\"` (an estimate)", estimate(sigma))
 }
 
 /// What an input gain that is known would bring.
 pub(super) fn nominal_gain(sigma: f64) -> String {
-    format!("with the gain known to be the nominal one $`sigma*`$ is about {} (an estimate)", estimate(sigma))
+    format!("$`sigma*`$ would be about {} if the gain were exactly the nominal one (an estimate)", estimate(sigma))
 }
 
 /// What a datum is called in the file; the X0 of a plant may be given by a ball.
@@ -94,7 +97,7 @@ pub(super) fn name(spec: &Specification, datum: Datum) -> String {
     }
 }
 
-/// "one per cent smaller E0".
+/// "making E0 1 % smaller".
 pub(super) fn one_per_cent(spec: &Specification, datum: Datum) -> String {
     let larger = match datum {
         Datum::Alpha | Datum::Domain => true,
@@ -106,7 +109,7 @@ pub(super) fn one_per_cent(spec: &Specification, datum: Datum) -> String {
         Datum::Mu { .. } => "$`mu`$".to_owned(),
         _ => name(spec, datum),
     };
-    format!("one per cent {} {name}", if larger { "larger" } else { "smaller" })
+    format!("making {name} 1 % {}", if larger { "larger" } else { "smaller" })
 }
 
 /// What the sensitivities compare, and what they leave out.
@@ -141,6 +144,6 @@ fn ingredients(run: &Certification<'_>) -> Option<Table> {
     ];
     entries.extend(run.exact.as_ref().map(|claim| gain("$`sigma*_oo`$ ($`n_o`$ infinite)", &claim.witness.sigma)));
     let rows = entries.iter().map(|(name, _, text)| [name.clone(), text.clone()]);
-    let table = Table::of(&["<$`sigma*`$ and the two terms of C5 that it exceeds", "1/time"], rows);
+    let table = Table::of(&["<$`sigma*`$ and the two terms of C5 whose sum it exceeds", "1/time"], rows);
     Some(table.with_bars(entries.into_iter().map(|(_, value, _)| value).collect()))
 }

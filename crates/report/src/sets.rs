@@ -51,10 +51,10 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
     ];
     blocks.extend(boxes.figure().map(Block::Drawing));
     blocks.push(Block::says(format!(
-        "Solutions from the initial set stay in the error box around the periodic solution. The rate of convergence \
-         depends on $`n_o`$ and {}; $`sigma*`$ and the sets do not depend on $`n_o`$. $`sigma`$ is in 1/time.",
+        "Solutions from the initial set stay in the error box around the periodic solution. The gain and the sets are the same for every \
+         $`n_o`$. The rate of convergence depends on $`n_o`$ and {}. $`sigma`$ is in 1/time.",
         match run.rates().any(|(_, rate)| rate.is_some()) {
-            true => "is part of the claim for the numbers below alone",
+            true => "is part of the claim only for the numbers that were asked for",
             false => "is not part of the claim",
         }
     )));

@@ -20,8 +20,8 @@ pub(super) fn sentence(run: &Certification<'_>) -> String {
     let spec = run.spec;
     match (run.sigma_star(), run.claimed_set()) {
         (Some(sigma), Some(set)) => format!(
-            "Certified: with $`sigma = {}`${}, $`mu = {}`$ and base frequency $`{}`${}, for {}{}, every solution that starts, at any time, from {} converges exponentially to a T-periodic \
-             solution{}.{}",
+            "Certified: with $`sigma = {}`${}, $`mu = {}`$ and base frequency $`{}`${}, for {}{}, the closed loop has a T-periodic solution{}. Every solution \
+             that starts, at any time, from {} converges exponentially to it.{}",
             if spec.actuator.is_some() { write_exact(sigma) } else { exact(sigma, Direction::Up) },
             if spec.actuator.is_some() { "" } else { " (or any larger)" },
             clean(&spec.internal_model.mu.text),
@@ -29,11 +29,11 @@ pub(super) fn sentence(run: &Certification<'_>) -> String {
             limits::of_actuator(spec),
             words::oscillators("n_o >= 0", run.is_for_every_set().then_some("set of harmonics")),
             words::of_all(spec),
-            words::set(spec, set),
             match spec.period.interval() {
                 None => format!(", $`T = {}`$", clean(&spec.period.nominal().text)),
                 Some(_) => String::new(),
             },
+            words::set(spec, set),
             limits::sentence(run),
         ),
         _ => obstacles::sentence(run),
@@ -58,13 +58,13 @@ pub(super) fn detail(run: &Certification<'_>) -> Vec<Block> {
         blocks.push(about::facts(run.spec, None));
         if run.spec.actuator.is_some() {
             blocks.push(Block::says(
-                "The claim is about this gain alone: at another one the control may exceed what the actuator takes. From the set, \
-                 without noise, it never does, so that the saturation changes nothing.",
+                "The claim is about this gain alone. At another gain the control may exceed the limits of the actuator. At this gain, from the \
+                 initial set and without noise, it never does, so the saturation changes nothing.",
             ));
         } else if run.given_gain.is_some() {
             blocks.push(Block::says(
-                "The gain was given: the claim is about it and all larger ones, and smaller ones may certify too. How far it is \
-                 from the threshold is the relative margin of C5b.",
+                "The gain was given. The claim is about it and all larger gains; smaller gains may be certified, too. The relative margin of C5b says \
+                 how far this gain is from the threshold.",
             ));
         }
         blocks.push(Block::List(basis(run)));
@@ -131,8 +131,8 @@ pub(super) fn of_the_data(
     }
     items.push(format!("Assumed of the plant: {}.", assumed(spec, used, further)));
     items.push(
-        "Proved of the bounding functions: finite and nondecreasing there (a rate nonincreasing); of bounds of norms the \
-         positive parts are used. Proved of the weights: W1 to W3."
+        "Proved of the bounding functions: they are finite and nondecreasing there (a rate is nonincreasing). Of a bound of a norm the \
+         positive part is used. Proved of the weights: W1 to W3."
         .to_owned(),
     );
     items
@@ -150,9 +150,11 @@ pub(super) fn of_actuator(spec: &Specification) -> &'static str {
 /// What nobody proves: that the formulas are the plant, or that the data of a specification bound it up to the arguments that
 /// are used; and what is assumed of the actuator.
 pub(super) fn assumed(spec: &Specification, used: Option<[Enclosure; 2]>, further: Option<[Enclosure; 2]>) -> String {
-    let of_the_actuator = words::input_gain(spec).map_or_else(String::new, |interval| {
-        format!(", and that the gain of the actuator is one constant from {interval}")
-    });
+    let of_the_actuator = words::input_gain(
+        spec,
+        [", and that the gain of the actuator is", ", and that the gain of the actuator is one constant from"],
+    );
+    let of_the_actuator = of_the_actuator.unwrap_or_default();
     let of_the_period = words::period(spec)
         .map_or_else(String::new, |interval| format!(", and that the period is one constant from {interval}"));
     let of_its_limit = spec.actuator.as_ref().map_or_else(String::new, |actuator| {
@@ -199,8 +201,8 @@ fn of_the_transfer_bound(run: &Certification<'_>) -> Option<String> {
     run.claim().map(|claim| {
         match claim.transfer {
             TransferProof::Matched { .. } => {
-                "Used: the base frequency is exactly $`2 pi / period`$ (proved of the numbers given). `--transfer boxes` does \
-                 without."
+                "Used: the base frequency is exactly $`2 pi / period`$, which is proved of the given numbers. `--transfer boxes` does not \
+                 use it."
             }
             TransferProof::ClosedForm | TransferProof::Boxes(_) => "Not used: that the base frequency fits the period.",
         }

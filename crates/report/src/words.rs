@@ -85,11 +85,13 @@ fn multiple(size: &Rational, bound: &Enclosure) -> String {
     }
 }
 
-/// "0.8 to 1.25": the interval of the input gain, where the document has one.
-pub(super) fn input_gain(spec: &Specification) -> Option<String> {
+/// The input gain after the first of the words where both ends are written alike, its interval "0.8 to 1.25" after the second; `None` where the
+/// document has none.
+pub(super) fn input_gain(spec: &Specification, [one, interval]: [&str; 2]) -> Option<String> {
     spec.input_gain.as_ref().map(|gain| {
         let InputGain { low, high, .. } = gain;
-        let ends = format!("{} to {}", clean(&low.words()), clean(&high.words()));
+        let [from, to] = [low, high].map(|end| clean(&end.words()));
+        let ends = if from == to { format!("{one} {from}") } else { format!("{interval} {from} to {to}") };
         match (gain.of_parameters(), low.as_rational(), high.as_rational()) {
             (true, Some(low), Some(high)) => {
                 format!("{ends} (within {} to {})", exact(low, Direction::Down), exact(high, Direction::Up))
@@ -109,7 +111,7 @@ pub(super) fn of_interval(spec: &Specification, name: &str) -> String {
 /// " and every constant input gain from 0.8 to 1.25 and every plant with ...": all that a claim is about beside every number of
 /// oscillators.
 pub(super) fn of_all(spec: &Specification) -> String {
-    let gains = input_gain(spec).map(|interval| format!(" and every constant input gain from {interval}"));
+    let gains = input_gain(spec, [" and the input gain", " and every constant input gain from"]);
     let plants = spec.plant().and_then(|plant| members(&plant.parameters));
     let plants = plants.map(|members| format!(" and every plant with {members}"));
     let periods = period(spec).map(|interval| format!(" and every constant period T from {interval}"));

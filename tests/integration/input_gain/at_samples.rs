@@ -147,7 +147,7 @@ fn the_claim_and_the_report_say_so() {
         ),
         "{said}"
     );
-    assert!(said.contains("with input_gain known exactly"), "{said}");
+    assert!(said.contains("if input_gain were known exactly"), "{said}");
     // A claim about another interval than the document's is refused.
     let refused = |change: &dyn Fn(&mut Value)| {
         let mut other = written.clone();

@@ -28,7 +28,7 @@ impl Binding {
             Binding::Existence => "S2: below it no periodic solution is proved to exist",
             Binding::Slope { .. } => "C5: dq/de in the error box",
             Binding::InternalModel => "C5: how far the state of the internal model starts from the periodic solution",
-            Binding::Coupling => "C5: the loop through x in the error box, by df/de and dq/dx against the decay rate",
+            Binding::Coupling => "C5: the loop through x in the error box (df/de and dq/dx against the decay rate)",
             Binding::MatrixInequality => "(M): the matrix inequality of stability in the error box",
             Binding::JointMetrics => "stability (Jm); no Lyapunov function was found below this gain",
         }
@@ -83,7 +83,7 @@ impl Binding {
                  harmonics (q_0) lower it; so does a mu that fits the plant."
             }
             Binding::Coupling => {
-                "Smaller f_e or q_x, a larger alpha or a rate on the box, or coordinates of x in which they are, lower it."
+                "Smaller f_e or q_x, a larger alpha, a rate on the box, or coordinates of x with such bounds lower it."
             }
             // Only a plant's formulas have one.
             Binding::MatrixInequality | Binding::JointMetrics => self.of_plant(),
