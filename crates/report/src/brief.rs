@@ -171,7 +171,7 @@ pub(super) fn of_samples(
     let witness = &proof.witness;
     // That gain stands exactly in the sentence above: the claim is about no other.
     let gain = format!(
-        "only $`sigma = {}`$ in 1/time with $`h = {}`$; the claim says nothing about a larger gain or a shorter sampling period",
+        "$`sigma = {}`$ in 1/time with $`h = {}`$ only; no other gain or sampling period",
         write_exact(&witness.sigma),
         clean(&run.sampling.step.text)
     );

@@ -179,7 +179,7 @@ fn certified(run: &SampledCertification<'_>, proof: &SampledProof) -> String {
     format!(
         "Certified: the regulator at samples $`h = {}`$ apart ({samples} in a period){} with $`sigma = {}`$ and $`K = {}`$, $`mu = {}`$ and base \
          frequency $`{}`$, for {} and every phase of the samples{}{}. The closed loop has a T-periodic solution, $`T = {}`$. Every solution that \
-         starts, at a sampling instant, from {}{} converges exponentially to it.{}",
+         starts at a sampling instant from {}{} converges exponentially to it.{}",
         clean(&witness.sampling.text()),
         if witness.sampling.delayed { ", each control computed in the sample before it acts," } else { "" },
         write_exact(&witness.sigma),

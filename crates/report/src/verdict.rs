@@ -21,7 +21,7 @@ pub(super) fn sentence(run: &Certification<'_>) -> String {
     match (run.sigma_star(), run.claimed_set()) {
         (Some(sigma), Some(set)) => format!(
             "Certified: with $`sigma = {}`${}, $`mu = {}`$ and base frequency $`{}`${}, for {}{}, the closed loop has a T-periodic solution{}. Every solution \
-             that starts, at any time, from {} converges exponentially to it.{}",
+             that starts at any time from {} converges exponentially to it.{}",
             if spec.actuator.is_some() { write_exact(sigma) } else { exact(sigma, Direction::Up) },
             if spec.actuator.is_some() { "" } else { " (or any larger)" },
             clean(&spec.internal_model.mu.text),
