@@ -162,7 +162,8 @@ fn prove(
                 "rates at samples are proved with a claim by norms, of a law without a delay",
             );
         }
-        let about = (free, &proved.sizes, &claim.sigma, derivation.law());
+        let known = by_n_o.map(|witness| by_n_o::Known { claimed: &claim.by_n_o, witness });
+        let about = (free, &proved.sizes, &claim.sigma, derivation.law(), known);
         rates::prove(d, about, (&claim.rates, rates), lines)?;
     }
     if let Some(witness) = by_n_o {

@@ -51,7 +51,7 @@ fn list(oscillators: &Oscillators) -> String {
 /// All of them as JSON, and `null` where there are none.
 pub(super) fn counts_json(found: Option<&ByCount>) -> Value {
     let one =
-        |CountBounds { oscillators, or_more, steady_error, mean_square, steady_control, largest }: &CountBounds| {
+        |CountBounds { oscillators, or_more, steady_error, mean_square, steady_control, largest, .. }: &CountBounds| {
             let [peak, transient] = match largest {
                 Some(Largest { error, transient }) => [full(error), full(transient)].map(Value::String),
                 None => [Value::Null, Value::Null],

@@ -58,6 +58,7 @@ mod plant_paper;
 mod plant_rules;
 mod plant_support;
 mod rates;
+mod rates_by_n_o;
 mod sampled_certificates;
 mod sampled_claims;
 mod sampled_delay;

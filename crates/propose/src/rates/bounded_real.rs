@@ -8,6 +8,7 @@
 //! diagonal, and H^-1 the sum of theirs.
 
 use super::diagonal;
+use super::least_factor::least_factor;
 use super::proposal::{Numbers, Proposal};
 use super::riccati::Equation;
 use super::slopes_program::{Ball, closed, decay, matrices, moved};
@@ -28,6 +29,9 @@ const OF_GAIN: [f64; 7] = [0.01, 0.05, 0.2, 1.0, 5.0, 20.0, 100.0];
 
 /// By what share of the rate a Pi may miss its own.
 const NEARLY: f64 = 1e-3;
+
+/// By what share the rate of a program is above the one that is claimed: its matrices are semidefinite, and for a smaller rate definite.
+const ABOVE: f64 = 2e-2;
 
 /// The equation of one loop and one ball.
 pub struct BoundedReal {
@@ -119,6 +123,25 @@ impl BoundedReal {
         Some(Proposal { pi, numbers: OfStates { rate, states: self.of.states } })
     }
 
+    /// The same of which the factor of the bound is about the least for starts within these distances; `None` where the loop has too many states, or
+    /// nothing is found.
+    #[must_use]
+    pub fn propose_factor(
+        &self,
+        [largest, of_gain]: [f64; 2],
+        share: f64,
+        distances: [&Enclosure; 3],
+    ) -> Option<Proposal<OfStates>> {
+        let known = self.pi([largest * (1.0 + share) / 2.0, of_gain])?;
+        let (_, e_low) = diagonal::bounds_of_states(&known, self.of.states, distances)?;
+        let claimed = largest * share;
+        let distances = distances.map(Enclosure::upper_f64);
+        let rate = claimed * (1.0 + ABOVE);
+        let pi = least_factor((&self.of, &self.slopes), rate, (&known, e_low.to_f64()), distances)?;
+        let rate = round_f64(claimed, 6, Direction::Down)?;
+        Some(Proposal { pi, numbers: OfStates { rate, states: self.of.states } })
+    }
+
     /// Pi of the equation at a rate, for a multiplier of the input gain.
     fn pi(&self, [rate, of_gain]: [f64; 2]) -> Option<Mat<f64>> {
         let n = self.of.order();
@@ -180,5 +203,70 @@ impl Proposal<OfStates> {
     #[must_use]
     pub fn diagonal_bounds_of_states(&self, distances: [&Enclosure; 3]) -> Option<([Rational; 3], Rational)> {
         diagonal::bounds_of_states(&self.pi, self.numbers.states, distances)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use sigmastar_lang::spec::Specification;
+    use sigmastar_theory::data::Data;
+
+    /// The root of `(x_up dX^2 + e_up dE^2 + z_up dZ^2)/e_low`.
+    fn factor(proposal: &Proposal<OfStates>, distances: [&Enclosure; 3]) -> f64 {
+        let (upper, e_low) = proposal.diagonal_bounds_of_states(distances).unwrap();
+        let squares = upper.iter().zip(distances).map(|(upper, of)| upper.to_f64() * of.upper_f64() * of.upper_f64());
+        (squares.sum::<f64>() / e_low.to_f64()).sqrt()
+    }
+
+    /// A state that decays at the rate 2 and is driven by e, and q of x and e in a ball; with a known gain and an interval of it, and without states.
+    #[test]
+    fn a_program_has_a_smaller_factor_at_the_same_rate() {
+        let text = include_str!("../../../../specs/linear.json");
+        let mut spec = Specification::from_json("test", text).unwrap();
+        spec.input_gain = None;
+        let data = Data::new(&spec, 128);
+        let distances = [0.5, 2.0, 3.0].map(Enclosure::exactly);
+        let sigma = Rational::from(40);
+        for (states, n_o) in [(0, 0), (0, 2), (1, 0), (1, 1), (1, 3)] {
+            let oscillators: Vec<u32> = (1..=n_o).collect();
+            let of = MatrixLoop::new(&data, states, &sigma, &oscillators).doubles(1.0);
+            // (D - C)'(D - C) <= S with C = [[-2, 1], [0.5, 0]], S = I/16, or C = 0.5, S = 1/16.
+            let (signals, c) = (states + 1, [[-2.0, 1.0], [0.5, 0.5]]);
+            let c: Vec<Vec<f64>> = c[1 - states..].iter().map(|row| row[1 - states..].to_vec()).collect();
+            let square = |i: usize, j: usize| c.iter().map(|row| row[i] * row[j]).sum::<f64>();
+            let slopes = KnownSlopes {
+                columns: 0..signals,
+                q: (0..signals)
+                    .map(|i| (0..signals).map(|j| f64::from(i == j) / 16.0 - square(i, j)).collect())
+                    .collect(),
+                g: (0..signals).map(|i| (0..signals).map(|k| -c[k][i]).collect()).collect(),
+                h: (0..signals).map(|i| (0..signals).map(|j| f64::from(i == j)).collect()).collect(),
+            };
+            let equation = BoundedReal::new(of, vec![slopes]).unwrap();
+            let largest = equation.largest_rate().unwrap();
+            for share in [0.95, 0.5] {
+                let distances = distances.each_ref();
+                let plain = equation.propose(largest, share).unwrap();
+                let least = equation.propose_factor(largest, share, distances).unwrap();
+                assert_eq!(plain.numbers.rate, least.numbers.rate);
+                let rate = least.numbers.rate.to_f64();
+                assert_eq!(
+                    [&plain.pi, &least.pi].map(|pi| equation.proves(pi, rate)),
+                    [true; 2],
+                    "{states} {n_o} {share}"
+                );
+                let [plain, least] = [plain, least].map(|proposal| factor(&proposal, distances));
+                assert!(least < 0.97 * plain && least > 2.0, "{states} {n_o} {share}: {least} {plain}");
+            }
+        }
+        // Of too many oscillators there is none.
+        let many: Vec<u32> = (1..=8).collect();
+        let of = MatrixLoop::new(&data, 0, &sigma, &many).doubles(1.0);
+        let slopes = KnownSlopes { columns: 0..1, q: vec![vec![0.25]], g: vec![vec![0.0]], h: vec![vec![1.0]] };
+        let equation = BoundedReal::new(of, vec![slopes]).unwrap();
+        let largest = equation.largest_rate().unwrap();
+        assert!(equation.propose(largest, 0.95).is_some());
+        assert!(equation.propose_factor(largest, 0.95, distances.each_ref()).is_none());
     }
 }

@@ -11,6 +11,7 @@
 mod bounded_real;
 mod diagonal;
 mod least;
+mod least_factor;
 pub mod noise_search;
 pub mod oscillators;
 mod proposal;

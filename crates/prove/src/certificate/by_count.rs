@@ -2,7 +2,7 @@
 
 use super::fields::HARMONICS;
 use super::json::{exact, object, rows, series, vector, with_room};
-use crate::certify::{ByCount, CountBounds, CountProof};
+use crate::certify::{ByCount, CountBounds, CountProof, LoopSizes};
 use rug::Rational;
 use serde_json::{Value, json};
 use sigmastar_decide::bounds::StatesForm;
@@ -21,7 +21,7 @@ pub(super) fn claimed_counts(found: Option<&ByCount>) -> Option<(&'static str, V
     let found = found.filter(|found| found.checked)?;
     let room = found.room();
     let one = |bounds: &CountBounds| {
-        let CountBounds { oscillators, or_more, steady_error, mean_square, steady_control, largest } = bounds;
+        let CountBounds { oscillators, or_more, steady_error, mean_square, steady_control, largest, .. } = bounds;
         let numbers = |numbers: &[(&'static str, &Enclosure)]| {
             object(numbers.iter().map(|(name, value)| (*name, with_room(value, room))))
         };
@@ -88,28 +88,36 @@ pub(super) fn counts_in_words(
 /// The part of the witness.
 pub(super) fn count_witness(found: Option<&ByCount>) -> Option<(&'static str, Value)> {
     let found = found.filter(|found| found.checked)?;
+    let sizes = |bounds: &CountBounds, [of_states, of_past]: [bool; 2]| {
+        let LoopSizes { states, zeta, mean } = &bounds.sizes;
+        let all = [(of_states, "x", states), (true, "zeta", zeta), (of_past, "y", mean)];
+        let there = all.into_iter().filter(|(is_there, ..)| *is_there);
+        object(there.map(|(_, name, size)| (name, with_room(size, found.room_of_sizes()))))
+    };
     let part = match &found.proof {
-        CountProof::Linear { forms, sizes } => ("linear", linear((forms, sizes), found.room())),
-        CountProof::Trials(trials) => ("trials", trials.iter().map(|(trial, proof)| of_trial(trial, proof)).collect()),
+        CountProof::Linear { forms } => {
+            let has_states = forms.iter().any(|form| !form.matrix.is_empty());
+            let has_past = forms.iter().any(|form| form.held.as_ref().is_some_and(|held| held.past.is_some()));
+            let sizes = found.counts.iter().map(|bounds| sizes(bounds, [has_states, has_past])).collect();
+            ("linear", object([("forms", forms.iter().map(falling).collect()), ("sizes", sizes)]))
+        }
+        CountProof::Trials(trials) => {
+            let one = |((trial, proof), bounds): (&(Trial, TubeProof), &CountBounds)| {
+                let mut part = of_trial(trial, proof);
+                part["sizes"] = sizes(bounds, [proof.states.is_some(), false]);
+                part
+            };
+            ("trials", trials.iter().zip(&found.counts).map(one).collect())
+        }
     };
     Some((BY_N_O, object([part])))
 }
 
-fn linear((forms, sizes): (&[Falling], &[[Enclosure; 3]]), room: &Rational) -> Value {
-    let form = |Falling { matrix, p_up, weight, k_p, held }: &Falling| {
-        let numbers = [("P", rows(matrix)), ("p_up", exact(p_up)), ("w", exact(weight)), ("k_p", exact(k_p))];
-        let past = held.as_ref().and_then(|held| held.past.as_ref());
-        let at_samples = held.iter().map(|held| ("lambda", exact(&held.lambda)));
-        object(numbers.into_iter().chain(at_samples).chain(past.map(|past| ("gm", exact(past)))))
-    };
-    let has_states = forms.iter().any(|form| !form.matrix.is_empty());
-    let has_past = forms.iter().any(|form| form.held.as_ref().is_some_and(|held| held.past.is_some()));
-    let size = |[states, zeta, mean]: &[_; 3]| {
-        let states = has_states.then(|| ("x", with_room(states, room)));
-        let mean = has_past.then(|| ("y", with_room(mean, room)));
-        object(states.into_iter().chain([("zeta", with_room(zeta, room))]).chain(mean))
-    };
-    object([("forms", forms.iter().map(form).collect()), ("sizes", sizes.iter().map(size).collect())])
+fn falling(Falling { matrix, p_up, weight, k_p, held }: &Falling) -> Value {
+    let numbers = [("P", rows(matrix)), ("p_up", exact(p_up)), ("w", exact(weight)), ("k_p", exact(k_p))];
+    let past = held.as_ref().and_then(|held| held.past.as_ref());
+    let at_samples = held.iter().map(|held| ("lambda", exact(&held.lambda)));
+    object(numbers.into_iter().chain(at_samples).chain(past.map(|past| ("gm", exact(past)))))
 }
 
 fn of_trial(trial: &Trial, proof: &TubeProof) -> Value {

@@ -1,7 +1,7 @@
 //! Bounds for each number of oscillators, of plants that are linear in x and e (derivation, 14.3, 14.5; at samples 14.6).
 
 use super::certification::Certification;
-use super::gain_row::{ByCount, CountBounds, CountProof, GainRow, Largest, RowProof};
+use super::gain_row::{ByCount, CountBounds, CountProof, GainRow, Largest, LoopSizes, RowProof};
 use super::sampled::SampledCertification;
 use super::trials::{Asked, by_trials};
 use rug::Rational;
@@ -94,11 +94,11 @@ fn by_count((plant, answers): (&Plant, &Answers<'_>), spec: &Specification, loop
             mean_square: sizes.mean_square.clone(),
             largest: Some(Largest { error: &sizes.error + &peak.error, transient }),
             steady_control: steady,
+            sizes: LoopSizes { states: sizes.states.clone(), zeta: sizes.zeta.clone(), mean: sizes.mean.clone() },
         })
     };
     let counts = all.into_iter().zip(&found).map(bounds).collect::<Option<_>>()?;
-    let sizes = found.into_iter().map(|sizes| [sizes.states, sizes.zeta, sizes.mean]).collect();
-    Some(ByCount { counts, proof: CountProof::Linear { forms, sizes }, checked: false })
+    Some(ByCount { counts, proof: CountProof::Linear { forms }, checked: false })
 }
 
 /// A form that is proved to fall, with a small peak for the start of a loop without oscillators.

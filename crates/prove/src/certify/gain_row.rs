@@ -8,7 +8,9 @@ use sigmastar_decide::trial::{Trial, TubeProof};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, round_rational};
 use sigmastar_lang::spec::{Oscillators, Specification};
+use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::control::Control;
+use sigmastar_theory::derivation::initial_set::{ClaimedSet, claimed_distances};
 use sigmastar_theory::derivation::targets::{Target, TargetKind};
 use std::sync::{Arc, LazyLock};
 
@@ -56,8 +58,21 @@ pub struct CountBounds {
     pub mean_square: Enclosure,
     /// Of what is put out along it.
     pub steady_control: Enclosure,
+    /// Of how large the rest of the loop is along it.
+    pub sizes: LoopSizes,
     /// For every solution from the set, where they are proved.
     pub largest: Option<Largest>,
+}
+
+/// Bounds of the states of a loop along its periodic solution.
+#[derive(Clone, Debug)]
+pub struct LoopSizes {
+    /// Of `|L^-1 (x - x_0)|`.
+    pub states: Enclosure,
+    /// Of `|zeta|_N`.
+    pub zeta: Enclosure,
+    /// Of |y|, where the law at samples has a delay; else 0.
+    pub mean: Enclosure,
 }
 
 /// Bounds for every solution from the set, at all times.
@@ -101,8 +116,6 @@ pub enum CountProof {
     Linear {
         /// Forms that fall along the differences of solutions.
         forms: Vec<Falling>,
-        /// For each of them bounds of `|L^-1 (x - x_0)|`, of `|zeta|_N` and, where the law has a delay, of `|y|` along the periodic solution.
-        sizes: Vec<[Enclosure; 3]>,
     },
     /// A trial for each number, and what is proved around it (derivation, 14.4).
     Trials(Vec<(Trial, TubeProof)>),
@@ -112,8 +125,17 @@ pub enum CountProof {
 static OF_LINEAR: LazyLock<Rational> = LazyLock::new(|| Rational::from((1, 10_000)));
 static OF_TRIALS: LazyLock<Rational> = LazyLock::new(|| Rational::from((1, 5_000_000)));
 
+/// The same of the sizes of the states of a loop beside a trial, which are bounded roughly, and on which factors of rates alone rest.
+static OF_SIZES: LazyLock<Rational> = LazyLock::new(|| Rational::from((1, 100)));
+
 /// Significant digits of the upper ends in a claim.
 pub(crate) const CLAIM_DIGITS: u32 = 12;
+
+/// A bound as a certificate has it, with this room.
+fn above(bound: &Enclosure, room: &Rational) -> Enclosure {
+    let one = Enclosure::one(bound.precision());
+    written(&(bound * (Enclosure::from_rational(room, bound.precision()) + one)))
+}
 
 /// The upper end of a bound as a claim has it, with few digits, rounded up; none where there is no upper end.
 pub(crate) fn written(bound: &Enclosure) -> Enclosure {
@@ -130,10 +152,17 @@ impl ByCount {
         }
     }
 
+    /// That of [`ByCount::room`] for [`LoopSizes`].
+    pub(crate) fn room_of_sizes(&self) -> &'static Rational {
+        match &self.proof {
+            CountProof::Linear { .. } => &OF_LINEAR,
+            CountProof::Trials(_) => &OF_SIZES,
+        }
+    }
+
     /// A bound as a certificate has it: what the independent checker decides is that number, no smaller one.
     pub(crate) fn stated(&self, bound: &Enclosure) -> Enclosure {
-        let one = Enclosure::one(bound.precision());
-        written(&(bound * (Enclosure::from_rational(self.room(), bound.precision()) + one)))
+        above(bound, self.room())
     }
 
     /// Those for a number of oscillators.
@@ -141,6 +170,15 @@ impl ByCount {
     pub fn at(&self, n_o: u64) -> Option<&CountBounds> {
         let mut below = self.counts.iter().rev().filter(|bounds| bounds.n_o().is_some_and(|own| own <= n_o));
         below.next().filter(|bounds| bounds.or_more || bounds.n_o() == Some(n_o))
+    }
+
+    /// dX, dE and dZ of a set with this number of oscillators, from the sizes of its periodic solution as the certificate has them; none where it says
+    /// nothing of them.
+    pub(super) fn distances(&self, data: &Data<'_>, set: &ClaimedSet, n_o: u32) -> Option<[Enclosure; 3]> {
+        let bounds = self.at(u64::from(n_o)).filter(|_| self.checked)?;
+        let LoopSizes { states, zeta, .. } = &bounds.sizes;
+        let [states, zeta] = [states, zeta].map(|size| above(size, self.room_of_sizes()));
+        Some(claimed_distances(data, set, [&states, &self.stated(&bounds.steady_error), &zeta]))
     }
 
     /// The smallest number of oscillators whose bound is certainly at most a target.
@@ -241,6 +279,11 @@ mod tests {
             steady_error: Enclosure::exactly(*error),
             mean_square: Enclosure::exactly(*error),
             steady_control: Enclosure::exactly(1.0),
+            sizes: LoopSizes {
+                states: Enclosure::exactly(2.0),
+                zeta: Enclosure::exactly(5.0),
+                mean: Enclosure::exactly(0.0),
+            },
             largest: None,
         };
         ByCount { counts: errors.iter().map(bounds).collect(), proof: CountProof::Trials(Vec::new()), checked: true }

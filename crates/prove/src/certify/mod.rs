@@ -39,7 +39,7 @@ mod verdict;
 pub use ball::{claimed_ball, covers_ball, inverse_norm, within_ball};
 pub use certification::{Alternatives, Certification, Constants, ExactClaim, PrintedFigure, RelativeDegreeGains};
 pub(crate) use gain_row::CLAIM_DIGITS;
-pub use gain_row::{ByCount, CountBounds, CountProof, GainRow, Largest, RowNoise};
+pub use gain_row::{ByCount, CountBounds, CountProof, GainRow, Largest, LoopSizes, RowNoise};
 pub use gain_to_use::{Transient, gain_to_use};
 pub use gains::ROWS;
 pub use jacobian::{MAX_SEARCHES, Resolution, resolve, resolve_with, with_triple};

@@ -1,6 +1,7 @@
 //! Rates for given numbers of oscillators, as a part of a claim (derivation, 13.6).
 
 use super::certification::Certification;
+use super::gain_row::ByCount;
 use super::options::Limits;
 use super::outcome::Outcome;
 use super::sampled::SampledCertification;
@@ -22,7 +23,7 @@ use sigmastar_lang::spec::{MatrixInequality, Specification};
 use sigmastar_propose::bounds::FloatSuprema;
 use sigmastar_propose::search::Failing;
 use sigmastar_theory::data::Data;
-use sigmastar_theory::derivation::initial_set::claimed_distances;
+use sigmastar_theory::derivation::initial_set::{ClaimedSet, claimed_distances};
 use sigmastar_theory::derivation::sampled::{self, SampledEvaluation};
 use sigmastar_theory::derivation::sharp::SharpEvaluation;
 use sigmastar_theory::derivation::stability::level_condition;
@@ -149,7 +150,7 @@ impl Certification<'_> {
             return Ok(());
         };
         let counts = fitting(counts, self.spec.disturbances.any())?;
-        self.for_n_o = for_n_o(self.spec, proof, &counts);
+        self.for_n_o = for_n_o(self.spec, (proof, self.by_count.as_ref()), &counts);
         self.make_room(&counts);
         self.set_rates_of_rows(&counts, None);
         self.set_noise_of_rows(&counts);
@@ -179,10 +180,11 @@ impl Certification<'_> {
             return self.prove_rates(asked);
         };
         let data = Data::new(self.spec, proof.precision);
-        let distances = distances(&data, proof);
+        let from = Starts { general: distances(&data, proof), of: (&proof.witness.set, self.by_count.as_ref()) };
+        let distances = |n_o: u32| from.with(&data, n_o);
         let inequality = self.spec.bounds.proved_values().inequality.as_ref();
         let corner = inequality.filter(|known| known.splitting.is_some()).map(MatrixInequality::arguments);
-        let start = Start { sigma: &proof.witness.sigma, distances: distances.each_ref() };
+        let start = Start { sigma: &proof.witness.sigma, distances: &distances };
         let tube = Tube { engine, samples, at, corner, start };
         let noise = || self.spec.disturbances.any().then_some(Err(NoNoiseBound::ByMatrices));
         let of = |(n_o, bound): (&u32, _)| RateForCount { n_o: *n_o, bound, noise: noise() };
@@ -216,6 +218,23 @@ pub(super) fn matrix_arguments<'s>(spec: &'s Specification, proof: &SharpProof) 
     Some([&inequality.x, &inequality.e])
 }
 
+/// From how far solutions start.
+struct Starts<'a> {
+    /// dX, dE, dZ for every number of oscillators.
+    general: [Enclosure; 3],
+    /// The set, and what is known of the periodic solution by the number of oscillators.
+    of: (&'a ClaimedSet, Option<&'a ByCount>),
+}
+
+impl Starts<'_> {
+    /// dX, dE, dZ with this number of oscillators: the least that is known of each.
+    fn with(&self, data: &Data<'_>, n_o: u32) -> [Enclosure; 3] {
+        let (set, found) = self.of;
+        let own = found.and_then(|found| found.distances(data, set, n_o));
+        own.map_or_else(|| self.general.clone(), |own| [0, 1, 2].map(|i| own[i].min(&self.general[i])))
+    }
+}
+
 /// dX, dE, dZ of the set of a proof.
 pub(super) fn distances(data: &Data<'_>, proof: &SharpProof) -> [Enclosure; 3] {
     let SharpEvaluation { periodic, z, .. } = &proof.evaluation;
@@ -229,15 +248,21 @@ pub(super) fn distances_at_samples(data: &Data<'_>, proof: &SampledProof) -> [En
 }
 
 /// Rates, and bounds under noise and disturbances where the document has them, of a claim by norms.
-pub(super) fn for_n_o(spec: &Specification, proof: &SharpProof, counts: &[u32]) -> Vec<RateForCount> {
+pub(super) fn for_n_o(
+    spec: &Specification,
+    (proof, found): (&SharpProof, Option<&ByCount>),
+    counts: &[u32],
+) -> Vec<RateForCount> {
     let Proof { witness, evaluation, precision } = proof;
     let data = Data::new(spec, *precision);
     let distances = distances(&data, proof);
-    let place = Place { sigma: &witness.sigma, error_box: &evaluation.error_box, distances: distances.each_ref() };
+    let from = Starts { general: distances.clone(), of: (&witness.set, found) };
     let numbers = [&witness.d_x, &witness.d_e, &witness.w_x, &witness.h];
     let confinement = confinement(&data, (&distances, &evaluation.z), &data.rational(&spec.v_bar()), numbers);
     let disturbed = spec.disturbances.any();
     let of = |n_o: &u32| {
+        let distances = from.with(&data, *n_o);
+        let place = Place { sigma: &witness.sigma, error_box: &evaluation.error_box, distances: distances.each_ref() };
         let bound = bound(&data, &place, *n_o);
         let noise = disturbed.then(|| match bound {
             Some(_) => noise_bound(&data, &place, &confinement, *n_o),
@@ -318,18 +343,20 @@ pub fn apart(value: &Rational) -> String {
 /// Rates, and bounds under noise and disturbances where the document has them, of a claim by norms at samples.
 pub(super) fn for_n_o_at_samples(
     spec: &Specification,
-    proof: &SampledProof,
+    (proof, found): (&SampledProof, Option<&ByCount>),
     counts: &[u32],
 ) -> Vec<SampledRateForCount> {
     let Proof { witness, evaluation, precision } = proof;
     let (data, law) = (Data::new(spec, *precision), &evaluation.law);
     let distances = distances_at_samples(&data, proof);
-    let place = Place { sigma: &witness.sigma, error_box: &evaluation.error_box, distances: distances.each_ref() };
+    let from = Starts { general: distances.clone(), of: (&witness.set, found) };
     let numbers = [&witness.d_x, &witness.d_e, &witness.w_x, &witness.eta];
     let v_bar = measured(&data, &evaluation.error_box.e_b);
     let confinement = confinement(&data, (&distances, &evaluation.z), &v_bar, numbers);
     let disturbed = spec.disturbances.any_at_samples();
     let of = |n_o: &u32| {
+        let distances = from.with(&data, *n_o);
+        let place = Place { sigma: &witness.sigma, error_box: &evaluation.error_box, distances: distances.each_ref() };
         let bound = at_samples::bound(&data, law, &place, *n_o);
         let noise = disturbed.then(|| match bound {
             Some(_) => at_samples_with_noise(&data, law, &place, &confinement, *n_o),
@@ -388,7 +415,7 @@ impl SampledCertification<'_> {
                 counts.iter().map(|n_o| SampledRateForCount { n_o: *n_o, bound: None, noise: noise() }).collect();
         } else {
             let counts = fitting(counts.clone(), self.spec.disturbances.any_at_samples())?;
-            self.for_n_o = for_n_o_at_samples(self.spec, proof, &counts);
+            self.for_n_o = for_n_o_at_samples(self.spec, (proof, self.by_count.as_ref()), &counts);
             self.make_room(&counts);
         }
         self.set_rates_of_rows(&counts);

@@ -37,7 +37,7 @@ impl Certification<'_> {
     /// Where the error box has no room for what noise and a disturbance add, another proof of the claim is taken that has, if more of the bounds
     /// under noise are proved with it.
     pub(super) fn make_room(&mut self, counts: &[u32]) {
-        let bounds = |proof: &SharpProof| for_n_o(self.spec, proof, counts);
+        let bounds = |proof: &SharpProof| for_n_o(self.spec, (proof, None), counts);
         let Some(own) = self.sharp.proved() else { return };
         let mut best = more_proved(&self.for_n_o, |factor| self.with_room(own, factor), bounds);
         let roomy = self.roomy.as_ref().and_then(|proof| self.proved_with(proof.witness.clone()));
@@ -111,7 +111,7 @@ impl SampledCertification<'_> {
     /// The same of a claim at samples, whose box alone is made larger.
     pub(super) fn make_room(&mut self, counts: &[u32]) {
         let bounds = |run: &SampledCertification<'_>| {
-            run.claim().map_or_else(Vec::new, |proof| for_n_o_at_samples(self.spec, proof, counts))
+            run.claim().map_or_else(Vec::new, |proof| for_n_o_at_samples(self.spec, (proof, None), counts))
         };
         let Some(own) = self.claim() else { return };
         let mut best = more_proved(&self.for_n_o, |factor| self.widened(own, factor), bounds);

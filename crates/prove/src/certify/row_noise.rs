@@ -18,7 +18,7 @@ impl Certification<'_> {
             let spec = other.as_deref().unwrap_or(self.spec);
             match matrix_arguments(spec, proof) {
                 Some(_) => Vec::new(),
-                None => RowNoise::of(&row.sigma, for_n_o(spec, proof, counts)),
+                None => RowNoise::of(&row.sigma, for_n_o(spec, (proof, None), counts)),
             }
         };
         self.noise_of_rows = parallel::map(&self.gains, of_row).into_iter().flatten().collect();
@@ -33,7 +33,7 @@ impl SampledCertification<'_> {
         }
         let of_row = |row: &GainRow| match &row.proof {
             RowProof::Sampled(proof) if !by_sampled_matrix(self.spec, proof) => {
-                RowNoise::of(&row.sigma, for_n_o_at_samples(self.spec, proof, counts))
+                RowNoise::of(&row.sigma, for_n_o_at_samples(self.spec, (proof, None), counts))
             }
             _ => Vec::new(),
         };

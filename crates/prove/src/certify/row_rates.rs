@@ -62,7 +62,7 @@ fn by_matrices(
 ) -> Rates {
     let data = Data::new(spec, proof.precision);
     let distances = distances(&data, proof);
-    let start = Start { sigma: &proof.witness.sigma, distances: distances.each_ref() };
+    let start = Start { sigma: &proof.witness.sigma, distances: &|_| distances.clone() };
     let rate = |(n_o, slopes): (&u32, &Option<&[Slopes]>)| {
         let bound = slopes.and_then(|slopes| again(&data, (states, &start), slopes, *n_o));
         (*n_o, bound.map(|bound| bound.rate))

@@ -15,6 +15,7 @@ use sigmastar_propose::bounds::{FloatSlopes, FloatSuprema};
 use sigmastar_propose::rates::{BoundedReal, Limit, SampledSlopes};
 use sigmastar_theory::data::Data;
 use sigmastar_theory::evidence::{Part, Slopes};
+use std::iter;
 
 /// By what share balls are enlarged before they are compared: what is proved of them is about that much larger.
 const SLACK: f64 = 0.002;
@@ -37,8 +38,8 @@ pub struct Tube<'a> {
 pub struct Start<'a> {
     /// The gain of the claim, in 1/time.
     pub sigma: &'a Rational,
-    /// dX, dE, dZ.
-    pub distances: [&'a Enclosure; 3],
+    /// dX, dE, dZ with a number of oscillators.
+    pub distances: &'a dyn Fn(u32) -> [Enclosure; 3],
 }
 
 /// Bounds for these numbers of oscillators, in order; `None` where nothing is proved.
@@ -152,9 +153,14 @@ fn with_slopes(
 ) -> Option<RateBound<ByForm>> {
     let states = of.states;
     let (equation, largest) = equation(of, &slopes)?;
-    SHARES.iter().find_map(|share| {
-        let proposal = equation.propose(largest, *share)?;
-        let (upper, e_low) = proposal.diagonal_bounds_of_states(start.distances)?;
+    let distances = (start.distances)(n_o);
+    let distances = distances.each_ref();
+    let proposals = SHARES.iter().flat_map(|share| {
+        let of_factor = iter::once_with(|| equation.propose_factor(largest, *share, distances));
+        of_factor.chain(iter::once_with(|| equation.propose(largest, *share))).flatten()
+    });
+    proposals.into_iter().find_map(|proposal| {
+        let (upper, e_low) = proposal.diagonal_bounds_of_states(distances)?;
         DIGITS.iter().find_map(|digits| {
             let witness = proposal.in_digits(*digits)?;
             let known = Known { data, of, slopes: &slopes };
@@ -162,7 +168,7 @@ fn with_slopes(
             if !known.proves(&witness) || !lies() {
                 return None;
             }
-            let factor = factor(data, upper.each_ref().map(|value| data.rational(value)), start.distances, &e_low)?;
+            let factor = factor(data, upper.each_ref().map(|value| data.rational(value)), distances, &e_low)?;
             let [x_up, e_up, z_up] = upper.clone();
             let x_up = (states > 0).then_some(x_up);
             let by = Some(ByMatrices { slopes: slopes.clone(), x_up });

@@ -8,7 +8,7 @@ mod around;
 mod boxes;
 mod proved;
 
-use super::gain_row::{ByCount, CountBounds, CountProof, Largest};
+use super::gain_row::{ByCount, CountBounds, CountProof, Largest, LoopSizes};
 use around::{Around, Prepared};
 use boxes::Fit;
 use proved::{Promised, rounded, short};
@@ -118,6 +118,11 @@ impl Around<'_> {
             steady_error: concluded.error.clone(),
             mean_square: concluded.mean_square.clone(),
             steady_control: steady,
+            sizes: LoopSizes {
+                states: concluded.states.clone(),
+                zeta: concluded.zeta.clone(),
+                mean: Enclosure::zero(PRECISION),
+            },
             largest: Some(Largest { error: &concluded.error + reach.error, transient }),
         };
         Some((bounds, (prepared.trial, proof)))

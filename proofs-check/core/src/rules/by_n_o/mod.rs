@@ -105,6 +105,32 @@ impl Witness {
     }
 }
 
+/// What is known of the periodic solution by the number of oscillators.
+#[derive(Clone, Copy)]
+pub struct Known<'k> {
+    /// What the claim says.
+    pub claimed: &'k [Entry<'k>],
+    /// By what.
+    pub witness: &'k Witness,
+}
+
+impl<'k> Known<'k> {
+    /// Bounds of `|L^-1 (x - x_0)|`, `|e|` and `|zeta|_N` along it with the first n_o oscillators, if there are some; true where all that is said by n_o is.
+    pub fn sizes(self, n_o: u32) -> Option<[&'k Rational; 3]> {
+        let is_about = |entry: &Entry<'_>| {
+            let own = entry.oscillators.n_o();
+            own.is_some_and(|own| own == n_o || entry.or_more && own <= n_o)
+        };
+        let index = self.claimed.iter().position(is_about)?;
+        let [x, zeta] = match self.witness {
+            Witness::Linear(linear) => linear.sizes.get(index).map(|sizes| [&sizes.x, &sizes.zeta]),
+            Witness::Trials(trials) => trials.get(index)?.sizes.as_ref().map(|sizes| [&sizes.x, &sizes.zeta]),
+        }?;
+        let [e, ..] = &self.claimed[index].steady;
+        Some([x, e, zeta])
+    }
+}
+
 /// What every kind demands of the file: the sections are about one period, its own oscillators, and one orbit.
 pub fn demand_form(spec: &Specification, claimed: &[Entry<'_>]) -> Outcome<()> {
     let Some(first) = claimed.first() else { return Ok(()) };

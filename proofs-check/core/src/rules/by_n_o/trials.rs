@@ -4,7 +4,7 @@
 //! Guarantee of [`Trial`]: no coefficient of ehat has a mean or a harmonic of an oscillator; of an entry about so many oscillators or more ehat = 0, and no
 //! coefficient of uhat has a harmonic above n_o. A harmonic that is written with 0 for both of its numbers is none. Of each form `P <= P_up I`, `Pi >= diag(x_low I, 0)` and
 //! `Pi >= diag(0, e_low)` with x_low, e_low > 0, so that Pi is positive definite. `Q_low I <= Q <= Q_up I`, and k_p, c_x, c_e, c_y, Q_low, c, gamma, D_x
-//! and D_e are above 0. What is said of the formulas is proved by the crate `proofs-plants`.
+//! and D_e are above 0. `sizes` are bounds that other rules may rest on; [`tube`](super::tube) proves them. What is said of the formulas is proved by the crate `proofs-plants`.
 
 use super::claimed::{Entry, RULE};
 use super::curves::{Curves, MEMBERS};
@@ -37,6 +37,19 @@ pub struct Trial {
     pub or_more: Option<OrMore>,
     /// Where peaks are proved along x first, too.
     pub x_first: Option<XFirst>,
+    /// Where something else rests on them.
+    pub sizes: Option<Sizes>,
+}
+
+/// Bounds along the periodic solution of the entry.
+#[derive(Clone, Debug)]
+pub struct Sizes {
+    /// Where they stand in the file.
+    pub pointer: String,
+    /// Of `|L^-1 (x - x_0)|`; 0 without states.
+    pub x: Rational,
+    /// Of `|zeta|_N`.
+    pub zeta: Rational,
 }
 
 /// What the corollary about so many oscillators or more asks for besides.
@@ -90,12 +103,21 @@ impl Trial {
         }
         let or_more = entry.or_more.then(|| OrMore::take(fields, states)).transpose()?;
         let x_first = fields.part("x_first", |field| field.object(|fields| XFirst::take(fields, states)))?;
+        let sizes = fields.part("sizes", |field| field.object(|fields| Sizes::take(fields, states)))?;
         let states = match states {
             0 => None,
             _ => Some(fields.required("states")?.object(|fields| States::take(fields, states))?),
         };
         let pointer = fields.pointer.clone();
-        Ok(Trial { pointer, curves, defects, radii, slopes, forms, states, or_more, x_first })
+        Ok(Trial { pointer, curves, defects, radii, slopes, forms, states, or_more, x_first, sizes })
+    }
+}
+
+impl Sizes {
+    fn take(fields: &mut Fields<'_>, states: usize) -> Outcome<Sizes> {
+        let pointer = fields.pointer.clone();
+        let x = of_states(fields, "x", false, states)?;
+        Ok(Sizes { pointer, x, zeta: number(fields, "zeta", false)? })
     }
 }
 

@@ -2,7 +2,7 @@
 //!
 //! Guarantee of [`prove`], with the trial's inequalities and defects proved of the formulas on its box for every member, the boxes in the domain of the
 //! plant, and with [`Sizes`] as they are: the loop of every member with the oscillators of the entry and the gain sigma has exactly one T-periodic solution in its
-//! box, it is that of the claim, and `steady` of the entry is true of it. `largest`, where it is there, is true of every solution from the claimed set. With an entry about so many
+//! box, it is that of the claim, and `steady` of the entry and `sizes` of the trial are true of it. `largest`, where it is there, is true of every solution from the claimed set. With an entry about so many
 //! oscillators or more that is so for each number of them: then `k0` and `k1` have to be proved, too, and what the trial has for it.
 
 use super::About;
@@ -145,6 +145,13 @@ pub fn prove(d: &Data<'_>, about: &About<'_>, (entry, trial): (&Entry<'_>, &Tria
     };
     let [put, _] = put_out(d, [u.clone(), d.int(0)]);
     let [claimed_e, claimed_rms, claimed_u] = &entry.steady;
+    if let Some(sizes) = &trial.sizes {
+        for (place, bound, stated) in [("x", &x, &sizes.x), ("zeta", &zeta, &sizes.zeta)] {
+            let what = format!("what bounds it <= {place} of `sizes`, {}", entry.about());
+            let condition = Condition::at_most("T", what, bound.clone(), d.number(stated));
+            condition.demand(RULE, &format!("{}/{place}", sizes.pointer))?;
+        }
+    }
     at_most("sup|ehat| + s_e", e.clone(), claimed_e, "steady/e")?;
     at_most("rms(ehat) + rho_e", &curves.e_rms + &tube.e_rms, claimed_rms, "steady/e_rms")?;
     let what = format!("sup|uhat| + kappa + sigma s_e + mu {n_bar} s_z");

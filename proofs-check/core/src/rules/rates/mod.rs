@@ -4,7 +4,7 @@
 //!
 //! Guarantee of [`prove`], for each n_o: every solution from the claimed set has `|e - e_per| <= factor exp(-rate (t - t_0))`, at samples for the sampling
 //! instants t, and with the noise of the file and the rounding of its regulator (`rounding`), where that is claimed (`noise`), `|e - e_per| <= peak` at all
-//! times and at most `limit` in the end.
+//! times and at most `limit` in the end. Where the claim says something by n_o, that is so if it is true.
 
 pub mod claimed;
 mod continuous;
@@ -17,10 +17,12 @@ pub mod slopes;
 #[cfg(test)]
 mod tests;
 
+use super::by_n_o::Known;
 use super::common::{Free, Sizes};
 use super::sampled::law::{Law, Terms};
 use super::stability::{ErrorBox, distances};
 use crate::data::Data;
+use crate::interval::Interval;
 use crate::json::Field;
 use crate::verdict::{Condition, Outcome, bad};
 use claimed::{RULE, Rate, read_count};
@@ -143,21 +145,31 @@ impl Witness {
     }
 }
 
-/// Proves all that a claim says of given n_o, around a periodic solution of these sizes, but for (D) of slopes. `law`: that of a claim at samples.
+/// How far starts are from the periodic solution, as in C4: of these sizes, or with n_o oscillators of those that are known by n_o, whichever are less.
+fn reach(d: &Data<'_>, free: &Free, sizes: &Sizes, by_n_o: Option<[&Rational; 3]>) -> [Interval; 3] {
+    let for_every = distances(d, &free.set, [&sizes.x, &sizes.e, &sizes.zeta]);
+    let Some(by_n_o) = by_n_o else { return for_every };
+    let [x, e, zeta] = by_n_o.map(|size| d.number(size));
+    let own = distances(d, &free.set, [&x, &e, &zeta]);
+    [0, 1, 2].map(|i| for_every[i].min(&own[i]))
+}
+
+/// Proves all that a claim says of given n_o, around a periodic solution of these sizes, but for (D) of slopes. `law`: that of a claim at samples; `by_n_o`:
+/// what it says by n_o.
 pub fn prove(
     d: &Data<'_>,
-    (free, sizes, sigma, law): (&Free, &Sizes, &Rational, Option<&Terms>),
+    (free, sizes, sigma, law, by_n_o): (&Free, &Sizes, &Rational, Option<&Terms>, Option<Known<'_>>),
     (claimed, witnesses): (&[Rate<'_>], &[Witness]),
     lines: &mut Vec<String>,
 ) -> Outcome<()> {
     let radii = [&free.d_x, &free.d_e].map(|value| d.number(value));
     let error_box = ErrorBox::new(d, free.paths, [&sizes.x, &sizes.e], radii.each_ref());
-    let reach = distances(d, &free.set, [&sizes.x, &sizes.e, &sizes.zeta]);
     let law = law.map(|terms| Law::new(d, terms));
     let known = claimed.iter().any(|rate| rate.noise.is_some());
     let known = known.then(|| noise::Known::new(d, (free, sizes), &error_box.e_b, law.is_some()));
     for (rate, witness) in claimed.iter().zip(witnesses) {
         let at = format!("{}/noise", witness.pointer);
+        let reach = reach(d, free, sizes, by_n_o.and_then(|known| known.sizes(rate.n_o)));
         norm::positive("rate", &rate.rate, &rate.pointer)?;
         norm::positive("factor", &rate.factor, &rate.pointer)?;
         let ([start, e_low], of_noise) = match (&witness.proof, &law) {
