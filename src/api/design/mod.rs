@@ -191,6 +191,7 @@ impl Table {
             counts: &asked.counts,
             asked: &asked.subject,
             simulate: options.simulate,
+            limit: asked.requirements.steady_error.as_ref(),
             certificates: Vec::new(),
             refused: Vec::new(),
         };

@@ -26,6 +26,8 @@ pub(super) struct Proved<'a> {
     pub(super) counts: &'a [u32],
     pub(super) asked: &'a Subject,
     pub(super) simulate: bool,
+    /// Of |e|, to which runs are to settle.
+    pub(super) limit: Option<&'a Rational>,
     pub(super) certificates: Vec<Taken>,
     /// The gains that are not certified, and why.
     pub(super) refused: Vec<(Rational, Error)>,
@@ -69,7 +71,7 @@ impl Proved<'_> {
         let row = Row::of(&run, self.counts);
         let certificate = Certificate::new(&run, self.asked, false).zip(run_set_and_assumptions(&run));
         let (row, (certificate, set_and_assumptions)) = row.zip(certificate).ok_or_else(|| not_certified(&run))?;
-        let row = if self.simulate { simulated(row, &certificate) } else { row };
+        let row = if self.simulate { simulated(row, &certificate, self.limit) } else { row };
         let sigma = row.sigma.clone();
         Ok((row, Taken { sigma, certificate, set_and_assumptions }))
     }
@@ -77,21 +79,26 @@ impl Proved<'_> {
 
 /// A row with what simulations of the nominal plant come to.
 #[cfg(feature = "lab")]
-fn simulated(mut row: Row, certificate: &Certificate) -> Row {
+fn simulated(mut row: Row, certificate: &Certificate, limit: Option<&Rational>) -> Row {
     use sigmastar_lab::falsify::{LoopFigures, TriedClaim, nominal_figures};
     use sigmastar_studies::design::Simulated;
     let document = Document::parse("the certificate", certificate.to_json());
     let claim = document.and_then(|document| TriedClaim::from_document(&document));
     let Ok(claim) = claim else { return row };
     let counts: Vec<u32> = row.cells.iter().map(|cell| cell.n_o).collect();
-    let found = parallel::map(&counts, |n_o| nominal_figures(&claim, *n_o));
+    let limit = limit.map(Rational::to_f64);
+    let found = parallel::map(&counts, |n_o| nominal_figures(&claim, *n_o, limit));
     for (cell, found) in row.cells.iter_mut().zip(found) {
-        cell.simulated = found.map(|LoopFigures { steady_error, largest }| Simulated { steady_error, largest });
+        cell.simulated = found.map(|LoopFigures { steady_error, largest, settling }| Simulated {
+            steady_error,
+            largest,
+            settling,
+        });
     }
     row
 }
 
 #[cfg(not(feature = "lab"))]
-fn simulated(row: Row, _: &Certificate) -> Row {
+fn simulated(row: Row, _: &Certificate, _: Option<&Rational>) -> Row {
     row
 }

@@ -19,6 +19,11 @@ const PHASES: [f64; 4] = [0.0, 0.25, 0.5, 0.75];
 
 /// Periods of a run; samples of each, and of what is between two samples of the regulator.
 const PERIODS: usize = 2;
+
+/// The phases of runs that settle, and their periods in turn: longer ones where the last part of them, of this share, is not below the limit.
+const SETTLING_PHASES: [f64; 2] = [0.0, 0.5];
+const SETTLING_PERIODS: [usize; 3] = [4, 16, 64];
+const LAST: f64 = 0.3;
 const SAMPLES: usize = 256;
 const BETWEEN: usize = 2;
 
@@ -32,32 +37,35 @@ pub struct LoopFigures {
     pub steady_error: f64,
     /// The largest |e| and |u| of the runs; none where one was not finished, or the start has too many components for a run of each.
     pub largest: Option<[f64; 2]>,
+    /// After how many periods |e| is below a limit for good in the runs that take longest; none without a limit, and where a run was not finished or
+    /// took too long.
+    pub settling: Option<f64>,
 }
 
 /// e and u at the times of a run.
 type Series = Vec<[f64; 2]>;
 
 /// The figures of the nominal plant that a claim is about, with its gain, its samples where it has some, and so many oscillators, from starts in its initial
-/// set. `None` where the claim is not about one plant, and where no periodic solution is found.
+/// set, which are to settle below a limit of |e|. `None` where the claim is not about one plant, and where no periodic solution is found.
 #[must_use]
-pub fn nominal_figures(claim: &TriedClaim, n_o: u32) -> Option<LoopFigures> {
+pub fn nominal_figures(claim: &TriedClaim, n_o: u32, limit: Option<f64>) -> Option<LoopFigures> {
     let own = claim.own.as_ref()?;
     match &claim.sampled {
-        None => in_continuous_time(claim, own, n_o),
-        Some(law) => at_samples(claim, own, law, n_o),
+        None => in_continuous_time((claim, own), n_o, limit),
+        Some(law) => at_samples((claim, own), law, n_o, limit),
     }
 }
 
-fn in_continuous_time(claim: &TriedClaim, own: &OwnPlant, n_o: u32) -> Option<LoopFigures> {
+fn in_continuous_time((claim, own): (&TriedClaim, &OwnPlant), n_o: u32, limit: Option<f64>) -> Option<LoopFigures> {
     let closed_loop = ClosedLoop::new(&own.plant, regulator(claim, claim.sigma, n_o)).without_limit();
     let (n, period) = (closed_loop.states(), closed_loop.period);
     let set = Set { claim, own, regulator: &closed_loop.regulator };
     let steady = steady_state(&closed_loop, &set.start(0.0, &set.middle()), &Silent).ok()?;
     let steady_error = sup(&Orbit::new(&closed_loop, &steady).ok()?.error());
-    let run = |phase: f64, start: &[f64]| {
+    let run = |phase: f64, start: &[f64], periods: usize| {
         closed_loop.renew_effort();
         let (mut y, mut series) = (start.to_vec(), Series::new());
-        for index in 0..PERIODS {
+        for index in 0..periods {
             let t = (phase + index as f64) * period;
             let samples = trajectory(&closed_loop, t, period, SAMPLES, &y, Tolerance::ORDINARY).ok()?;
             series.extend(samples.iter().map(|y| [y[n], closed_loop.control(y, Disturbance::default())]));
@@ -65,10 +73,15 @@ fn in_continuous_time(claim: &TriedClaim, own: &OwnPlant, n_o: u32) -> Option<Lo
         }
         Some(series)
     };
-    Some(LoopFigures { steady_error, largest: set.largest(run) })
+    Some(set.figures(steady_error, limit, run))
 }
 
-fn at_samples(claim: &TriedClaim, own: &OwnPlant, law: &SampledClaim, n_o: u32) -> Option<LoopFigures> {
+fn at_samples(
+    (claim, own): (&TriedClaim, &OwnPlant),
+    law: &SampledClaim,
+    n_o: u32,
+    limit: Option<f64>,
+) -> Option<LoopFigures> {
     let (regulator, discrete) = law.regulator(&claim.spec, n_o)?;
     let sampled = SampledLoop::new(&own.plant, regulator, discrete);
     let samples = sampled.samples().filter(|samples| *samples == law.samples as usize)?;
@@ -86,12 +99,12 @@ fn at_samples(claim: &TriedClaim, own: &OwnPlant, law: &SampledClaim, n_o: u32) 
     let whole = |start: Vec<f64>| sampled.starting(start, claim.initial.z0.is_none());
     let steady = sampled_periodic_solution(&sampled, &whole(set.start(0.0, &set.middle())), &Silent).ok()?;
     let [steady_error, _] = sizes(&series(&sampled, &steady.start, 1, Tolerance::TIGHT)?);
-    let run = |phase: f64, start: &[f64]| {
+    let run = |phase: f64, start: &[f64], periods: usize| {
         let mut at_phase = sampled.clone();
         at_phase.phase = phase * sampled.period();
-        series(&at_phase, &whole(start.to_vec()), PERIODS, Tolerance::ORDINARY)
+        series(&at_phase, &whole(start.to_vec()), periods, Tolerance::ORDINARY)
     };
-    Some(LoopFigures { steady_error, largest: set.largest(run) })
+    Some(set.figures(steady_error, limit, run))
 }
 
 /// The largest |e| and |u|.
@@ -143,48 +156,99 @@ impl Set<'_> {
         start
     }
 
+    fn figures(
+        &self,
+        steady_error: f64,
+        limit: Option<f64>,
+        run: impl Fn(f64, &[f64], usize) -> Option<Series>,
+    ) -> LoopFigures {
+        let is_small = self.middle().len() <= MOST_MOVED;
+        let largest = if is_small { self.largest(&run) } else { None };
+        // A loop that stays above the limit never settles.
+        let limit = limit.filter(|limit| is_small && steady_error < *limit);
+        LoopFigures { steady_error, largest, settling: limit.and_then(|limit| self.settling(limit, &run)) }
+    }
+
     /// The largest |e| and |u| of all runs; `None` where one does not come to its end.
-    fn largest(&self, run: impl Fn(f64, &[f64]) -> Option<Series>) -> Option<[f64; 2]> {
-        let middle = self.middle();
-        if middle.len() > MOST_MOVED {
-            return None;
-        }
+    fn largest(&self, run: impl Fn(f64, &[f64], usize) -> Option<Series>) -> Option<[f64; 2]> {
         let mut largest = [0.0_f64; 2];
         for phase in PHASES {
-            let run = |shares: &[f64]| run(phase, &self.start(phase, shares));
-            let base = run(&middle)?;
-            let moved = |component: usize| {
-                let mut shares = middle.clone();
-                shares[component] = 1.0;
-                run(&shares)
-            };
-            let moved: Vec<Series> = (0..middle.len()).map(moved).collect::<Option<_>>()?;
+            let runs = self.runs(|shares| run(phase, &self.start(phase, shares), PERIODS))?;
             for quantity in [0, 1] {
-                let found = sizes(&run(&self.worst(quantity, &base, &moved))?);
+                let shares = runs.worst(quantity);
+                let found = sizes(&run(phase, &self.start(phase, &shares), PERIODS)?);
                 largest = [largest[0].max(found[0]), largest[1].max(found[1])];
             }
         }
         Some(largest)
     }
 
-    /// The shares of the start of which a quantity is the largest at some time, where it depends on the start as the runs say.
-    fn worst(&self, quantity: usize, base: &Series, moved: &[Series]) -> Vec<f64> {
-        let [n, e, _] = self.parts();
-        let at = |time: usize| {
-            let middle = base[time][quantity];
-            let sign = if middle < 0.0 { -1.0 } else { 1.0 };
-            let mut shares: Vec<f64> = moved.iter().map(|run| sign * (run[time][quantity] - middle)).collect();
-            let mut reached = middle.abs();
-            let (x, rest) = shares.split_at_mut(n);
-            let (of_e, z) = rest.split_at_mut(e);
-            for part in [x, of_e, z] {
-                let size = part.iter().map(|share| share * share).sum::<f64>().sqrt();
-                reached += size;
-                part.iter_mut().for_each(|share| *share = if size > 0.0 { *share / size } else { 0.0 });
-            }
-            (reached, shares)
+    /// After how many periods |e| is below a limit for good; `None` where a run does not come to its end, or not below the limit.
+    fn settling(&self, limit: f64, run: impl Fn(f64, &[f64], usize) -> Option<Series>) -> Option<f64> {
+        let mut longest = 0.0_f64;
+        for phase in SETTLING_PHASES {
+            let settled = SETTLING_PERIODS.into_iter().find_map(|periods| {
+                let last = |series: &Series| series.iter().rposition(|sizes| sizes[0].abs() > limit);
+                let runs = self.runs(|shares| run(phase, &self.start(phase, shares), periods))?;
+                // That of the start from which |e| is above the limit at the latest time.
+                let shares = runs.latest(limit);
+                let series = run(phase, &self.start(phase, &shares), periods)?;
+                let settled = last(&series).map_or(0.0, |last| (last + 1) as f64 / series.len() as f64);
+                (settled < 1.0 - LAST).then_some(settled * periods as f64)
+            });
+            longest = longest.max(settled?);
+        }
+        Some(longest)
+    }
+
+    /// A run from the middle of the set, and one for each component of the start that is moved.
+    fn runs(&self, run: impl Fn(&[f64]) -> Option<Series>) -> Option<Runs> {
+        let middle = self.middle();
+        let moved = |component: usize| {
+            let mut shares = middle.clone();
+            shares[component] = 1.0;
+            run(&shares)
         };
-        let all = (0..base.len()).map(at);
-        all.reduce(|a, b| if b.0 > a.0 { b } else { a }).map_or_else(|| self.middle(), |(_, shares)| shares)
+        let moved = (0..middle.len()).map(moved).collect::<Option<_>>()?;
+        Some(Runs { parts: self.parts(), base: run(&middle)?, moved })
+    }
+}
+
+/// Runs from which those from other starts are foretold.
+struct Runs {
+    parts: [usize; 3],
+    base: Series,
+    moved: Vec<Series>,
+}
+
+impl Runs {
+    /// The largest that a quantity is at a time from some start of the set, where it depends on the start as the runs say, and the shares of that start.
+    fn at(&self, time: usize, quantity: usize) -> (f64, Vec<f64>) {
+        let [n, e, _] = self.parts;
+        let middle = self.base[time][quantity];
+        let sign = if middle < 0.0 { -1.0 } else { 1.0 };
+        let mut shares: Vec<f64> = self.moved.iter().map(|run| sign * (run[time][quantity] - middle)).collect();
+        let mut reached = middle.abs();
+        let (x, rest) = shares.split_at_mut(n);
+        let (of_e, z) = rest.split_at_mut(e);
+        for part in [x, of_e, z] {
+            let size = part.iter().map(|share| share * share).sum::<f64>().sqrt();
+            reached += size;
+            part.iter_mut().for_each(|share| *share = if size > 0.0 { *share / size } else { 0.0 });
+        }
+        (reached, shares)
+    }
+
+    /// The shares of the start of which a quantity is the largest at some time.
+    fn worst(&self, quantity: usize) -> Vec<f64> {
+        let all = (0..self.base.len()).map(|time| self.at(time, quantity));
+        all.reduce(|a, b| if b.0 > a.0 { b } else { a }).map_or_else(Vec::new, |(_, shares)| shares)
+    }
+
+    /// Those of the start of which |e| is above a limit at the latest time.
+    fn latest(&self, limit: f64) -> Vec<f64> {
+        let above = |time: usize| Some(self.at(time, 0)).filter(|(reached, _)| *reached > limit);
+        let found = (0..self.base.len()).rev().find_map(above);
+        found.map_or_else(|| self.worst(0), |(_, shares)| shares)
     }
 }

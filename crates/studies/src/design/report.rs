@@ -225,6 +225,7 @@ impl DesignReport<'_> {
         }
         titles.push("rate");
         titles.extend(within.map(|_| "settles in"));
+        titles.extend(within.filter(|_| simulated).map(|_| "sim."));
         titles.extend(noise.then_some("noise in $`|e|`$"));
         titles.extend(self.longest.map(|_| "longest $`h`$"));
         let mut table = Table::new(&titles);
@@ -250,6 +251,10 @@ impl DesignReport<'_> {
                 cells.extend(within.map(|limit| {
                     let settling = cell.settling(limit, self.period);
                     settling.as_ref().map_or_else(not_proved, upper)
+                }));
+                cells.extend(within.filter(|_| simulated).map(|_| {
+                    let settling = found.and_then(|found| found.settling);
+                    settling.map_or_else(|| "-".to_owned(), estimate)
                 }));
                 let limit = cell.noise.as_ref().map(|limit| exact(limit, Direction::Up));
                 cells.extend(noise.then(|| limit.unwrap_or_else(not_proved)));
@@ -290,7 +295,7 @@ impl DesignReport<'_> {
         }
         if let Some(limit) = &self.requirements.steady_error {
             remarks.push(format!(
-                "settles in: after so many periods $`|e|`$ is at most {} for good{}, by the proved rate and its factor; the true number is smaller, as a rule",
+                "settles in: after so many periods $`|e|`$ is at most {} for good{}, by the proved rate and its factor",
                 write_exact(limit),
                 if self.sampling.is_some() { " at the sampling instants" } else { "" }
             ));
@@ -411,10 +416,10 @@ fn outside(cell: &Cell) -> Vec<&'static str> {
     named.filter(|(_, is_in)| !is_in).map(|(name, _)| name).collect()
 }
 
-fn simulated_json(Simulated { steady_error, largest }: Simulated) -> Value {
+fn simulated_json(Simulated { steady_error, largest, settling }: Simulated) -> Value {
     json!({
         "steady_error": steady_error, "peak_error": largest.map(|[error, _]| error),
-        "max_control": largest.map(|[_, control]| control),
+        "max_control": largest.map(|[_, control]| control), "settle": settling,
     })
 }
 

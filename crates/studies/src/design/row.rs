@@ -55,6 +55,8 @@ pub struct Simulated {
     pub steady_error: f64,
     /// The largest |e| and |u| of the runs from the initial set that were tried; none where a run was not finished.
     pub largest: Option<[f64; 2]>,
+    /// After how many periods |e| is at most the required steady error for good in them; none where nothing is required, or they do not say.
+    pub settling: Option<f64>,
 }
 
 impl Row {
