@@ -84,8 +84,8 @@ pub use api::{
     RegulatorMatrices, Report, ReportFormat, SampledRegulator, Samples, SamplingPairs, Specification,
     SpecificationBuilder, Study, StudyCase, Subject, TransferBound, TransferChoice, TransferOptions, TransferStudy,
     TuneGoal, TuneOptions, Tuned, VERSION, Verdict, bounding_specification, certify, certify_telling, check,
-    check_against, design, lyapunov, regulator_matrices, reread, sampled_regulator, sampling, transfer_bound,
-    transfer_study, tune,
+    check_against, design, design_telling, lyapunov, regulator_matrices, reread, sampled_regulator, sampling,
+    transfer_bound, transfer_study, tune,
 };
 #[cfg(feature = "lab")]
 pub use api::{Falsification, FalsificationOutcome, Simulation, SimulationOptions, falsify, simulate};

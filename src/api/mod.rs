@@ -37,7 +37,7 @@ pub use certificate::{Certificate, Claim, InitialSet, PeriodicSolution, Samples}
 pub use certify::{certify, certify_telling};
 pub use check::{CheckReport, CheckVerdict, check, check_against};
 pub use condition::Condition;
-pub use design::{Design, DesignOptions, design};
+pub use design::{Design, DesignOptions, design, design_telling};
 pub use error::{Diagnostic, Error, ErrorKind};
 #[cfg(feature = "lab")]
 pub use falsify::{Falsification, FalsificationOutcome, falsify};

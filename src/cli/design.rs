@@ -9,6 +9,7 @@ use super::progress::working;
 use super::subject::Asked;
 use sigmastar::program::{DesignNames, design_of};
 use sigmastar::{DesignOptions, Error, Verdict};
+use std::time::Instant;
 
 /// What the arguments are called here.
 const NAMES: DesignNames = DesignNames {
@@ -24,8 +25,15 @@ pub fn run(args: &DesignArgs) -> Result<u8, Failure> {
     let asked = Asked::read(&args.spec)?;
     let subject = asked.subject()?;
     let options = options(args)?;
-    let working = working("proving the rows of the design table", "", args.quiet);
-    let design = design_of((subject, asked.document), &options, &NAMES);
+    let more = "; `--progress` tells how far it is";
+    let working = working("proving the rows of the design table", more, args.quiet || args.progress);
+    let start = Instant::now();
+    let tell = |next: &str| {
+        if args.progress {
+            output::remark(&format!("{next} (after {:.1} s)", start.elapsed().as_secs_f64()));
+        }
+    };
+    let design = design_of((subject, asked.document), &options, &NAMES, &tell);
     drop(working);
     let design = match design {
         Err(error) if error.report().is_some() => return not_certified(&error, args),

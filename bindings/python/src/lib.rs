@@ -139,9 +139,11 @@ impl From<Wanted> for DesignOptions {
 }
 
 #[pyfunction]
-fn design(py: Python<'_>, file: File, wanted: Wanted) -> PyResult<Dict> {
+fn design(py: Python<'_>, file: File, wanted: Wanted, progress: Option<Py<PyAny>>) -> PyResult<Dict> {
     let options = DesignOptions::from(wanted);
-    outside(py, move || sigmastar::design(subject(&file)?, &options).map(told::designed))
+    outside_telling(py, progress, move |tell| {
+        sigmastar::design_telling(subject(&file)?, &options, tell).map(told::designed)
+    })
 }
 
 #[pyfunction]

@@ -50,3 +50,18 @@ def test_numbers_are_chosen_and_sampling_periods_told(program):
     assert plain.values == {} and "longest_h" not in plain.rows[0]
     with pytest.raises(sigmastar.InputError, match="did you mean `mu`"):
         sigmastar.design(PLANT, choose="mo")
+
+
+def test_progress_tells_the_gains_and_may_end_the_call():
+    told = []
+    design = sigmastar.design(PLANT, n_o=1, sigmas=[2, 4], simulate=False, progress=told.append)
+    assert told == ["proving sigma = 2, 4"] and design.sigma.exact in ("2", "4")
+
+    class Enough(Exception):
+        pass
+
+    def stop(_):
+        raise Enough
+
+    with pytest.raises(Enough):
+        sigmastar.design(PLANT, n_o=1, sigmas=[2], simulate=False, progress=stop)

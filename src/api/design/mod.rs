@@ -78,11 +78,24 @@ impl Design {
 /// [`Options`](ErrorKind::Options) for a requirement that does not go with the document or with the others, and too many gains; of gains that are asked
 /// for [`NotCertified`](ErrorKind::NotCertified) where none is certified.
 pub fn design(subject: impl Into<Subject>, options: &DesignOptions) -> Result<Design, Error> {
-    let Subject { read, source } = subject.into();
-    design_of((read, source), options, &NAMES)
+    design_telling(subject, options, &|_| {})
 }
 
-/// [`design`] of a document that was read, with other names of arguments.
+/// [`design`], which tells what it is at: a phrase for each set of values of free numbers, and for each group of gains, as its proofs begin. Nothing that is
+/// found depends on it.
+///
+/// # Errors
+/// Those of [`design`].
+pub fn design_telling(
+    subject: impl Into<Subject>,
+    options: &DesignOptions,
+    tell: &(dyn Fn(&str) + Sync),
+) -> Result<Design, Error> {
+    let Subject { read, source } = subject.into();
+    design_of((read, source), options, &NAMES, tell)
+}
+
+/// [`design_telling`] of a document that was read, with other names of arguments.
 ///
 /// # Errors
 /// Those of [`design`].
@@ -90,10 +103,11 @@ pub fn design_of(
     (read, source): (Read, Document),
     options: &DesignOptions,
     names: &DesignNames,
+    tell: &(dyn Fn(&str) + Sync),
 ) -> Result<Design, Error> {
     let Some(over) = &options.choose else {
-        let table = Table::new(Subject { read, source }, options, names)?;
-        return table.design(None, options.sampling_periods);
+        let table = Table::new(Subject { read, source }, options, names, tell)?;
+        return table.design(None, options.sampling_periods, tell);
     };
     let wrong = |error: sigmastar_studies::tune::TuneError| {
         Error::new(ErrorKind::Options, format!("{}: {error}", names.choose), &error.way_out())
@@ -103,12 +117,14 @@ pub fn design_of(
     // What the values of the document are refused for, all are.
     Asked::new(&Subject { read, source: source.clone() }, options, names)?;
     let made = |values: &[String]| {
+        let named = free.iter().zip(values).map(|(parameter, value)| format!("{} = {value}", parameter.name));
+        tell(&format!("proving a table with {}", named.collect::<Vec<_>>().join(", ")));
         let document = with_values(&source, &free, values)?;
-        let table = Table::new(Subject { read: Read::read(&document)?, source: document }, options, names)?;
+        let table = Table::new(Subject { read: Read::read(&document)?, source: document }, options, names, tell)?;
         Ok((Merit::of(&table.rows, &table.choice), table))
     };
     let (tried, table) = best_values(free.clone(), made, Error::sentence)?;
-    table.design(Some(&tried), options.sampling_periods)
+    table.design(Some(&tried), options.sampling_periods, tell)
 }
 
 /// What is asked of a document, read.
@@ -179,7 +195,12 @@ struct Table {
 }
 
 impl Table {
-    fn new(subject: Subject, options: &DesignOptions, names: &DesignNames) -> Result<Table, Error> {
+    fn new(
+        subject: Subject,
+        options: &DesignOptions,
+        names: &DesignNames,
+        tell: &(dyn Fn(&str) + Sync),
+    ) -> Result<Table, Error> {
         let asked = Asked::new(&subject, options, names)?;
         let read = &asked.subject.read;
         let period = read.period().shortest().enclose(DEFAULT_PRECISION);
@@ -192,6 +213,7 @@ impl Table {
             asked: &asked.subject,
             simulate: options.simulate,
             limit: asked.requirements.steady_error.as_ref(),
+            tell,
             certificates: Vec::new(),
             refused: Vec::new(),
         };
@@ -212,11 +234,19 @@ impl Table {
     }
 
     /// The answer, with what was tried before it.
-    fn design(self, values: Option<&ValuesTried>, periods: bool) -> Result<Design, Error> {
+    fn design(
+        self,
+        values: Option<&ValuesTried>,
+        periods: bool,
+        tell: &(dyn Fn(&str) + Sync),
+    ) -> Result<Design, Error> {
         let Table { asked: Asked { subject, requirements, .. }, period, rows, choice, taken, refused } = self;
         let Taken { sigma, certificate, set_and_assumptions } = taken;
         let read = &subject.read;
         let middle = read.actuator().and_then(Actuator::middle);
+        if periods {
+            tell("seeking the longest sampling period of each gain");
+        }
         let longest = periods.then(|| longest(read, &rows)).transpose()?;
         let report = DesignReport {
             rows: &rows,

@@ -5,6 +5,7 @@ use super::super::certify::{not_certified, with_rates};
 use super::super::error::Error;
 use super::super::subject::Subject;
 use rug::Rational;
+use sigmastar_exact::number::write_exact;
 use sigmastar_exact::parallel;
 use sigmastar_lang::spec::Document;
 use sigmastar_prove::certify::Options;
@@ -28,6 +29,8 @@ pub(super) struct Proved<'a> {
     pub(super) simulate: bool,
     /// Of |e|, to which runs are to settle.
     pub(super) limit: Option<&'a Rational>,
+    /// Hears of what is proved next.
+    pub(super) tell: &'a (dyn Fn(&str) + Sync),
     pub(super) certificates: Vec<Taken>,
     /// The gains that are not certified, and why.
     pub(super) refused: Vec<(Rational, Error)>,
@@ -37,6 +40,7 @@ impl Claims for Proved<'_> {
     type Refusal = Error;
 
     fn smallest(&mut self) -> Result<Row, Error> {
+        (self.tell)("proving the row of the smallest gain");
         let (row, certified) = self.row(&self.gains.smallest())?;
         self.certificates.push(certified);
         Ok(row)
@@ -47,6 +51,8 @@ impl Claims for Proved<'_> {
             let prepared = self.gains.at(sigma).map_err(|all| Error::documents(&all));
             prepared.and_then(|prepared| self.row(&prepared))
         };
+        let shown: Vec<String> = sigmas.iter().map(write_exact).collect();
+        (self.tell)(&format!("proving sigma = {}", shown.join(", ")));
         let found = parallel::map(sigmas, at);
         let mut rows = Vec::with_capacity(found.len());
         for (found, sigma) in found.into_iter().zip(sigmas) {
@@ -89,11 +95,8 @@ fn simulated(mut row: Row, certificate: &Certificate, limit: Option<&Rational>) 
     let limit = limit.map(Rational::to_f64);
     let found = parallel::map(&counts, |n_o| nominal_figures(&claim, *n_o, limit));
     for (cell, found) in row.cells.iter_mut().zip(found) {
-        cell.simulated = found.map(|LoopFigures { steady_error, largest, settling }| Simulated {
-            steady_error,
-            largest,
-            settling,
-        });
+        cell.simulated =
+            found.map(|LoopFigures { steady_error, largest, settling }| Simulated { steady_error, largest, settling });
     }
     row
 }

@@ -61,6 +61,10 @@ pub struct DesignArgs {
     #[arg(long)]
     pub no_simulation: bool,
 
+    /// Tell on standard error which gains and values are proved next, a line for each
+    #[arg(long, conflicts_with = "quiet")]
+    pub progress: bool,
+
     /// Format of the report
     #[arg(long, value_enum, value_name = "NAME", default_value_t = Format::Text)]
     pub format: Format,

@@ -216,6 +216,7 @@ def design(
     simulate: bool = True,
     sampling_periods: bool = False,
     choose: Union[str, Iterable[str], Mapping[str, Optional[Tuple[Number, Number]]]] = (),
+    progress: Optional[Callable[[str], object]] = None,
 ) -> Design:
     """Proves what several gains give with several numbers of oscillators, beside what is required, and names the pair to take, as
     `sigmastar design`. Each row is a claim of its own that the independent checker has decided.
@@ -230,7 +231,8 @@ def design(
     - `simulate`: whether simulations of the nominal plant stand beside the proved numbers;
     - `sampling_periods`: whether the longest sampling period that is certified with each gain stands beside it;
     - `choose`: numbers of the document that are to be chosen, as `over` of `tune`: a table is made with its values and with four others of
-      each number in turn, and the answer is about the best. The certificate has these values.
+      each number in turn, and the answer is about the best. The certificate has these values;
+    - `progress`: called with a phrase as each group of gains is begun, `progress=print`, say; what it raises ends the call.
 
     Raises what `certify` raises; where something required is not proved to be met the answer is false.
     """
@@ -240,7 +242,7 @@ def design(
     wanted = _Wanted(
         None if n_o is None else _counts(n_o), gains, _maybe(sampling_period), *required, simulate, sampling_periods, numbers
     )
-    told = found(_native.design(_asked(document), wanted))
+    told = found(_native.design(_asked(document), wanted, progress))
     return Design(stated(told["sigma"]), told["n_o"], told["is_met"], _certificate(told["certificate"]), told["reports"])
 
 
