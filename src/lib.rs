@@ -79,13 +79,13 @@ mod api;
 #[doc(hidden)]
 pub use api::program;
 pub use api::{
-    BoundedPlant, BoundingFunction, Certificate, CertifyOptions, CheckReport, CheckVerdict, Claim, Condition, Design,
-    DesignOptions, Diagnostic, Error, ErrorKind, InitialSet, JacobianEntry, OscillatorShare, PeriodicSolution,
-    RegulatorMatrices, Report, ReportFormat, SampledRegulator, Samples, SamplingPairs, Specification,
-    SpecificationBuilder, Study, StudyCase, Subject, TransferBound, TransferChoice, TransferOptions, TransferStudy,
-    TuneGoal, TuneOptions, Tuned, VERSION, Verdict, bounding_specification, certify, certify_telling, check,
-    check_against, design, design_telling, lyapunov, regulator_matrices, reread, sampled_regulator, sampling,
-    transfer_bound, transfer_study, tune,
+    BoundedPlant, BoundingFunction, Certificate, CertifyOptions, CheckReport, CheckVerdict, Claim, ClaimedBounds,
+    ClaimedRate, Condition, Design, DesignOptions, Diagnostic, Error, ErrorKind, InitialSet, JacobianEntry,
+    OscillatorShare, PeriodicSolution, RegulatorMatrices, Report, ReportFormat, SampledRegulator, Samples,
+    SamplingPairs, Specification, SpecificationBuilder, Study, StudyCase, Subject, TransferBound, TransferChoice,
+    TransferOptions, TransferStudy, TuneGoal, TuneOptions, Tuned, VERSION, Verdict, bounding_specification, certify,
+    certify_telling, check, check_against, design, design_telling, lyapunov, regulator_matrices, reread,
+    sampled_regulator, sampling, transfer_bound, transfer_study, tune,
 };
 #[cfg(feature = "lab")]
 pub use api::{Falsification, FalsificationOutcome, Simulation, SimulationOptions, falsify, simulate};

@@ -1,5 +1,6 @@
 //! What a certificate says.
 
+use super::claimed::{ClaimedBounds, ClaimedRate, bounds, rates};
 use super::condition::Condition;
 use super::report::Report;
 use super::subject::Subject;
@@ -28,8 +29,9 @@ pub struct Certificate {
 impl Certificate {
     /// `None` where nothing was certified; `again` where a witness was decided again.
     pub(super) fn new(run: &Run<'_>, subject: &Subject, again: bool) -> Option<Certificate> {
-        let claim = Claim::new(run)?;
-        let (json, subject) = (json_text(&certificate_of(run)?), subject.clone());
+        let written = certificate_of(run)?;
+        let claim = Claim { rates: rates(&written["claim"]), bounds: bounds(&written["claim"]), ..Claim::new(run)? };
+        let (json, subject) = (json_text(&written), subject.clone());
         let (remarks, report) = (run_remarks(run), Report::of_run(run, again));
         Some(Certificate { claim, conditions: Condition::of_run(run), remarks, json, report, subject })
     }
@@ -88,6 +90,8 @@ pub struct Claim {
     statement: String,
     initial_set: InitialSet,
     periodic_solution: PeriodicSolution,
+    rates: Vec<ClaimedRate>,
+    bounds: Vec<ClaimedBounds>,
     sha256: String,
 }
 
@@ -117,6 +121,8 @@ impl Claim {
             statement,
             initial_set: InitialSet::new(run.spec(), set),
             periodic_solution: PeriodicSolution::new(&certified.periodic),
+            rates: Vec::new(),
+            bounds: Vec::new(),
             sha256: run.spec().sha256.clone(),
         })
     }
@@ -156,6 +162,19 @@ impl Claim {
     #[must_use]
     pub fn periodic_solution(&self) -> &PeriodicSolution {
         &self.periodic_solution
+    }
+
+    /// Rates at this gain alone, for the numbers of [`CertifyOptions::n_o`](crate::CertifyOptions::n_o) of which one is proved.
+    #[must_use]
+    pub fn rates(&self) -> &[ClaimedRate] {
+        &self.rates
+    }
+
+    /// Bounds of the error and of the control at this gain alone by the number of oscillators, or by their harmonics: far smaller, as a rule, than those for
+    /// every gain. None of a bounding specification.
+    #[must_use]
+    pub fn bounds(&self) -> &[ClaimedBounds] {
+        &self.bounds
     }
 
     /// SHA-256, in hexadecimal, of the specification or plant that the claim is about

@@ -8,9 +8,12 @@ use super::json_text;
 use super::options::{Asked, CertifyOptions};
 use super::report::Report;
 use super::subject::Subject;
+use sigmastar_lang::spec::Oscillators;
 use sigmastar_prove::certificate::certificate_of;
 use sigmastar_prove::certify::Options;
-use sigmastar_prove::reduction::{Checked, Prepared, Run, Stage, Subject as Read, Unwatched, Watch, at_samples};
+use sigmastar_prove::reduction::{
+    Checked, Prepared, Run, Stage, Subject as Read, Unwatched, Watch, at_samples, for_every_set,
+};
 use sigmastar_report::run_sentence;
 use std::fmt;
 use std::sync::{Mutex, PoisonError};
@@ -78,23 +81,44 @@ impl Watch for Telling<'_> {
 type Told<'t> = (&'t dyn Watch, &'t dyn Fn(Afterwards));
 
 fn run(subject: &Subject, options: &CertifyOptions, (watch, begin): Told<'_>) -> Result<Certificate, Error> {
-    let Asked { options, gain, step, counts, limits } = options.checked()?;
-    let asked = match &step {
-        None => subject.clone(),
-        Some(step) => {
-            let read = Read::read(&at_samples(&subject.source, step)?)?;
-            Subject { read, source: subject.source.clone() }
+    let Asked { options, gain, step, counts, sets, limits } = options.checked()?;
+    let mut asked = subject.clone();
+    if step.is_some() || !sets.is_empty() {
+        let mut document =
+            step.as_ref().map_or_else(|| Ok(subject.source.clone()), |step| at_samples(&subject.source, step))?;
+        if !sets.is_empty() {
+            document = for_every_set(&document)?;
         }
-    };
+        asked.read = Read::read(&document)?;
+    }
+    if let Some([message, help]) = not_told_apart(&sets, &asked.read, "harmonics") {
+        return Err(Error::new(ErrorKind::Options, message, &help));
+    }
     let sampled = asked.read.sampling().is_some();
     let kind = (sampled, asked.read.internal_model().asks_every_set());
     if let Some([message, help]) = options.misfit(kind, "`transfer`") {
         return Err(Error::new(ErrorKind::Options, message, &help));
     }
     let prepared = Prepared::seeking(&asked.read, gain, (&limits, &counts), options, watch)
-        .map_err(|all| Error::documents(&all))?;
+        .map_err(|all| Error::documents(&all))?
+        .with_sets(sets);
     let run = decided(&prepared, (options, &counts), "`n_o`", watch, begin)?;
     Certificate::new(&run, &asked, false).ok_or_else(|| not_certified(&run))
+}
+
+/// Why the samples of a document do not tell oscillators at these harmonics apart, and what to do about it; `option` is the list as the user writes it.
+#[must_use]
+pub fn not_told_apart(sets: &[Oscillators], read: &Read, option: &str) -> Option<[String; 2]> {
+    let samples = read.sampling()?.samples;
+    let largest = sets.iter().map(Oscillators::largest).max().unwrap_or(0);
+    (2 * u64::from(largest) >= u64::from(samples)).then(|| {
+        [
+            format!(
+                "{option}: the claim is about harmonics below {samples}/2, half of the samples in a period, and {largest} is not"
+            ),
+            "take a shorter sampling period, or smaller harmonics".to_owned(),
+        ]
+    })
 }
 
 /// What follows a claim that was decided.

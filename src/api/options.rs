@@ -5,8 +5,9 @@ use super::{positive, rational, steady_error};
 use rug::Rational;
 use sigmastar_decide::conditions::Ladder;
 use sigmastar_exact::enclosure::{DEFAULT_PRECISION, MAX_PRECISION};
-use sigmastar_lang::spec::Constant;
+use sigmastar_lang::spec::{Constant, Oscillators};
 use sigmastar_prove::certify::{Limits, TransferChoice, rate_counts};
+use sigmastar_prove::rate::bound::MAX_OSCILLATORS;
 
 pub use sigmastar_prove::certify::Options;
 
@@ -25,6 +26,7 @@ pub struct CertifyOptions {
     sigma: Option<String>,
     sampling_period: Option<String>,
     n_o: Vec<u32>,
+    harmonics: Vec<Vec<u32>>,
     /// Of the steady error, of the error in the transient, of the control, of the rates.
     limits: [Option<String>; 4],
 }
@@ -35,6 +37,7 @@ pub(super) struct Asked {
     pub(super) gain: Option<Rational>,
     pub(super) step: Option<Constant>,
     pub(super) counts: Vec<u32>,
+    pub(super) sets: Vec<Oscillators>,
     pub(super) limits: Limits,
 }
 
@@ -47,6 +50,7 @@ impl Default for CertifyOptions {
             sigma: None,
             sampling_period: None,
             n_o: Vec::new(),
+            harmonics: Vec::new(),
             limits: [const { None }; 4],
         }
     }
@@ -124,6 +128,19 @@ impl CertifyOptions {
         self
     }
 
+    /// Certify for every finite set of harmonics that contains 0, and put bounds for oscillators at these into the certificate where they are proved; several
+    /// times for several sets, each of 0 and at most 100 others up to 100. It takes the place of `harmonics` in the document.
+    ///
+    /// ```
+    /// use sigmastar::CertifyOptions;
+    /// let options = CertifyOptions::new().harmonics([0, 1, 5, 7, 11, 13]);
+    /// ```
+    #[must_use]
+    pub fn harmonics(mut self, set: impl Into<Vec<u32>>) -> CertifyOptions {
+        self.harmonics.push(set.into());
+        self
+    }
+
     /// Certify a gain that keeps |e| of the periodic solution at most this, a positive rational number (the smallest found), for
     /// every number of oscillators, or for those of [`CertifyOptions::n_o`], where there are some, which often needs a far smaller gain. Without
     /// [`CertifyOptions::rate`] bounds by the number of oscillators count, too. With [`CertifyOptions::sigma`] refuse a gain with which that is not proved.
@@ -184,6 +201,7 @@ impl CertifyOptions {
         let gain = self.sigma.as_ref().map(|text| rational("sigma", text)).transpose()?;
         let step = self.sampling_period.as_ref().map(|text| positive("sampling_period", text)).transpose()?;
         let counts = rate_counts(&self.n_o).map_err(|reason| Error::no_rates(reason, "`n_o`"))?;
+        let sets = self.harmonics.iter().map(|set| oscillators(set)).collect::<Result<_, _>>()?;
         let limit = |name, text: &Option<String>| text.as_ref().map(|text| rational(name, text)).transpose();
         let [steady, peak, control, rate] = &self.limits;
         let limits = Limits {
@@ -201,6 +219,17 @@ impl CertifyOptions {
                 help,
             ));
         }
-        Ok(Asked { options, gain, step, counts, limits })
+        Ok(Asked { options, gain, step, counts, sets, limits })
     }
+}
+
+/// The set of these harmonics.
+fn oscillators(set: &[u32]) -> Result<Oscillators, Error> {
+    let wrong = |message: String, help: &str| Error::new(ErrorKind::Options, format!("harmonics: {message}"), help);
+    let found =
+        Oscillators::at(set).map_err(|error| wrong(error.to_string(), "give each harmonic once, 0 among them"))?;
+    if found.largest() > MAX_OSCILLATORS {
+        return Err(wrong(format!("{} is beyond {MAX_OSCILLATORS}", found.largest()), "give smaller harmonics"));
+    }
+    Ok(found)
 }

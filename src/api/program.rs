@@ -2,7 +2,7 @@
 //! in the place of files, and somebody who waits. No part of the interface.
 
 pub use super::bound::bounds_of;
-pub use super::certify::{Afterwards, decided};
+pub use super::certify::{Afterwards, decided, not_told_apart};
 pub use super::check::{MAX_CERTIFICATE, check_bytes};
 pub use super::constants::constants_of;
 pub use super::design::{DesignNames, design_of};

@@ -8,7 +8,7 @@ use super::output::{Format, Shortened, shown};
 use super::stages::{Stages, Step};
 use super::subject::{Asked, Subject, proving, with_sampling_period};
 use super::{input, output};
-use sigmastar::program::{Afterwards, Drawn, FIGURE_FILES, decided, report_of};
+use sigmastar::program::{Afterwards, Drawn, FIGURE_FILES, decided, not_told_apart, report_of};
 use sigmastar_document::number::estimate;
 use sigmastar_exact::number::write_exact;
 use sigmastar_lang::plant::Plant;
@@ -58,7 +58,9 @@ pub fn run(args: &CertifyArgs) -> Result<u8, Failure> {
         return Err(Failure::call(message, help));
     }
     let counts = counts(args)?;
-    fits(&args.harmonics, &subject)?;
+    if let Some([message, help]) = not_told_apart(&args.harmonics, &subject, "--harmonics") {
+        return Err(Failure::call(message, help));
+    }
     if given.is_some() && witness.is_none() && !args.quiet {
         let kind = subject.kind();
         output::remark(&format!(
@@ -146,20 +148,6 @@ pub fn run(args: &CertifyArgs) -> Result<u8, Failure> {
         output::remark(&far.describe());
     }
     Ok(code)
-}
-
-/// That samples can tell the harmonics that are asked for apart.
-fn fits(sets: &[Oscillators], subject: &Subject) -> Result<(), Failure> {
-    let Some(sampling) = subject.sampling() else { return Ok(()) };
-    let largest = sets.iter().map(Oscillators::largest).max().unwrap_or(0);
-    if 2 * u64::from(largest) < u64::from(sampling.samples) {
-        return Ok(());
-    }
-    let message = format!(
-        "--harmonics: the claim is about harmonics below {}/2, half of the samples in a period, and {largest} is not",
-        sampling.samples
-    );
-    Err(Failure::call(message, "take a shorter sampling period, or smaller harmonics"))
 }
 
 /// Of which sets that were asked for a certified run has no bounds of their own, in words.

@@ -366,6 +366,54 @@ fn the_regulator_at_samples_is_certified() {
     assert!(error.to_string().contains("h sigma exceeds 1"), "{error}");
 }
 
+/// What is said by the number of oscillators, and for sets of harmonics, is that of the certificate, rounded to the safe side.
+#[test]
+fn rates_and_bounds_are_those_of_the_certificate() {
+    let plant = Subject::from_json(include_str!("../../specs/plants/linear.json")).unwrap();
+    let options = CertifyOptions::new().sigma("5").n_o([0, 3]).harmonics([0, 1, 3]).harmonics([2, 0]);
+    let certificate = certify(&plant, &options).unwrap();
+    let written = json(certificate.to_json().as_bytes());
+    let number = |value: &serde_json::Value| value.as_str().unwrap().parse::<f64>().unwrap();
+    let claim = certificate.claim();
+    let entries = written["claim"]["by_n_o"].as_array().unwrap();
+    assert!(claim.bounds().len() == entries.len() && entries.len() > 2);
+    for (bounds, entry) in claim.bounds().iter().zip(entries) {
+        assert_eq!(bounds.n_o().map(u64::from), entry["n_o"].as_u64());
+        let [error, control] = bounds.largest.unwrap();
+        let found = [bounds.steady_error, bounds.steady_rms, bounds.steady_control, error, control];
+        let (steady, largest) = (&entry["steady"], &entry["largest"]);
+        let stated = [&steady["e"], &steady["e_rms"], &steady["u"], &largest["e"], &largest["u"]].map(number);
+        // Either the double nearest to it or the next one.
+        assert!(found.iter().zip(stated).all(|(found, stated)| *found == stated || *found == stated.next_up()));
+    }
+    let sets: Vec<&[u32]> = claim.bounds().iter().rev().take(2).map(|bounds| &bounds.harmonics[..]).collect();
+    assert_eq!(sets, [&[0, 2][..], &[0, 1, 3]]);
+    let rates = written["claim"]["for_n_o"].as_array().unwrap();
+    assert_eq!(claim.rates().iter().map(|rate| rate.n_o).collect::<Vec<_>>(), [0, 3]);
+    for (rate, entry) in claim.rates().iter().zip(rates) {
+        assert!(rate.rate <= number(&entry["rate"]) && rate.factor >= number(&entry["factor"]) && rate.rate > 0.0);
+    }
+    assert!(claim.statement().contains("every finite set of harmonics"), "{}", claim.statement());
+    assert!(check(certificate.to_json()).is_valid());
+
+    // At samples every set that they tell apart.
+    let at_samples = CertifyOptions::new().sigma("5").sampling_period("1/20").harmonics([0, 1, 5]);
+    let sampled = certify(&plant, &at_samples).unwrap();
+    assert_eq!(sampled.claim().bounds().last().unwrap().harmonics, [0, 1, 5]);
+    for (set, said) in [
+        (vec![0, 10], "10 is not"),
+        (vec![1, 5], "without it there is no integrator"),
+        (vec![0, 1, 1], "harmonic 1 is there twice"),
+        (vec![0, 101], "101 is beyond 100"),
+    ] {
+        let error = certify(&plant, &at_samples.clone().harmonics(set)).unwrap_err();
+        assert!(error.kind() == ErrorKind::Options && error.to_string().contains(said), "{error}");
+    }
+    // Without them there is nothing of this kind.
+    let plain = certify(example(), &quick()).unwrap();
+    assert!(plain.claim().bounds().is_empty() && plain.claim().rates().is_empty());
+}
+
 #[test]
 fn a_given_gain_is_certified_or_not() {
     let certificate = certify(example(), &quick().sigma("85/2")).unwrap();

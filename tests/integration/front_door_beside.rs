@@ -30,6 +30,7 @@ fn a_stored_certificate_is_decided_again_to_what_it_was() {
         (LINEAR, plain.clone().sampling_period("1/100")),
         (JACOBIAN, plain.clone()),
         (LINEAR_PLANT, plain.clone()),
+        (LINEAR_PLANT, plain.clone().n_o([0, 1, 6]).harmonics([0, 2])),
         (PLANT_TEXT, plain.clone().sigma("9")),
     ] {
         let certificate = certified(text, &options);

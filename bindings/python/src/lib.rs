@@ -45,6 +45,7 @@ struct Options {
     peak_error: Option<String>,
     max_control: Option<String>,
     rate: Option<String>,
+    harmonics: Vec<Vec<u32>>,
 }
 
 impl Options {
@@ -65,6 +66,7 @@ impl Options {
         let options = self.steady_error.into_iter().fold(options, CertifyOptions::steady_error);
         let options = self.peak_error.into_iter().fold(options, CertifyOptions::peak_error);
         let options = self.max_control.into_iter().fold(options, CertifyOptions::max_control);
+        let options = self.harmonics.into_iter().fold(options, CertifyOptions::harmonics);
         Ok(self.rate.into_iter().fold(options, CertifyOptions::rate).n_o(self.n_o))
     }
 }

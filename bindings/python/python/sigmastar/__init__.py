@@ -25,6 +25,7 @@ from ._regulator import Regulator, SampledRegulator
 from ._results import (
     Certificate,
     Check,
+    ClaimedBounds,
     ClaimedRate,
     ErrorBound,
     InitialSet,
@@ -41,6 +42,7 @@ __all__ = [
     "Case",
     "Certificate",
     "Check",
+    "ClaimedBounds",
     "ClaimedRate",
     "Condition",
     "Design",

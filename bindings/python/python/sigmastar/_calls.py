@@ -38,6 +38,7 @@ class _Options(NamedTuple):
     peak_error: Optional[str]
     max_control: Optional[str]
     rate: Optional[str]
+    harmonics: List[List[int]]
 
 
 class _Wanted(NamedTuple):
@@ -71,6 +72,7 @@ def certify(
     sigma: Optional[Number] = ...,
     sampling_period: None = ...,
     n_o: Union[int, Iterable[int]] = ...,
+    harmonics: Iterable[Union[int, Iterable[int]]] = ...,
     steady_error: Optional[Number] = ...,
     peak_error: Optional[Number] = ...,
     max_control: Optional[Number] = ...,
@@ -87,6 +89,7 @@ def certify(
     sigma: Optional[Number] = ...,
     sampling_period: Number,
     n_o: Union[int, Iterable[int]] = ...,
+    harmonics: Iterable[Union[int, Iterable[int]]] = ...,
     steady_error: Optional[Number] = ...,
     peak_error: Optional[Number] = ...,
     max_control: Optional[Number] = ...,
@@ -102,6 +105,7 @@ def certify(
     sigma: Optional[Number] = None,
     sampling_period: Optional[Number] = None,
     n_o: Union[int, Iterable[int]] = (),
+    harmonics: Iterable[Union[int, Iterable[int]]] = (),
     steady_error: Optional[Number] = None,
     peak_error: Optional[Number] = None,
     max_control: Optional[Number] = None,
@@ -119,6 +123,8 @@ def certify(
     - `sampling_period`: certify the regulator that a computer runs at samples this far apart;
     - `n_o`: numbers of oscillators (at most 8, up to 100) for each of which a rate and a factor are proved and claimed, at this gain, and bounds by the
       number of oscillators where there are some;
+    - `harmonics`: a set of harmonics with 0 among them, `[0, 1, 5, 7]`, or several: the claim is for every finite set that contains 0, and bounds
+      for these are proved where they can be;
     - `steady_error`, `peak_error`, `max_control`: certify a gain that keeps |e| along the periodic solution, |e| in the transient, or the
       control (with `input_gain` over `nominal`) within this (the smallest found), for every number of oscillators, or for those of `n_o`
       where there are some;
@@ -133,8 +139,15 @@ def certify(
     where what was asked for is proved not to hold, and OSError for a file that cannot be read.
     """
     limits = (_maybe(steady_error), _maybe(peak_error), _maybe(max_control), _maybe(rate))
-    options = _Options(transfer, precision_limit, compare, _maybe(sigma), _maybe(sampling_period), _counts(n_o), *limits)
+    options = _Options(transfer, precision_limit, compare, _maybe(sigma), _maybe(sampling_period), _counts(n_o), *limits, _sets(harmonics))
     return _certificate(found(_native.certify(_asked(document), options, progress)))
+
+
+def _sets(harmonics: Iterable[Union[int, Iterable[int]]]) -> List[List[int]]:
+    """Sets of harmonics, of which one may stand alone."""
+    given = list(harmonics)
+    alone = bool(given) and not any(isinstance(part, Iterable) for part in given)
+    return [_counts(one) for one in ([given] if alone else given)]
 
 
 def load(path: Union[str, "os.PathLike[str]"]) -> Certificate:

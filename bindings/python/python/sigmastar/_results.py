@@ -96,6 +96,37 @@ class ClaimedRate(Shown):
 
 
 @dataclass(frozen=True, repr=False)
+class ClaimedBounds(Shown):
+    """What the claim says of oscillators at some harmonics, at its gain alone, for every plant and gain of the actuator of the claim. Each number is
+    rounded up. The certificate has them, so that `check` decides them."""
+
+    _sides = {
+        "steady_error": "up",
+        "steady_rms": "up",
+        "steady_control": "up",
+        "largest_error": "up",
+        "largest_control": "up",
+    }
+
+    n_o: Optional[int]
+    """The number of oscillators; None where their harmonics are not the first ones."""
+    harmonics: Tuple[int, ...]
+    """Their harmonics, 0 among them."""
+    or_more: bool
+    """Whether every larger number of oscillators has these bounds, too."""
+    steady_error: Exact
+    """Of |e| along the periodic solution."""
+    steady_rms: Exact
+    """Of the root mean square of e along the periodic solution."""
+    steady_control: Exact
+    """Of what is put out along the periodic solution."""
+    largest_error: Optional[Exact]
+    """Of |e| at all times, for every solution from the initial set; None where that is not proved."""
+    largest_control: Optional[Exact]
+    """Of what is put out at all times; None where `largest_error` is."""
+
+
+@dataclass(frozen=True, repr=False)
 class Certificate(Reported):
     """A certified claim, the conditions that prove it, and the file from which both can be checked again.
 
@@ -148,6 +179,12 @@ class Certificate(Reported):
     def rates(self) -> List[ClaimedRate]:
         """What `certify` was asked with `n_o`."""
         return [_rate(row) for row in self.data.get("for_n_o") or []]
+
+    @property
+    def bounds(self) -> List[ClaimedBounds]:
+        """Bounds of the error and of the control by the number of oscillators, and for the sets of `harmonics`: far smaller, as a rule, than `error_bounds`.
+        None of a bounding specification."""
+        return [_bounds(part) for part in json.loads(self._json)["claim"].get("by_n_o", [])]
 
     def plot(self, ax: Optional[Axes] = None) -> Axes:
         """The bounds of the error against the number of oscillators, with matplotlib, which has to be installed."""
@@ -242,6 +279,15 @@ def _rate(row: Dict[str, Any]) -> ClaimedRate:
     noise = row.get("noise") or {}
     limit, peak = (None if noise.get(name) is None else stated(noise[name], "up") for name in ("limit", "peak"))
     return ClaimedRate(row["n_o"], stated(row["rate"], "down"), stated(row["factor"], "up"), limit, peak)
+
+
+def _bounds(part: Dict[str, Any]) -> ClaimedBounds:
+    n_o = part.get("n_o")
+    harmonics = part["harmonics"] if n_o is None else range(n_o + 1)
+    steady = (stated(part["steady"][name], "up") for name in ("e", "e_rms", "u"))
+    largest = part.get("largest")
+    of_all = (None, None) if largest is None else (stated(largest[name], "up") for name in ("e", "u"))
+    return ClaimedBounds(n_o, tuple(harmonics), part.get("or_more", False), *steady, *of_all)
 
 
 def exact(told: Optional[Tuple[float, str]]) -> Any:
