@@ -258,6 +258,7 @@ impl Table {
             values,
             disturbed: has_disturbances(read),
             states_e0: read.states_e0(),
+            leaves_sizes_open: read.leaves_sizes_open(),
             notes: certificate.remarks(),
             set_and_assumptions: &set_and_assumptions,
             sampling: read.sampling().map(|sampling| (sampling.text(), sampling.samples)),

@@ -195,7 +195,7 @@ impl Certification<'_> {
 }
 
 /// Why a rate is not proved from the error box.
-const NO_DECAY: &str = "no decay was found that is proved for all derivatives of the error box at this gain";
+const NO_DECAY: &str = "no decay is proved for all derivatives in the error box at this gain";
 
 /// A gain for words, to six digits.
 fn shown(sigma: f64) -> String {

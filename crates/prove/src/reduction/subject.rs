@@ -181,10 +181,22 @@ impl Subject {
     /// Whether the document states E0 of the initial set; else it goes with the gain.
     #[must_use]
     pub fn states_e0(&self) -> bool {
-        match self {
-            Subject::Specification(spec) => spec.initial_set.given()[1].is_some(),
-            Subject::Plant(plant) => plant.initial_set.given()[1].is_some(),
-        }
+        self.stated_sizes()[1]
+    }
+
+    /// Whether the document leaves a size of the initial set open, which then goes with the gain.
+    #[must_use]
+    pub fn leaves_sizes_open(&self) -> bool {
+        let has_states = match self {
+            Subject::Specification(_) => true,
+            Subject::Plant(plant) => plant.states() > 0,
+        };
+        let [x0, e0] = self.stated_sizes();
+        !e0 || !x0 && has_states
+    }
+
+    fn stated_sizes(&self) -> [bool; 2] {
+        self.part(|spec| &spec.initial_set, |plant| &plant.initial_set).given().map(|size| size.is_some())
     }
 
     /// The gain of the actuator, where the document has one.

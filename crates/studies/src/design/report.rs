@@ -42,6 +42,8 @@ pub struct DesignReport<'d> {
     pub disturbed: bool,
     /// Whether the document states E0; else it goes with the gain.
     pub states_e0: bool,
+    /// Whether the document leaves a size of the initial set open.
+    pub leaves_sizes_open: bool,
     /// What the data are to be looked at for, in sentences, of the claim with the gain to take.
     pub notes: &'d [String],
     /// The initial set of that claim, and what is assumed of the plant, in clauses.
@@ -171,16 +173,16 @@ impl DesignReport<'_> {
     fn basis(&self) -> String {
         let samples = match &self.sampling {
             Some((step, samples)) => format!(
-                " All of it is about samples that are {} apart, {samples} in a period, and rates are those at the sampling instants.",
+                " The whole table is about samples that are {} apart, {samples} in a period. Rates are those at the sampling instants.",
                 clean(step)
             ),
             None => String::new(),
         };
         let noise = match (self.disturbed, self.has_noise()) {
             (false, _) => "",
-            (true, true) => " All of it but the last column is about the loop without noise, disturbance and rounding.",
+            (true, true) => " All columns but the last one are about the loop without noise, disturbance and rounding.",
             (true, false) => {
-                " All of it is about the loop without noise, disturbance and rounding; nothing is proved of these."
+                " The whole table is about the loop without noise, disturbance and rounding; nothing is proved about these."
             }
         };
         let middle = self.middle.map_or_else(String::new, |middle| {
@@ -188,13 +190,13 @@ impl DesignReport<'_> {
         });
         let simulated = match self.has_simulations() {
             true => {
-                " Columns `sim.` are of simulations of the nominal plant, from starts in the initial set that seem to be the worst; they prove nothing."
+                " Columns `sim.` show simulations of the nominal plant from the starts that seem to be the worst. They prove nothing."
             }
             false => "",
         };
         format!(
-            "Steady is along the periodic solution, largest is at all times from the initial set, for every plant, period and gain of the actuator of the \
-             document; $`u`$ is what is put out{middle}. Each row is a claim of its own. The independent checker has decided it, and the numbers are those of its \
+            "Steady values hold along the periodic solution, largest values at all times from the initial set, for every plant, period and gain of the \
+             actuator of the document. $`u`$ is what is put out{middle}. Each row is a claim of its own. The independent checker has decided it, and the numbers are those of its \
              certificate, except where a remark says otherwise.{noise}{samples}{simulated}"
         )
     }
@@ -295,7 +297,8 @@ impl DesignReport<'_> {
         }
         if let Some(limit) = &self.requirements.steady_error {
             remarks.push(format!(
-                "settles in: after so many periods $`|e|`$ is at most {} for good{}, by the proved rate and its factor",
+                "settles in: after so many periods $`|e|`$ is at most {} for good{}, by the proved rate and factor. One exponential function bounds all \
+                 of the transient, so the true number is often far smaller at large gains",
                 write_exact(limit),
                 if self.sampling.is_some() { " at the sampling instants" } else { "" }
             ));
@@ -306,12 +309,17 @@ impl DesignReport<'_> {
         } else {
             format!("at $`sigma = {}`$", write_exact(&row.sigma))
         };
-        remarks.push(format!("initial set, {of_gain}: {set}; sizes that the file leaves open go with the gain"));
+        let open = if self.leaves_sizes_open {
+            "; the file leaves sizes of it open, which differ from gain to gain"
+        } else {
+            ""
+        };
+        remarks.push(format!("initial set, {of_gain}: {set}{open}"));
         remarks.push(format!("assumed: {assumed}"));
         for (which, said) in [
-            "steady error: where the certificate has no bounds by the number of oscillators, that of a number follows from the claim by formulas that only \
-             this program evaluates",
-            "largest error: where the certificate has no bounds by the number of oscillators, it follows from what proves the claim, by this program alone",
+            "steady error: where the certificate has no bounds by the number of oscillators, this program alone derives the bound from the claim",
+            "largest error: where the certificate has no bounds by the number of oscillators, this program alone derives the bound from what proves the \
+             claim",
         ]
         .into_iter()
         .enumerate()
@@ -323,8 +331,8 @@ impl DesignReport<'_> {
         let known_by_count = |cell: &Cell| cell.are_in_certificate[1];
         if self.sampling.is_some() && row.cells.len() > 1 && !self.cells().any(known_by_count) {
             remarks.push(
-                "steady error: at samples there are bounds by the number of oscillators for plants that are linear in x and e; here more oscillators do not \
-                 lower what is proved"
+                "steady error: at samples there are bounds by the number of oscillators for plants that are linear in x and e. Here more oscillators do not \
+                 lower the bound"
                     .to_owned(),
             );
         }
@@ -334,7 +342,7 @@ impl DesignReport<'_> {
         remarks.extend(self.refused.iter().map(refused));
         if self.cells().any(|cell| cell.decay.is_none()) {
             remarks.push(
-                "rates: where none is proved nothing is said about it; fewer oscillators or a larger gain may have one"
+                "rates: where none is proved, nothing is said. Fewer oscillators or a larger gain may give one"
                     .to_owned(),
             );
         }
