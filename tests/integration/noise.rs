@@ -1,7 +1,7 @@
 //! Noise of the measurement and disturbances in claims for given n_o (docs/mathematics.md, 13.6, Proposition N): what a certificate says, that the
 //! checker decides it, and that trials hold it and break a forged one.
 
-use crate::support::{document, json, number, program, specification_text, told, tried, utf8};
+use crate::support::{assert_valid, document, json, number, program, specification_text, told, tried, utf8};
 use serde_json::{Value, json as object};
 use sigmastar_lab::falsify::Finding;
 use std::path::Path;
@@ -231,4 +231,63 @@ fn noise_of_a_plant_is_bounded_by_norms() {
     let [plain, with_noise] = [with("plants/pendulum", &[]), with("plants/pendulum", &small)];
     let least = sigma(&plain, &["--n-o", "0"]);
     assert!(least == sigma(&with_noise, &[]) && least < sigma(&with_noise, &["--n-o", "0"]));
+}
+
+/// `v' = -v + e + cos(phase)`, with two harmonics in q, and what is said of it by the number of oscillators.
+fn linear_plant(members: &[(&str, Value)]) -> String {
+    let mut plant = object!({
+        "format": "sigmastar/plant", "version": 1, "name": "disturbed", "period": 2, "states": ["v"],
+        "f": ["-v + e + cos(phase)"], "q": "v/2 + e/2 + sin(phase) + sin(6*phase)/2",
+        "initial_set": { "kind": "aligned", "X0": "1/2", "E0": "1/2" },
+        "internal_model": {
+            "mu": 1, "base_frequency": "pi", "matched": true, "weights": { "family": "power", "n0": 2, "epsilon": "1/2" },
+        },
+    });
+    for (member, value) in members {
+        plant[*member] = value.clone();
+    }
+    plant.to_string()
+}
+
+/// Bounds by the number of oscillators are about the loop without noise, so that a document with noise has the same, and says so; of a plant that is not
+/// linear it has none.
+#[test]
+fn noise_changes_nothing_that_is_said_by_the_number_of_oscillators() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |text: &str, flags: &[&str]| {
+        let (path, output) = (folder.path().join("plant.json"), folder.path().join("c.json"));
+        std::fs::write(&path, text).unwrap();
+        let mut call = program();
+        call.arg("certify").arg(&path).args(flags).args(["--quiet", "--force", "-o"]).arg(&output);
+        call.assert().success();
+        assert_valid(&output);
+        json(&std::fs::read(&output).unwrap())
+    };
+    let [measurement, _] = inputs();
+    let at_samples = ["--sigma", "9", "--sampling-period", "1/200"];
+    for (flags, member) in [
+        (&["--sigma", "9"][..], measurement.clone()),
+        (&["--sigma", "9", "--n-o", "0,1"], measurement.clone()),
+        (&at_samples, measurement.clone()),
+        (&at_samples, ("arithmetic", object!("double"))),
+        (&[&at_samples[..], &["--n-o", "0"]].concat(), measurement.clone()),
+    ] {
+        let without = file(&linear_plant(&[]), flags);
+        let with = file(&linear_plant(&[member]), flags);
+        let steady = |certificate: &Value| -> Vec<Value> {
+            let entries = certificate["claim"]["by_n_o"].as_array().unwrap();
+            entries.iter().map(|entry| entry["steady"].clone()).collect()
+        };
+        assert!(steady(&with).len() > 2 && steady(&with) == steady(&without), "{flags:?}");
+        let said = |certificate: &Value| {
+            let statement = certificate["claim"]["statement"].as_str().unwrap().to_owned();
+            statement.matches(" exactly, without noise, disturbance and rounding, |e| <= ").count()
+        };
+        assert_eq!([said(&with), said(&without)], [steady(&with).len(), 0], "{flags:?}");
+    }
+    // In continuous time the arithmetic counts for nothing.
+    let exact = file(&linear_plant(&[("arithmetic", object!("double"))]), &["--sigma", "9"]);
+    assert!(!exact["claim"]["statement"].as_str().unwrap().contains("rounding"));
+    let nonlinear = file(&with("plants/pendulum", &[measurement]), &[]);
+    assert!(nonlinear["claim"].get("by_n_o").is_none());
 }

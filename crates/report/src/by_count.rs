@@ -36,8 +36,12 @@ pub(super) fn section(spec: &Specification, found: Option<&ByCount>, asked: &[u3
         true => "The certificate has them, at most 0.01 % larger.",
         false => "No independent program checks them.",
     };
+    let undisturbed = match spec.disturbances.any_at_samples() {
+        true => ", without noise, disturbance and rounding",
+        false => "",
+    };
     let says = format!(
-        "Proved at this gain for each number of oscillators{of}: steady values along the periodic solution, largest values at all times from the initial set. \
+        "Proved at this gain for each number of oscillators{of}{undisturbed}: steady values along the periodic solution, largest values at all times from the initial set. \
          {who}"
     );
     vec![Block::says(says), Block::Table(table)]

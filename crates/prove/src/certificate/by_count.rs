@@ -47,6 +47,8 @@ pub(super) fn counts_in_words(
     (sigma, samples): (&Rational, Option<u32>),
     part: &Value,
 ) -> String {
+    let is_disturbed = samples.map_or_else(|| spec.disturbances.any(), |_| spec.disturbances.any_at_samples());
+    let undisturbed = if is_disturbed { " without noise, disturbance and rounding," } else { "" };
     let below = samples.map_or_else(String::new, |samples| format!(" below {samples}/2"));
     let output = spec.input_gain.as_ref().map_or_else(
         || "u".to_owned(),
@@ -77,7 +79,7 @@ pub(super) fn counts_in_words(
             format!(", and |e| <= {e} and |{output}| <= {u} at all times for these solutions")
         });
         format!(
-            " With {which} and sigma = {} exactly, |e| <= {e} (root mean square <= {rms}) and |{output}| <= {u} along the T-periodic \
+            " With {which} and sigma = {} exactly,{undisturbed} |e| <= {e} (root mean square <= {rms}) and |{output}| <= {u} along the T-periodic \
              solution{largest}.",
             write_exact(sigma)
         )

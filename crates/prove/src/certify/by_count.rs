@@ -215,7 +215,8 @@ impl Certification<'_> {
 
     /// Bounds by the number of oscillators at the gain of the claim: for every number where the plant is linear in x and e; where nothing of it is an
     /// interval for every number if a few oscillators meet all that counts, and else for some of them; and for those `besides`, sets with gaps where the claim is about
-    /// every set; nothing where the base frequency is not matched, or the document has noise or a disturbance.
+    /// every set; nothing where the base frequency is not matched. They are about the loop without noise and disturbance; where the document has some, only of a
+    /// plant that is linear: for what noise does the claim may come to rest on another proof, and trials are decided with the numbers of the first.
     pub fn set_counts(&mut self, plant: &Plant, besides: &[Oscillators]) {
         let every_set = self.is_for_every_set();
         let besides: Vec<Oscillators> =
@@ -230,6 +231,7 @@ impl Certification<'_> {
                 let loops = Loops { sigma, at_samples: None, set, besides: &besides, effort: EFFORTS[0] };
                 by_count((plant, &answers), self.spec, &loops)
             }
+            None if self.spec.disturbances.any() => None,
             None => {
                 let exact = |value: &Rational| Enclosure::from_rational(value, PRECISION);
                 let periodic = &evaluation.periodic;
@@ -250,7 +252,7 @@ impl Certification<'_> {
     }
 
     fn has_counts(&self) -> bool {
-        self.spec.internal_model.matched && !self.spec.disturbances.any() && self.claim().is_some()
+        self.spec.internal_model.matched && self.claim().is_some()
     }
 
     /// The rows with such bounds: that of the claim with those that are known, and the others where the plant is linear in x and e.
@@ -295,7 +297,7 @@ fn clock(plant: &Plant, sampling: Option<&Sampling>) -> Clock {
 
 impl SampledCertification<'_> {
     /// Bounds by the number of oscillators at the gain of the claim, of a plant that is linear in x and e, and for those `besides`, sets with gaps where the
-    /// claim is about every set; nothing where the document has noise or a disturbance.
+    /// claim is about every set. They are about the loop without noise, disturbance and rounding.
     pub fn set_counts(&mut self, plant: &Plant, besides: &[Oscillators]) {
         let every_set = self.spec.internal_model.asks_every_set();
         let besides: Vec<Oscillators> =
@@ -326,7 +328,7 @@ impl SampledCertification<'_> {
         witness: &SampledWitness,
         effort: usize,
     ) -> Option<ByCount> {
-        let linear = LinearPlant::of(plant).filter(|_| !self.spec.disturbances.any_at_samples())?;
+        let linear = LinearPlant::of(plant)?;
         let answers = Answers::new(&linear, clock(plant, Some(&witness.sampling)));
         let (sigma, set) = (&witness.sigma, &witness.set);
         by_count((plant, &answers), self.spec, &Loops { sigma, at_samples: Some(witness), set, besides, effort })

@@ -37,7 +37,11 @@ impl Certification<'_> {
     /// Where the error box has no room for what noise and a disturbance add, another proof of the claim is taken that has, if more of the bounds
     /// under noise are proved with it.
     pub(super) fn make_room(&mut self, counts: &[u32]) {
-        let bounds = |proof: &SharpProof| for_n_o(self.spec, (proof, None), counts);
+        // With noise they are those of a linear plant, which do not depend on what proves the claim but on its set.
+        let set = self.sharp.proved().map(|proof| proof.witness.set.clone());
+        let known_with =
+            |proof: &SharpProof| self.by_count.as_ref().filter(|_| set.as_ref() == Some(&proof.witness.set));
+        let bounds = |proof: &SharpProof| for_n_o(self.spec, (proof, known_with(proof)), counts);
         let Some(own) = self.sharp.proved() else { return };
         let mut best = more_proved(&self.for_n_o, |factor| self.with_room(own, factor), bounds);
         let roomy = self.roomy.as_ref().and_then(|proof| self.proved_with(proof.witness.clone()));
@@ -49,8 +53,9 @@ impl Certification<'_> {
             }
         }
         if let Some((proof, found)) = best {
+            let by_count = known_with(&proof).cloned();
             self.rest_on(proof);
-            self.for_n_o = found;
+            (self.for_n_o, self.by_count) = (found, by_count);
         }
     }
 
@@ -110,8 +115,12 @@ impl Certification<'_> {
 impl SampledCertification<'_> {
     /// The same of a claim at samples, whose box alone is made larger.
     pub(super) fn make_room(&mut self, counts: &[u32]) {
+        let set = self.claim().map(|proof| proof.witness.set.clone());
+        let known_with =
+            |proof: &SampledProof| self.by_count.as_ref().filter(|_| set.as_ref() == Some(&proof.witness.set));
         let bounds = |run: &SampledCertification<'_>| {
-            run.claim().map_or_else(Vec::new, |proof| for_n_o_at_samples(self.spec, (proof, None), counts))
+            let of = |proof| for_n_o_at_samples(self.spec, (proof, known_with(proof)), counts);
+            run.claim().map_or_else(Vec::new, of)
         };
         let Some(own) = self.claim() else { return };
         let mut best = more_proved(&self.for_n_o, |factor| self.widened(own, factor), bounds);
@@ -123,7 +132,9 @@ impl SampledCertification<'_> {
             }
         }
         if let Some((run, found)) = best {
+            let by_count = run.claim().and_then(known_with).cloned();
             (self.outcome, self.no_plant, self.for_n_o) = (run.outcome, run.no_plant, found);
+            self.by_count = by_count;
         }
     }
 

@@ -251,7 +251,7 @@ impl<'a> Claim<'a> {
         let kind = [self.sampled.is_some(), self.set.z0.is_none()];
         let besides: String = self.rates.iter().map(|rate| rate.in_words(sigma, kind, &spec.noise)).collect();
         let output = spec.input_gain.as_ref().map_or_else(|| "u".to_owned(), input_gain::output);
-        let by_n_o: String = self.by_n_o.iter().map(|entry| entry.in_words(sigma, &output)).collect();
+        let by_n_o: String = self.by_n_o.iter().map(|entry| entry.in_words(sigma, &output, &spec.noise)).collect();
         Ok(statement + &besides + &by_n_o)
     }
 

@@ -2,7 +2,7 @@
 
 use super::oscillators::Oscillators;
 use crate::json::{Field, Fields};
-use crate::noise::apart;
+use crate::noise::{Noise, apart};
 use crate::rules::rates::claimed::read_count;
 use crate::verdict::{Outcome, bad, demand};
 use rug::Rational;
@@ -107,15 +107,19 @@ impl<'a> Entry<'a> {
         self.oscillators.in_words(self.or_more, self.samples)
     }
 
-    /// Its sentence in the claim, with a space before it; `output`: what is put out.
-    pub fn in_words(&self, sigma: &str, output: &str) -> String {
+    /// Its sentence in the claim, with a space before it; `output`: what is put out. Nothing of it is about the noise of the file.
+    pub fn in_words(&self, sigma: &str, output: &str, noise: &Noise) -> String {
         let ([e, e_rms, u], about) = (self.steady_texts.map(apart), self.about());
         let largest = self.largest.as_ref().map_or_else(String::new, |_| {
             let [e, u] = self.largest_texts.map(apart);
             format!(", and |e| <= {e} and |{output}| <= {u} at all times for these solutions")
         });
+        let undisturbed = match noise.is_none(self.samples.is_some()) {
+            true => "",
+            false => " without noise, disturbance and rounding,",
+        };
         format!(
-            " With {about} and sigma = {sigma} exactly, |e| <= {e} (root mean square <= {e_rms}) and |{output}| <= {u} along the T-periodic \
+            " With {about} and sigma = {sigma} exactly,{undisturbed} |e| <= {e} (root mean square <= {e_rms}) and |{output}| <= {u} along the T-periodic \
              solution{largest}."
         )
     }
