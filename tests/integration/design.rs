@@ -117,7 +117,7 @@ fn at_samples_of_gains_and_of_a_specification() {
     assert_eq!(report["rows"][0]["cells"][0]["simulated"], Value::Null);
     assert_eq!(report["rows"][0]["sigma"], "39.8018");
     // At samples nothing of it depends on their number, which is told.
-    let said = "here more oscillators do not lower what is proved";
+    let said = "Here more oscillators do not lower the bound";
     let text = |flags: &[&str]| told(program().args(["design", EXAMPLE, "-q", "--sigma", "60"]).args(flags)).1;
     let sampled = text(&["--sampling-period", "1/1000", "--n-o", "0,3"]);
     assert!(sampled.contains(said), "{sampled}");
@@ -228,7 +228,7 @@ fn noise_and_data_of_no_plant_are_told() {
     document["actuator"] = json!({ "max": "100" });
     let file = stored(folder.path(), "actuator.json", &document);
     let text = in_one_line(&utf8(program().arg("design").arg(&file).args(&flags[..6]).output().unwrap().stdout));
-    assert!(text.contains("nothing is proved of these"), "{text}");
+    assert!(text.contains("nothing is proved about these"), "{text}");
     program().arg("design").arg(&file).args(flags).assert().code(2).stderr(contains("nothing is proved of noise with"));
 }
 
@@ -310,5 +310,49 @@ fn values_of_free_numbers_are_chosen() {
         ("base_frequency", "--choose: the base frequency is not free"),
     ] {
         program().arg("design").arg(&file).args(["--choose", numbers]).assert().code(2).stderr(contains(said));
+    }
+}
+
+/// Each group of gains is told before it is proved, where that is asked for; and that sizes are open where some are.
+#[test]
+fn what_is_proved_next_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = stored(folder.path(), "plant.json", &plant());
+    let with = |file: &Path, more: &[&str]| {
+        let flags = ["--sigma", "2,9", "--n-o", "0", "--no-simulation", "--steady-error", "1"];
+        let output = program().arg("design").arg(file).args(flags).args(more).output().unwrap();
+        [output.stdout, output.stderr].map(|bytes| in_one_line(&utf8(bytes)))
+    };
+    let [text, said] = with(&file, &["--choose", "mu=1..2", "--progress"]);
+    assert!(
+        said.contains("proving a table with mu = 1 (after ") && said.contains("proving sigma = 2, 9 (after "),
+        "{said}"
+    );
+    assert_eq!(said.matches("proving a table").count(), 5, "{said}");
+    assert!(!text.contains("sizes of it open") && text.contains("settles in: after so many periods"), "{text}");
+    let [quiet, said] = with(&file, &["-q"]);
+    assert!(said.is_empty() && !quiet.is_empty(), "{said}");
+    let mut open = plant();
+    open["initial_set"] = json!({ "kind": "aligned", "X0": "1/2" });
+    let [text, _] = with(&stored(folder.path(), "open.json", &open), &["-q"]);
+    assert!(text.contains("the file leaves sizes of it open, which differ from gain to gain"), "{text}");
+}
+
+/// What is simulated settles no later than what is proved; a limit that no run exceeds is kept from the start; without a limit nothing settles.
+#[test]
+fn simulations_settle_before_the_proved_time() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = stored(folder.path(), "plant.json", &plant());
+    for sampling in [&[][..], &["--sampling-period", "1/50"]] {
+        let flags =
+            |limit: &'static str| [&["--sigma", "9", "--n-o", "1,2", "--steady-error", limit], sampling].concat();
+        for cell in design(&file, &flags("1/5"), 0)["rows"][0]["cells"].as_array().unwrap() {
+            let (proved, found) = (number(&cell["settle"]), cell["simulated"]["settle"].as_f64().unwrap());
+            assert!(0.01 < found && found <= proved, "{cell}");
+        }
+        let report = design(&file, &flags("100"), 0);
+        assert!(report["rows"][0]["cells"][0]["simulated"]["settle"] == 0.0, "{report:#}");
+        let without = [&["--sigma", "9", "--n-o", "1"], sampling].concat();
+        assert!(design(&file, &without, 0)["rows"][0]["cells"][0]["simulated"]["settle"].is_null());
     }
 }
