@@ -115,7 +115,9 @@ pub struct Known<'k> {
 }
 
 impl<'k> Known<'k> {
-    /// Bounds of `|L^-1 (x - x_0)|`, `|e|` and `|zeta|_N` along it with the first n_o oscillators, if there are some; true where all that is said by n_o is.
+    /// Bounds of `|L^-1 (x - x_0)|`, `|e|` and `|zeta|_N` along it with the first n_o oscillators, if there are some. One entry at most is about them: numbers rise,
+    /// and `or_more` stands in the last one alone ([`Entry::read_all`]). Nothing of it is proved here: whoever rests on it has the crate `proofs-plants` prove all
+    /// that is said by n_o before it says that a claim is valid, as `proofs_check` does.
     pub fn sizes(self, n_o: u32) -> Option<[&'k Rational; 3]> {
         let is_about = |entry: &Entry<'_>| {
             let own = entry.oscillators.n_o();

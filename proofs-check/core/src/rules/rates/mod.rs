@@ -4,7 +4,7 @@
 //!
 //! Guarantee of [`prove`], for each n_o: every solution from the claimed set has `|e - e_per| <= factor exp(-rate (t - t_0))`, at samples for the sampling
 //! instants t, and with the noise of the file and the rounding of its regulator (`rounding`), where that is claimed (`noise`), `|e - e_per| <= peak` at all
-//! times and at most `limit` in the end. Where the claim says something by n_o, that is so if it is true.
+//! times and at most `limit` in the end. Where the claim says something by n_o, that is so if it is true, which the crate `proofs-plants` proves afterwards.
 
 pub mod claimed;
 mod continuous;
