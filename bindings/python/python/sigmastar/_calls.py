@@ -146,8 +146,10 @@ def certify(
 def _sets(harmonics: Iterable[Union[int, Iterable[int]]]) -> List[List[int]]:
     """Sets of harmonics, of which one may stand alone."""
     given = list(harmonics)
-    alone = bool(given) and not any(isinstance(part, Iterable) for part in given)
-    return [_counts(one) for one in ([given] if alone else given)]
+    alone = [one for one in given if not isinstance(one, Iterable)]
+    if alone and len(alone) == len(given):
+        return [_counts(alone)]
+    return [_counts(one) for one in given]
 
 
 def load(path: Union[str, "os.PathLike[str]"]) -> Certificate:
