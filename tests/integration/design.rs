@@ -222,7 +222,7 @@ fn noise_and_data_of_no_plant_are_told() {
     let flags = ["--sigma", "9", "--n-o", "0", "--no-simulation", "-q", "--noise", "1/10"];
     let text = in_one_line(&utf8(program().arg("design").arg(&file).args(flags).output().unwrap().stdout));
     assert!(
-        text.contains("every requirement is proved to be met, all but that of noise in the loop without noise"),
+        text.contains("is proved to be met; that of noise in the loop with it, all others in the loop without noise."),
         "{text}"
     );
     document["actuator"] = json!({ "max": "100" });

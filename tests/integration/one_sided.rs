@@ -101,6 +101,19 @@ fn the_bounds_by_the_number_keep_to_an_actuator() {
     let (file, _) = certified(folder.path(), &plant, &["--sampling-period", "1/50"]);
     assert_valid(&file);
     assert_eq!(read(&file)["claim"]["actuator"]["kept_by"], "by_n_o");
+    // Noise changes nothing of it: claim and bounds are about the loop without.
+    let mut noisy = plant.clone();
+    noisy["measurement"] = object!({ "noise": "1/1000" });
+    noisy["arithmetic"] = "double".into();
+    for flags in [&[][..], &["--sampling-period", "1/50"]] {
+        let (file, _) = certified(folder.path(), &noisy, flags);
+        assert_valid(&file);
+        let claim = &read(&file)["claim"];
+        assert_eq!(claim["actuator"]["kept_by"], "by_n_o");
+        assert!(
+            claim["statement"].as_str().unwrap().contains("exactly, without noise, disturbance and rounding, |e| <= ")
+        );
+    }
     // Too small for these, too: the least that is found is told, and it is not that of the conditions.
     let file = stored(folder.path(), "small.json", &bath("3.2", "4.8"));
     let (code, text) = told(program().arg("certify").arg(&file).arg("-q"));

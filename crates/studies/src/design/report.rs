@@ -128,7 +128,9 @@ impl DesignReport<'_> {
         if *is_met {
             let without = match self.disturbed {
                 false => "",
-                true if self.requirements.noise.is_some() => ", all but that of noise in the loop without noise",
+                true if self.requirements.noise.is_some() => {
+                    "; that of noise in the loop with it, all others in the loop without noise"
+                }
                 true => " in the loop without noise",
             };
             return format!(
