@@ -1,7 +1,7 @@
 //! Noise of the measurement and disturbances in claims for given n_o (docs/mathematics.md, 13.6, Proposition N): what a certificate says, that the
 //! checker decides it, and that trials hold it and break a forged one.
 
-use crate::support::{assert_valid, document, json, number, program, specification_text, told, tried, utf8};
+use crate::support::{document, json, number, program, specification_text, told, tried, utf8};
 use serde_json::{Value, json as object};
 use sigmastar_lab::falsify::Finding;
 use std::path::Path;
@@ -260,8 +260,12 @@ fn noise_changes_nothing_that_is_said_by_the_number_of_oscillators() {
         let mut call = program();
         call.arg("certify").arg(&path).args(flags).args(["--quiet", "--force", "-o"]).arg(&output);
         call.assert().success();
-        assert_valid(&output);
-        json(&std::fs::read(&output).unwrap())
+        let certificate = json(&std::fs::read(&output).unwrap());
+        // The checker decides it, and says the same.
+        let checked = proofs_check::check(certificate.to_string().as_bytes());
+        let said = checked.subject.as_ref().map(|subject| subject.statement.as_str());
+        assert!(checked.is_valid() && said == certificate["claim"]["statement"].as_str(), "{}", checked.text(false));
+        certificate
     };
     let [measurement, _] = inputs();
     let at_samples = ["--sigma", "9", "--sampling-period", "1/200"];

@@ -36,7 +36,7 @@ pub(super) fn section(spec: &Specification, found: Option<&ByCount>, asked: &[u3
         true => "The certificate has them, at most 0.01 % larger.",
         false => "No independent program checks them.",
     };
-    let undisturbed = match spec.disturbances.any_at_samples() {
+    let undisturbed = match spec.disturbances.disturb(spec.internal_model.sampling.is_some()) {
         true => ", without noise, disturbance and rounding",
         false => "",
     };

@@ -196,6 +196,5 @@ pub(super) fn requirements(
 
 /// Whether something is stated that moves e in the limit; at samples rounding is such a thing.
 pub(super) fn has_disturbances(subject: &Read) -> bool {
-    let stated = subject.disturbances();
-    if subject.sampling().is_some() { stated.any_at_samples() } else { stated.any() }
+    subject.disturbances().disturb(subject.sampling().is_some())
 }

@@ -62,6 +62,12 @@ impl Disturbances {
         self.any() || self.in_doubles()
     }
 
+    /// Whether something disturbs the regulator that a claim is about: at samples, or in continuous time, where none computes.
+    #[must_use]
+    pub fn disturb(&self, at_samples: bool) -> bool {
+        if at_samples { self.any_at_samples() } else { self.any() }
+    }
+
     /// Whether the law at samples is computed in doubles.
     #[must_use]
     pub fn in_doubles(&self) -> bool {

@@ -219,16 +219,18 @@ mod tests {
         (squares.sum::<f64>() / e_low.to_f64()).sqrt()
     }
 
-    /// A state that decays at the rate 2 and is driven by e, and q of x and e in a ball; with a known gain and an interval of it, and without states.
+    /// A state that decays at the rate 2 and is driven by e, and q of x and e in a ball, or q of e alone; with a known input gain, and with an interval.
     #[test]
     fn a_program_has_a_smaller_factor_at_the_same_rate() {
         let text = include_str!("../../../../specs/linear.json");
-        let mut spec = Specification::from_json("test", text).unwrap();
-        spec.input_gain = None;
-        let data = Data::new(&spec, 128);
+        let of_interval = r#"{ "input_gain": { "nominal": 1, "low": "9/10", "high": "11/10" }, "#;
+        let specs = [text.to_owned(), text.replacen('{', of_interval, 1)]
+            .map(|text| Specification::from_json("test", &text).unwrap());
         let distances = [0.5, 2.0, 3.0].map(Enclosure::exactly);
         let sigma = Rational::from(40);
-        for (states, n_o) in [(0, 0), (0, 2), (1, 0), (1, 1), (1, 3)] {
+        let known = [(0, 0), (0, 2), (1, 0), (1, 1), (1, 3)].map(|case| (&specs[0], case));
+        for (spec, (states, n_o)) in known.into_iter().chain([(&specs[1], (0, 1)), (&specs[1], (1, 1))]) {
+            let data = Data::new(spec, 128);
             let oscillators: Vec<u32> = (1..=n_o).collect();
             let of = MatrixLoop::new(&data, states, &sigma, &oscillators).doubles(1.0);
             // (D - C)'(D - C) <= S with C = [[-2, 1], [0.5, 0]], S = I/16, or C = 0.5, S = 1/16.
@@ -261,6 +263,7 @@ mod tests {
             }
         }
         // Of too many oscillators there is none.
+        let data = Data::new(&specs[0], 128);
         let many: Vec<u32> = (1..=8).collect();
         let of = MatrixLoop::new(&data, 0, &sigma, &many).doubles(1.0);
         let slopes = KnownSlopes { columns: 0..1, q: vec![vec![0.25]], g: vec![vec![0.0]], h: vec![vec![1.0]] };

@@ -47,8 +47,10 @@ pub(super) fn counts_in_words(
     (sigma, samples): (&Rational, Option<u32>),
     part: &Value,
 ) -> String {
-    let is_disturbed = samples.map_or_else(|| spec.disturbances.any(), |_| spec.disturbances.any_at_samples());
-    let undisturbed = if is_disturbed { " without noise, disturbance and rounding," } else { "" };
+    let undisturbed = match spec.disturbances.disturb(samples.is_some()) {
+        true => " without noise, disturbance and rounding,",
+        false => "",
+    };
     let below = samples.map_or_else(String::new, |samples| format!(" below {samples}/2"));
     let output = spec.input_gain.as_ref().map_or_else(
         || "u".to_owned(),
