@@ -54,10 +54,32 @@ impl Report {
     }
 }
 
+/// The most characters of a line of the claim and of what is assumed, unless one word has more.
+const WIDTH: usize = 100;
+
+/// How far the lines below the first one of a claim or an assumption are moved in.
+const INDENT: usize = 11;
+
+/// A text under its title, each sentence from the start of a line, with no line longer than [`WIDTH`].
+fn paragraph(title: &str, said: &str) -> String {
+    let mut rows = vec![format!("{:INDENT$}", format!("  {title}:"))];
+    let mut begins = true;
+    for word in said.split(' ') {
+        let room = |row: &String| row.chars().count() + 1 + word.chars().count() <= WIDTH;
+        match rows.last_mut() {
+            Some(row) if row.len() == INDENT => *row += word,
+            Some(row) if !begins && room(row) => *row += &format!(" {word}"),
+            _ => rows.push(format!("{:INDENT$}{word}", "")),
+        }
+        begins = word.ends_with('.');
+    }
+    rows.iter().map(|row| format!("{row}\n")).collect()
+}
+
 fn subject_text(subject: &Subject) -> String {
-    let mut text = format!("  proved:  {}\n", subject.statement);
-    subject.also.iter().for_each(|also| text += &format!("  proved:  {also}\n"));
-    subject.assumed.iter().for_each(|line| text += &format!("  assumed: {line}\n"));
+    let mut text = paragraph("proved", &subject.statement);
+    subject.also.iter().for_each(|also| text += &paragraph("proved", also));
+    subject.assumed.iter().for_each(|line| text += &paragraph("assumed", line));
     text += &format!("  {}: SHA-256 {}\n", subject.about, subject.digest);
     subject.free_texts.iter().for_each(|(name, free)| text += &format!("  {name} (free text): {free}\n"));
     text
@@ -79,4 +101,20 @@ fn finding_json(finding: &Finding) -> serde_json::Value {
         "verdict": finding.verdict.to_string(), "rule": finding.rule, "field": escaped(&finding.pointer),
         "message": escaped(&finding.message), "left": side(0), "right": side(1), "gap": side(2),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::paragraph;
+
+    #[test]
+    fn each_sentence_has_a_line_of_its_own_and_no_line_is_too_long() {
+        let long = "word ".repeat(40);
+        let text = paragraph("proved", &format!("One of 0.5 ends here. {long}ends. Three"));
+        let lines: Vec<&str> = text.lines().collect();
+        assert_eq!(lines[0], "  proved:  One of 0.5 ends here.");
+        assert!(lines[1].starts_with("           word word") && lines.last() == Some(&"           Three"), "{text}");
+        assert!(lines.len() == 5 && lines.iter().all(|line| line.len() <= 100 && line.trim_end() == *line), "{text}");
+        assert_eq!(paragraph("assumed", "a b"), "  assumed: a b\n");
+    }
 }

@@ -4,6 +4,7 @@ use super::args::CertifyArgs;
 use super::counts::finite_counts;
 use super::failure::Failure;
 use super::files::{Input, OutputFile};
+use super::given::Given;
 use super::output::{Format, Shortened, shown};
 use super::stages::{Stages, Step};
 use super::subject::{Asked, Subject, proving, with_sampling_period};
@@ -61,11 +62,8 @@ pub fn run(args: &CertifyArgs) -> Result<u8, Failure> {
     if let Some([message, help]) = not_told_apart(&args.harmonics, &subject, "--harmonics") {
         return Err(Failure::call(message, help));
     }
-    if given.is_some() && witness.is_none() && !args.quiet {
-        let kind = subject.kind();
-        output::remark(&format!(
-            "the {kind} in the certificate is certified anew, by the flags of this call alone; `check` decides the certificate itself"
-        ));
+    if let Some(given) = given.filter(|_| witness.is_none() && !args.quiet) {
+        output::remark(&anew(subject.kind(), &given, (gain.is_some(), &limits)));
     }
     let plant = match &subject {
         Subject::Plant(plant) if !args.quiet => Some(plant),
@@ -148,6 +146,20 @@ pub fn run(args: &CertifyArgs) -> Result<u8, Failure> {
         output::remark(&far.describe());
     }
     Ok(code)
+}
+
+/// That a certificate is taken for its document alone, and what keeps its gain.
+fn anew(kind: &str, given: &Given, (gain, limits): (bool, &Limits)) -> String {
+    let (which, keeps) = match (gain, limits.is_empty()) {
+        (true, _) => ("this gain", String::new()),
+        (false, true) => {
+            ("the smallest gain that is found", format!("; `--sigma {}` keeps its gain", write_exact(given.sigma())))
+        }
+        (false, false) => ("a gain that keeps these limits", String::new()),
+    };
+    format!(
+        "this makes a new claim about the {kind} in the certificate, with {which}{keeps}; `check` decides the claim of the certificate itself"
+    )
 }
 
 /// Of which sets that were asked for a certified run has no bounds of their own, in words.

@@ -8,7 +8,7 @@ use super::input;
 use super::output::{self, shown};
 use super::subject::Asked;
 use sigmastar_document::clean;
-use sigmastar_lang::spec::{Actuator, Constant};
+use sigmastar_lang::spec::{Actuator, Constant, Oscillators};
 use sigmastar_prove::reduction::Subject;
 use sigmastar_regulator::export::{self, CNames, CSources, Export, Prefix, Provenance, Scope};
 use sigmastar_regulator::{Convergence, Design, Discrete, Regulator};
@@ -55,6 +55,10 @@ pub fn run(args: &ControllerArgs) -> Result<u8, Failure> {
     };
     let certificate = provenance(args, given.as_ref(), &subject, &asked)?;
     refuse(args, &design, step.as_ref(), certificate.as_ref())?;
+    let about = given.as_ref().zip(certificate.as_ref()).filter(|_| !args.quiet);
+    if let Some(remark) = about.and_then(|about| nothing_of_count(about, &oscillators)) {
+        output::remark(&remark);
+    }
     let regulator = design.regulator();
     let beyond = || {
         Failure::call(
@@ -124,6 +128,15 @@ fn provenance(
     }
     output::remark(&format!("{message}; exported because of --uncertified"));
     Ok(None)
+}
+
+/// That a certificate which covers the regulator says nothing of its number of oscillators alone.
+fn nothing_of_count((given, certificate): (&Given, &Provenance), oscillators: &Oscillators) -> Option<String> {
+    let n_o = oscillators.n_o().filter(|n_o| certificate.scope.covers() && !given.says_of(*n_o))?;
+    Some(format!(
+        "the claim of the certificate covers n_o = {n_o}, but the certificate has no rate and no bounds for this number of oscillators; `certify --n-o \
+         {n_o}` seeks them"
+    ))
 }
 
 /// Refuses what is known to be bad; with `--uncertified` it is told instead.

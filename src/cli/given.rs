@@ -96,6 +96,23 @@ impl Given {
         )
     }
 
+    /// Whether it says something of this number of oscillators alone, beside its claim for every one: a rate, or bounds.
+    pub fn says_of(&self, n_o: u32) -> bool {
+        let number = |pointer: &str| self.document.at(pointer).and_then(|value| value.integer(&mut Errors::new()).ok());
+        let entries = |part: &'static str| {
+            (0..).map(move |i| format!("/claim/{part}/{i}")).take_while(|entry| self.document.at(entry).is_some())
+        };
+        let is_about = |entry: String| {
+            let or_more = self
+                .document
+                .at(&format!("{entry}/or_more"))
+                .is_some_and(|value| value.boolean(&mut Errors::new()) == Ok(true));
+            number(&format!("{entry}/n_o"))
+                .is_some_and(|own| own == u64::from(n_o) || (or_more && own < u64::from(n_o)))
+        };
+        ["for_n_o", "by_n_o"].into_iter().flat_map(entries).any(is_about)
+    }
+
     /// Where a simulation of its plant starts, far outside of its set.
     pub fn far_start(&self, plant: &Plant) -> Option<FarStart> {
         let size = |name: &str| {

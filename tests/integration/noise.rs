@@ -54,7 +54,7 @@ fn a_certificate_bounds_the_error_under_noise() {
         let statement = claim["statement"].as_str().unwrap();
         let said = format!(
             " With n_o = {} and sigma = 60 exactly, noise of at most 0.0001 on the measurement of e, a measurement of e in steps of (1/10000), a \
-             disturbance of at most 0.002 added to q, also |e(t) - e_per(t)| <= {} for these starts and all t >= t_0, and its limit \
+             disturbance of at most 0.002 added to q: |e(t) - e_per(t)| <= {} for these starts and all t >= t_0, and its limit \
              superior is at most {}.",
             claimed["n_o"],
             claimed["noise"]["peak"].as_str().unwrap(),

@@ -134,5 +134,5 @@ fn the_certificate_has_the_slopes() {
     assert_eq!(slopes, [[Some(1), Some(2)], [Some(2), Some(2)], [Some(1), Some(2)]]);
     assert!(witness["x_up"].is_string() && witness.get("w").is_none() && witness.get("l").is_none());
     let statement = first["claim"]["statement"].as_str().expect("words");
-    assert!(statement.contains("With n_o = 2 and sigma = 23 exactly also |e(t) - e_per(t)| <= "), "{statement}");
+    assert!(statement.contains("With n_o = 2 and sigma = 23 exactly, |e(t) - e_per(t)| <= "), "{statement}");
 }

@@ -277,7 +277,7 @@ fn a_certificate_in_doubles_says_so() {
             assert_eq!(["g_d", "g_v", "g_r"].map(|name| witness["noise"][name].is_string()), inputs);
             let [limit, peak] = ["limit", "peak"].map(|name| claim["noise"][name].as_str().expect("a number"));
             let said = format!(
-                " With n_o = {} and sigma = 60 exactly, {parts}, also |e(t) - e_per(t)| <= {peak} for these starts and all t >= t_0, and its \
+                " With n_o = {} and sigma = 60 exactly, {parts}: |e(t) - e_per(t)| <= {peak} for these starts and all t >= t_0, and its \
                  limit superior is at most {limit}.",
                 claim["n_o"]
             );

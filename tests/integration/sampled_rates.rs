@@ -293,8 +293,8 @@ fn a_certificate_at_samples_has_its_rates() {
         assert_eq!(witness["Pi"].as_array().expect("rows").len(), 2 * n_o + 2);
         let [rate, factor] = [&claim["rate"], &claim["factor"]].map(|value| value.as_str().expect("a number"));
         let sentence = format!(
-            " With n_o = {n_o} and sigma = 22 exactly also |e(t) - e_per(t)| <= {factor} exp(-{rate} (t - t_0)) at the sampling instants t for \
-             these solutions, e_per that of the periodic solution and t_0 the initial time."
+            " With n_o = {n_o} and sigma = 22 exactly, |e(t) - e_per(t)| <= {factor} exp(-{rate} (t - t_0)) at the sampling instants t for \
+             these solutions, where e_per is the e of the periodic solution and t_0 the initial time."
         );
         assert!(first["claim"]["statement"].as_str().expect("words").contains(&sentence), "{sentence}");
     }

@@ -101,7 +101,7 @@ pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences
     facts.push(("assumed", assumed(run.spec, run.largest_arguments(), None)));
     let asked: Vec<u32> = run.for_n_o.iter().map(|asked| asked.n_o).collect();
     let known = by_count(run.spec, run.by_count.as_ref(), &asked);
-    [Block::facts(facts)].into_iter().chain(known).chain([Block::says(norms(run.spec, "$`sigma`$"))]).collect()
+    [Block::facts(facts)].into_iter().chain(known).chain(letters(run.spec, "$`sigma`$").map(Block::says)).collect()
 }
 
 /// The bounds of the error for the numbers of oscillators that were asked about, or else for a few.
@@ -118,18 +118,18 @@ fn for_n_o(run: &Certification<'_>, asked: bool) -> Option<String> {
         let how = "`--n-o N` proves a rate at this gain, `--rate V --n-o N` finds a gain for one";
         return (!asked).then(|| how.to_owned());
     }
-    Some(format!("$`|e - e_per|`$ at this gain alone, {}", all.join("; ")))
+    Some(format!("bounds of $`|e - e_per|`$, at this gain alone: {}", all.join("; ")))
 }
 
 /// A clause for each number of oscillators.
 fn rates<P, Q>(spec: &Specification, found: &[ForCount<P, Q>], why_not: &str) -> Vec<String> {
     let one = |ForCount { n_o, bound, noise }: &ForCount<P, Q>| match bound {
-        None => format!("$`n_o = {n_o}`$: not proved ({why_not})"),
+        None => format!("not proved with $`n_o = {n_o}`$ ({why_not})"),
         Some(RateBound { rate, factor, .. }) => {
             let bounds = |noise: &NoiseBound<Q>| [noise.peak.clone(), noise.limit.clone()];
             let disturbed = disturbed(spec, noise.as_ref().map(|noise| noise.as_ref().map(bounds)));
             let [factor, rate] = [exact(factor, Direction::Up), exact(rate, Direction::Down)];
-            format!("$`n_o = {n_o}`$: $`{factor} exp(-{rate} (t - t_0))`${disturbed}")
+            format!("$`{factor} exp(-{rate} (t - t_0))`$ with $`n_o = {n_o}`${disturbed}")
         }
     };
     found.iter().map(one).collect()
@@ -145,19 +145,19 @@ fn disturbed(spec: &Specification, noise: Option<Result<[Rational; 2], &NoNoiseB
         Some(Ok(bounds)) => {
             let [peak, limit] = bounds.map(|bound| exact(&bound, Direction::Up));
             if words::limit_adds_to_the_way(spec) {
-                format!(", {word} + {limit}")
+                format!(", and at most {limit} more if {word}")
             } else {
-                format!(" {without}, {word} at most {peak} at all times and {limit} in the limit")
+                format!(" if {without}, and if {word} at most {peak} at all times and {limit} in the limit")
             }
         }
-        Some(Err(reason)) => format!(" ({word}: {})", reason.message()),
+        Some(Err(reason)) => format!(" (if {word}: {})", reason.message()),
     }
 }
 
 /// What a claim at samples says of the given n_o, as one line: rates at the sampling instants; nothing where none was asked for.
 fn for_n_o_at_samples(run: &SampledCertification<'_>) -> Option<String> {
     let all = rates(run.spec, &run.for_n_o, &run.why_no_rate());
-    (!all.is_empty()).then(|| format!("$`|e - e_per|`$ at the sampling instants, {}", all.join("; ")))
+    (!all.is_empty()).then(|| format!("bounds of $`|e - e_per|`$ at the sampling instants: {}", all.join("; ")))
 }
 
 /// Of a claim about the regulator at samples; nothing without one.
@@ -214,16 +214,16 @@ pub(super) fn of_samples(
     let proved = run.counts_noise();
     let beside = match (proved && run.spec.v_bar() > 0, proved && run.spec.disturbances.in_doubles()) {
         (false, false) => "",
-        (true, false) => ", but what noise adds with given $`n_o`$ counts `measurement`",
-        (false, true) => ", but what is said of given $`n_o`$ counts the rounding of the exported C code",
+        (true, false) => "; only the bounds with noise for given $`n_o`$ include `measurement`",
+        (false, true) => "; only the bounds with rounding for given $`n_o`$ include that of the exported C code",
         (true, true) => {
-            ", but what noise adds with given $`n_o`$ counts `measurement` and the rounding of the exported C code"
+            "; only the bounds with noise for given $`n_o`$ include `measurement` and the rounding of the exported C code"
         }
     };
     facts.push(("assumed", format!("{}; {of_the_computer}{beside}", assumed(run.spec, run.largest_arguments(), None))));
     let asked: Vec<u32> = run.for_n_o.iter().map(|asked| asked.n_o).collect();
     let known = by_count(run.spec, run.by_count.as_ref(), &asked);
-    [Block::facts(facts)].into_iter().chain(known).chain([Block::says(norms(run.spec, "law"))]).collect()
+    [Block::facts(facts)].into_iter().chain(known).chain(letters(run.spec, "law").map(Block::says)).collect()
 }
 
 /// What to do with the claim next; `at_samples` where its law is one.
@@ -255,27 +255,27 @@ fn next(spec: &Specification, origin: Origin, at_samples: bool) -> String {
     said.to_owned()
 }
 
-/// What the norms are of, and whom a gain or a law serves.
-fn norms(spec: &Specification, what: &str) -> String {
-    match (spec.plant().is_some(), spec.state_name()) {
-        (true, Some(_)) => {
-            "Here $`|z|_N = sqrt(z'Nz)`$, and $`y = L^-1 (x - x_0(t))`$ with the orbit $`x_0`$ and a matrix $`L`$."
-                .to_owned()
-        }
-        (true, None) => "Here $`|z|_N = sqrt(z'Nz)`$.".to_owned(),
-        (false, _) => {
-            format!(
-                "Here $`|z|_N = sqrt(z'Nz)`$. The same {what} serves every plant that the bounding functions describe."
-            )
-        }
-    }
+/// What the letters above are, and whom a gain or a law serves. An aligned start has no size of z.
+fn letters(spec: &Specification, what: &str) -> Option<String> {
+    let of_z = (!spec.initial_set.is_aligned()).then(|| "Here $`|z|_N = sqrt(z'Nz)`$.".to_owned());
+    let of_the_rest = match (spec.plant().is_some(), spec.state_name()) {
+        (true, Some(_)) => Some(
+            "In $`y = L^-1 (x - x_0(t))`$, $`x_0`$ is the orbit and $`L`$ the matrix `coordinates` of the certificate."
+                .to_owned(),
+        ),
+        (true, None) => None,
+        (false, _) => Some(format!("The same {what} serves every plant that the bounding functions describe.")),
+    };
+    let all: Vec<String> = [of_z, of_the_rest].into_iter().flatten().collect();
+    (!all.is_empty()).then(|| all.join(" "))
 }
 
 /// The initial set, of a plant the ball in it, and where its sizes are from.
 fn initial_set(spec: &Specification, set: &ClaimedSet, [x, e, ..]: &[Enclosure; 4], when: &str) -> String {
     let ball = spec.plant().and_then(|plant| claimed_ball(plant, &set.x0));
-    let ball = ball
-        .map_or_else(String::new, |ball| format!("; it contains $`|x - x_0| <= {}`$", exact(&ball, Direction::Down)));
+    let ball = ball.map_or_else(String::new, |ball| {
+        format!("; contains the ball $`|x - x_0| <= {}`$", exact(&ball, Direction::Down))
+    });
     let own = words::origin_of_sizes(spec, set, [x, e]);
     format!("{}, at {when}{ball}; {own}", words::set(spec, set))
 }
@@ -332,10 +332,11 @@ const SHORT: usize = 12;
 /// The interval of the input gain.
 fn uncertain_gain(spec: &Specification) -> Option<String> {
     let gain = spec.input_gain.as_ref()?;
-    let which = words::input_gain(spec, ["the constant", "any constant from"])?;
+    let which =
+        words::input_gain(spec, ["the gain of the actuator is", "the gain of the actuator may be any constant from"])?;
     let exact = gain.nominal.as_rational().map_or_else(|| clean(&gain.nominal.text), write_exact);
     let nominal = if exact.len() <= SHORT { exact } else { format!("about {}", estimate(gain.nominal.to_f64())) };
-    Some(format!("{which}; the regulator divides its output by the nominal gain, {nominal}"))
+    Some(format!("{which}; the regulator divides its control by the nominal gain {nominal}"))
 }
 
 /// What the intervals of parameters cost.
@@ -354,6 +355,7 @@ fn few(by_n_o: &[(u64, ErrorBounds)]) -> Option<String> {
 
 /// Bounds of the error.
 fn error<'b>(shown: impl Iterator<Item = &'b (u64, ErrorBounds)>) -> Option<String> {
-    let shown: Vec<String> = shown.map(|(n_o, bounds)| format!("{} with {n_o}", upper(&bounds.sup))).collect();
-    (!shown.is_empty()).then(|| format!("$`sup|e|`$ at most {} oscillators", shown.join(", ")))
+    let shown: Vec<String> =
+        shown.map(|(n_o, bounds)| format!("{} with $`n_o = {n_o}`$", upper(&bounds.sup))).collect();
+    (!shown.is_empty()).then(|| format!("$`sup|e|`$ at most {}", shown.join(", ")))
 }

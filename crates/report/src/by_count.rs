@@ -31,9 +31,9 @@ pub(super) fn section(spec: &Specification, found: Option<&ByCount>, asked: &[u3
     }
     let is_family = spec.plant().is_some_and(|plant| plant.parameters.intervals().next().is_some());
     let all = is_family || spec.input_gain.is_some();
-    let of = if all { ", for every plant and gain of the actuator of the claim" } else { "" };
+    let of = if all { ", and for every plant and gain of the actuator of the claim" } else { "" };
     let who = match checked {
-        true => "The certificate has them, at most 0.01 % larger.",
+        true => "The certificate states them enlarged by at most 0.01 %.",
         false => "No independent program checks them.",
     };
     let undisturbed = match spec.disturbances.disturb(spec.internal_model.sampling.is_some()) {
@@ -41,8 +41,8 @@ pub(super) fn section(spec: &Specification, found: Option<&ByCount>, asked: &[u3
         false => "",
     };
     let says = format!(
-        "Proved at this gain for each number of oscillators{of}{undisturbed}: steady values along the periodic solution, largest values at all times from the initial set. \
-         {who}"
+        "These bounds are proved at this gain for each number of oscillators{of}{undisturbed}. Steady values hold along the periodic solution, largest values at all times \
+         from the initial set. {who}"
     );
     vec![Block::says(says), Block::Table(table)]
 }

@@ -20,30 +20,43 @@ pub(super) const UNANSWERED: &str = "The targets are not answered: without a cer
 
 /// The section of the report; `by_count`: whether a table of bounds by the number of oscillators stands above, which are of one gain.
 pub(super) fn section(spec: &Specification, consequences: &Consequences, by_count: bool) -> Vec<Block> {
-    let mut blocks = vec![Block::heading("The regulated error"), Block::List(psi_items(spec, consequences))];
+    let mut blocks = vec![Block::heading(title(by_count))];
+    blocks.extend(weaker(by_count));
+    blocks.push(Block::List(psi_items(spec, consequences)));
     let (at, which) = match spec.actuator {
         None => (
             "at $`sigma*`$ and for every larger $`sigma`$",
-            " $`psi_1/sigma`$ shows how $`sup|e|`$ falls with $`sigma`$ for every $`n_o`$; the table shows what each $`n_o`$ brings at $`sigma*`$. Both \
+            " $`psi_1/sigma`$ shows how $`sup|e|`$ falls with $`sigma`$ for every $`n_o`$. The table shows what each $`n_o`$ brings at $`sigma*`$. Both \
              hold: use the smaller bound.",
         ),
         Some(_) => ("at the gain of the claim", ""),
     };
-    let weaker = match by_count {
-        true => {
-            " The table near the top of the report is worked out for one number of oscillators at a time and for one gain alone, so its bounds are smaller \
-                 as a rule. Where both give a bound, use the smaller one."
-        }
-        false => "",
-    };
     blocks.push(Block::says(format!(
-        "Bounds of the error along the periodic solution for each number of oscillators, {at}.{which}{weaker} This program computes them from the \
-         claim with enclosures; no independent program checks them:"
+        "The table bounds the error along the periodic solution for each number of oscillators, {at}.{which} {UNCHECKED}"
     )));
     blocks.push(Block::Table(table(&consequences.by_n_o)));
     blocks.extend(consequences.mistuned.as_ref().map(|mistuned| Block::says(mistuned_words(spec, mistuned))));
     blocks.push(Block::Drawing(figure(spec, consequences)));
     blocks
+}
+
+/// Who computes the table.
+const UNCHECKED: &str =
+    "This program computes these bounds from the claim with enclosures. No independent program checks them:";
+
+/// The heading; of what is weaker than the table near the top, where one stands there.
+fn title(by_count: bool) -> &'static str {
+    if by_count { "The regulated error: weaker bounds" } else { "The regulated error" }
+}
+
+/// What these bounds rest on, where better ones stand near the top.
+fn weaker(by_count: bool) -> Option<Block> {
+    by_count.then(|| {
+        Block::says(
+            "For the gain of the claim use the table near the top of the report. It is worked out for one number of oscillators at a time, and its \
+             bounds are smaller as a rule. The bounds here follow from the conditions of the claim alone. Both hold: use the smaller bound.",
+        )
+    })
 }
 
 /// What the oscillators are worth away from a matched base frequency.
@@ -74,12 +87,13 @@ fn mistuned_words(spec: &Specification, mistuned: &MistunedSummary) -> String {
     format!("{distance} {worth}")
 }
 
-/// The section of the report on the regulator at samples.
-pub(super) fn sampled_section(consequences: &SampledConsequences) -> Vec<Block> {
-    let says = "Bounds of the error along the periodic solution, between samples too, for each number of oscillators that the samples can tell apart. They \
-                hold at this gain and sampling period alone. This program computes them from the claim with enclosures; no independent program \
-                checks them:";
-    vec![Block::heading("The regulated error"), Block::says(says), Block::Table(table(&consequences.by_n_o))]
+/// The section of the report on the regulator at samples; `by_count` as in [`section`].
+pub(super) fn sampled_section(consequences: &SampledConsequences, by_count: bool) -> Vec<Block> {
+    let says = "The table bounds the error along the periodic solution, between samples too, for each number of oscillators that the samples can tell \
+                apart. The bounds hold at this gain and sampling period alone.";
+    let says = Block::says(format!("{says} {UNCHECKED}"));
+    let heading = Block::heading(title(by_count));
+    [heading].into_iter().chain(weaker(by_count)).chain([says, Block::Table(table(&consequences.by_n_o))]).collect()
 }
 
 fn table(by_n_o: &[(u64, ErrorBounds)]) -> Table {

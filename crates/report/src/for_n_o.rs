@@ -31,8 +31,8 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
     blocks.extend(not_proved(&run.for_n_o, &run.why_no_rate()));
     if run.matrix_arguments().is_some() && run.for_n_o.iter().any(|found| found.bound.is_none()) {
         blocks.push(Block::says(
-            "The claim rests on a matrix inequality. A rate needs the first derivatives on the whole error box: no rate is proved if the loop would grow \
-             with some of these derivatives held constant, although no solution stays where they are so.",
+            "The claim rests on a matrix inequality. A rate needs more: the loop has to decay with any of the first derivatives on the whole error box, held \
+             constant. Where it would grow with some of them no rate is proved, although no solution stays where they are so.",
         ));
     }
     blocks.extend(noise_section(run));
@@ -62,9 +62,15 @@ fn rates<P, Q>(found: &[ForCount<P, Q>]) -> Table {
 
 /// What noise and a disturbance do to the error, where the document has them.
 fn noise_section(run: &Certification<'_>) -> Vec<Block> {
-    let words = format!("With {}, any measurable signals,", run.spec.disturbances.in_words());
-    let said =
-        Said { title: "Noise and disturbances", words, without: "them", decay: "$`lambda`$ in 1/time", place: "" };
+    let words = under_signals(run.spec);
+    let said = Said {
+        title: "Noise and disturbances",
+        words,
+        without: "them",
+        decay: "$`lambda`$ in 1/time",
+        falls: "without inputs its quadratic form falls at least as $`exp(-2 lambda t)`$",
+        at_samples: false,
+    };
     let asked = asked(&run.for_n_o, |proof| &proof.witness.rate);
     let elsewhere = at_other_gains(&asked, (run.sigma_star(), &run.noise_of_rows));
     let mut blocks = disturbed(run.spec, asked, &said);
@@ -102,8 +108,13 @@ fn at_other_gains(
     blocks
 }
 
+/// What acts on the loop, in words.
+fn under_signals(spec: &Specification) -> String {
+    format!("under {}: any measurable signals within these bounds", spec.disturbances.in_words())
+}
+
 /// The arithmetic of the law at samples.
-const IN_DOUBLES: &str = "computed in double precision by the exported C code, whose rounding is counted,";
+const IN_DOUBLES: &str = "with the rounding of the exported C code, which computes in double precision";
 
 /// What is shown of each number for which there may be one; `decay` of what proves it.
 fn asked<P, Q>(found: &[ForCount<P, Q>], decay: impl Fn(&Q) -> &Rational) -> Vec<(u32, Result<Shown, NoNoiseBound>)> {
@@ -130,9 +141,11 @@ struct Said {
     words: String,
     /// What the periodic solution is without.
     without: &'static str,
-    /// The name of the decay, and where the way is bounded by the rate: of the form of the claim.
+    /// The title of the decay of the quadratic form that proves the bounds, and how fast that falls.
     decay: &'static str,
-    place: &'static str,
+    falls: &'static str,
+    /// Whether rates hold at the sampling instants.
+    at_samples: bool,
 }
 
 /// The section on noise and a disturbance.
@@ -140,7 +153,7 @@ fn disturbed(spec: &Specification, asked: Vec<(u32, Result<Shown, NoNoiseBound>)
     if asked.is_empty() {
         return Vec::new();
     }
-    let Said { title, words, without, decay, place } = said;
+    let Said { title, words, without, decay, falls, at_samples } = said;
     let mut table = Table::new(&["n_o", "in the limit", "at all times", decay]);
     let mut reasons: Vec<(NoNoiseBound, Vec<String>)> = Vec::new();
     for (n_o, noise) in asked {
@@ -163,13 +176,15 @@ fn disturbed(spec: &Specification, asked: Vec<(u32, Result<Shown, NoNoiseBound>)
     let mut blocks = vec![
         Block::heading(*title),
         Block::says(format!(
-            "{words} $`|e(t) - e_per(t)|`$ is at most this in the limit and at all times from the start on, for every \
-             start in the set. This is a part of the claim, for this $`n_o`$ and this gain alone. $`e_per`$ is of the periodic solution without {without}{}.",
-            match words::limit_adds_to_the_way(spec) {
-                true => format!(
-                    "; in the transient $`|e(t) - e_per(t)| <= factor exp(-rate (t - t_0)) + the limit`${place}"
-                ),
-                false => "; the start is $`z = M e`$ of the measured $`e`$".to_owned(),
+            "The table bounds $`|e(t) - e_per(t)|`$ {words}. The bounds hold for every start in the set, in the limit and at all times from the start on. \
+             They are a part of the claim, for this $`n_o`$ and this gain alone. Here $`e_per`$ is the $`e`$ of the periodic solution without {without}. {} \
+             An ellipsoid proves the bounds: {falls}.",
+            match (words::limit_adds_to_the_way(spec), at_samples) {
+                (true, false) => "In the transient $`|e(t) - e_per(t)| <= factor exp(-rate (t - t_0)) + the limit`$.",
+                (true, true) =>
+                    "At the sampling instants $`|e(t) - e_per(t)| <= factor exp(-rate (t - t_0)) + the limit`$; the bound at all times holds \
+                     between samples, too.",
+                (false, _) => "The start is $`z = M e`$ with the measured $`e`$.",
             },
         )),
         Block::Table(table),
@@ -226,7 +241,7 @@ pub(super) fn sampled_section(run: &SampledCertification<'_>) -> Vec<Block> {
         Block::heading("For given numbers of oscillators"),
         Block::says(format!(
             "For every start in the set at a sampling instant $`t_0`$, $`|e(t) - e_per(t)| <= factor exp(-rate (t - t_0))`$ at every sampling instant \
-             $`t`$ from there on{}: a part of the claim, for this $`n_o`$, this gain and this sampling period alone, proved from the bounds on the \
+             $`t >= t_0`${}. This is a part of the claim, for this $`n_o`$, this gain and this sampling period alone. It is proved from the bounds on the \
              error box. The factor is for the whole set at once, and far above what most starts need. What limits the rate is an \
              estimate. `not proved` says nothing either way.",
             undisturbed(run.spec.disturbances.any_at_samples())
@@ -241,16 +256,22 @@ pub(super) fn sampled_section(run: &SampledCertification<'_>) -> Vec<Block> {
 
 fn sampled_noise(run: &SampledCertification<'_>) -> Vec<Block> {
     let disturbances = &run.spec.disturbances;
-    let signals = disturbances.any().then(|| format!("With {}, any measurable signals,", disturbances.in_words()));
+    let signals = disturbances.any().then(|| under_signals(run.spec));
     let (title, words, without) = match (signals, disturbances.in_doubles()) {
         (Some(words), true) => {
-            ("Noise, disturbances and rounding", format!("{words} and {IN_DOUBLES}"), "them and without rounding")
+            ("Noise, disturbances and rounding", format!("{words}, and {IN_DOUBLES}"), "them and without rounding")
         }
         (Some(words), false) => ("Noise and disturbances", words, "them"),
-        (None, _) => ("Rounding", format!("With the law {IN_DOUBLES}"), "rounding"),
+        (None, _) => ("Rounding", IN_DOUBLES.to_owned(), "rounding"),
     };
-    let place = " at the sampling instants, between samples too the bound at all times";
-    let said = Said { title, words, without, decay: "$`c`$ of a sample", place };
+    let said = Said {
+        title,
+        words,
+        without,
+        decay: "$`c`$, decay per sample",
+        falls: "without inputs its quadratic form falls at least by the factor $`1/(1 + c)`$ in each sample",
+        at_samples: true,
+    };
     let asked = asked(&run.for_n_o, |proof| &proof.witness.c);
     let own = run.claim().map(|proof| &proof.witness.sigma);
     let elsewhere = at_other_gains(&asked, (own, &run.noise_of_rows));

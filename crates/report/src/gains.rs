@@ -11,8 +11,8 @@ use sigmastar_prove::certify::{ByCount, Certification, CountProof, GainRow, Samp
 /// The table of a claim in continuous time; nothing where there are no rows but that of the claim.
 pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
     let of_first = run.gains.first().map_or(&[][..], |row| &row.steady_with);
-    let steady: Vec<String> = of_first.iter().map(|(n_o, _)| format!("steady $`|e|`$, {n_o}")).collect();
-    let says = "Steady values hold along the periodic solution; the number in the title of a column is the number of oscillators. Largest values hold in the \
+    let steady: Vec<String> = of_first.iter().map(|(n_o, _)| format!("steady $`|e|`$, $`n_o = {n_o}`$")).collect();
+    let says = "Steady values hold along the periodic solution. Largest values hold in the \
                 transient from the initial set, where $`|e| <= E0`$.";
     let proved = "Each row is proved, for every $`n_o`$ unless the title names one. No independent program checks the rows: `certify --sigma V -o FILE` writes a \
                   certificate of one, and `sampling` lists the longest sampling periods of such gains.";
@@ -29,7 +29,7 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
 
 /// The table of a claim at samples; nothing where there are no rows but that of the claim.
 pub(super) fn sampled_section(run: &SampledCertification<'_>) -> Vec<Block> {
-    let says = "The sampling period is the same in all rows. Steady values hold along the periodic solution, largest values in the transient from the initial set, where $`|e| <= E0`$.";
+    let says = "The sampling period is the same in all rows. Steady values hold along the periodic solution. Largest values hold in the transient from the initial set, where $`|e| <= E0`$.";
     let proved = "Each row is proved for its gain alone, for every $`n_o`$ below half of the samples unless the title names one. No independent program checks the \
                   rows: `certify --sigma V -o FILE` writes a certificate of one.";
     let sizes = sizes(run.spec);
@@ -48,7 +48,7 @@ fn sizes(spec: &Specification) -> &'static str {
 
 fn table(rows: &[GainRow], steady: &[String], says: &str) -> Vec<Block> {
     let [first, _, ..] = rows else { return Vec::new() };
-    let rates: Vec<String> = first.rates.iter().map(|(n_o, _)| format!("rate, {n_o}")).collect();
+    let rates: Vec<String> = first.rates.iter().map(|(n_o, _)| format!("rate, $`n_o = {n_o}`$")).collect();
     let titles: Vec<&str> = std::iter::once("$`sigma`$")
         .chain(steady.iter().map(String::as_str))
         .chain(["$`E0`$", "largest $`|e|`$", "steady $`|u|`$", "largest $`|u|`$"])

@@ -168,7 +168,7 @@ fn obstacle_advice(run: &Certification<'_>, obstacle: Obstacle, add: &mut dyn Fn
         Failing::Magnitude(_) => add("units of time, $`x`$, $`e`$ and $`q`$ in which the numbers are of ordinary size"),
         Failing::Beyond { .. } => {
             add(
-                "another gain, or the plant without this witness: its bounds are known as far as the smallest gain needs them",
+                "another gain, or a search without this witness: its bounds are proved only as far as the smallest gain needs them",
             );
         }
         Failing::NotFinite(Some(bound)) => {
@@ -228,7 +228,7 @@ fn obstacle_advice(run: &Certification<'_>, obstacle: Obstacle, add: &mut dyn Fn
 pub(super) fn again(refused: bool) -> &'static str {
     match refused {
         false => {
-            "a smaller initial set, or narrower intervals where there are some, of which fewer boxes are to be decided; or a larger gain, by `--sigma`"
+            "a smaller initial set, narrower intervals (if the file has some), or a larger gain (`--sigma`): the checker then has fewer boxes to decide"
         }
         true => "please report the file: a certificate that is refused is a defect",
     }
@@ -250,7 +250,10 @@ pub(super) fn wider(which: Limited, beside: Option<Limited>) -> String {
     let Some(beside) = beside else {
         return match which {
             Limited::Actuator => "an actuator that takes more",
-            Limited::SteadyError | Limited::PeakError | Limited::Control => "a larger limit",
+            Limited::SteadyError | Limited::PeakError => "a larger limit",
+            Limited::Control => {
+                "a larger limit, above the steady $`|u|`$: a run without a limit shows the bound of that, which a larger gain hardly lowers"
+            }
         }
         .to_owned();
     };
@@ -270,10 +273,10 @@ pub(super) fn wider(which: Limited, beside: Option<Limited>) -> String {
 pub(super) fn other_gain(which: Limited) -> &'static str {
     match which {
         Limited::Control | Limited::Actuator => {
-            "another gain, where this one is far above $`sigma*`$ a smaller one: without --sigma one with which the limit is kept is sought"
+            "another gain, and a smaller one if this is far above $`sigma*`$: without --sigma the program seeks a gain that keeps the limit"
         }
         Limited::SteadyError | Limited::PeakError => {
-            "a larger gain, which may leave less of the error: without --sigma one with which the limit is kept is sought"
+            "a larger gain, which may lower the error: without --sigma the program seeks a gain that keeps the limit"
         }
     }
 }

@@ -185,7 +185,7 @@ pub(super) fn orbit(spec: &Specification) -> Option<String> {
     };
     let states: Vec<String> = names.iter().enumerate().map(of_state).collect::<Option<_>>()?;
     let [whose, others] =
-        if nominal.is_empty() { [""; 2] } else { [" (nominal plant)", "; other members have others"] };
+        if nominal.is_empty() { [""; 2] } else { [" (nominal plant)", "; other members have other orbits"] };
     (!states.is_empty()).then(|| format!("$`x_0(t)`${whose}: {}{others}", states.join(", ")))
 }
 

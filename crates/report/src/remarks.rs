@@ -36,8 +36,8 @@ pub fn remarks(run: &Certification<'_>) -> Vec<String> {
         "what noise does with given numbers of oscillators is",
     ));
     remarks.extend(run.spec.disturbances.in_doubles().then(|| {
-        "Remark: `arithmetic` does not enter this claim, which is about the regulator in continuous time. It counts in what is said of given \
-         numbers of oscillators at samples: ask with `--sampling-period H --n-o LIST`."
+        "Remark: this claim does not include the rounding that `arithmetic` states, because it is about the regulator in continuous time. \
+         `--sampling-period H --n-o LIST` includes it, in bounds for these numbers of oscillators."
             .to_owned()
     }));
     remarks
@@ -46,8 +46,8 @@ pub fn remarks(run: &Certification<'_>) -> Vec<String> {
 /// That noise and a disturbance of the document count nowhere in the claim.
 fn unused_disturbances(spec: &Specification, unused: bool) -> Option<String> {
     (unused && spec.disturbances.any()).then(|| {
-        "Remark: `measurement` and `disturbance` do not enter this claim, which is about the loop without noise. They count in what is said of \
-         given numbers of oscillators: ask with `--n-o LIST`."
+        "Remark: this claim is about the loop without noise: it does not include `measurement` and `disturbance`. `--n-o LIST` includes them, in \
+         bounds for these numbers of oscillators."
             .to_owned()
     })
 }
@@ -55,8 +55,8 @@ fn unused_disturbances(spec: &Specification, unused: bool) -> Option<String> {
 /// That rounding counts nowhere in the claim at samples.
 fn unused_arithmetic(run: &SampledCertification<'_>) -> Option<String> {
     (run.claim().is_some() && run.for_n_o.is_empty() && run.spec.disturbances.in_doubles()).then(|| {
-        "Remark: `arithmetic` does not enter this claim, which is about the law without rounding. It counts in what is said of given numbers of \
-         oscillators: ask with `--n-o LIST`."
+        "Remark: this claim is about the law without rounding: it does not include `arithmetic`. `--n-o LIST` includes it, in bounds for these \
+         numbers of oscillators."
             .to_owned()
     })
 }
@@ -115,7 +115,7 @@ fn by_norms(spec: &Specification, asked: bool, what: &str) -> Option<String> {
         values.inequality.is_some() || values.joint_stability.is_some() || values.at_samples.stability.is_some();
     (asked && spec.plant().is_some_and(|plant| plant.states() > 0) && !by_matrix).then(|| {
         format!(
-            "Remark: with `--n-o` the claim rests on norms, because {what} proved from them. Without `--n-o` a matrix inequality may prove a smaller gain."
+            "Remark: with `--n-o` the claim rests on norms, because {what} proved from norms. Without `--n-o` a matrix inequality may prove a smaller gain."
         )
     })
 }
@@ -133,15 +133,15 @@ fn no_worth_of_oscillators(run: &Certification<'_>) -> Option<String> {
     }
     let advice = match (run.spec.period.interval(), run.spec.internal_model.matched) {
         (Some(_), _) => {
-            "only an interval of the period is known, so the oscillators are not at the harmonics. A narrower interval"
+            "The reason is that only an interval of the period is known, so the oscillators are not at the harmonics. A narrower interval"
         }
         (None, false) => {
-            "`matched` is false, so the oscillators are not at the harmonics. A `base_frequency` of exactly 2*pi/period, with `matched`,"
+            "The reason is that `matched` is false, so the oscillators are not at the harmonics. A `base_frequency` of exactly 2*pi/period, with `matched`,"
         }
-        (None, true) => "at this gain the size of the loop bounds the error. A smaller load",
+        (None, true) => "The reason is that at this gain the size of the loop bounds the error. A smaller load",
     };
     Some(format!(
-        "Remark: the bound of the steady error hardly falls with the number of oscillators: it is {} with none and {} with {MANY}, because {advice} lets it \
+        "Remark: the bound of the steady error hardly falls with the number of oscillators: it is {} with none and {} with {MANY}. {advice} lets it \
          fall. A larger gain lowers the bounds for every number of oscillators (`--steady-error V` seeks one).",
         upper(&none),
         upper(&many)
@@ -156,12 +156,12 @@ fn of(no_plant: Option<&NoPlant>, force_at_origin: bool) -> Vec<String> {
             ExceededBy::Rate { .. } => "$`f`$, $`f_xx`$, their domain, rate, and the unit of time in each",
             ExceededBy::Jacobian { .. } => "$`f`$, $`f_xx`$, their domain, the Jacobian, and the unit of time in each",
         };
-        remarks.push(format!("Remark: {reason}. What is proved of all such plants is proved of none. Check {check}."));
+        remarks.push(format!("Remark: {reason}. So the claim is about no plant. Check {check}."));
     }
     if force_at_origin {
         remarks.push(
-            "Remark: $`f(0,0) > 0`$, although $`|f(t,0,0)| = 0`$ for every plant of the family. Were the bounds taken before the \
-             shift by $`x_0(t)`$, the periodic solution of $`x' = f(t,x,0)`$? They are to hold after it (erratum E18; the guide)."
+            "Remark: $`f(0,0) > 0`$, although $`|f(t,0,0)| = 0`$ for every plant of the family. Perhaps the bounds were taken before the \
+             shift by $`x_0(t)`$, the periodic solution of $`x' = f(t,x,0)`$. They have to hold after it (erratum E18; the guide)."
                 .to_owned(),
         );
     }

@@ -12,7 +12,7 @@ use super::obstacles::{
 };
 use super::of_plant::plant_json;
 use super::remarks::sampled_remarks;
-use super::sets::{Boxes, Sizes};
+use super::sets::{Boxes, NORMS, Sizes};
 use super::verdict::{of_actuator, of_the_data};
 use super::words;
 use super::{Origin, about, brief, conditions, consequences, gains, of_plant};
@@ -56,11 +56,11 @@ impl<'r> SampledReport<'r> {
                 ]
                 .concat()
             ),
-            "The gain is a value for this sampling period, not a threshold: neither a larger gain nor a shorter sampling period \
-             follows from it."
+            "The gain is a value for this sampling period, not a threshold: nothing follows for a larger gain or a shorter sampling \
+             period."
                 .to_owned(),
             format!(
-                "Assumed of the computer: $`u`$ is held over each sample, {}, no rounding{}, no quantisation{}{}; a period has exactly the \
+                "Assumed of the computer: $`u`$ is held over each sample, {}, no rounding{}, no quantisation{}{}. A period has exactly a \
                  whole number of samples.",
                 if run.sampling.delayed {
                     "what is computed from a measurement is put out exactly at the next sample"
@@ -68,11 +68,11 @@ impl<'r> SampledReport<'r> {
                     "no delay of the computation"
                 },
                 match run.counts_noise() && run.spec.disturbances.in_doubles() {
-                    true => " (but that of the exported C code counts in what is said of given $`n_o`$)",
+                    true => " (except that the bounds with rounding for given $`n_o`$ include that of the exported C code)",
                     false => "",
                 },
                 match run.counts_noise() && run.spec.v_bar() > 0 {
-                    true => " (but that of $`e`$ counts in what is said of given $`n_o`$)",
+                    true => " (except that the bounds with noise for given $`n_o`$ include that of $`e`$)",
                     false => "",
                 },
                 if run.spec.actuator.is_some() { "" } else { ", no saturation" }
@@ -241,8 +241,8 @@ fn sets(run: &SampledCertification<'_>) -> Vec<Block> {
     ];
     blocks.extend(boxes.figure().map(Block::Drawing));
     blocks.push(Block::says(format!(
-        "Solutions from the initial set stay in the error box around the periodic solution, between samples too; $`zeta`$ and $`z`$ \
-         are those at samples.{}",
+        "Solutions from the initial set stay in the error box around the periodic solution, between samples too. {NORMS} Both \
+         are taken at samples.{}",
         match run.for_n_o.is_empty() {
             true => " The rate of convergence depends on $`n_o`$ and is not part of the claim.",
             false => "",
@@ -271,7 +271,8 @@ impl Readable for SampledReport<'_> {
             blocks.extend(brief::of_samples(run, self.consequences.as_ref(), self.origin));
             blocks.push(Block::Detail);
             blocks.extend(sampled_section(run));
-            blocks.extend(self.consequences.iter().flat_map(consequences::sampled_section));
+            let by_count = run.by_count.is_some();
+            blocks.extend(self.consequences.iter().flat_map(|all| consequences::sampled_section(all, by_count)));
             blocks.extend(gains::sampled_section(run));
             blocks.push(Block::heading("What the claim rests on"));
             blocks.push(about::facts(run.spec, Some(&run.sampling)));

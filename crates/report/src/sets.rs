@@ -51,7 +51,7 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
     ];
     blocks.extend(boxes.figure().map(Block::Drawing));
     blocks.push(Block::says(format!(
-        "Solutions from the initial set stay in the error box around the periodic solution. The gain and the sets are the same for every \
+        "Solutions from the initial set stay in the error box around the periodic solution. {NORMS} The gain and the sets are the same for every \
          $`n_o`$. The rate of convergence depends on $`n_o`$ and {}. $`sigma`$ is in 1/time.",
         match run.rates().any(|(_, rate)| rate.is_some()) {
             true => "is part of the claim only for the numbers that were asked for",
@@ -60,6 +60,9 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
     )));
     blocks
 }
+
+/// What the last two columns of the table are sizes of.
+pub(super) const NORMS: &str = "Here $`zeta = z - M e`$, $`|z|_N = sqrt(z'Nz)`$, and $`|zeta|_N`$ likewise.";
 
 /// The table of the sizes of sets: in the norms of the state, where there is one, of e, of zeta and of z.
 pub(super) struct Sizes<'s> {

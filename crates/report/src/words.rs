@@ -61,7 +61,7 @@ pub(super) fn origin_of_sizes(spec: &Specification, set: &ClaimedSet, periodic: 
         None => multiple(claimed, bound),
     };
     let of_x = match ball {
-        Some(_) => "for the ball that is stated".to_owned(),
+        Some(_) => "from the `ball` of the file".to_owned(),
         None => of(x0, &set.x0, periodic[0]),
     };
     let of_e = of(e0, &set.e0, periodic[1]);

@@ -77,10 +77,10 @@ pub fn in_words(gain: Option<&Range>) -> String {
     let Some(Range { nominal, low, high }) = gain else { return String::new() };
     let [nominal, low, high] = [nominal, low, high].map(|constant| &constant.words);
     let which = match low == high {
-        true => format!("the input gain {low} (constant"),
-        false => format!("every input gain in [{low}, {high}] (one constant"),
+        true => format!("the input gain {low} ("),
+        false => format!("every input gain in [{low}, {high}] (one constant; "),
     };
-    format!(" and {which}; the regulator divides by the nominal {nominal})")
+    format!(" and {which}the regulator divides its control by the nominal gain {nominal})")
 }
 
 /// What the regulator puts out, in words: u over the nominal gain.

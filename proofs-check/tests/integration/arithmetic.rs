@@ -35,7 +35,7 @@ fn stored_ones_are_accepted() {
         let report = accepted(&certificate);
         assert!(said(&judged(&certificate)).ends_with(&rates_in_words(&certificate)), "{name}");
         let subject = report.subject.as_ref().unwrap();
-        let said = format!("{WORDS}, also |e(t) - e_per(t)| <= ");
+        let said = format!("{WORDS}: |e(t) - e_per(t)| <= ");
         assert_eq!(subject.statement.matches(&said).count(), count(&certificate), "{name}");
         let assumed = subject.assumed.join("\n");
         for part in

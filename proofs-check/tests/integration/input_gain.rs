@@ -16,7 +16,9 @@ const RULE: &str = "input gain";
 /// What is said of the gain that the claim is about: as the file writes it.
 pub fn words(gain: &Value) -> String {
     let [low, high, nominal] = ["low", "high", "nominal"].map(|name| gain[name].as_str().unwrap_or_default());
-    format!(" and every input gain in [{low}, {high}] (one constant; the regulator divides by the nominal {nominal})")
+    format!(
+        " and every input gain in [{low}, {high}] (one constant; the regulator divides its control by the nominal gain {nominal})"
+    )
 }
 
 /// The gain of the file and of the claim.
@@ -60,7 +62,7 @@ fn a_claim_about_every_gain() {
     assert_holds(&report);
     assert!(report.lines.iter().any(|line| line.contains("b_hi h dZ^2")), "{:?}", report.lines);
     let subject = report.subject.as_ref().unwrap();
-    let said = "every input gain in [1.6, 2.5] (one constant; the regulator divides by the nominal 2)";
+    let said = "every input gain in [1.6, 2.5] (one constant; the regulator divides its control by the nominal gain 2)";
     assert!(subject.statement.contains(said), "{}", subject.statement);
     for said in ["e' = q(t,x,e) + g v", "v = u/2; g is one constant in [1.6, 2.5]"] {
         assert!(subject.assumed.iter().any(|line| line.contains(said)), "{:?}", subject.assumed);

@@ -39,8 +39,7 @@ pub fn rates_in_words(certificate: &Value) -> String {
     let sentence = |entry: &Value| {
         let n_o = &entry["n_o"];
         let rate = format!(
-            " With n_o = {n_o} and sigma = {sigma} exactly also |e(t) - e_per(t)| <= {} exp(-{} (t - t_0)){instants} for these solutions, e_per \
-             that of the periodic solution and t_0 the initial time.",
+            " With n_o = {n_o} and sigma = {sigma} exactly, |e(t) - e_per(t)| <= {} exp(-{} (t - t_0)){instants} for these solutions, where e_per is the e of the periodic solution and t_0 the initial time.",
             text(&entry["factor"]),
             text(&entry["rate"])
         );
@@ -49,7 +48,7 @@ pub fn rates_in_words(certificate: &Value) -> String {
             return rate;
         }
         format!(
-            "{rate} With n_o = {n_o} and sigma = {sigma} exactly, {}, also |e(t) - e_per(t)| <= {} for these starts{starts} and all t >= t_0, \
+            "{rate} With n_o = {n_o} and sigma = {sigma} exactly, {}: |e(t) - e_per(t)| <= {} for these starts{starts} and all t >= t_0, \
              and its limit superior is at most {}.",
             noise.join(", "),
             text(&limits["peak"]),

@@ -55,8 +55,7 @@ fn what_is_claimed() {
         assert!(report.lines.iter().any(|line| line.contains(condition)), "{:?}", report.lines);
     }
     let subject = report.subject.as_ref().unwrap();
-    let said = "every phase of the sampling grid and every input gain in [1.6, 2.5] (one constant; the regulator divides by the \
-                nominal 2), with period";
+    let said = "every phase of the sampling grid and every input gain in [1.6, 2.5] (one constant; the regulator divides its control by the nominal gain 2), with period";
     assert!(subject.statement.contains(said), "{}", subject.statement);
     for said in ["e' = q(t,x,e) + g v", "the regulator puts out v = u/2; g is one constant in [1.6, 2.5]"] {
         assert!(subject.assumed.iter().any(|line| line.contains(said)), "{:?}", subject.assumed);

@@ -24,8 +24,8 @@ pub fn words(certificate: &Value) -> String {
     format!(
         "For the digital regulator {delayed}with the gain sigma = {}, the sampling period h = {} ({samples} samples a period) and K = {}, for \
          every number of oscillators n_o < {samples}/2 and every phase of the sampling grid{}, with period T = {}, mu = {} and base \
-         frequency {}, every plant within the bounding functions{where_} and with the Lyapunov triple p_low = {}, p_up = {}, alpha \
-         = {} (given, not proved){}{} has a T-periodic solution of the closed loop. Every solution from |x| <= {}, |e| <= \
+         frequency {}, the closed loop of every plant within the bounding functions{where_} and with the Lyapunov triple p_low = {}, p_up = {}, alpha \
+         = {} (given, not proved){}{} has a T-periodic solution. Every solution from |x| <= {}, |e| <= \
          {}, sqrt(z'Nz) <= {}, at any sampling instant{start}, converges exponentially to it.",
         text(&claim["sigma"]),
         text(&claim["sampling_period"]),

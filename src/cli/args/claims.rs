@@ -25,18 +25,18 @@ pub struct CertifyArgs {
     #[arg(long, value_name = "V", allow_hyphen_values = true)]
     pub sigma: Option<String>,
 
-    /// Certify the smallest gain found that keeps |e| of the periodic solution at most V. This holds for every n_o, or with --n-o for the
-    /// numbers of LIST, which often needs a far smaller gain
+    /// Certify the smallest gain found that keeps |e| along the periodic solution at most V. The limit counts for every n_o. With --n-o it
+    /// counts for the numbers of LIST alone, which often needs a far smaller gain
     #[arg(long, value_name = "V", allow_hyphen_values = true)]
     pub steady_error: Option<String>,
 
-    /// Certify the smallest gain found that keeps |e| at most V in the transient from the initial set. This holds for every n_o, or with --n-o
-    /// for the numbers of LIST
+    /// Certify the smallest gain found that keeps |e| at most V at all times from the initial set. The limit counts for every n_o, or with
+    /// --n-o for the numbers of LIST alone
     #[arg(long, value_name = "V", allow_hyphen_values = true)]
     pub peak_error: Option<String>,
 
-    /// Certify the smallest gain found that keeps the size of the control at most V in the transient from the initial set; with `input_gain` it
-    /// is the control divided by `nominal`. This holds for every n_o, or with --n-o for the numbers of LIST
+    /// Certify the smallest gain found that keeps |u| at most V at all times from the initial set. Here u is the output of the regulator: with
+    /// `input_gain` the control divided by `nominal`. The limit counts for every n_o, or with --n-o for the numbers of LIST alone
     #[arg(long, value_name = "V", allow_hyphen_values = true)]
     pub max_control: Option<String>,
 
@@ -44,7 +44,7 @@ pub struct CertifyArgs {
     #[arg(long, value_name = "V", allow_hyphen_values = true, requires = "n_o")]
     pub rate: Option<String>,
 
-    /// Certify the regulator at samples this far apart, an exact positive constant; sets or replaces `sampling_period`
+    /// Certify the regulator with this sampling period, an exact positive constant; sets or replaces `sampling_period` of the file
     #[arg(long, value_name = "H", allow_hyphen_values = true)]
     pub sampling_period: Option<String>,
 
@@ -65,32 +65,32 @@ pub struct CertifyArgs {
     #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub output: Option<PathBuf>,
 
-    /// Write figures (SVG) into this folder, if certified: |e| and u of a simulation, beside what is proved of them
+    /// Write figures (SVG) into this folder, if certified: |e| and u of a simulation, with the proved bounds
     #[arg(long, value_name = "FOLDER", value_hint = ValueHint::DirPath)]
     pub plots: Option<PathBuf>,
 
     #[command(flatten)]
     pub replace: Replace,
 
-    /// Find the smallest n_o with which any bound by the number of oscillators certifies sup|e| <= V; V is an exact constant such as `1e-3` or
-    /// `1/1000`
+    /// Find the smallest n_o for which sup|e| <= V is proved along the periodic solution, at the gain of the claim; V is an exact constant such
+    /// as `1e-3` or `1/1000`
     #[arg(long, value_name = "V", allow_hyphen_values = true)]
     pub target_sup: Option<String>,
 
-    /// Find the smallest n_o with which any bound by the number of oscillators certifies rms(e) <= V; V is an exact constant such as `1e-3` or
-    /// `1/1000`
+    /// Find the smallest n_o for which rms(e) <= V is proved along the periodic solution, at the gain of the claim; V is an exact constant such
+    /// as `1e-3` or `1/1000`
     #[arg(long, value_name = "V", allow_hyphen_values = true)]
     pub target_rms: Option<String>,
 
-    /// Prove more for each of these numbers of oscillators (at most 8, up to 100), at the gain of the claim alone; e.g. `0,4,10`. It is a rate and
-    /// a factor with |e - e_per| <= factor exp(-rate (t - t_0)) in the undisturbed loop. Where FILE states `measurement`, `disturbance` or, at
-    /// samples, `arithmetic`, it is also what these do to e in the limit and in the transient. The certificate has all of this. Bounds by the
-    /// number of oscillators in the report are shown for these numbers, too
+    /// Prove a rate of convergence for each of these numbers of oscillators, such as `0,4,10` (at most 8 numbers, up to 100): |e - e_per| <=
+    /// factor exp(-rate (t - t_0)) in the loop without noise. If the file states `measurement` or `disturbance`, or at samples `arithmetic`,
+    /// bounds of |e - e_per| with these are proved, too. All of this holds at the gain of the claim alone, and is in the certificate. Without
+    /// --rate, limits such as --peak-error then count for these numbers alone. The report has rows for these numbers, too
     #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
     pub n_o: Option<String>,
 
-    /// Certify for every finite set of harmonics that contains 0, and show bounds for oscillators at these harmonics, such as `0,1,5,7`; repeat
-    /// the flag for several sets. It sets or replaces `harmonics` of the internal model
+    /// Show bounds for oscillators at these harmonics, such as `0,1,5,7`; repeat the flag for several sets. The claim is then about every finite
+    /// set of harmonics that contains 0: the flag sets or replaces `harmonics` of the internal model
     #[arg(long, value_name = "LIST", value_parser = harmonics(MAX_OSCILLATORS, MAX_OSCILLATORS))]
     pub harmonics: Vec<Oscillators>,
 
@@ -99,13 +99,13 @@ pub struct CertifyArgs {
           value_parser = clap::value_parser!(u32).range(i64::from(CertifyOptions::LEAST_PRECISION_LIMIT)..=4096))]
     pub precision_limit: u32,
 
-    /// Leave out what other choices would give: bounds at larger gains, what intervals of parameters cost, a limit that can be kept, a smaller
-    /// initial set where a plant is not certified; for a plant also the bounds by the number of oscillators, unless a limit such as
-    /// `--peak-error` needs them; and, in a whole report and a certificate, the search of the paper's derivations
+    /// Certify, and compute nothing else. This saves time. Left out are: bounds at larger gains; what intervals of parameters cost; if nothing is
+    /// certified, a limit that can be kept or a smaller initial set; for a plant the bounds by the number of oscillators, unless a limit such as
+    /// --peak-error needs them; and the search for the paper's derivations
     #[arg(long, alias = "no-compare")]
     pub no_alternatives: bool,
 
-    /// Show the stages of the work on standard error, one a line. On a terminal they are shown without this flag where the work takes longer
+    /// Show the stages of the work on standard error, one a line. On a terminal long work shows them without this flag
     #[arg(long, conflicts_with = "quiet")]
     pub progress: bool,
 
@@ -135,7 +135,7 @@ pub struct SamplingArgs {
     #[arg(value_name = "SPEC", value_hint = ValueHint::FilePath)]
     pub spec: PathBuf,
 
-    /// Sampling periods, separated by commas: exact constants of which the period is a whole multiple [default: some that fit
+    /// Sampling periods, separated by commas: exact constants. The period must be a whole multiple of each [default: some that fit
     /// the gain of the continuous-time regulator]
     #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
     pub sampling_period: Option<String>,
@@ -207,12 +207,12 @@ pub struct CheckArgs {
     #[arg(value_name = "CERTIFICATE", value_hint = ValueHint::FilePath)]
     pub certificate: PathBuf,
 
-    /// The specification or plant that the certificate must be about (.json; of a .jsonc or .toml file the output of `convert`). With other data
-    /// the answer is invalid
+    /// The specification or plant that the certificate must be about, as .json (`convert` makes it from a .jsonc or .toml file). If the
+    /// certificate is about other data, the answer is invalid
     #[arg(long, value_name = "SPEC", value_hint = ValueHint::FilePath)]
     pub spec: Option<PathBuf>,
 
-    /// The sampling period with which `certify` was called; it is put into SPEC before the two are compared
+    /// The sampling period with which `certify` was called; it is put into SPEC before the comparison
     #[arg(long, value_name = "H", requires = "spec", allow_hyphen_values = true)]
     pub sampling_period: Option<String>,
 
@@ -287,7 +287,7 @@ pub struct BoundArgs {
     #[command(flatten)]
     pub replace: Replace,
 
-    /// The domain: |y| <= X and |e| <= E; if absent, one quarter larger than what the certificate of the plant needs
+    /// The domain: |y| <= X and |e| <= E [default: a quarter larger than what the certificate of the plant needs]
     #[arg(long, value_name = "X,E", allow_hyphen_values = true)]
     pub domain: Option<String>,
 
@@ -299,7 +299,7 @@ pub struct BoundArgs {
 /// A choice of transfer constants.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub enum TransferArg {
-    /// The proof for a matched base frequency where the file asserts one, else boxes
+    /// The proof for a matched base frequency if the file asserts one, else boxes
     Best,
     /// Proved by boxes, valid for every base frequency
     Boxes,

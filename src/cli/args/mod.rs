@@ -139,25 +139,27 @@ pub enum Command {
     /// proved. The report goes to standard output, remarks and errors to standard error.
     #[command(after_help = CERTIFY_EXAMPLES, after_long_help = format!("{CERTIFY_EXAMPLES}\n\n{EXIT_CODES}"))]
     Certify(Box<CertifyArgs>),
-    /// Say which gain and how many oscillators to take: a table of what is proved, beside what is required
+    /// Find which gain and how many oscillators to take for your requirements
     ///
-    /// Proves bounds of the steady error, of the largest error and control, and rates, at several gains with several numbers of oscillators,
-    /// each row a claim that the independent checker decides. The pair to take has the smallest gain of the table with which every requirement
-    /// is proved to be met, and at this gain the fewest oscillators. Without requirements the gain to take passes two tests. Its bound of the
-    /// largest error is at most twice E0 or twice the bound of the steady error, whichever is larger. Each of its proved rates is at least half
-    /// of the largest rate proved for the same number of oscillators. Exit code 3 says that something required is not proved.
+    /// Makes a table of several gains with several numbers of oscillators. Each row has proved bounds of the steady error, of the largest error
+    /// and control, and a rate. Each row is a claim that the independent checker decides.
+    ///
+    /// With requirements the report names the smallest gain of the table at which all are proved to be met, and the fewest oscillators at this
+    /// gain. Without requirements it names the smallest gain that passes two tests with each number of oscillators. The bound of the largest
+    /// error is at most twice E0 or twice the bound of the steady error, whichever is larger. The proved rate is at least half of the largest
+    /// one for that number. Exit code 3 says that a requirement is not proved.
     #[command(after_help = DESIGN_EXAMPLES, after_long_help = format!("{DESIGN_EXAMPLES}\n\n{EXIT_CODES}"))]
     Design(DesignArgs),
     /// Show which gains go with which sampling periods: the smallest gain for a period, the longest period for a gain
     ///
     /// Each pair is certified as by `certify --sampling-period H --sigma V`. An `actuator` is judged by the conditions of the claim alone. A
-    /// gain is certified for its sampling period only: neither a larger gain nor a shorter period follows.
+    /// gain is certified for its sampling period only. Nothing follows for a larger gain or a shorter period.
     #[command(after_help = SAMPLING_EXAMPLES, after_long_help = format!("{SAMPLING_EXAMPLES}\n\n{EXIT_CODES}"))]
     Sampling(SamplingArgs),
     /// Certify a specification or plant with many values put in: a grid or a Latin hypercube
     ///
-    /// Each case is certified by itself, as `certify` does it, on all cores of this machine, and is a row of one table. Nothing is claimed
-    /// between the cases, and no certificates are written. The Python package has a study as calls, which can run on several machines.
+    /// Each case is certified by itself, as `certify` does it, on all cores of this machine. It is a row of one table. Nothing is claimed
+    /// between the cases, and no certificates are written. With the Python package a study can run on several machines.
     #[command(after_help = SWEEP_EXAMPLES)]
     Sweep(SweepArgs),
     /// Look for values of mu, the weights and other free numbers with a smaller certified gain
@@ -168,21 +170,22 @@ pub enum Command {
     Tune(TuneArgs),
     /// Prove the transfer bound T(x) <= k0 + k1 x^2 for every number of oscillators
     ///
-    /// Finds constants k0, k1 that are proved for every n_o and every frequency, says how much of the bound each n_o uses,
-    /// and compares the paper's constants with them. Computed with enclosures; there is no file for the independent checker.
+    /// Finds constants k0, k1 that are proved for every n_o and every frequency. Shows how much of the bound each n_o uses,
+    /// and compares the paper's constants with it. This program proves the bound with enclosures; no independent program checks it.
     #[command(after_help = TRANSFER_EXAMPLES, after_long_help = format!("{TRANSFER_EXAMPLES}\n\n{TRANSFER_EXIT_CODES}"))]
     Transfer(TransferArgs),
     /// Check a certificate with the independent checker
     ///
-    /// Decides the claim again from the certificate alone, with none of the code that made it: the same as the program
-    /// `proofs-check`. Says what is proved, of which specification, and what is assumed.
+    /// Decides the claim again from the certificate alone, with none of the code that made it. It is the same as the program
+    /// `proofs-check`. The answer says what is proved, of which specification, and what is assumed.
+    ///
     /// Exit codes: 0 valid, 1 invalid, 2 bad-input, 3 undecided.
     Check(CheckArgs),
     /// Write the regulator of a specification, plant or certificate: matrices, the law for a computer, C code
     ///
     /// Every number is the exact one, rounded once to double precision (the limit of an actuator is rounded up). For a certificate the gain is
-    /// its sigma* unless --sigma gives another. The command refuses what is known to be bad: sampling that cannot tell the oscillators apart, DT
-    /// sigma > 1, a gain below sigma* of the certificate. Only a certificate with a sampling period covers the sampling.
+    /// its sigma*, unless --sigma gives another. Only a certificate with a sampling period covers the sampling. The command refuses what is
+    /// known to be bad: samples that cannot tell the oscillators apart, DT sigma > 1, or a gain below sigma* of the certificate.
     #[command(after_help = CONTROLLER_EXAMPLES)]
     Controller(ControllerArgs),
     /// Simulate a plant with a regulator: steady state, long run, measurement noise
@@ -207,8 +210,8 @@ pub enum Command {
     Errata(ErrataArgs),
     /// The paper's constants for a bounding specification, printed and repaired, beside the proved ones
     ///
-    /// Every formula of the paper as it is printed, with the smallest sound repair, and as it is in the proof of the claim; Sylvester's
-    /// criterion, the spectral radius and the matrix inequalities beside them. The whole report of `certify` has the same table.
+    /// Shows every formula of the paper as it is printed, with the smallest sound repair, and as it is in the proof of the claim. Beside them
+    /// are Sylvester's criterion, the spectral radius and the matrix inequalities. The whole report of `certify` has the same table.
     #[command(after_long_help = EXIT_CODES)]
     Constants(ConstantsArgs),
     /// Find and prove the Lyapunov triple of a Jacobian, or the orbit of a plant
@@ -218,9 +221,9 @@ pub enum Command {
     Lyapunov(LyapunovArgs),
     /// Write a bounding specification for a plant: polynomials in X and E, each proved
     ///
-    /// For reading and editing: the bounds of f, q and their derivatives relative to the periodic solution x_0(t), in the
-    /// coordinates of the certificate, on a domain that is stated. `certify` of it works, with a gain that is a little larger
-    /// than that of the plant itself.
+    /// For reading and editing. The file has bounds of f, q and their derivatives on a domain that it states. They are relative to
+    /// the periodic solution x_0(t), in the coordinates of the certificate. `certify` takes the file, and finds a larger gain than
+    /// for the plant itself.
     #[command(after_help = BOUND_EXAMPLES)]
     Bound(BoundArgs),
     /// Write a commented template that works as it stands

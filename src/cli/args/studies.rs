@@ -14,36 +14,36 @@ pub struct DesignArgs {
     #[arg(value_name = "SPEC", value_hint = ValueHint::FilePath)]
     pub spec: PathBuf,
 
-    /// Require |e| of the periodic solution to be at most V
+    /// Require |e| to be at most V along the periodic solution
     #[arg(long, value_name = "V")]
     pub steady_error: Option<String>,
 
-    /// Require |e| at all times, from the whole initial set, to be at most V
+    /// Require |e| to be at most V at all times from the initial set
     #[arg(long, value_name = "V")]
     pub peak_error: Option<String>,
 
-    /// Require |u| at all times, from the whole initial set, to be at most V: the control over `nominal` where the file has `input_gain`,
-    /// measured from the middle of the range where its `actuator` has two limits
+    /// Require |u| to be at most V at all times from the initial set. Here u is the output of the regulator: with `input_gain` the control
+    /// divided by `nominal`. If `actuator` has two limits, u is measured from the middle of its range
     #[arg(long, value_name = "V")]
     pub max_control: Option<String>,
 
-    /// Require |e| to be at most the required steady error for good after so many periods; at samples at the sampling instants
+    /// Require |e| to stay at most the required steady error after so many periods; with a sampling period at the sampling instants
     #[arg(long, value_name = "PERIODS", requires = "steady_error")]
     pub settle: Option<String>,
 
-    /// Require the error that the noise, disturbance and rounding of the document cause in the limit to be at most V
+    /// Require |e - e_per| to be at most V in the limit, with the noise, disturbance and rounding that the file states
     #[arg(long, value_name = "V")]
     pub noise: Option<String>,
 
-    /// Numbers of oscillators of the table, 8 at most: `0,2,4` or a range `0..6` (default: 0,1,2,3,5)
+    /// Numbers of oscillators in the table, 8 at most: a list `0,2,4` or a range `0..6` [default: 0,1,2,3,5]
     #[arg(long, value_name = "LIST")]
     pub n_o: Option<String>,
 
-    /// Gains of the table, 20 at most, in the place of the smallest one that is found and multiples of it
+    /// Gains in the table, 20 at most [default: the smallest gain found, and multiples of it]
     #[arg(long, value_name = "LIST")]
     pub sigma: Option<String>,
 
-    /// Take the regulator at samples that are H apart, of which the period is a whole multiple
+    /// Take the regulator with the sampling period H; the period must be a whole multiple of H
     #[arg(long, value_name = "H")]
     pub sampling_period: Option<String>,
 
@@ -51,17 +51,17 @@ pub struct DesignArgs {
     #[arg(long, conflicts_with = "sampling_period")]
     pub sampling_periods: bool,
 
-    /// Choose these numbers of the file: mu, n0, epsilon and others, as `tune --over` names them, each with a range if wanted, `mu=1/10..10`; a
-    /// table is made of the values of the file and of four others of each number in turn, and the best one is shown (usual range of mu, with the
-    /// period T: 1/T..8/T)
+    /// Choose values of these numbers of the file: mu, n0, epsilon and others, as `tune --over` names them. A name may have a range, as in
+    /// `mu=1/10..10`; that of mu is 1/T..8/T by default, with the period T. The numbers are chosen one after the other. Each time a table is made
+    /// for the value of the file and for four others. The report shows the best table
     #[arg(long, value_name = "LIST")]
     pub choose: Option<String>,
 
-    /// Leave the simulations beside the proved numbers out
+    /// Leave out the simulations that are shown beside the proved numbers
     #[arg(long)]
     pub no_simulation: bool,
 
-    /// Tell on standard error which gains and values are proved next, a line for each
+    /// Show on standard error which gain or value is proved next, one a line
     #[arg(long, conflicts_with = "quiet")]
     pub progress: bool,
 
@@ -140,7 +140,7 @@ pub struct TuneArgs {
     #[arg(long, value_name = "N", conflicts_with = "minimise", value_parser = one_count(RegulatorMatrices::MAX_OSCILLATORS))]
     pub error_at: Option<u32>,
 
-    /// Certify at most so many proposals, the values of the file among them
+    /// Certify at most so many proposals; the values of the file count as one
     #[arg(long, value_name = "N", default_value_t = 120, value_parser = clap::value_parser!(u32).range(2..=i64::from(TuneOptions::MOST_TRIES)))]
     pub tries: u32,
 
@@ -148,7 +148,7 @@ pub struct TuneArgs {
     #[arg(long, value_enum, value_name = "NAME", default_value_t = Format::Text)]
     pub format: Format,
 
-    /// Write the specification or plant with the tuned numbers to this file, where they are better
+    /// Write the specification or plant with the tuned numbers to this file, if they are better
     #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub output: Option<PathBuf>,
 

@@ -133,7 +133,7 @@ fn the_claim_and_the_report_say_so() {
     assert_eq!(written["claim"]["input_gain"], gain("2", "1.8", "2.5"));
     let statement = written["claim"]["statement"].as_str().unwrap();
     let expected = "for every number of oscillators n_o < 200/2 and every phase of the sampling grid and every input gain in [1.8, 2.5] (one \
-                    constant; the regulator divides by the nominal 2), with period T = 1, ";
+                    constant; the regulator divides its control by the nominal gain 2), with period T = 1, ";
     assert!(statement.contains(expected), "{statement}");
     let input = folder.path().join("input.json");
     let again_by_flag =

@@ -165,10 +165,9 @@ fn the_claim_and_the_report_say_so() {
     assert_eq!(written["claim"]["input_gain"], gain("2", "1.8", "2.5"));
     assert_eq!(written["specification"]["input_gain"], gain("2", "1.8", "2.5"));
     let statement = written["claim"]["statement"].as_str().unwrap();
-    assert!(
-        statement
-            .contains("every input gain in [1.8, 2.5] (one constant; the regulator divides by the nominal 2), with")
-    );
+    assert!(statement.contains(
+        "every input gain in [1.8, 2.5] (one constant; the regulator divides its control by the nominal gain 2), with"
+    ));
     // The witness is decided again; a claim about another gain than the document's is refused.
     program().args(["certify", &file, "--witness"]).arg(&certificate).assert().code(0);
     let refused = |change: &dyn Fn(&mut Value)| {

@@ -227,9 +227,11 @@ fn expression(value: &Value<'_>, names: &PlantNames, errors: &mut Errors) -> Res
 /// Where the model holds: `x` and `e`.
 fn read_domain(value: &Value<'_>, constants: &Definitions, errors: &mut Errors) -> Result<Domain, Reported> {
     let mut object = value.object(errors)?;
-    let mut end =
-        |name| object.required(name, errors).and_then(|value| positive_constant_in(&value, constants, errors));
-    let (x, e) = (end("x"), end("e"));
+    let mut end = |name, help| {
+        object.required_or(name, help, errors).and_then(|value| positive_constant_in(&value, constants, errors))
+    };
+    let x = end("x", "`x` says how far from the orbit the formulas hold: |x - x_0| <= x");
+    let e = end("e", "`e` says how far the formulas hold: |e| <= e");
     object.finish(errors);
     Ok(Domain { x: x?, e: e? })
 }

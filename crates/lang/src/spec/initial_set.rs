@@ -8,6 +8,11 @@ use super::parts::{Constant, InitialSet};
 use crate::expr::Definitions;
 use rug::Rational;
 
+/// What a box of a plant needs for its states, and for the regulator.
+const BALL: &str = "`ball` bounds the distance of x from its orbit at the start: `\"ball\": \"1/10\"` is |x - x_0| <= 1/10 in the units of the file; `X0` \
+                    may stand in its place, for the norm of the coordinates that the program chooses";
+const Z_0: &str = "`Z0` bounds sqrt(z'Nz) at the start: `\"Z0\": \"0\"` is a regulator at rest";
+
 /// Reads `initial_set`: `paper` has no other field, `at-rest` and `aligned` may have X0 and E0, `box` has X0, E0 and Z0.
 ///
 /// # Errors
@@ -70,19 +75,31 @@ fn read_kinds(
         _ => {
             // Without states there is no x to bound.
             let none = if stateless && ball.is_none() { optional(&mut object, "X0", names, errors) } else { Ok(None) };
-            let mut number =
-                |name| object.required(name, errors).and_then(|value| nonnegative_constant_in(&value, names, errors));
             let x0 = match &ball {
                 Some(ball) => Ok(ball.clone()),
                 None if stateless => none.map(|x0| x0.unwrap_or_else(|| Constant::rational(&Rational::new()))),
-                None => number("X0"),
+                None if balls => match object.optional("X0") {
+                    Some(x0) => nonnegative_constant_in(&x0, names, errors),
+                    None => Err(errors.report(object.missing("ball").help(BALL))),
+                },
+                None => required(&mut object, ("X0", "`X0` bounds |x| at the start"), names, errors),
             };
-            let (e0, z0) = (number("E0"), number("Z0"));
+            let e0 = required(&mut object, ("E0", "`E0` bounds |e| at the start"), names, errors);
+            let z0 = required(&mut object, ("Z0", Z_0), names, errors);
             object.finish_as("for the kind `box`", errors);
             InitialSet::Box { x0: x0?, e0: e0?, z0: z0? }
         }
     };
     Ok((set, ball))
+}
+
+fn required(
+    object: &mut Object<'_>,
+    (name, help): (&'static str, &str),
+    names: &Definitions,
+    errors: &mut Errors,
+) -> Result<Constant, Reported> {
+    object.required_or(name, help, errors).and_then(|value| nonnegative_constant_in(&value, names, errors))
 }
 
 fn optional(

@@ -2,8 +2,8 @@
 
 use super::constant::{any_constant, exchanged, not_in_order, positive_constant_in, whole};
 use super::document::Value;
-use super::error::{ErrorKind, Errors, Reported, SpecError};
-use super::interval::no_list;
+use super::error::{ErrorKind, Errors, Reported, SpecError, shown};
+use super::interval::{no_list, no_share};
 use super::parameters::Parameters;
 use super::parts::Constant;
 use super::quantity::Quantity;
@@ -114,7 +114,10 @@ impl InputGain {
 /// Reports fields that are missing or unknown, numbers that are not positive, expressions that may have no value somewhere, and an order
 /// that fails or is not decided.
 pub fn read_input_gain(value: &Value<'_>, parameters: &Parameters, errors: &mut Errors) -> Result<InputGain, Reported> {
-    let help = "the true gain lies in [low, high], and the regulator divides its output by `nominal`";
+    let help = "the gain of the actuator is one constant from `low` to `high`, and the regulator divides its control by `nominal`";
+    if let Some(error) = one_number(value) {
+        return Err(errors.report(error));
+    }
     if let Some(error) = contains_zero(value) {
         return Err(errors.report(error));
     }
@@ -129,6 +132,20 @@ pub fn read_input_gain(value: &Value<'_>, parameters: &Parameters, errors: &mut 
         }
     })?;
     Ok(InputGain { nominal, low, high, formulas })
+}
+
+/// What is wrong where one number stands in the place of the interval.
+fn one_number(value: &Value<'_>) -> Option<SpecError> {
+    let written = value.text().or_else(|| value.numeral())?;
+    // What is meant as an interval is told as one.
+    no_list(value, &mut Errors::new()).ok()?;
+    let message = format!("`input_gain` is {}, and an interval is expected", value.type_name());
+    let error = value.error(ErrorKind::Type, message).expected("expected an object with `nominal`, `low` and `high`");
+    let gain = shown(written);
+    Some(error.help(format!(
+        "for a gain that is known exactly write `\"input_gain\": {{ \"nominal\": \"{gain}\", \"low\": \"{gain}\", \"high\": \"{gain}\" }}`; else write as \
+         `low` and `high` the smallest and the largest gain that the actuator may have"
+    )))
 }
 
 /// What is wrong where the interval contains 0, as far as its ends are numbers.
@@ -201,6 +218,7 @@ fn ordered_by(
     mut read: impl FnMut(&'static str, &Value<'_>, &mut Errors) -> Result<Constant, Reported>,
 ) -> Result<[Constant; 3], Reported> {
     no_list(value, errors)?;
+    no_share(value, errors)?;
     let mut object = value.object(errors)?;
     let nominal = object.required("nominal", errors).and_then(|value| read("nominal", &value, errors));
     let [low, high] = ["low", "high"]

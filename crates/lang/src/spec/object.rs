@@ -76,17 +76,26 @@ impl<'d> Object<'d> {
     /// # Errors
     /// Reports a missing field.
     pub fn required(&mut self, name: &'static str, errors: &mut Errors) -> Result<Value<'d>, Reported> {
-        self.optional(name).ok_or_else(|| {
-            errors.report(
-                SpecError::new(
-                    ErrorKind::MissingField,
-                    format!("{}/{name}", self.value.pointer()),
-                    self.value.key_span(),
-                    format!("the field `{name}` is missing"),
-                )
-                .expected(format!("expected `{name}` in this object")),
-            )
-        })
+        self.optional(name).ok_or_else(|| errors.report(self.missing(name)))
+    }
+
+    /// The same with what the field says, for one whose name does not.
+    ///
+    /// # Errors
+    /// Reports a missing field, with this help.
+    pub fn required_or(&mut self, name: &'static str, help: &str, errors: &mut Errors) -> Result<Value<'d>, Reported> {
+        self.optional(name).ok_or_else(|| errors.report(self.missing(name).help(help)))
+    }
+
+    /// That a field is missing.
+    pub(super) fn missing(&self, name: &str) -> SpecError {
+        SpecError::new(
+            ErrorKind::MissingField,
+            format!("{}/{name}", self.value.pointer()),
+            self.value.key_span(),
+            format!("the field `{name}` is missing"),
+        )
+        .expected(format!("expected `{name}` in this object"))
     }
 
     /// Reads `$schema`, by which the editor of a whole document knows its fields: a text that is ignored.

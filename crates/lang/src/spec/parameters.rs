@@ -3,7 +3,7 @@
 use super::constant::{any_constant, exchanged, whole};
 use super::document::Value;
 use super::error::{ErrorKind, Errors, Reported};
-use super::interval::no_list;
+use super::interval::{no_list, no_share};
 use super::object::{OF_FILE, belongs_above};
 use super::parts::Constant;
 use crate::expr::{DefinitionError, Definitions, MAX_INTERVALS, occurs, quoted};
@@ -282,6 +282,7 @@ fn read_interval(
     members: &[(&str, Value<'_>)],
     errors: &mut Errors,
 ) -> Result<(Constant, Option<Interval>), Reported> {
+    no_share(value, errors)?;
     let mut object = value.object(errors)?;
     let mut number = |field| {
         let value = object.required(field, errors)?;

@@ -50,19 +50,19 @@ impl Binding {
                  another mu and other weights (`sigmastar tune`) lower it."
             }
             Binding::Slope { .. } => {
-                "A smaller initial set lowers it, where q is steeper further out; a smaller mu hardly does."
+                "A smaller initial set lowers it if q is steeper further out. A smaller mu hardly lowers it."
             }
             Binding::InternalModel => {
-                "An aligned start or a smaller initial set lowers it; so do a mu and weights that fit the plant (`sigmastar \
+                "An aligned start or a smaller initial set lowers it, and so do a mu and weights that fit the plant (`sigmastar \
                  tune`)."
             }
             Binding::Coupling => {
-                "A smaller initial set, in which f and q bend less, lowers it; so does less coupling between x and e, by a loop \
+                "A smaller initial set lowers it, because f and q bend less there. Less coupling between x and e lowers it, too: by a loop \
                  around x or by another output e."
             }
             Binding::MatrixInequality | Binding::JointMetrics => {
-                "An aligned start or a smaller initial set, in which f and q bend less, lowers it; so do a mu and weights that \
-                 fit the plant (`sigmastar tune`)."
+                "An aligned start or a smaller initial set lowers it, because f and q bend less there. A mu and weights that \
+                 fit the plant (`sigmastar tune`) lower it, too."
             }
         }
     }
@@ -74,13 +74,13 @@ impl Binding {
                  lower it."
             }
             Binding::Slope { one_sided: false } => {
-                "A smaller initial set, or a bound of dq/de from above that tells damping apart (q_e_max), lowers it; a \
-                 smaller mu hardly does."
+                "A smaller initial set lowers it, or a bound of dq/de from above (q_e_max), which does not count damping as harm. A \
+                 smaller mu hardly lowers it."
             }
             Binding::Slope { one_sided: true } => "A smaller initial set or a smaller q_e_max lowers it.",
             Binding::InternalModel => {
                 "An aligned start, a smaller initial set, bounds of q in the mean (q_rms, q_t_rms) or its \
-                 harmonics (q_0) lower it; so does a mu that fits the plant."
+                 harmonics (q_0) lower it, and so does a mu that fits the plant."
             }
             Binding::Coupling => {
                 "Smaller f_e or q_x, a larger alpha, a rate on the box, or coordinates of x with such bounds lower it."

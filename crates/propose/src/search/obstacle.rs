@@ -221,7 +221,9 @@ impl Obstacle {
     #[must_use]
     pub fn sentence(&self) -> String {
         match self.failing {
-            Failing::NotDecidedAgain { .. } | Failing::Rate { .. } | Failing::Start { .. } => self.describe(),
+            Failing::NotDecidedAgain { .. } | Failing::Rate { .. } | Failing::Start { .. } | Failing::Limit { .. } => {
+                self.describe()
+            }
             _ => format!("no candidate was found: {}", self.describe()),
         }
     }
@@ -247,8 +249,8 @@ impl Obstacle {
                 "a number of the proof is beyond the range of double precision for every candidate that was tried{place}"
             ),
             Failing::Beyond { known: Known::Samples, .. } => format!(
-                "every error box that was tried is at least a million times as large as the orbit and the initial set, and no bounds of the \
-                 plant are sought that far out; the smallest was{place}"
+                "every error box that was tried is at least a million times as large as the orbit and the initial set; the smallest was{place}. No \
+                 bounds of the plant are sought that far out"
             ),
             Failing::Beyond { known: Known::Proofs, .. } => format!(
                 "every error box that was tried reaches further than the bounds of the plant are proved; the smallest was{place}"
@@ -276,7 +278,7 @@ impl Obstacle {
                 format!("h sigma > 1: the gain is {}, and 1/h is {}", short(sigma), short(largest))
             }
             Failing::Hold { sigma, largest, given: false } => format!(
-                "h sigma > 1 for every gain that norms may prove: even in continuous time the smallest one that they are found to prove is about \
+                "h sigma > 1 for every gain that may be proved by norms: even in continuous time the smallest one found is about \
                  {}, and 1/h is {}",
                 short(sigma),
                 short(largest)
@@ -295,7 +297,7 @@ impl Obstacle {
                 format!("C5h: the decay from sample to sample is not positive for any error box that was tried{place}")
             }
             Failing::Limit { which, asked, beside, least, sigma, proved } => format!(
-                "{} {}{}: {} {}, at the gain {}",
+                "{} {}{}; {} {}, at the gain {}",
                 which.describe(),
                 short(asked),
                 beside.map_or_else(String::new, |(other, asked)| {
@@ -320,7 +322,7 @@ impl Obstacle {
                 short(sigma)
             ),
             Failing::Start { asked, e0 } => format!(
-                "|e| on the way is to be at most {}, and the initial set has |e| up to E0 = {} at the start: no gain can do that",
+                "|e| in the transient cannot be kept at most {} by any gain, because the initial set has |e| up to E0 = {} at the start",
                 short(asked),
                 short(e0)
             ),
@@ -335,12 +337,12 @@ impl Obstacle {
             }
             Failing::Samples => "a period would need more samples than are taken".to_owned(),
             Failing::Unproved(Bound::Rate) => format!(
-                "the zero dynamics are not proved to contract as far from the orbit as the arguments of the proof that was found{place}; \
-                 farther away, as between two wells, they need not"
+                "the proof that was found needs zero dynamics that contract up to a certain distance from the orbit{place}, and this is not \
+                 proved; farther from the orbit they need not contract, as between two wells"
             ),
             Failing::Unproved(_) => format!(
-                "an error box was found over samples of the plant's derivatives, and with the bounds that are proved there it has to be larger{place} \
-                 than they are proved for"
+                "an error box was found over samples of the plant's derivatives, but the bounds that are proved on it are larger, and with them the \
+                 error box reaches further than they are proved{place}"
             ),
             Failing::Bounds => {
                 format!("the bounding functions are not proved up to the arguments of the proof that was found{place}")

@@ -50,7 +50,7 @@ impl SampledLimit {
         match self {
             SampledLimit::Existence => "S2: the periodic solution; a shorter sampling period or a larger gain helps",
             SampledLimit::Continuous => {
-                "Q_0: the gain itself, as norms have it in continuous time; a larger one, where h sigma <= 1 allows it, or sharper data help"
+                "Q_0: the gain itself, by norms as in continuous time; a larger gain (up to h sigma = 1) or sharper data help"
             }
             SampledLimit::Theta => {
                 "theta = h mu Nbar^2/2 in Q_h: what the oscillators lose to the sampling; a smaller mu or a shorter sampling \
@@ -60,12 +60,12 @@ impl SampledLimit {
                 "h sigma in Q_h: e is held over a sample; a shorter sampling period or a smaller gain helps"
             }
             SampledLimit::Motion => {
-                "h dq/de and h dq/dx in Q_h: what moves within a sample; a shorter sampling period helps, and where q is steeper further out a smaller \
-                 initial set"
+                "h dq/de and h dq/dx in Q_h: how far q changes within a sample; a shorter sampling period helps, or a smaller initial set if q is \
+                 steeper further out"
             }
             SampledLimit::Matrix => {
-                "the matrix inequality over the derivatives: a larger gain or a shorter sampling period helps, and where the derivatives vary a \
-                 smaller initial set"
+                "the matrix inequality over the derivatives; a larger gain or a shorter sampling period helps, or a smaller initial set if the \
+                 derivatives vary"
             }
         }
     }

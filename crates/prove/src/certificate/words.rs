@@ -103,10 +103,10 @@ fn every_input_gain(spec: &Specification) -> String {
     spec.input_gain.as_ref().map_or_else(String::new, |InputGain { nominal, low, high, .. }| {
         let [nominal, low, high] = [nominal, low, high].map(Constant::words);
         let which = match low == high {
-            true => format!("the input gain {low} (constant"),
-            false => format!("every input gain in [{low}, {high}] (one constant"),
+            true => format!("the input gain {low} ("),
+            false => format!("every input gain in [{low}, {high}] (one constant; "),
         };
-        format!(" and {which}; the regulator divides by the nominal {nominal})")
+        format!(" and {which}the regulator divides its control by the nominal gain {nominal})")
     })
 }
 
@@ -154,8 +154,7 @@ fn conclusion(spec: &Specification, (set, ball): (&ClaimedSet, Option<&Rational>
         if spec.bounds.own(Bound::Rate).is_some() { " and the contraction `rate` (given, not proved)" } else { "" };
     let harmonics = if spec.q_0.is_some() { " and harmonics of q(t,0,0) within `q_0` (given, not proved)" } else { "" };
     format!(
-        "every plant within the bounding functions{domain} and {triple}{rate}{harmonics} has a T-periodic solution of the \
-         closed loop. Every solution from |x| <= {}, {}, {start}, converges exponentially to it.{}",
+        "the closed loop of every plant within the bounding functions{domain} and {triple}{rate}{harmonics} has a T-periodic solution. Every solution from |x| <= {}, {}, {start}, converges exponentially to it.{}",
         write_exact(&set.x0),
         of_regulator(set),
         never_cut_off(spec),
@@ -190,7 +189,7 @@ fn conclusion_of_plant(
         Some(members) => format!("every plant of these formulas with {members}"),
     };
     format!(
-        "{which}{domain} has a T-periodic solution of the closed loop. Every solution from {state}{}, {start}, converges \
+        "the closed loop of {which}{domain} has a T-periodic solution. Every solution from {state}{}, {start}, converges \
          exponentially to it.{}{orbit}",
         of_regulator(set),
         never_cut_off(spec),

@@ -130,6 +130,8 @@ pub struct BoundsOfCount {
     pub peak_error: Stated,
     /// Of what is put out at all times from the initial set; it is in the certificate.
     pub control: Enclosure,
+    /// Of what is put out along the periodic solution; it is in the certificate.
+    pub steady_control: Enclosure,
 }
 
 impl BoundsOfCount {
@@ -142,7 +144,8 @@ impl BoundsOfCount {
         (by_count, n_o): (Option<&ByCount>, u32),
         by_formulas: Option<Enclosure>,
     ) -> BoundsOfCount {
-        let control = written(&control.steady) + written(&control.transient);
+        let steady_control = written(&control.steady);
+        let control = &steady_control + written(&control.transient);
         let in_certificate = |bound: Enclosure| Stated { bound, is_in_certificate: true };
         let outside = |bound: Enclosure| Stated { bound, is_in_certificate: false };
         let steady = written(steady);
@@ -155,6 +158,7 @@ impl BoundsOfCount {
                 },
                 peak_error: outside(peak.clone()),
                 control,
+                steady_control,
             },
             Some((found, own)) => BoundsOfCount {
                 steady_error: in_certificate(steady.min(&found.stated(&own.steady_error))),
@@ -163,6 +167,7 @@ impl BoundsOfCount {
                     None => outside(peak.clone()),
                 },
                 control: own.largest_control().map_or(control.clone(), |own| control.min(&found.stated(&own))),
+                steady_control: steady_control.min(&found.stated(&own.steady_control)),
             },
         }
     }

@@ -142,7 +142,7 @@ pub fn notice(export: &Export<'_>) -> Vec<String> {
     let claimed = (export.certificate.map(|certificate| certificate.scope), export.actuator);
     let rounding = export.certificate.filter(|certificate| certificate.scope == Scope::Samples);
     let rounding = rounding.and_then(|certificate| certificate.rounding);
-    let quantisation = if rounding.is_some() { "quantisation that it does not name there" } else { "quantisation" };
+    let quantisation = if rounding.is_some() { "quantisation that these bounds do not name" } else { "quantisation" };
     // With an actuator the saturation is in a claim about the regulator that is exported, and in no other.
     let saturates = match (claimed, export.discrete) {
         ((Some(Scope::Samples), Some(_)), _) | ((Some(Scope::Continuous), Some(_)), None) => {
@@ -156,8 +156,8 @@ pub fn notice(export: &Export<'_>) -> Vec<String> {
             "No claim covers the rounding of these numbers and of the arithmetic with them, {late}, {saturates}."
         ),
         Some(n_o) => format!(
-            "The rounding of the exported C code counts in what the certificate says of e with n_o = {n_o} \"computed in double precision as \
-             exported\", and in no other bound. No claim covers {late}, {saturates}."
+            "The bounds of the certificate with n_o = {n_o} that say \"computed in double precision as exported\" include the rounding of the exported C \
+             code. No other bound includes it. No claim covers {late}, {saturates}."
         ),
     });
     lines.extend(clipped(export, claimed.0));
@@ -203,25 +203,29 @@ fn plain(text: &str) -> String {
     words.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// Lines of comment of at most about a hundred characters, each with the prefix.
-pub(super) fn comment(lines: &[String], prefix: &str) -> String {
+/// Lines of comment of at most about a hundred characters, each with the prefix: a paragraph for each of these, with an empty line between them, and in
+/// it each sentence from the start of a line.
+pub(super) fn comment(paragraphs: &[String], prefix: &str) -> String {
+    let texts: Vec<String> = paragraphs
+        .iter()
+        .map(|paragraph| rows(paragraph).into_iter().map(|row| format!("{prefix}{row}\n")).collect())
+        .collect();
+    texts.join(&format!("{}\n", prefix.trim_end()))
+}
+
+/// The rows of a paragraph.
+fn rows(paragraph: &str) -> Vec<String> {
     const WIDTH: usize = 100;
-    let mut text = String::new();
-    for line in lines {
-        let mut row = String::new();
-        for word in line.split_whitespace() {
-            if !row.is_empty() && row.len() + 1 + word.len() > WIDTH {
-                text.push_str(&format!("{prefix}{row}\n"));
-                row.clear();
-            }
-            if !row.is_empty() {
-                row.push(' ');
-            }
-            row.push_str(word);
+    let mut rows: Vec<String> = Vec::new();
+    let mut begins = true;
+    for word in paragraph.split_whitespace() {
+        match rows.last_mut().filter(|row| !begins && row.len() + 1 + word.len() <= WIDTH) {
+            Some(row) => *row += &format!(" {word}"),
+            None => rows.push(word.to_owned()),
         }
-        text.push_str(&format!("{prefix}{row}\n"));
+        begins = word.ends_with('.');
     }
-    text
+    rows
 }
 
 #[cfg(test)]
@@ -233,8 +237,9 @@ mod tests {
         let text = comment(&["ab ".repeat(60), "c".repeat(120)], "% ");
         assert_eq!(text.split_whitespace().filter(|word| *word == "ab").count(), 60);
         let lines: Vec<&str> = text.lines().collect();
-        assert!(lines.len() == 3 && lines.iter().all(|line| line.starts_with("% ")));
-        assert!(lines[..2].iter().all(|line| line.len() <= 102) && lines[2].len() == 122);
+        assert!(lines.len() == 4 && lines.iter().all(|line| line.starts_with('%')));
+        assert!(lines[..2].iter().all(|line| line.len() <= 102) && lines[2] == "%" && lines[3].len() == 122);
+        assert_eq!(comment(&["One of 0.5. Two.".to_owned()], "% "), "% One of 0.5.\n% Two.\n");
         assert_eq!(plain("a\nb\u{202e} \tc"), "a b c");
     }
 }

@@ -115,13 +115,14 @@ impl DesignReport<'_> {
         let Some(n_o) = cell.map(|cell| row.cells[cell].n_o) else {
             return match is_met {
                 true => format!(
-                    "Take $`sigma = {sigma}`${values}: the smallest gain of the table at which, with each number of oscillators, the bound of the largest $`|e|`$ is \
-                     at most twice the larger of $`E0`$ and the bound of the steady error, and each proved rate at least half of the largest one for that \
-                     number."
+                    "Take $`sigma = {sigma}`${values}. It is the smallest gain of the table that meets two conditions with each number of oscillators. The bound of the \
+                     largest $`|e|`$ is at most twice the larger of $`E0`$ and the bound of the steady error. Each proved rate is at least half of the largest one \
+                     for that number."
                 ),
                 false => format!(
-                    "No gain of the table has, with each number of oscillators, a bound of the largest $`|e|`$ of at most twice the larger of $`E0`$ and the \
-                     bound of the steady error, and at least half of the largest rate that is proved for that number. $`sigma = {sigma}`${values} comes closest."
+                    "$`sigma = {sigma}`${values} comes closest. No gain of the table meets two conditions with each number of oscillators. The bound of the largest $`|e|`$ \
+                     is to be at most twice the larger of $`E0`$ and the bound of the steady error. Each proved rate is to be at least half of the largest one for \
+                     that number."
                 ),
             };
         };
@@ -129,7 +130,7 @@ impl DesignReport<'_> {
             let without = match self.disturbed {
                 false => "",
                 true if self.requirements.noise.is_some() => {
-                    "; that of noise in the loop with it, all others in the loop without noise"
+                    ". The requirement of noise is met in the loop with noise, all others in the loop without it"
                 }
                 true => " in the loop without noise",
             };
@@ -175,7 +176,7 @@ impl DesignReport<'_> {
     fn basis(&self) -> String {
         let samples = match &self.sampling {
             Some((step, samples)) => format!(
-                " The whole table is about samples that are {} apart, {samples} in a period. Rates are those at the sampling instants.",
+                " The whole table is about the regulator at samples {} apart, {samples} in a period. Rates hold at the sampling instants.",
                 clean(step)
             ),
             None => String::new(),
@@ -197,9 +198,9 @@ impl DesignReport<'_> {
             false => "",
         };
         format!(
-            "Steady values hold along the periodic solution, largest values at all times from the initial set, for every plant, period and gain of the \
-             actuator of the document. $`u`$ is what is put out{middle}. Each row is a claim of its own. The independent checker has decided it, and the numbers are those of its \
-             certificate, except where a remark says otherwise.{noise}{samples}{simulated}"
+            "Steady values hold along the periodic solution, largest values at all times from the initial set. All hold for every plant, period and gain of the \
+             actuator of the document. $`u`$ is the output of the regulator{middle}. Each row is a claim of its own, which the independent checker has decided. Its numbers are those of its \
+             certificate, unless a remark says otherwise.{noise}{samples}{simulated}"
         )
     }
 
@@ -281,11 +282,12 @@ impl DesignReport<'_> {
                  writes the regulator"
             ));
         } else {
-            remarks.extend(self.choice.compared.iter().filter(|one| !one.is_met()).map(|one| self.remedy(row, one)));
+            let missed = self.choice.compared.iter().filter(|one| !one.is_met());
+            remarks.extend(missed.map(|one| self.remedy((row, *cell), one)));
         }
         if !self.choice.compared.is_empty() {
             remarks.push(
-                "rule: the smallest gain of the table with which every requirement is proved to be met, with the fewest oscillators"
+                "rule: take the smallest gain of the table at which every requirement is proved to be met, and there the fewest oscillators"
                     .to_owned(),
             );
         }
@@ -293,13 +295,13 @@ impl DesignReport<'_> {
             let sigma = write_exact(&row.sigma);
             let step = self.longest_of(self.choice.row).map_or_else(|| "H".to_owned(), LongestPeriod::text);
             remarks.push(format!(
-                "longest $`h`$: the longest round sampling period that was found with which the regulator at samples is certified with this gain, for every \
-                 number of oscillators; a claim about this $`h`$ alone, whose bounds are others: `--sigma {sigma} --sampling-period {step}` shows them"
+                "longest $`h`$: the longest round sampling period found at which the regulator at samples is certified with this gain, for every \
+                 number of oscillators. It is a claim of its own, about this $`h`$ alone, with other bounds: `--sigma {sigma} --sampling-period {step}` shows them"
             ));
         }
         if let Some(limit) = &self.requirements.steady_error {
             remarks.push(format!(
-                "settles in: after so many periods $`|e|`$ is at most {} for good{}, by the proved rate and factor. One exponential function bounds all \
+                "settles in: after so many periods $`|e|`$ stays at most {}{}, by the proved rate and factor. One exponential function bounds all \
                  of the transient, so the true number is often far smaller at large gains",
                 write_exact(limit),
                 if self.sampling.is_some() { " at the sampling instants" } else { "" }
@@ -319,9 +321,9 @@ impl DesignReport<'_> {
         remarks.push(format!("initial set, {of_gain}: {set}{open}"));
         remarks.push(format!("assumed: {assumed}"));
         for (which, said) in [
-            "steady error: where the certificate has no bounds by the number of oscillators, this program alone derives the bound from the claim",
-            "largest error: where the certificate has no bounds by the number of oscillators, this program alone derives the bound from what proves the \
-             claim",
+            "steady error: if the certificate has no bounds by the number of oscillators, this program derives the bound from the claim, and the checker does not decide it",
+            "largest error: if the certificate has no bounds by the number of oscillators, this program derives the bound from the proof of the \
+             claim, and the checker does not decide it",
         ]
         .into_iter()
         .enumerate()
@@ -333,7 +335,7 @@ impl DesignReport<'_> {
         let known_by_count = |cell: &Cell| cell.are_in_certificate[1];
         if self.sampling.is_some() && row.cells.len() > 1 && !self.cells().any(known_by_count) {
             remarks.push(
-                "steady error: at samples there are bounds by the number of oscillators for plants that are linear in x and e. Here more oscillators do not \
+                "steady error: at samples only plants that are linear in x and e have bounds by the number of oscillators. Here more oscillators do not \
                  lower the bound"
                     .to_owned(),
             );
@@ -344,7 +346,7 @@ impl DesignReport<'_> {
         remarks.extend(self.refused.iter().map(refused));
         if self.cells().any(|cell| cell.decay.is_none()) {
             remarks.push(
-                "rates: where none is proved, nothing is said. Fewer oscillators or a larger gain may give one"
+                "rates: `not proved` says nothing about the loop. Fewer oscillators or a larger gain may give a rate"
                     .to_owned(),
             );
         }
@@ -361,15 +363,17 @@ impl DesignReport<'_> {
         self.rows.windows(2).any(|pair| pair[0].e0 != pair[1].e0)
     }
 
-    /// What helps, as a rule, to meet a requirement that is missed in this row.
-    fn remedy(&self, row: &Row, one: &Compared) -> String {
+    /// What helps, as a rule, to meet a requirement that is missed by this cell of the row.
+    fn remedy(&self, (row, cell): (&Row, Option<usize>), one: &Compared) -> String {
+        let steady_control = cell.map(|cell| &row.cells[cell].steady_control);
+        let too_much = steady_control.filter(|steady| steady.upper_rational().is_some_and(|steady| steady > one.asked));
         let fewer_or = "fewer oscillators (`--n-o`) or";
         let help = match one.requirement {
             Requirement::PeakError if one.asked < row.e0 => {
                 let e0 = exact(&row.e0, Direction::Down);
                 match self.states_e0 {
                     true => format!(
-                        "the initial set has $`|e|`$ up to $`E0 = {e0}`$ at the start, so no gain can do that; state a smaller set"
+                        "no gain can do that, because the initial set has $`|e|`$ up to $`E0 = {e0}`$ at the start; state a smaller `E0`"
                     ),
                     false => format!(
                         "at this gain the initial set has $`|e|`$ up to $`E0 = {e0}`$ at the start; state a smaller `E0`, or take a larger gain (`--sigma`)"
@@ -378,7 +382,16 @@ impl DesignReport<'_> {
             }
             Requirement::PeakError => "a larger gain (`--sigma`) or a smaller initial set may help".to_owned(),
             Requirement::SteadyError => "more oscillators (`--n-o`) or a larger gain (`--sigma`) may help".to_owned(),
-            Requirement::Control => format!("a smaller initial set, {fewer_or} a smaller gain (`--sigma`) may help"),
+            Requirement::Control => too_much.map_or_else(
+                || format!("a smaller initial set, {fewer_or} a smaller gain (`--sigma`) may help"),
+                |steady| {
+                    format!(
+                        "another gain hardly helps, because along the periodic solution alone the bound of $`|u|`$ is {}, above the limit; require more \
+                         than that, or take a stronger actuator",
+                        upper(steady)
+                    )
+                },
+            ),
             Requirement::Settling if one.proved.is_none() && self.misses(Requirement::SteadyError) => {
                 "the steady error is not proved to be below what is required, so no time to settle is proved".to_owned()
             }

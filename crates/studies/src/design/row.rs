@@ -30,6 +30,8 @@ pub struct Cell {
     pub are_in_certificate: [bool; 2],
     /// Of what is put out at all times.
     pub control: Enclosure,
+    /// Of what is put out along the periodic solution.
+    pub steady_control: Enclosure,
     /// The rate in 1/time, and the factor in the unit of e, where they are proved: `|e - e_per| <= factor exp(-rate (t - t_0))`, at samples at the
     /// sampling instants.
     pub decay: Option<Decay>,
@@ -66,7 +68,7 @@ impl Row {
         let certified = run.certified()?;
         let said = run.of_counts();
         let cell = |n_o: &u32| {
-            let BoundsOfCount { steady_error, peak_error, control } = run.bounds_of(*n_o)?;
+            let BoundsOfCount { steady_error, peak_error, control, steady_control } = run.bounds_of(*n_o)?;
             let said = said.iter().find(|said| said.n_o == *n_o);
             Some(Cell {
                 n_o: *n_o,
@@ -74,6 +76,7 @@ impl Row {
                 steady_error: steady_error.bound,
                 peak_error: peak_error.bound,
                 control,
+                steady_control,
                 decay: said.map(|said| Decay { rate: said.rate.clone(), factor: said.factor.clone() }),
                 noise: said.and_then(|said| said.noise).map(|[_, limit]| limit.clone()),
                 simulated: None,
@@ -116,6 +119,7 @@ pub(super) mod tests {
             are_in_certificate: [true; 2],
             peak_error: bound(peak_error),
             control: bound(control),
+            steady_control: bound(control),
             decay: None,
             noise: None,
             simulated: None,

@@ -294,7 +294,7 @@ impl<'a> Claim<'a> {
         };
         let (regulator, when) = self.regulator(spec, y_0);
         Ok(format!(
-            "{regulator}, {about}{domain} has a T-periodic solution of the closed loop. Every solution from {states}{start}, at \
+            "{regulator}, the closed loop of {about}{domain} has a T-periodic solution. Every solution from {states}{start}, at \
              any {when}, converges exponentially to it.{}{orbit}",
             actuator::never_cut_off(spec.actuator.as_ref()),
         ))
@@ -334,9 +334,8 @@ impl<'a> Claim<'a> {
         let (x0, start) = &self.set_text;
         let (regulator, when) = self.regulator(spec, y_0);
         format!(
-            "{regulator}, every plant within the bounding functions{domain} and {triple}{rate}{harmonics} \
-             has a T-periodic solution of the closed loop. Every solution from |x| <= {x0}, {start}, at any {when}, converges \
-             exponentially to it.{}",
+            "{regulator}, the closed loop of every plant within the bounding functions{domain} and {triple}{rate}{harmonics} \
+             has a T-periodic solution. Every solution from |x| <= {x0}, {start}, at any {when}, converges exponentially to it.{}",
             actuator::never_cut_off(spec.actuator.as_ref()),
         )
     }

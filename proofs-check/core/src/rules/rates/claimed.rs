@@ -54,14 +54,14 @@ impl<'a> Rate<'a> {
         let n_o = self.n_o;
         let instants = if at_samples { " at the sampling instants t" } else { "" };
         let mut words = format!(
-            " With n_o = {n_o} and sigma = {sigma} exactly also |e(t) - e_per(t)| <= {factor} exp(-{rate} (t - t_0)){instants} for these \
-             solutions, e_per that of the periodic solution and t_0 the initial time."
+            " With n_o = {n_o} and sigma = {sigma} exactly, |e(t) - e_per(t)| <= {factor} exp(-{rate} (t - t_0)){instants} for these \
+             solutions, where e_per is the e of the periodic solution and t_0 the initial time."
         );
         if let Some(Limits { texts, .. }) = &self.noise {
             let [limit, peak] = texts.map(apart);
             let starts = if aligned { " (z = M e of the measured e)" } else { "" };
             words += &format!(
-                " With n_o = {n_o} and sigma = {sigma} exactly, {}, also |e(t) - e_per(t)| <= {peak} for these starts{starts} and all t >= t_0, \
+                " With n_o = {n_o} and sigma = {sigma} exactly, {}: |e(t) - e_per(t)| <= {peak} for these starts{starts} and all t >= t_0, \
                  and its limit superior is at most {limit}.",
                 noise.in_words(at_samples)
             );
