@@ -184,18 +184,18 @@ fn output(spec: &Specification) -> Option<String> {
         (None, Some(put_out)) => put_out,
         (Some(middle), put_out) => format!("{middle} + {}", put_out.as_deref().unwrap_or("u")),
     };
-    let Some(gain) = &spec.input_gain else { return Some(format!(" puts out {whole}, which is what acts in e'")) };
+    let Some(gain) = &spec.input_gain else { return Some(format!(" puts out {whole}, and this acts in e'")) };
     let [low, high] = [&gain.low, &gain.high].map(|constant| &constant.words);
     let value = if low == high { format!("the constant {low}") } else { format!("one constant in [{low}, {high}]") };
     Some(format!(" puts out v = {whole}; g is {value}"))
 }
 
 /// What is assumed where something is said of noise.
-const NOISE: &str = "where noise is said: at all times the regulator takes e + v for e, and the plant has q + d for q, with v within the \
-                     noise and half a step of the measurement and d within the disturbance, whatever they are otherwise";
+const NOISE: &str = "where the claim has noise: at all times the regulator takes e + v for e, and the plant has q + d for q; |v| is at most the noise \
+                     plus half a step of the measurement, |d| at most the disturbance, and both are arbitrary otherwise";
 
 /// What is assumed besides where its arithmetic is that of doubles.
-const ROUNDING: &str = "where noise is said: the regulator computes in doubles as its exported C code does, each constant the double nearest to \
+const ROUNDING: &str = "where the claim has rounding: the regulator computes in doubles as its exported C code does, each constant the double nearest to \
                         it and each operation rounded to nearest on its own, in the order of that code (no fast-math, no \
                         excess precision); what it takes for e is the double nearest to e + v, and its z starts as doubles";
 
@@ -207,7 +207,7 @@ fn regulator(spec: &Specification, noisy: bool) -> String {
         "the regulator runs in continuous time with exactly the mu, weights and base frequency stated{frequency}{output}: no \
          {} or noise{}",
         if spec.actuator.is_some() { "sampling, delay" } else { "sampling, delay, saturation" },
-        if noisy { " but where it is said" } else { "" }
+        if noisy { " except where the claim says so" } else { "" }
     )
 }
 

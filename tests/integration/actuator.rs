@@ -242,7 +242,7 @@ fn a_gain_that_keeps_to_limits() {
     for more in [&[][..], &["--sampling-period", "1/1000"]] {
         let (code, never) = report(&[&[started.as_str(), "--peak-error", "0.05"], more].concat());
         let said = never["statement"].as_str().unwrap();
-        assert!(code == 3 && said.contains("up to E0 = 0.1 at the start: no gain can do that"), "{said}");
+        assert!(code == 3 && said.contains("cannot be kept at most 0.05 by any gain, because the initial set has |e| up to E0 = 0.1 at the start"), "{said}");
         assert_eq!(report(&[&[started.as_str(), "--peak-error", "1"], more].concat()).0, 0);
     }
     for wrong in ["0", "-1", "x", "sqrt(2)"] {

@@ -111,10 +111,10 @@ fn what_is_said_of_all_cells_is_true_of_each() {
     let text = in_words(folder, &plant, &file);
     for words in [
         "follows it, in each of the cells below, as an affine function",
-        &format!("cut into {} cells, which may overlap, ", cells.len()),
+        &format!("cut into {} cells, which may overlap. ", cells.len()),
         "(defect at most ",
         &format!(", tube at least {})", tubes[0]),
-        "about the xb of the nominal member in the first cell that has it, for every member",
+        "about the xb of the nominal member in the first cell that has it",
     ] {
         assert!(text.contains(words), "{words}: {text}");
     }

@@ -21,6 +21,27 @@ fn of_plant(folder: &TempDir, name: &str, flags: &[&str]) -> (String, Value) {
     (path, certificate)
 }
 
+/// A number of oscillators of which the certificate says nothing besides its claim for every one is told; of one with a rate, or with bounds for so many or
+/// more, nothing is.
+#[test]
+fn a_number_of_oscillators_without_a_rate_and_bounds_is_told() {
+    for (file, n_o, is_told) in [
+        ("certificates/linear.sharp", "3", true),
+        ("rates/paper-example-at-rest", "2", false),
+        ("rates/paper-example-at-rest", "3", true),
+        ("rates/by-n-o-trials", "7", false),
+    ] {
+        let file = format!("proofs-check/tests/{file}.json");
+        let call = sigmastar(&["controller", &file, "--n-o", n_o]).assert().code(0);
+        let told = utf8(call.get_output().stderr.clone());
+        let said =
+            format!("covers n_o = {n_o}, but the certificate has no rate and no bounds for this number of oscillators");
+        assert_eq!(told.contains(&said), is_told, "{file} {n_o}: {told}");
+        assert!(!is_told || told.contains(&format!("`certify --n-o {n_o}` seeks them")), "{told}");
+    }
+    sigmastar(&["controller", OF_SPECIFICATION, "--n-o", "3", "-q"]).assert().code(0).stderr(is_empty());
+}
+
 fn stdout(arguments: &[&str]) -> String {
     utf8(sigmastar(arguments).assert().code(0).get_output().stdout.clone())
 }
@@ -39,8 +60,13 @@ fn a_certificate_stands_for_its_specification() {
         let of = |file: &str| stdout(&[command, &[file]].concat());
         assert_eq!(of(OF_SPECIFICATION), of(SPECIFICATION), "{command:?}");
     }
-    let remark = contains("certified anew").and(contains("`check` decides the certificate itself"));
+    let remark = contains(
+        "makes a new claim about the specification in the certificate, with the smallest gain that is found; `--sigma ",
+    )
+    .and(contains("`check` decides the claim of the certificate itself"));
     sigmastar(&["certify", OF_SPECIFICATION]).assert().code(0).stderr(remark);
+    let with_a_gain = contains("makes a new claim about the specification in the certificate, with this gain; `check`");
+    sigmastar(&["certify", OF_SPECIFICATION, "--sigma", "3"]).assert().code(0).stderr(with_a_gain);
     // Its own numbers, decided again, without a copy of the document beside.
     sigmastar(&["certify", OF_SPECIFICATION, "--witness", OF_SPECIFICATION, "-q"]).assert().code(0).stderr(is_empty());
     sigmastar(&["certify", "-", "--witness", "-"]).assert().code(2).stderr(contains("standard input is read once"));

@@ -168,7 +168,7 @@ fn what_is_missed_is_told_with_what_helps() {
     assert_eq!(code, 3);
     for said in [
         "steady |e|: more oscillators (`--n-o`)",
-        "largest |u|: a smaller initial set",
+        "largest |u|: another gain hardly helps, because along the periodic solution alone the bound of |u| is ",
         "periods to settle: the steady error is not proved to be below",
     ] {
         assert!(text.contains(said), "{said}: {text}");
@@ -176,7 +176,7 @@ fn what_is_missed_is_told_with_what_helps() {
     assert!(!text.contains("gain to take") && !text.contains("next:"), "{text}");
     let (code, text) = told_of(&["--n-o", "2", "--steady-error", "0.2", "--settle", "0.01", "--peak-error", "0.001"]);
     assert!(code == 3 && text.contains("periods to settle: fewer oscillators"), "{text}");
-    assert!(text.contains("at the start, so no gain can do that"), "{text}");
+    assert!(text.contains("no gain can do that, because the initial set has |e| up to "), "{text}");
     // Where E0 is left open it falls with the gain.
     let mut open = plant();
     open["initial_set"] = json!({ "kind": "aligned" });
@@ -222,7 +222,7 @@ fn noise_and_data_of_no_plant_are_told() {
     let flags = ["--sigma", "9", "--n-o", "0", "--no-simulation", "-q", "--noise", "1/10"];
     let text = in_one_line(&utf8(program().arg("design").arg(&file).args(flags).output().unwrap().stdout));
     assert!(
-        text.contains("is proved to be met; that of noise in the loop with it, all others in the loop without noise."),
+        text.contains("is proved to be met. The requirement of noise is met in the loop with noise, all others in the loop without it."),
         "{text}"
     );
     document["actuator"] = json!({ "max": "100" });

@@ -262,7 +262,7 @@ fn the_smallest_gain_beside_a_limit_is_that_of_the_plant() {
 
 /// Of each size of the set it is said where it is from: stated, of the ball that is stated, or a multiple of the bound of the periodic solution.
 fn assert_said_where_sizes_are_from(cases: &[(&str, &str)]) {
-    const ROW: &str = "at any time; it contains |x - x_0| <= ";
+    const ROW: &str = "at any time; contains the ball |x - x_0| <= ";
     for (set, expected) in cases {
         let (code, text) = of_text(&CERTIFY, "pump.toml", &PUMP.replace("{ kind = \"aligned\" }", set));
         let row = text.split_once(ROW).and_then(|(_, row)| row.split_once("; "));
@@ -275,7 +275,7 @@ fn assert_said_where_sizes_are_from(cases: &[(&str, &str)]) {
 #[test]
 fn where_the_sizes_of_the_set_are_from_is_said() {
     assert_said_where_sizes_are_from(&[
-        ("{ kind = \"aligned\", ball = 0.001, E0 = 0.1 }", "X0 for the ball that is stated, E0 as stated"),
+        ("{ kind = \"aligned\", ball = 0.001, E0 = 0.1 }", "X0 from the `ball` of the file, E0 as stated"),
         ("{ kind = \"aligned\", X0 = 0.001, E0 = \"sqrt(2)/10\" }", "X0 as stated, E0 at least as stated"),
     ]);
 }

@@ -76,7 +76,7 @@ fn what_cannot_be_kept_is_told_with_what_is_proved() {
     let least = text.split("the least for which a proof is found is ").nth(1).expect("what is proved");
     let least: f64 = least.split(',').next().unwrap().parse().unwrap();
     assert!(least > 1.0 && least <= 1.001 * control, "{least} {control}");
-    assert!(text.contains("|u| in the transient is not proved to be at most 1:"), "{text}");
+    assert!(text.contains("|u| in the transient is not proved to be at most 1;"), "{text}");
     // Along the periodic solution u is larger than that, from whatever set.
     assert!(!text.contains("the limit is kept"), "{text}");
     let (code, text) = said(folder.path(), &["--max-control", "1", "--sampling-period", "1/100"]);

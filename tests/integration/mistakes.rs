@@ -124,11 +124,11 @@ fn an_input_gain_of_two_units_is_a_wide_interval() {
 
 #[test]
 fn the_nominal_gain_is_shown_as_a_number() {
-    for (nominal, shown) in [("1/0.4", "the nominal gain, 2.5"), ("10/7000000007", "the nominal gain, about 1.43e-9")] {
+    for (nominal, shown) in [("1/0.4", "the nominal gain 2.5"), ("10/7000000007", "the nominal gain about 1.43e-9")] {
         let gain = json!({ "nominal": nominal, "low": format!("0.9*{nominal}"), "high": format!("1.1*{nominal}") });
         let (code, text) = of(&[("/input_gain", gain)], &[]);
         assert!(
-            code == 0 && text.contains(&format!("the regulator divides its output by {shown}")),
+            code == 0 && text.contains(&format!("the regulator divides its control by {shown}")),
             "{nominal}: {text}"
         );
     }
@@ -237,6 +237,49 @@ fn a_percentage_is_told_as_a_number() {
     assert!(code == 2 && text.contains("there are no percentages"), "{text}");
     let (code, text) = of(&[("/q", "e $ 2".into())], &[]);
     assert!(code == 2 && !text.contains("percentages"), "{text}");
+}
+
+/// An end of an interval that is a percentage is told as the number that it means.
+#[test]
+fn a_percentage_as_an_end_is_told_as_that_end() {
+    let interval = json!({ "nominal": "2", "low": "-10%", "high": "+5%" });
+    for pointer in ["/input_gain", "/period"] {
+        let (code, text) = of(&[(pointer, interval.clone())], &[]);
+        for said in
+            [r#"for 10 % below `nominal` write `"low": "1.8"`"#, r#"for 5 % above `nominal` write `"high": "2.1"`"#]
+        {
+            assert!(code == 2 && text.contains(said) && !text.contains("no percentages"), "{pointer}: {text}");
+        }
+    }
+    let (code, text) = of(&[("/parameters", json!({ "k": interval }))], &[]);
+    assert!(code == 2 && text.contains(r#"write `"low": "1.8"`"#), "{text}");
+}
+
+/// One number in the place of the interval of the input gain is told with the interval of that one number.
+#[test]
+fn an_input_gain_that_is_one_number_is_told_as_an_interval() {
+    for (gain, kind) in [(json!(2000), "a number"), (json!("2000"), "a string")] {
+        let (code, text) = of(&[("/input_gain", gain)], &[]);
+        let said = r#"write `"input_gain": { "nominal": "2000", "low": "2000", "high": "2000" }`"#;
+        let kind = format!("`input_gain` is {kind}, and an interval is expected");
+        assert!(code == 2 && text.contains(said) && text.contains(&kind), "{text}");
+    }
+}
+
+/// What a box and a domain need is named with what it says.
+#[test]
+fn a_size_that_is_missing_is_told_with_what_it_bounds() {
+    let (code, text) = of(&[("/initial_set", json!({ "kind": "box", "E0": 1 }))], &[]);
+    for said in [
+        "the field `ball` is missing",
+        r#"`"ball": "1/10"` is |x - x_0| <= 1/10 in the units of the file"#,
+        "the field `Z0` is missing",
+        r#"`"Z0": "0"` is a regulator at rest"#,
+    ] {
+        assert!(code == 2 && text.contains(said), "{said}: {text}");
+    }
+    let (code, text) = of(&[("/domain", json!({ "e": 1 }))], &[]);
+    assert!(code == 2 && text.contains("how far from the orbit the formulas hold: |x - x_0| <= x"), "{text}");
 }
 
 #[test]

@@ -153,11 +153,11 @@ fn the_way_from_an_aligned_start_is_bounded_by_the_peak() {
         call.args(["certify", "--no-alternatives", "--full", "--sigma", "60", "--n-o", "1"]).arg(file);
         let (_, said) = told(&mut call);
         let words = [
-            " (t - t_0)) undisturbed, disturbed at most ",
-            " (t - t_0)), disturbed + ",
+            " if undisturbed, and if disturbed at most ",
+            " more if disturbed",
             "exp(-rate (t - t_0)), in the loop without noise, disturbance and rounding. This is a part of the claim",
             "exp(-rate (t - t_0)). This is a part of the claim",
-            "the start is z = M e of the measured e",
+            "The start is z = M e with the measured e",
             "exp(-rate (t - t_0)) + the limit",
         ];
         let expected = [
@@ -170,7 +170,7 @@ fn the_way_from_an_aligned_start_is_bounded_by_the_peak() {
         ];
         assert_eq!(words.map(|words| said.contains(words)), expected, "{said}");
         if aligned && disturbed {
-            let (_, rest) = said.split_once("disturbed at most ").unwrap();
+            let (_, rest) = said.split_once("and if disturbed at most ").unwrap();
             let (told_peak, rest) = rest.split_once(" at all times and ").unwrap();
             let (told_limit, _) = rest.split_once(" in the limit").unwrap();
             for (told, bound) in [(told_peak, peak), (told_limit, limit)] {

@@ -118,7 +118,7 @@ fn the_bounds_by_the_number_keep_to_an_actuator() {
     let file = stored(folder.path(), "small.json", &bath("3.2", "4.8"));
     let (code, text) = told(program().arg("certify").arg(&file).arg("-q"));
     assert!(
-        code == 3 && text.contains("what the actuator takes, 0.8: the least for which a proof is found is 0.98"),
+        code == 3 && text.contains("what the actuator takes, 0.8; the least for which a proof is found is 0.98"),
         "{text}"
     );
 }

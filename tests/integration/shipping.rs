@@ -81,8 +81,8 @@ fn its_controller_compiles_and_its_header_says_all_of_it() {
     for words in [
         "a constant 'load' of the file in [1350, 1650]",
         "noise of at most (40/4096) on the measurement of e",
-        "counts in what the certificate says of e with n_o = 4",
-        "quantisation that it does not name there",
+        "The bounds of the certificate with n_o = 4 that say",
+        "quantisation that these bounds do not name",
     ] {
         assert!(header.contains(words), "{words}: {header}");
     }

@@ -39,7 +39,7 @@ pub(super) fn of(heading: &str, conditions: &[Condition]) -> Vec<Block> {
         Block::heading(heading),
         Block::says(
             "Both sides are enclosed, rounded outward; the margin is right minus left, rounded down; the relative margin \
-             is an estimate. A margin near 0 is no weakness: at the smallest $`sigma`$ some conditions are active.",
+             is an estimate. A margin near 0 is no weakness: at the smallest $`sigma`$ some conditions are just satisfied.",
         ),
         Block::Table(table),
         Block::facts(legend),

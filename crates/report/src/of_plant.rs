@@ -133,7 +133,7 @@ fn cut(plant: &OfPlant) -> Option<Block> {
     is_cut(plant).then(|| {
         let why = plant.why_cut.as_ref().map_or_else(|| ".".to_owned(), |why| format!(": {why}."));
         Block::says(format!(
-            "Their box is cut into {} cells, which may overlap, each with an $`xb(t)`$ and a tube of its own; every number below is true in all \
+            "The box of the parameters is cut into {} cells, which may overlap. Each has an $`xb(t)`$ and a tube of its own. Every number below is true in all \
              of them{why}",
             plant.cells.len()
         ))
@@ -239,11 +239,11 @@ fn facts(plant: &OfPlant, set: Option<&ClaimedSet>) -> Vec<(&'static str, String
     }
     if let Some(ball) = set.and_then(|set| nominal_ball(plant, &set.x0)) {
         let said = format!(
-            "$`|x - xb(t)| <= {}`$ about the $`xb`$ of the nominal member{}, for every member",
+            "$`|x - xb(t)| <= {}`$ about the $`xb`$ of the nominal member{}",
             exact(&ball, Direction::Down),
             if is_cut(plant) { " in the first cell that has it" } else { "" }
         );
-        facts.push(("and of all of them", said));
+        facts.push(("every member's set contains", said));
     }
     facts
 }

@@ -126,7 +126,7 @@ pub(super) fn actuator(of_plant: bool) -> Field {
     may(
         "actuator",
         "Actuator",
-        "An actuator that saturates: what is put out acts as it is up to `max` in size. A claim then is about one gain, and from its set, \
+        "An actuator that saturates: it takes the output as it is up to `max` in size. The claim is then about one gain. From its set, \
          without noise, the actuator never saturates.",
         shape,
     )
@@ -141,8 +141,8 @@ pub(super) fn measurement() -> Field {
     may(
         "measurement",
         "Measurement",
-        "What is measured is e + v with |v| <= noise + quantum/2, of which at least one is given. It counts in what is said of given \
-         numbers of oscillators.",
+        "The regulator measures e + v with |v| <= noise + quantum/2; state one of the two, or both. Only the bounds for given numbers of \
+         oscillators (`certify --n-o`) include it.",
         Shape::Object(fields),
     )
 }
@@ -152,7 +152,7 @@ pub(super) fn disturbance() -> Field {
     may(
         "disturbance",
         "Disturbance",
-        "The greatest size of what is added to q, in the unit of e'. It counts in what is said of given numbers of oscillators.",
+        "The greatest size of what is added to q, in the unit of e'. Only the bounds for given numbers of oscillators (`certify --n-o`) include it.",
         Shape::Ratio,
     )
 }
@@ -162,8 +162,8 @@ pub(super) fn arithmetic() -> Field {
     may(
         "arithmetic",
         "Arithmetic",
-        "In what the law at samples is computed: `exact` without rounding, which is meant where it is absent, or `double`, as the exported C code \
-         does. It counts in what is said of given numbers of oscillators at samples.",
+        "How the law at samples is computed: `exact`, without rounding (the default), or `double`, as the exported C code does. Only the bounds for \
+         given numbers of oscillators (`certify --n-o`) include the rounding.",
         Shape::Word(vec!["exact", "double"]),
     )
 }

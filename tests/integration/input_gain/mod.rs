@@ -157,7 +157,7 @@ fn the_claim_and_the_report_say_so() {
     assert!(report["statement"].as_str().unwrap().contains("every constant input gain from 1.8 to 2.5"));
     let text = utf8(program().args(["certify", &file]).assert().code(0).get_output().stdout.clone());
     assert!(
-        in_one_line(&text).contains("the regulator divides its output by the nominal gain, 2; sigma* would be about")
+        in_one_line(&text).contains("the regulator divides its control by the nominal gain 2; sigma* would be about")
             && text.lines().count() <= 29,
         "{text}"
     );

@@ -123,7 +123,7 @@ pub fn notice(export: &Export<'_>) -> Vec<String> {
     }
     if let Some(nominal) = export.regulator.nominal {
         let sampled = match export.discrete {
-            Some(_) => " What is said of the sampled loop is for exactly this gain.",
+            Some(_) => " What this comment says of the sampled loop holds for exactly this gain.",
             None => "",
         };
         let nominal = super::decimal(nominal);

@@ -71,9 +71,9 @@ pub(super) fn uniformity(rows: &[Uniformity]) -> Vec<Block> {
     vec![
         Block::heading("How much of the bound each n_o uses"),
         Block::says(
-            "The supremum of $`T_N(x)/(k0 + k1 x^2)`$ over $`x >= 0`$, enclosed; its lower end is the value at $`x`$. Beside it the \
-             decay rate of the slowest mode of the internal model, $`Phi - mu M M'N`$, from its enclosed poles: the bound \
-             does not depend on $`n_o`$, this rate tends to 0.",
+            "The supremum of $`T_N(x)/(k0 + k1 x^2)`$ over $`x >= 0`$, enclosed; its lower end is the value at $`x`$. Beside it is the \
+             decay rate of the slowest mode of the internal model, $`Phi - mu M M'N`$, from its enclosed poles. The bound \
+             does not depend on $`n_o`$, but this rate tends to 0.",
         ),
         Block::Table(table),
     ]

@@ -70,8 +70,8 @@ impl Readable for TuningReport<'_> {
 }
 
 /// What is claimed, and what is not.
-const BASIS: &str = "Each proposal was certified as `sigmastar certify` of a file with these values does it (with an `actuator` by the conditions alone). The figures that \
-                     are shown are certified; that no other values in the ranges are better is not claimed.";
+const BASIS: &str = "Each proposal was certified as `sigmastar certify` certifies a file with these values (an `actuator` is judged by the conditions alone). The figures \
+                     that are shown are certified. Other values in the ranges may be better.";
 
 impl TuningReport<'_> {
     /// What came of it, in a sentence.
@@ -192,8 +192,8 @@ impl TuningReport<'_> {
         let mut remarks = Vec::new();
         if tuning.figures().any(|figures| figures.feedback.is_some()) {
             remarks.push(
-                "$`sigma* + mu Nbar^2`$ is what the law multiplies $`e`$ by, at most, for every $`n_o`$: \
-                 $`u = -(sigma + mu (n_0 + ... + n_(n_o))) e + mu M'N z`$. Where it grows, a smaller $`sigma*`$ is paid for there"
+                "$`sigma* + mu Nbar^2`$ is the largest factor by which the law multiplies $`e`$, for every $`n_o`$: \
+                 $`u = -(sigma + mu (n_0 + ... + n_(n_o))) e + mu M'N z`$. If it grows, it is the price of a smaller $`sigma*`$"
                     .to_owned(),
             );
         }

@@ -20,7 +20,7 @@ pub(super) fn header(
     let mut words = vec![
         format!("Regulator for: {}", export.name),
         format!(
-            "sigma = {}, mu = {}, {}, sampling time h = {}, K = {} (mu/(1 + h mu Nbar^2/2)).",
+            "sigma = {}, mu = {}, {}, sampling time h = {}, K = mu/(1 + h mu Nbar^2/2) = {}.",
             decimal(regulator.sigma),
             decimal(regulator.mu),
             export.oscillators,

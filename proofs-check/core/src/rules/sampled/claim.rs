@@ -81,7 +81,7 @@ impl<'a> Regulator<'a> {
     /// of noise and quantisation, `rounded`: and of its arithmetic.
     pub fn assumed(&self, [saturates, noisy, rounded]: [bool; 3]) -> Vec<String> {
         let saturation = if saturates { "" } else { "no saturation, " };
-        let [but, but_rounded] = [noisy, rounded].map(|said| if said { " but where it is said" } else { "" });
+        let [but, but_rounded] = [noisy, rounded].map(|said| if said { " except where the claim says so" } else { "" });
         let (law, late) = match self.delayed {
             false => (
                 "u_k = -sigma e_k + K v_k, v_k = M'N R (z_k - M e_k), z_(k+1) = R (z_k - M e_k) + (1 - h sigma) M e_k",
