@@ -145,7 +145,7 @@ fn the_term_without_the_period_is_named() {
 
 #[test]
 fn what_rates_at_samples_cost_is_told() {
-    const REMARK: &str = "with `--n-o` the claim rests on norms, because rates at samples are proved from them";
+    const REMARK: &str = "with `--n-o` the claim rests on norms, because rates at samples are proved from norms";
     let with = |flags: &[&str]| {
         let call = [&CERTIFY, &["--sampling-period", "1/10000"][..], flags].concat();
         told(&call, "specs/plants/motor-axis.json", |_| {})

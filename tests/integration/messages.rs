@@ -179,8 +179,8 @@ fn the_words_of_a_claim_say_what_it_keeps_to() {
 
 #[test]
 fn another_gain_is_the_advice_where_one_is_given() {
-    const SMALLER: &str = "another gain, where this one is far above sigma* a smaller one";
-    const LARGER: &str = "a larger gain, which may leave less of the error";
+    const SMALLER: &str = "another gain, and a smaller one if this is far above sigma*";
+    const LARGER: &str = "a larger gain, which may lower the error";
     for (flags, said) in [
         (&["--sigma", "60", "--max-control", "1"][..], Some(SMALLER)),
         (&["--sigma", "60", "--max-control", "1", "--sampling-period", "1/10000"], Some(SMALLER)),

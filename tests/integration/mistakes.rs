@@ -269,7 +269,9 @@ fn an_input_gain_that_is_one_number_is_told_as_an_interval() {
 /// What a box and a domain need is named with what it says.
 #[test]
 fn a_size_that_is_missing_is_told_with_what_it_bounds() {
-    let (code, text) = of(&[("/initial_set", json!({ "kind": "box", "E0": 1 }))], &[]);
+    let states = [("/states", json!(["x"])), ("/f", json!(["-x"]))];
+    let with = |field| of(&[&states[..], &[field]].concat(), &[]);
+    let (code, text) = with(("/initial_set", json!({ "kind": "box", "E0": 1 })));
     for said in [
         "the field `ball` is missing",
         r#"`"ball": "1/10"` is |x - x_0| <= 1/10 in the units of the file"#,
@@ -278,7 +280,7 @@ fn a_size_that_is_missing_is_told_with_what_it_bounds() {
     ] {
         assert!(code == 2 && text.contains(said), "{said}: {text}");
     }
-    let (code, text) = of(&[("/domain", json!({ "e": 1 }))], &[]);
+    let (code, text) = with(("/domain", json!({ "e": 1 })));
     assert!(code == 2 && text.contains("how far from the orbit the formulas hold: |x - x_0| <= x"), "{text}");
 }
 

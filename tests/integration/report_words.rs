@@ -120,13 +120,15 @@ fn the_steady_error_is_said_of_the_numbers_that_are_asked_for() {
     let said = |flags: &[&str]| {
         let text = in_one_line(&certify(&[&["specs/paper-example.json", "--no-alternatives"], flags].concat()));
         text.split_once("steady error: ")
-            .and_then(|(_, rest)| rest.split_once(" oscillators"))
+            .and_then(|(_, rest)| rest.split_once(" - convergence: "))
             .expect("a line")
             .0
             .to_owned()
     };
-    assert!(said(&["--n-o", "0,7"]).ends_with(" with 7") && said(&["--n-o", "0,7"]).matches(" with ").count() == 2);
-    assert!(said(&[]).ends_with(" with 100"));
+    assert!(
+        said(&["--n-o", "0,7"]).ends_with(" with n_o = 7") && said(&["--n-o", "0,7"]).matches(" with ").count() == 2
+    );
+    assert!(said(&[]).ends_with(" with n_o = 100"));
 }
 
 /// The significant digits of a word, if it is a number.

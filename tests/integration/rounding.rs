@@ -305,7 +305,7 @@ fn the_way_from_an_aligned_start_is_bounded_by_the_peak() {
         let mut call = program();
         call.args(["certify", "--no-alternatives", "--sigma", "60"]).args(AT).arg(file);
         let (code, text) = told(&mut call);
-        let words = [" (t - t_0)) computed exactly, rounded at most ", " (t - t_0)), rounded + "];
+        let words = [" if computed exactly, and if rounded at most ", " more if rounded"];
         assert_eq!((code, words.map(|words| text.contains(words))), (0, expected), "{text}");
     }
 }

@@ -299,7 +299,7 @@ fn a_certificate_at_samples_has_its_rates() {
         assert!(first["claim"]["statement"].as_str().expect("words").contains(&sentence), "{sentence}");
     }
     let text = String::from_utf8(run(&["--sigma", "22"]).stdout).expect("UTF-8");
-    assert!(text.contains("at the sampling instants, n_o = 0"), "{text}");
+    assert!(text.contains("bounds of |e - e_per| at the sampling instants: "), "{text}");
 }
 
 /// Bounds under noise and a disturbance are never below what the worst such signals do in members, and not idle.

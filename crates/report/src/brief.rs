@@ -332,8 +332,7 @@ const SHORT: usize = 12;
 /// The interval of the input gain.
 fn uncertain_gain(spec: &Specification) -> Option<String> {
     let gain = spec.input_gain.as_ref()?;
-    let which =
-        words::input_gain(spec, ["the gain of the actuator is", "the gain of the actuator may be any constant from"])?;
+    let which = words::input_gain(spec, ["exactly", "any constant from"])?;
     let exact = gain.nominal.as_rational().map_or_else(|| clean(&gain.nominal.text), write_exact);
     let nominal = if exact.len() <= SHORT { exact } else { format!("about {}", estimate(gain.nominal.to_f64())) };
     Some(format!("{which}; the regulator divides its control by the nominal gain {nominal}"))

@@ -143,7 +143,7 @@ fn the_claim_and_the_report_say_so() {
     let said = in_one_line(&said);
     assert!(
         said.contains(
-            "input gain: the gain of the actuator may be any constant from 1.8 to 2.5; the regulator divides its control by the nominal gain 2"
+            "input gain: any constant from 1.8 to 2.5; the regulator divides its control by the nominal gain 2"
         ),
         "{said}"
     );
