@@ -69,7 +69,7 @@ fn a_box_without_states_has_no_x() {
     assert!(proofs_check::check(&std::fs::read(&made).unwrap()).is_valid());
     let with_x = changed(&wide, &[("/states", object!(["x"])), ("/f", object!(["e - x"]))]);
     let (code, text) = certify(&with_x, &[]);
-    assert!(code == 2 && text.contains("the field `X0` is missing"), "{text}");
+    assert!(code == 2 && text.contains("the field `ball` is missing"), "{text}");
 }
 
 /// A corner that is too sharp for the proof of the orbit is told where it is, and no units are blamed; where it is wider, what is left is the

@@ -23,7 +23,7 @@ fn a_certificate_says_everything_but_the_oscillators() {
     let path = file.to_str().unwrap();
     let remark = "does not cover sampling; `certify --sampling-period 1/100` makes one";
     let assert = controller(&[path]).args(call).assert().success().stderr(predicate::str::contains(remark));
-    controller(&[path, "--n-o", "2"]).assert().success().stderr("");
+    controller(&[path, "--n-o", "2", "-q"]).assert().success().stderr("");
     let export = json(&assert.get_output().stdout);
     assert_eq!(export["name"].as_str().unwrap(), specification("linear").name);
     assert_eq!(export["certificate"]["sha256"].as_str(), Some(digest.as_str()));
@@ -82,7 +82,7 @@ fn a_gain_below_the_certificate_is_refused() {
     assert_eq!(export["certificate"]["covers_sigma"].as_bool(), Some(false));
     let notice = export["notice"].to_string();
     assert!(notice.contains("says nothing about this regulator") && !notice.contains("Its claim"), "{notice}");
-    call("specs/linear.json", "3/2", &[]).success().stderr("");
+    call("specs/linear.json", "3/2", &["-q"]).success().stderr("");
     // One that is about something else is refused, or left out.
     let other = "made for another specification: it says nothing about this regulator";
     call("specs/no-x.json", "13/10", &[]).code(2).stdout("").stderr(predicate::str::contains(other));

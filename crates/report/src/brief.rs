@@ -257,16 +257,16 @@ fn next(spec: &Specification, origin: Origin, at_samples: bool) -> String {
 
 /// What the letters above are, and whom a gain or a law serves. An aligned start has no size of z.
 fn letters(spec: &Specification, what: &str) -> Option<String> {
-    let of_z = (!spec.initial_set.is_aligned()).then(|| "Here $`|z|_N = sqrt(z'Nz)`$.".to_owned());
-    let of_the_rest = match (spec.plant().is_some(), spec.state_name()) {
-        (true, Some(_)) => Some(
-            "In $`y = L^-1 (x - x_0(t))`$, $`x_0`$ is the orbit and $`L`$ the matrix `coordinates` of the certificate."
-                .to_owned(),
-        ),
-        (true, None) => None,
-        (false, _) => Some(format!("The same {what} serves every plant that the bounding functions describe.")),
-    };
-    let all: Vec<String> = [of_z, of_the_rest].into_iter().flatten().collect();
+    let of_z = (!spec.initial_set.is_aligned()).then_some("$`|z|_N = sqrt(z'Nz)`$");
+    let of_y = (spec.plant().is_some() && spec.state_name().is_some())
+        .then_some("$`y = L^-1 (x - x_0(t))`$ with the orbit $`x_0`$ and a matrix $`L`$");
+    let both: Vec<&str> = of_z.into_iter().chain(of_y).collect();
+    let here = (!both.is_empty()).then(|| format!("Here {}.", both.join(", and ")));
+    let serves = spec
+        .plant()
+        .is_none()
+        .then(|| format!("The same {what} serves every plant that the bounding functions describe."));
+    let all: Vec<String> = here.into_iter().chain(serves).collect();
     (!all.is_empty()).then(|| all.join(" "))
 }
 

@@ -41,7 +41,7 @@ pub(super) fn section(spec: &Specification, found: Option<&ByCount>, asked: &[u3
         false => "",
     };
     let says = format!(
-        "These bounds are proved at this gain for each number of oscillators{of}{undisturbed}. Steady values hold along the periodic solution, largest values at all times \
+        "Proved at this gain for each number of oscillators{of}{undisturbed}. Steady values hold along the periodic solution, largest values at all times \
          from the initial set. {who}"
     );
     vec![Block::says(says), Block::Table(table)]

@@ -63,7 +63,7 @@ fn the_words_name_each_input() {
         " With n_o = 2 and sigma = 60 exactly, noise of at most 0.0005 on the measurement of e, a measurement of e in steps of (1/1000), a \
          disturbance of at most 0.01 added to q: |e(t) - e_per(t)| <= "
     ));
-    assert!(of_quantum.contains(" exactly, a measurement of e in steps of 0.002, also |e"));
+    assert!(of_quantum.contains(" exactly, a measurement of e in steps of 0.002: |e"));
     assert!(of_disturbance.contains(" exactly, a disturbance of at most (1/10) added to q, also |e"));
 }
 

@@ -90,7 +90,10 @@ fn a_claim_about_every_period() {
     let gain = interval(["2", "2", "4/2"]);
     let both = valid(made(), &[("/specification/input_gain", gain.clone()), ("/claim/input_gain", gain)]);
     let statement = &both.subject.as_ref().unwrap().statement;
-    assert!(statement.contains("divides by the nominal 2), with every period in [0.9, 1]"), "{statement}");
+    assert!(
+        statement.contains("divides its control by the nominal gain 2), with every period in [0.9, 1]"),
+        "{statement}"
+    );
 }
 
 #[test]

@@ -28,7 +28,7 @@ fn a_true_claim() {
     holds(delayed(), &[]);
     let report = answer(delayed(), &[]);
     assert!(report.is_valid(), "{}", report.text(false));
-    let text = report.text(false);
+    let text = report.text(false).split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(text.contains("put out exactly at the sample k+1") && text.contains("more than a sample"), "{text}");
     // A start that is further off is another claim, and true as long as the level has room for it.
     holds(delayed(), &[scaled("/witness/Y_0", 1.000_000_000_01)]);

@@ -56,7 +56,11 @@ fn ranges() {
     }
     // 2 pi in other words, which the sentence repeats without the white space.
     let report = changed(PAPER, &spec("internal_model/base_frequency"), " 4 * pi\t/2\n");
-    assert!(said(&report).contains(" and base frequency 4*pi/2, every plant"), "{}", report.text(false));
+    assert!(
+        said(&report).contains(" and base frequency 4*pi/2, the closed loop of every plant"),
+        "{}",
+        report.text(false)
+    );
 }
 
 #[test]
