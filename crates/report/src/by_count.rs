@@ -33,7 +33,7 @@ pub(super) fn section(spec: &Specification, found: Option<&ByCount>, asked: &[u3
     let all = is_family || spec.input_gain.is_some();
     let of = if all { ", and for every plant and gain of the actuator of the claim" } else { "" };
     let who = match checked {
-        true => "The certificate states them enlarged by at most 0.01 %.",
+        true => "The certificate states them up to 0.01 % larger.",
         false => "No independent program checks them.",
     };
     let undisturbed = match spec.disturbances.disturb(spec.internal_model.sampling.is_some()) {
