@@ -64,7 +64,7 @@ fn the_words_name_each_input() {
          disturbance of at most 0.01 added to q: |e(t) - e_per(t)| <= "
     ));
     assert!(of_quantum.contains(" exactly, a measurement of e in steps of 0.002: |e"));
-    assert!(of_disturbance.contains(" exactly, a disturbance of at most (1/10) added to q, also |e"));
+    assert!(of_disturbance.contains(" exactly, a disturbance of at most (1/10) added to q: |e"));
 }
 
 #[test]
