@@ -220,16 +220,68 @@ fn noise_and_data_of_no_plant_are_told() {
     document["measurement"] = json!({ "noise": "1/1000" });
     let file = stored(folder.path(), "noisy.json", &document);
     let flags = ["--sigma", "9", "--n-o", "0", "--no-simulation", "-q", "--noise", "1/10"];
-    let text = in_one_line(&utf8(program().arg("design").arg(&file).args(flags).output().unwrap().stdout));
-    assert!(
-        text.contains("is proved to be met. The requirement of noise is met in the loop with noise, all others in the loop without it."),
-        "{text}"
-    );
+    let with = |more: &[&str]| {
+        let flags = [&flags[..], more].concat();
+        in_one_line(&utf8(program().arg("design").arg(&file).args(flags).output().unwrap().stdout))
+    };
+    let text = with(&[]);
+    assert!(text.contains("every requirement is proved to be met in the loop with noise."), "{text}");
+    let text = with(&["--max-control", "1000000"]);
+    assert!(text.contains("met in the loop with noise.") && text.contains("largest |u| with noise"), "{text}");
     document["actuator"] = json!({ "max": "100" });
     let file = stored(folder.path(), "actuator.json", &document);
     let text = in_one_line(&utf8(program().arg("design").arg(&file).args(&flags[..6]).output().unwrap().stdout));
     assert!(text.contains("nothing is proved about these"), "{text}");
     program().arg("design").arg(&file).args(flags).assert().code(2).stderr(contains("nothing is proved of noise with"));
+}
+
+/// With noise the requirements are about the loop with it: the steady error has the limit of noise besides, and so has the peak, with what misleads an
+/// aligned start; it is far below the peak of the certificate, which is of every plant. Continuous and at samples.
+#[test]
+fn requirements_are_about_the_loop_with_noise() {
+    let folder = tempfile::tempdir().unwrap();
+    let flags = ["--sigma", "9", "--n-o", "1", "--no-simulation"];
+    let cell = |document: &Value, more: &[&str]| {
+        let file = stored(folder.path(), "plant.json", document);
+        let report = design(&file, &[&flags[..], more].concat(), 0);
+        report["rows"][0]["cells"][0].clone()
+    };
+    for at_samples in [&[][..], &["--sampling-period", "1/500"]] {
+        let mut document = plant();
+        assert_eq!(cell(&document, at_samples)["with_noise"], Value::Null);
+        document["measurement"] = json!({ "noise": "1/1000" });
+        document["disturbance"] = json!("1/200");
+        for (kind, is_misled) in [("aligned", true), ("at-rest", false)] {
+            document["initial_set"]["kind"] = json!(kind);
+            let found = cell(&document, &[at_samples, &["--steady-error", "1/2", "--settle", "50"]].concat());
+            let of = |name: &str| number(&found[name]);
+            let with = |name: &str| number(&found["with_noise"][name]);
+            let limit = of("noise");
+            assert!(limit > 0.0 && (with("steady_error") - of("steady_error") - limit).abs() < 1e-9, "{found}");
+            let misled = with("peak_error") - of("peak_error") - limit;
+            assert!(if is_misled { misled > 1e-6 } else { misled.abs() < 1e-9 }, "{kind}: {found}");
+            // By the exponential, its limit and what misleads the start; at samples between the samples, too, where the peak is.
+            let room = 0.5 - with("steady_error");
+            let periods = |misled: f64| ((of("factor") + misled) / room).ln() / (2.0 * of("rate"));
+            let settle = of("settle");
+            assert!(settle > periods(0.0) - 1e-9 && settle < periods(misled) + 1e-6, "{kind}: {settle} {found}");
+        }
+        // Each limit lies between what is proved without noise and with it.
+        let between = |name: &str, found: &Value| (number(&found[name]) + number(&found["with_noise"][name])) / 2.0;
+        let found = cell(&document, at_samples);
+        let named =
+            [("steady_error", "--steady-error"), ("peak_error", "--peak-error"), ("max_control", "--max-control")];
+        for (name, flag) in named {
+            let limit = between(name, &found).to_string();
+            let file = stored(folder.path(), "plant.json", &document);
+            let report = design(&file, &[&flags[..], at_samples, &[flag, &limit]].concat(), 3);
+            let words = report["sentence"].as_str().unwrap();
+            assert!(
+                words.ends_with(if name == "max_control" { "|u| with noise." } else { "|e| with noise." }),
+                "{words}"
+            );
+        }
+    }
 }
 
 /// The longest sampling period of a row is certified with its gain, and is that of `sampling`.

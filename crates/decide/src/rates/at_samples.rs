@@ -381,7 +381,19 @@ impl SampledDynamics<'_> {
         form
     }
 
-    /// `sigma + K b'R b`: what noise is in y, over -b_u.
+    /// u as a function of (e, zs) before a step, entry by entry: `-sigma e + K b'R zs`.
+    #[must_use]
+    pub fn control(&self) -> Vec<Enclosure> {
+        let precision = self.law.step.precision();
+        let mut all = vec![Enclosure::zero(precision); self.oscillators.order() + 1];
+        for (i, entry) in self.feedback(&Enclosure::one(precision), 0) {
+            all[i] = entry;
+        }
+        all[0] = Enclosure::from_rational(&self.sigma, precision).negate();
+        all
+    }
+
+    /// `sigma + K b'R b`: what noise is in u, over -1, and in y, over -b_u.
     pub fn noise_gain(&self) -> Enclosure {
         let precision = self.law.step.precision();
         let seen = self.oscillators.b.iter().enumerate().filter(|(state, _)| *state == 0 || state % 2 == 1);

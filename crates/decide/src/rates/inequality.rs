@@ -140,6 +140,22 @@ impl<'a> ErrorDynamics<'a> {
 }
 
 impl ErrorDynamics<'_> {
+    /// u as a function of (e, zs), entry by entry: `-sigma e + mu b'zs`.
+    #[must_use]
+    pub fn control(&self) -> Vec<Enclosure> {
+        let OscillatorMatrix { mu, b, .. } = self.oscillators;
+        let of_e = Enclosure::from_rational(&self.sigma, mu.precision()).negate();
+        std::iter::once(of_e).chain(b.iter().map(|b| mu * b)).collect()
+    }
+
+    /// What noise is in u, over -1: `sigma + mu b'b`.
+    #[must_use]
+    pub fn noise_gain(&self) -> Enclosure {
+        let OscillatorMatrix { mu, b, .. } = self.oscillators;
+        let of_e = Enclosure::from_rational(&self.sigma, mu.precision());
+        b.iter().fold(of_e, |sum, b| sum + mu * b.sqr())
+    }
+
     /// The corners (b, delta): what stands before mu, and what is added at u to e.
     #[must_use]
     pub fn corners(&self) -> Vec<[Enclosure; 2]> {

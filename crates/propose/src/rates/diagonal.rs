@@ -86,6 +86,17 @@ fn take(best: &mut Option<(f64, [f64; 3])>, squares: [f64; 3], upper: [f64; 3]) 
     }
 }
 
+/// The largest `(c'y)^2` where `y'Pi y <= 1`, of the rows of the lower triangle of Pi: `c'Pi^-1 c` in floating point.
+#[must_use]
+pub fn largest_square(pi: &[Vec<Rational>], c: &[f64]) -> Option<f64> {
+    // In units of the diagonal, which may have entries of very different sizes.
+    let root: Vec<f64> = pi.iter().enumerate().map(|(i, row)| row[i].to_f64().sqrt()).collect();
+    let scaled = Mat::from_fn(pi.len(), pi.len(), |i, j| pi[i.max(j)][i.min(j)].to_f64() / (root[i] * root[j]));
+    let along = Mat::from_fn(pi.len(), 1, |i, _| c[i] / root[i]);
+    let found = (along.transpose() * scaled.partial_piv_lu().inverse() * &along)[(0, 0)];
+    (found > 0.0 && found.is_finite()).then_some(found)
+}
+
 /// z_low and z_up of a Pi in floating point, rounded to the safe side.
 pub(super) fn bounds_of_zeta(pi: &Mat<f64>) -> Option<[Rational; 2]> {
     let largest = largest_of_zeta(pi)?;

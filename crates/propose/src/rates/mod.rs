@@ -23,6 +23,7 @@ mod slopes_program;
 mod small_gain;
 
 pub use bounded_real::{BoundedReal, OfStates};
+pub use diagonal::largest_square;
 pub use proposal::{Condition, Limit, NoiseProposal, Numbers, Proposal};
 pub use sampled_condition::{SampledCondition, SampledNumbers};
 pub use slopes_program::SampledSlopes;

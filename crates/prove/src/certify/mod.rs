@@ -34,6 +34,7 @@ mod sensitivity;
 mod smaller;
 mod start;
 mod trials;
+mod under_noise;
 mod verdict;
 
 pub use ball::{claimed_ball, covers_ball, inverse_norm, within_ball};
@@ -57,4 +58,5 @@ pub use sampled::{SampledCertification, certify_sampled, certify_sampled_within,
 pub use scale::unusual;
 pub use smaller::SmallerChoice;
 pub use start::FarStart;
+pub use under_noise::UnderNoise;
 pub use verdict::{Verdict, verdict_of_errors};

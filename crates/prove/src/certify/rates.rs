@@ -264,8 +264,8 @@ pub(super) fn for_n_o(
         let distances = from.with(&data, *n_o);
         let place = Place { sigma: &witness.sigma, error_box: &evaluation.error_box, distances: distances.each_ref() };
         let bound = bound(&data, &place, *n_o);
-        let noise = disturbed.then(|| match bound {
-            Some(_) => noise_bound(&data, &place, &confinement, *n_o),
+        let noise = disturbed.then(|| match &bound {
+            Some(bound) => noise_bound(&data, &place, &confinement, &bound.into()),
             None => Err(NoNoiseBound::NoRate),
         });
         RateForCount { n_o: *n_o, bound, noise }
@@ -357,8 +357,8 @@ pub(super) fn for_n_o_at_samples(
         let distances = from.with(&data, *n_o);
         let place = Place { sigma: &witness.sigma, error_box: &evaluation.error_box, distances: distances.each_ref() };
         let bound = at_samples::bound(&data, law, &place, *n_o);
-        let noise = disturbed.then(|| match bound {
-            Some(_) => at_samples_with_noise(&data, law, &place, &confinement, *n_o),
+        let noise = disturbed.then(|| match &bound {
+            Some(bound) => at_samples_with_noise(&data, law, &place, &confinement, &bound.into()),
             None => Err(NoNoiseBound::NoRate),
         });
         SampledRateForCount { n_o: *n_o, bound, noise }

@@ -2,6 +2,7 @@
 //!
 //! - [`oscillators`]: P_zeta of Lemma 1 of the paper (P:lemma:hurwitzPhiM);
 //! - [`noise`]: what noise of the measurement and a disturbance do to the error, by the same inequality with inputs;
+//! - [`control`]: what they do to the control;
 //! - [`sampled`]: all of this for the law at samples;
 //! - [`bound`]: from a rate to `|e - e_per| <= C exp(-rate (t - t_0))` on a set of starts, as a certificate has it;
 //! - [`by_matrices`]: the same from what is proved of all first derivatives together, where a claim has no norms;
@@ -11,6 +12,7 @@
 
 pub mod bound;
 pub mod by_matrices;
+pub mod control;
 pub mod found;
 pub mod noise;
 pub mod oscillators;

@@ -13,6 +13,7 @@
 //! e_low S^2, and xi below kappa S. Their sum is strictly inside of the box, so the solution never leaves it.
 
 use super::bound::{DIGITS, Loop, Place};
+use super::control::{RateForm, of_noise};
 use rug::Rational;
 use sigmastar_decide::rates::OscillatorMatrix;
 use sigmastar_decide::rates::inequality::{ErrorDynamics, LoopBounds, RateWitness, is_above};
@@ -61,6 +62,10 @@ pub struct NoiseBound<P> {
     pub limit: Rational,
     /// `sqrt(L_0) + S`, rounded up, in the unit of e.
     pub peak: Rational,
+    /// What an aligned start adds to |e - e_per|, as it aligns to the e that is measured ([`RateForm`]), between samples too, in the unit of e.
+    pub misled: Rational,
+    /// What is added to what is put out at all times, by an aligned start too.
+    pub control: Rational,
 }
 
 /// Why there are no such bounds. It says nothing about the loop.
@@ -148,20 +153,27 @@ pub fn noise_bound(
     data: &Data<'_>,
     place: &Place<'_>,
     confinement: &Confinement<'_>,
-    n_o: u32,
+    rate: &RateForm<'_>,
 ) -> Result<NoiseBound<NoiseByForm>, NoNoiseBound> {
     if data.spec.actuator.is_some() {
         return Err(NoNoiseBound::Actuator);
     }
     let bounds = LoopBounds::of_error(data, place.error_box).ok_or(NoNoiseBound::NotFound)?;
-    let oscillators = OscillatorMatrix::new(data, n_o);
+    let oscillators = OscillatorMatrix::new(data, rate.n_o);
     let dynamics = ErrorDynamics::new(data, &oscillators, place.sigma, &bounds);
     let sizes = [data.spec.d_bar(), data.spec.v_bar()];
     let proposal = propose(&dynamics, sizes.each_ref().map(Rational::to_f64)).ok_or(NoNoiseBound::NotFound)?;
     let (witness, e_low) = proved(&dynamics, &proposal, data.precision, |_| true).ok_or(NoNoiseBound::NotFound)?;
     let s = (data.rational(&level(&witness, &sizes)) / data.rational(&e_low)).sqrt();
     let [limit, peak] = within_the_box(data, place.error_box, confinement, &s)?;
-    Ok(NoiseBound { proof: NoiseByForm { witness, has_x: bounds.has_x }, e_low, limit, peak })
+    let v_bar = data.rational(&sizes[1]);
+    let misled = rate.misled(data, &v_bar);
+    let of_inputs = (&witness.pi[..], &(data.rational(&level(&witness, &sizes)).sqrt()));
+    let directly = dynamics.noise_gain() * v_bar;
+    let control = of_noise(data, &dynamics.control(), of_inputs, (rate, &misled), &directly);
+    let misled = up(&(misled / data.rational(rate.e_low).sqrt()));
+    let (misled, control) = misled.zip(control).ok_or(NoNoiseBound::NotFound)?;
+    Ok(NoiseBound { proof: NoiseByForm { witness, has_x: bounds.has_x }, e_low, limit, peak, misled, control })
 }
 
 /// A witness with inputs and e_low of a proposal, both proved, of whose Pi something else is true besides.
@@ -204,8 +216,12 @@ pub(super) fn within_the_box(
         let needed = (&peak / d_e).max(&(of_x / d_x)).upper_f64();
         return Err(NoNoiseBound::LeavesBox { limit: s.upper_f64(), needed });
     }
-    let up = |value: &Enclosure| value.upper_rational().map(|upper| round_rational(&upper, FIGURES, Direction::Up));
     up(s).zip(up(&peak)).map(|(limit, peak)| [limit, peak]).ok_or(NoNoiseBound::NotFound)
+}
+
+/// The upper end in few digits, rounded up.
+pub(super) fn up(value: &Enclosure) -> Option<Rational> {
+    value.upper_rational().map(|upper| round_rational(&upper, FIGURES, Direction::Up))
 }
 
 /// e_low S^2, which W of the part with the inputs does not exceed.

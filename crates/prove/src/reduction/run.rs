@@ -14,8 +14,8 @@ use super::subject::{Sought, SoughtAtSamples};
 use super::watch::{Searches, Stage, Unwatched, Watch};
 use super::{FreeNumbers, RestsOn, Subject, Witness};
 use crate::certify::{
-    BoundsOfCount, Certification, Limits, NoRatesOfClaim, SaidOfCount, SampledCertification, Verdict, claimed_ball,
-    said_of,
+    BoundsOfCount, Certification, Limits, NoRatesOfClaim, SaidOfCount, SampledCertification, UnderNoise, Verdict,
+    claimed_ball, said_of,
 };
 use rug::Rational;
 use sigmastar_decide::bounds::Engine;
@@ -295,6 +295,21 @@ impl Run<'_> {
         match self {
             Run::Continuous(run) => run.bounds_of(n_o),
             Run::Sampled(run) => run.bounds_of(n_o),
+        }
+    }
+
+    /// Whether noise, a disturbance or rounding of the document disturbs the regulator that the claim is about.
+    #[must_use]
+    pub fn is_disturbed(&self) -> bool {
+        self.spec().disturbances.disturb(matches!(self, Run::Sampled(_)))
+    }
+
+    /// What is proved with a number of oscillators that was asked about in the loop with noise; `None` where nothing is, or the document has none.
+    #[must_use]
+    pub fn under_noise(&self, n_o: u32) -> Option<UnderNoise> {
+        match self {
+            Run::Continuous(run) => run.under_noise(n_o),
+            Run::Sampled(run) => run.under_noise(n_o),
         }
     }
 

@@ -14,5 +14,5 @@ pub use gains::{Claims, design_table};
 pub use period::LongestPeriod;
 pub use report::DesignReport;
 pub use requirements::{Compared, Requirement, Requirements};
-pub use row::{Cell, Row, Simulated};
+pub use row::{Cell, Noise, Row, Simulated};
 pub use values::{Merit, TriedValues, ValuesTried, best_values, mu_by_the_period};

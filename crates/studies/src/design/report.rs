@@ -3,7 +3,7 @@
 use super::choice::Choice;
 use super::period::LongestPeriod;
 use super::requirements::{Compared, Requirement, Requirements};
-use super::row::{Cell, Row, Simulated};
+use super::row::{Cell, Noise, Row, Simulated};
 use super::values::ValuesTried;
 use rug::Rational;
 use serde_json::{Value, json};
@@ -71,7 +71,7 @@ impl Readable for DesignReport<'_> {
         }
         if !self.choice.compared.is_empty() {
             blocks.push(Block::heading("What is required"));
-            blocks.push(Block::Table(required(&self.choice.compared, self.sampling.is_some())));
+            blocks.push(Block::Table(self.required()));
             blocks.extend(self.others().map(Block::says));
         }
         blocks.push(Block::heading("Gains and numbers of oscillators"));
@@ -127,22 +127,12 @@ impl DesignReport<'_> {
             };
         };
         if *is_met {
-            let without = match self.disturbed {
-                false => "",
-                true if self.requirements.noise.is_some() => {
-                    ". The requirement of noise is met in the loop with noise, all others in the loop without it"
-                }
-                true => " in the loop without noise",
-            };
+            let scope = if self.disturbed { " in the loop with noise" } else { "" };
             return format!(
-                "Take $`sigma = {sigma}`$ with $`n_o = {n_o}`${values}: every requirement is proved to be met{without}."
+                "Take $`sigma = {sigma}`$ with $`n_o = {n_o}`${values}: every requirement is proved to be met{scope}."
             );
         }
-        let missed: Vec<&str> = compared
-            .iter()
-            .filter(|one| !one.is_met())
-            .map(|one| one.requirement.words(self.sampling.is_some()))
-            .collect();
+        let missed: Vec<&str> = compared.iter().filter(|one| !one.is_met()).map(|one| self.words(one)).collect();
         format!(
             "No pair of the table is proved to meet every requirement. $`sigma = {sigma}`$ with $`n_o = {n_o}`${values} comes closest; not met: {}.",
             missed.join(", ")
@@ -183,7 +173,11 @@ impl DesignReport<'_> {
         };
         let noise = match (self.disturbed, self.has_noise()) {
             (false, _) => "",
-            (true, true) => " All columns but the last one are about the loop without noise, disturbance and rounding.",
+            (true, true) => {
+                " The last four columns, and the time to settle, are about the loop with the noise, disturbance and rounding of the document: what these add to \
+                 $`|e|`$ in the limit, that limit of $`|e|`$ itself, the largest $`|e|`$ and the largest $`|u|`$. The other columns are about the loop without \
+                 them."
+            }
             (true, false) => {
                 " The whole table is about the loop without noise, disturbance and rounding; nothing is proved about these."
             }
@@ -209,7 +203,7 @@ impl DesignReport<'_> {
     }
 
     fn has_noise(&self) -> bool {
-        self.cells().any(|cell| cell.noise.is_some())
+        self.cells().any(|cell| cell.noise_limit().is_some())
     }
 
     fn cells(&self) -> impl Iterator<Item = &Cell> {
@@ -231,7 +225,8 @@ impl DesignReport<'_> {
         titles.push("rate");
         titles.extend(within.map(|_| "settles in"));
         titles.extend(within.filter(|_| simulated).map(|_| "sim."));
-        titles.extend(noise.then_some("noise in $`|e|`$"));
+        let of_noise = ["noise in $`|e|`$", "steady with it", "largest with it", "$`|u|`$ with it"];
+        titles.extend(of_noise.into_iter().filter(|_| noise));
         titles.extend(self.longest.map(|_| "longest $`h`$"));
         let mut table = Table::new(&titles);
         let not_proved = || "not proved".to_owned();
@@ -261,8 +256,11 @@ impl DesignReport<'_> {
                     let settling = found.and_then(|found| found.settling);
                     settling.map_or_else(|| "-".to_owned(), estimate)
                 }));
-                let limit = cell.noise.as_ref().map(|limit| exact(limit, Direction::Up));
-                cells.extend(noise.then(|| limit.unwrap_or_else(not_proved)));
+                let limit = cell.noise_limit().map(|limit| exact(limit, Direction::Up));
+                let with_noise = limit.zip(cell.in_all());
+                let of_noise = with_noise
+                    .map(|(limit, [steady, peak, control])| [limit, upper(steady), upper(peak), upper(control)]);
+                cells.extend(of_noise.unwrap_or_else(|| [(); 4].map(|()| not_proved())).into_iter().filter(|_| noise));
                 cells.extend(longest.clone());
                 table.push(cells);
             }
@@ -368,7 +366,16 @@ impl DesignReport<'_> {
         let steady_control = cell.map(|cell| &row.cells[cell].steady_control);
         let too_much = steady_control.filter(|steady| steady.upper_rational().is_some_and(|steady| steady > one.asked));
         let fewer_or = "fewer oscillators (`--n-o`) or";
+        let of_noise = self.disturbed && !matches!(one.requirement, Requirement::Settling | Requirement::Noise);
         let help = match one.requirement {
+            _ if of_noise && one.proved.is_none() && !self.has_noise() => {
+                "nothing is proved of the noise, disturbance and rounding of the document at the gains of the table; without these lines the requirement is \
+                 about the loop without them"
+                    .to_owned()
+            }
+            _ if of_noise && one.proved.is_none() => {
+                format!("nothing is proved of the noise at this gain; {fewer_or} a larger gain (`--sigma`) may help")
+            }
             Requirement::PeakError if one.asked < row.e0 => {
                 let e0 = exact(&row.e0, Direction::Down);
                 match self.states_e0 {
@@ -398,11 +405,27 @@ impl DesignReport<'_> {
             Requirement::Settling => format!("{fewer_or} a larger gain (`--sigma`) may help, or another `mu`"),
             Requirement::Noise => format!("less noise, {fewer_or} a smaller gain (`--sigma`) may help"),
         };
-        format!("{}: {help}", one.requirement.words(self.sampling.is_some()))
+        format!("{}: {help}", self.words(one))
+    }
+
+    /// A requirement in words.
+    fn words(&self, one: &Compared) -> &'static str {
+        one.requirement.words(self.sampling.is_some(), self.disturbed)
     }
 
     fn misses(&self, requirement: Requirement) -> bool {
         self.choice.compared.iter().any(|one| one.requirement == requirement && !one.is_met())
+    }
+
+    /// The requirements beside what is proved.
+    fn required(&self) -> Table {
+        let mut table = Table::new(&["<required", "at most", "proved", "<"]);
+        for one in &self.choice.compared {
+            let proved = one.proved.as_ref().map_or_else(|| "none".to_owned(), |proved| exact(proved, Direction::Up));
+            let met = if one.is_met() { "met" } else { "missed" };
+            table.push([self.words(one).to_owned(), write_exact(&one.asked), proved, met.to_owned()]);
+        }
+        table
     }
 
     fn row_json(&self, index: usize, row: &Row) -> Value {
@@ -413,7 +436,7 @@ impl DesignReport<'_> {
                 "n_o": cell.n_o, "steady_error": full(&cell.steady_error), "peak_error": full(&cell.peak_error),
                 "max_control": full(&cell.control), "rate": decay.map(|decay| write_exact(&decay.rate)),
                 "factor": decay.map(|decay| write_exact(&decay.factor)), "settle": settling.as_ref().map(full),
-                "noise": cell.noise.as_ref().map(write_exact), "not_in_certificate": outside(cell), "simulated": cell.simulated.map(simulated_json),
+                "noise": cell.noise_limit().map(write_exact), "with_noise": with_noise_json(cell), "not_in_certificate": outside(cell), "simulated": cell.simulated.map(simulated_json),
             })
         };
         let cells: Vec<Value> = row.cells.iter().map(cell).collect();
@@ -439,21 +462,19 @@ fn outside(cell: &Cell) -> Vec<&'static str> {
     named.filter(|(_, is_in)| !is_in).map(|(name, _)| name).collect()
 }
 
+/// What is proved in the loop with noise; null where nothing is proved of it, and without.
+fn with_noise_json(cell: &Cell) -> Option<Value> {
+    let Noise::Proved(found) = &cell.noise else { return None };
+    Some(json!({
+        "steady_error": full(&found.steady_error), "peak_error": full(&found.peak_error), "max_control": full(&found.control),
+    }))
+}
+
 fn simulated_json(Simulated { steady_error, largest, settling }: Simulated) -> Value {
     json!({
         "steady_error": steady_error, "peak_error": largest.map(|[error, _]| error),
         "max_control": largest.map(|[_, control]| control), "settle": settling,
     })
-}
-
-fn required(compared: &[Compared], at_samples: bool) -> Table {
-    let mut table = Table::new(&["<required", "at most", "proved", "<"]);
-    for one in compared {
-        let proved = one.proved.as_ref().map_or_else(|| "none".to_owned(), |proved| exact(proved, Direction::Up));
-        let met = if one.is_met() { "met" } else { "missed" };
-        table.push([one.requirement.words(at_samples).to_owned(), write_exact(&one.asked), proved, met.to_owned()]);
-    }
-    table
 }
 
 fn compared_json(one: &Compared) -> Value {

@@ -7,7 +7,7 @@ use sigmastar_exact::enclosure::Enclosure;
 /// A quantity of which a largest value may be required.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Requirement {
-    /// |e| along the periodic solution.
+    /// |e| along the periodic solution; with noise its limit superior.
     SteadyError,
     /// |e| at all times.
     PeakError,
@@ -41,10 +41,15 @@ impl Requirement {
         }
     }
 
-    /// In words, its formulas marked; of the law at samples, or not.
+    /// In words, its formulas marked; of the law at samples, or not, and of a document with noise, or not.
     #[must_use]
-    pub fn words(self, at_samples: bool) -> &'static str {
+    pub fn words(self, at_samples: bool, disturbed: bool) -> &'static str {
         match self {
+            Requirement::SteadyError if disturbed => "steady $`|e|`$ with noise",
+            Requirement::PeakError if disturbed => "largest $`|e|`$ with noise",
+            Requirement::Control if disturbed => "largest $`|u|`$ with noise",
+            Requirement::Settling if at_samples && disturbed => "periods to settle with noise, at samples",
+            Requirement::Settling if disturbed => "periods to settle with noise",
             Requirement::Settling if at_samples => "periods to settle, at samples",
             Requirement::SteadyError => "steady $`|e|`$",
             Requirement::PeakError => "largest $`|e|`$",
@@ -119,17 +124,17 @@ impl Requirements {
         Requirement::ALL.iter().all(|requirement| self.of(*requirement).is_none())
     }
 
-    /// Each requirement beside what is proved in a cell; `period` is that of [`Cell::settling`].
+    /// Each requirement beside what is proved in a cell, in the loop with the noise of the document; `period` is that of [`Cell::settling`].
     #[must_use]
     pub fn compared(&self, cell: &Cell, period: &Enclosure) -> Vec<Compared> {
         let proved = |requirement| match requirement {
-            Requirement::SteadyError => cell.steady_error.upper_rational(),
-            Requirement::PeakError => cell.peak_error.upper_rational(),
-            Requirement::Control => cell.control.upper_rational(),
+            Requirement::SteadyError => cell.in_all().and_then(|[steady, ..]| steady.upper_rational()),
+            Requirement::PeakError => cell.in_all().and_then(|[_, peak, _]| peak.upper_rational()),
+            Requirement::Control => cell.in_all().and_then(|[.., control]| control.upper_rational()),
             Requirement::Settling => {
                 self.steady_error.as_ref().and_then(|limit| cell.settling(limit, period)?.upper_rational())
             }
-            Requirement::Noise => cell.noise.clone(),
+            Requirement::Noise => cell.noise_limit().cloned(),
         };
         let one = |requirement: &Requirement| {
             let asked = self.of(*requirement)?.clone();
@@ -158,14 +163,16 @@ pub(super) fn closest(all: impl Iterator<Item = (usize, f64)>) -> (usize, f64) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::row::tests::{cell, falling};
+    use super::super::row::Noise;
+    use super::super::row::tests::{cell, falling, noisy};
     use super::*;
 
     /// Each requirement is met, and missed by a little.
     #[test]
     fn each_requirement_is_held_against_its_own_bound() {
         let period = Enclosure::exactly(1.0);
-        let bounds = Cell { noise: Some((1, 4).into()), ..falling(cell(2, [1.0, 2.0, 3.0]), (1, 1), (5, 1)) };
+        let bounds = falling(cell(2, [1.0, 2.0, 3.0]), (1, 1), (5, 1));
+        let with_noise = noisy(bounds.clone(), (1, 4), 0);
         let with = |requirement: Requirement, value: (u32, u32)| {
             let value = Some(Rational::from(value));
             match requirement {
@@ -184,7 +191,6 @@ mod tests {
             (Requirement::Control, (3, 1), (299, 100)),
             // 1 + 5 exp(-t) is 2 at log 5 = 1.6094...
             (Requirement::Settling, (16095, 10000), (16094, 10000)),
-            (Requirement::Noise, (1, 4), (249, 1000)),
         ] {
             let met = |value| {
                 let compared = with(requirement, value).compared(&bounds, &period);
@@ -192,9 +198,28 @@ mod tests {
             };
             assert_eq!([met(least), met(below)], [Some(true), Some(false)], "{requirement:?}");
         }
+        // With noise |e| has its limit besides, and the control what the noise adds.
+        for (requirement, least, below) in [
+            (Requirement::SteadyError, (5, 4), (124, 100)),
+            (Requirement::PeakError, (9, 4), (224, 100)),
+            (Requirement::Control, (10, 1), (999, 100)),
+            // 1.25 + 5 exp(-t) is 2 at log(20/3) = 1.89711...
+            (Requirement::Settling, (189712, 100_000), (189711, 100_000)),
+            (Requirement::Noise, (1, 4), (249, 1000)),
+        ] {
+            let met = |value| {
+                let compared = with(requirement, value).compared(&with_noise, &period);
+                compared.iter().find(|one| one.requirement == requirement).map(Compared::is_met)
+            };
+            assert_eq!([met(least), met(below)], [Some(true), Some(false)], "{requirement:?}");
+        }
         // What is not proved is not met.
-        let unknown = with(Requirement::Noise, (1, 1)).compared(&cell(0, [1.0; 3]), &period);
-        assert!(!unknown[0].is_met() && unknown[0].proved.is_none());
+        let unknown = Cell { noise: Noise::NotProved, ..bounds };
+        for requirement in Requirement::ALL {
+            let compared = with(requirement, (100, 1)).compared(&unknown, &period);
+            let one = compared.iter().find(|one| one.requirement == requirement).unwrap();
+            assert!(one.proved.is_none() && !one.is_met(), "{requirement:?}");
+        }
         assert!(Requirements::default().is_empty() && !with(Requirement::Noise, (1, 1)).is_empty());
     }
 }

@@ -2,7 +2,7 @@
 
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
-use sigmastar_prove::certify::BoundsOfCount;
+use sigmastar_prove::certify::{BoundsOfCount, UnderNoise};
 use sigmastar_prove::reduction::Run;
 
 /// A gain with which everything in its cells is proved, each an upper bound for every solution from the initial set there, in the loop without noise. Where
@@ -35,10 +35,21 @@ pub struct Cell {
     /// The rate in 1/time, and the factor in the unit of e, where they are proved: `|e - e_per| <= factor exp(-rate (t - t_0))`, at samples at the
     /// sampling instants.
     pub decay: Option<Decay>,
-    /// Of what |e - e_per| is in the limit with the noise, disturbance and rounding of the document, where that is proved.
-    pub noise: Option<Rational>,
+    /// What is proved of the loop with the noise, disturbance and rounding of the document.
+    pub noise: Noise,
     /// What simulations of the nominal plant came to; it proves nothing.
     pub simulated: Option<Simulated>,
+}
+
+/// What is proved of a loop with noise.
+#[derive(Clone, Debug)]
+pub enum Noise {
+    /// The document has none: the loop is the one without.
+    Absent,
+    /// Nothing.
+    NotProved,
+    /// Upper bounds.
+    Proved(UnderNoise),
 }
 
 /// An exponential bound.
@@ -67,6 +78,7 @@ impl Row {
     pub fn of(run: &Run<'_>, counts: &[u32]) -> Option<Row> {
         let certified = run.certified()?;
         let said = run.of_counts();
+        let disturbed = run.is_disturbed();
         let cell = |n_o: &u32| {
             let BoundsOfCount { steady_error, peak_error, control, steady_control } = run.bounds_of(*n_o)?;
             let said = said.iter().find(|said| said.n_o == *n_o);
@@ -78,7 +90,11 @@ impl Row {
                 control,
                 steady_control,
                 decay: said.map(|said| Decay { rate: said.rate.clone(), factor: said.factor.clone() }),
-                noise: said.and_then(|said| said.noise).map(|[_, limit]| limit.clone()),
+                noise: match run.under_noise(*n_o) {
+                    Some(found) => Noise::Proved(found),
+                    None if disturbed => Noise::NotProved,
+                    None => Noise::Absent,
+                },
                 simulated: None,
             })
         };
@@ -88,19 +104,44 @@ impl Row {
 }
 
 impl Cell {
+    /// S of the loop with noise, where it is proved.
+    #[must_use]
+    pub fn noise_limit(&self) -> Option<&Rational> {
+        match &self.noise {
+            Noise::Proved(found) => Some(&found.limit),
+            Noise::Absent | Noise::NotProved => None,
+        }
+    }
+
+    /// Of |e| in the end and at all times, and of what is put out at all times, in the loop as the document has it, with its noise; `None` where nothing is
+    /// proved of that.
+    #[must_use]
+    pub fn in_all(&self) -> Option<[&Enclosure; 3]> {
+        match &self.noise {
+            Noise::Absent => Some([&self.steady_error, &self.peak_error, &self.control]),
+            Noise::NotProved => None,
+            Noise::Proved(found) => Some([&found.steady_error, &found.peak_error, &found.control]),
+        }
+    }
+
     /// After how many periods |e| is at most a limit for good, at samples at the sampling instants, at most: `log(factor/(limit - steady error))/(rate T)`, or 0 where the factor is at most
-    /// that difference. `None` where no rate is proved, or the steady error is not proved to be below the limit. Hypothesis: `period` is positive, and no
-    /// period of the document is shorter.
+    /// that difference; with noise the steady error has its limit, and the factor what misleads an aligned start. `None` where no rate is proved, or the
+    /// steady error is not proved to be below the limit. Hypothesis: `period` is positive, and no period of the document is shorter.
     #[must_use]
     pub fn settling(&self, limit: &Rational, period: &Enclosure) -> Option<Enclosure> {
         let Decay { rate, factor } = self.decay.as_ref()?;
         let precision = period.precision();
         let exact = |value: &Rational| Enclosure::from_rational(value, precision);
-        let room = &exact(limit) - &self.steady_error;
+        let [steady, ..] = self.in_all()?;
+        let misled = match &self.noise {
+            Noise::Proved(found) => exact(&found.misled),
+            Noise::Absent | Noise::NotProved => exact(&Rational::new()),
+        };
+        let room = &exact(limit) - steady;
         if !room.is_positive().is_true() || !exact(rate).is_positive().is_true() {
             return None;
         }
-        let ratio = &exact(factor) / &room;
+        let ratio = (&exact(factor) + misled) / &room;
         let least = ratio.max(&exact(&Rational::from(1)));
         Some(&least.log() / &(&exact(rate) * period))
     }
@@ -121,7 +162,7 @@ pub(super) mod tests {
             control: bound(control),
             steady_control: bound(control),
             decay: None,
-            noise: None,
+            noise: Noise::Absent,
             simulated: None,
         }
     }
@@ -129,6 +170,16 @@ pub(super) mod tests {
     /// The same with a rate and a factor.
     pub fn falling(cell: Cell, rate: (u32, u32), factor: (u32, u32)) -> Cell {
         Cell { decay: Some(Decay { rate: rate.into(), factor: factor.into() }), ..cell }
+    }
+
+    /// The same with noise that adds this in the limit, and to an aligned start, and 7 to the control.
+    pub fn noisy(cell: Cell, limit: (u32, u32), misled: u32) -> Cell {
+        let (limit, misled) = (Rational::from(limit), Rational::from(misled));
+        let add = |bound: &Enclosure, more: &Rational| bound + Enclosure::from_rational(more, 64);
+        let steady_error = add(&cell.steady_error, &limit);
+        let peak_error = add(&cell.peak_error, &Rational::from(&limit + &misled));
+        let control = add(&cell.control, &Rational::from(7));
+        Cell { noise: Noise::Proved(UnderNoise { limit, misled, steady_error, peak_error, control }), ..cell }
     }
 
     #[test]
@@ -143,5 +194,10 @@ pub(super) mod tests {
         assert_eq!(of(&falls, (9, 1)), Some(0.0));
         assert_eq!(of(&falls, (20, 1)), Some(0.0));
         assert_eq!([of(&falls, (1, 1)), of(&falls, (1, 2)), of(&cell(0, [1.0, 9.0, 1.0]), (3, 1))], [None; 3]);
+        // With noise 3/2 + (8 + 1) exp(-2 t) is 3 at t = log 6/2; where nothing is proved of it, nothing is of the time.
+        let found = of(&noisy(falls.clone(), (1, 2), 1), (3, 1)).unwrap();
+        assert!((found - 6f64.ln()).abs() < 1e-12, "{found}");
+        assert_eq!(of(&noisy(falls.clone(), (2, 1), 0), (3, 1)), None);
+        assert_eq!(of(&Cell { noise: Noise::NotProved, ..falls }, (3, 1)), None);
     }
 }

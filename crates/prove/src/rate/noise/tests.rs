@@ -24,8 +24,15 @@ fn certified<'s>(spec: &'s Specification, gain: &str, counts: &[u32]) -> Certifi
 }
 
 /// The largest |e| that inputs of these sizes, d and v, lead to in linear plants with one state within the data (those of
-/// `rates_of_claims`): the integrals of |impulse response|, which the inputs reach that change sign with it.
-fn worst(data: &Data<'_>, there: &ErrorBox<Enclosure>, sigma: f64, n_o: u32, [d_bar, v_bar]: [f64; 2]) -> f64 {
+/// `rates_of_claims`): the integrals of |impulse response|, which the inputs reach that change sign with it; and the largest |e| from z = M v, all else at
+/// rest, as an aligned start is misled. The same of u.
+fn worst(
+    data: &Data<'_>,
+    there: &ErrorBox<Enclosure>,
+    sigma: f64,
+    n_o: u32,
+    [d_bar, v_bar]: [f64; 2],
+) -> [[f64; 2]; 2] {
     let of = |value: &Enclosure| value.midpoint_f64();
     let (a, k_f, k_x) = (of(&there.rate), of(&there.k_f), of(&there.k_x) * of(&data.p_low).sqrt());
     let (mu, w) = (of(&data.mu), of(&data.base_frequency));
@@ -33,7 +40,7 @@ fn worst(data: &Data<'_>, there: &ErrorBox<Enclosure>, sigma: f64, n_o: u32, [d_
     let order = 2 * n_o as usize + 3;
     let total: f64 = (0..=n_o as usize).map(weight).sum();
     let of_state = |i: usize| if i == 2 { Some(0) } else { (i % 2 == 1 && i > 2).then(|| (i - 1) / 2) };
-    let mut found = 0.0_f64;
+    let mut found = [[0.0_f64; 2]; 2];
     for sign in [-1.0, 1.0] {
         for slope in [-of(&there.sector.below), of(&there.sector.above)] {
             // The law with e + v, in (x, e, z): e' = r x + slope e + d + u, u = -sigma (e + v) + mu sum n_l (z_l - e - v).
@@ -56,21 +63,28 @@ fn worst(data: &Data<'_>, there: &ErrorBox<Enclosure>, sigma: f64, n_o: u32, [d_
             let of_d: Vec<f64> = (0..order).map(|i| f64::from(u8::from(i == 1))).collect();
             let of_v: Vec<f64> =
                 (0..order).map(|i| matrix[(i, 1)] - [sign * k_f, slope].get(i).unwrap_or(&0.0)).collect();
+            let of_start: Vec<f64> = (0..order).map(|i| f64::from(u8::from(of_state(i).is_some()))).collect();
             let eigen = matrix.eigen().expect("finite");
             let values: Vec<c64> = eigen.S().column_vector().iter().copied().collect();
             let inverse = eigen.U().partial_piv_lu().inverse();
-            let integral = |input: &[f64]| {
+            // e and u, but for what v is in it directly.
+            let outputs: [Vec<f64>; 2] = [
+                (0..order).map(|i| f64::from(u8::from(i == 1))).collect(),
+                (0..order).map(|j| matrix[(1, j)] - [k_x, slope].get(j).unwrap_or(&0.0)).collect(),
+            ];
+            // The integral of the size of an output from this start, and its largest value.
+            let response = |input: &[f64], output: &[f64]| {
                 let residues: Vec<c64> = (0..order)
                     .map(|k| {
                         (0..order).fold(c64::new(0.0, 0.0), |sum, i| sum + inverse[(k, i)] * input[i])
-                            * eigen.U()[(1, k)]
+                            * (0..order).fold(c64::new(0.0, 0.0), |sum, i| sum + eigen.U()[(i, k)] * output[i])
                     })
                     .collect();
                 let slowest = values.iter().map(|value| -value.re).fold(f64::INFINITY, f64::min);
                 let largest = values.iter().fold(0.0_f64, |size, value| size.max(value.norm()));
                 assert!(slowest > 0.0);
                 // First as fast as the fastest mode, then as the fastest that is left, in runs of equal steps.
-                let (mut sum, mut t) = (0.0, 0.0);
+                let (mut sum, mut most, mut t) = (0.0, 0.0_f64, 0.0);
                 while t < 8.0 / slowest {
                     let left = values.iter().filter(|value| -value.re * t < 20.0);
                     let fastest = left.fold(0.0_f64, |size, value| size.max(value.norm())).min(largest);
@@ -86,14 +100,19 @@ fn worst(data: &Data<'_>, there: &ErrorBox<Enclosure>, sigma: f64, n_o: u32, [d_
                         .collect();
                     let turns: Vec<c64> = values.iter().map(|value| at(*value, h)).collect();
                     for _ in 0..1000 {
-                        sum += modes.iter().map(|mode| mode.re).sum::<f64>().abs() * h;
+                        let size = modes.iter().map(|mode| mode.re).sum::<f64>().abs();
+                        (sum, most) = (sum + size * h, most.max(size));
                         modes.iter_mut().zip(&turns).for_each(|(mode, turn)| *mode *= turn);
                     }
                     t += 1000.0 * h;
                 }
-                sum
+                [sum, most]
             };
-            found = found.max(d_bar * integral(&of_d) + v_bar * integral(&of_v));
+            for ((output, directly), found) in outputs.iter().zip([0.0, sigma + mu * total]).zip(&mut found) {
+                let [[of_d, _], [of_v, _], [_, of_start]] =
+                    [&of_d, &of_v, &of_start].map(|input| response(input, output));
+                *found = [found[0].max(d_bar * of_d + v_bar * (of_v + directly)), found[1].max(v_bar * of_start)];
+            }
         }
     }
     found
@@ -131,15 +150,52 @@ fn limits_are_above_what_the_worst_inputs_do() {
             for RateForCount { n_o, noise, .. } in &run.for_n_o {
                 let noise =
                     noise.as_ref().expect("asked").as_ref().unwrap_or_else(|why| panic!("{name} {n_o}: {why:?}"));
-                let worst = worst(&data, &there, gain.parse().expect("a decimal"), *n_o, sizes);
+                assert_eq!(noise.misled, 0);
+                let [[worst, _], [worst_control, _]] =
+                    worst(&data, &there, gain.parse().expect("a decimal"), *n_o, sizes);
                 let ratio = noise.limit.to_f64() / worst;
                 println!(
-                    "{name} {n_o} {fields} gain {gain} limit {:.4e} worst {worst:.4e} ratio {ratio:.3} lambda {:.3e} {seconds:.1} s",
+                    "{name} {n_o} {fields} gain {gain} limit {:.4e} worst {worst:.4e} ratio {ratio:.3} of u {:.3} lambda {:.3e} {seconds:.1} s",
                     noise.limit.to_f64(),
+                    noise.control.to_f64() / worst_control,
                     noise.proof.witness.rate.to_f64()
                 );
-                assert!(ratio >= 1.0, "{name} {n_o} {fields}: {ratio}");
+                let of_control = noise.control.to_f64() / worst_control;
+                assert!(ratio >= 1.0 && of_control >= 1.0, "{name} {n_o} {fields}: {ratio} {of_control}");
             }
         }
     }
+}
+
+/// What misleads an aligned start moves e by no more than is said, and not by far less; a disturbance misleads none.
+#[test]
+fn an_aligned_start_is_misled_by_what_is_measured() {
+    let text = include_str!("../../../../../specs/linear.json").replace(r#""kind": "paper""#, r#""kind": "aligned""#);
+    let shipped = Specification::from_json("test", &text).expect("a sound specification");
+    let found =
+        crate::certify::certify(&shipped, Options { compare: false, ..Options::default() }).expect("not refuted");
+    let sigma = Rational::from((3, 2)) * found.sigma_star().expect("certified");
+    let gain = sigmastar_exact::number::write_exact(&sigma);
+    let spec = with(&text, r#""measurement": { "noise": "1e-9" },"#);
+    let run = certified(&spec, &gain, &COUNTS);
+    let proof = run.sharp.proved().expect("certified");
+    let data = Data::new(&spec, 128);
+    let periodic = [&proof.evaluation.periodic.x_per, &proof.evaluation.periodic.e_per];
+    let there = ErrorBox::new(&data, proof.witness.paths, periodic, [&data.zero(), &data.zero()]);
+    for RateForCount { n_o, noise, .. } in &run.for_n_o {
+        let noise = noise.as_ref().expect("asked").as_ref().expect("proved");
+        let [[_, largest], [of_inputs, of_start]] =
+            worst(&data, &there, gain.parse().expect("a decimal"), *n_o, [0.0, 1e-9]);
+        let ratio = noise.misled.to_f64() / largest;
+        let of_control = noise.control.to_f64() / (of_inputs + of_start);
+        println!("n_o = {n_o}: {:.4e}, {ratio:.3} times what is simulated, u {of_control:.3}", noise.misled.to_f64());
+        assert!((1.0..20.0).contains(&ratio) && of_control >= 1.0, "{n_o}: {ratio} {of_control}");
+    }
+    let quiet = with(&text, r#""disturbance": "1e-9","#);
+    assert!(
+        certified(&quiet, &gain, &[1])
+            .for_n_o
+            .iter()
+            .all(|found| found.proved_noise().is_some_and(|noise| noise.misled == 0))
+    );
 }

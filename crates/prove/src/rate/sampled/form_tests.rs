@@ -214,3 +214,31 @@ fn what_is_not_positive_definite_is_not_proved() {
         assert!(!proves(2, &gain, &other, &witness), "{other:?}");
     }
 }
+
+/// u of the differences is `-sigma e + K M'N R zeta`, written out with zeta itself, whatever the input gain.
+#[test]
+fn the_control_is_that_of_the_law() {
+    let spec = example(40, ["3/4", "3/2"]);
+    let data = Data::new(&spec, 128);
+    let (law, bounds) = (law(&data), bounds());
+    let mut next = numbers(11);
+    for n_o in 0..4_u32 {
+        let oscillators = OscillatorMatrix::new(&data, n_o);
+        let dynamics = SampledDynamics::new(&data, (&oscillators, &law), &rational(30, 1), &bounds).expect("kp > 0");
+        let weight = |l: u32| spec.internal_model.weights.weight(u64::from(l), 128).midpoint_f64();
+        let control = dynamics.control();
+        assert_eq!(control.len(), 2 * n_o as usize + 2);
+        let e = next();
+        let mut y = vec![e];
+        let mut sum = 0.0;
+        for l in 0..=n_o {
+            let angle = data.base_frequency.midpoint_f64() * f64::from(l) / 40.0;
+            let zeta = [next(), if l == 0 { 0.0 } else { next() }];
+            sum += weight(l) * (zeta[0] * angle.cos() + zeta[1] * angle.sin());
+            y.extend(zeta.iter().take(if l == 0 { 1 } else { 2 }).map(|value| value * weight(l).sqrt()));
+        }
+        let found: f64 = control.iter().zip(&y).map(|(entry, y)| entry.midpoint_f64() * y).sum();
+        let expected = -30.0 * e + law.gain.midpoint_f64() * sum;
+        assert!((found - expected).abs() < 1e-12 * (1.0 + expected.abs()), "{n_o}: {found} {expected}");
+    }
+}

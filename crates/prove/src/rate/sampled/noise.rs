@@ -15,7 +15,8 @@
 
 use super::rounding::{Computed, ComputedLaw, Rounded, RoundingWitness, are_zeta_bounds, measured, settled};
 use crate::rate::bound::Place;
-use crate::rate::noise::{Confinement, NoNoiseBound, NoiseBound, kappa, proved, within_the_box};
+use crate::rate::control::{RateForm, of_noise};
+use crate::rate::noise::{Confinement, NoNoiseBound, NoiseBound, kappa, proved, up, within_the_box};
 use rug::Rational;
 use sigmastar_decide::rates::OscillatorMatrix;
 use sigmastar_decide::rates::at_samples::{Inputs, SampledDynamics, SampledRateWitness};
@@ -49,7 +50,7 @@ pub fn noise_bound(
     law: &SampledLaw<Enclosure>,
     place: &Place<'_>,
     confinement: &Confinement<'_>,
-    n_o: u32,
+    rate: &RateForm<'_>,
 ) -> Result<NoiseBound<SampledNoise>, NoNoiseBound> {
     let in_doubles = data.spec.disturbances.in_doubles();
     if data.spec.actuator.is_some() {
@@ -57,7 +58,7 @@ pub fn noise_bound(
     }
     let not_found = NoNoiseBound::NotFound;
     let bounds = LoopBounds::of_error(data, place.error_box).ok_or(not_found)?;
-    let oscillators = OscillatorMatrix::new(data, n_o);
+    let oscillators = OscillatorMatrix::new(data, rate.n_o);
     let dynamics = SampledDynamics::new(data, (&oscillators, law), place.sigma, &bounds).ok_or(not_found)?;
     let number = |value: &Rational| data.rational(value);
     let d_bar = number(&data.spec.d_bar());
@@ -106,10 +107,14 @@ pub fn noise_bound(
         }
         _ => None,
     };
-    let at_samples = match &rounding {
-        None => (inputs(None) / (c * number(&e_low))).sqrt(),
-        Some(RoundingWitness { level, .. }) => number(level) / number(&e_low).sqrt(),
+    // The root of W of the part with the inputs, and what rounding adds to u.
+    let (level, of_rounding) = match (&rounding, &computed) {
+        (Some(RoundingWitness { level, z_noise, .. }), Some(computed)) => {
+            (number(level), computed.rounded(&number(z_noise)).control)
+        }
+        _ => ((inputs(None) / c).sqrt(), data.zero()),
     };
+    let at_samples = &level / number(&e_low).sqrt();
     let error_box = place.error_box;
     let two = data.rational(&Rational::from(2));
     let half = &law.step / &two;
@@ -117,9 +122,15 @@ pub fn noise_bound(
     let coupling = if bounds.has_x { &error_box.k_x * kappa(data, error_box) } else { data.zero() };
     let bracket = Enclosure::one(data.precision) - &half * (k_e + coupling);
     let s = (at_samples + half * d_bar) / &bracket;
+    let misled = rate.misled(data, &v_bar);
+    let directly = dynamics.noise_gain() * &v_bar + of_rounding;
+    let control = of_noise(data, &dynamics.control(), (&witness.pi, &level), (rate, &misled), &directly);
+    // Of the part that starts misled that is so at the ends of each sample, and x is 0 at its start, too.
+    let misled = up(&(misled / number(rate.e_low).sqrt() / &bracket));
     if !(data.zero().lt(&error_box.rate).is_true() && data.zero().lt(&bracket).is_true()) {
         return Err(not_found);
     }
     let [limit, peak] = within_the_box(data, error_box, confinement, &s)?;
-    Ok(NoiseBound { proof: SampledNoise { witness, rounding }, e_low, limit, peak })
+    let (misled, control) = misled.zip(control).ok_or(not_found)?;
+    Ok(NoiseBound { proof: SampledNoise { witness, rounding }, e_low, limit, peak, misled, control })
 }
