@@ -38,7 +38,7 @@ fn under_noise<P, Q>(
 ) -> Option<UnderNoise> {
     let NoiseBound { limit, peak, misled, control: added, .. } =
         found.iter().find(|found| found.n_o == n_o)?.proved_noise()?;
-    let BoundsOfCount { steady_error, peak_error, control } = without;
+    let BoundsOfCount { steady_error, peak_error, control, .. } = without;
     let with = |bound: &Enclosure, more: &[&Rational]| {
         more.iter().fold(bound.clone(), |sum, more| sum + Enclosure::from_rational(more, bound.precision()))
     };

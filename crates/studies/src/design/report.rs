@@ -174,9 +174,9 @@ impl DesignReport<'_> {
         let noise = match (self.disturbed, self.has_noise()) {
             (false, _) => "",
             (true, true) => {
-                " The last four columns, and the time to settle, are about the loop with the noise, disturbance and rounding of the document: what these add to \
-                 $`|e|`$ in the limit, that limit of $`|e|`$ itself, the largest $`|e|`$ and the largest $`|u|`$. The other columns are about the loop without \
-                 them."
+                " The time to settle and the columns from that of the noise on are about the loop with the noise, disturbance and rounding of the document: what \
+                 these add to $`|e|`$ in the limit, that limit of $`|e|`$ itself, the largest $`|e|`$ and the largest $`|u|`$. The certificate has the first of \
+                 them, this program alone derives the others. The columns before are about the loop without noise."
             }
             (true, false) => {
                 " The whole table is about the loop without noise, disturbance and rounding; nothing is proved about these."
