@@ -1,6 +1,6 @@
 //! `sigmastar design`: the pair to take is the first of the table that is proved to meet every requirement, and its certificate says so.
 
-use super::support::{EXAMPLE, assert_valid, in_one_line, json, number, program, read, stored, told, utf8};
+use super::support::{EXAMPLE, ROOT, assert_valid, in_one_line, json, number, program, read, stored, told, utf8};
 use predicates::str::contains;
 use serde_json::{Value, json};
 use std::path::Path;
@@ -282,6 +282,23 @@ fn requirements_are_about_the_loop_with_noise() {
             );
         }
     }
+}
+
+/// A plant whose error decays by itself has a smallest gain of 1e-10: the others of the table, and the larger one that a report leads with, are such as a loop
+/// is fast with.
+#[test]
+fn larger_gains_of_a_tiny_one_go_with_the_period() {
+    let plant = Path::new(ROOT).join("specs/plants/linear.json");
+    let report = design(&plant, &["--n-o", "0,1", "--no-simulation"], 0);
+    let rows = report["rows"].as_array().unwrap();
+    let gains: Vec<f64> = rows.iter().map(|row| number(&row["sigma"])).collect();
+    assert!(gains[0] < 1e-9 && gains[1..] == [1.2, 1.5, 2.0, 3.0, 5.0], "{gains:?}");
+    // mu = 1 and T = 1: a rate is near 1 with the larger gains, and none counts with the smallest.
+    let rates: Vec<f64> =
+        rows.iter().map(|row| row["cells"][0]["rate"].as_str().map_or(0.0, |rate| rate.parse().unwrap())).collect();
+    assert!(rates[0] < 1e-9 && rates[1..].iter().all(|rate| *rate > 1.0), "{rates:?}");
+    let text = utf8(program().args(["certify", "--n-o", "0,1", "-q"]).arg(&plant).output().unwrap().stdout);
+    assert!(text.contains("  - larger gain: sigma = 5 keeps"), "{text}");
 }
 
 /// The longest sampling period of a row is certified with its gain, and is that of `sampling`.

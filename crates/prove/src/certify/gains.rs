@@ -9,6 +9,7 @@ use rug::Rational;
 use sigmastar_decide::conditions::Ladder;
 use sigmastar_decide::conditions::prove_up_to;
 use sigmastar_decide::conditions::{SampledProof, SharpProof};
+use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, round_rational};
 use sigmastar_exact::parallel;
 use sigmastar_lang::spec::Specification;
@@ -18,11 +19,23 @@ use sigmastar_theory::derivation::consequences::error_bounds;
 use sigmastar_theory::derivation::mistuned::Mistuning;
 use std::sync::Arc;
 
-/// The gains of the rows beside that of a claim, in tenths of it.
+/// The gains of the rows beside that of a claim, in tenths of [`unit_of_gains`].
 pub const ROWS: [u32; 5] = [12, 15, 20, 30, 50];
+
+/// A smallest gain below this share of 1/T is not of the size at which a loop converges in any time that counts.
+const TINY: f64 = 1e-2;
 
 /// Digits of these gains.
 const DIGITS: u32 = 4;
+
+/// What larger gains are multiples of: the smallest one, in 1/time, or about 1/T where it is far below that, as of a plant whose error decays by itself.
+#[must_use]
+pub fn unit_of_gains(smallest: &Rational, period: &Enclosure) -> Rational {
+    let unit = (Enclosure::one(period.precision()) / period).upper_rational();
+    let tiny = smallest.to_f64() * period.midpoint_f64() < TINY;
+    let unit = unit.filter(|_| tiny).map(|unit| round_rational(&unit, DIGITS, Direction::Up));
+    unit.unwrap_or_else(|| smallest.clone())
+}
 
 /// So many tenths of a gain.
 fn larger(tenths: u32, sigma: &Rational) -> Rational {
@@ -53,8 +66,9 @@ fn row_of(spec: &Specification, proof: SharpProof, other: Option<Arc<Specificati
 /// pool may have data of its own for it. One at which nothing is proved has none.
 fn larger_rows(own: &Specification, proof: &SharpProof, pool: &[Member<'_>], counts: &[u32]) -> Vec<GainRow> {
     let reach = proof.decided().reach();
+    let unit = unit_of_gains(&proof.witness.sigma, &Data::new(own, proof.precision).period);
     let row = |tenths: &u32| {
-        let sigma = larger(*tenths, &proof.witness.sigma);
+        let sigma = larger(*tenths, &unit);
         let (spec, proof) = best_at(pool, &sigma)?;
         // The data of a plant are proved where they are used, those of a specification on a domain, or up to the arguments of the claim.
         let [x, e] = proof.decided().reach()?;
@@ -111,12 +125,31 @@ impl SampledCertification<'_> {
             rates: Vec::new(),
             proof: RowProof::Sampled(Box::new(proof.clone())),
         };
+        let unit = unit_of_gains(&proof.witness.sigma, &Data::new(self.spec, proof.precision).period);
         let at = |tenths: &u32| {
-            let sigma = larger(*tenths, &proof.witness.sigma);
+            let sigma = larger(*tenths, &unit);
             let run = certify_sampled(self.spec, &self.sampling, Some(&sigma), start, ladder).ok()?;
             run.claim().map(row)
         };
         let more: Vec<GainRow> = parallel::map(&ROWS, at).into_iter().flatten().collect();
         self.gains = std::iter::once(row(proof)).chain(more).collect();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn larger_gains_are_multiples_of_the_smallest_or_of_the_period() {
+        let rational = |(p, q): (u32, u32)| Rational::from((p, q));
+        let unit = |smallest, period| unit_of_gains(&rational(smallest), &Enclosure::exactly(period));
+        assert_eq!(unit((3, 2), 1.0), rational((3, 2)));
+        // What is above a hundredth of 1/T is large enough, what is below it is not.
+        assert_eq!(unit((21, 1000), 0.5), rational((21, 1000)));
+        assert_eq!(unit((19, 1000), 0.5), rational((2, 1)));
+        // 1/3 in four digits, rounded up.
+        assert_eq!(unit((1, 10_000_000), 3.0), rational((3334, 10_000)));
+        assert_eq!(larger(15, &unit((1, 10_000_000), 3.0)), rational((5001, 10_000)));
     }
 }

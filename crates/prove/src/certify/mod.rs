@@ -42,7 +42,7 @@ pub use certification::{Alternatives, Certification, Constants, ExactClaim, Prin
 pub(crate) use gain_row::CLAIM_DIGITS;
 pub use gain_row::{ByCount, CountBounds, CountProof, GainRow, Largest, LoopSizes, RowNoise};
 pub use gain_to_use::{Transient, gain_to_use};
-pub use gains::ROWS;
+pub use gains::{ROWS, unit_of_gains};
 pub use jacobian::{MAX_SEARCHES, Resolution, resolve, resolve_with, with_triple};
 pub use kept::{BoundsOfCount, Stated};
 pub use matrix_checks::{ContractionCheck, MatrixChecks, SylvesterCheck};

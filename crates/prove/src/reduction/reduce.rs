@@ -9,8 +9,9 @@ use super::refusal::{MAX_STATES, PlantRefusal};
 use super::sampling::Sampling;
 use super::values::prove_bounds;
 use super::watch::{Stage, Unwatched, Watch};
-use crate::certify::{Alternatives, ROWS};
+use crate::certify::{Alternatives, ROWS, unit_of_gains};
 use rug::Rational;
+use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::parallel;
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{PeriodicMatrix, ProvedValues};
@@ -59,8 +60,9 @@ const OWN: f64 = 1e-2;
 
 impl Beside<'_> {
     /// The gains, where the smallest one is this.
-    fn gains(self, smallest: f64) -> Vec<f64> {
-        let rows = || ROWS.map(|tenths| smallest * f64::from(tenths) / 10.0);
+    fn gains(self, smallest: f64, period: &Enclosure) -> Vec<f64> {
+        let unit = Rational::from_f64(smallest).map_or(smallest, |smallest| unit_of_gains(&smallest, period).to_f64());
+        let rows = || ROWS.map(|tenths| unit * f64::from(tenths) / 10.0);
         match self {
             Beside::Nothing => Vec::new(),
             Beside::Rows => rows().to_vec(),
@@ -83,10 +85,11 @@ impl Beside<'_> {
 /// What could not be proved or found.
 pub fn reduce(plant: &Plant, beside: Beside<'_>, watch: &dyn Watch) -> Result<Reduced, PlantRefusal> {
     let last = |proofs: &Proofs<'_>, (chosen, path): (&Chosen, Option<Path>), proved: Reduced| {
+        let period = plant.period.nominal().enclose(PRECISION);
         let for_gains = |smallest: f64| {
             // The data of a smaller gain are the base of those of larger ones.
             let gains: Vec<f64> =
-                beside.gains(smallest).into_iter().filter(|gain| *gain > proved.proposal.sigma).collect();
+                beside.gains(smallest, &period).into_iter().filter(|gain| *gain > proved.proposal.sigma).collect();
             let data = parallel::map(&gains, |gain| proofs.for_gain(chosen, &proved, *gain));
             data.into_iter().flatten().map(|data| (data.spec, data.proposal)).collect::<Vec<_>>()
         };

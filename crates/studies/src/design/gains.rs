@@ -6,9 +6,9 @@ use super::row::Row;
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, round_f64, round_rational};
-use sigmastar_prove::certify::ROWS;
+use sigmastar_prove::certify::{ROWS, unit_of_gains};
 
-/// The gains beyond those of [`ROWS`], in tenths of the smallest one, where a requirement is missed that a larger gain helps to meet.
+/// The gains beyond those of [`ROWS`], in tenths of [`unit_of_gains`], where a requirement is missed that a larger gain helps to meet.
 const FURTHER: [u32; 5] = [80, 120, 200, 500, 1000];
 
 /// So many of them in turn that bring the table no closer to what is required.
@@ -58,8 +58,8 @@ pub fn design_table<C: Claims>(
         return Ok(claims.at(asked).into_iter().flatten().collect());
     }
     let smallest = claims.smallest()?;
-    let own = smallest.sigma.clone();
-    let times = |tenths: &u32| round_rational(&(Rational::from((*tenths, 10)) * &own), DIGITS, Direction::Up);
+    let unit = unit_of_gains(&smallest.sigma, period);
+    let times = |tenths: &u32| round_rational(&(Rational::from((*tenths, 10)) * &unit), DIGITS, Direction::Up);
     let mut rows = vec![smallest];
     rows.extend(claims.at(&ROWS.each_ref().map(times)).into_iter().flatten());
     let is_met = |rows: &[Row]| choose(rows, requirements, period).is_none_or(|choice| choice.is_met);
