@@ -216,7 +216,7 @@ fn the_figure_of_the_readme_is_what_the_program_draws() {
     compare_figure("error", &folder.path().join("error.svg"));
     let readme = std::fs::read_to_string(Path::new(ROOT).join("README.md")).unwrap();
     assert!(readme.contains("(docs/figures/error.svg)"));
-    assert!(utf8(output.stdout).contains("sigma* = 6.04482 in") && readme.contains("sigma\\* = 6.04482:"));
+    assert!(utf8(output.stdout).contains("sigma* = 6.04482 in") && readme.contains("sigma\\* = 6.04482 ("));
 }
 
 /// The figures of the gallery. `SIGMASTAR_FIGURES=write` draws them again.

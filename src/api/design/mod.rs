@@ -11,7 +11,7 @@ use super::report::Report;
 use super::sampling::SamplingPairs;
 use super::subject::Subject;
 use super::{positive, rational};
-use options::{MAX_GAINS, N_O, NAMES, has_disturbances, requirements};
+use options::{MAX_GAINS, N_O, NAMES, excludes_noise, has_disturbances, requirements};
 use proved::{Proved, Taken};
 use rug::Rational;
 use sigmastar_exact::enclosure::{DEFAULT_PRECISION, Enclosure};
@@ -257,6 +257,7 @@ impl Table {
             longest: longest.as_deref(),
             values,
             disturbed: has_disturbances(read),
+            no_noise_with: excludes_noise(read),
             states_e0: read.states_e0(),
             leaves_sizes_open: read.leaves_sizes_open(),
             notes: certificate.remarks(),

@@ -178,11 +178,7 @@ pub(super) fn requirements(
     if requirements.settling.is_some() && subject.sampling().is_some_and(|sampling| sampling.delayed) {
         return Err(Error::no_rates(NoRatesOfClaim::WithDelay, of_settling));
     }
-    let of_no_noise = match subject.sampling() {
-        Some(sampling) if sampling.delayed => Some("`delay_samples`"),
-        _ => subject.actuator().map(|_| "an `actuator`"),
-    };
-    if let Some(other) = of_no_noise.filter(|_| requirements.noise.is_some()) {
+    if let Some(other) = excludes_noise(subject).filter(|_| requirements.noise.is_some()) {
         let message = format!("{of_noise}: nothing is proved of noise with {other}");
         return Err(Error::new(ErrorKind::Options, message, "leave one of both out"));
     }
@@ -195,6 +191,14 @@ pub(super) fn requirements(
 }
 
 /// Whether something is stated that moves e in the limit; at samples rounding is such a thing.
+/// What of a document excludes bounds with noise.
+pub(super) fn excludes_noise(subject: &Read) -> Option<&'static str> {
+    match subject.sampling() {
+        Some(sampling) if sampling.delayed => Some("`delay_samples`"),
+        _ => subject.actuator().map(|_| "an `actuator`"),
+    }
+}
+
 pub(super) fn has_disturbances(subject: &Read) -> bool {
     subject.disturbances().disturb(subject.sampling().is_some())
 }

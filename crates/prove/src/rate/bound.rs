@@ -32,6 +32,9 @@ pub(super) const SHARES: [f64; 4] = [0.95, 0.8, 0.5, 0.2];
 /// Digits of Pi that are tried.
 pub(super) const DIGITS: [u32; 4] = [6, 9, 12, 16];
 
+/// Digits of bounds.
+const FIGURES: u32 = 6;
+
 /// Where the error lives: what a claim by norms says of its error box, and from how far its solutions start.
 pub struct Place<'a> {
     /// The gain of the claim, in 1/time.
@@ -206,6 +209,10 @@ pub(super) fn factor(
 ) -> Option<Rational> {
     let terms = upper.iter().zip(distances).map(|(upper, distance)| upper * distance.sqr());
     let start = terms.fold(data.zero(), |sum, term| sum + term);
-    let factor = (start / data.rational(e_low)).sqrt().upper_rational()?;
-    Some(round_rational(&factor, 6, Direction::Up))
+    up(&(start / data.rational(e_low)).sqrt())
+}
+
+/// The upper end in few digits, rounded up.
+pub(super) fn up(value: &Enclosure) -> Option<Rational> {
+    value.upper_rational().map(|upper| round_rational(&upper, FIGURES, Direction::Up))
 }

@@ -4,8 +4,7 @@
 //! `level^2`, `|c'y| <= level max |c'y|` over `y'Pi y <= 1`: of the part with the inputs by the form that bounds what they do, and of the one by which an
 //! aligned start is misled by that of a rate.
 
-use super::bound::{ByForm, RateBound};
-use super::noise::up;
+use super::bound::{ByForm, RateBound, up};
 use rug::Rational;
 use sigmastar_decide::rates::at_samples::SampledRateWitness;
 use sigmastar_decide::rates::inequality::is_definite;

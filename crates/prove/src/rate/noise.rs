@@ -12,13 +12,13 @@
 //! One part of it has the start and no inputs: U stays below L_0, and W tends to 0. The other starts at 0 and has the inputs: W stays below
 //! e_low S^2, and xi below kappa S. Their sum is strictly inside of the box, so the solution never leaves it.
 
-use super::bound::{DIGITS, Loop, Place};
+use super::bound::{DIGITS, Loop, Place, up};
 use super::control::{RateForm, of_noise};
 use rug::Rational;
 use sigmastar_decide::rates::OscillatorMatrix;
 use sigmastar_decide::rates::inequality::{ErrorDynamics, LoopBounds, RateWitness, is_above};
 use sigmastar_exact::enclosure::Enclosure;
-use sigmastar_exact::number::{Direction, round_f64, round_rational, write_exact};
+use sigmastar_exact::number::{Direction, round_f64, write_exact};
 use sigmastar_propose::rates::NoiseProposal;
 use sigmastar_propose::rates::noise_search::propose;
 use sigmastar_theory::data::Data;
@@ -26,9 +26,6 @@ use sigmastar_theory::derivation::stability::ErrorBox;
 
 /// Shares of the searched decay that are claimed, in this order: what is left makes the form definite.
 const SHARES: [f64; 3] = [0.99, 0.9, 0.6];
-
-/// Digits of the bounds.
-const FIGURES: u32 = 6;
 
 /// What keeps the undisturbed solutions in the error box: C4 with its numbers.
 pub struct Confinement<'a> {
@@ -217,11 +214,6 @@ pub(super) fn within_the_box(
         return Err(NoNoiseBound::LeavesBox { limit: s.upper_f64(), needed });
     }
     up(s).zip(up(&peak)).map(|(limit, peak)| [limit, peak]).ok_or(NoNoiseBound::NotFound)
-}
-
-/// The upper end in few digits, rounded up.
-pub(super) fn up(value: &Enclosure) -> Option<Rational> {
-    value.upper_rational().map(|upper| round_rational(&upper, FIGURES, Direction::Up))
 }
 
 /// e_low S^2, which W of the part with the inputs does not exceed.

@@ -298,10 +298,15 @@ impl Run<'_> {
         }
     }
 
-    /// Whether noise, a disturbance or rounding of the document disturbs the regulator that the claim is about.
+    /// Whether noise, a disturbance or rounding of the document disturbs the regulator that the claim is about, and is of a kind of which something may be
+    /// proved: not with an actuator, and not with a delay.
     #[must_use]
-    pub fn is_disturbed(&self) -> bool {
-        self.spec().disturbances.disturb(matches!(self, Run::Sampled(_)))
+    pub fn counts_noise(&self) -> bool {
+        let (at_samples, delayed) = match self {
+            Run::Continuous(_) => (false, false),
+            Run::Sampled(run) => (true, run.sampling.delayed),
+        };
+        self.spec().disturbances.disturb(at_samples) && self.spec().actuator.is_none() && !delayed
     }
 
     /// What is proved with a number of oscillators that was asked about in the loop with noise; `None` where nothing is, or the document has none.

@@ -40,6 +40,8 @@ pub struct DesignReport<'d> {
     pub values: Option<&'d ValuesTried>,
     /// Whether the document states noise, a disturbance or rounding that counts.
     pub disturbed: bool,
+    /// What of the document excludes bounds with noise: then all of the table is about the loop without.
+    pub no_noise_with: Option<&'d str>,
     /// Whether the document states E0; else it goes with the gain.
     pub states_e0: bool,
     /// Whether the document leaves a size of the initial set open.
@@ -120,14 +122,18 @@ impl DesignReport<'_> {
                      for that number."
                 ),
                 false => format!(
-                    "$`sigma = {sigma}`${values} comes closest. No gain of the table meets two conditions with each number of oscillators. The bound of the largest $`|e|`$ \
+                    "No gain of the table passes two tests with each number of oscillators; $`sigma = {sigma}`${values} comes closest. The bound of the largest $`|e|`$ \
                      is to be at most twice the larger of $`E0`$ and the bound of the steady error. Each proved rate is to be at least half of the largest one for \
                      that number."
                 ),
             };
         };
         if *is_met {
-            let scope = if self.disturbed { " in the loop with noise" } else { "" };
+            let scope = match (self.counts_noise(), self.disturbed) {
+                (true, _) => " in the loop with noise",
+                (false, true) => " in the loop without noise",
+                (false, false) => "",
+            };
             return format!(
                 "Take $`sigma = {sigma}`$ with $`n_o = {n_o}`${values}: every requirement is proved to be met{scope}."
             );
@@ -171,16 +177,19 @@ impl DesignReport<'_> {
             ),
             None => String::new(),
         };
+        let without =
+            " The whole table is about the loop without noise, disturbance and rounding; nothing is proved about these";
         let noise = match (self.disturbed, self.has_noise()) {
-            (false, _) => "",
+            (false, _) => String::new(),
             (true, true) => {
-                " The time to settle and the columns from that of the noise on are about the loop with the noise, disturbance and rounding of the document: what \
-                 these add to $`|e|`$ in the limit, that limit of $`|e|`$ itself, the largest $`|e|`$ and the largest $`|u|`$. The certificate has the first of \
-                 them, this program alone derives the others. The columns before are about the loop without noise."
+                " The time to settle and the four columns on noise are about the loop with the noise, disturbance and rounding of the document. Of them only the \
+                 noise in $`|e|`$ is in the certificate; this program alone derives the others from it. All other columns are about the loop without noise."
+                    .to_owned()
             }
-            (true, false) => {
-                " The whole table is about the loop without noise, disturbance and rounding; nothing is proved about these."
-            }
+            (true, false) => match self.no_noise_with {
+                Some(other) => format!("{without} with {other}."),
+                None => format!("{without}."),
+            },
         };
         let middle = self.middle.map_or_else(String::new, |middle| {
             format!(" less {}, the middle of the range of the actuator", write_exact(middle))
@@ -200,6 +209,11 @@ impl DesignReport<'_> {
 
     fn has_simulations(&self) -> bool {
         self.cells().any(|cell| cell.simulated.is_some())
+    }
+
+    /// Whether requirements are about the loop with noise.
+    fn counts_noise(&self) -> bool {
+        self.disturbed && self.no_noise_with.is_none()
     }
 
     fn has_noise(&self) -> bool {
@@ -319,9 +333,8 @@ impl DesignReport<'_> {
         remarks.push(format!("initial set, {of_gain}: {set}{open}"));
         remarks.push(format!("assumed: {assumed}"));
         for (which, said) in [
-            "steady error: if the certificate has no bounds by the number of oscillators, this program derives the bound from the claim, and the checker does not decide it",
-            "largest error: if the certificate has no bounds by the number of oscillators, this program derives the bound from the proof of the \
-             claim, and the checker does not decide it",
+            "steady error: some or all of these bounds are in no certificate; this program derives them from the claim, and the checker does not decide them",
+            "largest error: some or all of these bounds are in no certificate; this program derives them from the proof of the claim, and the checker does not decide them",
         ]
         .into_iter()
         .enumerate()
@@ -366,11 +379,11 @@ impl DesignReport<'_> {
         let steady_control = cell.map(|cell| &row.cells[cell].steady_control);
         let too_much = steady_control.filter(|steady| steady.upper_rational().is_some_and(|steady| steady > one.asked));
         let fewer_or = "fewer oscillators (`--n-o`) or";
-        let of_noise = self.disturbed && !matches!(one.requirement, Requirement::Settling | Requirement::Noise);
+        let of_noise = self.counts_noise() && !matches!(one.requirement, Requirement::Settling | Requirement::Noise);
         let help = match one.requirement {
             _ if of_noise && one.proved.is_none() && !self.has_noise() => {
-                "nothing is proved of the noise, disturbance and rounding of the document at the gains of the table; without these lines the requirement is \
-                 about the loop without them"
+                "nothing is proved of `measurement`, `disturbance` and `arithmetic` of the document at the gains of the table; larger gains (`--sigma`) or \
+                 a bounding specification (`sigmastar bound`) may help, and without these lines the requirement is about the loop without noise"
                     .to_owned()
             }
             _ if of_noise && one.proved.is_none() => {
@@ -410,7 +423,7 @@ impl DesignReport<'_> {
 
     /// A requirement in words.
     fn words(&self, one: &Compared) -> &'static str {
-        one.requirement.words(self.sampling.is_some(), self.disturbed)
+        one.requirement.words(self.sampling.is_some(), self.counts_noise())
     }
 
     fn misses(&self, requirement: Requirement) -> bool {

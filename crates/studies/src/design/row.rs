@@ -2,7 +2,7 @@
 
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
-use sigmastar_prove::certify::{BoundsOfCount, UnderNoise};
+use sigmastar_prove::certify::{BoundsOfCount, Stated, UnderNoise};
 use sigmastar_prove::reduction::Run;
 
 /// A gain with which everything in its cells is proved, each an upper bound for every solution from the initial set there, in the loop without noise. Where
@@ -44,7 +44,7 @@ pub struct Cell {
 /// What is proved of a loop with noise.
 #[derive(Clone, Debug)]
 pub enum Noise {
-    /// The document has none: the loop is the one without.
+    /// The document has none, or none of which anything may be proved: the loop is the one without.
     Absent,
     /// Nothing.
     NotProved,
@@ -78,9 +78,20 @@ impl Row {
     pub fn of(run: &Run<'_>, counts: &[u32]) -> Option<Row> {
         let certified = run.certified()?;
         let said = run.of_counts();
-        let disturbed = run.is_disturbed();
+        let counts_noise = run.counts_noise();
         let cell = |n_o: &u32| {
             let BoundsOfCount { steady_error, peak_error, control, steady_control } = run.bounds_of(*n_o)?;
+            let noise = match run.under_noise(*n_o) {
+                Some(found) => Noise::Proved(found),
+                None if counts_noise => Noise::NotProved,
+                None => Noise::Absent,
+            };
+            // What holds with noise holds without.
+            let with_noise = if let Noise::Proved(found) = &noise { Some(&found.peak_error) } else { None };
+            let peak_error = match with_noise.filter(|with_noise| with_noise.lt(&peak_error.bound).is_true()) {
+                Some(bound) => Stated { bound: bound.clone(), is_in_certificate: false },
+                None => peak_error,
+            };
             let said = said.iter().find(|said| said.n_o == *n_o);
             Some(Cell {
                 n_o: *n_o,
@@ -90,11 +101,7 @@ impl Row {
                 control,
                 steady_control,
                 decay: said.map(|said| Decay { rate: said.rate.clone(), factor: said.factor.clone() }),
-                noise: match run.under_noise(*n_o) {
-                    Some(found) => Noise::Proved(found),
-                    None if disturbed => Noise::NotProved,
-                    None => Noise::Absent,
-                },
+                noise,
                 simulated: None,
             })
         };

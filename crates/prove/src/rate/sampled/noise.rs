@@ -14,9 +14,9 @@
 //! level with `sqrt((level^2 + I)/(1+c)) + sqrt(z_up) dz <= level`, that root stays below the level, and s is `level/sqrt(e_low)`.
 
 use super::rounding::{Computed, ComputedLaw, Rounded, RoundingWitness, are_zeta_bounds, measured, settled};
-use crate::rate::bound::Place;
+use crate::rate::bound::{Place, up};
 use crate::rate::control::{RateForm, of_noise};
-use crate::rate::noise::{Confinement, NoNoiseBound, NoiseBound, kappa, proved, up, within_the_box};
+use crate::rate::noise::{Confinement, NoNoiseBound, NoiseBound, kappa, proved, within_the_box};
 use rug::Rational;
 use sigmastar_decide::rates::OscillatorMatrix;
 use sigmastar_decide::rates::at_samples::{Inputs, SampledDynamics, SampledRateWitness};
