@@ -343,8 +343,7 @@ impl DesignReport<'_> {
                 remarks.push(said.to_owned());
             }
         }
-        let known_by_count = |cell: &Cell| cell.are_in_certificate[1];
-        if self.sampling.is_some() && row.cells.len() > 1 && !self.cells().any(known_by_count) {
+        if self.is_same_for_all(row) {
             remarks.push(
                 "steady error: at samples only plants that are linear in x and e have bounds by the number of oscillators. Here more oscillators do not \
                  lower the bound"
@@ -401,6 +400,7 @@ impl DesignReport<'_> {
                 }
             }
             Requirement::PeakError => "a larger gain (`--sigma`) or a smaller initial set may help".to_owned(),
+            Requirement::SteadyError if self.is_same_for_all(row) => "a larger gain (`--sigma`) may help".to_owned(),
             Requirement::SteadyError => "more oscillators (`--n-o`) or a larger gain (`--sigma`) may help".to_owned(),
             Requirement::Control => too_much.map_or_else(
                 || format!("a smaller initial set, {fewer_or} a smaller gain (`--sigma`) may help"),
@@ -419,6 +419,12 @@ impl DesignReport<'_> {
             Requirement::Noise => format!("less noise, {fewer_or} a smaller gain (`--sigma`) may help"),
         };
         format!("{}: {help}", self.words(one))
+    }
+
+    /// Whether nothing is known of the steady error by the number of oscillators, at samples.
+    fn is_same_for_all(&self, row: &Row) -> bool {
+        let known_by_count = |cell: &Cell| cell.are_in_certificate[1];
+        self.sampling.is_some() && row.cells.len() > 1 && !self.cells().any(known_by_count)
     }
 
     /// A requirement in words.

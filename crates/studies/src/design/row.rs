@@ -49,7 +49,7 @@ pub enum Noise {
     /// Nothing.
     NotProved,
     /// Upper bounds.
-    Proved(UnderNoise),
+    Proved(Box<UnderNoise>),
 }
 
 /// An exponential bound.
@@ -82,7 +82,7 @@ impl Row {
         let cell = |n_o: &u32| {
             let BoundsOfCount { steady_error, peak_error, control, steady_control } = run.bounds_of(*n_o)?;
             let noise = match run.under_noise(*n_o) {
-                Some(found) => Noise::Proved(found),
+                Some(found) => Noise::Proved(Box::new(found)),
                 None if counts_noise => Noise::NotProved,
                 None => Noise::Absent,
             };
@@ -186,7 +186,7 @@ pub(super) mod tests {
         let steady_error = add(&cell.steady_error, &limit);
         let peak_error = add(&cell.peak_error, &Rational::from(&limit + &misled));
         let control = add(&cell.control, &Rational::from(7));
-        Cell { noise: Noise::Proved(UnderNoise { limit, misled, steady_error, peak_error, control }), ..cell }
+        Cell { noise: Noise::Proved(Box::new(UnderNoise { limit, misled, steady_error, peak_error, control })), ..cell }
     }
 
     #[test]
