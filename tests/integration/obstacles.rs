@@ -154,7 +154,7 @@ fn each_cause_is_told_where_it_is_one() {
 #[test]
 fn each_cause_at_samples_is_told_where_it_is_one() {
     let overshoots = "h sigma exceeds 1";
-    let every = "h sigma > 1 for every gain that norms may prove";
+    let every = "h sigma > 1 for every gain that may be proved by norms";
     let decay = "the decay from sample to sample is not positive";
     let large = [("/internal_model/mu", "15")];
     let changes: [&[(&str, &str)]; 2] = [&[], &large];
