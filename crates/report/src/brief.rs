@@ -12,7 +12,7 @@ use sigmastar_document::{Block, clean};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, write_exact};
 use sigmastar_lang::spec::Specification;
-use sigmastar_prove::certify::{ByCount, Certification, SampledCertification, claimed_ball};
+use sigmastar_prove::certify::{ByCount, Certification, SampledCertification};
 use sigmastar_prove::rate::bound::RateBound;
 use sigmastar_prove::rate::found::ForCount;
 use sigmastar_prove::rate::noise::{NoNoiseBound, NoiseBound};
@@ -272,10 +272,7 @@ fn letters(spec: &Specification, what: &str) -> Option<String> {
 
 /// The initial set, of a plant the ball in it, and where its sizes are from.
 fn initial_set(spec: &Specification, set: &ClaimedSet, [x, e, ..]: &[Enclosure; 4], when: &str) -> String {
-    let ball = spec.plant().and_then(|plant| claimed_ball(plant, &set.x0));
-    let ball = ball.map_or_else(String::new, |ball| {
-        format!("; contains the ball $`|x - x_0| <= {}`$", exact(&ball, Direction::Down))
-    });
+    let ball = words::ball(spec, set);
     let own = words::origin_of_sizes(spec, set, [x, e]);
     format!("{}, at {when}{ball}; {own}", words::set(spec, set))
 }

@@ -31,7 +31,8 @@ pub fn run_sentence(run: &Run<'_>) -> String {
 /// The initial set of a certified run, and what is assumed of the plant, in clauses with their formulas marked; `None` where nothing is certified.
 #[must_use]
 pub fn run_set_and_assumptions(run: &Run<'_>) -> Option<[String; 2]> {
-    let set = words::set(run.spec(), run.certified()?.set);
+    let (spec, claimed) = (run.spec(), run.certified()?.set);
+    let set = words::set(spec, claimed) + &words::ball(spec, claimed);
     let used = match run {
         Run::Continuous(run) => run.largest_arguments(),
         Run::Sampled(run) => run.largest_arguments(),

@@ -9,6 +9,7 @@ use sigmastar_exact::number::{Direction, write_exact};
 use sigmastar_lang::expr::quoted;
 use sigmastar_lang::spec::{Actuator, Constant, InputGain, Specification, StartSizes};
 use sigmastar_prove::certificate::members;
+use sigmastar_prove::certify::claimed_ball;
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
 
 /// Of which oscillators a claim is, by the `n_o` that it covers: of every number of them, or of every one of these `sets` (derivation, 14.7).
@@ -39,6 +40,13 @@ pub(super) fn taken(actuator: &Actuator) -> String {
             format!("$`{min} <= {put_out} <= {max}`$")
         }
     }
+}
+
+/// The ball about the orbit that lies in the initial set of a plant with states, with a semicolon before it; of others nothing.
+pub(super) fn ball(spec: &Specification, set: &ClaimedSet) -> String {
+    let ball = spec.plant().and_then(|plant| claimed_ball(plant, &set.x0));
+    let ball = ball.map(|ball| format!("; contains the ball $`|x - x_0| <= {}`$", exact(&ball, Direction::Down)));
+    ball.unwrap_or_default()
 }
 
 /// The initial set, rounded inward: `|x| <= 1, |e| <= 2, |z|_N <= 0`, or `z = M e`.
