@@ -145,7 +145,7 @@ fn gains_of_a_linear_plant_at_samples() {
         "{text}"
     );
     let (code, text) = certify(&drive(), &["--no-alternatives", "--sampling-period", "1/1000"]);
-    assert!(code == 3 && text.contains("for every gain that norms may prove"), "{text}");
+    assert!(code == 3 && text.contains("for every gain that may be proved by norms"), "{text}");
 }
 
 /// Rates at samples are proved from norms: of a claim by (Ms) the reason is told, and the claim stays; of one by norms there is a rate.
