@@ -154,7 +154,8 @@ fn conclusion(spec: &Specification, (set, ball): (&ClaimedSet, Option<&Rational>
         if spec.bounds.own(Bound::Rate).is_some() { " and the contraction `rate` (given, not proved)" } else { "" };
     let harmonics = if spec.q_0.is_some() { " and harmonics of q(t,0,0) within `q_0` (given, not proved)" } else { "" };
     format!(
-        "the closed loop of every plant within the bounding functions{domain} and {triple}{rate}{harmonics} has a T-periodic solution. Every solution from |x| <= {}, {}, {start}, converges exponentially to it.{}",
+        "the closed loop of every plant within the bounding functions{domain} and {triple}{rate}{harmonics} has a T-periodic \
+         solution. Every solution from |x| <= {}, {}, {start}, converges exponentially to it.{}",
         write_exact(&set.x0),
         of_regulator(set),
         never_cut_off(spec),

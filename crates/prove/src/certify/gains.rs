@@ -66,7 +66,7 @@ fn row_of(spec: &Specification, proof: SharpProof, other: Option<Arc<Specificati
 /// pool may have data of its own for it. One at which nothing is proved has none.
 fn larger_rows(own: &Specification, proof: &SharpProof, pool: &[Member<'_>], counts: &[u32]) -> Vec<GainRow> {
     let reach = proof.decided().reach();
-    let unit = unit_of_gains(&proof.witness.sigma, &Data::new(own, proof.precision).period);
+    let unit = unit_of_gains(&proof.witness.sigma, &own.period.nominal().enclose(proof.precision));
     let row = |tenths: &u32| {
         let sigma = larger(*tenths, &unit);
         let (spec, proof) = best_at(pool, &sigma)?;
@@ -125,7 +125,7 @@ impl SampledCertification<'_> {
             rates: Vec::new(),
             proof: RowProof::Sampled(Box::new(proof.clone())),
         };
-        let unit = unit_of_gains(&proof.witness.sigma, &Data::new(self.spec, proof.precision).period);
+        let unit = unit_of_gains(&proof.witness.sigma, &self.spec.period.nominal().enclose(proof.precision));
         let at = |tenths: &u32| {
             let sigma = larger(*tenths, &unit);
             let run = certify_sampled(self.spec, &self.sampling, Some(&sigma), start, ladder).ok()?;

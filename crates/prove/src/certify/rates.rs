@@ -315,7 +315,8 @@ pub fn rates_in_words<'a>(
     let start = if spec.initial_set.is_aligned() { " (z = M e of the measured e)" } else { "" };
     let sentences = |SaidOfCount { n_o, rate, factor, noise }: SaidOfCount<'_>| {
         let of_rate = format!(
-            " With n_o = {n_o} and sigma = {sigma} exactly, |e(t) - e_per(t)| <= {} exp(-{} (t - t_0)){instants} for these solutions, where e_per is the e of the periodic solution and t_0 the initial time.",
+            " With n_o = {n_o} and sigma = {sigma} exactly, |e(t) - e_per(t)| <= {} exp(-{} (t - t_0)){instants} for these solutions, where e_per is \
+             the e of the periodic solution and t_0 the initial time.",
             apart(factor),
             apart(rate),
         );

@@ -2,9 +2,9 @@
 //!
 //! By Proposition N, and at samples N_h or A, the difference to the periodic solution is the sum of a part from the start and one from the inputs, which
 //! is at most S. With the rate the first one is at most `C exp(-rate (t - t_0))`, and of an aligned start, which aligns to the e that is measured, as
-//! much more as [`NoiseBound::misled`] times the same exponential. What bounds u by the conditions of a claim is U, which does not grow along the part from the
-//! start either. Of a plant that is linear in x and e the periodic solution and the part from the start
-//! are a solution without noise from the same set, but for what misleads that start.
+//! much more as [`NoiseBound::misled`] times the same exponential. What bounds u by the conditions of a claim is U, which does not grow along the part from
+//! the start either. Of a plant that is linear in x and e the periodic solution and the part from the start are a solution without noise from the same set,
+//! but for what misleads that start.
 
 use super::certification::Certification;
 use super::gain_row::{ByCount, CountProof};
@@ -20,14 +20,14 @@ use sigmastar_exact::enclosure::Enclosure;
 pub struct UnderNoise {
     /// Of the limit superior of |e - e_per|: S.
     pub limit: Rational,
-    /// Of |e - e_per| at all times it is at most S, and `factor + misled` times the exponential of the rate.
+    /// What an aligned start adds to the factor: |e - e_per| is at most `S + (factor + misled) exp(-rate (t - t_0))`, at samples at the sampling instants.
     pub misled: Rational,
     /// Of the limit superior of |e|.
     pub steady_error: Enclosure,
     /// Of |e| at all times.
     pub peak_error: Enclosure,
-    /// Of what is put out at all times.
-    pub control: Enclosure,
+    /// Of what is put out at all times, where that is proved.
+    pub control: Option<Enclosure>,
 }
 
 /// From what is proved without noise and of it.
@@ -49,7 +49,7 @@ fn under_noise<P, Q>(
         false => from_the_box,
     };
     let steady_error = with(&steady_error.bound, &[limit]);
-    let control = with(control, &[added]);
+    let control = added.as_ref().map(|added| with(control, &[added]));
     Some(UnderNoise { limit: limit.clone(), misled: misled.clone(), steady_error, peak_error, control })
 }
 

@@ -52,19 +52,20 @@ impl RateForm<'_> {
     }
 }
 
-/// What is added to what is put out at all times, rounded up; `None` where nothing is proved. `control` is u of y, `level` of the root of W of the part with the
-/// inputs, and `directly` what v and rounding add to u at the same time.
+/// What is added to what is put out at all times, rounded up; `None` where nothing is proved. `control` is u of y, `level` bounds the root of W of the part with
+/// the inputs, `misled` that of the part by which the start is misled; `gain` v is in u at the same time, of either sign, with |v| <= v_bar, and `rounding` bounds
+/// what that adds to u.
 pub(super) fn of_noise(
     data: &Data<'_>,
     control: &[Enclosure],
     (pi, level): (&[Vec<Rational>], &Enclosure),
     (rate, misled): (&RateForm<'_>, &Enclosure),
-    directly: &Enclosure,
+    [gain, v_bar, rounding]: [&Enclosure; 3],
 ) -> Option<Rational> {
     let of_inputs = largest(pi, control)? * level;
     let of_start = if misled.is_zero() { data.zero() } else { largest(rate.pi, control)? * misled };
     let nominal = data.spec.input_gain.as_ref().map(|gain| gain.nominal.enclose(data.precision));
-    let all = of_inputs + of_start + directly;
+    let all = of_inputs + of_start + gain.abs() * v_bar + rounding;
     up(&nominal.map_or_else(|| all.clone(), |nominal| &all / nominal))
 }
 
@@ -81,6 +82,33 @@ fn largest(pi: &[Vec<Rational>], c: &[Enclosure]) -> Option<Enclosure> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use sigmastar_lang::spec::Specification;
+
+    /// Noise counts by the size of what it is in u, whose sign goes with the angles of the oscillators; an input gain divides all of it.
+    #[test]
+    fn noise_counts_whatever_its_sign() {
+        let text = include_str!("../../../../specs/linear.json").replace(r#""kind": "paper""#, r#""kind": "aligned""#);
+        let gain = r#"{ "input_gain": { "nominal": 4, "low": 4, "high": 4 },"#;
+        let pi = vec![vec![Rational::from(2)], vec![Rational::from(1), Rational::from(1)]];
+        let e_low = Rational::from((1, 2));
+        let z_up = Rational::from(9);
+        let rate = RateForm { n_o: 0, pi: &pi, e_low: &e_low, z_up: &z_up };
+        for (text, nominal) in [(text.clone(), 1.0), (text.replacen('{', gain, 1), 4.0)] {
+            let spec = Specification::from_json("test", &text).unwrap();
+            let data = Data::new(&spec, 128);
+            let control = [3.0, -1.0].map(|entry| data.rational(&Rational::from_f64(entry).unwrap()));
+            let [level, v_bar, rounding] = [2.0, 0.5, 0.25].map(Enclosure::exactly);
+            let misled = rate.misled(&data, &v_bar);
+            // 3 |M v|_N, and sqrt(17) for c by Pi in both parts.
+            let start = 1.5 * data.n_bar.midpoint_f64();
+            let expected = ((2.0 + start) * 17f64.sqrt() + 10.0 * 0.5 + 0.25) / nominal;
+            for gain in [10.0, -10.0].map(Enclosure::exactly) {
+                let found = of_noise(&data, &control, (&pi, &level), (&rate, &misled), [&gain, &v_bar, &rounding]);
+                let found = found.unwrap().to_f64();
+                assert!(found >= expected * (1.0 - 1e-12) && found < expected * (1.0 + 1e-4), "{found} {expected}");
+            }
+        }
+    }
 
     /// By hand: Pi^-1 of [[2, 1], [1, 1]] is [[1, -1], [-1, 2]], of which c = (3, -1) takes 9 + 6 + 2.
     #[test]

@@ -61,8 +61,8 @@ pub struct NoiseBound<P> {
     pub peak: Rational,
     /// What an aligned start adds to |e - e_per|, as it aligns to the e that is measured ([`RateForm`]), between samples too, in the unit of e.
     pub misled: Rational,
-    /// What is added to what is put out at all times, by an aligned start too.
-    pub control: Rational,
+    /// What is added to what is put out at all times, by an aligned start too; none where no bound of it is proved.
+    pub control: Option<Rational>,
 }
 
 /// Why there are no such bounds. It says nothing about the loop.
@@ -166,10 +166,9 @@ pub fn noise_bound(
     let v_bar = data.rational(&sizes[1]);
     let misled = rate.misled(data, &v_bar);
     let of_inputs = (&witness.pi[..], &(data.rational(&level(&witness, &sizes)).sqrt()));
-    let directly = dynamics.noise_gain() * v_bar;
-    let control = of_noise(data, &dynamics.control(), of_inputs, (rate, &misled), &directly);
-    let misled = up(&(misled / data.rational(rate.e_low).sqrt()));
-    let (misled, control) = misled.zip(control).ok_or(NoNoiseBound::NotFound)?;
+    let directly = [&dynamics.noise_gain(), &v_bar, &data.zero()];
+    let control = of_noise(data, &dynamics.control(), of_inputs, (rate, &misled), directly);
+    let misled = up(&(misled / data.rational(rate.e_low).sqrt())).ok_or(NoNoiseBound::NotFound)?;
     Ok(NoiseBound { proof: NoiseByForm { witness, has_x: bounds.has_x }, e_low, limit, peak, misled, control })
 }
 

@@ -272,8 +272,9 @@ impl DesignReport<'_> {
                 }));
                 let limit = cell.noise_limit().map(|limit| exact(limit, Direction::Up));
                 let with_noise = limit.zip(cell.in_all());
-                let of_noise = with_noise
-                    .map(|(limit, [steady, peak, control])| [limit, upper(steady), upper(peak), upper(control)]);
+                let of_noise = with_noise.map(|(limit, [steady, peak])| {
+                    [limit, upper(steady), upper(peak), cell.control_in_all().map_or_else(not_proved, upper)]
+                });
                 cells.extend(of_noise.unwrap_or_else(|| [(); 4].map(|()| not_proved())).into_iter().filter(|_| noise));
                 cells.extend(longest.clone());
                 table.push(cells);
@@ -485,7 +486,7 @@ fn outside(cell: &Cell) -> Vec<&'static str> {
 fn with_noise_json(cell: &Cell) -> Option<Value> {
     let Noise::Proved(found) = &cell.noise else { return None };
     Some(json!({
-        "steady_error": full(&found.steady_error), "peak_error": full(&found.peak_error), "max_control": full(&found.control),
+        "steady_error": full(&found.steady_error), "peak_error": full(&found.peak_error), "max_control": found.control.as_ref().map(full),
     }))
 }
 

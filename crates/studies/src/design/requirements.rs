@@ -41,15 +41,15 @@ impl Requirement {
         }
     }
 
-    /// In words, its formulas marked; of the law at samples, or not, and of a document with noise, or not.
+    /// In words, its formulas marked; of the law at samples, or not, and of the loop with noise, or not.
     #[must_use]
-    pub fn words(self, at_samples: bool, disturbed: bool) -> &'static str {
+    pub fn words(self, at_samples: bool, noisy: bool) -> &'static str {
         match self {
-            Requirement::SteadyError if disturbed => "steady $`|e|`$ with noise",
-            Requirement::PeakError if disturbed => "largest $`|e|`$ with noise",
-            Requirement::Control if disturbed => "largest $`|u|`$ with noise",
-            Requirement::Settling if at_samples && disturbed => "periods to settle with noise, at samples",
-            Requirement::Settling if disturbed => "periods to settle with noise",
+            Requirement::SteadyError if noisy => "steady $`|e|`$ with noise",
+            Requirement::PeakError if noisy => "largest $`|e|`$ with noise",
+            Requirement::Control if noisy => "largest $`|u|`$ with noise",
+            Requirement::Settling if at_samples && noisy => "periods to settle with noise, at samples",
+            Requirement::Settling if noisy => "periods to settle with noise",
             Requirement::Settling if at_samples => "periods to settle, at samples",
             Requirement::SteadyError => "steady $`|e|`$",
             Requirement::PeakError => "largest $`|e|`$",
@@ -128,9 +128,9 @@ impl Requirements {
     #[must_use]
     pub fn compared(&self, cell: &Cell, period: &Enclosure) -> Vec<Compared> {
         let proved = |requirement| match requirement {
-            Requirement::SteadyError => cell.in_all().and_then(|[steady, ..]| steady.upper_rational()),
-            Requirement::PeakError => cell.in_all().and_then(|[_, peak, _]| peak.upper_rational()),
-            Requirement::Control => cell.in_all().and_then(|[.., control]| control.upper_rational()),
+            Requirement::SteadyError => cell.in_all().and_then(|[steady, _]| steady.upper_rational()),
+            Requirement::PeakError => cell.in_all().and_then(|[_, peak]| peak.upper_rational()),
+            Requirement::Control => cell.control_in_all().and_then(Enclosure::upper_rational),
             Requirement::Settling => {
                 self.steady_error.as_ref().and_then(|limit| cell.settling(limit, period)?.upper_rational())
             }
@@ -185,30 +185,26 @@ mod tests {
                 Requirement::Noise => Requirements { noise: value, ..Requirements::default() },
             }
         };
-        for (requirement, least, below) in [
+        let quiet = [
             (Requirement::SteadyError, (1, 1), (99, 100)),
             (Requirement::PeakError, (2, 1), (199, 100)),
             (Requirement::Control, (3, 1), (299, 100)),
             // 1 + 5 exp(-t) is 2 at log 5 = 1.6094...
             (Requirement::Settling, (16095, 10000), (16094, 10000)),
-        ] {
-            let met = |value| {
-                let compared = with(requirement, value).compared(&bounds, &period);
-                compared.iter().find(|one| one.requirement == requirement).map(Compared::is_met)
-            };
-            assert_eq!([met(least), met(below)], [Some(true), Some(false)], "{requirement:?}");
-        }
+        ];
         // With noise |e| has its limit besides, and the control what the noise adds.
-        for (requirement, least, below) in [
+        let noisy = [
             (Requirement::SteadyError, (5, 4), (124, 100)),
             (Requirement::PeakError, (9, 4), (224, 100)),
             (Requirement::Control, (10, 1), (999, 100)),
             // 1.25 + 5 exp(-t) is 2 at log(20/3) = 1.89711...
-            (Requirement::Settling, (189712, 100_000), (189711, 100_000)),
+            (Requirement::Settling, (189_712, 100_000), (189_711, 100_000)),
             (Requirement::Noise, (1, 4), (249, 1000)),
-        ] {
+        ];
+        let all = quiet.map(|case| (&bounds, case)).into_iter().chain(noisy.map(|case| (&with_noise, case)));
+        for (cell, (requirement, least, below)) in all {
             let met = |value| {
-                let compared = with(requirement, value).compared(&with_noise, &period);
+                let compared = with(requirement, value).compared(cell, &period);
                 compared.iter().find(|one| one.requirement == requirement).map(Compared::is_met)
             };
             assert_eq!([met(least), met(below)], [Some(true), Some(false)], "{requirement:?}");

@@ -5,7 +5,8 @@ use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_prove::certify::{BoundsOfCount, Stated, UnderNoise};
 use sigmastar_prove::reduction::Run;
 
-/// A gain with which everything in its cells is proved, each an upper bound for every solution from the initial set there, in the loop without noise. Where
+/// A gain with which everything in its cells is proved, each an upper bound for every solution from the initial set there, in the loop without noise but for what
+/// says otherwise. Where
 /// the certificate of the gain has a bound, it is the number that stands there.
 #[derive(Clone, Debug)]
 pub struct Row {
@@ -120,14 +121,23 @@ impl Cell {
         }
     }
 
-    /// Of |e| in the end and at all times, and of what is put out at all times, in the loop as the document has it, with its noise; `None` where nothing is
-    /// proved of that.
+    /// Of |e| in the end and at all times in the loop as the document has it, with its noise; `None` where nothing is proved of that.
     #[must_use]
-    pub fn in_all(&self) -> Option<[&Enclosure; 3]> {
+    pub fn in_all(&self) -> Option<[&Enclosure; 2]> {
         match &self.noise {
-            Noise::Absent => Some([&self.steady_error, &self.peak_error, &self.control]),
+            Noise::Absent => Some([&self.steady_error, &self.peak_error]),
             Noise::NotProved => None,
-            Noise::Proved(found) => Some([&found.steady_error, &found.peak_error, &found.control]),
+            Noise::Proved(found) => Some([&found.steady_error, &found.peak_error]),
+        }
+    }
+
+    /// The same of what is put out at all times.
+    #[must_use]
+    pub fn control_in_all(&self) -> Option<&Enclosure> {
+        match &self.noise {
+            Noise::Absent => Some(&self.control),
+            Noise::NotProved => None,
+            Noise::Proved(found) => found.control.as_ref(),
         }
     }
 
@@ -139,7 +149,7 @@ impl Cell {
         let Decay { rate, factor } = self.decay.as_ref()?;
         let precision = period.precision();
         let exact = |value: &Rational| Enclosure::from_rational(value, precision);
-        let [steady, ..] = self.in_all()?;
+        let [steady, _] = self.in_all()?;
         let misled = match &self.noise {
             Noise::Proved(found) => exact(&found.misled),
             Noise::Absent | Noise::NotProved => exact(&Rational::new()),
@@ -185,7 +195,7 @@ pub(super) mod tests {
         let add = |bound: &Enclosure, more: &Rational| bound + Enclosure::from_rational(more, 64);
         let steady_error = add(&cell.steady_error, &limit);
         let peak_error = add(&cell.peak_error, &Rational::from(&limit + &misled));
-        let control = add(&cell.control, &Rational::from(7));
+        let control = Some(add(&cell.control, &Rational::from(7)));
         Cell { noise: Noise::Proved(Box::new(UnderNoise { limit, misled, steady_error, peak_error, control })), ..cell }
     }
 

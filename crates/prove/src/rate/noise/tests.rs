@@ -157,10 +157,10 @@ fn limits_are_above_what_the_worst_inputs_do() {
                 println!(
                     "{name} {n_o} {fields} gain {gain} limit {:.4e} worst {worst:.4e} ratio {ratio:.3} of u {:.3} lambda {:.3e} {seconds:.1} s",
                     noise.limit.to_f64(),
-                    noise.control.to_f64() / worst_control,
+                    noise.control.as_ref().expect("proved").to_f64() / worst_control,
                     noise.proof.witness.rate.to_f64()
                 );
-                let of_control = noise.control.to_f64() / worst_control;
+                let of_control = noise.control.as_ref().expect("proved").to_f64() / worst_control;
                 assert!(ratio >= 1.0 && of_control >= 1.0, "{name} {n_o} {fields}: {ratio} {of_control}");
             }
         }
@@ -187,7 +187,7 @@ fn an_aligned_start_is_misled_by_what_is_measured() {
         let [[_, largest], [of_inputs, of_start]] =
             worst(&data, &there, gain.parse().expect("a decimal"), *n_o, [0.0, 1e-9]);
         let ratio = noise.misled.to_f64() / largest;
-        let of_control = noise.control.to_f64() / (of_inputs + of_start);
+        let of_control = noise.control.as_ref().expect("proved").to_f64() / (of_inputs + of_start);
         println!("n_o = {n_o}: {:.4e}, {ratio:.3} times what is simulated, u {of_control:.3}", noise.misled.to_f64());
         assert!((1.0..20.0).contains(&ratio) && of_control >= 1.0, "{n_o}: {ratio} {of_control}");
     }

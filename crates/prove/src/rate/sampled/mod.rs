@@ -9,4 +9,6 @@ pub mod noise;
 pub mod rounding;
 
 #[cfg(test)]
+mod control_tests;
+#[cfg(test)]
 mod form_tests;

@@ -123,14 +123,14 @@ pub fn noise_bound(
     let bracket = Enclosure::one(data.precision) - &half * (k_e + coupling);
     let s = (at_samples + half * d_bar) / &bracket;
     let misled = rate.misled(data, &v_bar);
-    let directly = dynamics.noise_gain() * &v_bar + of_rounding;
-    let control = of_noise(data, &dynamics.control(), (&witness.pi, &level), (rate, &misled), &directly);
+    let directly = [&dynamics.noise_gain(), &v_bar, &of_rounding];
+    let control = of_noise(data, &dynamics.control(), (&witness.pi, &level), (rate, &misled), directly);
     // Of the part that starts misled that is so at the ends of each sample, and x is 0 at its start, too.
     let misled = up(&(misled / number(rate.e_low).sqrt() / &bracket));
     if !(data.zero().lt(&error_box.rate).is_true() && data.zero().lt(&bracket).is_true()) {
         return Err(not_found);
     }
     let [limit, peak] = within_the_box(data, error_box, confinement, &s)?;
-    let (misled, control) = misled.zip(control).ok_or(not_found)?;
+    let misled = misled.ok_or(not_found)?;
     Ok(NoiseBound { proof: SampledNoise { witness, rounding }, e_low, limit, peak, misled, control })
 }
