@@ -36,6 +36,8 @@ struct Taken {
     of_e: [Rational; 2],
     /// This share of those of e(s), of w and of p.
     share: Rational,
+    /// What h/pi is multiplied by: 1, or 3/2 where the control moves within a sample, for `(a + b)^2 <= 9/4 a^2 + 9/5 b^2`.
+    stretch: Rational,
 }
 
 /// What a form has in p with a delay.
@@ -80,7 +82,8 @@ impl Step {
             [lambda, w, &taken.of_e[0], &taken.of_e[1], c_y, &left].map(|value| formulas.number(value));
         let s = if at_end { h } else { zero };
         let (share, kept) = (formulas.make(h * sigma), formulas.make(one - s * sigma));
-        let (reach, minus_half) = (formulas.make(lambda * h / pi), formulas.make(-(k_p / two)));
+        let stretch = formulas.number(&taken.stretch);
+        let (reach, minus_half) = (formulas.make(lambda * stretch * h / pi), formulas.make(-(k_p / two)));
         let [of_s, of_kept] = [s, kept].map(|factor| formulas.make(lambda * factor));
         // Beside e_k: -lambda (1 - s sigma) for e, -w (1 - h sigma) + lambda s (1 - s sigma) for y, and of its own square
         // w sigma (2 - h sigma) + lambda (1 - s sigma)^2. For p h sigma times what y has, but for the gain.
@@ -141,11 +144,32 @@ pub fn questions(model: &mut Model, part: &Inequality, law: &Terms, spec: &Speci
             ("diag(2 w_x rate P, c_e, c_y, 0, 0)", [Rational::new(), part.metric.least[1].clone()])
         }
     };
-    let taken = Taken { of_e, share: Rational::new() };
+    let taken = Taken { of_e, share: Rational::new(), stretch: Rational::from(1) };
     let all = gains.iter().flat_map(|gain| [(gain, false), (gain, true)]).map(|(gain, at_end)| {
         let (rows, order) = (step.rows(model, (&part.metric, &taken), (gain, None), at_end), model.states());
         let what = format!("F_h,{} >= {least}{}", if at_end { "h" } else { "0" }, gain.at);
         Said::of(part, what, part.at.each_ref(), Question::new(&mut model.formulas, rows, order))
+    });
+    Ok(all.collect())
+}
+
+/// The questions of a form around a trial (14.6b), with what they are about: for s = 0 and s = h, at both ends of b.
+pub fn near_trial(
+    model: &mut Model,
+    metric: &Metric,
+    law: &Terms,
+    spec: &Specification,
+) -> Outcome<Vec<(String, Question)>> {
+    let step = Step::new(&mut model.formulas, metric, law, spec)?;
+    let gains = ends(&mut model.formulas, spec, &law.sigma);
+    let of_e = [metric.least[1].clone(), Rational::new()];
+    let taken = Taken { of_e, share: Rational::new(), stretch: Rational::from((3, 2)) };
+    let order = model.states();
+    let all = gains.iter().flat_map(|gain| [(gain, false), (gain, true)]).map(|(gain, at_end)| {
+        let rows = step.rows(model, (metric, &taken), (gain, None), at_end);
+        let place = if at_end { "h" } else { "0" };
+        let what = format!("F_s >= c_x |x|^2 + c_e e_s^2 + c_y y^2 - gamma q_0^2 for s = {place}{}", gain.at);
+        (what, Question::new(&mut model.formulas, rows, order))
     });
     Ok(all.collect())
 }
@@ -160,7 +184,7 @@ pub fn falls(
 ) -> Outcome<Vec<(String, Question)>> {
     let step = Step::new(&mut model.formulas, metric, law, spec)?;
     let gains = ends(&mut model.formulas, spec, &law.sigma);
-    let taken = Taken { of_e: [Rational::new(), metric.least[1].clone()], share };
+    let taken = Taken { of_e: [Rational::new(), metric.least[1].clone()], share, stretch: Rational::from(1) };
     let pasts: Vec<(&str, Option<Past>)> = match &within.g_m {
         None => vec![("", None)],
         Some(g_m) => [(", with +", true), (", with -", false)]

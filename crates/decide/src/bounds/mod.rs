@@ -41,6 +41,7 @@ pub use engine::Engine;
 pub use explore::Explored;
 pub use majorant::{Majorant, Term};
 pub use region::{Region, RegionError};
+pub use sampled_inequality::WithinSample;
 pub use smooth::SmoothnessFailure;
 pub use tube::StatesForm;
 

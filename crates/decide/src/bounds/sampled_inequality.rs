@@ -6,13 +6,23 @@ use super::centred::{Centred, Frame};
 use super::decide::{Decision, InY, Values};
 use super::definite::SymmetricValues;
 use super::engine::Engine;
+use super::joint::{fits, lies_between};
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::Portable;
-use sigmastar_lang::spec::{Bound, SampledExistence, SampledInequality};
+use sigmastar_lang::spec::{Bound, Level, Metric, SampledExistence, SampledInequality, SampledLoop};
 use sigmastar_matrix::is_symmetric;
 use sigmastar_theory::derivation::sampled_form::{Arithmetic, FormNumbers, Less, LoopNumbers, Parts, form};
 use sigmastar_theory::evidence::Part;
+
+/// What a form around a trial has at samples besides.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct WithinSample {
+    /// lambda > 0, the multiplier of what moves within a sample.
+    pub lambda: Rational,
+    /// gamma > 0, of the square of a defect of q.
+    pub gamma: Rational,
+}
 
 impl Engine {
     /// Decides the inequality of stability, with so many boxes for each end of a sample at most.
@@ -65,6 +75,41 @@ impl Engine {
             past: None,
         };
         self.at_all_ends(&numbers, [x, e], effort, |values| of_existence(values, matrix, c_x))
+    }
+
+    /// Decides the forms of a trial at samples (14.6), with so many boxes at most for each end of a sample and of an input gain.
+    ///
+    /// Guarantee: `True` only if at every t and every point of `|y| <= X`, `|e| <= E` around the orbit of the region, with the derivatives of f and q there in the
+    /// coordinates y, the matrix of each form is positive definite for s = 0 and s = h and at both ends of an input gain, for every member: F_s of (14.6a) with 3/2 h/pi for
+    /// h/pi and q_0 beside `r x + d e_s`, less `c_x |x|^2 + c_e e_s^2 + c_y y^2`, with `gamma q_0^2` (14.6b). Each has a p of zeros, margins, lambda and gamma that are positive, and is strictly between
+    /// what its level says. For the caller to prove: what [`Engine::decide`] leaves to him, and that T/h is the number of samples.
+    #[must_use]
+    pub fn decide_held_forms(
+        &self,
+        forms: &[(Metric, Level)],
+        within: &[WithinSample],
+        at: &SampledLoop,
+        place: [&Rational; 2],
+        effort: usize,
+    ) -> Decision {
+        let fits = |((metric, level), own): (&(Metric, Level), &WithinSample)| {
+            let alone = metric.cross.iter().all(|entry| *entry == 0) && metric.weight > 0;
+            fits(metric, self.states()) && lies_between(metric, level) && alone && own.lambda > 0 && own.gamma > 0
+        };
+        if forms.len() != within.len() || !forms.iter().zip(within).all(fits) || at.sigma <= 0 {
+            return Decision::FALSE;
+        }
+        if place.into_iter().any(|end| *end < 0) {
+            return Decision::UNDECIDED;
+        }
+        let of = LoopNumbers::enclosed(at, &self.period(), self.moves(), PRECISION).with_ripple();
+        forms.iter().zip(within).fold(Decision::TRUE, |all, ((metric, _), WithinSample { lambda, gamma })| {
+            let Metric { matrix, weight, k_p, c_x, c_e, c_y, .. } = metric;
+            let [weight, k_p, c_e, c_y, lambda, gamma] = [weight, k_p, c_e, c_y, lambda, gamma].map(exact);
+            let less = Less { e_k: zero(), e: c_e, y: c_y };
+            let numbers = FormNumbers { of: &of, weight, k_p, lambda, less, gamma: Some(gamma), past: None };
+            all.and(|| self.at_all_ends(&numbers, place, effort, |values| of_existence(values, matrix, c_x)))
+        })
     }
 
     /// That F is positive definite for s = 0 and for s = h, with an input gain at both of its ends.

@@ -71,7 +71,7 @@ pub fn sizes(answers: &Answers<'_>, own: &Loop, oscillators: &Oscillators, effor
     let at = |ends: &[[Rational; 2]]| {
         let (gain, parameters) = ends.split_last()?;
         let answer = answers.answer(parameters)?;
-        let regulation = regulation.get_or_init(|| own.regulation(oscillators, &answer.lines));
+        let regulation = regulation.get_or_init(|| own.regulation(oscillators, answer.lines.len()));
         own.sizes(&answer, gain, regulation, fineness)
     };
     // What is bounded at points: no box shows less. The largest is often at a corner.

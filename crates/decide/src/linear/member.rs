@@ -83,6 +83,19 @@ impl Clock {
         let samples = i64::from(self.samples?);
         Some(Enclosure::pi(PRECISION) * 2 / (&self.fundamental * samples))
     }
+
+    /// `i k Om`.
+    fn rate(&self, k: usize) -> Complex {
+        Complex { re: Enclosure::zero(PRECISION), im: &self.fundamental * k as i64 }
+    }
+
+    /// `i k Om`; at samples `(e^{i k Om h} - 1)/h`.
+    pub(super) fn delta(&self, k: usize) -> Complex {
+        let Some((samples, step)) = self.samples.zip(self.step()) else { return self.rate(k) };
+        let [sin, cos] = half_turn(k as i64, samples);
+        // e^{i om h} - 1 = 2 i sin(om h/2) e^{i om h/2}.
+        Complex { re: sin.negate(), im: cos }.scaled(&(sin * 2 / &step))
+    }
 }
 
 /// The sine and the cosine of `pi j/N_s`.
@@ -118,25 +131,20 @@ impl Family {
     pub(super) fn answer(&self, last: usize, clock: &Clock) -> Option<Answer> {
         let rows = self.rows();
         let offsets = self.offsets.clone();
-        let mut lines: Vec<Line> =
-            (0..=last).map(|k| self.line(&rows, k, &clock.fundamental)).collect::<Option<_>>()?;
-        let Some((samples, step)) = clock.samples.zip(clock.step()) else {
+        let mut lines: Vec<Line> = (0..=last).map(|k| self.line(&rows, k, clock.rate(k))).collect::<Option<_>>()?;
+        let Some(step) = clock.step() else {
             return Some(Answer { lines, held: None, offsets });
         };
         let held = Held::new(&rows, &step, &offsets)?;
         for (k, line) in lines.iter_mut().enumerate() {
-            let [sin, cos] = half_turn(k as i64, samples);
-            // e^{i om h} - 1 = 2 i sin(om h/2) e^{i om h/2}.
-            let delta = Complex { re: sin.negate(), im: cos }.scaled(&(sin * 2 / &step));
-            *line = held_line(line, delta, &held, &offsets)?;
+            *line = held_line(line, clock.delta(k), &held, &offsets)?;
         }
         Some(Answer { lines, held: Some(held), offsets })
     }
 
-    fn line(&self, rows: &[Vec<Jet>], k: usize, fundamental: &Enclosure) -> Option<Line> {
+    fn line(&self, rows: &[Vec<Jet>], k: usize, delta: Complex) -> Option<Line> {
         let n = rows.len() - 1;
-        let frequency = fundamental * k as i64;
-        let delta = Complex { re: Enclosure::zero(PRECISION), im: frequency.clone() };
+        let frequency = delta.im.clone();
         let waves: Vec<Jet> = (0..=n).map(|i| self.jet(|member| coefficient(&member.waves[i], k))).collect();
         let right = |i: usize| [rows[i][n].clone(), waves[i].clone()];
         let [states, orbit] = resolved(rows, &delta, right, &self.offsets)?;

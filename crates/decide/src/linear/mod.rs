@@ -17,6 +17,7 @@ pub use falling::{Falling, FallingHeld, Peak, Start};
 pub use largest::{Answers, sizes};
 pub use member::{Clock, Member};
 pub use plant::{LinearPlant, MAX_LINES};
+pub(crate) use steady::Beyond;
 pub use steady::{AtSamples, Loop, Sizes};
 pub(crate) use supremum::{Fineness, Harmonics, supremum};
 

@@ -138,22 +138,40 @@ impl<T> Sizes<T> {
 pub(super) struct Regulation(Vec<Option<Beyond>>);
 
 /// What the regulator makes of a harmonic at which it has no oscillator: u = -turn e.
-struct Beyond {
+pub(crate) struct Beyond {
     /// `sigma + i y_k (i om_k + sigma)`; at samples kappa_k.
-    turn: Complex,
+    pub(crate) turn: Complex,
     /// |y| over |e|.
-    mean: Enclosure,
+    pub(crate) mean: Enclosure,
     /// |zeta|_N over |y|.
-    zeta: Enclosure,
+    pub(crate) zeta: Enclosure,
 }
 
 impl Loop {
-    /// Of the harmonic k of these oscillators.
-    fn beyond(&self, oscillators: &Oscillators, k: usize, Line { frequency, delta, .. }: &Line) -> Beyond {
+    /// `i k Om`; at samples `(e^{i k Om h} - 1)/h`.
+    pub(crate) fn delta(&self, k: usize) -> Complex {
+        self.clock().delta(k)
+    }
+
+    /// The harmonic k >= 1 of a control at its sampling instants that has this one in the mean over each sample that follows; in continuous time the same.
+    pub(crate) fn put_out(&self, k: usize, mean: Complex) -> Complex {
+        match self.held {
+            None => mean,
+            // 1/(i om_k) = -i/om_k.
+            Some(_) => {
+                let share = self.delta(k).scaled(&(&self.fundamental * k as i64).recip());
+                mean.mul(&Complex { re: share.im, im: share.re.negate() })
+            }
+        }
+    }
+
+    /// Of the harmonic k, at which none of these oscillators is.
+    pub(crate) fn beyond(&self, oscillators: &Oscillators, k: usize) -> Beyond {
+        let (frequency, delta) = (&self.fundamental * k as i64, self.delta(k));
         let sigma = || Complex::real(self.sigma.clone());
         let Some(AtSamples { samples, step, delayed }) = &self.held else {
             let y = &self.mu / &self.fundamental * self.poles(oscillators, k, 1);
-            let turn = Complex { re: &self.sigma - &y * frequency, im: &y * &self.sigma };
+            let turn = Complex { re: &self.sigma - &y * &frequency, im: &y * &self.sigma };
             let mean = (frequency.sqr() + self.sigma.sqr()).sqrt();
             return Beyond { turn, mean, zeta: self.poles(oscillators, k, 2).sqrt() / &self.fundamental };
         };
@@ -188,10 +206,9 @@ impl Loop {
         Beyond { turn, mean: mean.norm(), zeta: squares.sqrt() * step / 2 }
     }
 
-    /// Of the harmonics of these lines.
-    pub(super) fn regulation(&self, oscillators: &Oscillators, lines: &[Line]) -> Regulation {
-        let of_line = |(k, line): (usize, &Line)| (!oscillators.meets(k)).then(|| self.beyond(oscillators, k, line));
-        Regulation(lines.iter().enumerate().map(of_line).collect())
+    /// Of so many harmonics, from 0 on.
+    pub(super) fn regulation(&self, oscillators: &Oscillators, lines: usize) -> Regulation {
+        Regulation((0..lines).map(|k| (!oscillators.meets(k)).then(|| self.beyond(oscillators, k))).collect())
     }
 
     /// Bounds of the periodic solution of every member whose answer is this, with a gain of the actuator in `gain`. `None` where the answer

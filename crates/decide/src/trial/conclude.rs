@@ -1,8 +1,9 @@
 //! The tube theorem (derivation, 14.4): what (14.4a), (14.4b) and the defects say of the periodic solution.
 
 use super::curves::{Trial, of_wave};
-use crate::bounds::StatesForm;
-use crate::linear::{Fineness, Harmonics, Loop, PRECISION, supremum};
+use super::held::mean_square;
+use crate::bounds::{StatesForm, WithinSample};
+use crate::linear::{Beyond, Fineness, Harmonics, Loop, PRECISION, supremum};
 use rug::Rational;
 use sigmastar_exact::enclosure::{Enclosure, Truth};
 use sigmastar_lang::plant::CurveTerm;
@@ -26,6 +27,8 @@ pub struct TubeProof {
     pub or_more: Option<OrMore>,
     /// What falls on a larger box.
     pub x_first: Option<XFirst>,
+    /// At samples what each of the forms has there, with (14.6b) in the place of (14.4a); else nothing.
+    pub within: Vec<WithinSample>,
 }
 
 /// Forms with (14.5a) on a larger box.
@@ -63,8 +66,17 @@ pub struct Known<'a> {
     pub orbit: &'a OrbitCurve,
     /// r.
     pub radius: &'a Rational,
-    /// kappa_0 and kappa_1, proved for every number of oscillators.
-    pub kappas: &'a [Enclosure; 2],
+    /// What is known of every number of oscillators.
+    pub of_all: OfAllCounts<'a>,
+}
+
+/// What a trial for every larger number of oscillators rests on besides.
+#[derive(Clone, Copy, Debug)]
+pub enum OfAllCounts<'a> {
+    /// kappa_0 and kappa_1, proved for every number.
+    Continuous(&'a [Enclosure; 2]),
+    /// At samples: the least weight of an oscillator below half of their number.
+    AtSamples(&'a Enclosure),
 }
 
 /// Bounds of the periodic solution.
@@ -84,7 +96,7 @@ pub struct Concluded {
     pub zeta: Enclosure,
 }
 
-fn exact(value: &Rational) -> Enclosure {
+pub(super) fn exact(value: &Rational) -> Enclosure {
     Enclosure::from_rational(value, PRECISION)
 }
 
@@ -101,11 +113,68 @@ impl Concluded {
     /// on the box. Guarantee: the loop of every member has exactly one T-periodic solution in its box, and that has these bounds.
     #[must_use]
     pub fn of(trial: &Trial, proof: &TubeProof, known: &Known<'_>) -> Option<Concluded> {
-        let Known { own, period, .. } = known;
-        let (Metric { cross, k_p, c_x, c_e, c_y, .. }, Level { p_up, .. }) = proof.forms.first()?;
+        let own = known.own;
         // Without (14.4b) nothing is known of states.
         let has_states = !trial.states().mean.is_empty();
-        if !trial.is_admissible() || has_states != proof.states.is_some() || trial.or_more != proof.or_more.is_some() {
+        if !trial.is_admissible() || has_states != proof.states.is_some() {
+            return None;
+        }
+        let off = match (&own.held, proof.within.first()) {
+            (None, None) => Off::continuous(trial, proof, known)?,
+            (Some(samples), Some(within)) => Off::at_samples(trial, (proof, within), known, samples)?,
+            _ => return None,
+        };
+        let inside = [&off.x, &off.e].into_iter().zip(&proof.radii).zip([has_states, true]);
+        let is_inside = |((distance, end), asked): ((&Enclosure, &Rational), bool)| {
+            !asked || distance.lt(&exact(end)) == Truth::True
+        };
+        if !inside.into_iter().all(is_inside) {
+            return None;
+        }
+        let n_bar = own.n_bar_squared.sqrt();
+        // At samples the control is the mean of uhat over the sample that follows.
+        let control = supremum(&trial.scaled(|term| &term.control), fineness(trial))
+            + trial.mismatch(own)
+            + &own.sigma * &off.e_at_law
+            + &own.mu * n_bar * &off.zeta;
+        let of_error = trial.scaled(|term| &term.error);
+        let zero = Enclosure::zero(PRECISION);
+        let square = of_error.iter().fold(zero, |sum, harmonics| sum + mean_square(harmonics));
+        let [states, error, zeta] = Concluded::sizes_of(trial, known)?;
+        let concluded = Concluded {
+            error: error + &off.e,
+            mean_square: square + off.e_mean_square,
+            control,
+            states: states + &off.x,
+            zeta: zeta + off.zeta,
+            distances: [off.x, off.e],
+        };
+        let Concluded { error, mean_square, control, states, zeta, .. } = &concluded;
+        let bounded = [error, mean_square, control, states, zeta].into_iter().all(Enclosure::is_bounded);
+        bounded.then_some(concluded)
+    }
+}
+
+/// How far the periodic solution may be from the trial: not more than this, if that is inside the box.
+pub(super) struct Off {
+    /// s_x, of the states.
+    pub(super) x: Enclosure,
+    /// s_e, of e at all times; at samples with what e moves within one.
+    pub(super) e: Enclosure,
+    /// Of the root mean square of e.
+    pub(super) e_mean_square: Enclosure,
+    /// Of the e that the law has.
+    pub(super) e_at_law: Enclosure,
+    /// s_z, of `|zeta|_N`.
+    pub(super) zeta: Enclosure,
+}
+
+impl Off {
+    /// Theorem T.
+    fn continuous(trial: &Trial, proof: &TubeProof, known: &Known<'_>) -> Option<Off> {
+        let Known { own, period, .. } = known;
+        let (Metric { cross, k_p, c_x, c_e, c_y, .. }, Level { p_up, .. }) = proof.forms.first()?;
+        if trial.or_more != proof.or_more.is_some() {
             return None;
         }
         let [d_x, d_q] = proof.defects.each_ref().map(exact);
@@ -119,63 +188,36 @@ impl Concluded {
         let next = &own.fundamental * i64::from(trial.oscillators.first_missing());
         let of_e = (&all / &c_e).sqrt().min(&(&of_y / (own.sigma.sqr() + next.sqr()).sqrt()));
         let s_e = (*period * &of_e * &of_y).sqrt();
-        let (s_x, of_x) = match &proof.states {
-            None => (Enclosure::zero(PRECISION), Enclosure::zero(PRECISION)),
-            Some(StatesForm { q_low, q_up, c, gamma, .. }) => {
-                let [q_low, q_up, c, gamma] = [q_low, q_up, c, gamma].map(exact);
-                let inner = gamma * s_e.sqr() + q_up.sqr() * d_x.sqr() / &c;
-                ((&q_up / (q_low * &c) * inner).sqrt(), (&all / exact(c_x)).sqrt())
-            }
-        };
-        let inside = [&s_x, &s_e].into_iter().zip(&proof.radii).zip([proof.states.is_some(), true]);
-        let is_inside = |((distance, end), asked): ((&Enclosure, &Rational), bool)| {
-            !asked || distance.lt(&exact(end)) == Truth::True
-        };
-        if !inside.into_iter().all(is_inside) {
-            return None;
-        }
+        let of_x = proof.states.as_ref().map(|_| (&all / exact(c_x)).sqrt());
+        let of_x = of_x.unwrap_or_else(|| Enclosure::zero(PRECISION));
         let [low, high] = &own.gain;
         let one = || Enclosure::one(PRECISION);
         let [b_x, b_e] = proof.slopes.each_ref().map(exact);
         let b_e = b_e + &own.sigma * (high - one()).max(&(one() - low));
         let of_q = &b_x * &of_x + &b_e * &of_e + d_q;
         let swing = *period / (low * &own.mu * 2);
-        let s_z = match &proof.or_more {
+        let zeta = match &proof.or_more {
             None => (swing + largest_answer(trial, own)?).sqrt() * of_q,
             Some(OrMore { defect_t, in_time, states }) => {
+                let OfAllCounts::Continuous(kappas) = known.of_all else { return None };
                 let [[b_qtx, b_qte], [b_fx, b_fe]] = [in_time, states].map(|pair| pair.each_ref().map(exact));
-                let slope = b_qtx * &of_x + b_qte * &of_e + b_x * (b_fx * &of_x + b_fe * &of_e + d_x);
+                let slope = b_qtx * &of_x + b_qte * &of_e + b_x * (b_fx * &of_x + b_fe * &of_e + &d_x);
                 let slope = slope + b_e * &of_y + exact(defect_t);
-                let [kappa_0, kappa_1] = known.kappas.each_ref().map(|kappa| kappa / low.sqr());
+                let [kappa_0, kappa_1] = kappas.each_ref().map(|kappa| kappa / low.sqr());
                 ((swing + kappa_0) * of_q.sqr() + kappa_1 * slope.sqr()).sqrt()
             }
         };
-
-        let n_bar = own.n_bar_squared.sqrt();
-        let control = supremum(&trial.scaled(|term| &term.control), fineness(trial))
-            + trial.mismatch(own)
-            + &own.sigma * &s_e
-            + &own.mu * n_bar * &s_z;
-        let zero = || Enclosure::zero(PRECISION);
-        let mean_square = |harmonics: &Harmonics| {
-            let squares = harmonics.iter().flatten().fold(zero(), |sum, wave| sum + wave.norm_squared());
-            (squares * 2).sqrt()
-        };
-        let of_error = trial.scaled(|term| &term.error);
-        let square = of_error.iter().fold(zero(), |sum, harmonics| sum + mean_square(harmonics));
-        let [states, error, zeta] = Concluded::sizes_of(trial, known)?;
-        let concluded = Concluded {
-            error: error + &s_e,
-            mean_square: square + of_e,
-            control,
-            states: states + &s_x,
-            zeta: zeta + s_z,
-            distances: [s_x, s_e],
-        };
-        let Concluded { error, mean_square, control, states, zeta, .. } = &concluded;
-        let bounded = [error, mean_square, control, states, zeta].into_iter().all(Enclosure::is_bounded);
-        bounded.then_some(concluded)
+        let x = of_states_from(proof.states.as_ref(), &s_e, &d_x);
+        Some(Off { x, e_mean_square: of_e, e_at_law: s_e.clone(), e: s_e, zeta })
     }
+}
+
+/// s_x by (14.4b), of an error that is at most s_e and a defect of at most d_x.
+pub(super) fn of_states_from(states: Option<&StatesForm>, s_e: &Enclosure, d_x: &Enclosure) -> Enclosure {
+    let Some(StatesForm { q_low, q_up, c, gamma, .. }) = states else { return Enclosure::zero(PRECISION) };
+    let [q_low, q_up, c, gamma] = [q_low, q_up, c, gamma].map(exact);
+    let inner = gamma * s_e.sqr() + q_up.sqr() * d_x.sqr() / &c;
+    (&q_up / (q_low * &c) * inner).sqrt()
 }
 
 impl Concluded {
@@ -194,7 +236,7 @@ impl Concluded {
 }
 
 /// How closely the sizes of curves are bounded: those of a family are sums.
-fn fineness(trial: &Trial) -> Fineness {
+pub(super) fn fineness(trial: &Trial) -> Fineness {
     if trial.terms.len() > 1 { Fineness::OF_SUMS } else { Fineness::FINE }
 }
 
@@ -219,8 +261,8 @@ fn of_zeta(trial: &Trial, own: &Loop, CurveTerm { error, control, .. }: &CurveTe
         within = within + u.norm_squared() / own.mu.sqr() / own.weights.get(k)? * both;
     }
     for (k, e) in of_wave(error).iter().enumerate().filter(|(k, _)| !oscillators.meets(*k)) {
-        let of_y = ((&own.fundamental * k as i64).sqr() + own.sigma.sqr()).sqrt() * e.norm();
-        beyond = beyond + own.poles(oscillators, k, 2).sqrt() * of_y / &own.fundamental * 2;
+        let Beyond { mean, zeta, .. } = own.beyond(oscillators, k);
+        beyond = beyond + zeta * mean * e.norm() * 2;
     }
     Some(within.sqrt() + beyond)
 }

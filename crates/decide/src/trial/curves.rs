@@ -85,17 +85,16 @@ impl Trial {
         self.terms.iter().map(scaled).collect()
     }
 
-    /// kappa: over all terms the sum of `sup|delta^alpha|` times twice the sum of `|uhat_k + (sigma + i y_k (i om_k + sigma)) ehat_k|` over the k <= K that are not in H.
+    /// kappa: over all terms the sum of `sup|delta^alpha|` times twice the sum of `|uhat_k + (sigma + i y_k (i om_k + sigma)) ehat_k|` over the k <= K that are not in H;
+    /// at samples of `|(e^{i om_k h} - 1)/(i om_k h) uhat_k + kappa_k ehat_k|`, for there uhat is what is put out in the mean.
     #[must_use]
     pub fn mismatch(&self, own: &Loop) -> Enclosure {
         let zero = || Enclosure::zero(PRECISION);
         let of_term = |CurveTerm { powers, error, control, .. }: &CurveTerm| {
             let degree = error.harmonics.len().max(control.harmonics.len());
             let of = |k: usize| {
-                let y = &own.mu / &own.fundamental * own.poles(&self.oscillators, k, 1);
-                let frequency = &own.fundamental * k as i64;
-                let answer = Complex { re: &own.sigma - &y * &frequency, im: y * &own.sigma };
-                harmonic(control, k).add(&answer.mul(&harmonic(error, k))).norm() * 2
+                let answer = own.beyond(&self.oscillators, k).turn;
+                own.put_out(k, harmonic(control, k)).add(&answer.mul(&harmonic(error, k))).norm() * 2
             };
             let beyond = (1..=degree).filter(|k| !self.oscillators.meets(*k));
             let all = beyond.fold(zero(), |sum, k| sum + of(k));

@@ -7,8 +7,9 @@
 mod conclude;
 mod curves;
 mod defects;
+mod held;
 mod peak;
 
-pub use conclude::{Concluded, Known, OrMore, TubeProof, XFirst};
+pub use conclude::{Concluded, Known, OfAllCounts, OrMore, TubeProof, XFirst};
 pub use curves::Trial;
 pub use peak::Peaks;

@@ -39,7 +39,7 @@ pub use peak_program::{FallingForm, PeakOf, PeakProgram};
 pub use place::{Place, Places};
 pub use pointwise::{Asked, Derivatives, MatrixAt, Slopes as PointSlopes};
 pub use sampled_pairs::{Corners, MatrixArguments};
-pub use sampled_peak::{HeldForm, HeldProgram};
+pub use sampled_peak::{HeldForm, HeldGoal, HeldProgram};
 pub use sampled_point::{SampledEnergy, SampledRadius, SampledWeights};
 pub use sampled_threshold::{Focus, thresholds};
 pub use slopes::{FloatSlopes, matrix_of};

@@ -6,6 +6,7 @@ use super::place::{Place, Places};
 use super::pointwise::{Derivatives, Slopes};
 use super::suprema::{FloatSuprema, Starts};
 use sigmastar_lang::spec::Bound;
+use sigmastar_matrix::doubles::largest;
 use sigmastar_theory::evidence::Part;
 
 /// Points that are added where what was found does not hold, and how often.
@@ -38,6 +39,19 @@ impl PeakBox {
 }
 
 impl FloatSuprema {
+    /// The least eigenvalue of `-(Q J + J'Q)` that is met at the points of a box.
+    #[must_use]
+    pub fn least_decay(&self, at: [f64; 2], q: &[Vec<f64>]) -> f64 {
+        let n = q.len();
+        let growth = |derivatives: &Derivatives<'_>| {
+            let Slopes { j, .. } = Slopes::from(derivatives);
+            let product = |i: usize, k: usize| (0..n).map(|l| q[i][l] * j[l * n + k]).sum::<f64>();
+            largest((0..n).map(|i| (0..n).map(|k| product(i, k) + product(k, i)).collect()).collect())
+        };
+        let all = self.of_derivatives(at, &Places::Stride(1), |derivatives, _| growth(derivatives));
+        -all.into_iter().fold(f64::NEG_INFINITY, f64::max)
+    }
+
     /// A form with a small peak on a box around the orbit of the samples; `program` says what the loop is, and keeps the points that were needed: with those of
     /// another search on such a box less has to be sought. `None` where none is found.
     pub fn propose_peak(

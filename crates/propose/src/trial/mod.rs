@@ -43,8 +43,10 @@ pub struct TrialLoop<'a> {
     pub gain: f64,
     /// sigma.
     pub sigma: f64,
-    /// mu.
+    /// mu; at samples K.
     pub mu: f64,
+    /// N_s, at samples: uhat is what the control is in the mean over the sample that follows.
+    pub samples: Option<u32>,
     /// At which harmonics the oscillators are.
     pub oscillators: Oscillators,
     /// n_0, and those of these harmonics.
@@ -70,14 +72,41 @@ impl TrialLoop<'_> {
         self.or_more || self.oscillators.meets(k)
     }
 
-    /// `sigma + i y_k (i om_k + sigma)`, by which the regulator multiplies -e_k; of a k that no oscillator meets.
+    /// `sigma + i y_k (i om_k + sigma)`, by which the regulator multiplies -e_k; of a k that no oscillator meets. At samples `kappa_k i om_k/delta_k`.
     fn answer(&self, k: usize, period: f64) -> [f64; 2] {
         let omega = TAU / period;
+        if let Some(samples) = self.samples {
+            return self.held_answer(k, [omega, period], f64::from(samples));
+        }
         let at = |l: f64| (l - k as f64).recip();
         let both = |l: u32| if l == 0 { at(0.0) } else { (at(f64::from(l)) + at(-f64::from(l))) / 2.0 };
         let poles: f64 = self.oscillators.all().zip(&self.weights).map(|(l, weight)| weight * both(l)).sum();
         let y = self.mu / omega * poles;
         [self.sigma - y * omega * k as f64, y * self.sigma]
+    }
+
+    fn held_answer(&self, k: usize, [omega, period]: [f64; 2], samples: f64) -> [f64; 2] {
+        let product = |[a, b]: [f64; 2], [c, d]: [f64; 2]| [a * c - b * d, a * d + b * c];
+        let step = period / samples;
+        let angle = |l: f64| PI * (k as f64 - l) / samples;
+        let cotangent = |l: f64| libm::tan(angle(l)).recip();
+        let both = |l: u32| {
+            let l = f64::from(l);
+            if l == 0.0 { cotangent(0.0) } else { (cotangent(l) + cotangent(-l)) / 2.0 }
+        };
+        let all = || self.oscillators.all().zip(&self.weights);
+        // g_k, and delta_k = 2 i sin(om_k h/2) e^{i om_k h/2}/h.
+        let poles = [
+            -0.5 * all().map(|(_, weight)| weight).sum::<f64>(),
+            -0.5 * all().map(|(l, weight)| weight * both(l)).sum::<f64>(),
+        ];
+        let (sin, cos) = libm::sincos(angle(0.0));
+        let delta = [-2.0 * sin * sin / step, 2.0 * sin * cos / step];
+        let of_mean = product(poles, [delta[0] + self.sigma, delta[1]]).map(|part| part * self.mu * step);
+        // i om_k/delta_k.
+        let size = delta[0] * delta[0] + delta[1] * delta[1];
+        let held = [delta[1], delta[0]].map(|part| part * omega * k as f64 / size);
+        product([self.sigma + of_mean[0], of_mean[1]], held)
     }
 
     /// `i om_k + b (sigma + i y_k (i om_k + sigma))`, by which e_k is multiplied where q is answered; of such a k.
@@ -94,7 +123,9 @@ impl TrialLoop<'_> {
         let n = self.plant.states();
         let own = field.own(orbit);
         let mut start: Option<FloatSeries> = None;
-        let fits = |harmonics: usize| (n + 1) * (2 * harmonics + 1) <= MAX_UNKNOWNS;
+        // Samples tell so many harmonics apart.
+        let apart = |harmonics: usize| self.samples.is_none_or(|samples| 2 * harmonics < samples as usize);
+        let fits = |harmonics: usize| (n + 1) * (2 * harmonics + 1) <= MAX_UNKNOWNS && apart(harmonics);
         let is_beyond = |harmonics: usize| harmonics >= self.oscillators.first_missing() as usize;
         // Where none of these harmonics is beyond the oscillators e vanishes.
         let vanishes = self.or_more || !HARMONICS.into_iter().any(|harmonics| is_beyond(harmonics) && fits(harmonics));

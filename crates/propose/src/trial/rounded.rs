@@ -120,6 +120,7 @@ mod tests {
             plant: &plant,
             gain: 1.0,
             sigma: 3.0,
+            samples: None,
             mu: 1.0,
             oscillators: 0.into(),
             weights: vec![2.0],

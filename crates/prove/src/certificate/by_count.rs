@@ -5,7 +5,7 @@ use super::json::{exact, object, rows, series, vector, with_room};
 use crate::certify::{ByCount, CountBounds, CountProof, LoopSizes};
 use rug::Rational;
 use serde_json::{Value, json};
-use sigmastar_decide::bounds::StatesForm;
+use sigmastar_decide::bounds::{StatesForm, WithinSample};
 use sigmastar_decide::linear::Falling;
 use sigmastar_decide::trial::{OrMore, Trial, TubeProof, XFirst};
 use sigmastar_exact::enclosure::Enclosure;
@@ -125,7 +125,7 @@ fn falling(Falling { matrix, p_up, weight, k_p, held }: &Falling) -> Value {
 }
 
 fn of_trial(trial: &Trial, proof: &TubeProof) -> Value {
-    let TubeProof { defects: [d_x, d_q], radii, slopes, forms, states, or_more, x_first } = proof;
+    let TubeProof { defects: [d_x, d_q], radii, slopes, forms, states, or_more, x_first, within } = proof;
     let has_states = states.is_some();
     let curves = |CurveTerm { states, error, control, .. }: &CurveTerm| {
         let states = has_states.then(|| ("x", object(series("mean", states, |part| vector(part)))));
@@ -154,7 +154,14 @@ fn of_trial(trial: &Trial, proof: &TubeProof) -> Value {
     let curves = trial.terms.first().into_iter().flat_map(curves).chain(members);
     let numbers = pair(&[d_x.clone(), d_q.clone()], ["defect_x", "defect_q"]).into_iter();
     let numbers = numbers.chain([("box", object(pair(radii, ["x", "e"])))]).chain(pair(slopes, ["q_x", "q_e"]));
-    let forms = [("forms", forms.iter().map(form).collect())];
+    let with_sample = |(i, metric_and_level): (usize, &(Metric, Level))| {
+        let mut part = form(metric_and_level);
+        if let Some(WithinSample { lambda, gamma }) = within.get(i) {
+            (part["lambda"], part["gamma"]) = (exact(lambda), exact(gamma));
+        }
+        part
+    };
+    let forms = [("forms", forms.iter().enumerate().map(with_sample).collect())];
     let more = or_more.iter().flat_map(|OrMore { defect_t, in_time, states: [f_x, f_e] }| {
         let of_states = has_states.then(|| [("f_x", exact(f_x)), ("f_e", exact(f_e))]);
         let numbers = pair(in_time, ["q_tx", "q_te"]).into_iter().chain(of_states.into_iter().flatten());

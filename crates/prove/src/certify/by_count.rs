@@ -3,7 +3,7 @@
 use super::certification::Certification;
 use super::gain_row::{ByCount, CountBounds, CountProof, GainRow, Largest, LoopSizes, RowProof};
 use super::sampled::SampledCertification;
-use super::trials::{Asked, by_trials};
+use super::trials::{Asked, ClaimProof, OfWitness, by_trials};
 use rug::Rational;
 use sigmastar_decide::conditions::SharpProof;
 use sigmastar_decide::linear::{
@@ -16,7 +16,7 @@ use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{Oscillators, Sampling, Specification};
 use sigmastar_matrix::doubles::largest;
 use sigmastar_matrix::inverse;
-use sigmastar_propose::bounds::{FallingForm, HeldForm, HeldProgram, PeakOf, PeakProgram, PointSlopes};
+use sigmastar_propose::bounds::{FallingForm, HeldForm, HeldGoal, HeldProgram, PeakOf, PeakProgram, PointSlopes};
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::control::Control;
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
@@ -141,7 +141,11 @@ fn form(
             let moves = Some(program.gain.map(|b| 1.0 - b));
             let of_law = LoopNumbers::new(program.sigma, held.step.midpoint_f64(), law, &std::f64::consts::PI, moves);
             let past = held.delayed.then(|| (&start.y0 + &sizes.mean).upper_f64());
-            rounded_at_samples(&program.propose_at_samples(of, margin, &HeldProgram { of: of_law, past })?)
+            rounded_at_samples(&program.propose_at_samples(
+                HeldGoal::Peak(of),
+                margin,
+                &HeldProgram { of: of_law, past },
+            )?)
         }
     };
     MARGINS.into_iter().filter_map(propose).find(|form| form.decide(linear, own, coordinates).is_true())
@@ -153,7 +157,7 @@ fn short(value: f64) -> Option<Rational> {
 }
 
 /// A form in short numbers, of the law at samples.
-fn rounded_at_samples(HeldForm { matrix, weight, k_p, lambda, past }: &HeldForm) -> Option<Falling> {
+fn rounded_at_samples(HeldForm { matrix, weight, k_p, lambda, past, .. }: &HeldForm) -> Option<Falling> {
     let held = FallingHeld { lambda: short(*lambda)?, past: past.map_or(Some(None), |past| short(past).map(Some))? };
     Some(Falling { held: Some(held), ..of_numbers(matrix, *weight, *k_p)? })
 }
@@ -236,15 +240,18 @@ impl Certification<'_> {
                 let exact = |value: &Rational| Enclosure::from_rational(value, PRECISION);
                 let periodic = &evaluation.periodic;
                 let data = Data::new(self.spec, PRECISION);
+                let of_witness = OfWitness {
+                    witness,
+                    periodic: [periodic.x_per.clone(), periodic.e_per.clone()],
+                    kappas: data.kappas(&exact(&witness.k0), &exact(&witness.k1)),
+                    data,
+                };
                 by_trials(&Asked {
                     plant,
                     spec: self.spec,
                     sigma: &witness.sigma,
                     set: &witness.set,
-                    witness,
-                    periodic: [periodic.x_per.clone(), periodic.e_per.clone()],
-                    kappas: data.kappas(&exact(&witness.k0), &exact(&witness.k1)),
-                    data,
+                    proof: ClaimProof::Continuous(Box::new(of_witness)),
                     besides: &besides,
                 })
             }
@@ -302,8 +309,26 @@ impl SampledCertification<'_> {
         let every_set = self.spec.internal_model.asks_every_set();
         let besides: Vec<Oscillators> =
             besides.iter().filter(|set| every_set || set.n_o().is_some()).cloned().collect();
-        let found = self.claim().and_then(|proof| self.counts_at((plant, &besides), &proof.witness, EFFORTS[0]));
+        let counts = |witness: &SampledWitness| match LinearPlant::of(plant) {
+            Some(_) => self.counts_at((plant, &besides), witness, EFFORTS[0]),
+            None => self.trials_at((plant, &besides), witness),
+        };
+        let found = self.claim().and_then(|proof| counts(&proof.witness));
         self.by_count = found;
+    }
+
+    /// By trials, of a law without a delay.
+    fn trials_at(&self, (plant, besides): (&Plant, &[Oscillators]), witness: &SampledWitness) -> Option<ByCount> {
+        let Specification { internal_model: model, disturbances, .. } = self.spec;
+        if !model.matched || disturbances.disturb(true) || witness.delay.is_some() {
+            return None;
+        }
+        // The last oscillator that the samples tell apart has the least weight.
+        let last = u64::from((witness.sampling.samples - 1) / 2);
+        let least_weight = model.weights.weight(last, PRECISION);
+        let proof = ClaimProof::AtSamples { law: witness.about(), least_weight };
+        let (sigma, set) = (&witness.sigma, &witness.set);
+        by_trials(&Asked { plant, spec: self.spec, sigma, set, proof, besides })
     }
 
     /// The rows with such bounds.

@@ -80,6 +80,12 @@ where
         LoopNumbers { across: &step / pi, sigma, step, gain, kept, moved }
     }
 
+    /// With 3/2 of h/pi: for differences that a control that moves within a sample moves, too, as `(a + b)^2 <= 9/4 a^2 + 9/5 b^2` (derivation, 14.6).
+    #[must_use]
+    pub fn with_ripple(self) -> LoopNumbers<R> {
+        LoopNumbers { across: self.across * R::int(3) / R::int(2), ..self }
+    }
+
     /// Both ends of a sample, with both ends of an input gain and, with a delay, both signs of what it adds: F is affine in where it is in the
     /// sample, in b, and in b_1 of the law.
     pub fn corners(&self, delayed: bool) -> impl Iterator<Item = Corner<'_, R>> {

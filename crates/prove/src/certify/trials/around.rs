@@ -3,11 +3,11 @@
 use rug::Rational;
 use sigmastar_decide::bounds::{Engine, Region};
 use sigmastar_decide::linear::{Loop, PRECISION, Start};
-use sigmastar_decide::trial::{Concluded, Known, Trial};
+use sigmastar_decide::trial::{Concluded, Known, OfAllCounts, Trial};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, round_f64};
 use sigmastar_lang::plant::{CurveTerm, Plant};
-use sigmastar_lang::spec::{Interval, OfPlant, Oscillators, ProvedCell, Specification};
+use sigmastar_lang::spec::{Interval, OfPlant, Oscillators, ProvedCell, SampledLoop, Specification};
 use sigmastar_matrix::inverse;
 use sigmastar_propose::bounds::{FloatCurve, FloatSuprema};
 use sigmastar_propose::orbit::FloatSeries;
@@ -42,15 +42,44 @@ pub(in crate::certify) struct Asked<'a> {
     pub(in crate::certify) sigma: &'a Rational,
     pub(in crate::certify) set: &'a ClaimedSet,
     /// What proves it.
+    pub(in crate::certify) proof: ClaimProof<'a>,
+    /// Oscillators that are looked at besides.
+    pub(in crate::certify) besides: &'a [Oscillators],
+}
+
+/// What proves the claim.
+pub(in crate::certify) enum ClaimProof<'a> {
+    /// In continuous time.
+    Continuous(Box<OfWitness<'a>>),
+    /// At samples, without a delay.
+    AtSamples {
+        /// The gain, N_s, K and Nb2.
+        law: SampledLoop,
+        /// Of an oscillator below half of the samples.
+        least_weight: Enclosure,
+    },
+}
+
+/// What proves a claim in continuous time.
+pub(in crate::certify) struct OfWitness<'a> {
+    /// The free numbers.
     pub(in crate::certify) witness: &'a SharpWitness,
-    /// Its `x_per` and `e_per`.
+    /// `x_per` and `e_per`.
     pub(in crate::certify) periodic: [Enclosure; 2],
-    /// The numbers of its formulas.
+    /// The numbers of the formulas.
     pub(in crate::certify) data: Data<'a>,
     /// kappa_0 and kappa_1.
     pub(in crate::certify) kappas: [Enclosure; 2],
-    /// Oscillators that are looked at besides.
-    pub(in crate::certify) besides: &'a [Oscillators],
+}
+
+impl Asked<'_> {
+    /// N_s and the rest of the law, at samples.
+    pub(super) fn law(&self) -> Option<&SampledLoop> {
+        match &self.proof {
+            ClaimProof::Continuous(_) => None,
+            ClaimProof::AtSamples { law, .. } => Some(law),
+        }
+    }
 }
 
 /// The oscillators of one trial.
@@ -93,7 +122,10 @@ impl Around<'_> {
             period: &prepared.period,
             orbit: &orbit.approximation,
             radius: &orbit.radius,
-            kappas: &self.asked.kappas,
+            of_all: match &self.asked.proof {
+                ClaimProof::Continuous(of) => OfAllCounts::Continuous(&of.kappas),
+                ClaimProof::AtSamples { least_weight, .. } => OfAllCounts::AtSamples(least_weight),
+            },
         }
     }
 
@@ -125,7 +157,8 @@ impl Around<'_> {
         let model = &spec.internal_model;
         let weight = |l: u32| model.weights.weight(u64::from(l), PRECISION).midpoint_f64();
         let weights: Vec<f64> = self.oscillators.all().map(weight).collect();
-        let mu = model.mu.enclose(PRECISION).midpoint_f64();
+        let law = self.asked.law();
+        let mu = law.map_or_else(|| model.mu.enclose(PRECISION).midpoint_f64(), |law| law.law.gain.to_f64());
         let gain = self.gain();
         let members = Members { plant, orbit: &self.cell.orbit.approximation, gain: gain.as_ref() };
         members.propose(|plant, gain| TrialLoop {
@@ -133,6 +166,7 @@ impl Around<'_> {
             gain,
             sigma: sigma.to_f64(),
             mu,
+            samples: law.map(|law| law.samples),
             oscillators: self.oscillators.clone(),
             weights: weights.clone(),
             resolved: if self.is_family() { SMALL_OF_FAMILY } else { SMALL_OF_ONE },
@@ -152,7 +186,10 @@ impl Around<'_> {
         let degree = trial.terms.iter().map(|term| term.error.harmonics.len()).max()?;
         let gain = spec.input_gain.as_ref().and_then(|gain| gain.factors(PRECISION));
         let last = degree.max(trial.oscillators.largest() as usize);
-        let own = Loop::new(sigma, model, last, gain, inverse(l)?);
+        let mut own = Loop::new(sigma, model, last, gain, inverse(l)?);
+        if let Some(SampledLoop { samples, law, .. }) = self.asked.law() {
+            own = own.at_samples(law, *samples, false);
+        }
         let own = if self.or_more { own } else { own.with_oscillators(&trial.oscillators)? };
         let about = trial.about(plant);
         let defects = self.defects(&trial, &about, &own)?;

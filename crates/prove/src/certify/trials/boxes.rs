@@ -33,7 +33,7 @@ const FAR: f64 = 2.0;
 const ROOMY: f64 = 1.08;
 
 /// The points of a program.
-type Points = Vec<(Part, PointSlopes)>;
+pub(super) type Points = Vec<(Part, PointSlopes)>;
 
 /// A box that solutions from the set do not leave, as far as is seen.
 pub(super) struct Fit {
@@ -45,14 +45,14 @@ pub(super) struct Fit {
 }
 
 /// A form that was found.
-struct Fitted {
+pub(super) struct Fitted {
     /// The box on which it was sought.
     at: [f64; 2],
     /// The one that solutions do not leave by it.
-    radii: [f64; 2],
+    pub(super) radii: [f64; 2],
     form: FallingForm,
     /// Where it was looked at.
-    points: Points,
+    pub(super) points: Points,
 }
 
 impl Around<'_> {
@@ -61,7 +61,7 @@ impl Around<'_> {
         if self.is_family() { MARGINS_OF_FAMILY } else { MARGINS }
     }
 
-    fn program(&self, prepared: &Prepared, reach: Option<f64>) -> PeakProgram {
+    pub(super) fn program(&self, prepared: &Prepared, reach: Option<f64>) -> PeakProgram {
         let own = &prepared.own;
         PeakProgram {
             points: Vec::new(),
@@ -70,19 +70,19 @@ impl Around<'_> {
             mu: own.mu.midpoint_f64(),
             n_bar_squared: own.n_bar_squared.midpoint_f64(),
             start: prepared.distances,
-            joint: true,
+            joint: self.asked.law().is_none(),
             reach,
         }
     }
 
-    /// The box that solutions from the set do not leave, with the smallest peak that is found, and forms on it; along x first with that eta. `near`: the box
+    /// The box that solutions from the set do not leave, with the smallest peak that is found; along x first with that eta. `near`: the box
     /// that serves another number of oscillators.
-    pub(super) fn peak_box(
+    pub(super) fn fitted_box(
         &self,
         prepared: &Prepared,
         margin: f64,
         (x_first, near): (Option<f64>, Option<&[Rational; 2]>),
-    ) -> Option<Fit> {
+    ) -> Option<Fitted> {
         let [d_x, d_e, _] = prepared.distances;
         let has_states = self.asked.plant.states() > 0;
         let found_on = |at: [f64; 2], looked: LookedAt, points: Points| {
@@ -153,7 +153,17 @@ impl Around<'_> {
             Some(_) if radii[1] < ALIKE * at[1] => (radii, Vec::new()),
             Some(_) => (radii, points),
         };
-        let Fitted { radii, form, points, .. } = fitted(at, LookedAt::Between, points)?;
+        fitted(at, LookedAt::Between, points)
+    }
+
+    /// That box, and forms on it.
+    pub(super) fn peak_box(
+        &self,
+        prepared: &Prepared,
+        margin: f64,
+        (x_first, near): (Option<f64>, Option<&[Rational; 2]>),
+    ) -> Option<Fit> {
+        let Fitted { radii, form, points, .. } = self.fitted_box(prepared, margin, (x_first, near))?;
         let peak = form.level.sqrt();
         let more = |of: PeakOf, margin: f64| {
             let mut program = self.program(prepared, None);

@@ -2,10 +2,12 @@
 //!
 //! - `around`: a trial with everything that is evaluated around it;
 //! - `boxes`: boxes around it and forms that fall there, proposed;
+//! - `held`: the same of the law at samples (14.6);
 //! - `proved`: what is proved there.
 
 mod around;
 mod boxes;
+mod held;
 mod proved;
 
 use super::gain_row::{ByCount, CountBounds, CountProof, Largest, LoopSizes};
@@ -13,6 +15,7 @@ use around::{Around, Prepared};
 use boxes::Fit;
 use proved::{Promised, rounded, short};
 use rug::Rational;
+use sigmastar_decide::bounds::WithinSample;
 use sigmastar_decide::linear::PRECISION;
 use sigmastar_decide::trial::{Concluded, Peaks, Trial, TubeProof};
 use sigmastar_exact::enclosure::Enclosure;
@@ -21,7 +24,7 @@ use sigmastar_lang::spec::{Level, Metric, Oscillators};
 use sigmastar_theory::derivation::control::{Control, Reach};
 use std::collections::BTreeSet;
 
-pub(super) use around::Asked;
+pub(super) use around::{Asked, ClaimProof, OfWitness};
 
 /// The numbers of oscillators that are looked at where they are not looked at one by one, and from where on all of them at once.
 const COUNTS: [u32; 6] = [0, 1, 2, 3, 5, 10];
@@ -34,6 +37,9 @@ const WORTH: f64 = 0.97;
 /// The shares of the distances of the start that a box has around a trial of which nothing is known further away, in turn.
 const SMALL_BOXES: [f64; 3] = [1e-4, 1e-2, 0.1];
 
+/// Forms; at samples with what each has there.
+type Forms = (Vec<(Metric, Level)>, Vec<WithinSample>);
+
 /// What is proved, what follows, and the peaks where they are known.
 type Proved = (TubeProof, Concluded, Option<Peaks>);
 
@@ -43,9 +49,11 @@ pub(super) fn by_trials(asked: &Asked<'_>) -> Option<ByCount> {
     let of_plant = spec.plant()?;
     let cell = of_plant.undivided().filter(|_| plant.period.interval().is_none())?;
     let around = |oscillators: Oscillators, or_more: bool| Around { asked, of_plant, cell, oscillators, or_more };
-    let (mut counts, from): (BTreeSet<u32>, u32) = match around(OR_MORE.into(), true).met_by() {
-        Some(from) => ((0..from).collect(), from),
-        None => (BTreeSet::from(COUNTS), OR_MORE),
+    // Samples tell so many oscillators apart.
+    let most = asked.law().map_or(u32::MAX, |law| (law.samples - 1) / 2);
+    let (mut counts, from): (BTreeSet<u32>, u32) = match around(OR_MORE.min(most).into(), true).met_by() {
+        Some(from) if from <= most => ((0..from).collect(), from),
+        _ => (COUNTS.into_iter().filter(|n_o| *n_o < most).collect(), OR_MORE.min(most)),
     };
     // What it is proved with serves the others in many cases.
     let last = around(from.into(), true).bounds(None);
@@ -65,9 +73,14 @@ impl Around<'_> {
     /// The bounds; `other`: what is proved for another number of oscillators.
     fn bounds(&self, other: Option<&TubeProof>) -> Option<(CountBounds, (Trial, TubeProof))> {
         let prepared = self.prepared()?;
-        let nominal = self.asked.spec.input_gain.as_ref().map(|gain| gain.nominal.enclose(PRECISION));
+        if let Some(law) = self.asked.law() {
+            let (proof, concluded, peaks) = self.at_samples(&prepared, law, other)?;
+            let Peaks { error, control, .. } = peaks?;
+            let bounds = self.count_bounds(&concluded, Reach { error, transient: control });
+            return Some((bounds, (prepared.trial, proof)));
+        }
         let alone = |(radii, forms): ([Rational; 2], Vec<(Metric, Level)>)| {
-            let promised = self.promised(&prepared, radii, forms)?;
+            let promised = self.promised(&prepared, radii, (forms, Vec::new()))?;
             let concluded = self.concluded(&prepared, &promised)?;
             Some((self.decided(&prepared, promised)?, concluded, None))
         };
@@ -83,7 +96,7 @@ impl Around<'_> {
             Some((known, Some(_))) => alone(known).or_else(small)?,
             Some(((radii, forms), None)) => {
                 let own = |known: Option<f64>| self.with_own_peaks(&prepared, Some(&radii), known);
-                let known = || self.with_peaks(&prepared, radii.clone(), forms.clone());
+                let known = || self.with_peaks(&prepared, radii.clone(), (forms.clone(), Vec::new()));
                 let expected = || forms.iter().filter_map(|form| self.expected(&prepared, form)).min_by(f64::total_cmp);
                 let first = if self.oscillators.first_missing() <= OWN {
                     expected().and_then(|expected| own(Some(expected)))
@@ -104,15 +117,22 @@ impl Around<'_> {
         }
         // The solution is that of the claim: its function falls along the differences, too.
         let own = self.reach_by_the_claim(&prepared, &concluded);
-        let reach = match peaks {
-            Some(Peaks { error, control, .. }) => {
-                Reach { error: own.error.min(&error), transient: own.transient.min(&control) }
+        let by_forms = peaks.map(|Peaks { error, control, .. }| Reach { error, transient: control });
+        let reach = match (own, by_forms) {
+            (Some(own), Some(Reach { error, transient })) => {
+                Reach { error: own.error.min(&error), transient: own.transient.min(&transient) }
             }
-            None => own,
+            (own, by_forms) => own.or(by_forms)?,
         };
+        Some((self.count_bounds(&concluded, reach), (prepared.trial, proof)))
+    }
+
+    /// The bounds, with how far solutions from the set come from the periodic one.
+    fn count_bounds(&self, concluded: &Concluded, reach: Reach<Enclosure>) -> CountBounds {
+        let nominal = self.asked.spec.input_gain.as_ref().map(|gain| gain.nominal.enclose(PRECISION));
         let Control { steady, transient } =
             Control { steady: concluded.control.clone(), transient: reach.transient }.over(nominal.as_ref());
-        let bounds = CountBounds {
+        CountBounds {
             oscillators: self.oscillators.clone(),
             or_more: self.or_more,
             steady_error: concluded.error.clone(),
@@ -124,8 +144,7 @@ impl Around<'_> {
                 mean: Enclosure::zero(PRECISION),
             },
             largest: Some(Largest { error: &concluded.error + reach.error, transient }),
-        };
-        Some((bounds, (prepared.trial, proof)))
+        }
     }
 
     /// What is proved with forms of its own; `near`: the box that serves another number of oscillators; `known`: a peak
@@ -137,7 +156,7 @@ impl Around<'_> {
                 return None;
             }
             let forms = forms.iter().map(rounded).collect::<Option<_>>()?;
-            self.with_peaks(prepared, short(radii)?, forms)
+            self.with_peaks(prepared, short(radii)?, (forms, Vec::new()))
         })
     }
 
@@ -153,7 +172,7 @@ impl Around<'_> {
     }
 
     /// What is proved with forms on a box that solutions from the set do not leave.
-    fn with_peaks(&self, prepared: &Prepared, radii: [Rational; 2], forms: Vec<(Metric, Level)>) -> Option<Proved> {
+    fn with_peaks(&self, prepared: &Prepared, radii: [Rational; 2], forms: Forms) -> Option<Proved> {
         let promised = self.promised(prepared, radii, forms)?;
         let concluded = self.concluded(prepared, &promised)?;
         let peaks_of = |proof: &TubeProof| self.peaks(prepared, &concluded, (&proof.radii, &proof.forms));
@@ -171,7 +190,8 @@ impl Around<'_> {
 
     /// (ii) of 14.4.
     fn is_of_the_claim(&self, concluded: &Concluded) -> bool {
-        let Asked { witness, periodic, .. } = self.asked;
+        let ClaimProof::Continuous(of) = &self.asked.proof else { return false };
+        let OfWitness { witness, periodic, .. } = &**of;
         let error_box = [&witness.d_x, &witness.d_e].map(|radius| Enclosure::from_rational(radius, PRECISION));
         let sizes = [&concluded.states, &concluded.error];
         let within =
@@ -180,10 +200,11 @@ impl Around<'_> {
     }
 
     /// How far solutions from the set are from the periodic one by what proves the claim, with the sizes for this number of oscillators.
-    fn reach_by_the_claim(&self, prepared: &Prepared, concluded: &Concluded) -> Reach<Enclosure> {
-        let Asked { witness, data, .. } = self.asked;
+    fn reach_by_the_claim(&self, prepared: &Prepared, concluded: &Concluded) -> Option<Reach<Enclosure>> {
+        let ClaimProof::Continuous(of) = &self.asked.proof else { return None };
+        let OfWitness { witness, data, .. } = &**of;
         let own = &prepared.own;
         let distances = prepared.start.distances(own, [&concluded.states, &concluded.error, &concluded.zeta]);
-        witness.reach(&data.with_oscillators(&own.n_bar_squared), distances.each_ref())
+        Some(witness.reach(&data.with_oscillators(&own.n_bar_squared), distances.each_ref()))
     }
 }

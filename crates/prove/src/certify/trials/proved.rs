@@ -1,5 +1,6 @@
 //! What is proved on a box around a trial (derivation, 14.4, 14.5).
 
+use super::Forms;
 use super::around::{Around, Prepared, SHORT, up};
 use super::boxes::Fit;
 use crate::attempt::prove_value;
@@ -14,7 +15,7 @@ use sigmastar_propose::bounds::{FallingForm, FloatSuprema};
 use std::ops::Range;
 
 /// Digits of the numbers of a form.
-const DIGITS: u32 = 9;
+pub(super) const DIGITS: u32 = 9;
 
 /// How much of the margins of a form is claimed.
 const KEPT: f64 = 0.5;
@@ -25,6 +26,9 @@ const ROOM: f64 = 1e-5;
 /// Boxes of the proof of a form; of a family, where each of them costs the check more.
 const EFFORT: usize = 20_000;
 const EFFORT_OF_FAMILY: usize = 4_000;
+
+/// The share of the decay that is met at points that is claimed of all.
+const OF_DECAY: f64 = 0.8;
 
 /// The share of the distance of e that eta is.
 const SMALL_ETA: f64 = 1e-4;
@@ -106,7 +110,7 @@ impl Around<'_> {
         &self,
         prepared: &Prepared,
         [x, e]: [Rational; 2],
-        forms: Vec<(Metric, Level)>,
+        (forms, within): Forms,
     ) -> Option<Promised> {
         let Prepared { engine, samples, .. } = prepared;
         let has_states = self.asked.plant.states() > 0;
@@ -117,7 +121,7 @@ impl Around<'_> {
         let of_states = |bound| if has_states { slope(bound) } else { Some(Rational::new()) };
         let slopes = [of_states(Bound::Qx)?, slope(Bound::Qe)?];
         let [d_x, d_q, d_t] = prepared.defects.clone();
-        let or_more = match self.or_more {
+        let or_more = match self.or_more && within.is_empty() {
             false => None,
             true => Some(OrMore {
                 defect_t: d_t,
@@ -133,18 +137,24 @@ impl Around<'_> {
                 Some(form)
             }
         };
-        let proof = TubeProof { defects: [d_x, d_q], radii: [x, e], slopes, forms, states, or_more, x_first: None };
+        let proof =
+            TubeProof { defects: [d_x, d_q], radii: [x, e], slopes, forms, states, or_more, x_first: None, within };
         Some(Promised(proof))
     }
 
     /// The proof, with the forms that are decided: at least the first.
     pub(super) fn decided(&self, prepared: &Prepared, Promised(promised): Promised) -> Option<TubeProof> {
-        let TubeProof { radii: [x, e], forms, .. } = &promised;
+        let TubeProof { radii: [x, e], forms, within, .. } = &promised;
         // The first is that of Theorem T.
-        let holding = holding(forms.len(), |those| {
-            prepared.engine.decide_forms(&forms[those], self.asked.sigma, [x, e], self.effort())
+        let holding = holding(forms.len(), |those| match self.asked.law() {
+            Some(law) => {
+                let (forms, within) = (&forms[those.clone()], &within[those]);
+                prepared.engine.decide_held_forms(forms, within, law, [x, e], self.effort())
+            }
+            None => prepared.engine.decide_forms(&forms[those], self.asked.sigma, [x, e], self.effort()),
         })?;
-        Some(TubeProof { forms: kept(promised.forms, &holding), ..promised })
+        let within = kept(promised.within, &holding);
+        Some(TubeProof { forms: kept(promised.forms, &holding), within, ..promised })
     }
 
     fn effort(&self) -> usize {
@@ -170,15 +180,24 @@ impl Around<'_> {
         [x, e]: [&Rational; 2],
     ) -> Option<StatesForm> {
         let pushed = samples.refined(Bound::Fe, x.to_f64(), e.to_f64()).value;
-        let c_x = metric.c_x.to_f64();
         let p_up = level.p_up.to_f64();
-        // |P g|^2 <= gamma (c_x - 2 c).
-        let gamma = 2.2 * (p_up * pushed) * (p_up * pushed) / c_x;
+        // What `-(Q J + J'Q)` has at least: by a form at samples, whose margins are small, far less is known than is met.
+        let decay = match self.asked.law() {
+            None => metric.c_x.clone(),
+            Some(_) => {
+                let q: Vec<Vec<f64>> =
+                    metric.matrix.iter().map(|row| row.iter().map(Rational::to_f64).collect()).collect();
+                let met = OF_DECAY * samples.least_decay([x.to_f64(), e.to_f64()], &q);
+                round_f64(met, DIGITS, Direction::Down).filter(|met| *met > metric.c_x).unwrap_or(metric.c_x.clone())
+            }
+        };
+        // |P g|^2 <= gamma (decay - 2 c).
+        let gamma = 2.2 * (p_up * pushed) * (p_up * pushed) / decay.to_f64();
         Some(StatesForm {
             matrix: metric.matrix.clone(),
             q_low: level.x_low.clone(),
             q_up: level.p_up.clone(),
-            c: round_rational(&Rational::from(&metric.c_x / 4u32), DIGITS, Direction::Down),
+            c: round_rational(&(decay / 4u32), DIGITS, Direction::Down),
             gamma: up(gamma, SHORT)?,
         })
     }

@@ -42,6 +42,12 @@ pub fn moves(spec: &Specification) -> bool {
 }
 
 impl Curves {
+    /// The number of the last harmonic.
+    pub fn degree(&self) -> usize {
+        let of_curve = |wave: &Wave| wave.harmonics.len();
+        self.x.iter().chain([&self.e, &self.u]).map(of_curve).max().unwrap_or(0)
+    }
+
     /// Takes `x`, with states, `e` and `u` out of an object.
     pub(super) fn take(fields: &mut Fields<'_>, entry: &Entry<'_>, states: usize, powers: Vec<u32>) -> Outcome<Curves> {
         let x = match states {

@@ -20,11 +20,14 @@ pub(super) fn radii(fields: &mut Fields<'_>, states: usize) -> Outcome<[Rational
     field.object(|fields| Ok([of_states(fields, "x", true, states)?, number(fields, "e", true)?]))
 }
 
-/// A form, whose numbers have the names of a near metric.
-pub(super) fn form(fields: &mut Fields<'_>, states: usize) -> Outcome<(Metric, Extent)> {
+/// A form, whose numbers have the names of a near metric; in continuous time, or at samples, where it has no p but zeros.
+pub(super) fn form(fields: &mut Fields<'_>, (states, continuous): (usize, bool)) -> Outcome<(Metric, Extent)> {
     let pointer = fields.pointer.clone();
     let none = Rational::new();
-    let metric = Metric::read(fields, (Kind::Joint, false), Some(true), [&none; 2])?;
+    let metric = Metric::read(fields, (Kind::Joint, !continuous), Some(true), [&none; 2])?;
+    if !continuous && metric.cross.iter().any(|entry| !entry.is_zero()) {
+        return bad(&format!("{pointer}/p"), "expected zeros, of a form at samples");
+    }
     if metric.cross.len() != states {
         return bad(&format!("{pointer}/P"), "expected a row for each state");
     }

@@ -1,5 +1,5 @@
 //! Rule: what a claim says by the number of oscillators, at its gain and no other, without noise (docs/mathematics.md, section 14), in continuous time or,
-//! of a plant that is linear in x and e, at samples: how large the error and the control are along the T-periodic solution, and at all times from the claimed set. Of a plant that is given by
+//! at samples: how large the error and the control are along the T-periodic solution, and at all times from the claimed set. Of a plant that is given by
 //! its formulas, with a matched base frequency. Where the claim is about every set of harmonics, the oscillators may be those of one set (section 14.7).
 //!
 //! Guarantee of [`prove`]: of a plant that is linear in x and e, `largest` of each entry follows from what `steady` and the witness say of the periodic
@@ -9,6 +9,7 @@
 pub mod claimed;
 pub mod curves;
 mod form;
+mod held;
 pub mod kept;
 pub mod linear;
 pub mod oscillators;
@@ -84,7 +85,11 @@ impl Witness {
             (Some(field), true) => return bad(&field.pointer, "the claim says nothing by n_o"),
         };
         let states = spec.plant.as_ref().map_or(0, |plant| plant.states);
-        let sizes = [states, curves::intervals(spec)];
+        let shape = trials::Shape {
+            states,
+            intervals: curves::intervals(spec),
+            samples: at_samples.map(|law| law.terms.samples),
+        };
         let delayed = at_samples.map(|law| law.y_0.is_some());
         let known = field.object(|fields| {
             let linear = fields
@@ -92,16 +97,15 @@ impl Witness {
             match linear {
                 Some(linear) => Ok(Some(Witness::Linear(linear))),
                 None => {
-                    let trials = fields.part("trials", |field| match at_samples {
-                        None => trials::read_all(field, claimed, sizes),
-                        Some(_) => bad(&field.pointer, "of a regulator at samples nothing is proved by trials"),
+                    let trials = fields.part("trials", |field| match delayed {
+                        Some(true) => bad(&field.pointer, "of a regulator with a delay nothing is proved by trials"),
+                        _ => trials::read_all(field, claimed, shape),
                     })?;
                     Ok(trials.map(Witness::Trials))
                 }
             }
         })?;
-        let expected = if at_samples.is_none() { "expected `linear` or `trials`" } else { "expected `linear`" };
-        known.map_or_else(|| bad(&field.pointer, expected), |known| Ok(Some(known)))
+        known.map_or_else(|| bad(&field.pointer, "expected `linear` or `trials`"), |known| Ok(Some(known)))
     }
 }
 

@@ -3,13 +3,16 @@
 //!
 //! Guarantee of [`Trial`]: no coefficient of ehat has a mean or a harmonic of an oscillator; of an entry about so many oscillators or more ehat = 0, and no
 //! coefficient of uhat has a harmonic above n_o. A harmonic that is written with 0 for both of its numbers is none. Of each form `P <= P_up I`, `Pi >= diag(x_low I, 0)` and
-//! `Pi >= diag(0, e_low)` with x_low, e_low > 0, so that Pi is positive definite. `Q_low I <= Q <= Q_up I`, and k_p, c_x, c_e, c_y, Q_low, c, gamma, D_x
+//! `Pi >= diag(0, e_low)` with x_low, e_low > 0, so that Pi is positive definite. At samples p = 0, w, lambda and gamma are above 0, and all harmonics are below half
+//! of the samples. `Q_low I <= Q <= Q_up I`, and k_p, c_x, c_e, c_y, Q_low, c, gamma, D_x
 //! and D_e are above 0. `sizes` are bounds that other rules may rest on; [`tube`](super::tube) proves them. What is said of the formulas is proved by the crate `proofs-plants`.
 
 use super::claimed::{Entry, RULE};
 use super::curves::{Curves, MEMBERS};
 use super::form::{MOST_FORMS, form, of_states, radii};
 use super::x_first::XFirst;
+use crate::data::Data;
+use crate::interval::Interval;
 use crate::json::{Field, Fields};
 use crate::matrix::{is_semidefinite, shifted};
 use crate::rules::inequality::{Extent, Metric, P, number, symmetric};
@@ -33,9 +36,9 @@ pub struct Trial {
     pub forms: Vec<(Metric, Extent)>,
     /// Of a plant with states.
     pub states: Option<States>,
-    /// There exactly if the entry is about so many oscillators or more.
+    /// There exactly if the entry is about so many oscillators or more, in continuous time.
     pub or_more: Option<OrMore>,
-    /// Where peaks are proved along x first, too.
+    /// Where peaks are proved along x first, too; not at samples.
     pub x_first: Option<XFirst>,
     /// Where something else rests on them.
     pub sizes: Option<Sizes>,
@@ -76,33 +79,54 @@ pub struct States {
     pub decay: [Rational; 2],
 }
 
-/// Reads the list `trials`, of a plant with so many states and so many numbers of which intervals are known: one for each entry of the claim.
-pub fn read_all(field: &Field<'_>, claimed: &[Entry<'_>], sizes: [usize; 2]) -> Outcome<Vec<Trial>> {
+/// Of what trials are.
+#[derive(Clone, Copy, Debug)]
+pub struct Shape {
+    /// The states of the plant.
+    pub states: usize,
+    /// Of how many numbers intervals are known.
+    pub intervals: usize,
+    /// N_s, of a claim at samples.
+    pub samples: Option<u32>,
+}
+
+/// Reads the list `trials`: one for each entry of the claim.
+pub fn read_all(field: &Field<'_>, claimed: &[Entry<'_>], shape: Shape) -> Outcome<Vec<Trial>> {
     let list = field.elements()?;
     if list.len() != claimed.len() {
         return bad(&field.pointer, format!("expected {}, one for each entry of the claim", claimed.len()));
     }
-    let read = |(field, entry): (&Field<'_>, &Entry<'_>)| field.object(|fields| Trial::take(fields, entry, sizes));
+    let read = |(field, entry): (&Field<'_>, &Entry<'_>)| field.object(|fields| Trial::take(fields, entry, shape));
     list.iter().zip(claimed).map(read).collect()
 }
 
 impl Trial {
-    fn take(fields: &mut Fields<'_>, entry: &Entry<'_>, [states, intervals]: [usize; 2]) -> Outcome<Trial> {
+    fn take(fields: &mut Fields<'_>, entry: &Entry<'_>, shape: Shape) -> Outcome<Trial> {
+        let Shape { states, intervals, samples } = shape;
+        let continuous = samples.is_none();
         let nominal = Curves::take(fields, entry, states, vec![0; intervals])?;
         let curves = match fields.optional(MEMBERS) {
             Some(field) => Curves::read_members(&field, entry, states, nominal)?,
             None => vec![nominal],
         };
+        if let Some(samples) = samples {
+            let degree = curves.iter().map(Curves::degree).max().unwrap_or(0);
+            let what = format!("its {degree} harmonics are below {samples}/2: the samples tell them apart");
+            demand(Some(2 * degree < samples as usize), RULE, &fields.pointer, what)?;
+        }
         let defects = [of_states(fields, "defect_x", false, states)?, number(fields, "defect_q", false)?];
         let radii = radii(fields, states)?;
         let slopes = [of_states(fields, "q_x", false, states)?, number(fields, "q_e", false)?];
         let list = fields.required("forms")?;
-        let forms = list.list(|field| field.object(|fields| form(fields, states)))?;
+        let forms = list.list(|field| field.object(|fields| form(fields, (states, continuous))))?;
         if forms.is_empty() || forms.len() > MOST_FORMS {
             return bad(&list.pointer, format!("expected 1 to {MOST_FORMS} forms"));
         }
-        let or_more = entry.or_more.then(|| OrMore::take(fields, states)).transpose()?;
-        let x_first = fields.part("x_first", |field| field.object(|fields| XFirst::take(fields, states)))?;
+        let or_more = (entry.or_more && continuous).then(|| OrMore::take(fields, states)).transpose()?;
+        let x_first = match continuous {
+            true => fields.part("x_first", |field| field.object(|fields| XFirst::take(fields, states)))?,
+            false => None,
+        };
         let sizes = fields.part("sizes", |field| field.object(|fields| Sizes::take(fields, states)))?;
         let states = match states {
             0 => None,
@@ -131,6 +155,13 @@ impl OrMore {
 }
 
 impl States {
+    /// s_x: how far the states go with an error that is at most `e`, and with a defect.
+    pub(super) fn follow(&self, d: &Data<'_>, e: &Interval, defect: &Rational) -> Interval {
+        let States { low, up, decay, .. } = self;
+        let [low, up, c, gamma, d_x] = [low, up, &decay[0], &decay[1], defect].map(|value| d.number(value));
+        (&up / (low * &c) * (gamma * e.sqr() + (&up * &d_x).sqr() / c)).sqrt()
+    }
+
     fn take(fields: &mut Fields<'_>, states: usize) -> Outcome<States> {
         let pointer = fields.pointer.clone();
         let field = fields.required("Q")?;

@@ -1,4 +1,4 @@
-//! What follows from a trial: Theorem T of section 14.4 of docs/mathematics.md and its corollary. Which solution it is and the peaks are in [`peaks`].
+//! What follows from a trial: Theorem T of section 14.4 of docs/mathematics.md and its corollary, and Theorem T_s of section 14.6 (`held`). Which solution it is and the peaks are in [`peaks`].
 //!
 //! Guarantee of [`prove`], with the trial's inequalities and defects proved of the formulas on its box for every member, the boxes in the domain of the
 //! plant, and with [`Sizes`] as they are: the loop of every member with the oscillators of the entry and the gain sigma has exactly one T-periodic solution in its
@@ -9,7 +9,7 @@ use super::About;
 use super::claimed::{Entry, RULE};
 use super::oscillators::Oscillators;
 use super::peaks::{self, Solution};
-use super::trials::{OrMore, States, Trial};
+use super::trials::{OrMore, Trial};
 use crate::data::Data;
 use crate::interval::Interval;
 use crate::rules::control::{by_parts, put_out};
@@ -31,14 +31,26 @@ pub struct Sizes {
     pub u: Interval,
     /// zhat.
     pub zeta: Interval,
+    /// Of uhat'.
+    pub slope: Slope,
+}
+
+/// How fast uhat moves, by all members.
+pub struct Slope {
+    /// sup|uhat'|.
+    pub sup: Interval,
+    /// The root mean square of uhat'.
+    pub rms: Interval,
 }
 
 /// How far the periodic solution is from the trial.
-struct Tube {
-    x: Interval,
-    e: Interval,
-    e_rms: Interval,
-    zeta: Interval,
+pub(super) struct Tube {
+    pub(super) x: Interval,
+    pub(super) e: Interval,
+    pub(super) e_rms: Interval,
+    /// Of the e that the law has.
+    pub(super) e_at_law: Interval,
+    pub(super) zeta: Interval,
 }
 
 impl Tube {
@@ -52,11 +64,7 @@ impl Tube {
             None => [(); 3].map(|()| Interval::undefined(d.precision)),
         };
         let e = (d.period.only() * &rho_e * &rho_y).sqrt();
-        let of_states = |States { low, up, decay, .. }: &States| {
-            let [low, up, c, gamma] = [low, up, &decay[0], &decay[1]].map(|value| d.number(value));
-            (&up / (low * &c) * (gamma * e.sqr() + (&up * &d_x).sqr() / c)).sqrt()
-        };
-        let x = trial.states.as_ref().map_or_else(|| d.int(0), of_states);
+        let x = trial.states.as_ref().map_or_else(|| d.int(0), |states| states.follow(d, &e, &trial.defects[0]));
         // That of `d_b = d + (1-b) sigma`.
         let b_e = b_e + shift(d, sigma);
         let input = &b_x * &rho_x + &b_e * &rho_e + d_q;
@@ -75,7 +83,7 @@ impl Tube {
                 (of_swing + kappa_0 / low.sqr()) * input.sqr() + kappa_1 / low.sqr() * rate.sqr()
             }
         };
-        Tube { x, e, e_rms: rho_e, zeta: square.sqrt() }
+        Tube { x, e_rms: rho_e, e_at_law: e.clone(), e, zeta: square.sqrt() }
     }
 }
 
@@ -119,12 +127,26 @@ fn swing(d: &Data<'_>, own: &Oscillators, low: &Interval) -> Interval {
 /// Proves an entry with its trial; `d` has the sum of all weights.
 pub fn prove(d: &Data<'_>, about: &About<'_>, (entry, trial): (&Entry<'_>, &Trial), curves: &Sizes) -> Outcome<()> {
     // Of so many oscillators or more the sum of all weights counts.
-    let alone =
-        trial.or_more.is_none().then(|| Data::of_oscillators(d.spec, d.precision, entry.oscillators.harmonics()));
-    let name = if entry.oscillators.n_o().is_some() { "Nbar_N" } else { "Nbar_H" };
-    let (d, n_bar) = alone.as_ref().map_or((d, "Nbar"), |d| (d, name));
+    let mut own = match entry.or_more {
+        true => Data::new(d.spec, d.precision),
+        false => Data::of_oscillators(d.spec, d.precision, entry.oscillators.harmonics()),
+    };
+    let n_bar = match (entry.or_more, entry.oscillators.n_o()) {
+        (true, _) => "Nbar",
+        (false, Some(_)) => "Nbar_N",
+        (false, None) => "Nbar_H",
+    };
     let sigma = d.number(about.sigma);
-    let tube = Tube::new(d, (&sigma, &entry.oscillators), trial, about.transfer);
+    let law = about.at_samples.map(|law| law.terms);
+    if let Some(law) = law {
+        // The loop at samples has K for mu.
+        own.mu = own.number(&law.gain);
+    }
+    let d = &own;
+    let tube = match law {
+        None => Tube::new(d, (&sigma, &entry.oscillators), trial, about.transfer),
+        Some(law) => Tube::at_samples(d, (law, &entry.oscillators), (trial, entry.or_more), &curves.slope),
+    };
     let has_states = trial.states.is_some();
     let [d_x, d_e] = trial.radii.each_ref().map(|value| d.number(value));
     let less = |what: &str, left: Interval, right: &Interval, place: String| {
@@ -138,7 +160,7 @@ pub fn prove(d: &Data<'_>, about: &About<'_>, (entry, trial): (&Entry<'_>, &Tria
 
     let [x, e] = [&curves.x + &tube.x, &curves.e + &tube.e];
     let zeta = &curves.zeta + &tube.zeta;
-    let u = &curves.u + by_parts(d, [&sigma, &d.mu], [&tube.e, &tube.zeta]);
+    let u = &curves.u + by_parts(d, [&sigma, &d.mu], [&tube.e_at_law, &tube.zeta]);
     let at_most = |what: &str, bound: Interval, claimed: &Rational, place: &str| {
         let what = format!("{what} <= {place}, {}", entry.about());
         Condition::at_most("T", what, bound, d.number(claimed)).demand(RULE, &format!("{}/{place}", entry.pointer))

@@ -59,7 +59,7 @@ impl Split {
         if matrix.len() != states + 1 {
             return bad(&field.pointer, "expected a row for each state, and one more");
         }
-        let (mut metric, extent) = form(fields, states)?;
+        let (mut metric, extent) = form(fields, (states, true))?;
         if metric.cross.iter().any(|entry| !entry.is_zero()) {
             return bad(&format!("{}/p", fields.pointer), "expected zeros: there is no p along x first");
         }

@@ -72,6 +72,14 @@ impl Regulator<'_> {
         self.model.weights.weight(l as u64, self.om.precision())
     }
 
+    /// The harmonic k >= 1 of a control at its instants, from that of its means over the samples that follow; in continuous time both are one.
+    pub fn put_out(&self, k: usize, mean: Complex) -> Complex {
+        let Some(sampling) = &self.at_samples else { return mean };
+        let Complex { re, im } = sampling.speed(k).scaled(&self.frequency(k).recip());
+        // Over i: re + i im becomes im - i re.
+        mean.times(&Complex { re: im, im: -re })
+    }
+
     /// Of a harmonic k >= 1 that is not among them: the terms l and -l of g are `-n_l k/(k^2 - l^2)` together, and those of g'
     /// `n_l (k^2 + l^2)/(k^2 - l^2)^2`. They are not defined where k is one of them.
     pub fn beyond(&self, own: &Oscillators, k: usize) -> Beyond {

@@ -10,7 +10,8 @@ use proofs_core::wave::Wave;
 
 /// Of curves.
 pub struct Answer {
-    /// `2 sum |uhat_k - uhat*_k|`, `uhat*_k = -(sigma + i y_k (i om_k + sigma)) ehat_k`, over the k >= 1 without an oscillator.
+    /// `2 sum |uhat_k - uhat*_k|`, `uhat*_k = -(sigma + i y_k (i om_k + sigma)) ehat_k`, over the k >= 1 without an oscillator. At samples uhat is what the control is
+    /// in the mean over a sample, and stands here with what it is at the start of one: `(e^(i om_k h) - 1)/(i om_k h) uhat_k`, and `-kappa_k ehat_k`.
     pub kappa: Interval,
     /// zhat, a bound of the part of `|zeta|_N` with the output `uhat*`.
     pub zeta: Interval,
@@ -35,6 +36,7 @@ impl Answer {
         for k in (1..=e.harmonics.len().max(u.harmonics.len())).filter(|k| !own.contains(*k)) {
             let [error, output] = [e, u].map(|wave| twice(wave, k, p));
             let of_k = regulator.beyond(own, k);
+            let output = regulator.put_out(k, output);
             kappa = kappa + output.plus(&of_k.turn.times(&error)).square().sqrt();
             beyond = beyond + of_k.size * error.square().sqrt();
         }

@@ -3,6 +3,7 @@
 //! from ehat, and which has the gain b of the actuator for one more parameter, if that is an interval. Where d_b stands it is asked about at both ends of
 //! b, in which the inequalities are affine; that is more than is needed, for the curves move with b besides.
 
+use crate::at_samples;
 use crate::bounds;
 use crate::form::{End, Form, ends, numbers, of_states, split};
 use crate::formula::{Axis, Id, Leaf};
@@ -23,6 +24,7 @@ use proofs_core::rules::by_n_o::claimed::RULE;
 use proofs_core::rules::by_n_o::curves::moves;
 use proofs_core::rules::by_n_o::trials::{OrMore, Trial};
 use proofs_core::rules::by_n_o::x_first::{Split, XFirst};
+use proofs_core::rules::sampled::law::Terms;
 use proofs_core::spec::Specification;
 use proofs_core::verdict::{Outcome, bad, demand};
 use rug::Rational;
@@ -55,8 +57,13 @@ pub struct Around<'t> {
 }
 
 impl<'t> Around<'t> {
-    /// From a plant; `sigma`: the gain of the claim.
-    pub fn new(spec: &Specification, plant: &Plant, sigma: &Rational, trial: &'t Trial) -> Outcome<Around<'t>> {
+    /// From a plant; the gain of the claim, and its law at samples.
+    pub fn new(
+        spec: &Specification,
+        plant: &Plant,
+        law: (&Rational, Option<&Terms>),
+        trial: &'t Trial,
+    ) -> Outcome<Around<'t>> {
         let mut near = plant.clone();
         near.orbit.waves = trial.curves.iter().map(|curves| curves.x.clone()).collect();
         near.forcing.waves = trial.curves.iter().map(|curves| curves.u.clone()).collect();
@@ -78,12 +85,12 @@ impl<'t> Around<'t> {
         // Of an entry about so many oscillators or more ehat = 0.
         let rate = trial.or_more.as_ref().map(|_| model.formulas.derivative(apart, Axis::Time));
         let defects = model.defect.iter().copied().chain([apart]).chain(rate).collect();
-        let asked = questions(&mut model, spec, sigma, trial);
+        let asked = questions(&mut model, spec, law, trial)?;
         if model.formulas.is_too_large() {
             return too_large(RULE, "/plant");
         }
         let in_states = |model: &mut Model| {
-            let all = questions(model, spec, sigma, trial).into_iter();
+            let all = questions(model, spec, law, trial)?.into_iter();
             Ok(all.map(|asked| (!asked.is_of_motion).then_some(asked.question)).collect())
         };
         let still = Still::new(&near, in_states)?;
@@ -147,13 +154,30 @@ fn factor(gain: &Range) -> Outcome<Span> {
     }
 }
 
-/// (14.4a) of each form, (14.4b), and the bounds of r and d, and of the derivatives that the corollary asks for; then (14.5a).
-fn questions<'t>(model: &mut Model, spec: &Specification, sigma: &Rational, trial: &'t Trial) -> Vec<Asked<'t>> {
+/// (14.4a) of each form, at samples (14.6b), (14.4b), and the bounds of r and d, and of the derivatives that the corollary asks for; then (14.5a).
+fn questions<'t>(
+    model: &mut Model,
+    spec: &Specification,
+    (sigma, law): (&Rational, Option<&Terms>),
+    trial: &'t Trial,
+) -> Outcome<Vec<Asked<'t>>> {
     let states = model.states();
     let mut asked = Vec::new();
     let (unit, radii) = (model.formulas.int(1), trial.radii.each_ref());
     let ends = ends(&mut model.formulas, spec, sigma);
     for (place, (metric, _)) in trial.forms.iter().enumerate() {
+        let pointer = || format!("{}/forms/{place}", trial.pointer);
+        if let Some(law) = law {
+            let of_form = at_samples::near_trial(model, metric, law, spec)?.into_iter();
+            asked.extend(of_form.map(|(what, question)| Asked {
+                question,
+                pointer: pointer(),
+                what,
+                is_of_motion: false,
+                radii,
+            }));
+            continue;
+        }
         let corner = Rational::from(sigma * &metric.w) * 2u32;
         let pull: Vec<Rational> = metric.cross.iter().map(|entry| Rational::from(entry * sigma)).collect();
         for End { at, shift } in &ends {
@@ -162,7 +186,7 @@ fn questions<'t>(model: &mut Model, spec: &Specification, sigma: &Rational, tria
             rows.push(of_e);
             asked.push(Asked {
                 question: Question::new(&mut model.formulas, rows, states),
-                pointer: format!("{}/forms/{place}", trial.pointer),
+                pointer: pointer(),
                 what: format!("F >= diag(c_x I, c_e, c_y){at}"),
                 is_of_motion: false,
                 radii,
@@ -205,7 +229,7 @@ fn questions<'t>(model: &mut Model, spec: &Specification, sigma: &Rational, tria
     };
     asked.extend(of_states.into_iter().chain(of_output).map(bound));
     asked.extend(trial.x_first.iter().flat_map(|first| along_x_first(model, &ends, sigma, first)));
-    asked
+    Ok(asked)
 }
 
 /// (14.5a) of each form: that F without e is not below S where e is within eta of ehat, which is asked once, as b has no part in it, and that S with e

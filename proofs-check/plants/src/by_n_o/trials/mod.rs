@@ -10,7 +10,7 @@ mod defects;
 mod largest;
 mod sizes;
 
-use super::linear::oscillators::Regulator;
+use super::linear::oscillators::{Regulator, Sampling};
 use crate::read::Plant;
 use crate::{ARGUMENT_PRECISION, PRECISION};
 use around::Around;
@@ -36,9 +36,13 @@ pub fn prove(
     let regulator = Regulator {
         model: &spec.regulator,
         sigma: d.number(about.sigma),
-        mu: d.mu.clone(),
+        mu: about.at_samples.map_or_else(|| d.mu.clone(), |law| d.number(&law.terms.gain)),
         om: d.period.slowest(),
-        at_samples: None,
+        at_samples: about.at_samples.map(|law| Sampling {
+            h: d.period.only() / i64::from(law.terms.samples),
+            samples: law.terms.samples,
+            delayed: law.terms.delayed,
+        }),
     };
     let circle = |p: u32| {
         let period = spec.period.nominal.enclose(p);
@@ -56,7 +60,8 @@ pub fn prove(
         }
         tube::prove(&d, about, (entry, trial), &sizes)?;
 
-        let (around, name) = (Around::new(spec, plant, about.sigma, trial)?, entry.about());
+        let (around, name) =
+            (Around::new(spec, plant, (about.sigma, about.at_samples.map(|law| law.terms)), trial)?, entry.about());
         let kappa = d.by_gain(|gain| &gain.high, &of.kappa);
         let cells = around.defects(circle, &kappa, &name)?;
         let boxes = around.on_box(in_short.each_ref(), &sizes.e, &name)?;

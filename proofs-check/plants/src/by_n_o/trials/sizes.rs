@@ -12,7 +12,7 @@ use proofs_core::interval::Interval;
 use proofs_core::rules::by_n_o::curves::Curves;
 use proofs_core::rules::by_n_o::oscillators::Oscillators;
 use proofs_core::rules::by_n_o::trials::Trial;
-use proofs_core::rules::by_n_o::tube::Sizes;
+use proofs_core::rules::by_n_o::tube::{Sizes, Slope};
 use rug::Rational;
 use std::iter::repeat;
 
@@ -82,7 +82,29 @@ impl<'t> Of<'t> {
             e_rms: self.trial.curves.iter().map(rms).fold(self.d.int(0), |sum, part| sum + part),
             u: sum(&|curves| vec![curves.u.clone()]) + &self.kappa,
             zeta: self.zeta.clone(),
+            slope: self.slope(circle),
         }
+    }
+
+    /// Of uhat': that of each wave is Om times one with `k b_k` and `-k a_k`.
+    fn slope(&self, circle: [&Interval; 2]) -> Slope {
+        let turned = |wave: &Wave| {
+            let of = |(k, [a, b]): (u32, &[Rational; 2])| [Rational::from(b * k), -Rational::from(a * k)];
+            Wave { mean: Rational::new(), harmonics: (1_u32..).zip(&wave.harmonics).map(of).collect() }
+        };
+        let om = self.d.period.slowest();
+        let part = |curves: &Curves| Part { factor: self.size(&curves.powers), vector: vec![turned(&curves.u)] };
+        let parts: Vec<Part> = self.trial.curves.iter().map(part).collect();
+        let square = |wave: &Wave| {
+            let all = wave.harmonics.iter().flatten();
+            all.fold(Rational::new(), |sum, part| sum + Rational::from(part.square_ref())) / 2u32
+        };
+        let rms = |Part { factor, vector }: &Part| {
+            let squares = vector.iter().map(square).fold(Rational::new(), |sum, part| sum + part);
+            factor * self.d.number(&squares).sqrt()
+        };
+        let rms = parts.iter().map(rms).fold(self.d.int(0), |sum, part| sum + part);
+        Slope { sup: &om * largest(&parts, circle, SHARE).round(self.d.precision), rms: om * rms }
     }
 
     /// `L^-1 (xhat - xb)`, of each power of delta that one of both has.
