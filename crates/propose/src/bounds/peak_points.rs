@@ -5,8 +5,11 @@ use super::peak_program::{FallingForm, PeakOf, PeakProgram};
 use super::place::{Place, Places};
 use super::pointwise::{Derivatives, Slopes};
 use super::suprema::{FloatSuprema, Starts};
+use crate::semidefinite::propose;
 use sigmastar_lang::spec::Bound;
 use sigmastar_matrix::doubles::largest;
+use sigmastar_matrix::symmetric::{triangle, unit_entry};
+use sigmastar_matrix::{AffineMatrix, Symmetric};
 use sigmastar_theory::evidence::Part;
 
 /// Points that are added where what was found does not hold, and how often.
@@ -39,6 +42,33 @@ impl PeakBox {
 }
 
 impl FloatSuprema {
+    /// The smallest Q with `-(Q J + J'Q) >= 2 I` at points of a box where the derivatives are extreme; `None` where none is found.
+    #[must_use]
+    pub fn propose_states(&self, at: [f64; 2]) -> Option<Vec<Vec<f64>>> {
+        let all = Places::Stride(1);
+        let places = self.where_largest(at, &all, [Bound::Fx, Bound::Rate]);
+        let points = self.of_derivatives(at, &Places::listed(places), |derivatives, _| Slopes::from(derivatives));
+        let n = points.first()?.r.len();
+        let variables: Vec<(usize, usize)> = triangle(n).collect();
+        let last = variables.len();
+        let own =
+            |variable: usize, i: usize, k: usize| variables.get(variable).map_or(0.0, |place| unit_entry(*place, i, k));
+        let decay = |Slopes { j, .. }: &Slopes| {
+            let constant = |i: usize, k: usize| if i == k { -2.0 } else { 0.0 };
+            let term = |variable: usize, i: usize, k: usize| {
+                (0..n).map(|l| -own(variable, i, l) * j[l * n + k] - own(variable, k, l) * j[l * n + i]).sum()
+            };
+            AffineMatrix::from_fn(n, last + 1, constant, term)
+        };
+        let above = |variable: usize, i: usize, k: usize| f64::from(variable == last && i == k) - own(variable, i, k);
+        let constraints: Vec<AffineMatrix<f64>> =
+            points.iter().map(decay).chain([AffineMatrix::from_fn(n, last + 1, |_, _| 0.0, above)]).collect();
+        let mut cost = vec![0.0; last + 1];
+        cost[last] = 1.0;
+        let found = propose(&cost, &constraints).ok()?.x;
+        Some(Symmetric::from_entries(n, &found).rows())
+    }
+
     /// The least eigenvalue of `-(Q J + J'Q)` that is met at the points of a box.
     #[must_use]
     pub fn least_decay(&self, at: [f64; 2], q: &[Vec<f64>]) -> f64 {

@@ -126,6 +126,7 @@ impl TrialLoop<'_> {
         // Samples tell so many harmonics apart.
         let apart = |harmonics: usize| self.samples.is_none_or(|samples| 2 * harmonics < samples as usize);
         let fits = |harmonics: usize| (n + 1) * (2 * harmonics + 1) <= MAX_UNKNOWNS && apart(harmonics);
+        let is_last = |harmonics: usize| !HARMONICS.into_iter().any(|more| more > harmonics && apart(more));
         let is_beyond = |harmonics: usize| harmonics >= self.oscillators.first_missing() as usize;
         // Where none of these harmonics is beyond the oscillators e vanishes.
         let vanishes = self.or_more || !HARMONICS.into_iter().any(|harmonics| is_beyond(harmonics) && fits(harmonics));
@@ -142,7 +143,7 @@ impl TrialLoop<'_> {
             let rows: Vec<Vec<f64>> = found.as_slice().chunks(n + 1).map(<[f64]>::to_vec).collect();
             let series = FloatSeries::from_samples(&rows, harmonics);
             let size = self.size(&mut field, &series);
-            let share = if harmonics == HARMONICS[HARMONICS.len() - 1] { ACCEPTED } else { self.resolved };
+            let share = if is_last(harmonics) { ACCEPTED } else { self.resolved };
             if is_resolved(&series, share * size) {
                 return Some(self.with_control(&mut field, &series, size));
             }

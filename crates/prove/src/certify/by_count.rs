@@ -3,9 +3,9 @@
 use super::certification::Certification;
 use super::gain_row::{ByCount, CountBounds, CountProof, GainRow, Largest, LoopSizes, RowProof};
 use super::sampled::SampledCertification;
-use super::trials::{Asked, ClaimProof, OfWitness, by_trials};
+use super::trials::{Asked, ClaimProof, ClaimWitness, by_trials};
 use rug::Rational;
-use sigmastar_decide::conditions::SharpProof;
+use sigmastar_decide::conditions::{SampledProof, SharpProof};
 use sigmastar_decide::linear::{
     Answers, Clock, Falling, FallingHeld, LinearPlant, Loop, PRECISION, Sizes, Start, sizes,
 };
@@ -240,18 +240,15 @@ impl Certification<'_> {
                 let exact = |value: &Rational| Enclosure::from_rational(value, PRECISION);
                 let periodic = &evaluation.periodic;
                 let data = Data::new(self.spec, PRECISION);
-                let of_witness = OfWitness {
-                    witness,
-                    periodic: [periodic.x_per.clone(), periodic.e_per.clone()],
-                    kappas: data.kappas(&exact(&witness.k0), &exact(&witness.k1)),
-                    data,
-                };
+                let kappas = data.kappas(&exact(&witness.k0), &exact(&witness.k1));
+                let periodic = [periodic.x_per.clone(), periodic.e_per.clone()];
+                let proof = ClaimProof { witness: ClaimWitness::Continuous { witness, kappas }, periodic, data };
                 by_trials(&Asked {
                     plant,
                     spec: self.spec,
                     sigma: &witness.sigma,
                     set: &witness.set,
-                    proof: ClaimProof::Continuous(Box::new(of_witness)),
+                    proof,
                     besides: &besides,
                 })
             }
@@ -309,24 +306,31 @@ impl SampledCertification<'_> {
         let every_set = self.spec.internal_model.asks_every_set();
         let besides: Vec<Oscillators> =
             besides.iter().filter(|set| every_set || set.n_o().is_some()).cloned().collect();
-        let counts = |witness: &SampledWitness| match LinearPlant::of(plant) {
-            Some(_) => self.counts_at((plant, &besides), witness, EFFORTS[0]),
-            None => self.trials_at((plant, &besides), witness),
+        let counts = |proof: &SampledProof| match LinearPlant::of(plant) {
+            Some(_) => self.counts_at((plant, &besides), &proof.witness, EFFORTS[0]),
+            None => self.trials_at((plant, &besides), proof),
         };
-        let found = self.claim().and_then(|proof| counts(&proof.witness));
-        self.by_count = found;
+        self.by_count = self.claim().and_then(counts);
     }
 
     /// By trials, of a law without a delay.
-    fn trials_at(&self, (plant, besides): (&Plant, &[Oscillators]), witness: &SampledWitness) -> Option<ByCount> {
+    fn trials_at(
+        &self,
+        (plant, besides): (&Plant, &[Oscillators]),
+        SampledProof { witness, evaluation, .. }: &SampledProof,
+    ) -> Option<ByCount> {
         let Specification { internal_model: model, disturbances, .. } = self.spec;
         if !model.matched || disturbances.disturb(true) || witness.delay.is_some() {
             return None;
         }
         // The last oscillator that the samples tell apart has the least weight.
         let last = u64::from((witness.sampling.samples - 1) / 2);
-        let least_weight = model.weights.weight(last, PRECISION);
-        let proof = ClaimProof::AtSamples { law: witness.about(), least_weight };
+        let weight = model.weights.weight(last, PRECISION);
+        let proof = ClaimProof {
+            witness: ClaimWitness::AtSamples { witness, law: witness.about(), weight },
+            periodic: [evaluation.size.x_per.clone(), evaluation.size.e_per.clone()],
+            data: Data::new(self.spec, PRECISION),
+        };
         let (sigma, set) = (&witness.sigma, &witness.set);
         by_trials(&Asked { plant, spec: self.spec, sigma, set, proof, besides })
     }

@@ -13,7 +13,9 @@ use sigmastar_propose::bounds::{FloatCurve, FloatSuprema};
 use sigmastar_propose::orbit::FloatSeries;
 use sigmastar_propose::trial::{Members, TrialLoop, sampled_defects};
 use sigmastar_theory::data::Data;
+use sigmastar_theory::derivation::control::Reach;
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
+use sigmastar_theory::derivation::sampled::SampledWitness;
 use sigmastar_theory::derivation::sharp::SharpWitness;
 use sigmastar_theory::input_gain::moves;
 
@@ -48,36 +50,60 @@ pub(in crate::certify) struct Asked<'a> {
 }
 
 /// What proves the claim.
-pub(in crate::certify) enum ClaimProof<'a> {
-    /// In continuous time.
-    Continuous(Box<OfWitness<'a>>),
-    /// At samples, without a delay.
-    AtSamples {
-        /// The gain, N_s, K and Nb2.
-        law: SampledLoop,
-        /// Of an oscillator below half of the samples.
-        least_weight: Enclosure,
-    },
-}
-
-/// What proves a claim in continuous time.
-pub(in crate::certify) struct OfWitness<'a> {
-    /// The free numbers.
-    pub(in crate::certify) witness: &'a SharpWitness,
+pub(in crate::certify) struct ClaimProof<'a> {
+    /// Its free numbers.
+    pub(in crate::certify) witness: ClaimWitness<'a>,
     /// `x_per` and `e_per`.
     pub(in crate::certify) periodic: [Enclosure; 2],
     /// The numbers of the formulas.
     pub(in crate::certify) data: Data<'a>,
-    /// kappa_0 and kappa_1.
-    pub(in crate::certify) kappas: [Enclosure; 2],
+}
+
+/// The free numbers of the claim.
+pub(in crate::certify) enum ClaimWitness<'a> {
+    /// In continuous time.
+    Continuous {
+        /// These.
+        witness: &'a SharpWitness,
+        /// kappa_0 and kappa_1.
+        kappas: [Enclosure; 2],
+    },
+    /// At samples, without a delay.
+    AtSamples {
+        /// These.
+        witness: &'a SampledWitness,
+        /// The gain, N_s, K and Nb2.
+        law: SampledLoop,
+        /// The least one of an oscillator below half of the samples.
+        weight: Enclosure,
+    },
+}
+
+impl ClaimProof<'_> {
+    /// D_x and D_e.
+    pub(super) fn error_box(&self) -> [&Rational; 2] {
+        match &self.witness {
+            ClaimWitness::Continuous { witness, .. } => [&witness.d_x, &witness.d_e],
+            ClaimWitness::AtSamples { witness, .. } => [&witness.d_x, &witness.d_e],
+        }
+    }
+
+    /// How far solutions that begin at these distances from the periodic one are from it, by the function of the claim; the sum of the weights is that of a loop.
+    pub(super) fn reach(&self, own: &Loop, distances: [&Enclosure; 3]) -> Reach<Enclosure> {
+        let data = self.data.with_oscillators(&own.n_bar_squared);
+        match &self.witness {
+            ClaimWitness::Continuous { witness, .. } => witness.reach(&data, distances),
+            ClaimWitness::AtSamples { witness, .. } => witness.reach(&data, distances),
+        }
+    }
 }
 
 impl Asked<'_> {
     /// N_s and the rest of the law, at samples.
     pub(super) fn law(&self) -> Option<&SampledLoop> {
-        match &self.proof {
-            ClaimProof::Continuous(_) => None,
-            ClaimProof::AtSamples { law, .. } => Some(law),
+        match &self.proof.witness {
+            ClaimWitness::Continuous { .. } => None,
+            ClaimWitness::AtSamples { law, .. } => Some(law),
         }
     }
 }
@@ -122,9 +148,9 @@ impl Around<'_> {
             period: &prepared.period,
             orbit: &orbit.approximation,
             radius: &orbit.radius,
-            of_all: match &self.asked.proof {
-                ClaimProof::Continuous(of) => OfAllCounts::Continuous(&of.kappas),
-                ClaimProof::AtSamples { least_weight, .. } => OfAllCounts::AtSamples(least_weight),
+            of_all: match &self.asked.proof.witness {
+                ClaimWitness::Continuous { kappas, .. } => OfAllCounts::Continuous(kappas),
+                ClaimWitness::AtSamples { weight, .. } => OfAllCounts::AtSamples(weight),
             },
         }
     }

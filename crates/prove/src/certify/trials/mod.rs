@@ -24,7 +24,7 @@ use sigmastar_lang::spec::{Level, Metric, Oscillators};
 use sigmastar_theory::derivation::control::{Control, Reach};
 use std::collections::BTreeSet;
 
-pub(super) use around::{Asked, ClaimProof, OfWitness};
+pub(super) use around::{Asked, ClaimProof, ClaimWitness};
 
 /// The numbers of oscillators that are looked at where they are not looked at one by one, and from where on all of them at once.
 const COUNTS: [u32; 6] = [0, 1, 2, 3, 5, 10];
@@ -73,20 +73,31 @@ impl Around<'_> {
     /// The bounds; `other`: what is proved for another number of oscillators.
     fn bounds(&self, other: Option<&TubeProof>) -> Option<(CountBounds, (Trial, TubeProof))> {
         let prepared = self.prepared()?;
-        if let Some(law) = self.asked.law() {
-            let (proof, concluded, peaks) = self.at_samples(&prepared, law, other)?;
-            let Peaks { error, control, .. } = peaks?;
-            let bounds = self.count_bounds(&concluded, Reach { error, transient: control });
-            return Some((bounds, (prepared.trial, proof)));
+        let (proof, concluded, peaks) = match self.asked.law() {
+            Some(law) => self.at_samples(&prepared, law, other)?,
+            None => self.continuous(&prepared, other)?,
+        };
+        if peaks.is_none() && !self.is_of_the_claim(&concluded) {
+            return None;
         }
+        // The solution is that of the claim: its function falls along the differences, too.
+        let mut reach = self.reach_by_the_claim(&prepared, &concluded);
+        if let Some(Peaks { error, control, .. }) = peaks {
+            reach = Reach { error: reach.error.min(&error), transient: reach.transient.min(&control) };
+        }
+        Some((self.count_bounds(&concluded, reach), (prepared.trial, proof)))
+    }
+
+    /// What is proved of the loop in continuous time; `other`: what is proved for another number of oscillators.
+    fn continuous(&self, prepared: &Prepared, other: Option<&TubeProof>) -> Option<Proved> {
         let alone = |(radii, forms): ([Rational; 2], Vec<(Metric, Level)>)| {
-            let promised = self.promised(&prepared, radii, (forms, Vec::new()))?;
-            let concluded = self.concluded(&prepared, &promised)?;
-            Some((self.decided(&prepared, promised)?, concluded, None))
+            let promised = self.promised(prepared, radii, (forms, Vec::new()))?;
+            let concluded = self.concluded(prepared, &promised)?;
+            Some((self.decided(prepared, promised)?, concluded, None))
         };
         let small = || {
             SMALL_BOXES.into_iter().find_map(|share| {
-                let (radii, form) = self.small_box(&prepared, share)?;
+                let (radii, form) = self.small_box(prepared, share)?;
                 alone((short(radii)?, vec![rounded(&form)?]))
             })
         };
@@ -95,9 +106,9 @@ impl Around<'_> {
             // Where they do not fall with all derivatives at one point for another number, they do not for this one.
             Some((known, Some(_))) => alone(known).or_else(small)?,
             Some(((radii, forms), None)) => {
-                let own = |known: Option<f64>| self.with_own_peaks(&prepared, Some(&radii), known);
-                let known = || self.with_peaks(&prepared, radii.clone(), (forms.clone(), Vec::new()));
-                let expected = || forms.iter().filter_map(|form| self.expected(&prepared, form)).min_by(f64::total_cmp);
+                let own = |known: Option<f64>| self.with_own_peaks(prepared, Some(&radii), known);
+                let known = || self.with_peaks(prepared, radii.clone(), (forms.clone(), Vec::new()));
+                let expected = || forms.iter().filter_map(|form| self.expected(prepared, form)).min_by(f64::total_cmp);
                 let first = if self.oscillators.first_missing() <= OWN {
                     expected().and_then(|expected| own(Some(expected)))
                 } else {
@@ -106,25 +117,13 @@ impl Around<'_> {
                 let found = first.or_else(known).or_else(|| own(None));
                 found.or_else(small)?
             }
-            None => self.with_own_peaks(&prepared, None, None).or_else(small)?,
+            None => self.with_own_peaks(prepared, None, None).or_else(small)?,
         };
         if peaks.is_none() {
-            let found = self.along_x_first(&prepared, &concluded, other.and_then(|other| other.x_first.as_ref()));
+            let found = self.along_x_first(prepared, &concluded, other.and_then(|other| other.x_first.as_ref()));
             (proof.x_first, peaks) = found.unzip();
         }
-        if peaks.is_none() && !self.is_of_the_claim(&concluded) {
-            return None;
-        }
-        // The solution is that of the claim: its function falls along the differences, too.
-        let own = self.reach_by_the_claim(&prepared, &concluded);
-        let by_forms = peaks.map(|Peaks { error, control, .. }| Reach { error, transient: control });
-        let reach = match (own, by_forms) {
-            (Some(own), Some(Reach { error, transient })) => {
-                Reach { error: own.error.min(&error), transient: own.transient.min(&transient) }
-            }
-            (own, by_forms) => own.or(by_forms)?,
-        };
-        Some((self.count_bounds(&concluded, reach), (prepared.trial, proof)))
+        Some((proof, concluded, peaks))
     }
 
     /// The bounds, with how far solutions from the set come from the periodic one.
@@ -190,9 +189,8 @@ impl Around<'_> {
 
     /// (ii) of 14.4.
     fn is_of_the_claim(&self, concluded: &Concluded) -> bool {
-        let ClaimProof::Continuous(of) = &self.asked.proof else { return false };
-        let OfWitness { witness, periodic, .. } = &**of;
-        let error_box = [&witness.d_x, &witness.d_e].map(|radius| Enclosure::from_rational(radius, PRECISION));
+        let ClaimProof { periodic, .. } = &self.asked.proof;
+        let error_box = self.asked.proof.error_box().map(|radius| Enclosure::from_rational(radius, PRECISION));
         let sizes = [&concluded.states, &concluded.error];
         let within =
             |((size, periodic), end): ((&Enclosure, &Enclosure), &Enclosure)| (size + periodic).le(end).is_true();
@@ -200,11 +198,9 @@ impl Around<'_> {
     }
 
     /// How far solutions from the set are from the periodic one by what proves the claim, with the sizes for this number of oscillators.
-    fn reach_by_the_claim(&self, prepared: &Prepared, concluded: &Concluded) -> Option<Reach<Enclosure>> {
-        let ClaimProof::Continuous(of) = &self.asked.proof else { return None };
-        let OfWitness { witness, data, .. } = &**of;
+    fn reach_by_the_claim(&self, prepared: &Prepared, concluded: &Concluded) -> Reach<Enclosure> {
         let own = &prepared.own;
         let distances = prepared.start.distances(own, [&concluded.states, &concluded.error, &concluded.zeta]);
-        Some(witness.reach(&data.with_oscillators(&own.n_bar_squared), distances.each_ref()))
+        self.asked.proof.reach(own, distances.each_ref())
     }
 }

@@ -21,14 +21,11 @@ pub(super) const DIGITS: u32 = 9;
 const KEPT: f64 = 0.5;
 
 /// How far a metric is from what a level says of it.
-const ROOM: f64 = 1e-5;
+pub(super) const ROOM: f64 = 1e-5;
 
 /// Boxes of the proof of a form; of a family, where each of them costs the check more.
 const EFFORT: usize = 20_000;
 const EFFORT_OF_FAMILY: usize = 4_000;
-
-/// The share of the decay that is met at points that is claimed of all.
-const OF_DECAY: f64 = 0.8;
 
 /// The share of the distance of e that eta is.
 const SMALL_ETA: f64 = 1e-4;
@@ -180,24 +177,18 @@ impl Around<'_> {
         [x, e]: [&Rational; 2],
     ) -> Option<StatesForm> {
         let pushed = samples.refined(Bound::Fe, x.to_f64(), e.to_f64()).value;
+        if self.asked.law().is_some() {
+            return self.held_states_form(samples, &metric.matrix, ([x, e], pushed));
+        }
+        let c_x = metric.c_x.to_f64();
         let p_up = level.p_up.to_f64();
-        // What `-(Q J + J'Q)` has at least: by a form at samples, whose margins are small, far less is known than is met.
-        let decay = match self.asked.law() {
-            None => metric.c_x.clone(),
-            Some(_) => {
-                let q: Vec<Vec<f64>> =
-                    metric.matrix.iter().map(|row| row.iter().map(Rational::to_f64).collect()).collect();
-                let met = OF_DECAY * samples.least_decay([x.to_f64(), e.to_f64()], &q);
-                round_f64(met, DIGITS, Direction::Down).filter(|met| *met > metric.c_x).unwrap_or(metric.c_x.clone())
-            }
-        };
-        // |P g|^2 <= gamma (decay - 2 c).
-        let gamma = 2.2 * (p_up * pushed) * (p_up * pushed) / decay.to_f64();
+        // |P g|^2 <= gamma (c_x - 2 c).
+        let gamma = 2.2 * (p_up * pushed) * (p_up * pushed) / c_x;
         Some(StatesForm {
             matrix: metric.matrix.clone(),
             q_low: level.x_low.clone(),
             q_up: level.p_up.clone(),
-            c: round_rational(&(decay / 4u32), DIGITS, Direction::Down),
+            c: round_rational(&Rational::from(&metric.c_x / 4u32), DIGITS, Direction::Down),
             gamma: up(gamma, SHORT)?,
         })
     }
@@ -238,7 +229,7 @@ fn roomy(value: Rational, slope: &Rational) -> Rational {
 }
 
 /// A row of a matrix in short numbers.
-fn short_row(row: &[f64]) -> Option<Vec<Rational>> {
+pub(super) fn short_row(row: &[f64]) -> Option<Vec<Rational>> {
     row.iter().map(|entry| round_f64(*entry, DIGITS, Direction::Nearest)).collect()
 }
 

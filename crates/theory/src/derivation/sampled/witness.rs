@@ -1,9 +1,13 @@
 //! The free numbers of a claim about the regulator at samples.
 
+use crate::data::Data;
+use crate::derivation::control::{self, Reach};
 use crate::derivation::initial_set::ClaimedSet;
 use crate::derivation::mean_squares::MeanSquares;
 use crate::derivation::paths::Paths;
+use crate::derivation::stability::level_condition;
 use rug::Rational;
+use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_lang::spec::{SampledGain, SampledLoop, Sampling};
 
 /// The free numbers of a claim about the regulator at samples, exactly.
@@ -59,6 +63,22 @@ impl SampledWitness {
     #[must_use]
     pub fn squares(&self) -> MeanSquares<&Rational> {
         MeanSquares { x: &self.r_x, e: &self.r_e, e_rate: &self.r_d }
+    }
+
+    /// How far |e| and the control are from those of the periodic solution, of every solution that begins at these distances from it in x, e and zeta: by the function
+    /// of 12.3 that falls along their differences, of a law without a delay.
+    ///
+    /// Hypotheses: the conditions of stability are proved for this witness, and solutions that begin so stay in the error box. Guarantee: the bounds hold from that
+    /// instant on, for oscillators whose Nbar is at most that of `data`.
+    #[must_use]
+    pub fn reach(&self, data: &Data<'_>, distances: [&Enclosure; 3]) -> Reach<Enclosure> {
+        let number = |value: &Rational| data.rational(value);
+        let [sigma, gain, w_x, eta, d_x, d_e] =
+            [&self.sigma, &self.law.gain, &self.w_x, &self.eta, &self.d_x, &self.d_e].map(number);
+        let (start, _) = level_condition(data, distances, [&d_x, &d_e, &w_x, &eta]);
+        // At the gain b the weight of zeta is b eta, and the level no larger than at b_hi.
+        let least = data.input_gain.as_ref().map_or_else(|| eta.clone(), |gain| &gain.low * &eta);
+        control::reach(data, [&sigma, &gain], &least, (&start, None))
     }
 
     /// What a delay adds; zeros, with which nothing is proved, where there should be some and is none.

@@ -6,7 +6,8 @@
 //!
 //! The solution is that of the claim if all solutions from the set converge to it, in the box of the trial or in that of `x_first`, or if the
 //! difference to the one of the claim lies in the error box of the claim. Then the function of the claim falls along differences, too: each
-//! function that does gives a bound at all times, and the least counts. At samples the first of these, by the forms alone; `d` has K in the place of mu.
+//! function that does gives a bound at all times, and the least counts. At samples `d` has K in the place of mu, and h is eta (section 12.3): these functions do not rise
+//! from sample to sample, and are at least what is theirs of x and e in between.
 
 use super::About;
 use super::claimed::{Entry, RULE};
@@ -136,19 +137,14 @@ pub fn prove(
     let extents: Vec<&Extent> = trial.forms.iter().map(|(_, extent)| extent).collect();
     let near = stays(&forms, &trial.radii, &extents, &format!("{}/box", trial.pointer));
 
-    let (mut levels, mut sources) = match about.at_samples {
-        None => (vec![Level::of_claim(d, about, &reach)], "the function of the claim".to_owned()),
-        Some(_) => (Vec::new(), String::new()),
-    };
-    match (&near, about.at_samples) {
-        (Ok(()), None) => sources += " and the forms",
-        (Ok(()), Some(_)) => "the forms".clone_into(&mut sources),
-        (Err(finding), None) => sources += &format!(" (of the forms nothing is known: {})", finding.message),
-        // At samples nothing else says which solution it is.
-        (Err(_), Some(_)) => return near,
-    }
-    if near.is_ok() {
-        levels.extend(forms);
+    let mut levels = vec![Level::of_claim(d, about, &reach)];
+    let mut sources = "the function of the claim".to_owned();
+    match &near {
+        Ok(()) => {
+            levels.extend(forms);
+            sources += " and the forms";
+        }
+        Err(finding) => sources += &format!(" (of the forms nothing is known: {})", finding.message),
     }
     match (&trial.x_first, near) {
         (Some(first), _) => {
