@@ -102,6 +102,7 @@ mod transfer;
 mod transfer_sums;
 mod transfer_table;
 mod trials;
+mod trials_at_samples;
 mod trials_families;
 mod trials_sets;
 mod trials_support;

@@ -5,7 +5,7 @@ use super::trials_support::{Case, case, document, orbit, plant, rational, simula
 use rug::Rational;
 use sigmastar_decide::bounds::{Engine, Region, StatesForm};
 use sigmastar_decide::linear::{PRECISION, Start};
-use sigmastar_decide::trial::{Concluded, Known, OrMore, Peaks, Trial, TubeProof};
+use sigmastar_decide::trial::{Concluded, Known, OfAllCounts, OrMore, Peaks, Trial, TubeProof};
 use sigmastar_exact::enclosure::{Enclosure, Truth};
 use sigmastar_lang::spec::{Level, Metric};
 use std::f64::consts::PI;
@@ -126,7 +126,8 @@ fn what_is_broken_proves_nothing() {
     // The conclusion: closer than the box, and only of a trial that the regulator answers.
     let (orbit, radius) = (orbit(), Rational::new());
     let kappas = [0, 1].map(|value| Enclosure::from_integer(value, PRECISION));
-    let known = Known { own: &own, period: &period, orbit: &orbit, radius: &radius, kappas: &kappas };
+    let known =
+        Known { own: &own, period: &period, orbit: &orbit, radius: &radius, of_all: OfAllCounts::Continuous(&kappas) };
     let found = Concluded::of(&trial, &proof, &known).unwrap();
     let [s_x, s_e] = found.distances.each_ref().map(Enclosure::upper_f64);
     assert!(s_x < 1e-6 && s_e < 1e-6 && found.error.upper_f64() > 0.05, "{found:?}");
@@ -172,12 +173,22 @@ fn every_number_that_more_oscillators_need_counts() {
     let (orbit, radius) = (orbit(), Rational::new());
     let kappas = [2, 3].map(|value| Enclosure::from_integer(value, PRECISION));
     let with = |trial: &Trial, proof: &TubeProof, kappas: &[Enclosure; 2]| {
-        Concluded::of(trial, proof, &Known { own: &own, period: &period, orbit: &orbit, radius: &radius, kappas })
+        Concluded::of(
+            trial,
+            proof,
+            &Known {
+                own: &own,
+                period: &period,
+                orbit: &orbit,
+                radius: &radius,
+                of_all: OfAllCounts::Continuous(kappas),
+            },
+        )
     };
     let found = with(&trial, &proof, &kappas).unwrap();
     let sizes = Concluded::sizes_of(
         &trial,
-        &Known { own: &own, period: &period, orbit: &orbit, radius: &radius, kappas: &kappas },
+        &Known { own: &own, period: &period, orbit: &orbit, radius: &radius, of_all: OfAllCounts::Continuous(&kappas) },
     );
     let of_curve = sizes.unwrap()[2].clone();
     // s_z by the formula, in doubles: d_x = d_q = 1e-8, T = 2, mu = 1.

@@ -6,14 +6,14 @@ use rug::Rational;
 use serde_json::{Value, json};
 use sigmastar_decide::bounds::{Engine, Region};
 use sigmastar_decide::linear::{Loop, PRECISION, Start};
-use sigmastar_decide::trial::{Concluded, Known, Peaks, Trial};
+use sigmastar_decide::trial::{Concluded, Known, OfAllCounts, Peaks, Trial};
 use sigmastar_exact::enclosure::{Enclosure, Truth};
 use sigmastar_lang::plant::{CurveTerm, Plant};
 use sigmastar_lang::spec::{Document, Interval, Metric, OrbitCurve, TrigonometricVector};
 use std::f64::consts::PI;
 
 /// The plant of one state with a coefficient between 0.4 and 0.6 and a gain of the actuator between 0.9 and 1.1.
-fn family() -> Value {
+pub fn family() -> Value {
     let mut document = document();
     document["q"] = "a*v - atan(e) + sin(phase) + sin(2*phase)/2".into();
     document["parameters"] = json!({ "a": { "nominal": "1/2", "low": "2/5", "high": "3/5" } });
@@ -101,7 +101,8 @@ fn the_defects_of_a_family_are_those_of_its_worst_member() {
     let (orbit, radius) = (orbit(), Rational::new());
     let period = Enclosure::from_integer(2, PRECISION);
     let kappas = [2, 3].map(|value| Enclosure::from_integer(value, PRECISION));
-    let known = Known { own: &own, period: &period, orbit: &orbit, radius: &radius, kappas: &kappas };
+    let known =
+        Known { own: &own, period: &period, orbit: &orbit, radius: &radius, of_all: OfAllCounts::Continuous(&kappas) };
     let proof = case().proof;
     assert!(Concluded::of(&trial, &proof, &known).is_some());
     let mut broken = trial.clone();
@@ -136,7 +137,8 @@ fn the_gain_of_the_actuator_counts_at_both_ends() {
     let (orbit, radius) = (orbit(), Rational::new());
     let period = Enclosure::from_integer(2, PRECISION);
     let kappas = [2, 3].map(|value| Enclosure::from_integer(value, PRECISION));
-    let known = |own| Known { own, period: &period, orbit: &orbit, radius: &radius, kappas: &kappas };
+    let known =
+        |own| Known { own, period: &period, orbit: &orbit, radius: &radius, of_all: OfAllCounts::Continuous(&kappas) };
     let found = Concluded::of(&trial, &proof, &known(&own)).unwrap();
     let of_curve = Concluded::sizes_of(&trial, &known(&own)).unwrap()[2].clone();
     // s_z by the formula, in doubles, with b_lo = 0.9 and sigma max|1 - b| = 0.3.

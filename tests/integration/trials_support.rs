@@ -15,7 +15,7 @@ const WEIGHTS: [f64; 2] = [2.0, 1.5];
 const MU: f64 = 1.0;
 pub const OMEGA: f64 = PI;
 
-fn weight(l: usize) -> f64 {
+pub fn weight(l: usize) -> f64 {
     if l == 0 { WEIGHTS[0] } else { (l as f64).powf(-WEIGHTS[1]) }
 }
 
@@ -117,6 +117,7 @@ pub fn trial_of(plant: &Plant, orbit: &OrbitCurve, gain: Option<Interval>) -> Tr
         plant,
         gain,
         sigma: 3.0,
+        samples: None,
         mu: MU,
         oscillators: 1.into(),
         weights: weights.clone(),
@@ -160,6 +161,7 @@ pub fn case() -> Case {
         states: Some(states),
         or_more: None,
         x_first: None,
+        within: Vec::new(),
     };
     Case { trial, proof, own, period: Enclosure::from_integer(2, PRECISION) }
 }

@@ -31,8 +31,9 @@ const MAX_HALVINGS: usize = 8;
 /// A step after which nothing gets better, relative to the unknowns.
 const SETTLED: f64 = 1e-13;
 
-/// The share of the size of a solution that the last harmonics have at most where there are the most of them.
+/// The share of the size of a solution that the last harmonics have at most where there are the most of them; and where samples tell no more apart.
 const ACCEPTED: f64 = 1e-9;
+const ACCEPTED_AT_SAMPLES: f64 = 1e-5;
 
 /// What a loop is.
 #[derive(Clone, Debug)]
@@ -123,14 +124,18 @@ impl TrialLoop<'_> {
         let n = self.plant.states();
         let own = field.own(orbit);
         let mut start: Option<FloatSeries> = None;
+        let most = HARMONICS[HARMONICS.len() - 1];
         // Samples tell so many harmonics apart.
-        let apart = |harmonics: usize| self.samples.is_none_or(|samples| 2 * harmonics < samples as usize);
-        let fits = |harmonics: usize| (n + 1) * (2 * harmonics + 1) <= MAX_UNKNOWNS && apart(harmonics);
-        let is_last = |harmonics: usize| !HARMONICS.into_iter().any(|more| more > harmonics && apart(more));
+        let (last, accepted) = match self.samples.map(|samples| (samples as usize - 1) / 2) {
+            Some(apart) if apart < most => (apart, ACCEPTED_AT_SAMPLES),
+            _ => (most, ACCEPTED),
+        };
+        let fits = |harmonics: usize| (n + 1) * (2 * harmonics + 1) <= MAX_UNKNOWNS;
+        let all = || HARMONICS.into_iter().filter(|harmonics| *harmonics < last).chain([last]);
         let is_beyond = |harmonics: usize| harmonics >= self.oscillators.first_missing() as usize;
         // Where none of these harmonics is beyond the oscillators e vanishes.
-        let vanishes = self.or_more || !HARMONICS.into_iter().any(|harmonics| is_beyond(harmonics) && fits(harmonics));
-        for harmonics in HARMONICS.into_iter().filter(|harmonics| vanishes || is_beyond(*harmonics)) {
+        let vanishes = self.or_more || !all().any(|harmonics| is_beyond(harmonics) && fits(harmonics));
+        for harmonics in all().filter(|harmonics| vanishes || is_beyond(*harmonics)) {
             let points = 2 * harmonics + 1;
             if !fits(harmonics) {
                 return None;
@@ -143,7 +148,7 @@ impl TrialLoop<'_> {
             let rows: Vec<Vec<f64>> = found.as_slice().chunks(n + 1).map(<[f64]>::to_vec).collect();
             let series = FloatSeries::from_samples(&rows, harmonics);
             let size = self.size(&mut field, &series);
-            let share = if is_last(harmonics) { ACCEPTED } else { self.resolved };
+            let share = if harmonics == last { accepted } else { self.resolved };
             if is_resolved(&series, share * size) {
                 return Some(self.with_control(&mut field, &series, size));
             }
