@@ -74,6 +74,7 @@ mod specification;
 mod splitting;
 mod transfer;
 mod trials;
+mod trials_at_samples;
 mod trials_certificate;
 mod trials_families;
 mod trials_gain;

@@ -19,6 +19,9 @@ const ROUNDS: usize = 6;
 /// The shares of X and E at which the grid is looked at: derivatives may be extreme within.
 const SHARES: [[f64; 2]; 5] = [[1.0, 1.0], [1.0, 0.75], [1.0, 0.5], [1.0, 0.25], [0.5, 1.0]];
 
+/// The share of the decay of the states that is enough at a point that was not looked at.
+const ENOUGH_DECAY: f64 = 0.9;
+
 /// The share of its margins that a form may miss at a point that was not looked at.
 const TOLERANCE: f64 = 0.2;
 
@@ -42,43 +45,32 @@ impl PeakBox {
 }
 
 impl FloatSuprema {
-    /// The smallest Q with `-(Q J + J'Q) >= 2 I` at points of a box where the derivatives are extreme; `None` where none is found.
+    /// A small Q with `-(Q J + J'Q) >= 2 I` at the points of a box where that asks most of it; `None` where none is found.
     #[must_use]
     pub fn propose_states(&self, at: [f64; 2]) -> Option<Vec<Vec<f64>>> {
         let all = Places::Stride(1);
-        let places = self.where_largest(at, &all, [Bound::Fx, Bound::Rate]);
-        let points = self.of_derivatives(at, &Places::listed(places), |derivatives, _| Slopes::from(derivatives));
-        let n = points.first()?.r.len();
-        let variables: Vec<(usize, usize)> = triangle(n).collect();
-        let last = variables.len();
-        let own =
-            |variable: usize, i: usize, k: usize| variables.get(variable).map_or(0.0, |place| unit_entry(*place, i, k));
-        let decay = |Slopes { j, .. }: &Slopes| {
-            let constant = |i: usize, k: usize| if i == k { -2.0 } else { 0.0 };
-            let term = |variable: usize, i: usize, k: usize| {
-                (0..n).map(|l| -own(variable, i, l) * j[l * n + k] - own(variable, k, l) * j[l * n + i]).sum()
-            };
-            AffineMatrix::from_fn(n, last + 1, constant, term)
+        let places = self.where_largest(at, &all, [Bound::Fx]);
+        let points = |places: Vec<Place>| {
+            self.of_derivatives(at, &Places::listed(places), |derivatives, _| Slopes::from(derivatives))
         };
-        let above = |variable: usize, i: usize, k: usize| f64::from(variable == last && i == k) - own(variable, i, k);
-        let constraints: Vec<AffineMatrix<f64>> =
-            points.iter().map(decay).chain([AffineMatrix::from_fn(n, last + 1, |_, _| 0.0, above)]).collect();
-        let mut cost = vec![0.0; last + 1];
-        cost[last] = 1.0;
-        let found = propose(&cost, &constraints).ok()?.x;
-        Some(Symmetric::from_entries(n, &found).rows())
+        let mut known = points(places);
+        let mut found = smallest(&known)?;
+        for _ in 0..ROUNDS {
+            let mut worst = self.largest_of_derivatives(at, &all, POINTS, |derivatives, _| growth(&found, derivatives));
+            worst.retain(|(growth, _)| *growth > -2.0 * ENOUGH_DECAY);
+            if worst.is_empty() {
+                break;
+            }
+            known.extend(points(worst.into_iter().map(|(_, place)| place).collect()));
+            found = smallest(&known)?;
+        }
+        Some(found)
     }
 
     /// The least eigenvalue of `-(Q J + J'Q)` that is met at the points of a box.
     #[must_use]
     pub fn least_decay(&self, at: [f64; 2], q: &[Vec<f64>]) -> f64 {
-        let n = q.len();
-        let growth = |derivatives: &Derivatives<'_>| {
-            let Slopes { j, .. } = Slopes::from(derivatives);
-            let product = |i: usize, k: usize| (0..n).map(|l| q[i][l] * j[l * n + k]).sum::<f64>();
-            largest((0..n).map(|i| (0..n).map(|k| product(i, k) + product(k, i)).collect()).collect())
-        };
-        let all = self.of_derivatives(at, &Places::Stride(1), |derivatives, _| growth(derivatives));
+        let all = self.of_derivatives(at, &Places::Stride(1), |derivatives, _| growth(q, derivatives));
         -all.into_iter().fold(f64::NEG_INFINITY, f64::max)
     }
 
@@ -141,4 +133,35 @@ impl FloatSuprema {
         }
         Some(found)
     }
+}
+
+/// The largest eigenvalue of `Q J + J'Q`.
+fn growth(q: &[Vec<f64>], derivatives: &Derivatives<'_>) -> f64 {
+    let n = q.len();
+    let Slopes { j, .. } = Slopes::from(derivatives);
+    let product = |i: usize, k: usize| (0..n).map(|l| q[i][l] * j[l * n + k]).sum::<f64>();
+    largest((0..n).map(|i| (0..n).map(|k| product(i, k) + product(k, i)).collect()).collect())
+}
+
+/// The Q with the smallest largest eigenvalue that has `-(Q J + J'Q) >= 2 I` at these points.
+fn smallest(points: &[Slopes]) -> Option<Vec<Vec<f64>>> {
+    let n = points.first()?.r.len();
+    let variables: Vec<(usize, usize)> = triangle(n).collect();
+    let last = variables.len();
+    let own =
+        |variable: usize, i: usize, k: usize| variables.get(variable).map_or(0.0, |place| unit_entry(*place, i, k));
+    let decay = |Slopes { j, .. }: &Slopes| {
+        let constant = |i: usize, k: usize| if i == k { -2.0 } else { 0.0 };
+        let term = |variable: usize, i: usize, k: usize| {
+            (0..n).map(|l| -own(variable, i, l) * j[l * n + k] - own(variable, k, l) * j[l * n + i]).sum()
+        };
+        AffineMatrix::from_fn(n, last + 1, constant, term)
+    };
+    let above = |variable: usize, i: usize, k: usize| f64::from(variable == last && i == k) - own(variable, i, k);
+    let above = AffineMatrix::from_fn(n, last + 1, |_, _| 0.0, above);
+    let constraints: Vec<AffineMatrix<f64>> = points.iter().map(decay).chain([above]).collect();
+    let mut cost = vec![0.0; last + 1];
+    cost[last] = 1.0;
+    let found = propose(&cost, &constraints).ok()?.x;
+    Some(Symmetric::from_entries(n, &found).rows())
 }
