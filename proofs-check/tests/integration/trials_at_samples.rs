@@ -84,6 +84,8 @@ fn each_form_has_its_inequality() {
             let at = format!("{forms}/{place}/{name}");
             refused(scaled(&at, factor), Invalid, RULE, &format!("{forms}/{place}"));
         }
+        // With h/pi for 3/2 h/pi it would hold with 28 times the lambda.
+        refused(scaled(&format!("{forms}/1/lambda"), 26.0), Invalid, RULE, &format!("{forms}/1"));
         for (name, factor) in [("P_up", 0.99), ("x_low", 1.01), ("e_low", 1.01)] {
             let at = format!("{forms}/1/{name}");
             refused(scaled(&at, factor), Invalid, RULE, &at);
