@@ -6,10 +6,10 @@ use super::{in_range, json_text};
 use rug::Rational;
 use sigmastar_document::progress::{Progress, Silent};
 use sigmastar_lab::falsify::{
-    Falsification as Found, FalsificationReport, FrequencyError, ParameterError, TriedClaim, counterexample_plant,
-    flags, with_base_frequency,
+    Falsification as Found, FalsificationReport, FrequencyError, OscillatorsError, ParameterError, TriedClaim,
+    counterexample_plant, flags, with_base_frequency,
 };
-use sigmastar_lang::spec::{Constant, Document};
+use sigmastar_lang::spec::{Constant, Document, Oscillators};
 
 pub use sigmastar_lab::falsify::TrialSettings;
 
@@ -135,6 +135,18 @@ impl Attempt {
             self.claims.push(claim);
         }
         Ok(self)
+    }
+
+    /// All of them with oscillators at these sets of harmonics alone, one trial after the other; none chooses nothing.
+    ///
+    /// # Errors
+    /// A set that a claim is not about.
+    pub fn with_oscillators(self, sets: &[Oscillators]) -> Result<Attempt, Error> {
+        let with = |claim: TriedClaim| {
+            let wrong = |error: OscillatorsError| Error::new(ErrorKind::Range, error.to_string(), error.help());
+            claim.with_oscillators(sets).map_err(wrong)
+        };
+        Ok(Attempt { claims: self.claims.into_iter().map(with).collect::<Result<_, _>>()? })
     }
 
     /// The trials.

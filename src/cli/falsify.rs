@@ -17,6 +17,7 @@ pub fn run(args: &FalsifyArgs) -> Result<u8, Failure> {
         args.base_frequency.iter().map(|text| input::positive("--base-frequency", text)).collect::<Result<_, _>>()?;
     let attempt = Attempt::new(&input::written(&args.certificate)?)?;
     let attempt = attempt.with_parameters(&parameters::rational(&args.parameter)?)?.with_base_frequencies(&others)?;
+    let attempt = attempt.with_oscillators(&args.harmonics)?;
     let only = args.trial.map(u64::from);
     let settings = TrialSettings { trials: u64::from(args.trials), seed: args.seed, only };
     let trials = if only.is_some() { 1 } else { settings.trials };

@@ -261,6 +261,6 @@ fn no_trial_contradicts_an_aligned_claim() {
         let (e, z) = trial.start[trial.plant.names().len()..].split_first().unwrap();
         assert!((e.abs() / 0.50092652 - 1.0).abs() < 1e-12, "{e}");
         let m = (0..z.len()).map(|i| if i == 0 || i % 2 == 1 { *e } else { 0.0 });
-        assert!(z.len() == 2 * trial.n_o as usize + 1 && z.iter().copied().eq(m), "{e} {z:?}");
+        assert!(z.len() == 2 * trial.oscillators.count() + 1 && z.iter().copied().eq(m), "{e} {z:?}");
     }
 }

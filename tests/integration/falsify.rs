@@ -1,6 +1,7 @@
 //! `sigmastar falsify` from the command line.
 
-use crate::support::{certified_in, document, every, json, made, number, read, sigmastar, stored};
+use crate::support::{certified_in, document, every, json, made, number, read, sigmastar, stored, told};
+use crate::trials_support;
 use predicates::prelude::*;
 use serde_json::Value;
 use std::path::Path;
@@ -256,4 +257,70 @@ fn what_is_no_certificate_is_refused() {
         .code(2)
         .stdout("")
         .stderr(predicate::str::contains("this is a file of format `sigmastar/bounding-spec`"));
+}
+
+/// A claim about every set of harmonics is tried with the sets that are chosen, in turn, and a false one is contradicted by a loop with such a set, which
+/// `simulate` shows again.
+#[test]
+fn sets_of_harmonics_are_tried_in_turn() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut claim = certified(&trials_support::document(), folder.path());
+    let sets = ["--harmonics", "0,2", "--harmonics", "3,0,1", "--harmonics", "0..2"];
+    let (code, report, counterexample) = falsify(&claim, folder.path(), "4", &sets);
+    assert_eq!((code, counterexample), (0, None), "{report}");
+    let trials = report["trials"].as_array().unwrap();
+    let of = |which: &Value| (which["harmonics"].clone(), which["n_o"].clone());
+    let list = |harmonics: &[u32]| (serde_json::json!(harmonics), Value::Null);
+    let expected = [list(&[0, 2]), list(&[0, 1, 3]), (Value::Null, 2.into()), list(&[0, 2])];
+    assert_eq!(trials.iter().map(of).collect::<Vec<_>>(), expected, "{report}");
+    assert!(trials.iter().all(|trial| trial["finding"] == "holds"), "{report}");
+
+    claim["claim"]["periodic_solution"]["e"] = "1/1000".into();
+    let (code, report, counterexample) = falsify(&claim, folder.path(), "1", &["--harmonics", "0,2,5"]);
+    let trial = &report["trials"][0];
+    assert!(code == 1 && of(trial) == list(&[0, 2, 5]), "{report}");
+    let counterexample = counterexample.unwrap();
+    let plant = json(counterexample.as_bytes());
+    let (_, call) = plant["description"].as_str().unwrap().split_once("Simulate it with ").unwrap();
+    assert!(call.contains("--harmonics 0,2,5"), "{call}");
+    let mut again = sigmastar(&["simulate", "-", "--format", "json", "-q"]);
+    again.args(call.trim_end_matches('.').split_whitespace());
+    let again = json(&again.write_stdin(counterexample).output().unwrap().stdout);
+    let steady = again["steady_state"]["sup_e"].as_f64().unwrap();
+    assert!((steady / trial["found"].as_f64().unwrap() - 1.0).abs() < 1e-3, "{steady} {trial}");
+}
+
+/// Sets that a claim is not about are refused.
+#[test]
+fn sets_without_a_claim_are_not_tried() {
+    let folder = tempfile::tempdir().unwrap();
+    let of = |harmonics: &str, sampling: Option<&str>| {
+        let mut document = trials_support::document();
+        document["internal_model"]["harmonics"] = harmonics.into();
+        if let Some(step) = sampling {
+            document["internal_model"]["sampling_period"] = step.into();
+        }
+        stored(folder.path(), "tried.json", &certified(&document, folder.path()))
+    };
+    for (harmonics, sampling, set, said) in [
+        (
+            "first",
+            None,
+            "0,2",
+            "the claim is about oscillators at the first n_o harmonics, and says nothing of oscillators at the harmonics 0, 2",
+        ),
+        (
+            "every-set",
+            Some("1/10"),
+            "0,10",
+            "the claim is about harmonics below 20/2, half of the samples in a period, and 10 is not",
+        ),
+        ("every-set", None, "1,2", "write `0,1,2`"),
+    ] {
+        let file = of(harmonics, sampling);
+        let (code, text) = told(sigmastar(&["falsify", "--trials", "1", "--harmonics", set]).arg(file));
+        assert!(code == 2 && text.contains(said), "{set}: {code} {text}");
+    }
+    let first = of("first", None);
+    sigmastar(&["falsify", "--trials", "1", "--harmonics", "0,1,2"]).arg(first).assert().code(0);
 }

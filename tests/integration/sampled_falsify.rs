@@ -38,7 +38,7 @@ fn a_true_claim_holds() {
         let Finding::Holds { trial, shares } = finding else { panic!("{finding:?}") };
         assert_eq!(trial.sigma, f64::from(SIGMA));
         assert!((0.0..1.0).contains(&trial.phase.unwrap()));
-        tried_n_o.push(trial.n_o);
+        tried_n_o.push(trial.oscillators.n_o().unwrap());
         phases.push(trial.phase.unwrap());
         // Convergence, four sizes of the periodic solution, two of the box, two of the control, and the Lyapunov function.
         assert_eq!(shares.len(), 10);

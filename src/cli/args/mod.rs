@@ -105,6 +105,7 @@ const FALSIFY_EXAMPLES: &str = "Examples:
   sigmastar falsify plant.certificate.json
   sigmastar falsify plant.certificate.json --trials 1000 --seed 7 -o counterexample.json
   sigmastar falsify plant.certificate.json --trial 12 -o trial12.json
+  sigmastar falsify plant.certificate.json --harmonics 0,1,5,7,11,13
   sigmastar falsify family.certificate.json --parameter k=4.4";
 
 /// Certified gains for output regulation: from a plant's formulas, or bounding functions of it, to a gain that provably works

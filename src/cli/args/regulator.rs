@@ -270,6 +270,11 @@ pub struct FalsifyArgs {
     #[arg(long, value_name = "LIST", value_delimiter = ',', allow_hyphen_values = true)]
     pub base_frequency: Vec<String>,
 
+    /// Try only oscillators at these harmonics; 0 is one of them: `0,1,5,7`. Repeat the flag for several sets, which the trials then have in turn.
+    /// Without it a number n_o of oscillators is drawn for each trial
+    #[arg(long, value_name = "LIST", value_parser = harmonics(MAX_SIMULATED_OSCILLATORS, LARGEST_HARMONIC))]
+    pub harmonics: Vec<Oscillators>,
+
     /// Try only this value of a parameter that has an interval, an exact number; repeat the flag for several parameters. Without it the corners
     /// of the intervals come first
     #[arg(long, value_name = "NAME=VALUE", conflicts_with = "base_frequency", allow_hyphen_values = true)]

@@ -7,7 +7,7 @@ use super::sampled_claim::SampledClaim;
 use rug::Rational;
 use sigmastar_decide::conditions::GivenWitness;
 use sigmastar_exact::enclosure::DEFAULT_PRECISION;
-use sigmastar_lang::spec::{Constant, Document, SpecErrors, Specification, StartSizes};
+use sigmastar_lang::spec::{Constant, Document, Oscillators, SpecErrors, Specification, StartSizes};
 use sigmastar_prove::certificate::{StatedClaim, StatedNoise, read_claim};
 use sigmastar_prove::reduction::FreeNumbers;
 use sigmastar_theory::data::Data;
@@ -52,6 +52,10 @@ pub struct TriedClaim {
     pub(super) chosen: Vec<Option<Rational>>,
     /// The law at samples, where the claim is about it: then it is about exactly its gain.
     pub sampled: Option<SampledClaim>,
+    /// Whether it is about every set of harmonics that contains 0.
+    pub(super) every_set: bool,
+    /// The sets with which alone it is tried, where some were chosen.
+    pub(super) sets: Vec<Oscillators>,
 }
 
 impl TriedClaim {
@@ -60,7 +64,7 @@ impl TriedClaim {
     /// # Errors
     /// Those of [`read_claim`].
     pub fn from_document(document: &Document) -> Result<TriedClaim, SpecErrors> {
-        let StatedClaim { spec, witness, periodic: [x, e, zeta, periodic_z], control, noise, plant } =
+        let StatedClaim { spec, witness, periodic: [x, e, zeta, periodic_z], control, noise, every_set, plant } =
             read_claim(document)?;
         let own = plant.zip(spec.plant()).and_then(|(plant, proved)| OwnPlant::new(plant, proved));
         let data = Data::new(&spec, DEFAULT_PRECISION);
@@ -106,6 +110,8 @@ impl TriedClaim {
             own,
             chosen: Vec::new(),
             sampled,
+            every_set,
+            sets: Vec::new(),
         })
     }
 
@@ -179,6 +185,8 @@ impl TriedClaim {
             own,
             chosen: Vec::new(),
             sampled,
+            every_set: false,
+            sets: Vec::new(),
         }
     }
 }

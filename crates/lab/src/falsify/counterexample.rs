@@ -14,7 +14,11 @@ pub fn flags(claim: &TriedClaim, trial: &Trial) -> String {
     // A drawn plant has it in its file.
     let period = trial.period.as_ref().filter(|_| matches!(trial.plant, TriedPlant::Own(_)));
     let period = period.map_or_else(String::new, |period| format!(" --period \"{}\"", period.text));
-    let plain = format!("--sigma {:?} --n-o {}{gain}{period}", trial.sigma, trial.n_o);
+    let oscillators = match trial.oscillators.n_o() {
+        Some(n_o) => format!("--n-o {n_o}"),
+        None => format!("--harmonics {}", trial.oscillators.all().map(|k| k.to_string()).collect::<Vec<_>>().join(",")),
+    };
+    let plain = format!("--sigma {:?} {oscillators}{gain}{period}", trial.sigma);
     match claim.sampled.as_ref().zip(trial.phase) {
         None => plain,
         Some((sampled, phase)) => format!("{plain} --sampled \"{}\" --phase {phase:?}", sampled.step.text),

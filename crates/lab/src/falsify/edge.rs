@@ -11,6 +11,7 @@ use crate::simulate::{ClosedLoop, Disturbance, IntegrationFailure, SampledLoop, 
 use sigmastar_document::plot::{Curve, Figure, Scale, Style};
 use sigmastar_exact::number::{Direction, round_f64, write_exact};
 use sigmastar_lang::plant::Plant;
+use sigmastar_lang::spec::Oscillators;
 use sigmastar_regulator::Regulator;
 
 /// A number of oscillators that is shown, and a bound of |e| along its periodic solution where one is proved.
@@ -118,7 +119,7 @@ fn member(claim: &TriedClaim) -> Result<Plant, String> {
         number: 1,
         plant: TriedPlant::Drawn(Box::new(drawn)),
         sigma: claim.sigma,
-        n_o: 0,
+        oscillators: Oscillators::first(0),
         start: vec![0.0; states + 2],
         input_gain: None,
         period: None,
@@ -150,7 +151,7 @@ fn one(
     let bound = limit.unwrap_or(claim.periodic[1]);
     if let Some(law) = &claim.sampled {
         let small = 2 * n_o < law.samples;
-        let Some((regulator, discrete)) = small.then(|| law.regulator(&claim.spec, n_o)).flatten() else {
+        let Some((regulator, discrete)) = small.then(|| law.regulator(&claim.spec, &n_o.into())).flatten() else {
             return Ok(None);
         };
         let begins = start(claim, plant.states(), &regulator);
@@ -160,7 +161,7 @@ fn one(
         let Some(mut steps) = SampledRun::new(&sampled, 0, &begins) else { return Ok(None) };
         return run.over(bound, periods, |run| run.period_at_samples(&sampled, &mut steps)).map(Some);
     }
-    let regulator = regulator(claim, claim.sigma, n_o);
+    let regulator = regulator(claim, claim.sigma, &n_o.into());
     let mut y = start(claim, plant.states(), &regulator);
     let closed_loop = ClosedLoop::new(plant, regulator);
     closed_loop.leave(EFFORT);

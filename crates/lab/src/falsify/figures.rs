@@ -57,7 +57,7 @@ pub fn nominal_figures(claim: &TriedClaim, n_o: u32, limit: Option<f64>) -> Opti
 }
 
 fn in_continuous_time((claim, own): (&TriedClaim, &OwnPlant), n_o: u32, limit: Option<f64>) -> Option<LoopFigures> {
-    let closed_loop = ClosedLoop::new(&own.plant, regulator(claim, claim.sigma, n_o)).without_limit();
+    let closed_loop = ClosedLoop::new(&own.plant, regulator(claim, claim.sigma, &n_o.into())).without_limit();
     let (n, period) = (closed_loop.states(), closed_loop.period);
     let set = Set { claim, own, regulator: &closed_loop.regulator };
     let steady = steady_state(&closed_loop, &set.start(0.0, &set.middle()), &Silent).ok()?;
@@ -82,7 +82,7 @@ fn at_samples(
     n_o: u32,
     limit: Option<f64>,
 ) -> Option<LoopFigures> {
-    let (regulator, discrete) = law.regulator(&claim.spec, n_o)?;
+    let (regulator, discrete) = law.regulator(&claim.spec, &n_o.into())?;
     let sampled = SampledLoop::new(&own.plant, regulator, discrete);
     let samples = sampled.samples().filter(|samples| *samples == law.samples as usize)?;
     let n = sampled.states();

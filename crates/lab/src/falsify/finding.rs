@@ -2,7 +2,7 @@
 
 use super::family::Family;
 use sigmastar_lang::plant::Plant;
-use sigmastar_lang::spec::Constant;
+use sigmastar_lang::spec::{Constant, Oscillators};
 
 /// Which trials, from which seed.
 #[derive(Clone, Copy, Debug)]
@@ -60,8 +60,8 @@ pub struct Trial {
     pub plant: TriedPlant,
     /// sigma, a little above sigma*; of the law at samples exactly the claimed one.
     pub sigma: f64,
-    /// n_o.
-    pub n_o: u32,
+    /// The oscillators.
+    pub oscillators: Oscillators,
     /// x, e, z at the start, on the boundary of the initial set.
     pub start: Vec<f64>,
     /// The gain of the actuator, of a claim for an interval of them.

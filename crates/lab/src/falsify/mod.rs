@@ -3,7 +3,7 @@
 //! That a plant lies within the families is proved; the simulation is floating point and decides nothing: a trial that
 //! finds nothing proves nothing, and what it finds is a plant and an initial condition that anyone can simulate again.
 //! A claim about the law at samples is tried with exactly its gain and sampling time, at different phases of the sampling grid.
-//! Of a family of plants the corners are tried first, then members inside. The number of oscillators varies. The base frequency and the
+//! Of a family of plants the corners are tried first, then members inside. The number of oscillators varies, or sets of harmonics are chosen for it. The base frequency and the
 //! period are part of the claim and stay; other base
 //! frequencies are claims of their own, which [`with_base_frequency`] makes.
 
@@ -27,6 +27,7 @@ mod limits;
 mod linear;
 mod members;
 mod membership;
+mod oscillators;
 mod random;
 mod report;
 mod run;
@@ -49,6 +50,7 @@ pub use limits::SectorEnd;
 pub use linear::linear_member;
 pub use members::ParameterError;
 pub use membership::respects;
+pub use oscillators::OscillatorsError;
 pub use random::Random;
 pub use report::FalsificationReport;
 pub use sampled_claim::SampledClaim;

@@ -74,9 +74,9 @@ fn blocks(claim: &TriedClaim, outcome: &Falsification) -> Vec<Block> {
         blocks.push(Block::heading("Counterexample"));
         let [found, bound] = told_apart([violation.found, violation.bound]);
         blocks.push(Block::says(format!(
-            "Trial {}, $`n_o = {}`${}: {} is about {found}, and the claim allows about {bound}.",
+            "Trial {}, {}{}: {} is about {found}, and the claim allows about {bound}.",
             trial.number,
-            trial.n_o,
+            oscillators_in_words(trial),
             member_words(trial),
             violation.quantity
         )));
@@ -126,13 +126,13 @@ fn plant_blocks(worst: &Closest<'_>, seed: u64) -> Vec<Block> {
     vec![
         Block::heading("The worst plant"),
         Block::says(format!(
-            "Trial {}, $`sigma = {:?}`$, $`n_o = {}`${}{}, came closest to one of the bounds: {quantity} reached {share:.3} of its bound. \
+            "Trial {}, $`sigma = {:?}`$, {}{}{}, came closest to one of the bounds: {quantity} reached {share:.3} of its bound. \
              (The multiplier and the Lyapunov function come close to their bounds with any plant.) `sigmastar falsify` with \
              `--seed {seed} --trial {} -o FILE` writes it as a plant file, with the call of `simulate` in its description. Another \
              number writes another trial.",
             trial.number,
             trial.sigma,
-            trial.n_o,
+            oscillators_in_words(trial),
             member_words(trial),
             trial.phase.map_or_else(String::new, |phase| format!(", first sample at $`t = {phase:?}`$")),
             trial.number
@@ -145,9 +145,11 @@ fn plant_blocks(worst: &Closest<'_>, seed: u64) -> Vec<Block> {
 /// The worst plant as JSON, with the plant file.
 fn worst_json(claim: &TriedClaim, worst: &Closest<'_>) -> Value {
     let Closest { quantity, share, trial, .. } = worst;
-    let Trial { number, sigma, n_o, .. } = trial;
+    let Trial { number, sigma, .. } = trial;
     let plant = counterexample_plant(claim, trial, None).map_or(Value::Null, |document| document.root().to_json());
-    let mut worst = json!({ "trial": number, "quantity": plain(quantity), "share": share, "sigma": sigma, "n_o": n_o });
+    let (name, which) = oscillators_json(trial);
+    let mut worst =
+        json!({ "trial": number, "quantity": plain(quantity), "share": share, "sigma": sigma, name: which });
     worst["plant"] = plant;
     with_member(worst, trial)
 }
@@ -162,12 +164,13 @@ fn json(claim: &TriedClaim, outcome: &Falsification) -> Value {
                     .iter()
                     .map(|(quantity, share)| json!({ "quantity": plain(quantity), "share": share }))
                     .collect();
-                with_member(json!({ "finding": "holds", "n_o": trial.n_o, "shares": shares }), trial)
+                let (name, which) = oscillators_json(trial);
+                with_member(json!({ "finding": "holds", name: which, "shares": shares }), trial)
             }
             Finding::Violated(trial, violation) => {
+                let (name, which) = oscillators_json(trial);
                 let finding = json!({
-                    "finding": "violated", "n_o": trial.n_o, "quantity": plain(violation.quantity),
-                    "found": violation.found, "bound": violation.bound,
+                    "finding": "violated", name: which, "quantity": plain(violation.quantity), "found": violation.found, "bound": violation.bound,
                 });
                 with_member(finding, trial)
             }
@@ -202,6 +205,19 @@ fn member_words(trial: &Trial) -> String {
     let period = trial.period.as_ref().map(|period| format!(", period {:?}", period.to_f64()));
     let parameters = trial.parameters.iter().map(|(name, value)| format!(", {name} = {value}"));
     gain.into_iter().chain(period).chain(parameters).collect()
+}
+
+/// The oscillators of a trial.
+fn oscillators_in_words(trial: &Trial) -> String {
+    trial.oscillators.n_o().map_or_else(|| trial.oscillators.to_string(), |n_o| format!("$`n_o = {n_o}`$"))
+}
+
+/// The same as a field.
+fn oscillators_json(trial: &Trial) -> (&'static str, Value) {
+    match trial.oscillators.n_o() {
+        Some(n_o) => ("n_o", json!(n_o)),
+        None => ("harmonics", trial.oscillators.all().collect()),
+    }
 }
 
 /// A trial of the law at samples with the time of its first sample, and with its input gain and parameters where there are any.

@@ -108,7 +108,7 @@ mod tests {
     use crate::falsify::trial::check;
     use crate::falsify::{Finding, TriedPlant};
     use sigmastar_lang::plant::Plant;
-    use sigmastar_lang::spec::Specification;
+    use sigmastar_lang::spec::{Oscillators, Specification};
     use sigmastar_regulator::Regulator;
 
     /// The finding of a trial of a plant with one state from x = 1, e = 0, for a claim with these sizes of an error box.
@@ -131,7 +131,7 @@ mod tests {
                 number: 1,
                 plant,
                 sigma: 1.0,
-                n_o: 0,
+                oscillators: Oscillators::first(0),
                 start,
                 input_gain: None,
                 period: None,

@@ -1,6 +1,6 @@
 //! What a claim about the law at samples is about.
 
-use sigmastar_lang::spec::{Constant, SampledGain, Specification};
+use sigmastar_lang::spec::{Constant, Oscillators, SampledGain, Specification};
 use sigmastar_regulator::{Design, Discrete, Regulator};
 use sigmastar_theory::derivation::sampled::SampledWitness;
 
@@ -30,10 +30,11 @@ impl SampledClaim {
         }
     }
 
-    /// The regulator with n_o oscillators and its law; `None` where a number is beyond double precision.
+    /// The regulator with these oscillators and its law; `None` where a number is beyond double precision.
     #[must_use]
-    pub fn regulator(&self, spec: &Specification, n_o: u32) -> Option<(Regulator, Discrete)> {
-        let design = Design::new(&spec.internal_model, &self.sigma, n_o).for_actuator(spec.input_gain.as_ref());
+    pub fn regulator(&self, spec: &Specification, oscillators: &Oscillators) -> Option<(Regulator, Discrete)> {
+        let design =
+            Design::new(&spec.internal_model, &self.sigma, oscillators.clone()).for_actuator(spec.input_gain.as_ref());
         let design = design.with_delay(self.gm.is_some());
         let (regulator, discrete) = (design.regulator(), design.discretise_with(&self.step, &self.law)?);
         (regulator.is_representable() && discrete.is_representable()).then_some((regulator, discrete))

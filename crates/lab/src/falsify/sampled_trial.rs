@@ -20,10 +20,8 @@ const BETWEEN: usize = 2;
 
 /// Runs a trial.
 pub(super) fn run(claim: &TriedClaim, law: &SampledClaim, mut random: Random, number: u64) -> Finding {
-    let tried = law.tried_n_o();
-    // From the first trial on, so that the ends are tried whatever the number of trials is.
-    let n_o = tried.get((number.saturating_sub(1) % tried.len().max(1) as u64) as usize).copied().unwrap_or(0);
-    let Some((regulator, discrete)) = law.regulator(&claim.spec, n_o) else {
+    let oscillators = claim.oscillators_at_samples(law, number);
+    let Some((regulator, discrete)) = law.regulator(&claim.spec, &oscillators) else {
         return Finding::Unfinished("a number of the law at samples is beyond double precision".to_owned());
     };
     // On the grid itself, then anywhere: a claim is about every phase.
@@ -50,7 +48,7 @@ pub(super) fn run(claim: &TriedClaim, law: &SampledClaim, mut random: Random, nu
         number,
         plant,
         sigma: law.sigma.to_f64(),
-        n_o,
+        oscillators,
         start,
         input_gain,
         period: None,

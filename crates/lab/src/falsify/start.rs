@@ -10,7 +10,7 @@ use super::linear::linear_member;
 use super::membership::MAX_OPERATIONS;
 use super::random::Random;
 use sigmastar_lang::plant::Plant;
-use sigmastar_lang::spec::StartSizes;
+use sigmastar_lang::spec::{Oscillators, StartSizes};
 use sigmastar_regulator::Regulator;
 use sigmastar_theory::data::Bound;
 
@@ -68,11 +68,13 @@ pub(super) fn boundary(claim: &TriedClaim, n: usize, regulator: &Regulator, rand
 }
 
 /// The regulator of the claim in double precision.
-pub(super) fn regulator(claim: &TriedClaim, sigma: f64, n_o: u32) -> Regulator {
+pub(super) fn regulator(claim: &TriedClaim, sigma: f64, oscillators: &Oscillators) -> Regulator {
     let model = &claim.spec.internal_model;
-    let weights = (0..=u64::from(n_o)).map(|l| model.weights.weight_f64(l)).collect();
+    let weights = oscillators.all().map(|l| model.weights.weight_f64(u64::from(l))).collect();
+    let base_frequency = model.base_frequency.to_f64();
+    let frequencies = oscillators.beyond_mean().iter().map(|l| f64::from(*l) * base_frequency).collect();
     let nominal = claim.spec.input_gain.as_ref().map(|gain| gain.nominal.to_f64());
-    Regulator::new(sigma, model.mu.to_f64(), model.base_frequency.to_f64(), weights).for_actuator(nominal)
+    Regulator { sigma, mu: model.mu.to_f64(), frequencies, weights, nominal }
 }
 
 #[cfg(test)]
@@ -88,7 +90,7 @@ mod tests {
         claim.initial = StartSizes { x0: 2.0, e0: 0.5, z0: Some(7.0) };
         let mut random = Random::new(3, 4);
         let plant = draw(&claim, &mut random, &mut { MAX_OPERATIONS }).unwrap();
-        let regulator = regulator(&claim, claim.sigma, 3);
+        let regulator = regulator(&claim, claim.sigma, &Oscillators::first(3));
         let n = plant.states();
         let start = boundary(&claim, n, &regulator, &mut random);
         assert!((norm(&start[..n]) - 2.0).abs() < 1e-5 && start[n].abs() == 0.5);

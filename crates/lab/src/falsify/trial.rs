@@ -20,8 +20,6 @@ use sigmastar_exact::number::Portable;
 use sigmastar_exact::parallel;
 use sigmastar_theory::data::Data;
 
-/// The numbers of oscillators that are tried.
-const TRIED_N_O: [u32; 6] = [0, 1, 2, 3, 5, 8];
 /// Samples of a period in that comparison.
 const SAMPLES: usize = 4096;
 
@@ -61,13 +59,14 @@ fn run_trial(claim: &TriedClaim, seed: u64, number: u64) -> Finding {
     let Some(plant) = drawn_plant(drawing.as_ref().unwrap_or(claim), number, &mut random) else {
         return Finding::Unfinished(no_member(claim).to_owned());
     };
-    let n_o = draw_n_o(claim, &mut random);
+    let oscillators = claim.oscillators(number, &mut random);
     let sigma = claim.sigma * claim.gain_of(ABOVE);
-    let regulator = regulator(claim, sigma, n_o);
+    let regulator = regulator(claim, sigma, &oscillators);
     let start = boundary(claim, plant.states(), &regulator, &mut random);
     let input_gain = claim.member(number, &mut random).input_gain;
     let plant = TriedPlant::Drawn(Box::new(plant));
-    let trial = Trial { number, plant, sigma, n_o, start, input_gain, period, parameters: Vec::new(), phase: None };
+    let trial =
+        Trial { number, plant, sigma, oscillators, start, input_gain, period, parameters: Vec::new(), phase: None };
     let file = match file(claim, &trial) {
         Ok(file) => file,
         Err(unfinished) => return unfinished,
@@ -78,9 +77,9 @@ fn run_trial(claim: &TriedClaim, seed: u64, number: u64) -> Finding {
 
 /// A trial of the plant that the claim is about, or of a member of its family.
 fn run_own(claim: &TriedClaim, own: &OwnPlant, mut random: Random, number: u64) -> Finding {
-    let n_o = draw_n_o(claim, &mut random);
+    let oscillators = claim.oscillators(number, &mut random);
     let sigma = claim.sigma * claim.gain_of(OwnPlant::gain(number));
-    let regulator = regulator(claim, sigma, n_o);
+    let regulator = regulator(claim, sigma, &oscillators);
     let mut start = boundary(claim, own.plant.states(), &regulator, &mut random);
     let member = claim.member(number, &mut random);
     let (parameters, input_gain) = (claim.named(&member), member.input_gain);
@@ -90,12 +89,11 @@ fn run_own(claim: &TriedClaim, own: &OwnPlant, mut random: Random, number: u64) 
     own.bring_within(0.0, &mut start);
     let closed_loop = with_gain(ClosedLoop::new(&own.plant, regulator), input_gain);
     let plant = TriedPlant::Own(Box::new(own.plant.clone()));
-    check(&claim, Trial { number, plant, sigma, n_o, start, input_gain, period, parameters, phase: None }, &closed_loop)
-}
-
-fn draw_n_o(claim: &TriedClaim, random: &mut Random) -> u32 {
-    let all = claim.tried_n_o(&TRIED_N_O);
-    all[random.whole(0, all.len() as u32 - 1) as usize]
+    check(
+        &claim,
+        Trial { number, plant, sigma, oscillators, start, input_gain, period, parameters, phase: None },
+        &closed_loop,
+    )
 }
 
 /// What is put out is told, not cut off: the first time that the actuator does not take it the claim is broken.
@@ -190,7 +188,8 @@ fn check_orbit(
         checks.at_most("$`sup|e|`$ against $`psi_1/sigma`$", e, psi[0] / trial.sigma);
         checks.at_most("$`sup|x|`$ against $`psi_x/sigma`$", x, psi[1] / trial.sigma);
     }
-    if let Some([by_rms, by_sup]) = claim.error_bounds(trial.sigma, trial.n_o) {
+    let of_count = trial.oscillators.n_o().and_then(|n_o| claim.error_bounds(trial.sigma, n_o));
+    if let Some([by_rms, by_sup]) = of_count {
         checks.at_most("$`rms(e)`$ against its bound for this $`n_o`$", rms(&error), by_rms);
         checks.at_most("$`sup|e|`$ against its bound for this $`n_o`$", e, by_sup);
     }

@@ -24,6 +24,8 @@ pub struct StatedClaim {
     pub control: Option<[f64; 2]>,
     /// What is stated for given n_o under noise and disturbances.
     pub noise: Vec<StatedNoise>,
+    /// Whether it is about every set of harmonics that contains 0.
+    pub every_set: bool,
     /// The plant, where the certificate is of one.
     pub plant: Option<Plant>,
 }
@@ -46,6 +48,7 @@ pub struct StatedNoise {
 /// What cannot be read, in its place, and a triple that is not proved.
 pub fn read_claim(document: &Document) -> Result<StatedClaim, SpecErrors> {
     let witness = read_numbers(document)?;
+    let every_set = document.at("/claim/harmonics").is_some();
     let root = document.root();
     let refused = |error| root.read(|_, errors| Err(errors.report(error)));
     if document.at("/plant").is_some() {
@@ -63,7 +66,7 @@ pub fn read_claim(document: &Document) -> Result<StatedClaim, SpecErrors> {
         };
         let (periodic, control) = (stated_periodic(document)?, stated_control(document)?);
         let noise = stated_noise(document)?;
-        return Ok(StatedClaim { spec, witness, periodic, control, noise, plant: Some(plant) });
+        return Ok(StatedClaim { spec, witness, periodic, control, noise, every_set, plant: Some(plant) });
     }
     let Some(embedded) = document.at("/specification") else {
         return refused(root.error(ErrorKind::MissingField, "the field `specification` is missing"));
@@ -81,7 +84,8 @@ pub fn read_claim(document: &Document) -> Result<StatedClaim, SpecErrors> {
         }
     }
     let (periodic, control) = (stated_periodic(document)?, stated_control(document)?);
-    Ok(StatedClaim { spec, witness, periodic, control, noise: stated_noise(document)?, plant: None })
+    let noise = stated_noise(document)?;
+    Ok(StatedClaim { spec, witness, periodic, control, noise, every_set, plant: None })
 }
 
 /// The stated bounds of the periodic solution.
