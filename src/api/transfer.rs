@@ -4,6 +4,7 @@ use super::error::{Error, ErrorKind};
 use super::report::Report;
 use super::subject::Subject;
 use super::{positive, rounded_up};
+use rug::Rational;
 use sigmastar_document::plot::Figure;
 use sigmastar_exact::enclosure::DEFAULT_PRECISION;
 use sigmastar_exact::number::write_exact;
@@ -59,9 +60,14 @@ impl TransferBound {
     }
 
     fn new(data: &Data<'_>, pair: &CertifiedPair) -> TransferBound {
-        let excess = pair.excess(data).map(|excess| excess.upper_f64());
-        let up = [rounded_up(&pair.k0), rounded_up(&pair.k1)];
-        TransferBound { k0: write_exact(&pair.k0), k1: write_exact(&pair.k1), up, excess }
+        TransferBound::with(data, pair, &pair.k1)
+    }
+
+    /// The same with another k1.
+    fn with(data: &Data<'_>, pair: &CertifiedPair, k1: &Rational) -> TransferBound {
+        let excess = pair.excess_of(data, k1).map(|excess| excess.upper_f64());
+        let up = [rounded_up(&pair.k0), rounded_up(k1)];
+        TransferBound { k0: write_exact(&pair.k0), k1: write_exact(k1), up, excess }
     }
 }
 
@@ -102,6 +108,7 @@ pub fn transfer_bound(subject: impl Into<Subject>, k0: &str) -> Result<TransferB
 pub struct TransferOptions {
     pair: Wanted,
     n_o: Vec<Option<u64>>,
+    every_set: bool,
 }
 
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -114,7 +121,8 @@ enum Wanted {
 impl Default for TransferOptions {
     fn default() -> TransferOptions {
         let finite = [0, 1, 2, 3, 5, 10, 20, 50, 1_000_000_000].map(Some);
-        TransferOptions { pair: Wanted::ForData, n_o: finite.into_iter().chain([None]).collect() }
+        let n_o = finite.into_iter().chain([None]).collect();
+        TransferOptions { pair: Wanted::ForData, n_o, every_set: false }
     }
 }
 
@@ -150,9 +158,16 @@ impl TransferOptions {
         self
     }
 
+    /// Also a pair that serves every finite set of harmonics that contains 0.
+    #[must_use]
+    pub fn every_set(mut self) -> TransferOptions {
+        self.every_set = true;
+        self
+    }
+
     /// What they say, for the layers below.
     #[doc(hidden)]
-    pub fn checked(&self) -> Result<(PairChoice, Vec<OscillatorCount>), Error> {
+    pub fn checked(&self) -> Result<(PairChoice, Vec<OscillatorCount>, bool), Error> {
         if self.n_o.len() > TransferOptions::MOST {
             let message = format!("n_o has {} numbers of oscillators", self.n_o.len());
             let help =
@@ -165,7 +180,7 @@ impl TransferOptions {
             Wanted::Cheapest(a, b) => PairChoice::Cheapest { a: positive("a", a)?, b: positive("b", b)? },
         };
         let count = |n_o: &Option<u64>| n_o.map_or(OscillatorCount::Infinite, OscillatorCount::Finite);
-        Ok((pair, self.n_o.iter().map(count).collect()))
+        Ok((pair, self.n_o.iter().map(count).collect(), self.every_set))
     }
 }
 
@@ -174,6 +189,7 @@ impl TransferOptions {
 #[non_exhaustive]
 pub struct TransferStudy {
     bound: TransferBound,
+    every_set: Option<TransferBound>,
     shares: Vec<OscillatorShare>,
     report: Report,
 }
@@ -193,6 +209,13 @@ impl TransferStudy {
     #[must_use]
     pub fn bound(&self) -> &TransferBound {
         &self.bound
+    }
+
+    /// With the same k0 the bound `T_H(x) <= k0 + k1 x^2` for every finite set H of harmonics that contains 0 and every `x >= 0`, where it was asked for;
+    /// `None` also where no proof was found within the effort.
+    #[must_use]
+    pub fn every_set(&self) -> Option<&TransferBound> {
+        self.every_set.as_ref()
     }
 
     /// One for each number of oscillators that was asked for, in that order.
@@ -225,11 +248,11 @@ pub fn transfer_study(subject: impl Into<Subject>, options: &TransferOptions) ->
 /// There is no certified pair.
 pub fn transfer_of(
     spec: &Specification,
-    (pair, n_o): &(PairChoice, Vec<OscillatorCount>),
+    (pair, n_o, every_set): &(PairChoice, Vec<OscillatorCount>, bool),
     figure: bool,
     done: impl Fn() + Sync,
 ) -> Result<(TransferStudy, Option<Figure>), PairError> {
-    let study = transfer::TransferStudy::new(spec, DEFAULT_PRECISION, pair, n_o, done)?;
+    let study = transfer::TransferStudy::new(spec, DEFAULT_PRECISION, pair, (n_o, *every_set), done)?;
     let share = |of: &transfer::Uniformity| OscillatorShare {
         n_o: match of.sup.n_o {
             OscillatorCount::Finite(n) => Some(n),
@@ -239,6 +262,11 @@ pub fn transfer_of(
     };
     let told = TransferStudy {
         bound: TransferBound::new(&study.data, &study.pair),
+        every_set: study
+            .every_set
+            .as_ref()
+            .and_then(|sets| sets.pair.as_ref())
+            .map(|pair| TransferBound::with(&study.data, &study.pair, &pair.k1)),
         shares: study.uniformity.iter().map(share).collect(),
         report: Report::of(&TransferReport(&study)),
     };

@@ -32,6 +32,7 @@ pub fn run(args: &TransferArgs) -> Result<u8, Failure> {
         }
         (None, None) => options,
     };
+    let options = if args.sets { options.every_set() } else { options };
     let n_o = counts(&args.n_o)?;
     let subject = Asked::read(&args.spec)?.subject()?;
     // The internal model needs no Lyapunov triple.

@@ -101,6 +101,7 @@ mod support;
 mod sweep;
 mod table;
 mod transfer;
+mod transfer_sets;
 mod transfer_sums;
 mod transfer_table;
 mod trials;

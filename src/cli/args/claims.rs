@@ -180,6 +180,10 @@ pub struct TransferArgs {
     #[arg(long, value_name = "LIST", allow_hyphen_values = true, default_value = "0,1,2,3,5,10,20,50,1000000000,inf")]
     pub n_o: String,
 
+    /// Also prove a pair that serves oscillators at every finite set of harmonics that contains 0, not only at the first n_o
+    #[arg(long)]
+    pub sets: bool,
+
     /// Draw T for these n_o under the bound, as SVG, into this file
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub plot: Option<PathBuf>,

@@ -68,6 +68,7 @@ const TUNE_EXAMPLES: &str = "Examples:
 const TRANSFER_EXAMPLES: &str = "Examples:
   sigmastar transfer plant.json
   sigmastar transfer plant.json --k0 1/2 --n-o 0..10,inf
+  sigmastar transfer plant.json --sets
   sigmastar transfer plant.json --minimise 1,2/3 --plot bound.svg";
 
 /// Examples of `bound`.

@@ -1,5 +1,6 @@
 //! The report on the transfer bound as JSON.
 
+use super::sets;
 use serde_json::{Value, json};
 use sigmastar_exact::number::write_exact;
 use sigmastar_prove::certify::Verdict;
@@ -39,6 +40,7 @@ pub(super) fn report(study: &TransferStudy<'_>) -> Value {
         "per_n_o": study.uniformity.iter().map(per_n_o).collect::<Vec<_>>(),
         "trade_off": study.trade_off.iter().map(|pair| pair_json(data, pair)).collect::<Vec<_>>(),
         "matched": matched,
+        "every_set": study.every_set.as_ref().map(|sets| sets::json(study, sets)),
         "printed": printed(&study.printed),
         "repaired": { "k0": study.printed.repaired.0.decimals(), "k1": study.printed.repaired.1.decimals() },
     })

@@ -4,6 +4,7 @@ mod figure;
 mod json;
 mod printed;
 mod sections;
+mod sets;
 
 pub use figure::transfer_figure;
 pub use json::pair_failure_json;
@@ -17,9 +18,10 @@ pub struct TransferReport<'s>(pub &'s TransferStudy<'s>);
 
 impl Readable for TransferReport<'_> {
     fn blocks(&self) -> Vec<Block> {
-        let TransferStudy { data, pair, uniformity, trade_off, matched, printed } = self.0;
+        let TransferStudy { data, pair, uniformity, trade_off, matched, every_set, printed } = self.0;
         let mut blocks = vec![Block::Title(format!("{}: transfer bound", clean(&data.spec.name)))];
         blocks.extend(sections::pair(data, pair));
+        blocks.extend(every_set.iter().flat_map(|sets| sets::section(self.0, sets)));
         blocks.extend(sections::uniformity(uniformity));
         blocks.push(Block::Drawing(transfer_figure(self.0)));
         blocks.push(Block::Detail);

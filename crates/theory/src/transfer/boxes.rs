@@ -42,6 +42,21 @@ pub(super) fn group(data: &Data<'_>, n0: u32, index: usize) -> OscillatorRange {
     }
 }
 
+/// The integer m with [a, b] in [m - 1/2, m + 1/2]: the nearest one of the middle, where the box does not reach beyond its half-integers.
+pub(super) fn nearest_pole([a, b]: [&Rational; 2]) -> Option<u32> {
+    let half = Rational::from((1, 2));
+    let nearest = (Rational::from(a + b) / 2u32 + &half).floor();
+    let fits = Rational::from(&nearest - &half) <= *a && *b <= Rational::from(&nearest + &half);
+    nearest.numer().to_u32().filter(|_| fits)
+}
+
+/// Whether break points cover [0, m0 - 1/2] in order.
+pub(super) fn covers(breaks: &[Rational], m0: u32) -> bool {
+    breaks.first().is_some_and(|first| first.cmp0() == Ordering::Equal)
+        && breaks.last() == Some(&edge(m0))
+        && breaks.windows(2).all(|pair| pair[0] < pair[1])
+}
+
 /// The two sides on one box: the supremum of T over it, and k0 + k1 a^2 at its left end a; or, for a box that starts
 /// at 0 where these do not prove it, the two sides of the form divided by x^2.
 pub(super) fn sides(
@@ -51,14 +66,9 @@ pub(super) fn sides(
     [a, b]: [&Rational; 2],
     pair: [&Enclosure; 2],
 ) -> (Enclosure, Enclosure) {
-    // The nearest integer of the middle; the box must not reach beyond its half-integers.
-    let middle = Rational::from(a + b) / 2u32;
-    let nearest = (middle + Rational::from((1, 2))).floor();
-    let half = Rational::from((1, 2));
-    let fits = Rational::from(&nearest - &half) <= *a && *b <= Rational::from(&nearest + &half);
-    let value = match (fits, nearest.numer().to_u32()) {
-        (true, Some(nearest)) => sums.enclose(&Enclosure::between(a, b, data.precision), nearest, oscillators),
-        _ => Enclosure::undefined(data.precision),
+    let value = match nearest_pole([a, b]) {
+        Some(nearest) => sums.enclose(&Enclosure::between(a, b, data.precision), nearest, oscillators),
+        None => Enclosure::undefined(data.precision),
     };
     let (lhs, rhs) = (value.ceiling(), pair[0] + pair[1] * data.rational(a).sqr());
     if a.cmp0() == Ordering::Equal && !lhs.le(&rhs).is_true() {
@@ -88,12 +98,7 @@ impl BoxProof {
         {
             return refuse("a proof by boxes needs 1 <= m0 <= N0, k1 > 0, and bounded numbers of poles and boxes");
         }
-        let covered = |breaks: &Vec<Rational>| {
-            breaks.first().is_some_and(|first| first.cmp0() == Ordering::Equal)
-                && breaks.last() == Some(&edge(self.m0))
-                && breaks.windows(2).all(|pair| pair[0] < pair[1])
-        };
-        if self.breaks.len() != self.n0 as usize || !self.breaks.iter().all(covered) {
+        if self.breaks.len() != self.n0 as usize || !self.breaks.iter().all(|breaks| covers(breaks, self.m0)) {
             return refuse("the boxes must cover [0, m0 - 1/2] in order, once for each N < N0 and once for N >= N0");
         }
         let sums = LorentzSums::new(data, self.n0);

@@ -8,7 +8,7 @@ use sigmastar_exact::enclosure::{Enclosure, Truth};
 
 /// Bisections of [m - 1/2, m + 1/2] before a cover is given up. With at most 6 bits before the point, every break
 /// point is a double.
-const MAX_DEPTH: u32 = 44;
+pub(super) const MAX_DEPTH: u32 = 44;
 /// The relative room that a proposed box must have, far more than what rounding takes.
 const ROUNDING: f64 = 1e-9;
 /// N0 - m0 that are tried in turn.

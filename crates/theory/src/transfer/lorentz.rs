@@ -123,15 +123,24 @@ impl LorentzSums {
             s = s + more;
             slope = slope + steeper;
         }
-        let (n_0, nu_squared) = (&self.weights[0], &self.nu_squared);
-        let first = 1 - 2 * (nu_squared * n_0 * &s) + nu_squared * s.sqr() * &y;
-        let second = &y + nu_squared * (n_0 - s * &y).sqr();
-        (slope, pair[0] * first + pair[1] * second)
+        (slope, divided_at_zero([&self.weights[0], &self.nu_squared], &y, &s, pair))
     }
 }
 
-/// What the poles |l| >= first can add, for any N >= first: to the sum, divided by x, and to the slope.
-fn beyond(x: &Enclosure, first: u32, tail: &Enclosure) -> (Enclosure, Enclosure) {
+/// `k0 (1 - 2 nu^2 n_0 S + nu^2 S^2 y) + k1 (y + nu^2 (n_0 - S y)^2)`: what D may be near x = 0, y = x^2.
+pub(super) fn divided_at_zero(
+    [n_0, nu_squared]: [&Enclosure; 2],
+    y: &Enclosure,
+    s: &Enclosure,
+    pair: [&Enclosure; 2],
+) -> Enclosure {
+    let first = 1 - 2 * (nu_squared * n_0 * s) + nu_squared * s.sqr() * y;
+    let second = y + nu_squared * (n_0 - s * y).sqr();
+    pair[0] * first + pair[1] * second
+}
+
+/// What the poles |l| >= first can add, for any N >= first, or any of them: to the sum, divided by x, and to the slope.
+pub(super) fn beyond(x: &Enclosure, first: u32, tail: &Enclosure) -> (Enclosure, Enclosure) {
     let zero = Enclosure::zero(x.precision());
     let gap = 1 - (x / i64::from(first)).sqr();
     (zero.hull(&(tail / &gap)), zero.hull(&(2 * tail / gap.sqr())))

@@ -20,6 +20,9 @@ mod pair;
 mod pole_sums;
 mod poles;
 mod printed;
+mod set_boxes;
+mod set_pair;
+mod set_sums;
 mod study;
 mod uniformity;
 #[cfg(test)]
@@ -38,7 +41,9 @@ pub use pair::{
 pub use pole_sums::{AroundPole, MAX_DIRECT_POLES, MAX_PIECES, OscillatorCount, PoleSums};
 pub use poles::{MAX_POLE_OSCILLATORS, PoleDisc, PolesError, internal_model_poles, slowest_decay};
 pub use printed::{PrintedCheck, PrintedChecks, PrintedTransfer, lambda_interval, printed_transfer};
-pub use study::{MatchedPair, PairChoice, TransferStudy, Uniformity, rational_k0};
+pub use set_boxes::SetBoxProof;
+pub use set_pair::{SetPair, smallest_k1_for_every_set};
+pub use study::{ForEverySet, MatchedPair, PairChoice, TransferStudy, Uniformity, rational_k0};
 pub use uniformity::{SupRatio, sup_ratios};
 
 use crate::condition::Condition;

@@ -11,11 +11,11 @@ use sigmastar_exact::number::{Direction, round_f64, write_exact};
 use thiserror::Error;
 
 /// Significant digits of a certified k1, and of a k0 that the program chooses.
-const DIGITS: u32 = 6;
+pub(super) const DIGITS: u32 = 6;
 /// Significant digits of a point at which T is evaluated.
 const POINT_DIGITS: u32 = 10;
 /// Relative room above the sampled curve that is tried in turn.
-const ROOMS: [f64; 8] = [3e-4, 1e-3, 3e-3, 6e-3, 9e-3, 0.03, 0.1, 0.3];
+pub(super) const ROOMS: [f64; 8] = [3e-4, 1e-3, 3e-3, 6e-3, 9e-3, 0.03, 0.1, 0.3];
 /// The first of [`ROOMS`] for the pairs of a table: fewer boxes.
 const TABLE_ROOMS: &[f64] = ROOMS.split_at(2).1;
 
@@ -55,8 +55,14 @@ impl CertifiedPair {
     /// By how much, relatively, k1 exceeds the proved lower bound of every admissible k1 with this k0, rounded up.
     #[must_use]
     pub fn excess(&self, data: &Data<'_>) -> Option<Enclosure> {
+        self.excess_of(data, &self.k1)
+    }
+
+    /// The same of another k1 with this k0.
+    #[must_use]
+    pub fn excess_of(&self, data: &Data<'_>, k1: &Rational) -> Option<Enclosure> {
         let least = &self.binding.as_ref()?.least_k1;
-        least.is_positive().is_true().then(|| (data.rational(&self.k1) / least - 1).ceiling())
+        least.is_positive().is_true().then(|| (data.rational(k1) / least - 1).ceiling())
     }
 }
 

@@ -3,8 +3,9 @@
 
 use super::printed::PrintedChecks;
 use super::{
-    CertifiedPair, MAX_POLE_OSCILLATORS, OscillatorCount, PairError, SupRatio, TradeOff, TransferProof, cheapest_pair,
-    decide, internal_model_poles, slowest_decay, smallest_k1, sup_ratios, trade_off_pairs,
+    CertifiedPair, MAX_POLE_OSCILLATORS, OscillatorCount, PairError, SetPair, SupRatio, TradeOff, TransferProof,
+    cheapest_pair, decide, internal_model_poles, serves_every_set, slowest_decay, smallest_k1,
+    smallest_k1_for_every_set, sup_ratios, trade_off_pairs,
 };
 use crate::data::{Bound, Data, Problem};
 use rug::Rational;
@@ -45,6 +46,22 @@ pub struct MatchedPair {
     pub first_of_tail: u32,
 }
 
+/// What serves every finite set of harmonics that contains 0, beside the closed form, which does (derivation, 14.7).
+#[derive(Clone, Debug)]
+pub struct ForEverySet {
+    /// A pair with the k0 of the study, at every x >= 0; `None` where no proof was found within the effort.
+    pub pair: Option<SetPair>,
+    /// Whether the pair for a matched base frequency is proved to serve every set, where there is one.
+    pub matched: Option<bool>,
+}
+
+impl ForEverySet {
+    fn new(data: &Data<'_>, k0: &Rational, matched: Option<&MatchedPair>) -> ForEverySet {
+        let serves = |pair: &MatchedPair| serves_every_set(data, &TransferProof::Matched { k: pair.first_of_tail });
+        ForEverySet { pair: smallest_k1_for_every_set(data, k0), matched: matched.map(serves) }
+    }
+}
+
 /// What is known of one number of oscillators.
 #[derive(Clone, Debug)]
 pub struct Uniformity {
@@ -67,12 +84,15 @@ pub struct TransferStudy<'s> {
     pub trade_off: Vec<CertifiedPair>,
     /// The pair that only integers x need, where the base frequency is matched.
     pub matched: Option<MatchedPair>,
+    /// What serves every set of harmonics, where that was asked for.
+    pub every_set: Option<ForEverySet>,
     /// The paper's constants, statement by statement.
     pub printed: PrintedChecks,
 }
 
 impl<'s> TransferStudy<'s> {
-    /// Finds and proves the pair, and all that belongs to it, for some numbers of oscillators; `done` is called after each.
+    /// Finds and proves the pair, and all that belongs to it, for some numbers of oscillators, and where that is asked for every set of harmonics; `done` is
+    /// called after each number.
     ///
     /// Guarantee: every pair, ratio and comparison is proved.
     ///
@@ -82,7 +102,7 @@ impl<'s> TransferStudy<'s> {
         spec: &'s Specification,
         precision: u32,
         choice: &PairChoice,
-        n_o: &[OscillatorCount],
+        (n_o, every_set): (&[OscillatorCount], bool),
         done: impl Fn() + Sync,
     ) -> Result<TransferStudy<'s>, PairError> {
         let data = Data::new(spec, precision);
@@ -106,8 +126,9 @@ impl<'s> TransferStudy<'s> {
         let uniformity = ratios.into_iter().zip(decays).map(|(sup, decay)| Uniformity { decay, sup }).collect();
         let trade_off = trade_off_pairs(&data, TRADE_OFF_PAIRS);
         let matched = if spec.internal_model.matched { matched_pair(&data, a, b) } else { None };
+        let every_set = every_set.then(|| ForEverySet::new(&data, &pair.k0, matched.as_ref()));
         let printed = PrintedChecks::new(&data);
-        Ok(TransferStudy { data, pair, uniformity, trade_off, matched, printed })
+        Ok(TransferStudy { data, pair, uniformity, trade_off, matched, every_set, printed })
     }
 }
 
