@@ -290,6 +290,51 @@ fn sets_of_harmonics_are_tried_in_turn() {
     assert!((steady / trial["found"].as_f64().unwrap() - 1.0).abs() < 1e-3, "{steady} {trial}");
 }
 
+/// What a certificate says of a set, and by the number of oscillators, is tried with these oscillators: it is nearly reached, and what is half as large
+/// is contradicted.
+#[test]
+fn what_is_said_of_a_set_is_tried_with_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let at_samples = |document: &Value| {
+        let mut document = document.clone();
+        document["f"][0] = "-2*v + e + cos(phase)".into();
+        document["q"] = "v/2 - e + sin(phase) + sin(2*phase)/2".into();
+        document["internal_model"]["sampling_period"] = "1/20".into();
+        document
+    };
+    for document in [trials_support::document(), at_samples(&trials_support::document())] {
+        let claim = read(certified_in(folder.path(), &document, &["--harmonics", "0,2"]).0);
+        let tried = |claim: &Value, set: &str| {
+            let (code, report, _) = falsify(claim, folder.path(), "1", &["--harmonics", set]);
+            (code, report)
+        };
+        let (code, report) = tried(&claim, "0,2");
+        let shares = report["trials"][0]["shares"].as_array().unwrap();
+        let of = |what: &str| {
+            let own = shares.iter().find(|share| share["quantity"] == format!("{what}, with these oscillators"));
+            own.unwrap_or_else(|| panic!("{what}: {report}"))["share"].as_f64().unwrap()
+        };
+        let steady = ["sup|e|", "rms(e)", "sup|u|"].map(|what| of(&format!("{what} of the periodic solution")));
+        assert!(code == 0 && steady.iter().all(|share| *share > 0.97), "{steady:?}");
+        assert!(of("|e| at all times") > 0.3 && of("|u| at all times") > 0.1, "{report}");
+
+        let place =
+            claim["claim"]["by_n_o"].as_array().unwrap().iter().position(|entry| entry.get("harmonics").is_some());
+        for (part, name) in [("steady", "e"), ("steady", "e_rms"), ("steady", "u"), ("largest", "e"), ("largest", "u")]
+        {
+            let mut forged = claim.clone();
+            let value = &mut forged["claim"]["by_n_o"][place.unwrap()][part][name];
+            let factor = if part == "steady" { 0.5 } else { 0.05 };
+            *value = (number(value) * factor).to_string().into();
+            let (code, report) = tried(&forged, "0,2");
+            let quantity = report["trials"][0]["quantity"].as_str().unwrap_or_default();
+            assert!(code == 1 && quantity.ends_with("with these oscillators"), "{part} {name}: {report}");
+            // It says nothing of other sets.
+            assert_eq!(tried(&forged, "0,1,3").0, 0, "{part} {name}");
+        }
+    }
+}
+
 /// Sets that a claim is not about are refused.
 #[test]
 fn sets_without_a_claim_are_not_tried() {

@@ -344,7 +344,7 @@ fn written() -> &'static BTreeMap<&'static str, Vec<Value>> {
             (
                 "transfer-fragment",
                 vec![
-                    other(&["transfer", "-q", EXAMPLE, "--k0", "2*pi^2", "--n-o", "0,1,inf"]),
+                    other(&["transfer", "-q", EXAMPLE, "--k0", "2*pi^2", "--n-o", "0,1,inf", "--sets"]),
                     run(1, &["transfer", "-q", EXAMPLE, "--k0", "1", "--format", "json"]),
                 ],
             ),

@@ -12,6 +12,9 @@ const ROOM: f64 = 1e-9;
 /// The share of a state by which a period of it may be off.
 const ROUNDING: f64 = 1e-12;
 
+/// By what factor a size may differ at a gain that is [`ABOVE`](super::frame::ABOVE) times that of its bound.
+const NEARLY: f64 = 1.0 + 1e-5;
+
 /// Periods from the initial condition that are compared with the periodic solution.
 pub(super) const PERIODS: usize = 12;
 
@@ -45,6 +48,18 @@ impl Checks {
         let holds = found <= bound || (found.is_finite() && found <= bound * (1.0 + TOLERANCE) + self.room);
         if !holds && self.violation.is_none() {
             self.violation = Some(Violation { quantity, bound, found });
+        }
+    }
+
+    /// Each of these, found at a gain a little above that of the bounds.
+    pub(super) fn all_at_most<const N: usize>(
+        &mut self,
+        quantities: [&'static str; N],
+        found: [f64; N],
+        bounds: [f64; N],
+    ) {
+        for ((quantity, found), bound) in quantities.into_iter().zip(found).zip(bounds) {
+            self.at_most(quantity, found, bound * NEARLY);
         }
     }
 

@@ -8,7 +8,7 @@ use rug::Rational;
 use sigmastar_decide::conditions::GivenWitness;
 use sigmastar_exact::enclosure::DEFAULT_PRECISION;
 use sigmastar_lang::spec::{Constant, Document, Oscillators, SpecErrors, Specification, StartSizes};
-use sigmastar_prove::certificate::{StatedClaim, StatedNoise, read_claim};
+use sigmastar_prove::certificate::{StatedBounds, StatedClaim, StatedNoise, read_claim};
 use sigmastar_prove::reduction::FreeNumbers;
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::consequences::{ErrorBounds, Excitation, Psi, error_bounds};
@@ -33,6 +33,8 @@ pub struct TriedClaim {
     pub control: Option<[f64; 2]>,
     /// Bounds for given n_o under noise and disturbances, at the gain of the claim.
     pub noise: Vec<StatedNoise>,
+    /// Bounds by the number of oscillators and for sets of harmonics, at the gain of the claim.
+    pub by_count: Vec<StatedBounds>,
     /// D_x, D_e: the error box.
     pub error_box: [f64; 2],
     /// w_x P_low, w_x P_up and h of the Lyapunov function w_x x'P_x x + e^2 + h z'N z in error coordinates, where the
@@ -64,8 +66,16 @@ impl TriedClaim {
     /// # Errors
     /// Those of [`read_claim`].
     pub fn from_document(document: &Document) -> Result<TriedClaim, SpecErrors> {
-        let StatedClaim { spec, witness, periodic: [x, e, zeta, periodic_z], control, noise, every_set, plant } =
-            read_claim(document)?;
+        let StatedClaim {
+            spec,
+            witness,
+            periodic: [x, e, zeta, periodic_z],
+            control,
+            noise,
+            by_count,
+            every_set,
+            plant,
+        } = read_claim(document)?;
         let own = plant.zip(spec.plant()).and_then(|(plant, proved)| OwnPlant::new(plant, proved));
         let data = Data::new(&spec, DEFAULT_PRECISION);
         let (p_low, p_up) = (data.p_low.lower_f64(), data.p_up.upper_f64());
@@ -101,6 +111,7 @@ impl TriedClaim {
             periodic_z,
             control,
             noise,
+            by_count,
             error_box,
             lyapunov,
             joint,
@@ -142,6 +153,12 @@ impl TriedClaim {
         self.control.filter(|_| sigma <= self.sigma * ABOVE)
     }
 
+    /// The bounds for the oscillators of a trial, which are for the gain of the claim alone.
+    pub(super) fn bounds_at(&self, trial: &Trial) -> Option<&StatedBounds> {
+        let of_trial = |stated: &&StatedBounds| stated.are_about(&trial.oscillators);
+        self.by_count.iter().find(of_trial).filter(|_| trial.sigma <= self.sigma * ABOVE)
+    }
+
     /// The numbers of oscillators of its trials: those of the bounds under noise, where there are any.
     pub(super) fn tried_n_o(&self, otherwise: &[u32]) -> Vec<u32> {
         match self.noise[..] {
@@ -172,6 +189,7 @@ impl TriedClaim {
             spec,
             sigma: 1.0,
             noise: Vec::new(),
+            by_count: Vec::new(),
             initial,
             periodic,
             periodic_z,

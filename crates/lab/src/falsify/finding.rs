@@ -113,6 +113,15 @@ pub(super) const CONTROL: &str = "$`|u - u_p|`$ in the transient, against its bo
 /// What is put out, where the actuator saturates.
 pub(super) const SATURATION: &str = "$`|u|`$ in the transient, against what the actuator takes";
 
+/// What a claim says by the number of oscillators, or for a set of harmonics: of the periodic solution and of all times.
+pub(super) const STEADY_BY_COUNT: [&str; 3] = [
+    "$`sup|e|`$ of the periodic solution, with these oscillators",
+    "$`rms(e)`$ of the periodic solution, with these oscillators",
+    "$`sup|u|`$ of the periodic solution, with these oscillators",
+];
+pub(super) const LARGEST_BY_COUNT: [&str; 2] =
+    ["$`|e|`$ at all times, with these oscillators", "$`|u|`$ at all times, with these oscillators"];
+
 /// The error with noise and a disturbance, near the periodic solution and from the initial set.
 pub(super) const DISTURBED: [&str; 2] = [
     "$`|e - e_p|`$ with noise and disturbance, in the limit",

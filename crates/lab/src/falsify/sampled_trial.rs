@@ -2,7 +2,10 @@
 
 use super::checks::{Checks, PERIODS, unfinished, why_none};
 use super::claim::TriedClaim;
-use super::finding::{CONTROL, Finding, LYAPUNOV, MULTIPLIER, SATURATION, STEADY_CONTROL, Trial, TriedPlant};
+use super::finding::{
+    CONTROL, Finding, LARGEST_BY_COUNT, LYAPUNOV, MULTIPLIER, SATURATION, STEADY_BY_COUNT, STEADY_CONTROL, Trial,
+    TriedPlant,
+};
 use super::random::Random;
 use super::run::{self, Largest};
 use super::sampled_claim::SampledClaim;
@@ -128,7 +131,7 @@ fn check(claim: &TriedClaim, (trial, gm): (Trial, Option<f64>), sampled: &Sample
     };
     let multiplier = steady.largest_multiplier().unwrap_or(0.0);
     let mut checks = Checks::around(claim, &steady.start, steady.residual, multiplier);
-    check_orbit(claim, sampled, &steady, &orbit, &mut checks);
+    check_orbit(claim, &trial, sampled, &steady, &orbit, &mut checks);
     let pass = |_, y: &[f64]| pass_period(sampled, 0, y, Tolerance::ORDINARY);
     if checks.are_broken() && !run::comes_to(&start, &steady.start, pass) {
         return alone(claim, trial, sampled, run::ELSEWHERE.to_owned());
@@ -158,6 +161,7 @@ fn alone(claim: &TriedClaim, trial: Trial, sampled: &SampledLoop, why: String) -
 
 fn check_orbit(
     claim: &TriedClaim,
+    trial: &Trial,
     sampled: &SampledLoop,
     steady: &SampledSteady,
     orbit: &[Interval],
@@ -165,6 +169,7 @@ fn check_orbit(
 ) {
     let n = sampled.states();
     let (mut x, mut e, mut zeta, mut z) = (0.0_f64, 0.0_f64, 0.0_f64, 0.0_f64);
+    let u = orbit.iter().fold(0.0_f64, |u, interval| u.max(interval.u.abs()));
     for interval in orbit {
         zeta = zeta.max(sampled.regulator.weighted_norm(&interval.zeta));
         z = z.max(sampled.regulator.weighted_norm(&interval.z));
@@ -182,8 +187,13 @@ fn check_orbit(
     checks.at_most("$`sup|zeta|_N`$ of the periodic solution, at samples", zeta, claim.periodic[2]);
     checks.at_most("$`sup|z|_N`$ of the periodic solution, at samples", z, claim.periodic_z);
     if let Some([steady, _]) = claim.control {
-        let u = orbit.iter().fold(0.0_f64, |u, interval| u.max(interval.u.abs()));
         checks.at_most(STEADY_CONTROL, u, steady);
+    }
+    if let Some(bounds) = claim.bounds_at(trial) {
+        let at_samples = orbit.iter().filter_map(|interval| interval.pieces.first()?.states.first());
+        let squares: f64 = at_samples.map(|state| state[n] * state[n]).sum();
+        let rms = (squares / orbit.len().max(1) as f64).sqrt();
+        checks.all_at_most(STEADY_BY_COUNT, [e, rms, u], bounds.steady);
     }
 }
 
@@ -211,6 +221,7 @@ fn check_approach(
         gm / sampled.step() * off * off
     });
     let (mut away, mut level, mut control) = ([0.0_f64; 2], [0.0_f64; 2], [0.0_f64; 2]);
+    let mut error = 0.0_f64;
     let [low, up, eta] = claim.lyapunov.unwrap_or_default();
     // At the gain b the weight of zeta is b eta.
     let eta = eta * claim.share_of_h(trial);
@@ -225,6 +236,7 @@ fn check_approach(
                     let difference: Vec<f64> = state.iter().zip(point).map(|(a, b)| a - b).collect();
                     let (x, e) = (claim.norm(&difference[..n]), difference[n]);
                     away = [away[0].max(x), away[1].max(e.abs())];
+                    error = error.max(state[n].abs());
                     // Between samples z is not that of this moment, and its part of the function is at least 0.
                     let rest = e * e + if at == 0 { zeta } else { 0.0 };
                     if index + sample + at == 0 {
@@ -244,6 +256,9 @@ fn check_approach(
     // The law of a trial does not clip, so that this is what it asks for.
     if let Some(max) = claim.actuator() {
         checks.at_most(SATURATION, control[1], max);
+    }
+    if let Some(bounds) = claim.bounds_at(trial).and_then(|bounds| bounds.largest) {
+        checks.all_at_most(LARGEST_BY_COUNT, [error, control[1]], bounds);
     }
     checks.at_most(LYAPUNOV, level[1], level[0]);
     Ok(())

@@ -3,7 +3,8 @@
 use super::checks::{Checks, PERIODS, unfinished, why_none};
 use super::claim::TriedClaim;
 use super::finding::{
-    CONTROL, Falsification, Finding, LYAPUNOV, MULTIPLIER, SATURATION, STEADY_CONTROL, Trial, TrialSettings, TriedPlant,
+    CONTROL, Falsification, Finding, LARGEST_BY_COUNT, LYAPUNOV, MULTIPLIER, SATURATION, STEADY_BY_COUNT,
+    STEADY_CONTROL, Trial, TrialSettings, TriedPlant,
 };
 use super::frame::{ABOVE, OwnPlant};
 use super::random::Random;
@@ -188,6 +189,10 @@ fn check_orbit(
         checks.at_most("$`sup|e|`$ against $`psi_1/sigma`$", e, psi[0] / trial.sigma);
         checks.at_most("$`sup|x|`$ against $`psi_x/sigma`$", x, psi[1] / trial.sigma);
     }
+    if let Some(bounds) = claim.bounds_at(trial) {
+        let u = largest(&|y| closed_loop.demanded(y, Disturbance::default()).abs());
+        checks.all_at_most(STEADY_BY_COUNT, [e, rms(&error), u], bounds.steady);
+    }
     let of_count = trial.oscillators.n_o().and_then(|n_o| claim.error_bounds(trial.sigma, n_o));
     if let Some([by_rms, by_sup]) = of_count {
         checks.at_most("$`rms(e)`$ against its bound for this $`n_o`$", rms(&error), by_rms);
@@ -210,6 +215,7 @@ fn check_approach(
     let n = closed_loop.states();
     let m = closed_loop.regulator.m();
     let (mut y, mut away, mut level, mut control) = (trial.start.clone(), [0.0_f64; 2], [0.0_f64; 2], [0.0_f64; 2]);
+    let mut error = 0.0_f64;
     let period = closed_loop.period;
     let share_of_h = claim.share_of_h(trial);
     for index in 0..PERIODS {
@@ -219,6 +225,7 @@ fn check_approach(
             let difference: Vec<f64> = sample.iter().zip(point).map(|(a, b)| a - b).collect();
             let (x, e) = (claim.norm(&difference[..n]), difference[n]);
             away = [away[0].max(x), away[1].max(e.abs())];
+            error = error.max(sample[n].abs());
             // u is linear in (e, z).
             let of = |y: &[f64]| closed_loop.demanded(y, Disturbance::default()).abs();
             control = [control[0].max(of(&difference)), control[1].max(of(sample))];
@@ -249,6 +256,9 @@ fn check_approach(
     }
     if let Some(max) = claim.actuator() {
         checks.at_most(SATURATION, control[1], max);
+    }
+    if let Some(bounds) = claim.bounds_at(trial).and_then(|bounds| bounds.largest) {
+        checks.all_at_most(LARGEST_BY_COUNT, [error, control[1]], bounds);
     }
     if claim.lyapunov.is_some() || claim.joint.is_some() {
         checks.at_most(LYAPUNOV, level[1], level[0]);

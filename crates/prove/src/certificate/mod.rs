@@ -25,7 +25,7 @@ pub use read_plant::read_plant_witness;
 pub use read_sampled::{is_sampled, read_sampled_witness};
 pub use run::{certificate_of, is_stated, read_for, read_numbers, stated_by_count, stated_counts};
 pub use sampled::sampled_certificate_json;
-pub use stated::{StatedClaim, StatedNoise, read_claim};
+pub use stated::{StatedBounds, StatedClaim, StatedNoise, read_claim};
 pub use stated_words::claim_in_words;
 pub use triple::{lyapunov_parts, matrix_json};
 pub use words::{members, sampled_statement, statement};

@@ -44,15 +44,19 @@ pub fn stated_counts(certificate: &Document) -> Vec<u32> {
 /// The oscillators of which a certificate states bounds; none where it states nothing by these.
 #[must_use]
 pub fn stated_by_count(certificate: &Document) -> Option<Vec<Oscillators>> {
-    // Anybody may have written it: of a number beyond the limit there is no list of harmonics.
-    let counts = numbers_in(certificate, "/claim/by_n_o")?.into_iter().filter(|n_o| *n_o <= MAX_OSCILLATORS);
     let list = certificate.at("/claim/by_n_o")?.to_json();
-    let harmonics = |entry: &Value| -> Option<Vec<u32>> {
-        entry[HARMONICS].as_array()?.iter().map(|k| u32::try_from(k.as_u64()?).ok()).collect()
-    };
-    let sets = list.as_array()?.iter().filter_map(harmonics).filter_map(|all| Oscillators::at(&all).ok());
-    let sets = sets.filter(|oscillators| oscillators.largest() <= MAX_OSCILLATORS);
-    Some(counts.map(Oscillators::first).chain(sets).collect())
+    // Of each larger number something is said without one of its own.
+    let own = list.as_array()?.iter().filter(|entry| entry["or_more"] != true);
+    Some(own.filter_map(of_entry).collect())
+}
+
+/// The oscillators that an entry is about. Anybody may have written it: of a number beyond the limit there is no list of harmonics.
+pub(super) fn of_entry(entry: &Value) -> Option<Oscillators> {
+    let small = |value: &Value| u32::try_from(value.as_u64()?).ok().filter(|k| *k <= MAX_OSCILLATORS);
+    match entry[HARMONICS].as_array() {
+        Some(list) => Oscillators::at(&list.iter().map(small).collect::<Option<Vec<u32>>>()?).ok(),
+        None => small(&entry["n_o"]).map(Oscillators::first),
+    }
 }
 
 /// The numbers of oscillators in a list of a claim.

@@ -1,14 +1,17 @@
 //! What a certificate states: its specification, its witness, and its bounds of the periodic solution.
 
+use super::by_count::BY_N_O;
 use super::fields::exact_rational;
 use super::read::read_lyapunov;
 use super::read_plant::read_plant_witness;
-use super::run::read_numbers;
+use super::run::{of_entry, read_numbers};
 use crate::certify::resolve_with;
 use crate::rate::bound::{MAX_COUNTS, MAX_OSCILLATORS};
 use crate::reduction::{FreeNumbers, PlantRefusal, specification};
 use sigmastar_lang::plant::Plant;
-use sigmastar_lang::spec::{Constant, Document, ErrorKind, Errors, Reported, SpecErrors, Specification, Value};
+use sigmastar_lang::spec::{
+    Constant, Document, ErrorKind, Errors, Oscillators, Reported, SpecErrors, Specification, Value,
+};
 
 /// The statement of a certificate, for whoever holds it against something else.
 #[derive(Clone, Debug)]
@@ -24,6 +27,8 @@ pub struct StatedClaim {
     pub control: Option<[f64; 2]>,
     /// What is stated for given n_o under noise and disturbances.
     pub noise: Vec<StatedNoise>,
+    /// What is stated by the number of oscillators, and for sets of harmonics.
+    pub by_count: Vec<StatedBounds>,
     /// Whether it is about every set of harmonics that contains 0.
     pub every_set: bool,
     /// The plant, where the certificate is of one.
@@ -39,6 +44,28 @@ pub struct StatedNoise {
     pub limit: f64,
     /// At all times from the start on.
     pub peak: f64,
+}
+
+/// Bounds with these oscillators, at the gain of the claim, without noise and disturbance.
+#[derive(Clone, Debug)]
+pub struct StatedBounds {
+    /// The oscillators.
+    pub oscillators: Oscillators,
+    /// Whether they hold with every larger number of oscillators, too.
+    pub or_more: bool,
+    /// Of sup|e|, rms(e) and sup|u| along the periodic solution.
+    pub steady: [f64; 3],
+    /// Of |e| and |u| at all times, where they are stated.
+    pub largest: Option<[f64; 2]>,
+}
+
+impl StatedBounds {
+    /// Whether they are about these oscillators.
+    #[must_use]
+    pub fn are_about(&self, oscillators: &Oscillators) -> bool {
+        let is_more = |(own, n_o): (u32, u32)| self.or_more && own < n_o;
+        self.oscillators == *oscillators || self.oscillators.n_o().zip(oscillators.n_o()).is_some_and(is_more)
+    }
 }
 
 /// Reads the claim, the witness and the specification of a certificate about either regulator. What a falsified certificate says is
@@ -65,8 +92,8 @@ pub fn read_claim(document: &Document) -> Result<StatedClaim, SpecErrors> {
             }
         };
         let (periodic, control) = (stated_periodic(document)?, stated_control(document)?);
-        let noise = stated_noise(document)?;
-        return Ok(StatedClaim { spec, witness, periodic, control, noise, every_set, plant: Some(plant) });
+        let (noise, by_count) = (stated_noise(document)?, stated_bounds(document)?);
+        return Ok(StatedClaim { spec, witness, periodic, control, noise, by_count, every_set, plant: Some(plant) });
     }
     let Some(embedded) = document.at("/specification") else {
         return refused(root.error(ErrorKind::MissingField, "the field `specification` is missing"));
@@ -84,8 +111,8 @@ pub fn read_claim(document: &Document) -> Result<StatedClaim, SpecErrors> {
         }
     }
     let (periodic, control) = (stated_periodic(document)?, stated_control(document)?);
-    let noise = stated_noise(document)?;
-    Ok(StatedClaim { spec, witness, periodic, control, noise, every_set, plant: None })
+    let (noise, by_count) = (stated_noise(document)?, stated_bounds(document)?);
+    Ok(StatedClaim { spec, witness, periodic, control, noise, by_count, every_set, plant: None })
 }
 
 /// The stated bounds of the periodic solution.
@@ -109,6 +136,20 @@ fn stated_noise(document: &Document) -> Result<Vec<StatedNoise>, SpecErrors> {
             Ok(StatedNoise { n_o: n_o.clamp(0.0, f64::from(MAX_OSCILLATORS)) as u32, limit, peak })
         })
         .collect()
+}
+
+/// Those by the number of oscillators and for sets of harmonics, where there are any; an entry about nothing that a certificate may state is left out.
+fn stated_bounds(document: &Document) -> Result<Vec<StatedBounds>, SpecErrors> {
+    let entries = (0..).map(|i| format!("{BY_N_O}/{i}"));
+    let entries = entries.map_while(|part| Some((document.at(&format!("/claim/{part}"))?.to_json(), part)));
+    let own = entries.filter_map(|(entry, part)| Some((of_entry(&entry)?, entry["or_more"] == true, part)));
+    own.map(|(oscillators, or_more, part)| {
+        let steady = stated(document, &format!("{part}/steady"), ["e", "e_rms", "u"])?;
+        let largest = format!("{part}/largest");
+        let largest = document.at(&format!("/claim/{largest}")).map(|_| stated(document, &largest, ["e", "u"]));
+        Ok(StatedBounds { oscillators, or_more, steady, largest: largest.transpose()? })
+    })
+    .collect()
 }
 
 fn stated<const N: usize>(document: &Document, part: &str, names: [&str; N]) -> Result<[f64; N], SpecErrors> {
