@@ -275,6 +275,11 @@ fn sets_of_harmonics_are_tried_in_turn() {
     assert_eq!(trials.iter().map(of).collect::<Vec<_>>(), expected, "{report}");
     assert!(trials.iter().all(|trial| trial["finding"] == "holds"), "{report}");
 
+    // What the report says repeats a trial.
+    let file = stored(folder.path(), "tried.json", &claim);
+    let (_, text) = told(sigmastar(&["falsify", "--trials", "2"]).args(sets).arg(&file));
+    assert!(text.contains("`--seed 1 --harmonics 0,2 --harmonics 0,1,3 --harmonics 0,1,2 --trial"), "{text}");
+
     claim["claim"]["periodic_solution"]["e"] = "1/1000".into();
     let (code, report, counterexample) = falsify(&claim, folder.path(), "1", &["--harmonics", "0,2,5"]);
     let trial = &report["trials"][0];

@@ -1,14 +1,17 @@
 //! Transfer bounds that serve every finite set of harmonics that contains 0 (derivation, 14.7), against T_H by its definition in doubles.
 
-use crate::support::{EXAMPLE, cases, json, number, sigmastar, utf8};
+use crate::support::{EXAMPLE, EXAMPLE_TEXT, cases, in_one_line, json, number, sigmastar, utf8};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 use rug::Rational;
 use serde_json::json as value;
+use sigmastar_document::{Extent, Readable};
 use sigmastar_lang::spec::Specification;
+use sigmastar_report::TransferReport;
 use sigmastar_theory::data::Data;
 use sigmastar_theory::transfer::{
-    TradeOff, TransferProof, closed_form_pair, decide, serves_every_set, smallest_k1_for_every_set,
+    ForEverySet, PairChoice, TradeOff, TransferProof, TransferStudy, closed_form_pair, decide, serves_every_set,
+    smallest_k1_for_every_set,
 };
 
 /// x of a set at which T_H is looked at, whole numbers among them.
@@ -177,4 +180,21 @@ fn the_command_proves_a_pair_for_every_set() {
     }
     assert!(json(&call(&["--format", "json"]))["every_set"].is_null());
     assert!(!utf8(call(&[])).contains("Every set"));
+}
+
+/// Where no boxes serve every set, or nothing is proved of the matched pair, the report says so, and that the closed form does.
+#[test]
+fn what_is_not_proved_of_every_set_is_said() {
+    let spec = Specification::from_json("example", EXAMPLE_TEXT).unwrap();
+    let mut study = TransferStudy::new(&spec, 128, &PairChoice::ForData, (&[], false), || {}).unwrap();
+    study.every_set = Some(ForEverySet { pair: None, matched: Some(false) });
+    let text = in_one_line(&TransferReport(&study).text(Extent::Short));
+    for said in [
+        "no proof by boxes was found that serves every finite set H of harmonics that contains 0",
+        "The closed form serves every set, too",
+        "at integers x, is not proved to serve every set",
+    ] {
+        assert!(text.contains(said), "{text}");
+    }
+    assert_eq!(TransferReport(&study).json()["every_set"], value!({ "pair": null, "matched": false }));
 }

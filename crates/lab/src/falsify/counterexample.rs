@@ -2,6 +2,7 @@
 
 use super::claim::TriedClaim;
 use super::finding::{Trial, TriedPlant, Violation};
+use super::oscillators::harmonics_flag;
 use serde_json::json;
 use sigmastar_document::{clean, plain};
 use sigmastar_lang::plant;
@@ -16,7 +17,7 @@ pub fn flags(claim: &TriedClaim, trial: &Trial) -> String {
     let period = period.map_or_else(String::new, |period| format!(" --period \"{}\"", period.text));
     let oscillators = match trial.oscillators.n_o() {
         Some(n_o) => format!("--n-o {n_o}"),
-        None => format!("--harmonics {}", trial.oscillators.all().map(|k| k.to_string()).collect::<Vec<_>>().join(",")),
+        None => harmonics_flag(&trial.oscillators),
     };
     let plain = format!("--sigma {:?} {oscillators}{gain}{period}", trial.sigma);
     match claim.sampled.as_ref().zip(trial.phase) {

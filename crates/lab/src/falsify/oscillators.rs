@@ -77,6 +77,12 @@ impl TriedClaim {
     }
 }
 
+/// The flag that chooses a set.
+pub(super) fn harmonics_flag(set: &Oscillators) -> String {
+    let all: Vec<String> = set.all().map(|k| k.to_string()).collect();
+    format!("--harmonics {}", all.join(","))
+}
+
 /// What trial `number`, from 1, has of a list that begins again at its end.
 fn in_turn<T>(all: &[T], number: u64) -> Option<&T> {
     all.get((number.saturating_sub(1) % all.len().max(1) as u64) as usize)

@@ -3,6 +3,7 @@
 use super::claim::TriedClaim;
 use super::counterexample::counterexample_plant;
 use super::finding::{Closest, Falsification, Finding, Trial};
+use super::oscillators::harmonics_flag;
 use serde_json::{Value, json};
 use sigmastar_document::{Block, Readable, Table, clean, plain};
 use sigmastar_exact::number::{Direction, round_f64, told_apart, write_exact};
@@ -101,7 +102,8 @@ fn blocks(claim: &TriedClaim, outcome: &Falsification) -> Vec<Block> {
         blocks.push(Block::List(unfinished.into_iter().map(str::to_owned).collect()));
     }
     if let Some(worst) = outcome.worst() {
-        blocks.extend(plant_blocks(&worst, outcome.settings.seed));
+        let sets = claim.sets.iter().map(|set| format!(" {}", harmonics_flag(set)));
+        blocks.extend(plant_blocks(&worst, (outcome.settings.seed, &sets.collect::<String>())));
     }
     blocks
 }
@@ -112,8 +114,8 @@ fn shown<'o>(claim: &TriedClaim, outcome: &'o Falsification) -> Vec<Closest<'o>>
     outcome.closest().into_iter().filter(|closest| !(stateless && closest.quantity.contains("|x"))).collect()
 }
 
-/// The worst plant, and how to simulate it and the others again.
-fn plant_blocks(worst: &Closest<'_>, seed: u64) -> Vec<Block> {
+/// The worst plant, and how to simulate it and the others again, with the sets that were chosen.
+fn plant_blocks(worst: &Closest<'_>, (seed, sets): (u64, &str)) -> Vec<Block> {
     let Closest { quantity, share, trial, .. } = worst;
     let ((f, q), names) = (trial.plant.texts(), trial.plant.names());
     let (x, rest) = trial.start.split_at(f.len());
@@ -128,7 +130,7 @@ fn plant_blocks(worst: &Closest<'_>, seed: u64) -> Vec<Block> {
         Block::says(format!(
             "Trial {}, $`sigma = {:?}`$, {}{}{}, came closest to one of the bounds: {quantity} reached {share:.3} of its bound. \
              (The multiplier and the Lyapunov function come close to their bounds with any plant.) `sigmastar falsify` with \
-             `--seed {seed} --trial {} -o FILE` writes it as a plant file, with the call of `simulate` in its description. Another \
+             `--seed {seed}{sets} --trial {} -o FILE` writes it as a plant file, with the call of `simulate` in its description. Another \
              number writes another trial.",
             trial.number,
             trial.sigma,

@@ -190,9 +190,10 @@ fn check_orbit(
         checks.at_most(STEADY_CONTROL, u, steady);
     }
     if let Some(bounds) = claim.bounds_at(trial) {
-        let at_samples = orbit.iter().filter_map(|interval| interval.pieces.first()?.states.first());
-        let squares: f64 = at_samples.map(|state| state[n] * state[n]).sum();
-        let rms = (squares / orbit.len().max(1) as f64).sqrt();
+        // Of each share of a sample the mean square is bounded, and so it is of all of them.
+        let states = || orbit.iter().flat_map(|interval| &interval.pieces).flat_map(|piece| &piece.states);
+        let squares: f64 = states().map(|state| state[n] * state[n]).sum();
+        let rms = (squares / states().count().max(1) as f64).sqrt();
         checks.all_at_most(STEADY_BY_COUNT, [e, rms, u], bounds.steady);
     }
 }
