@@ -14,6 +14,9 @@ pub(super) const MAX_GAINS: usize = 20;
 
 /// What is required of a loop, and of which table. The defaults are those of `sigmastar design`.
 ///
+/// The requirements are about the loop with the noise, the disturbance and the rounding that the document states. With an `actuator` or `delay_samples` 1 in
+/// the document nothing is proved about these, and the requirements are about the loop without them.
+///
 /// ```
 /// use sigmastar::DesignOptions;
 /// let options = DesignOptions::new().steady_error("1/10").peak_error("2").n_o([0, 2, 4]);
@@ -73,7 +76,7 @@ impl DesignOptions {
         self
     }
 
-    /// |e| of the periodic solution is to be at most this, a positive rational number.
+    /// |e| of the periodic solution, with noise the limit superior of |e|, is to be at most this, a positive rational number.
     #[must_use]
     pub fn steady_error(self, limit: impl Into<String>) -> DesignOptions {
         self.requiring(0, limit.into())
@@ -98,7 +101,8 @@ impl DesignOptions {
         self.requiring(3, periods.into())
     }
 
-    /// What noise, the disturbance and rounding of the document make of e in the limit is to be at most this, a positive rational number.
+    /// |e - e_per| in the limit, with the noise, disturbance and rounding of the document, is to be at most this, a positive rational number. Refused where
+    /// the document states none, or something with which nothing is proved about them.
     #[must_use]
     pub fn noise(self, limit: impl Into<String>) -> DesignOptions {
         self.requiring(4, limit.into())
@@ -190,7 +194,6 @@ pub(super) fn requirements(
     Ok(requirements)
 }
 
-/// Whether something is stated that moves e in the limit; at samples rounding is such a thing.
 /// What of a document excludes bounds with noise.
 pub(super) fn excludes_noise(subject: &Read) -> Option<&'static str> {
     match subject.sampling() {
@@ -199,6 +202,7 @@ pub(super) fn excludes_noise(subject: &Read) -> Option<&'static str> {
     }
 }
 
+/// Whether something is stated that moves e in the limit; at samples rounding is such a thing.
 pub(super) fn has_disturbances(subject: &Read) -> bool {
     subject.disturbances().disturb(subject.sampling().is_some())
 }

@@ -236,10 +236,10 @@ def design(
     """Proves what several gains give with several numbers of oscillators, beside what is required, and names the pair to take, as
     `sigmastar design`. Each row is a claim of its own that the independent checker has decided.
 
-    - `steady_error`, `peak_error`, `max_control`: |e| along the periodic solution, |e| at all times, and the control at all times are to
-      be at most this;
+    - `steady_error`, `peak_error`, `max_control`: |e| along the periodic solution (with noise the limit superior of |e|), |e| at all
+      times, and the control at all times are to be at most this;
     - `settle`: after so many periods |e| is to be at most `steady_error` for good, at samples at the sampling instants;
-    - `noise`: what the noise, disturbance and rounding of the document make of e in the limit is to be at most this;
+    - `noise`: |e - e_per| in the limit, with the noise, disturbance and rounding of the document, is to be at most this;
     - `n_o`: the numbers of oscillators of the table (0, 1, 2, 3 and 5);
     - `sigmas`: its gains, in the place of the smallest one and multiples of it;
     - `sampling_period`: the regulator at samples this far apart;
@@ -248,6 +248,9 @@ def design(
     - `choose`: numbers of the document that are to be chosen, as `over` of `tune`: a table is made with its values and with four others of
       each number in turn, and the answer is about the best. The certificate has these values;
     - `progress`: called with a phrase as each group of gains is begun, `progress=print`, say; what it raises ends the call.
+
+    The requirements are about the loop with the noise, the disturbance and the rounding that the document states. With an `actuator` or
+    `delay_samples` 1 in the document nothing is proved about these, and the requirements are about the loop without them.
 
     Raises what `certify` raises; where something required is not proved to be met the answer is false.
     """
