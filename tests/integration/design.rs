@@ -1,6 +1,6 @@
 //! `sigmastar design`: the pair to take is the first of the table that is proved to meet every requirement, and its certificate says so.
 
-use super::support::{EXAMPLE, ROOT, assert_valid, in_one_line, json, number, program, read, stored, told, utf8};
+use super::support::{EXAMPLE, EXAMPLE_TEXT, PLANT_TEXT, ROOT, assert_valid, in_one_line, json, number, program, read, stored, told, utf8};
 use predicates::str::contains;
 use serde_json::{Value, json};
 use std::path::Path;
@@ -281,6 +281,24 @@ fn requirements_are_about_the_loop_with_noise() {
                 "{words}"
             );
         }
+    }
+}
+
+/// What holds with noise holds without: the peak without noise is never above the one with it, although the two have proofs of their own. Of a
+/// nonlinear plant and of a specification; with one oscillator the proof with noise has the smaller peak.
+#[test]
+fn the_peak_without_noise_is_not_above_the_peak_with_noise() {
+    let folder = tempfile::tempdir().unwrap();
+    for (shipped, sigma) in [(PLANT_TEXT, "30"), (EXAMPLE_TEXT, "60")] {
+        let mut document = json(shipped.as_bytes());
+        document["measurement"] = json!({ "noise": "1/1000" });
+        let file = stored(folder.path(), "noisy.json", &document);
+        let report = design(&file, &["--sigma", sigma, "--n-o", "0,1", "--no-simulation"], 0);
+        let peaks = |cell: &Value| [&cell["peak_error"], &cell["with_noise"]["peak_error"]].map(number);
+        let [[none, none_noisy], [one, one_noisy]] =
+            [0, 1].map(|index: usize| peaks(&report["rows"][0]["cells"][index]));
+        assert!(none < none_noisy && one <= one_noisy, "{report:#}");
+        assert!(one == one_noisy, "the proof with noise has the smaller peak no more: take another case");
     }
 }
 
