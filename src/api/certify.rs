@@ -4,16 +4,14 @@ use super::certificate::Certificate;
 use super::check::{CheckVerdict, verdict_within};
 use super::condition::Condition;
 use super::error::{Error, ErrorKind};
-use super::json_text;
 use super::options::{Asked, CertifyOptions};
 use super::report::Report;
 use super::subject::Subject;
+use super::{json_text, with_sampling_period};
 use sigmastar_lang::spec::Oscillators;
 use sigmastar_prove::certificate::certificate_of;
 use sigmastar_prove::certify::Options;
-use sigmastar_prove::reduction::{
-    Checked, Prepared, Run, Stage, Subject as Read, Unwatched, Watch, at_samples, for_every_set,
-};
+use sigmastar_prove::reduction::{Checked, Prepared, Run, Stage, Subject as Read, Unwatched, Watch, for_every_set};
 use sigmastar_report::run_sentence;
 use std::fmt;
 use std::sync::{Mutex, PoisonError};
@@ -84,8 +82,10 @@ fn run(subject: &Subject, options: &CertifyOptions, (watch, begin): Told<'_>) ->
     let Asked { options, gain, step, counts, sets, limits } = options.checked()?;
     let mut asked = subject.clone();
     if step.is_some() || !sets.is_empty() {
-        let mut document =
-            step.as_ref().map_or_else(|| Ok(subject.source.clone()), |step| at_samples(&subject.source, step))?;
+        let mut document = match &step {
+            Some(step) => with_sampling_period(&subject.source, "sampling_period", step)?,
+            None => subject.source.clone(),
+        };
         if !sets.is_empty() {
             document = for_every_set(&document)?;
         }

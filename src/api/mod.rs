@@ -65,8 +65,9 @@ pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 use rug::Rational;
 use sigmastar_exact::enclosure::{DEFAULT_PRECISION, Enclosure};
 use sigmastar_lang::spec::{
-    Constant, Document, ErrorKind as SpecErrorKind, Errors, Reported, Value, any_constant, positive_constant,
+    Constant, Document, ErrorKind as SpecErrorKind, Errors, Reported, SpecError, Value, any_constant, positive_constant,
 };
+use sigmastar_prove::reduction::{SAMPLING_PERIOD, Subject as Read, at_samples};
 
 /// The smallest double that is not below an exact number.
 fn rounded_up(value: &Rational) -> f64 {
@@ -114,6 +115,37 @@ fn known_rational(name: &str, constant: &Constant) -> Result<Rational, Error> {
 /// An argument that is an exact positive constant, as in a specification; `name` is what errors call it.
 fn positive(name: &str, text: &str) -> Result<Constant, Error> {
     constant(name, text, positive_constant)
+}
+
+/// The document with the sampling period of an argument in the place of its own, or itself where it has no internal model; `name` is what errors call the
+/// argument.
+///
+/// # Errors
+/// A sampling period that is no exact positive constant, or does not go with the document, at the argument; and a document that is too large with it.
+fn with_sampling_period(document: &Document, name: &str, text: &str) -> Result<Document, Error> {
+    let asked = at_samples(document, &positive(name, text)?)?;
+    match Read::read(&asked) {
+        Err(errors) if errors.errors().iter().all(|error| error.pointer == SAMPLING_PERIOD) => {
+            let document = Document::flag(name, text);
+            let place = document.at(&format!("/{name}")).unwrap_or_else(|| document.root());
+            let at = |error: &SpecError| {
+                let at = place.error_in(error.kind, &(0..text.len()), error.message.clone());
+                SpecError { expected: error.expected.clone(), help: error.help.clone(), ..at }
+            };
+            Err(at_argument((name, &document), errors.errors().iter().map(at)))
+        }
+        // What is wrong with the rest is told when it is read.
+        _ => Ok(asked),
+    }
+}
+
+/// Errors in an argument, of which the document is made; at least one.
+fn at_argument((name, document): (&str, &Document), errors: impl Iterator<Item = SpecError>) -> Error {
+    let mut all = Errors::new();
+    for error in errors {
+        all.report(error);
+    }
+    Error::argument(name, &all.into_errors(document))
 }
 
 /// An argument that is an exact constant; `name` is what errors call it.

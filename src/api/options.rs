@@ -1,11 +1,11 @@
 //! What a run of [`certify`](super::certify) does.
 
 use super::error::{Error, ErrorKind};
-use super::{positive, rational, steady_error};
+use super::{rational, steady_error};
 use rug::Rational;
 use sigmastar_decide::conditions::Ladder;
 use sigmastar_exact::enclosure::{DEFAULT_PRECISION, MAX_PRECISION};
-use sigmastar_lang::spec::{Constant, Oscillators};
+use sigmastar_lang::spec::Oscillators;
 use sigmastar_prove::certify::{Limits, TransferChoice, rate_counts};
 use sigmastar_prove::rate::bound::MAX_OSCILLATORS;
 
@@ -35,7 +35,7 @@ pub struct CertifyOptions {
 pub(super) struct Asked {
     pub(super) options: Options,
     pub(super) gain: Option<Rational>,
-    pub(super) step: Option<Constant>,
+    pub(super) step: Option<String>,
     pub(super) counts: Vec<u32>,
     pub(super) sets: Vec<Oscillators>,
     pub(super) limits: Limits,
@@ -199,7 +199,6 @@ impl CertifyOptions {
         }
         let options = self.of_run();
         let gain = self.sigma.as_ref().map(|text| rational("sigma", text)).transpose()?;
-        let step = self.sampling_period.as_ref().map(|text| positive("sampling_period", text)).transpose()?;
         let counts = rate_counts(&self.n_o).map_err(|reason| Error::no_rates(reason, "`n_o`"))?;
         let sets = self.harmonics.iter().map(|set| oscillators(set)).collect::<Result<_, _>>()?;
         let limit = |name, text: &Option<String>| text.as_ref().map(|text| rational(name, text)).transpose();
@@ -219,7 +218,7 @@ impl CertifyOptions {
                 help,
             ));
         }
-        Ok(Asked { options, gain, step, counts, sets, limits })
+        Ok(Asked { options, gain, step: self.sampling_period.clone(), counts, sets, limits })
     }
 }
 

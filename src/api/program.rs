@@ -23,7 +23,7 @@ pub use super::tune::tune_watched;
 
 use super::error::Error;
 use rug::Rational;
-use sigmastar_lang::spec::{Constant, any_constant, nonnegative_constant};
+use sigmastar_lang::spec::{Constant, Document, any_constant, nonnegative_constant};
 
 /// The value of a flag that is an exact positive constant, as in a specification.
 ///
@@ -47,6 +47,14 @@ pub fn nonnegative(flag: &str, text: &str) -> Result<Constant, Error> {
 /// What is wrong with the constant, in its place.
 pub fn real(flag: &str, text: &str) -> Result<Constant, Error> {
     super::constant(flag, text, any_constant)
+}
+
+/// The document with the sampling period of a flag in the place of its own, or itself where it has no internal model.
+///
+/// # Errors
+/// Those of [`positive`], and a sampling period that does not go with the document, at the flag.
+pub fn with_sampling_period(document: &Document, flag: &str, text: &str) -> Result<Document, Error> {
+    super::with_sampling_period(document, flag, text)
 }
 
 /// The value of a flag that is a positive rational number.

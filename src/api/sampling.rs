@@ -95,8 +95,10 @@ pub fn pairs_of<W>(
         (subject.name().to_owned(), subject.sha256().to_owned(), subject.period().nominal().clone());
     let step = |text: &&str| {
         let step = positive(names[0], text)?;
-        let none =
-            || unfit(ErrorKind::Range, Unfit::NoWholeMultiple { period: period.clone(), step: step.text.clone() });
+        let none = || {
+            let unfit = Unfit::NoWholeMultiple { period: period.clone(), step: step.text.clone() };
+            Error::new(ErrorKind::Range, format!("{}: {unfit}", names[0]), &unfit.help())
+        };
         Sampling::new(&period, step.clone()).ok_or_else(none)
     };
     let steps = periods.map(|all| all.iter().map(step).collect()).transpose()?;

@@ -2,10 +2,10 @@
 
 use super::error::Error;
 use super::specification::Specification;
-use super::{json_text, positive};
+use super::{json_text, with_sampling_period};
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{Document, MAX_BYTES, Notation};
-use sigmastar_prove::reduction::{Subject as Read, at_samples};
+use sigmastar_prove::reduction::Subject as Read;
 use std::path::Path;
 
 /// What errors call a document without a name of its own.
@@ -65,8 +65,7 @@ impl Subject {
     /// # Errors
     /// A sampling period that is no exact positive constant, or does not go with the document.
     pub fn at_samples(&self, sampling_period: &str) -> Result<Subject, Error> {
-        let step = positive("sampling_period", sampling_period)?;
-        let document = at_samples(&self.source, &step)?;
+        let document = with_sampling_period(&self.source, "sampling_period", sampling_period)?;
         let read = Read::read(&document)?;
         // Errors have been told at the lines that were read; from here on the text has the field, too.
         let source = Document::parse(document.label(), &json_text(&document.root().to_json()))?;

@@ -7,7 +7,7 @@ use super::files::{Input, OutputFile};
 use super::given::Given;
 use super::output::{Format, Shortened, shown};
 use super::stages::{Stages, Step};
-use super::subject::{Asked, Subject, proving, with_sampling_period};
+use super::subject::{Asked, Subject, proving};
 use super::{input, output};
 use sigmastar::program::{Afterwards, Drawn, FIGURE_FILES, decided, not_told_apart, report_of};
 use sigmastar_document::number::estimate;
@@ -45,7 +45,7 @@ pub fn run(args: &CertifyArgs) -> Result<u8, Failure> {
         return Err(Failure::call(message, "--witness names a certificate written with -o"));
     }
     if let Some(text) = &args.sampling_period {
-        document = with_sampling_period(&document, text)?;
+        document = input::with_sampling_period(&document, "--sampling-period", text)?;
     }
     if !args.harmonics.is_empty() {
         document = for_every_set(&document)?;

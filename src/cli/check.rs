@@ -4,7 +4,7 @@ use super::args::CheckArgs;
 use super::failure::Failure;
 use super::input;
 use super::output::{self, Format, json_text, reason, shown};
-use super::subject::{has_format, with_sampling_period};
+use super::subject::has_format;
 use sigmastar::program::{MAX_CERTIFICATE, check_bytes, page};
 use sigmastar::{CheckReport, CheckVerdict, Report};
 use sigmastar_document::clean;
@@ -70,7 +70,7 @@ fn specification(path: &Path, args: &CheckArgs) -> Result<Box<dyn Read>, Failure
     }
     let mut document = input::document(path)?;
     if let Some(text) = &args.sampling_period {
-        document = with_sampling_period(&document, text)?;
+        document = input::with_sampling_period(&document, "--sampling-period", text)?;
     }
     if !is_json && !args.quiet {
         let name = shown(path);

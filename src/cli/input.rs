@@ -2,13 +2,13 @@
 
 use super::failure::Failure;
 use super::output::{reason, shown};
-use sigmastar_lang::spec::{Document, Errors, MAX_BYTES, Notation, SpecError, SpecErrors};
+use sigmastar_lang::spec::{Document, MAX_BYTES, Notation};
 use std::fs::File;
 use std::io::{self, ErrorKind, Read};
 use std::path::Path;
 
 /// Constants from flags.
-pub use sigmastar::program::{nonnegative, positive, rational, real, steady_error};
+pub use sigmastar::program::{nonnegative, positive, rational, real, steady_error, with_sampling_period};
 
 /// Reads a document that people write, in the notation that the name of its file says, or from standard input for `-`, in
 /// JSON; never more than the limit on documents.
@@ -52,16 +52,4 @@ fn read(path: &Path, notation: Notation) -> Result<Document, Failure> {
         Failure::call(format!("cannot read `{name}`: {}", reason(&error)), help)
     })?;
     Ok(Document::from_bytes_as(&name, &bytes, notation)?)
-}
-
-/// Errors of a field, at the flag that its value is from.
-pub fn at_flag((flag, text): (&str, &str), errors: &[SpecError]) -> SpecErrors {
-    let document = Document::flag(flag, text);
-    let place = document.at(&format!("/{flag}")).unwrap_or_else(|| document.root());
-    let mut all = Errors::new();
-    for error in errors {
-        let at = place.error_in(error.kind, &(0..text.len()), error.message.clone());
-        all.report(SpecError { expected: error.expected.clone(), help: error.help.clone(), ..at });
-    }
-    all.into_errors(&document)
 }

@@ -8,7 +8,6 @@ use super::progress::{Later, working};
 use sigmastar_lang::plant::{FORMAT as PLANT, Plant};
 use sigmastar_lang::spec::{Document, Specification};
 use sigmastar_prove::certificate::{FORMAT as CERTIFICATE, embedded};
-use sigmastar_prove::reduction::{SAMPLING_PERIOD, at_samples};
 use std::path::Path;
 
 pub use sigmastar_prove::reduction::Subject;
@@ -104,21 +103,4 @@ pub fn proving(subject: &Subject, more: &'static str, quiet: bool) -> Option<Lat
 /// Says that a triple is sought, where that takes long.
 pub fn seeking_triple(more: &'static str, quiet: bool) -> Option<Later> {
     working("finding and proving the Lyapunov triple of the Jacobian", more, quiet)
-}
-
-/// The document with another sampling period, or itself where it has no internal model: what is wrong with it is told as ever.
-///
-/// # Errors
-/// A period that is not an exact positive constant, or does not go with the document, at the flag; and a document that is too large with it.
-pub fn with_sampling_period(document: &Document, text: &str) -> Result<Document, Failure> {
-    const FLAG: &str = "--sampling-period";
-    let step = input::positive(FLAG, text)?;
-    let document = at_samples(document, &step)?;
-    match Subject::read(&document) {
-        Err(errors) if errors.errors().iter().all(|error| error.pointer == SAMPLING_PERIOD) => {
-            Err(input::at_flag((FLAG, text), errors.errors()).into())
-        }
-        // What is wrong with the rest is told when it is read.
-        _ => Ok(document),
-    }
 }

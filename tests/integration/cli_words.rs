@@ -51,7 +51,7 @@ fn time_and_units_in_an_expression_are_explained() {
     let q = "\"4.822 + X + atan(E*(X + 0.189))\"";
     for (change, help) in [
         ((q, "\"3*cos(2*pi*t) + X\""), "take the supremum over t, or give the plant itself (`sigmastar/plant`)"),
-        ((q, "\"3 m/s\""), "numbers have no units: leave `m` out"),
+        ((q, "\"3 m/s\""), "numbers have no units: leave `m/s` out"),
         (("\"period\": \"1\"", "\"period\": \"1 s\""), "numbers have no units: leave `s` out"),
     ] {
         let call = sigmastar(&["certify", "-"]).write_stdin(example(&[change])).assert();

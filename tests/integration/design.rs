@@ -1,6 +1,8 @@
 //! `sigmastar design`: the pair to take is the first of the table that is proved to meet every requirement, and its certificate says so.
 
-use super::support::{EXAMPLE, EXAMPLE_TEXT, PLANT_TEXT, ROOT, assert_valid, in_one_line, json, number, program, read, stored, told, utf8};
+use super::support::{
+    EXAMPLE, EXAMPLE_TEXT, PLANT_TEXT, ROOT, assert_valid, in_one_line, json, number, program, read, stored, told, utf8,
+};
 use predicates::str::contains;
 use serde_json::{Value, json};
 use std::path::Path;

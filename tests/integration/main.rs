@@ -6,6 +6,7 @@
 mod actuator;
 mod agreement;
 mod aligned;
+mod answers;
 mod architecture;
 mod asked_counts;
 mod bound;

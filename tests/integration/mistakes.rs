@@ -10,7 +10,7 @@ const CERTIFY: [&str; 3] = ["certify", "--no-alternatives", "--quiet"];
 const TOLD: [&str; 2] = ["certify", "--no-alternatives"];
 
 /// A file of this name and content, in a folder that is removed with the first part.
-fn file(name: &str, content: &str) -> (tempfile::TempDir, PathBuf) {
+pub fn file(name: &str, content: &str) -> (tempfile::TempDir, PathBuf) {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join(name);
     std::fs::write(&path, content).unwrap();
@@ -25,13 +25,13 @@ fn streams(words: &[&str], path: Option<&Path>, more: &[&str]) -> (i32, [String;
 }
 
 /// The exit code and both streams, as one text.
-fn told(words: &[&str], path: Option<&Path>, more: &[&str]) -> (i32, String) {
+pub fn told(words: &[&str], path: Option<&Path>, more: &[&str]) -> (i32, String) {
     let (code, [data, remarks]) = streams(words, path, more);
     (code, format!("{data} {remarks}"))
 }
 
 /// The plant without states, with these fields in the place of its own.
-fn changed(fields: &[(&str, Value)]) -> String {
+pub fn changed(fields: &[(&str, Value)]) -> String {
     let mut plant = document("plants/linear");
     for (place, value) in fields {
         match plant.pointer_mut(place) {
@@ -43,7 +43,7 @@ fn changed(fields: &[(&str, Value)]) -> String {
 }
 
 /// What is said about this plant with these flags.
-fn of(fields: &[(&str, Value)], flags: &[&str]) -> (i32, String) {
+pub fn of(fields: &[(&str, Value)], flags: &[&str]) -> (i32, String) {
     let (_folder, path) = file("plant.json", &changed(fields));
     told(&TOLD, Some(&path), flags)
 }

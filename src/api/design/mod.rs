@@ -10,7 +10,7 @@ use super::error::{Error, ErrorKind};
 use super::report::Report;
 use super::sampling::SamplingPairs;
 use super::subject::Subject;
-use super::{positive, rational};
+use super::{rational, with_sampling_period};
 use options::{MAX_GAINS, N_O, NAMES, excludes_noise, has_disturbances, requirements};
 use proved::{Proved, Taken};
 use rug::Rational;
@@ -18,7 +18,7 @@ use sigmastar_exact::enclosure::{DEFAULT_PRECISION, Enclosure};
 use sigmastar_exact::number::write_exact;
 use sigmastar_lang::spec::{Actuator, Document};
 use sigmastar_prove::certify::{NoRatesOfClaim, Options, rate_counts};
-use sigmastar_prove::reduction::{AtGains, Subject as Read, Unwatched, at_samples};
+use sigmastar_prove::reduction::{AtGains, Subject as Read, Unwatched};
 use sigmastar_studies::design::{
     Choice, DesignReport, LongestPeriod, Merit, Requirements, Row, ValuesTried, best_values, choose, design_table,
     mu_by_the_period,
@@ -140,7 +140,7 @@ impl Asked {
         let [of_counts, of_sigmas, of_step] = names.asked;
         let mut subject = subject.clone();
         if let Some(step) = &options.sampling_period {
-            subject.read = Read::read(&at_samples(&subject.source, &positive(of_step, step)?)?)?;
+            subject.read = Read::read(&with_sampling_period(&subject.source, of_step, step)?)?;
         }
         let read = &subject.read;
         let asked_counts = options.n_o.clone().unwrap_or_else(|| {

@@ -1,7 +1,9 @@
 //! What is asked of a design table.
 
 use super::super::error::{Error, ErrorKind};
-use super::super::{rational, steady_error};
+use super::super::{at_argument, rational, steady_error};
+use rug::Rational;
+use sigmastar_lang::spec::{Constant, Document};
 use sigmastar_prove::certify::NoRatesOfClaim;
 use sigmastar_prove::reduction::Subject as Read;
 use sigmastar_studies::design::Requirements;
@@ -171,7 +173,7 @@ pub(super) fn requirements(
         steady_error: of_steady,
         peak_error: value(1)?,
         control: value(2)?,
-        settling: value(3)?,
+        settling: periods(names.required[3], options.required[3].as_deref(), subject.period().nominal())?,
         noise: value(4)?,
     };
     let [of_steady, _, _, of_settling, of_noise] = names.required;
@@ -192,6 +194,20 @@ pub(super) fn requirements(
         return Err(Error::new(ErrorKind::Options, message, help));
     }
     Ok(requirements)
+}
+
+/// A number of periods: where the text has a unit it is a time, which is told.
+fn periods(name: &str, text: Option<&str>, period: &Constant) -> Result<Option<Rational>, Error> {
+    let Some(text) = text else { return Ok(None) };
+    rational(name, text).map(Some).map_err(|error| {
+        if error.kind() != ErrorKind::Expression {
+            return error;
+        }
+        let help =
+            format!("{name} counts periods and has no unit: divide a time by the period, which is {}", period.text);
+        let told = error.sources().iter().flat_map(|told| told.errors()).map(|told| told.clone().help(help.clone()));
+        at_argument((name, &Document::flag(name, text)), told)
+    })
 }
 
 /// What of a document excludes bounds with noise.

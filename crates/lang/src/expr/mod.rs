@@ -46,6 +46,7 @@ mod settings;
 mod slope;
 mod syntax;
 mod trigonometric;
+mod units;
 mod walk;
 mod words;
 

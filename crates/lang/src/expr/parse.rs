@@ -17,6 +17,7 @@ use super::names::{FOLDED, Scope, UNARY, is_taken, suggest};
 use super::percent::percent;
 use super::phase::PHASE;
 use super::syntax::{Binary, Node, NodeKind, Unary, carried, step};
+use super::units;
 use super::{ExprError, ExprErrorKind, MAX_EXPONENT, MAX_NESTING, MAX_NODES, MAX_TEXT};
 use sigmastar_exact::number::parse_decimal;
 use std::ops::Range;
@@ -224,7 +225,7 @@ impl<S: Scope> Parser<'_, S> {
         if unary.is_none() && folded.is_none() {
             let kind = ExprErrorKind::UnknownName { name: shortened(name) };
             let called = self.peek_symbol() == Some('(');
-            let define = || if called { None } else { self.scope.definable(name) };
+            let define = || if called { None } else { self.scope.definable(name).or_else(|| self.without_factor()) };
             let (expected, help) = (Some(self.scope.operand()), suggest(name, called, self.scope).or_else(define));
             return Err(ExprError { kind, span: span.clone(), expected, help });
         }
@@ -334,8 +335,12 @@ impl<S: Scope> Parser<'_, S> {
     /// What to write where `right` follows the operand `left` without an operator.
     fn between(&self, left: &str, right: &str, kind: TokenKind) -> String {
         let product = |factor: &str| format!("write {left}*{factor}");
+        let number = self.at.checked_sub(1).is_some_and(|at| self.tokens[at].kind == TokenKind::Numeral);
+        let called = self.tokens.get(self.at + 1).is_some_and(|next| next.kind == TokenKind::Symbol('('));
         if kind != TokenKind::Name || is_taken(right) {
-            return product(right);
+            // `12 1/s`, and minutes in the place of the smallest of some.
+            let is_unit = number && !called && self.unit_from(self.at).is_some();
+            return if is_unit { self.without_unit(left, right) } else { product(right) };
         }
         match self.scope.variable(right) {
             Some(Err(Some(advice))) => return advice,
@@ -349,8 +354,6 @@ impl<S: Scope> Parser<'_, S> {
         if spelled_out != right {
             return product(&spelled_out);
         }
-        let number = self.at.checked_sub(1).is_some_and(|at| self.tokens[at].kind == TokenKind::Numeral);
-        let called = self.tokens.get(self.at + 1).is_some_and(|next| next.kind == TokenKind::Symbol('('));
         match suggest(right, called, self.scope) {
             // A name with a well-known meaning, under another name here.
             Some(advice) => match advice.strip_prefix("write ") {
@@ -363,25 +366,34 @@ impl<S: Scope> Parser<'_, S> {
         }
     }
 
-    /// The advice on a unit behind a number.
+    /// The advice on a unit behind a number: on all of it, such as `1/s`, where nothing else follows.
     fn without_unit(&self, number: &str, unit: &str) -> String {
-        // What a unit means is told where the number is all that stands in front of it.
-        let lower = if self.at == 1 { unit.to_lowercase() } else { String::new() };
-        let (frequency, time) = match lower.as_str() {
-            "hz" => (number.to_owned(), format!("1/{number}")),
-            "khz" => (format!("1000*{number}"), format!("1/(1000*{number})")),
-            "rpm" => (format!("{number}/60"), format!("60/{number}")),
-            "ms" => return format!("numbers have no units: with the second as the unit of time, write {number}/1000"),
-            _ => {
-                return format!(
-                    "numbers have no units: leave `{unit}` out, and take the same units of time, x and e in all data"
-                );
+        units::without(number, self.unit_from(self.at).unwrap_or(unit), self.at == 1)
+    }
+
+    /// The rest of the text from a token on, where it is a unit and has no name in it that is known here.
+    fn unit_from(&self, at: usize) -> Option<&str> {
+        let rest = self.tokens.get(at..)?;
+        let is_part = |token: &Token| match token.kind {
+            TokenKind::Name => {
+                let name = &self.text[token.span.clone()];
+                let known = self.scope.variable(name).is_some() || self.scope.definition(name).is_some();
+                units::is_unit(name) && !known
             }
+            TokenKind::Numeral => true,
+            TokenKind::Symbol(symbol) => "*/^-()".contains(symbol),
         };
-        format!(
-            "numbers have no units: with the second as the unit of time, {number} {unit} is {time} as a period or sampling period, and \
-             2*pi*{frequency} as an angular frequency such as `base_frequency`"
-        )
+        let has_name = rest.iter().any(|token| token.kind == TokenKind::Name);
+        (has_name && rest.iter().all(is_part)).then(|| self.text[rest[0].span.start..].trim_end())
+    }
+
+    /// The advice on a unit that a number is multiplied with or divided by, of which the name was read last.
+    fn without_factor(&self) -> Option<String> {
+        let operator = self.at.checked_sub(2)?;
+        let number = operator.checked_sub(1).and_then(|at| self.tokens.get(at))?;
+        let multiplies = matches!(self.tokens[operator].kind, TokenKind::Symbol('*' | '/'));
+        let unit = self.unit_from(operator).filter(|_| multiplies && number.kind == TokenKind::Numeral)?;
+        Some(units::without(&self.text[number.span.clone()], unit, false))
     }
 
     /// What follows a complete operand and is neither an operator nor the end.
@@ -467,13 +479,21 @@ mod tests {
         let unexpected = |found: &str| Kind::Unexpected { found: found.into() };
         let unknown = |name: &str| Kind::UnknownName { name: name.into() };
         const HERTZ: &str = "numbers have no units: with the second as the unit of time, 2 Hz is 1/2 as a period or sampling period, and 2*pi*2 as an angular \
-                             frequency such as `base_frequency`";
+                             frequency such as `base_frequency`, or as a gain or a rate in 1/s";
         const MILLI: &str = "numbers have no units: with the second as the unit of time, write 2/1000";
         const OTHER: &str =
             "numbers have no units: leave `ms` out, and take the same units of time, x and e in all data";
         const UNIT: &str = "numbers have no units: leave `s` out, and take the same units of time, x and e in all data";
         const ANGLE: &str =
-            "numbers have no units: leave `rad` out, and take the same units of time, x and e in all data";
+            "numbers have no units: leave `rad/s` out, and take the same units of time, x and e in all data";
+        const RATE: &str =
+            "numbers have no units: leave `1/s` out, and take the same units of time, x and e in all data";
+        const SQUARE: &str =
+            "numbers have no units: leave `s^-2` out, and take the same units of time, x and e in all data";
+        const MINUTES: &str =
+            "numbers have no units: leave `min` out, and take the same units of time, x and e in all data";
+        const OVER: &str =
+            "numbers have no units: leave `/s` out, and take the same units of time, x and e in all data";
         const SUPREMUM: &str = "a bounding function holds for every t: take the supremum over t, or give the plant itself \
                                 (`sigmastar/plant`), whose formulas may have t";
         for (text, kind, span, help) in [
@@ -491,6 +511,14 @@ mod tests {
             ("2 Hz", missing("2", "Hz"), 2..4, Some(HERTZ)),
             ("2 ms", missing("2", "ms"), 2..4, Some(MILLI)),
             ("1/2 ms", missing("2", "ms"), 4..6, Some(OTHER)),
+            ("2 1/s", missing("2", "1"), 2..3, Some(RATE)),
+            ("2 1/X", missing("2", "1"), 2..3, Some("write 2*1")),
+            ("2 s^-2", missing("2", "s"), 2..3, Some(SQUARE)),
+            ("2 min", missing("2", "min"), 2..5, Some(MINUTES)),
+            ("2 min(1, 2)", missing("2", "min"), 2..5, Some("write 2*min")),
+            ("2/s", unknown("s"), 2..3, Some(OVER)),
+            ("2/gain", unknown("gain"), 2..6, None),
+            ("X/s", unknown("s"), 2..3, None),
             ("2 x", missing("2", "x"), 2..3, Some("write 2*X")),
             ("2 ln(X)", missing("2", "ln"), 2..4, Some("write 2*log")),
             ("2 sqr(X)", missing("2", "sqr"), 2..5, Some("did you mean sqrt?")),

@@ -1,0 +1,59 @@
+//! Answers that first users read without finding out what to do: each now says what to write, and beside it stands what has another answer.
+
+use crate::mistakes::{changed, file, of, told};
+use crate::support::document;
+
+/// A flag that counts periods is told as such where a time is given, and one that has a unit is told what the number without it is.
+#[test]
+fn units_at_flags_are_told_by_what_the_flag_means() {
+    let (_folder, path) = file("plant.json", &changed(&[]));
+    let design = |flags: &[&str]| told(&["design", "--quiet"], Some(&path), flags);
+    let periods = "--settle counts periods and has no unit: divide a time by the period, which is 1";
+    for time in ["2s", "2 ms", "200ms/2"] {
+        let (code, text) = design(&["--steady-error", "1", "--settle", time]);
+        assert!(code == 2 && text.contains(periods) && !text.contains("leave `s` out"), "{time}: {text}");
+    }
+    let (code, text) = design(&["--steady-error", "1", "--settle", "-2"]);
+    assert!(code == 2 && text.contains("must be positive") && !text.contains("counts periods"), "{text}");
+    for (flag, value, said) in [
+        ("--steady-error", "5mV", "with V as the unit of all data of this kind, write 5/1000"),
+        ("--max-control", "2 kN", "write 1000*2"),
+        ("--sigma", "10 Hz", "2*pi*10 as an angular frequency such as `base_frequency`, or as a gain or a rate in 1/s"),
+        ("--sampling-period", "1 ms", "with the second as the unit of time, write 1/1000"),
+        ("--peak-error", "3 V", "leave `V` out"),
+    ] {
+        let (code, text) = design(&[flag, value]);
+        assert!(code == 2 && text.contains(said), "{flag} {value}: {text}");
+    }
+    for (mu, unit) in [("12 1/s", "leave `1/s` out"), ("12/s", "leave `/s` out"), ("12 rad/s", "leave `rad/s` out")] {
+        let (code, text) = of(&[("/internal_model/mu", mu.into())], &[]);
+        assert!(code == 2 && text.contains(unit) && !text.contains("12*"), "{mu}: {text}");
+    }
+    // No unit: an operator is missing, and a name is not known.
+    let (_, text) = of(&[("/internal_model/mu", "12 (3)".into())], &[]);
+    assert!(text.contains("write 12*(") && !text.contains("no units"), "{text}");
+    let (_, text) = of(&[("/internal_model/mu", "12/gain".into())], &[]);
+    assert!(text.contains("`gain` is not a known name") && !text.contains("no units"), "{text}");
+}
+
+/// A sampling period of a flag that does not go with the period is told at the flag, by every command that takes one.
+#[test]
+fn a_sampling_period_of_a_flag_is_told_at_the_flag() {
+    let (_folder, path) = file("plant.json", &changed(&[]));
+    let flags = ["--sampling-period", "0.3"];
+    for command in ["certify", "design"] {
+        let (code, text) = told(&[command, "--quiet"], Some(&path), &flags);
+        assert!(code == 2 && text.contains("1 | --sampling-period 0.3"), "{command}: {text}");
+        assert!(text.contains("such as `1/3`") && !text.contains("plant.json"), "{command}: {text}");
+    }
+    let (code, text) = told(&["sampling", "--quiet"], Some(&path), &flags);
+    assert!(code == 2 && text.contains("--sampling-period: the period 1 is no whole multiple"), "{text}");
+    // What is wrong in the file is told there, also with such a flag.
+    let (_folder, path) = file("plant.json", &changed(&[("/internal_model/mu", "-1".into())]));
+    let (code, text) = told(&["design", "--quiet"], Some(&path), &flags);
+    assert!(code == 2 && text.contains("plant.json") && text.contains("must be positive"), "{text}");
+    let mut model = document("plants/linear")["internal_model"].clone();
+    model["sampling_period"] = "0.3".into();
+    let (code, text) = of(&[("/internal_model", model)], &[]);
+    assert!(code == 2 && text.contains("plant.json") && text.contains("not a whole number"), "{text}");
+}
