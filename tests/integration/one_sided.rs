@@ -121,6 +121,17 @@ fn the_bounds_by_the_number_keep_to_an_actuator() {
         code == 3 && text.contains("what the actuator takes, 0.8; the least for which a proof is found is 0.98"),
         "{text}"
     );
+    assert!(
+        text.contains("; 0.8 is half of the range from 3.2 to 4.8, and u is measured from its middle, 4."),
+        "{text}"
+    );
+    // A range about 0 needs no explanation.
+    let file = stored(folder.path(), "about-0.json", &bath("-0.8", "0.8"));
+    let (code, text) = told(program().arg("certify").arg(&file).args(["-q", "--no-alternatives"]));
+    assert!(
+        code == 3 && text.contains("what the actuator takes, 0.8;") && !text.contains("half of the range"),
+        "{text}"
+    );
 }
 
 /// Limits that are about some numbers of oscillators stay so, beside an actuator that is about every number.

@@ -7,7 +7,7 @@ use sigmastar_document::{Block, clean};
 use sigmastar_exact::enclosure::Truth;
 use sigmastar_exact::number::write_exact;
 use sigmastar_lang::expr::BoundingFailure;
-use sigmastar_lang::spec::{InitialSet, SIZES};
+use sigmastar_lang::spec::{InitialSet, SIZES, Specification};
 use sigmastar_propose::search::{Failing, Limited, Obstacle};
 use sigmastar_prove::certify::{Certification, Outcome, SmallerChoice, Verdict};
 use sigmastar_theory::derivation::condition::Condition;
@@ -37,10 +37,23 @@ pub(super) fn sentence(run: &Certification<'_>) -> String {
     let what = match attempt(run) {
         Attempt::Proved => first_unproved(&run.unproved_bounds, "the claim was not proved"),
         Attempt::Failing(conditions) => first_failing(conditions),
-        Attempt::NotFound(obstacle) => obstacle.sentence(),
+        Attempt::NotFound(obstacle) => not_found(&obstacle, run.spec),
     };
     let word = if run.verdict == Verdict::Refuted { "Refuted" } else { "Undecided" };
     format!("{word}: no $`sigma`$ is certified here; {what}. Nothing is claimed about the plant either way.")
+}
+
+/// What failed where nothing was found; of an actuator whose range has another middle than 0, where its limit is from.
+pub(super) fn not_found(obstacle: &Obstacle, spec: &Specification) -> String {
+    let of_actuator = matches!(obstacle.failing, Failing::Limit { which: Limited::Actuator, .. });
+    let actuator = spec.actuator.as_ref().filter(|_| of_actuator);
+    let of_range = actuator.and_then(|actuator| {
+        let (range, middle) = (actuator.range.as_ref()?, actuator.middle()?);
+        let [half, min, max] = [&actuator.max, &range.min, &range.max].map(|limit| clean(&limit.text));
+        let middle = write_exact(&middle);
+        Some(format!("; {half} is half of the range from {min} to {max}, and u is measured from its middle, {middle}"))
+    });
+    obstacle.sentence() + &of_range.unwrap_or_default()
 }
 
 /// The first bounding function that is not proved, in words, or what is said without one.

@@ -7,8 +7,8 @@ use super::for_n_o::{rates_json, sampled_section};
 use super::json::{actuator, bounds_json, control, input_gain, interval_costs, targets_json};
 use super::limits;
 use super::obstacles::{
-    SLOWER, SMALLER_START, again, describe, first_failing, first_of, first_unproved, other_gain, rest_of, smaller_by,
-    wider,
+    SLOWER, SMALLER_START, again, describe, first_failing, first_of, first_unproved, not_found, other_gain, rest_of,
+    smaller_by, wider,
 };
 use super::of_plant::plant_json;
 use super::remarks::sampled_remarks;
@@ -114,7 +114,7 @@ fn obstacle(run: &SampledCertification<'_>) -> String {
         return "$`h sigma`$ exceeds 1: the law would overshoot from sample to sample".to_owned();
     }
     match &run.outcome {
-        Outcome::NotFound(obstacle) => obstacle.sentence(),
+        Outcome::NotFound(obstacle) => not_found(obstacle, run.spec),
         Outcome::NotProved { failing, .. } => first_failing(failing),
         Outcome::Proved(_) => {
             first_unproved(&run.unproved_bounds, "the arguments of the bounding functions are not bounded")
