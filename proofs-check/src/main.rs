@@ -2,10 +2,11 @@
 //! 3 undecided. `proofs-check --coq CERT.json`: the certificate as a Coq theorem; 0 written, 1 invalid data, 2 bad-input,
 //! 3 no theorem of its kind.
 
-use proofs_check::verdict::escaped;
+use proofs_check::verdict::{Verdict, escaped};
 use std::ffi::OsString;
 use std::fs::File;
 use std::io::{Read, Write};
+use std::path::Path;
 use std::process::ExitCode;
 
 const USAGE: &str = "usage: proofs-check CERT.json [--spec SPEC.json] [--verbose] [--format text|json]
@@ -52,7 +53,7 @@ fn main() -> ExitCode {
     }
     let Some(path) = path else { return wrong_call("no certificate is named") };
     let open = |path: &OsString| {
-        File::open(path).map_err(|error| format!("cannot read {}: {error}", std::path::Path::new(path).display()))
+        File::open(path).map_err(|error| format!("cannot read {}: {error}", Path::new(path).display()))
     };
     if coq {
         if spec.is_some() || verbose || json.is_some() {
@@ -63,6 +64,9 @@ fn main() -> ExitCode {
             Err(message) => wrong_call(&message),
         };
     }
+    let named = [Some(&path), spec.as_ref()].into_iter().flatten();
+    let other_notation =
+        named.map(Path::new).find(|path| path.extension().is_some_and(|end| end == "toml" || end == "jsonc"));
     let read = open(&path).and_then(|mut certificate| {
         let mut specification = spec.as_ref().map(open).transpose()?;
         let specification = specification.as_mut().map(|file| file as &mut dyn Read);
@@ -72,10 +76,22 @@ fn main() -> ExitCode {
         Ok(report) => report,
         Err(message) => return wrong_call(&message),
     };
+    if let Some(path) = other_notation.filter(|_| report.verdict == Verdict::BadInput) {
+        tell_notation(path);
+    }
     let text = if json == Some(true) { format!("{:#}\n", report.json()) } else { report.text(verbose) };
     // A closed stream is no reason to fail differently.
     let _ = std::io::stdout().write_all(text.as_bytes());
     ExitCode::from(report.verdict.exit_code())
+}
+
+/// Says what makes JSON of a file whose name is that of another notation: JSON alone is read.
+fn tell_notation(path: &Path) {
+    let path = escaped(&path.display().to_string());
+    eprintln!(
+        "proofs-check: JSON alone is read: `sigmastar convert {path} -o FILE.json` writes a specification or plant as that, for --spec; its certificate is \
+         what `sigmastar certify {path} -o CERTIFICATE` writes"
+    );
 }
 
 /// Writes the theorem to the output, or why there is none to the errors.
