@@ -9,7 +9,7 @@ use sigmastar::program::{MAX_CERTIFICATE, check_bytes, page};
 use sigmastar::{CheckReport, CheckVerdict, Report};
 use sigmastar_document::clean;
 use sigmastar_lang::plant::FORMAT as PLANT;
-use sigmastar_lang::spec::{Document, FORMAT as SPECIFICATION, Notation};
+use sigmastar_lang::spec::{Document, FORMAT as SPECIFICATION, Notation, report};
 use sigmastar_prove::certificate::FORMAT as CERTIFICATE;
 use std::fs::File;
 use std::io::{Cursor, Read};
@@ -83,9 +83,12 @@ fn specification(path: &Path, args: &CheckArgs) -> Result<Box<dyn Read>, Failure
 
 /// Says of a file that is no certificate what one is.
 fn tell_no_certificate(path: &Path) {
-    let is_one =
-        path == Path::new("-") || input::written(path).is_ok_and(|document| has_format(&document, CERTIFICATE));
-    if is_one {
+    const WRITES: &str = "`sigmastar certify FILE -o CERTIFICATE` writes one";
+    if path == Path::new("-") {
+        return;
+    }
+    let written = input::written(path).ok();
+    if written.as_ref().is_some_and(|document| has_format(document, CERTIFICATE)) {
         return;
     }
     let name = shown(path);
@@ -93,12 +96,14 @@ fn tell_no_certificate(path: &Path) {
     let document = input::document(path).ok();
     let is = |format: &str| document.as_ref().is_some_and(|document| has_format(document, format));
     let what = [(PLANT, "a plant"), (SPECIFICATION, "a specification")].into_iter().find(|(format, _)| is(format));
-    output::remark(&match what {
-        Some((_, what)) => format!(
+    let told = written.as_ref().and_then(|document| report(document.at("/format")?.text()?));
+    output::remark(&match (what, told) {
+        (Some((_, what)), _) => format!(
             "`{name}` is {what}, not a certificate: `sigmastar certify {name} -o CERTIFICATE` writes one, and `sigmastar check CERTIFICATE` \
              checks it"
         ),
-        None => format!("`{name}` is no certificate: `sigmastar certify FILE -o CERTIFICATE` writes one"),
+        (None, Some(report)) => format!("`{name}` is {report}, not a certificate: {WRITES}"),
+        (None, None) => format!("`{name}` is no certificate: {WRITES}"),
     });
 }
 

@@ -1,7 +1,7 @@
 //! Answers that first users read without finding out what to do: each now says what to write, and beside it stands what has another answer.
 
 use crate::mistakes::{changed, file, of, told};
-use crate::support::document;
+use crate::support::{document, program, utf8};
 
 /// A flag that counts periods is told as such where a time is given, and one that has a unit is told what the number without it is.
 #[test]
@@ -56,4 +56,33 @@ fn a_sampling_period_of_a_flag_is_told_at_the_flag() {
     model["sampling_period"] = "0.3".into();
     let (code, text) = of(&[("/internal_model", model)], &[]);
     assert!(code == 2 && text.contains("plant.json") && text.contains("not a whole number"), "{text}");
+}
+
+/// What a command told is no input of another one: it is named, with the file that is meant.
+#[test]
+fn a_report_in_the_place_of_a_file_is_named() {
+    let (_folder, path) = file("plant.json", &changed(&[]));
+    let design = ["design", "--quiet", "--no-simulation", "--n-o", "0", "--sigma", "9", "--format", "json"];
+    let output = program().args(design).arg(&path).output().expect("the program runs");
+    let (_folder, table) = file("table.json", &utf8(output.stdout));
+    for (command, meant) in [
+        (&["certify"][..], "name the plant or the specification that it is about"),
+        (&["simulate", "--sigma", "1", "--n-o", "0"], "name the plant that it is about"),
+        (&["falsify"], "name the certificate, which `sigmastar certify FILE -o CERTIFICATE` writes"),
+    ] {
+        let (code, text) = told(command, Some(&table), &[]);
+        let named = "this is a table of `design --format json`, which no command reads again";
+        assert!(code == 2 && text.contains(named) && text.contains(meant), "{command:?}: {text}");
+    }
+    let (code, text) = told(&["check"], Some(&table), &[]);
+    assert!(code == 2 && text.contains("is a table of `design --format json`, not a certificate"), "{text}");
+    assert!(text.contains("its certificate is the file that `-o` writes"), "{text}");
+    let (_folder, other) = file("other.json", "{ \"format\": \"sigmastar/nothing\", \"version\": 1 }");
+    let (_, text) = told(&["certify"], Some(&other), &[]);
+    assert!(
+        text.contains("this is a file of format `sigmastar/nothing`") && !text.contains("no command reads"),
+        "{text}"
+    );
+    let (_, text) = told(&["check"], Some(&other), &[]);
+    assert!(text.contains("is no certificate:") && !text.contains("`-o` writes"), "{text}");
 }

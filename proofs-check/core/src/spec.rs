@@ -269,6 +269,9 @@ impl InternalModel {
     }
 }
 
+/// What `sigmastar certify` and `sigmastar design` tell with `--format json`.
+const REPORTS: [&str; 2] = ["sigmastar/report", "sigmastar/design"];
+
 /// `format` and `version` of a file.
 pub fn header(file: &mut Fields<'_>, format: &str) -> Outcome<()> {
     let field = file.required("format")?;
@@ -278,6 +281,10 @@ pub fn header(file: &mut Fields<'_>, format: &str) -> Outcome<()> {
         let what = match (found, format) {
             ("sigmastar/plant", "sigmastar/certificate") => "a plant",
             ("sigmastar/bounding-spec", "sigmastar/certificate") => "a specification",
+            (report, "sigmastar/certificate") if REPORTS.contains(&report) => {
+                let why = "this is what `sigmastar` told of a claim, and its certificate is the file that `-o` writes";
+                return bad(&field.pointer, format!("expected `{format}`; {why}"));
+            }
             _ => return bad(&field.pointer, format!("expected `{format}`")),
         };
         let first =

@@ -183,3 +183,38 @@ fn the_program() {
         assert!(code == Some(2) && out.is_empty() && error.contains("usage"), "{wrong:?}");
     }
 }
+
+/// What is no certificate is told as what it is: a file in another notation with the command that makes JSON of it, a report with where its certificate is.
+#[test]
+fn files_of_other_kinds_are_told_apart() {
+    let written = |name: &str, text: &str| {
+        let path = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+        std::fs::write(&path, text).unwrap();
+        path.display().to_string()
+    };
+    let run = |arguments: &[&str]| {
+        let output = Command::new(env!("CARGO_BIN_EXE_proofs-check")).args(arguments).output().unwrap();
+        let [out, error] = [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).unwrap());
+        (output.status.code(), out, error)
+    };
+    const TOML: &str = "format = \"sigmastar/plant\"\nversion = 1\n";
+    let valid = folder("certificates").join("paper-example.sharp.json").display().to_string();
+    let toml = written("other.toml", TOML);
+    for call in [&[&toml[..]][..], &[&valid, "--spec", &toml]] {
+        let (code, out, error) = run(call);
+        assert!(code == Some(2) && out.contains("not JSON"), "{out}");
+        assert!(error.contains(&format!("`sigmastar convert {toml} -o FILE.json`")), "{error}");
+    }
+    // Under the name of JSON it is no more than no JSON, and a certificate under another name is read.
+    let (code, out, error) = run(&[&written("other.json", TOML)]);
+    assert!(code == Some(2) && out.contains("not JSON") && error.is_empty(), "{error}");
+    let copy = written("copy.jsonc", &std::fs::read_to_string(&valid).unwrap());
+    let (code, _, error) = run(&[&copy]);
+    assert!(code == Some(0) && error.is_empty(), "{error}");
+    let with = |format: &str| run(&[&written("table.json", &json!({ "format": format, "version": 1 }).to_string())]).1;
+    for (format, said) in [("sigmastar/design", true), ("sigmastar/report", true), ("sigmastar/controller", false)] {
+        let text = with(format);
+        assert!(text.contains("expected `sigmastar/certificate`"), "{text}");
+        assert_eq!(text.contains("its certificate is the file that `-o` writes"), said, "{format}: {text}");
+    }
+}

@@ -69,8 +69,8 @@ pub use model::{
     PeriodicMatrix, RelativeDegree, SIZES, Specification, StartSizes, TrigonometricVector,
 };
 pub use notation::Notation;
-pub use object::choose;
 pub use object::{MAX_UNKNOWN, Object};
+pub use object::{choose, report};
 pub use of_plant::{OfPlant, ProvedCell, ProvedForcing, ProvedOrbit, Wave};
 pub use oscillators::{AskedHarmonics, NoSet, Oscillators};
 pub use parameters::{Interval, MAX_PARAMETERS, Parameter, Parameters, read_parameters};

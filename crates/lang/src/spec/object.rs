@@ -225,6 +225,27 @@ pub(super) fn belongs_above(name: &str) -> String {
 const FORMATS: [&str; 5] =
     ["sigmastar/plant", "sigmastar/bounding-spec", "sigmastar/study", "sigmastar/certificate", "sigmastar/controller"];
 
+/// What commands tell as JSON.
+const REPORTS: [(&str, &str); 11] = [
+    ("sigmastar/report", "a report of `certify --format json`"),
+    ("sigmastar/design", "a table of `design --format json`"),
+    ("sigmastar/sampling", "a report of `sampling --format json`"),
+    ("sigmastar/tune", "a report of `tune --format json`"),
+    ("sigmastar/transfer", "a report of `transfer --format json`"),
+    ("sigmastar/simulation", "a report of `simulate --format json`"),
+    ("sigmastar/falsification", "a report of `falsify --format json`"),
+    ("sigmastar/lyapunov", "a report of `lyapunov --format json`"),
+    ("sigmastar/constants", "a table of `constants --format json`"),
+    ("sigmastar/errata", "a list of `errata --format json`"),
+    ("sigmastar/reproduction", "a report of `reproduce`"),
+];
+
+/// What a file of this format is, where it is what a command told.
+#[must_use]
+pub fn report(format: &str) -> Option<&'static str> {
+    REPORTS.iter().find(|(known, _)| *known == format).map(|(_, what)| *what)
+}
+
 /// What to do with a file of the format `found` where one of `wanted` is read.
 fn way_out(found: &str, wanted: &str) -> Option<String> {
     let first = |what: &str| {
@@ -232,6 +253,15 @@ fn way_out(found: &str, wanted: &str) -> Option<String> {
             "{what} is to be certified first: `sigmastar certify FILE -o CERTIFICATE`; this command reads the CERTIFICATE"
         )
     };
+    if let Some(report) = report(found) {
+        let what = match wanted {
+            "sigmastar/certificate" => "the certificate, which `sigmastar certify FILE -o CERTIFICATE` writes",
+            "sigmastar/study" => "the study",
+            "sigmastar/bounding-spec" => "the plant or the specification that it is about",
+            _ => "the plant that it is about",
+        };
+        return Some(format!("this is {report}, which no command reads again: name {what}"));
+    }
     Some(match (found, wanted) {
         // What is to be certified, in the place of what was.
         ("sigmastar/plant", "sigmastar/certificate") => first("a plant"),
