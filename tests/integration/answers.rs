@@ -58,6 +58,18 @@ fn a_sampling_period_of_a_flag_is_told_at_the_flag() {
     assert!(code == 2 && text.contains("plant.json") && text.contains("not a whole number"), "{text}");
 }
 
+/// A magnitude in a formula is told with what is smooth, by its sign or by its name.
+#[test]
+fn a_magnitude_is_told_with_a_smooth_function() {
+    let (code, text) = of(&[("/q", "|e| + sin(2*pi*t)".into())], &[]);
+    assert!(code == 2 && text.contains("|v| has a corner, and formulas are smooth: write sqrt(v^2 + 1/100)"), "{text}");
+    let (code, text) = of(&[("/q", "abs(2*e)/9 + sin(2*pi*t)".into())], &[]);
+    assert!(code == 3 && text.contains("|2*e| is not smooth where 2*e = 0: write sqrt((2*e)^2 + 1/100)"), "{text}");
+    assert!(text.contains("drag, dry friction and dead zones"), "{text}");
+    let (_, text) = of(&[("/q", "sqrt(e)/9 + sin(2*pi*t)".into())], &[]);
+    assert!(text.contains("write sqrt(u + 1/100)") && !text.contains("dead zones"), "{text}");
+}
+
 /// What a command told is no input of another one: it is named, with the file that is meant.
 #[test]
 fn a_report_in_the_place_of_a_file_is_named() {

@@ -104,7 +104,7 @@ fn a_corner_is_told_straight() {
     let (_folder, path) = file("plant.json", &plant("abs(e) + sin(2*pi*t)", None));
     let (code, text) = told(&["certify"], &path);
     assert!(code == 3 && text.contains("the argument of abs vanishes at some state and error"), "{text}");
-    assert!(text.contains("write sqrt(u^2 + 1/100) for abs(u)") && !text.contains("not true"), "{text}");
+    assert!(text.contains("write sqrt(e^2 + 1/100) for abs(e)") && !text.contains("not true"), "{text}");
     let (_folder, path) = file("plant.json", &plant("abs(100 + e)/100 + sin(2*pi*t)", None));
     // What is not seen to vanish anywhere is not said to.
     let (_, text) = told(&["certify", "--no-alternatives"], &path);

@@ -17,6 +17,9 @@ const TIMES: u32 = 512;
 /// A value is 0 where it is this small beside the largest one of the period.
 const NOTHING: f64 = 1e-12;
 
+/// The longest argument that is shown in what to write for its magnitude, in bytes.
+const LONGEST_ARGUMENT: usize = 30;
+
 /// Halvings of the stretch between two times with values of both signs.
 const HALVINGS: usize = 60;
 
@@ -62,8 +65,7 @@ pub fn otherwise(what: &str) -> Option<String> {
 /// What to write in the place of an operation of which this is demanded: its own text says which quotient it is.
 #[must_use]
 pub fn instead(what: &str, part: &str) -> String {
-    const INSTEAD: [(&str, &str); 5] = [
-        ("the argument of abs", "write sqrt(u^2 + 1/100) for abs(u)"),
+    const INSTEAD: [(&str, &str); 4] = [
         ("the two arguments", "write (a + b - sqrt((a - b)^2 + 1/100))/2 for min(a, b), with + for max(a, b)"),
         ("the argument of sqrt", "write sqrt(u + 1/100) for sqrt(u), if u is not negative"),
         ("the argument of log", "write log(u + 1/100) for log(u), if u is not negative"),
@@ -77,8 +79,23 @@ pub fn instead(what: &str, part: &str) -> String {
             "u*v/(v^2 + 1/100) is smooth, but not u/v: with it the model is another one, in which 0 stands where v = 0";
         return known.map(|(_, text)| text).chain([other]).collect::<Vec<_>>().join("; ");
     }
+    if what.starts_with("the argument of abs") {
+        return instead_of_abs(part);
+    }
     let known = INSTEAD.iter().find(|(start, _)| what.starts_with(start));
     known.map_or("write a smooth function in its place", |(_, text)| text).to_owned()
+}
+
+/// What to write for a magnitude, with its argument where that is short.
+fn instead_of_abs(part: &str) -> String {
+    let argument = part.strip_prefix("abs(").and_then(|rest| rest.strip_suffix(')')).map(str::trim);
+    let argument = argument.filter(|argument| argument.len() <= LONGEST_ARGUMENT).unwrap_or("u");
+    let is_name = argument.chars().all(|c| c.is_alphanumeric() || c == '_');
+    let base = if is_name { argument.to_owned() } else { format!("({argument})") };
+    format!(
+        "|{argument}| is not smooth where {argument} = 0: write sqrt({base}^2 + 1/100) for abs({argument}), with a smaller number than 1/100 for a sharper \
+         corner; the recipes of the user guide have drag, dry friction and dead zones"
+    )
 }
 
 impl Undefined {
@@ -224,5 +241,19 @@ mod tests {
             assert!(advice(part).contains("the model is another one"), "{part}");
         }
         assert!(!instead("the argument of log is positive", "log(x)").contains("exprelr"));
+    }
+
+    #[test]
+    fn a_magnitude_is_told_with_its_argument() {
+        let long = format!("abs({})", "x + ".repeat(9) + "x");
+        for (part, said) in [
+            ("abs(e)", "|e| is not smooth where e = 0: write sqrt(e^2 + 1/100) for abs(e)"),
+            ("abs( v - 2*e )", "write sqrt((v - 2*e)^2 + 1/100) for abs(v - 2*e)"),
+            (long.as_str(), "write sqrt(u^2 + 1/100) for abs(u)"),
+        ] {
+            let advice = instead("the argument of abs does not vanish", part);
+            assert!(advice.contains(said) && advice.contains("dead zones"), "{part}: {advice}");
+        }
+        assert!(!instead("the argument of sqrt is positive", "sqrt(x)").contains("dead zones"));
     }
 }

@@ -80,6 +80,11 @@ pub(super) trait Scope {
         None
     }
 
+    /// Whether abs has a place here; where everything has to be smooth it has none.
+    fn has_corners(&self) -> bool {
+        true
+    }
+
     /// How a name that is not known may be given a value, where that can be done.
     fn definable(&self, name: &str) -> Option<String> {
         let _ = name;
@@ -204,7 +209,12 @@ pub(super) fn suggest<S: Scope>(name: &str, called: bool, scope: &S) -> Option<S
     }
     let product = scope.spelled_out(name);
     if product != name {
-        return Some(format!("write {product}"));
+        // A letter is more often struck twice than multiplied with itself without an operator.
+        let letter = name.chars().next().filter(|first| name.chars().all(|c| c == *first));
+        return Some(match letter {
+            Some(letter) => format!("did you mean {letter}? The product is written {product}"),
+            None => format!("write {product}"),
+        });
     }
     known(scope)
         // A variable is one letter: every short name would be a misspelling of it.
@@ -237,6 +247,7 @@ mod tests {
             ("PI", "write pi"),
             ("XE", "write X*E"),
             ("tahn", "did you mean tanh?"),
+            ("XX", "did you mean X? The product is written X*X"),
             ("pow", "write a power as u^v"),
             ("two", "write 2"),
             ("sync", "did you mean sinc?"),

@@ -304,7 +304,8 @@ impl<S: Scope> Parser<'_, S> {
             }
             '[' | '{' => Some("write ("),
             ']' | '}' => Some("write )"),
-            '|' => Some("write abs(...)"),
+            '|' if self.scope.has_corners() => Some("write abs(...)"),
+            '|' => Some("|v| has a corner, and formulas are smooth: write sqrt(v^2 + 1/100) for it"),
             '√' => Some("write sqrt(...)"),
             '<' | '>' | '=' | '?' => {
                 Some("there are no comparisons: min, max and abs have corners, tanh is a smooth step")

@@ -167,6 +167,10 @@ impl Scope for PlantNames {
         }
     }
 
+    fn has_corners(&self) -> bool {
+        false
+    }
+
     fn definable(&self, name: &str) -> Option<String> {
         is_name(name).then(|| {
             format!(
