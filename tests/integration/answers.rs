@@ -58,6 +58,31 @@ fn a_sampling_period_of_a_flag_is_told_at_the_flag() {
     assert!(code == 2 && text.contains("plant.json") && text.contains("not a whole number"), "{text}");
 }
 
+/// A period that is a rounded fraction is the mistake where formulas and base frequency have the exact one: that fraction is the first remedy.
+#[test]
+fn a_rounded_period_is_told_before_the_base_frequency() {
+    let with = |period: &str, frequency: &str| {
+        of(
+            &[
+                ("/period", period.into()),
+                ("/q", "sin(phase)".into()),
+                ("/internal_model/base_frequency", frequency.into()),
+                ("/internal_model/mu", "9".into()),
+            ],
+            &[],
+        )
+    };
+    let (code, text) = with("0.333", "6*pi");
+    let first = "help: state the period `1/3`, of which 0.333 is a rounded value; or keep this period, with the base frequency `2000/333*pi`";
+    assert!(code == 2 && text.contains(first) && !text.contains("would be right"), "{text}");
+    // Another fraction than that of the base frequency, and a period that is no rounded one.
+    for (period, right) in [("0.143", "2000/143*pi"), ("0.3", "20/3*pi"), ("3", "2/3*pi")] {
+        let (code, text) = with(period, "6*pi");
+        assert!(code == 2 && text.contains(&format!("`{right}` would be right")), "{text}");
+        assert!(!text.contains("rounded value"), "{text}");
+    }
+}
+
 /// A magnitude in a formula is told with what is smooth, by its sign or by its name.
 #[test]
 fn a_magnitude_is_told_with_a_smooth_function() {

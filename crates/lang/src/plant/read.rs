@@ -111,9 +111,12 @@ fn read(value: &Value<'_>, errors: &mut Errors) -> Result<Plant, Reported> {
             let message = format!("this is not periodic in t with the stated period: {broken}{first}");
             let error = value.error_in(ErrorKind::Range, &span, message);
             let help = "correct the expression, or state the period of all right sides together";
-            let meant = period.ok().and_then(rounded_from);
-            let meant = meant.map_or_else(String::new, |meant| format!("; `\"{meant}\"` is exact, if that is meant"));
-            Err(errors.report(error.help(format!("{help}{meant}"))))
+            let meant = period.ok().and_then(|period| Some((period, rounded_from(period)?)));
+            let meant = meant.map_or_else(String::new, |(period, meant)| {
+                let stated = &period.nominal().text;
+                format!("state the period `\"{meant}\"`, if that is meant: {stated} is a rounded value of it; or ")
+            });
+            Err(errors.report(error.help(format!("{meant}{help}"))))
         }
         _ => Ok(()),
     };

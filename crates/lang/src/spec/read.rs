@@ -8,10 +8,10 @@ use super::constant::{
 };
 use super::disturbances::read_disturbances;
 use super::document::{Document, Value};
-use super::error::{ErrorKind, Errors, Reported, SpecErrors};
+use super::error::{ErrorKind, Errors, Reported, SpecError, SpecErrors};
 use super::initial_set;
 use super::input_gain::read_input_gain;
-use super::meant::{in_another_unit, matched_frequency};
+use super::meant::{in_another_unit, matched_frequency, rounded_from};
 use super::model::{InternalModel, LyapunovSource, Specification};
 use super::object::Object;
 use super::parameters::Parameters;
@@ -262,11 +262,12 @@ pub fn read_internal_model(
 /// Proves base_frequency * period = 2 pi. Close is not enough: the consequences of a matched frequency (vanishing
 /// harmonics, exact regulation) fail for every other one.
 fn prove_matched(
-    period: &Constant,
+    stated: &Period,
     frequency: &Constant,
     value: &Value<'_>,
     errors: &mut Errors,
 ) -> Result<(), Reported> {
+    let period = stated.nominal();
     let product = Quantity::constant(frequency).times(Quantity::constant(period));
     let two_pi = Quantity::exact(Monomial::pi()).times(Quantity::rational(2));
     let right = matched_frequency(period);
@@ -293,8 +294,21 @@ fn prove_matched(
     }
     let own = frequency.exact.as_ref().and_then(|frequency| Monomial::pi().div(frequency));
     let own = own.and_then(|half| half.as_rational().map(|half| write_exact(&Rational::from(half * 2))));
+    // The base frequency has the exact number: it is the period that is to be corrected.
+    if let Some(own) = own.as_ref().filter(|own| rounded_from(stated).as_ref() == Some(own)) {
+        return Err(errors.report(of_rounded_period(error, period, (own, &right))));
+    }
     let own = own.map_or_else(String::new, |own| format!("state the period of this base frequency, {own}, or "));
     Err(errors.report(error.help(format!("or {own}set `matched` to false: the gain does not need it"))))
+}
+
+/// What to do about a base frequency that is matched to the fraction of which the period is a rounded value.
+fn of_rounded_period(error: SpecError, period: &Constant, (own, right): (&str, &str)) -> SpecError {
+    error.expected("expected 2 pi / period").help(format!(
+        "state the period `{own}`, of which {} is a rounded value; or keep this period, with the base frequency `{right}`; or set `matched` to false: the \
+         gain does not need it",
+        period.text
+    ))
 }
 
 fn read_relative_degree(value: &Value<'_>, errors: &mut Errors) -> Result<RelativeDegree, Reported> {
