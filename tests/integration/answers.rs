@@ -2,6 +2,7 @@
 
 use crate::mistakes::{changed, file, of, told};
 use crate::support::{document, program, utf8};
+use serde_json::json;
 
 /// A flag that counts periods is told as such where a time is given, and one that has a unit is told what the number without it is.
 #[test]
@@ -81,6 +82,30 @@ fn a_rounded_period_is_told_before_the_base_frequency() {
         assert!(code == 2 && text.contains(&format!("`{right}` would be right")), "{text}");
         assert!(!text.contains("rounded value"), "{text}");
     }
+}
+
+/// What has quotes too many, or too few, is told with what to write; so is what stands in the place of an object.
+#[test]
+fn quotes_and_objects_are_told_with_what_to_write() {
+    for (place, value, said) in [
+        ("/name", json!(3), "a text stands in quotes: write `\"3\"`"),
+        ("/version", json!("1"), "write `1`, without quotes"),
+        ("/domain", json!(3), "write `{ \"x\": \"10\", \"e\": \"10\" }`"),
+        ("/measurement", json!("1/10"), "write `{ \"noise\": \"1/100\" }`"),
+    ] {
+        let (code, text) = of(&[(place, value)], &[]);
+        assert!(code == 2 && text.contains(said), "{place}: {text}");
+    }
+    let mut model = document("plants/linear")["internal_model"].clone();
+    model["matched"] = "true".into();
+    let (code, text) = of(&[("/internal_model", model.clone())], &[]);
+    assert!(code == 2 && text.contains("write `true`, without quotes"), "{text}");
+    // Another word is none of these, and another text no whole number.
+    model["matched"] = "yes".into();
+    let (_, text) = of(&[("/internal_model", model)], &[]);
+    assert!(text.contains("expected true or false") && !text.contains("without quotes"), "{text}");
+    let (_, text) = of(&[("/version", "1.0".into())], &[]);
+    assert!(text.contains("expected a whole number") && !text.contains("without quotes"), "{text}");
 }
 
 /// A magnitude in a formula is told with what is smooth, by its sign or by its name.

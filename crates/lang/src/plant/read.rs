@@ -229,7 +229,8 @@ fn expression(value: &Value<'_>, names: &PlantNames, errors: &mut Errors) -> Res
 
 /// Where the model holds: `x` and `e`.
 fn read_domain(value: &Value<'_>, constants: &Definitions, errors: &mut Errors) -> Result<Domain, Reported> {
-    let mut object = value.object(errors)?;
+    let help = "write `{ \"x\": \"10\", \"e\": \"10\" }`: how far from the orbit, and from e = 0, the formulas hold";
+    let mut object = value.object_or(help, errors)?;
     let mut end = |name, help| {
         object.required_or(name, help, errors).and_then(|value| positive_constant_in(&value, constants, errors))
     };

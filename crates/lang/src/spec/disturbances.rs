@@ -134,7 +134,8 @@ fn read_arithmetic(value: &Value<'_>, errors: &mut Errors) -> Result<Arithmetic,
 }
 
 fn read_measurement(value: &Value<'_>, errors: &mut Errors) -> Result<(Option<Constant>, Option<Constant>), Reported> {
-    let mut object = value.object(errors)?;
+    let help = "write `{ \"noise\": \"1/100\" }`, `{ \"quantum\": \"1/100\" }`, or both in one object";
+    let mut object = value.object_or(help, errors)?;
     let mut field = |name| object.optional(name).map(|value| bound(&value, errors)).transpose();
     let (noise, quantum) = (field("noise"), field("quantum"));
     object.finish(errors);

@@ -338,7 +338,25 @@ impl<'d> Value<'d> {
     /// Reports that the value has the wrong JSON type.
     pub fn wrong_type(&self, expected: &str, errors: &mut Errors) -> Reported {
         let message = format!("{} is {}", self.name(), self.type_name());
-        errors.report(self.error(ErrorKind::Type, message).expected(format!("expected {expected}")))
+        let error = self.error(ErrorKind::Type, message).expected(format!("expected {expected}"));
+        errors.report(match self.otherwise_quoted(expected) {
+            Some(help) => error.help(help),
+            None => error,
+        })
+    }
+
+    /// What to write where quotes are missing, or stand around a number or a word that has none.
+    fn otherwise_quoted(&self, expected: &str) -> Option<String> {
+        match (&self.node.content, expected) {
+            (Content::Number(numeral), "a string") => Some(format!("a text stands in quotes: write `\"{numeral}\"`")),
+            (Content::Text(text), "true or false") if matches!(text.as_str(), "true" | "false") => {
+                Some(format!("write `{text}`, without quotes"))
+            }
+            (Content::Text(text), "a whole number") if text.parse::<u64>().is_ok() => {
+                Some(format!("write `{text}`, without quotes"))
+            }
+            _ => None,
+        }
     }
 
     /// The elements of an array.

@@ -192,7 +192,9 @@ fn read_forcing(value: &Value<'_>, errors: &mut Errors) -> Result<KnownForcing, 
 }
 
 fn read_domain(value: &Value<'_>, errors: &mut Errors) -> Result<Domain, Reported> {
-    let mut object = value.object(errors)?;
+    let help =
+        "write `{ \"X\": \"10\", \"E\": \"10\" }`: how far from 0 the norm of x and |e| may be where the bounds hold";
+    let mut object = value.object_or(help, errors)?;
     let x = positive_field(&mut object, "X", errors);
     let e = positive_field(&mut object, "E", errors);
     object.finish(errors);
