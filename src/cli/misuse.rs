@@ -36,6 +36,15 @@ const COMMANDS: [(&str, &str); 4] = [
     ("rate", "`certify --n-o LIST` proves rates, with `--sigma V` at a larger gain"),
 ];
 
+/// Flags that another one needs, as errors show them, and what for.
+const NEEDED: [(&str, &str); 2] = [
+    (
+        "--steady-error <V>",
+        "--settle says after how many periods |e| stays at most the required steady error: add `--steady-error V` with that error",
+    ),
+    ("--n-o <LIST>", "--rate is about given numbers of oscillators: add them, as `--n-o 0,4`"),
+];
+
 /// A flag that there is not, and what there is.
 const SHARD: (&str, &str) = ("--shard", MACHINES);
 
@@ -45,7 +54,13 @@ pub fn with_advice(mut error: clap::Error, arguments: impl IntoIterator<Item = O
     let unknown = error.kind() == ErrorKind::UnknownArgument;
     let command = COMMANDS.iter().find(|(name, _)| is(ContextKind::InvalidSubcommand, name));
     let field = FIELDS.iter().find(|(flag, _)| unknown && is(ContextKind::InvalidArg, flag));
-    if is(ContextKind::InvalidArg, FLAG.0) && has_flag(arguments, FLAG.1) {
+    let needed = NEEDED.iter().find(|(flag, _)| {
+        let missing = error.get(ContextKind::InvalidArg).filter(|_| error.kind() == ErrorKind::MissingRequiredArgument);
+        matches!(missing, Some(ContextValue::Strings(flags)) if flags.iter().any(|one| one == flag))
+    });
+    if let Some((_, advice)) = needed {
+        suggest(&mut error, (*advice).to_owned());
+    } else if is(ContextKind::InvalidArg, FLAG.0) && has_flag(arguments, FLAG.1) {
         error.remove(ContextKind::Suggested);
         error.insert(ContextKind::SuggestedArg, ContextValue::String(format!("--{}", FLAG.1)));
     } else if let Some((_, field)) = field {

@@ -2,7 +2,7 @@
 
 use crate::mistakes::{changed, file, of, told};
 use crate::support::{document, program, utf8};
-use serde_json::json;
+use serde_json::{Value, json};
 
 /// A flag that counts periods is told as such where a time is given, and one that has a unit is told what the number without it is.
 #[test]
@@ -108,6 +108,48 @@ fn quotes_and_objects_are_told_with_what_to_write() {
     assert!(text.contains("expected a whole number") && !text.contains("without quotes"), "{text}");
 }
 
+/// In TOML a decimal comma and a text without quotes are syntax errors, which say what to write.
+#[test]
+fn what_is_no_toml_is_told_with_what_to_write() {
+    const RIGHT: &str =
+        "format = \"sigmastar/plant\"\nperiod = \"1\"\nparameters = { a = { nominal = 5, low = 4, high = 6 } }\n";
+    for (right, wrong, said) in [
+        ("period = \"1\"", "period = 9,5", "decimals have a point: write `9.5`"),
+        ("nominal = 5,", "nominal = 5,0,", "decimals have a point: write `5.0`"),
+        ("high = 6 }", "high = 6,25 }", "decimals have a point: write `6.25`"),
+        ("period = \"1\"", "period = 1/3", "texts, formulas and fractions stand in quotes: `\"1/3\"`"),
+        ("period = \"1\"", "period = 2*pi # turns", "stand in quotes: `\"2*pi\"`"),
+        ("nominal = 5", "nominal 5", "so it is read as TOML"),
+        ("nominal = 5,", "nominal = 5,,", "so it is read as TOML"),
+    ] {
+        assert!(RIGHT.contains(right), "{right}");
+        let (_folder, path) = file("plant.toml", &RIGHT.replace(right, wrong));
+        let (code, text) = told(&["certify"], Some(&path), &[]);
+        assert!(code == 2 && text.contains("not valid TOML") && text.contains(said), "{wrong}: {text}");
+    }
+    let (_folder, path) = file("plant.toml", RIGHT);
+    assert!(!told(&["certify"], Some(&path), &[]).1.contains("not valid TOML"));
+}
+
+/// A name that is struck twice, and a state with the name of what every plant has.
+#[test]
+fn names_are_told_with_the_one_that_is_meant() {
+    let (code, text) = of(&[("/q", "rr*sin(2*pi*t)".into()), ("/parameters", json!({ "r": "2" }))], &[]);
+    assert!(code == 2 && text.contains("did you mean r? The product is written r*r"), "{text}");
+    let (_, text) = of(&[("/q", "rs*sin(2*pi*t)".into()), ("/parameters", json!({ "r": "2", "s": "1" }))], &[]);
+    assert!(text.contains("write r*s") && !text.contains("did you mean"), "{text}");
+    for (name, said) in [
+        ("e", "`e` is the error and no state: its derivative is `q` plus the control"),
+        ("t", "`t` is the time and no state"),
+        ("phase", "`phase` is 2 pi t / period and no state"),
+    ] {
+        let (code, text) = of(&[("/states", json!([name])), ("/f", json!(["-e"]))], &[]);
+        assert!(code == 2 && text.contains(said) && text.contains(&format!("as `{name}1`")), "{text}");
+    }
+    let (code, text) = of(&[("/states", json!(["sin"])), ("/f", json!(["-e"]))], &[]);
+    assert!(code == 2 && text.contains("has another meaning") && !text.contains("no state"), "{text}");
+}
+
 /// A magnitude in a formula is told with what is smooth, by its sign or by its name.
 #[test]
 fn a_magnitude_is_told_with_a_smooth_function() {
@@ -118,6 +160,40 @@ fn a_magnitude_is_told_with_a_smooth_function() {
     assert!(text.contains("drag, dry friction and dead zones"), "{text}");
     let (_, text) = of(&[("/q", "sqrt(e)/9 + sin(2*pi*t)".into())], &[]);
     assert!(text.contains("write sqrt(u + 1/100)") && !text.contains("dead zones"), "{text}");
+}
+
+/// A tolerance is no field of an interval: the ends that it may mean are told.
+#[test]
+fn a_tolerance_is_told_as_two_ends() {
+    for place in ["/input_gain", "/parameters"] {
+        let interval = |reach: Value| {
+            let interval = json!({ "nominal": "5", "tolerance": reach });
+            let value = if place == "/parameters" { json!({ "a": interval }) } else { interval };
+            of(&[(place, value)], &[])
+        };
+        let (code, text) = interval(json!(1));
+        assert!(code == 2 && text.contains("an interval has no `tolerance`"), "{text}");
+        assert!(
+            text.contains("\"high\": \"6\"` for 5 to within 1, or `\"low\": \"0\"") && text.contains("100 %"),
+            "{text}"
+        );
+        assert_eq!(text.matches("error[").count(), 1, "{text}");
+    }
+    let with_ends = json!({ "nominal": 5, "low": 4, "high": 6, "tolerance": 1 });
+    let (code, text) = of(&[("/input_gain", with_ends)], &[]);
+    assert!(code == 2 && text.contains("unknown field `tolerance`") && !text.contains("an interval has no"), "{text}");
+}
+
+/// Flags that another one needs are told with what they are for.
+#[test]
+fn a_flag_that_another_one_needs_is_told_with_its_reason() {
+    let (_folder, path) = file("plant.json", &changed(&[]));
+    let (code, text) = told(&["design"], Some(&path), &["--settle", "3"]);
+    assert!(code == 2 && text.contains("add `--steady-error V` with that error"), "{text}");
+    let (code, text) = told(&["certify"], Some(&path), &["--rate", "3"]);
+    assert!(code == 2 && text.contains("add them, as `--n-o 0,4`") && !text.contains("steady-error"), "{text}");
+    let (code, text) = told(&["controller"], Some(&path), &["--sigma", "3"]);
+    assert!(code == 2 && text.contains("--n-o <N>") && !text.contains("--rate"), "{text}");
 }
 
 /// What a command told is no input of another one: it is named, with the file that is meant.

@@ -201,8 +201,25 @@ fn read_names(value: &Value<'_>, errors: &mut Errors) -> Result<PlantNames, Repo
     PlantNames::new(read).map_err(|error| {
         let place = error.index().and_then(|index| elements.get(index)).unwrap_or(value);
         let expected = "expected different names such as x1, other than t, e, pi and the functions";
-        errors.report(place.error(ErrorKind::UnknownName, error.to_string()).expected(expected))
+        let reported = place.error(ErrorKind::UnknownName, error.to_string()).expected(expected);
+        errors.report(match in_the_place_of(place.text().unwrap_or_default()) {
+            Some(help) => reported.help(help),
+            None => reported,
+        })
     })
+}
+
+/// What to do about a state with the name of what every plant has.
+fn in_the_place_of(name: &str) -> Option<String> {
+    let meant = match name {
+        "e" => {
+            "`e` is the error and no state: its derivative is `q` plus the control, so leave it out of `states` and of `f`"
+        }
+        "t" => "`t` is the time and no state: formulas may have it without more",
+        "phase" => "`phase` is 2 pi t / period and no state: formulas may have it without more",
+        _ => return None,
+    };
+    Some(format!("{meant}; if this state is something else, give it another name, as `{name}1`"))
 }
 
 /// The elements of an array that has as many as there are states.

@@ -3,7 +3,7 @@
 use super::constant::{any_constant, exchanged, not_in_order, positive_constant_in, whole};
 use super::document::Value;
 use super::error::{ErrorKind, Errors, Reported, SpecError, shown};
-use super::interval::{no_list, no_share};
+use super::interval::{no_list, no_reach, no_share};
 use super::parameters::Parameters;
 use super::parts::Constant;
 use super::quantity::Quantity;
@@ -219,6 +219,7 @@ fn ordered_by(
 ) -> Result<[Constant; 3], Reported> {
     no_list(value, errors)?;
     no_share(value, errors)?;
+    no_reach(value, errors)?;
     let mut object = value.object(errors)?;
     let nominal = object.required("nominal", errors).and_then(|value| read("nominal", &value, errors));
     let [low, high] = ["low", "high"]

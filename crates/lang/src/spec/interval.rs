@@ -55,6 +55,42 @@ pub(super) fn no_share(value: &Value<'_>, errors: &mut Errors) -> Result<(), Rep
     outcome
 }
 
+/// Names of fields by which an interval is stated elsewhere: how far it reaches to both sides.
+const REACHES: [&str; 9] =
+    ["tolerance", "tol", "plus_minus", "uncertainty", "deviation", "delta", "error", "spread", "accuracy"];
+
+/// That an interval is not stated by how far it reaches: `"nominal": "5", "tolerance": "1/10"` in the place of its ends.
+///
+/// # Errors
+/// Reports such a field where both ends are missing, with the ends that it means: as a number in the unit of `nominal`, and as a share of that.
+pub(super) fn no_reach(value: &Value<'_>, errors: &mut Errors) -> Result<(), Reported> {
+    let states_an_end = ["low", "high"].iter().any(|end| value.member(end).is_some());
+    let found = REACHES.iter().find_map(|name| value.member(name).map(|reach| (*name, reach)));
+    let Some((name, reach)) = found.filter(|_| !states_an_end) else { return Ok(()) };
+    let written = |value: &Value<'_>| value.text().or_else(|| value.numeral()).map(|text| text.trim().to_owned());
+    let meant = value.member("nominal").as_ref().and_then(written).zip(written(&reach));
+    let meant = meant.and_then(|(middle, reach)| reached(&middle, &reach));
+    let meant = meant.unwrap_or_else(|| "write `\"low\": \"0.9\", \"high\": \"1.1\"` for 1 to within 10 %".to_owned());
+    let error = reach.error_at_key(ErrorKind::UnknownField, format!("an interval has no `{name}`"));
+    Err(errors.report(error.expected("expected `low` and `high`, the ends themselves").help(meant)))
+}
+
+/// The ends of an interval around a number, in words: of a percentage those, of a number both that it may mean.
+fn reached(middle: &str, reach: &str) -> Option<String> {
+    let ends = |around: Vec<Rational>| {
+        let mut ends = [around.first()?.clone(), around.last()?.clone()];
+        ends.sort();
+        Some(format!("`\"low\": \"{}\", \"high\": \"{}\"`", write_exact(&ends[0]), write_exact(&ends[1])))
+    };
+    let absolute = ends(around(middle, reach)?)?;
+    if reach.ends_with('%') {
+        return Some(format!("write {absolute} for {middle} to within {reach}"));
+    }
+    let percent = write_exact(&(number(reach)? * 100));
+    let share = ends(around(middle, &format!("{percent}%"))?)?;
+    Some(format!("write {absolute} for {middle} to within {reach}, or {share} for {middle} to within {percent} %"))
+}
+
 /// What an end that is a percentage means in words, and as a share of the nominal value: one with a sign is a difference from that, and so is one without
 /// that would make `high` smaller than the nominal value.
 fn share(name: &str, text: &str) -> Option<(String, Rational)> {
@@ -92,8 +128,13 @@ fn of_list(value: &Value<'_>) -> Option<Vec<Rational>> {
     value.array(&mut Errors::new()).ok()?.iter().map(rational).collect()
 }
 
+/// The ends of an interval around a number, and that number between them; a reach with a percent sign is a share of it.
 fn around(middle: &str, reach: &str) -> Option<Vec<Rational>> {
-    let (middle, reach) = (number(middle)?, number(reach)?);
+    let middle = number(middle)?;
+    let reach = match reach.trim().strip_suffix('%') {
+        Some(percent) => &middle * number(percent)? / 100,
+        None => number(reach)?,
+    };
     Some(vec![Rational::from(&middle - &reach), middle.clone(), middle + reach])
 }
 
@@ -142,6 +183,38 @@ mod tests {
     }
 
     #[test]
+    fn a_reach_is_told_as_the_ends_that_it_means() {
+        for (interval, said) in [
+            (
+                r#""nominal": "5", "tolerance": 1"#,
+                Some(
+                    r#"`"low": "4", "high": "6"` for 5 to within 1, or `"low": "0", "high": "10"` for 5 to within 100 %"#,
+                ),
+            ),
+            (
+                r#""nominal": 5, "tolerance": "10 %""#,
+                Some(r#"write `"low": "4.5", "high": "5.5"` for 5 to within 10 %"#),
+            ),
+            (r#""nominal": "-2", "tol": "0.1""#, Some(r#"or `"low": "-2.2", "high": "-1.8"` for -2 to within 10 %"#)),
+            (
+                r#""nominal": "1/J", "uncertainty": "0.1""#,
+                Some(r#"`"low": "0.9", "high": "1.1"` for 1 to within 10 %"#),
+            ),
+            // What has its ends has another field too many; and another word may mean anything.
+            (r#""nominal": 5, "low": 4, "high": 6, "tolerance": 1"#, None),
+            (r#""nominal": 5, "width": 1"#, None),
+        ] {
+            let document = Document::parse("interval", &format!("{{ {interval} }}")).unwrap();
+            let mut errors = Errors::new();
+            let outcome = no_reach(&document.root(), &mut errors);
+            let told = errors.conclude(&document, outcome).err();
+            let help = told.map(|told| told.errors()[0].help.clone().unwrap());
+            assert_eq!(help.is_some(), said.is_some(), "{interval}");
+            assert!(help.clone().zip(said).is_none_or(|(help, said)| help.ends_with(said)), "{interval}: {help:?}");
+        }
+    }
+
+    #[test]
     fn a_list_is_told_as_the_object_that_it_means() {
         for (text, said) in [
             ("[2, 4]", Some("`nominal`, `low` and `high`: { \"nominal\": \"3\", \"low\": \"2\", \"high\": \"4\" }")),
@@ -150,6 +223,7 @@ mod tests {
             ("[1]", Some("`high`")),
             ("\"3 +- 1\"", Some("{ \"nominal\": \"3\", \"low\": \"2\", \"high\": \"4\" }")),
             ("\"1/2 +/- 0.1\"", Some("{ \"nominal\": \"0.5\", \"low\": \"0.4\", \"high\": \"0.6\" }")),
+            ("\"5 +- 10 %\"", Some("{ \"nominal\": \"5\", \"low\": \"4.5\", \"high\": \"5.5\" }")),
             ("\"2..4\"", Some("{ \"nominal\": \"3\", \"low\": \"2\", \"high\": \"4\" }")),
             ("\"a \u{b1} b\"", Some("`high`")),
             ("\"3 + 1\"", None),

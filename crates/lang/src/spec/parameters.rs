@@ -3,7 +3,7 @@
 use super::constant::{any_constant, exchanged, whole};
 use super::document::Value;
 use super::error::{ErrorKind, Errors, Reported};
-use super::interval::{no_list, no_share};
+use super::interval::{no_list, no_reach, no_share};
 use super::object::{OF_FILE, belongs_above};
 use super::parts::Constant;
 use crate::expr::{DefinitionError, Definitions, MAX_INTERVALS, occurs, quoted};
@@ -283,6 +283,7 @@ fn read_interval(
     errors: &mut Errors,
 ) -> Result<(Constant, Option<Interval>), Reported> {
     no_share(value, errors)?;
+    no_reach(value, errors)?;
     let mut object = value.object(errors)?;
     let mut number = |field| {
         let value = object.required(field, errors)?;

@@ -235,7 +235,7 @@ pub fn read_internal_model(
     if let (Ok(true), Some(period), Ok(value), Ok(frequency)) = (matched, period, &frequency_value, &base_frequency) {
         let help = "set `matched` to false: the claim then has what the mistuned oscillators still do";
         needs_exact_period(period, value, "`matched` asserts base_frequency = 2 pi / period", help, errors)?;
-        prove_matched(period.nominal(), frequency, value, errors)?;
+        prove_matched(period, frequency, value, errors)?;
     }
     let sampling = match (step, period) {
         (Some(step), Some(period)) => {

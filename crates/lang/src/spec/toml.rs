@@ -36,8 +36,37 @@ fn refused(text: &str, error: &toml::de::Error) -> SpecError {
             .expected("the second time")
             .help("TOML allows a field, and the header of a table, once; remove one");
     }
-    SpecError::new(ErrorKind::TomlSyntax, "", at, format!("not valid TOML: {}", error.message()))
-        .help("the name of the file ends in `.toml`, so it is read as TOML; formulas stand in quotes")
+    SpecError::new(ErrorKind::TomlSyntax, "", at, format!("not valid TOML: {}", error.message())).help(
+        otherwise_written(text, error).unwrap_or_else(|| {
+            "the name of the file ends in `.toml`, so it is read as TOML; formulas stand in quotes".to_owned()
+        }),
+    )
+}
+
+/// What to write for a decimal with a comma, and for a text without quotes.
+fn otherwise_written(text: &str, error: &toml::de::Error) -> Option<String> {
+    let at = error.span()?.start;
+    let line_start = text.get(..at)?.rfind('\n').map_or(0, |end| end + 1);
+    let line = text.get(line_start..)?.lines().next()?;
+    if let Some([whole, places]) = decimal_comma(line.get(..at - line_start + 1).unwrap_or(line), line) {
+        return Some(format!("decimals have a point: write `{}.{}`", shown(whole), shown(places)));
+    }
+    let unquoted = error.message().starts_with("string values must be quoted");
+    let rest = text.get(at..).filter(|_| unquoted)?.lines().next()?;
+    let value = rest[..rest.find([',', '}', ']', '#']).unwrap_or(rest.len())].trim_end();
+    Some(format!("texts, formulas and fractions stand in quotes: `\"{}\"`", shown(value)))
+}
+
+/// The digits before and behind one of the last two commas of what was read of a line, where they are those of one number.
+fn decimal_comma<'t>(read: &str, line: &'t str) -> Option<[&'t str; 2]> {
+    let is_digit = |c: char| c.is_ascii_digit();
+    read.match_indices(',').rev().take(2).find_map(|(comma, _)| {
+        let (before, behind) = (line.get(..comma)?, line.get(comma + 1..)?);
+        let whole = &before[before.trim_end_matches(is_digit).len()..];
+        let places = &behind[..behind.find(|c: char| !is_digit(c)).unwrap_or(behind.len())];
+        let is_value = before[..before.len() - whole.len()].trim_end().ends_with(['=', '-', '+']);
+        (is_value && !whole.is_empty() && !places.is_empty()).then_some([whole, places])
+    })
 }
 
 /// A value of the parser; the root is a table without a place.
