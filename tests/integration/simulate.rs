@@ -15,7 +15,7 @@ fn a_simulation_reports_writes_samples_and_draws() {
     let (csv, plots) = (folder.path().join("run.csv"), folder.path().join("figures"));
     let arguments = ["simulate", PLANT, "--sigma", "2", "--n-o", "2", "--periods", "3", "--samples", "50"];
     let output = sigmastar(&arguments).arg("--csv").arg(&csv).arg("--plots").arg(&plots).assert().success();
-    output.stdout(predicate::str::contains("sup|e| = 0.01768").and(predicate::str::contains("6.466e-3")));
+    output.stdout(predicate::str::contains("sup|e| = 0.01768").and(predicate::str::contains("0.006466")));
     let text = std::fs::read_to_string(csv).unwrap();
     let lines: Vec<&str> = text.lines().collect();
     assert_eq!(lines[0], "t,x1,x2,e,u,z0,z1c,z1s,z2c,z2s");

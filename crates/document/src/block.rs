@@ -1,6 +1,5 @@
 //! The parts of a document, without any format. Formulas and code are marked in every text but titles and code blocks (see `span`).
 
-use super::notation::one_notation;
 use crate::plot::Figure;
 
 /// How the cells of a column are placed.
@@ -65,17 +64,6 @@ impl Table {
     #[must_use]
     pub fn with_bars(self, bars: Vec<f64>) -> Table {
         Table { bars, ..self }
-    }
-
-    /// The rows as they are shown: where one number of a column has an exponent, every number of that column has one.
-    #[must_use]
-    pub fn shown(&self) -> Vec<Vec<String>> {
-        let mut rows = self.rows.clone();
-        for index in 0..self.columns.len() {
-            let mut column: Vec<&mut String> = rows.iter_mut().filter_map(|row| row.get_mut(index)).collect();
-            one_notation(&mut column);
-        }
-        rows
     }
 }
 

@@ -11,7 +11,6 @@ mod block;
 mod html;
 mod made;
 mod markdown;
-mod notation;
 pub mod number;
 pub mod plot;
 pub mod progress;

@@ -36,7 +36,7 @@ fn render_table(table: &Table) -> String {
         }
         .to_owned()
     })));
-    for cells in &table.shown() {
+    for cells in &table.rows {
         output.push_str(&row(&mut cells.iter().map(|cell| escape(cell))));
     }
     output

@@ -1,18 +1,40 @@
 //! Numbers as they are printed: claims rounded outward, estimates marked as such by their section.
 
-use super::notation::scientific;
 use rug::Rational;
 use sigmastar_exact::enclosure::{self, Enclosure};
-use sigmastar_exact::number::{Direction, Portable, round_f64, round_rational, write_exact};
+use sigmastar_exact::number::{Direction, round_f64, round_rational, write_exact};
+use std::ops::Range;
 
 /// Significant digits of a number in a report; certificates and JSON have all of them.
 const DIGITS: usize = 4;
+
+/// Estimates that are written as plain decimals: beyond these, plain digits would claim far more than the significant ones.
+const PLAIN: Range<f64> = 1e-3..1e5;
 
 /// A decimal, with an exponent where it starts with many zeros, or ends with so many that they would look like digits.
 fn shorter(text: String) -> String {
     let size = text.strip_prefix('-').unwrap_or(&text);
     let is_long = size.len() > DIGITS + 3 && size.bytes().all(|c| c.is_ascii_digit());
     if is_long || size.starts_with("0.000") { scientific(&text) } else { text }
+}
+
+/// A number with one digit before the point and an exponent, of the same value; 0 stays 0.
+fn scientific(number: &str) -> String {
+    if number.contains('e') {
+        return number.to_owned();
+    }
+    let (sign, size) = number.strip_prefix('-').map_or(("", number), |size| ("-", size));
+    let (whole, fraction) = size.split_once('.').unwrap_or((size, ""));
+    let all = format!("{whole}{fraction}");
+    let zeros = all.len() - all.trim_start_matches('0').len();
+    let mut digits = &all[zeros..];
+    if fraction.is_empty() {
+        digits = digits.trim_end_matches('0');
+    }
+    let Some(first) = digits.get(..1) else { return number.to_owned() };
+    let exponent = whole.len() as i64 - 1 - zeros as i64;
+    let dot = if digits.len() > 1 { "." } else { "" };
+    format!("{sign}{first}{dot}{}e{exponent}", &digits[1..])
 }
 
 /// An upper bound, rounded up.
@@ -66,9 +88,7 @@ pub fn compact(value: &Enclosure) -> String {
 
 /// A rounded number as a decimal, with an exponent where the plain form would be long.
 fn short(rounded: &Rational, value: f64, digits: usize) -> String {
-    // Beyond this, plain digits would claim more than the significant ones.
-    let largest = 10f64.portable_powi(digits as i32 + 1);
-    if value == 0.0 || (1e-3..largest).contains(&value.abs()) {
+    if value == 0.0 || PLAIN.contains(&value.abs()) {
         return write_exact(rounded);
     }
     let text = format!("{value:.*e}", digits - 1);
@@ -134,6 +154,8 @@ mod tests {
             ("0.00006897218", "6.897218e-5"),
             ("-0.0002", "-2e-4"),
             ("0.00123", "0.00123"),
+            ("0.0009999", "9.999e-4"),
+            ("0.00012300", "1.2300e-4"),
             ("0.000", "0.000"),
             ("1.000001", "1.000001"),
             ("-7236000", "-7236000"),
@@ -147,9 +169,18 @@ mod tests {
 
     #[test]
     fn estimates_are_short() {
-        for (value, text) in
-            [(0.0, "0"), (45.26789, "45.3"), (3.17e10, "3.17e10"), (1.2345e-9, "1.23e-9"), (f64::NAN, "unknown")]
-        {
+        for (value, text) in [
+            (0.0, "0"),
+            (45.26789, "45.3"),
+            (48_812.0, "48800"),
+            (99_960.0, "100000"),
+            (1e5, "1e5"),
+            (0.001_234, "0.00123"),
+            (9.994e-4, "9.99e-4"),
+            (3.17e10, "3.17e10"),
+            (1.2345e-9, "1.23e-9"),
+            (f64::NAN, "unknown"),
+        ] {
             assert_eq!(estimate(value), text);
         }
     }

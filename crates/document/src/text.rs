@@ -82,7 +82,7 @@ fn glued(text: &str) -> Vec<String> {
 fn render_table(output: &mut String, table: &Table) {
     let without_marks = |cells: Vec<String>| cells.iter().map(|cell| plain(cell)).collect::<Vec<String>>();
     let titles = without_marks(table.columns.iter().map(|column| column.title.clone()).collect());
-    let rows: Vec<Vec<String>> = table.shown().into_iter().map(without_marks).collect();
+    let rows: Vec<Vec<String>> = table.rows.iter().cloned().map(without_marks).collect();
     let width = |index: usize| {
         let cells = rows.iter().map(|row| row[index].chars().count());
         cells.chain([titles[index].chars().count()]).max().unwrap_or(0)
@@ -117,15 +117,18 @@ mod tests {
         let mut table = Table::new(&["<name", "value"]);
         table.push(["a", "1"].map(str::to_owned));
         table.push(["long", "-22.5"].map(str::to_owned));
+        // A number with an exponent changes none of the others.
+        table.push(["tiny", "8e-11"].map(str::to_owned));
         let text = render(&[
             Block::Title("T".to_owned()),
             Block::Table(table),
             Block::List(vec!["word ".repeat(30), "x".repeat(120)]),
         ]);
         let lines: Vec<&str> = text.lines().collect();
-        assert_eq!(&lines[3..7], ["  name  value", "  ----  -----", "  a         1", "  long  -22.5"]);
-        assert!(lines[8..10].iter().all(|line| line.chars().count() <= WIDTH));
+        let expected = ["  name  value", "  ----  -----", "  a         1", "  long  -22.5", "  tiny  8e-11"];
+        assert_eq!(&lines[3..8], expected);
+        assert!(lines[9..11].iter().all(|line| line.chars().count() <= WIDTH));
         assert_eq!(glued("from |x - x_0| <= 1, or |y|"), ["from", "|x - x_0| <= 1,", "or", "|y|"]);
-        assert_eq!(lines[10].trim_start_matches([' ', '-']), "x".repeat(120));
+        assert_eq!(lines[11].trim_start_matches([' ', '-']), "x".repeat(120));
     }
 }

@@ -55,7 +55,7 @@ fn grid(table: &Table) -> Markup {
                 @if column.title.is_empty() { td {} }
                 @else { th scope="col" class=[place(column)] { (Inline(&column.title)) } }
             } @if !table.bars.is_empty() { td {} } } }
-            tbody { @for (index, row) in table.shown().iter().enumerate() { (LINE) tr {
+            tbody { @for (index, row) in table.rows.iter().enumerate() { (LINE) tr {
                 @for (at, (cell, column)) in row.iter().zip(&table.columns).enumerate() {
                     // A first column of words says what its row is.
                     @if at == 0 && column.align == Align::Left && !cell.is_empty() { th scope="row" { (Inline(cell)) } }

@@ -127,7 +127,7 @@ pub(super) fn multiplier(value: f64) -> String {
 }
 
 fn digits(value: f64, count: usize) -> String {
-    if value == 0.0 || (1e-3..1e6).contains(&value.abs()) {
+    if value == 0.0 || (1e-3..1e5).contains(&value.abs()) {
         let before = libm::log10(value.abs().max(1e-300)).floor() as i32 + 1;
         let behind = (count as i32 - before).clamp(0, 12) as usize;
         return format!("{value:.behind$}");
@@ -140,7 +140,7 @@ const NOISE: f64 = 1e-12;
 
 /// The amplitude of a harmonic; what is rounding, against the largest |e| `scale`, is 0.
 pub(super) fn amplitude(value: f64, scale: f64) -> String {
-    if value.abs() <= NOISE * scale { "0".to_owned() } else { format!("{value:.3e}") }
+    if value.abs() <= NOISE * scale { "0".to_owned() } else { number(value) }
 }
 
 /// Why there are no figures, and what to try.
