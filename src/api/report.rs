@@ -34,7 +34,8 @@ impl Report {
 
     /// That of `sigmastar certify`; `again` where a witness was decided again.
     pub(super) fn of_run(run: &Run<'_>, again: bool) -> Report {
-        Report::of(&*report_of(run, [None, None], again, Extent::Full))
+        let origin = if again { Origin::Witness } else { Origin::Search };
+        Report::of(&*report_of(run, [None, None], origin, Extent::Full))
     }
 
     /// Its parts, for a report that it is a part of.
@@ -60,16 +61,16 @@ impl Report {
     }
 }
 
-/// The report on a run, with answers to targets of sup|e| and rms e; `again` where a witness was decided again.
+/// The report on a run, with answers to targets of sup|e| and rms e.
 pub fn report_of<'r>(
     run: &'r Run<'r>,
     targets: [Option<Constant>; 2],
-    again: bool,
+    origin: Origin,
     extent: Extent,
 ) -> Box<dyn Readable + 'r> {
     let kinds = [TargetKind::Sup, TargetKind::Rms].into_iter().zip(targets);
     let targets: Vec<Target> = kinds.filter_map(|(kind, value)| Some(Target { kind, value: value? })).collect();
-    run_report(run, &targets, if again { Origin::Witness } else { Origin::Search }, extent)
+    run_report(run, &targets, origin, extent)
 }
 
 /// For the program, which writes short forms, too.

@@ -17,6 +17,7 @@ use sigmastar_lang::spec::{Constant, ErrorKind, Oscillators, SpecErrors};
 use sigmastar_prove::certificate::{certificate_of, is_sampled, read_for};
 use sigmastar_prove::certify::{FarStart, Limits, NoRatesOfClaim, rate_counts, unusual};
 use sigmastar_prove::reduction::{INITIAL_SET, Prepared, Run, Shrunk, Stage, Unwatched, Watch, for_every_set, shrunk};
+use sigmastar_report::Origin;
 use std::path::Path;
 
 /// How to hear of the stages where standard error is no terminal.
@@ -120,7 +121,12 @@ pub fn run(args: &CertifyArgs) -> Result<u8, Failure> {
         }
     };
     let run = decided(&prepared, (args.options(), &counts), "--n-o", watch, &|next| stages.begin(Step::After(next)))?;
-    let report = report_of(&run, targets, witness.is_some(), output::extent(args.format, args.full));
+    let origin = match (&witness, &args.output) {
+        (Some(_), _) => Origin::Witness,
+        (None, Some(_)) => Origin::Written,
+        (None, None) => Origin::Search,
+    };
+    let report = report_of(&run, targets, origin, output::extent(args.format, args.full));
     let page = args.format == Format::Html;
     stages.begin(Step::Figures);
     let drawn = (page || args.plots.is_some()).then(|| Drawn::of(&run)).flatten();

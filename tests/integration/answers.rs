@@ -1,8 +1,9 @@
 //! Answers that first users read without finding out what to do: each now says what to write, and beside it stands what has another answer.
 
 use crate::mistakes::{changed, file, of, told};
-use crate::support::{document, program, utf8};
+use crate::support::{PLANT, document, program, utf8};
 use serde_json::{Value, json};
+use std::path::Path;
 
 /// A flag that counts periods is told as such where a time is given, and one that has a unit is told what the number without it is.
 #[test]
@@ -223,4 +224,45 @@ fn a_report_in_the_place_of_a_file_is_named() {
     );
     let (_, text) = told(&["check"], Some(&other), &[]);
     assert!(text.contains("is no certificate:") && !text.contains("`-o` writes"), "{text}");
+}
+
+/// Every report says what u is, in words that go with the file, and the table of `design` what y is.
+#[test]
+fn the_letters_of_a_report_are_explained() {
+    let gain = json!({ "nominal": "2", "low": "1.8", "high": "2.2" });
+    let range = json!({ "min": "-98", "max": "102" });
+    const PLAIN: &str = "the regulator puts out u, and e' = q + u.";
+    for (fields, said) in [
+        (&[][..], PLAIN),
+        (&[("/input_gain", gain)], "the regulator puts out u, its control divided by the nominal gain 2."),
+        (&[("/actuator", range)], "the regulator puts out 2 + u, 2 the middle of the range of the actuator."),
+        (&[("/actuator", json!({ "max": "100" }))], PLAIN),
+    ] {
+        let (_folder, path) = file("plant.json", &changed(fields));
+        let design = ["design", "--n-o", "0", "--no-simulation", "--sigma", "9"];
+        for command in [&["certify", "--no-alternatives"][..], &design] {
+            let (code, text) = told(command, Some(&path), &["--quiet"]);
+            assert!([0, 3].contains(&code) && text.contains(said), "{command:?}: {text}");
+            // A plant without states has no y.
+            assert_eq!(
+                (text.matches("the regulator puts out").count(), text.contains("y = L^-1")),
+                (1, false),
+                "{text}"
+            );
+        }
+    }
+    let flags = ["--n-o", "0", "--no-simulation", "--sigma", "9", "--quiet"];
+    let (_, text) = told(&["design"], Some(Path::new(PLANT)), &flags);
+    assert!(text.contains("y = L^-1 (x - x_0(t)) with orbit x_0 and matrix L; the regulator puts out u"), "{text}");
+}
+
+/// What is written already is not advised to be written.
+#[test]
+fn a_report_does_not_advise_what_was_done() {
+    let (folder, path) = file("plant.json", &changed(&[]));
+    let certificate = folder.path().join("c.json");
+    let call = |more: &[&str]| told(&["certify", "--no-alternatives", "--quiet"], Some(&path), more).1;
+    assert!(call(&[]).contains("`-o FILE` writes the certificate, `check FILE` decides it again"));
+    let text = call(&["-o", certificate.to_str().expect("a plain name")]);
+    assert!(text.contains("`check FILE` decides the certificate again") && !text.contains("`-o FILE`"), "{text}");
 }

@@ -188,7 +188,7 @@ fn what_is_missed_is_told_with_what_helps() {
     assert!(code == 3 && text.contains("state a smaller `E0`, or take a larger gain"), "{text}");
     assert!(!text.contains("no gain can do that"), "{text}");
     let (code, text) = told_of(&["--n-o", "2", "--steady-error", "0.2"]);
-    assert!(code == 0 && text.contains("next: `-o FILE` writes the certificate of the gain to take"), "{text}");
+    assert!(code == 0 && text.contains("next: the certificate of the gain to take is what `-o FILE` writes"), "{text}");
 }
 
 /// What is proved is what the certificate says, so a limit between that and what the search found is missed.

@@ -101,7 +101,7 @@ pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences
     facts.push(("assumed", assumed(run.spec, run.largest_arguments(), None)));
     let asked: Vec<u32> = run.for_n_o.iter().map(|asked| asked.n_o).collect();
     let known = by_count(run.spec, run.by_count.as_ref(), &asked);
-    [Block::facts(facts)].into_iter().chain(known).chain(letters(run.spec, "$`sigma`$").map(Block::says)).collect()
+    [Block::facts(facts)].into_iter().chain(known).chain([Block::says(letters(run.spec, set, "$`sigma`$"))]).collect()
 }
 
 /// The bounds of the error for the numbers of oscillators that were asked about, or else for a few.
@@ -223,7 +223,11 @@ pub(super) fn of_samples(
     facts.push(("assumed", format!("{}; {of_the_computer}{beside}", assumed(run.spec, run.largest_arguments(), None))));
     let asked: Vec<u32> = run.for_n_o.iter().map(|asked| asked.n_o).collect();
     let known = by_count(run.spec, run.by_count.as_ref(), &asked);
-    [Block::facts(facts)].into_iter().chain(known).chain(letters(run.spec, "law").map(Block::says)).collect()
+    [Block::facts(facts)]
+        .into_iter()
+        .chain(known)
+        .chain([Block::says(letters(run.spec, &witness.set, "The law"))])
+        .collect()
 }
 
 /// What to do with the claim next; `at_samples` where its law is one.
@@ -235,6 +239,14 @@ fn next(spec: &Specification, origin: Origin, at_samples: bool) -> String {
         }
         (Origin::Search, true) => {
             "`sigmastar design` finds a gain and $`n_o`$ for your needs; `-o FILE` writes the certificate, `check FILE` decides it again, \
+             `controller FILE --n-o N --format c` writes the code"
+        }
+        (Origin::Written, false) => {
+            "`sigmastar design` finds a gain and $`n_o`$ for your needs; `check FILE` decides the certificate again, `controller FILE --n-o N` \
+             writes the regulator"
+        }
+        (Origin::Written, true) => {
+            "`sigmastar design` finds a gain and $`n_o`$ for your needs; `check FILE` decides the certificate again, \
              `controller FILE --n-o N --format c` writes the code"
         }
         (Origin::Witness, false) => {
@@ -255,19 +267,10 @@ fn next(spec: &Specification, origin: Origin, at_samples: bool) -> String {
     said.to_owned()
 }
 
-/// What the letters above are, and whom a gain or a law serves. An aligned start has no size of z.
-fn letters(spec: &Specification, what: &str) -> Option<String> {
-    let of_z = (!spec.initial_set.is_aligned()).then_some("$`|z|_N = sqrt(z'Nz)`$");
-    let of_y = (spec.plant().is_some() && spec.state_name().is_some())
-        .then_some("$`y = L^-1 (x - x_0(t))`$ with the orbit $`x_0`$ and a matrix $`L`$");
-    let both: Vec<&str> = of_z.into_iter().chain(of_y).collect();
-    let here = (!both.is_empty()).then(|| format!("Here {}.", both.join(", and ")));
-    let serves = spec
-        .plant()
-        .is_none()
-        .then(|| format!("The same {what} serves every plant that the bounding functions describe."));
-    let all: Vec<String> = here.into_iter().chain(serves).collect();
-    (!all.is_empty()).then(|| all.join(" "))
+/// What the letters above are, and whom a gain or a law serves: every plant of which what is assumed above holds.
+fn letters(spec: &Specification, set: &ClaimedSet, what: &str) -> String {
+    let serves = if spec.plant().is_some() { String::new() } else { format!(" {what} serves every such plant.") };
+    words::letters(spec, set) + &serves
 }
 
 /// The initial set, of a plant the ball in it, and where its sizes are from.
@@ -323,15 +326,11 @@ fn input_gain(run: &Certification<'_>) -> Option<String> {
     Some(format!("{said}{known}"))
 }
 
-/// A number with so many characters at most is shown exactly.
-const SHORT: usize = 12;
-
 /// The interval of the input gain.
 fn uncertain_gain(spec: &Specification) -> Option<String> {
     let gain = spec.input_gain.as_ref()?;
     let which = words::input_gain(spec, ["exactly", "any constant from"])?;
-    let exact = gain.nominal.as_rational().map_or_else(|| clean(&gain.nominal.text), write_exact);
-    let nominal = if exact.len() <= SHORT { exact } else { format!("about {}", estimate(gain.nominal.to_f64())) };
+    let nominal = words::nominal_gain(gain);
     Some(format!("{which}; the regulator divides its control by the nominal gain {nominal}"))
 }
 

@@ -42,5 +42,5 @@ pub use failures::{call_failure_json, failure_json};
 pub use lyapunov::LyapunovReport;
 pub use orbit::OrbitReport;
 pub use origin::Origin;
-pub use run::{run_remarks, run_report, run_sentence, run_set_and_assumptions};
+pub use run::{ClaimInWords, run_in_words, run_remarks, run_report, run_sentence};
 pub use transfer::{TransferReport, pair_failure_json, transfer_figure};

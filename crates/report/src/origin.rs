@@ -5,6 +5,8 @@
 pub enum Origin {
     /// A search.
     Search,
+    /// A search whose certificate, if there is one, is written to a file.
+    Written,
     /// The witness of a certificate, decided again; nothing was searched for.
     Witness,
     /// The witness of a certificate that the independent checker found valid, decided again.
@@ -14,6 +16,6 @@ pub enum Origin {
 impl Origin {
     /// Whether a given witness was decided again.
     pub(super) fn is_given(self) -> bool {
-        self != Origin::Search
+        !matches!(self, Origin::Search | Origin::Written)
     }
 }

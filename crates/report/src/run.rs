@@ -28,16 +28,26 @@ pub fn run_sentence(run: &Run<'_>) -> String {
     })
 }
 
-/// The initial set of a certified run, and what is assumed of the plant, in clauses with their formulas marked; `None` where nothing is certified.
+/// What is said of a certified run, with its formulas marked.
+pub struct ClaimInWords {
+    /// The initial set, in a clause.
+    pub initial_set: String,
+    /// What is assumed of the plant, in a clause.
+    pub assumed: String,
+    /// What the letters are, in a sentence.
+    pub letters: String,
+}
+
+/// The initial set, the assumptions and the letters of a certified run; `None` where nothing is certified.
 #[must_use]
-pub fn run_set_and_assumptions(run: &Run<'_>) -> Option<[String; 2]> {
+pub fn run_in_words(run: &Run<'_>) -> Option<ClaimInWords> {
     let (spec, claimed) = (run.spec(), run.certified()?.set);
-    let set = words::set(spec, claimed) + &words::ball(spec, claimed);
+    let initial_set = words::set(spec, claimed) + &words::ball(spec, claimed);
     let used = match run {
         Run::Continuous(run) => run.largest_arguments(),
         Run::Sampled(run) => run.largest_arguments(),
     };
-    Some([set, assumed(run.spec(), used, None)])
+    Some(ClaimInWords { initial_set, assumed: assumed(spec, used, None), letters: words::letters(spec, claimed) })
 }
 
 /// What the data of a certified claim are to be looked at for.

@@ -80,7 +80,7 @@ fn found(sigma: Option<f64>) -> String {
 
 /// What a start with z = M e would bring.
 pub(super) fn aligned(sigma: f64) -> String {
-    format!("$`sigma*`$ would be about {} with the initial set `\"kind\": \"aligned\"` (an estimate)", estimate(sigma))
+    format!("$`sigma*`$ would be about {} with the set `\"kind\": \"aligned\"` (an estimate)", estimate(sigma))
 }
 
 /// What an input gain that is known would bring.

@@ -42,6 +42,40 @@ pub(super) fn taken(actuator: &Actuator) -> String {
     }
 }
 
+/// A number with so many characters at most is shown exactly.
+const SHORT: usize = 12;
+
+/// The nominal gain of the actuator, or about that number where it is long.
+pub(super) fn nominal_gain(gain: &InputGain) -> String {
+    let exact = gain.nominal.as_rational().map_or_else(|| clean(&gain.nominal.text), write_exact);
+    if exact.len() <= SHORT { exact } else { format!("about {}", estimate(gain.nominal.to_f64())) }
+}
+
+/// What the letters of a report on this set are, in a sentence.
+pub(super) fn letters(spec: &Specification, set: &ClaimedSet) -> String {
+    let of_z = set.z0.as_ref().filter(|z0| **z0 != 0).map(|_| "$`|z|_N = sqrt(z'Nz)`$");
+    let of_y = (spec.plant().is_some() && spec.state_name().is_some())
+        .then_some("$`y = L^-1 (x - x_0(t))`$ with orbit $`x_0`$ and matrix $`L`$");
+    let both: Vec<&str> = of_z.into_iter().chain(of_y).collect();
+    let before = if both.is_empty() { String::new() } else { format!("{}; ", both.join(", and ")) };
+    format!("Here {before}{}.", output(spec))
+}
+
+/// What u is in every report: what is put out, measured from the middle of the range of the actuator.
+fn output(spec: &Specification) -> String {
+    let control =
+        spec.input_gain.as_ref().map(|gain| format!("its control divided by the nominal gain {}", nominal_gain(gain)));
+    match (spec.actuator.as_ref().and_then(Actuator::middle), control) {
+        (None, None) => "the regulator puts out $`u`$, and $`e' = q + u`$".to_owned(),
+        (None, Some(control)) => format!("the regulator puts out $`u`$, {control}"),
+        (Some(middle), control) => {
+            let middle = write_exact(&middle);
+            let of_u = control.map_or_else(String::new, |control| format!(", and $`u`$ {control}"));
+            format!("the regulator puts out $`{middle} + u`$, {middle} the middle of the range of the actuator{of_u}")
+        }
+    }
+}
+
 /// The ball about the orbit that lies in the initial set of a plant with states, with a semicolon before it; of others nothing.
 pub(super) fn ball(spec: &Specification, set: &ClaimedSet) -> String {
     let ball = spec.plant().and_then(|plant| claimed_ball(plant, &set.x0));
@@ -49,11 +83,15 @@ pub(super) fn ball(spec: &Specification, set: &ClaimedSet) -> String {
     ball.unwrap_or_default()
 }
 
-/// The initial set, rounded inward: `|x| <= 1, |e| <= 2, |z|_N <= 0`, or `z = M e`.
+/// The initial set, rounded inward: `|x| <= 1, |e| <= 2, |z|_N <= 3`, or `z = 0`, or `z = M e`.
 pub(super) fn set(spec: &Specification, set: &ClaimedSet) -> String {
     let StartSizes { x0, e0, z0 } = set.map(|value| exact(value, Direction::Down));
     let of_state = spec.state_name().map_or_else(String::new, |name| format!("$`|{name}| <= {x0}`$, "));
-    let of_regulator = z0.map_or_else(|| "$`z = M e`$".to_owned(), |z0| format!("$`|z|_N <= {z0}`$"));
+    let of_regulator = match z0.as_deref() {
+        None => "$`z = M e`$".to_owned(),
+        Some("0") => "$`z = 0`$".to_owned(),
+        Some(z0) => format!("$`|z|_N <= {z0}`$"),
+    };
     format!("{of_state}$`|e| <= {e0}`$, {of_regulator}")
 }
 

@@ -16,7 +16,7 @@ use proved::{Proved, Taken};
 use rug::Rational;
 use sigmastar_exact::enclosure::{DEFAULT_PRECISION, Enclosure};
 use sigmastar_exact::number::write_exact;
-use sigmastar_lang::spec::{Actuator, Document};
+use sigmastar_lang::spec::Document;
 use sigmastar_prove::certify::{NoRatesOfClaim, Options, rate_counts};
 use sigmastar_prove::reduction::{AtGains, Subject as Read, Unwatched};
 use sigmastar_studies::design::{
@@ -241,9 +241,8 @@ impl Table {
         tell: &(dyn Fn(&str) + Sync),
     ) -> Result<Design, Error> {
         let Table { asked: Asked { subject, requirements, .. }, period, rows, choice, taken, refused } = self;
-        let Taken { sigma, certificate, set_and_assumptions } = taken;
+        let Taken { sigma, certificate, in_words } = taken;
         let read = &subject.read;
-        let middle = read.actuator().and_then(Actuator::middle);
         if periods {
             tell("seeking the longest sampling period of each gain");
         }
@@ -261,9 +260,8 @@ impl Table {
             states_e0: read.states_e0(),
             leaves_sizes_open: read.leaves_sizes_open(),
             notes: certificate.remarks(),
-            set_and_assumptions: &set_and_assumptions,
+            in_words: &in_words,
             sampling: read.sampling().map(|sampling| (sampling.text(), sampling.samples)),
-            middle: middle.as_ref(),
             name: read.name(),
             sha256: read.sha256(),
         };

@@ -127,7 +127,7 @@ impl DesignOptions {
 
     /// The numbers of the document that are to be chosen, as [`TuneOptions::over`](crate::TuneOptions::over) names them: `mu`, or `mu=1/10..10,n0`. A table
     /// is made of the values of the document, and then, number by number, of four others. Best is what misses the fewest requirements, then what has the
-    /// largest rate. The usual range of `mu` is from 1/T to 8/T, of the period T.
+    /// largest rate. The range of `mu` is from 1/T to 8/T where none is given, with the period T.
     #[must_use]
     pub fn choose(mut self, numbers: impl Into<String>) -> DesignOptions {
         self.choose = Some(numbers.into());

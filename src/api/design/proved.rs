@@ -10,14 +10,14 @@ use sigmastar_exact::parallel;
 use sigmastar_lang::spec::Document;
 use sigmastar_prove::certify::Options;
 use sigmastar_prove::reduction::{AtGains, Prepared};
-use sigmastar_report::run_set_and_assumptions;
+use sigmastar_report::{ClaimInWords, run_in_words};
 use sigmastar_studies::design::{Claims, Row};
 
 /// A gain that is certified, with what its report says of the set and of what is assumed.
 pub(super) struct Taken {
     pub(super) sigma: Rational,
     pub(super) certificate: Certificate,
-    pub(super) set_and_assumptions: [String; 2],
+    pub(super) in_words: ClaimInWords,
 }
 
 /// Rows that are proved and decided by the independent checker, with their certificates.
@@ -75,11 +75,11 @@ impl Proved<'_> {
     fn row(&self, prepared: &Prepared) -> Result<(Row, Taken), Error> {
         let run = with_rates(prepared, (self.options, self.counts))?;
         let row = Row::of(&run, self.counts);
-        let certificate = Certificate::new(&run, self.asked, false).zip(run_set_and_assumptions(&run));
-        let (row, (certificate, set_and_assumptions)) = row.zip(certificate).ok_or_else(|| not_certified(&run))?;
+        let certificate = Certificate::new(&run, self.asked, false).zip(run_in_words(&run));
+        let (row, (certificate, in_words)) = row.zip(certificate).ok_or_else(|| not_certified(&run))?;
         let row = if self.simulate { simulated(row, &certificate, self.limit) } else { row };
         let sigma = row.sigma.clone();
-        Ok((row, Taken { sigma, certificate, set_and_assumptions }))
+        Ok((row, Taken { sigma, certificate, in_words }))
     }
 }
 

@@ -52,7 +52,7 @@ pub struct DesignArgs {
     pub sampling_periods: bool,
 
     /// Choose values of these numbers of the file: mu, n0, epsilon and others, as `tune --over` names them. A name may have a range, as in
-    /// `mu=1/10..10`; that of mu is 1/T..8/T by default, with the period T. The numbers are chosen one after the other. Each time a table is made
+    /// `mu=1/10..10`; that of mu is 1/T..8/T by default, with the period T, around the usual 3/T to 5/T. The numbers are chosen one after the other. Each time a table is made
     /// for the value of the file and for four others. The report shows the best table
     #[arg(long, value_name = "LIST")]
     pub choose: Option<String>,

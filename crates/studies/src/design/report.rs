@@ -12,6 +12,7 @@ use sigmastar_document::{Block, Readable, Table, clean, clean_sentence, plain};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, write_exact};
 use sigmastar_lang::spec::Sampling;
+use sigmastar_report::ClaimInWords;
 
 /// The format of the JSON.
 const FORMAT: &str = "sigmastar/design";
@@ -48,12 +49,10 @@ pub struct DesignReport<'d> {
     pub leaves_sizes_open: bool,
     /// What the data are to be looked at for, in sentences, of the claim with the gain to take.
     pub notes: &'d [String],
-    /// The initial set of that claim, and what is assumed of the plant, in clauses.
-    pub set_and_assumptions: &'d [String; 2],
+    /// The initial set of that claim, what is assumed of the plant, and what the letters are.
+    pub in_words: &'d ClaimInWords,
     /// The sampling period and the samples of a period, of the law at samples.
     pub sampling: Option<(String, u32)>,
-    /// What u is measured from, where the actuator has two limits with another middle than 0.
-    pub middle: Option<&'d Rational>,
     /// The name of the specification or plant.
     pub name: &'d str,
     /// SHA-256 of its canonical form.
@@ -101,8 +100,8 @@ impl Readable for DesignReport<'_> {
                 "sigma": sigma(row), "n_o": cell.map(|cell| n_o(*row, cell)), "met": is_met | cell.is_none(),
                 "keeps_rule": cell.is_none().then_some(is_met), "requirements": compared, "others": others,
             },
-            "notes": self.notes, "initial_set": plain(&self.set_and_assumptions[0]),
-            "assumed": plain(&self.set_and_assumptions[1]), "without_noise": self.disturbed,
+            "notes": self.notes, "initial_set": plain(&self.in_words.initial_set),
+            "assumed": plain(&self.in_words.assumed), "without_noise": self.disturbed,
             "values": self.values.map(ValuesTried::json), "rows": rows, "not_certified": self.refused.iter().map(|(sigma, _)| write_exact(sigma)).collect::<Vec<_>>(),
         })
     }
@@ -191,9 +190,6 @@ impl DesignReport<'_> {
                 None => format!("{without}."),
             },
         };
-        let middle = self.middle.map_or_else(String::new, |middle| {
-            format!(" less {}, the middle of the range of the actuator", write_exact(middle))
-        });
         let simulated = match self.has_simulations() {
             true => {
                 " Columns `sim.` show simulations of the nominal plant from the starts that seem to be the worst. They prove nothing."
@@ -202,8 +198,9 @@ impl DesignReport<'_> {
         };
         format!(
             "Steady values hold along the periodic solution, largest values at all times from the initial set. All hold for every plant, period and gain of the \
-             actuator of the document. $`u`$ is the output of the regulator{middle}. Each row is a claim of its own, which the independent checker has decided. Its numbers are those of its \
-             certificate, unless a remark says otherwise.{noise}{samples}{simulated}"
+             actuator of the document. {} Each row is a claim of its own, which the independent checker has decided. Its numbers are those of its \
+             certificate, unless a remark says otherwise.{noise}{samples}{simulated}",
+            self.in_words.letters
         )
     }
 
@@ -291,7 +288,7 @@ impl DesignReport<'_> {
         let mut remarks = Vec::new();
         if is_taken {
             remarks.push(format!(
-                "next: `-o FILE` writes the certificate of the gain to take; `sigmastar check FILE` decides it again, `sigmastar controller FILE --n-o {n_o}` \
+                "next: the certificate of the gain to take is what `-o FILE` writes; `sigmastar check FILE` decides it again, `sigmastar controller FILE --n-o {n_o}` \
                  writes the regulator"
             ));
         } else {
@@ -320,7 +317,7 @@ impl DesignReport<'_> {
                 if self.sampling.is_some() { " at the sampling instants" } else { "" }
             ));
         }
-        let [set, assumed] = self.set_and_assumptions;
+        let ClaimInWords { initial_set: set, assumed, .. } = self.in_words;
         let of_gain = if is_taken {
             "of the gain to take".to_owned()
         } else {
