@@ -102,7 +102,7 @@ fn meets(entry: &Value, seen: Seen, [share, within]: [f64; 2]) {
     }
 }
 
-fn entry_of<'c>(certificate: &'c Value, n_o: usize) -> &'c Value {
+fn entry_of(certificate: &Value, n_o: usize) -> &Value {
     let entries = certificate["claim"]["by_n_o"].as_array().unwrap();
     let is_about = |entry: &&Value| {
         entry["n_o"].as_u64().is_some_and(|own| own == n_o as u64 || entry["or_more"] == true && own < n_o as u64)
