@@ -172,9 +172,10 @@ pub fn prove(
     let least = |[e, u]: [Interval; 2], [of_e, of_u]: [Interval; 2]| [e.least(&of_e), u.least(&of_u)];
     let [of_e, of_u] = levels.iter().map(|of| of.moves(d, &sigma)).fold([undefined(), undefined()], least);
     let [put, _] = put_out(d, [&solution.u + of_u, d.int(0)]);
+    let of_law = if about.at_samples.is_some() { "K" } else { "mu" };
     for (place, what, bound, claimed) in [
         ("e", "E_N + sqrt(V_0/e_low)".to_owned(), &solution.sizes[1] + of_e, largest_e),
-        ("u", format!("that of u + sqrt(V_0 (sigma^2/e_low + mu^2 {n_bar}^2/h))"), put, largest_u),
+        ("u", format!("that of u + sqrt(V_0 (sigma^2/e_low + {of_law}^2 {n_bar}^2/h))"), put, largest_u),
     ] {
         let what = format!("{what} <= largest {place}, {words}: the least by {sources}");
         let condition = Condition::at_most("T", what, bound, d.number(claimed));

@@ -176,7 +176,10 @@ pub fn prove(d: &Data<'_>, about: &About<'_>, (entry, trial): (&Entry<'_>, &Tria
     }
     at_most("sup|ehat| + s_e", e.clone(), claimed_e, "steady/e")?;
     at_most("rms(ehat) + rho_e", &curves.e_rms + &tube.e_rms, claimed_rms, "steady/e_rms")?;
-    let what = format!("sup|uhat| + kappa + sigma s_e + mu {n_bar} s_z");
+    let what = match law {
+        None => format!("sup|uhat| + kappa + sigma s_e + mu {n_bar} s_z"),
+        Some(_) => format!("sup|uhat| + kappa + sigma s_k + K {n_bar} s_z"),
+    };
     at_most(&what, put, claimed_u, "steady/u")?;
 
     let solution = Solution { sizes: [x, e, zeta], off: [tube.x, tube.e], u };
