@@ -239,11 +239,11 @@ fn what_is_not_said_at_samples() {
             refused(of_first("n_o", n_o.into()), Invalid, RULE, &format!("{CLAIM}/0/n_o"));
         }
         refused(deleted(&first, &format!("{CLAIM}/0/largest")), BadInput, "format", CLAIM);
-        // Trials are of continuous time.
+        // With a delay nothing is proved by trials; without, they have their parts.
         let trials = edited(first.clone(), &[("/witness/by_n_o", json!({ "trials": [{}] }))]);
         let report = judged(&trials);
         assert_refused(&report, BadInput, "format", "/witness/by_n_o/trials");
-        assert!(report.finding.unwrap().message.contains("at samples"));
+        assert_eq!(report.finding.unwrap().message.contains("with a delay"), delayed);
         // Fields of a form, and the form itself.
         for name in if delayed { &["lambda", "gm"][..] } else { &["lambda"] } {
             refused(deleted(&made, &format!("{LINEAR}/forms/0/{name}")), BadInput, "format", LINEAR);

@@ -7,7 +7,6 @@ use super::super::subject::Subject;
 use rug::Rational;
 use sigmastar_exact::number::write_exact;
 use sigmastar_exact::parallel;
-use sigmastar_lang::spec::Document;
 use sigmastar_prove::certify::Options;
 use sigmastar_prove::reduction::{AtGains, Prepared};
 use sigmastar_report::{ClaimInWords, run_in_words};
@@ -88,7 +87,7 @@ impl Proved<'_> {
 fn simulated(mut row: Row, certificate: &Certificate, limit: Option<&Rational>) -> Row {
     use sigmastar_lab::falsify::{LoopFigures, TriedClaim, nominal_figures};
     use sigmastar_studies::design::Simulated;
-    let document = Document::parse("the certificate", certificate.to_json());
+    let document = sigmastar_lang::spec::Document::parse("the certificate", certificate.to_json());
     let claim = document.and_then(|document| TriedClaim::from_document(&document));
     let Ok(claim) = claim else { return row };
     let counts: Vec<u32> = row.cells.iter().map(|cell| cell.n_o).collect();
