@@ -1,7 +1,6 @@
 //! The tube theorem (derivation, 14.4): what (14.4a), (14.4b) and the defects say of the periodic solution.
 
 use super::curves::{Trial, of_wave};
-use super::held::mean_square;
 use crate::bounds::{StatesForm, WithinSample};
 use crate::linear::{Beyond, Fineness, Harmonics, Loop, PRECISION, supremum};
 use rug::Rational;
@@ -233,6 +232,13 @@ impl Concluded {
             trial.terms.iter().try_fold(zero, |sum, term| Some(sum + zeta(term)?))?,
         ])
     }
+}
+
+/// The root mean square of a wave without a mean.
+pub(super) fn mean_square(harmonics: &Harmonics) -> Enclosure {
+    let zero = Enclosure::zero(PRECISION);
+    let squares = harmonics.iter().flatten().fold(zero, |sum, wave| sum + wave.norm_squared());
+    (squares * 2).sqrt()
 }
 
 /// How closely the sizes of curves are bounded: those of a family are sums.

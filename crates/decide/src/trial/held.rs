@@ -3,7 +3,7 @@
 //! Here uhat is what the control is in the mean over the sample that follows. Within a sample the control is held and uhat moves on, so that e leaves ehat by
 //! `b int (u - uhat)`, which is 0 at both ends.
 
-use super::conclude::{Known, OfAllCounts, Off, TubeProof, exact, fineness, of_states_from};
+use super::conclude::{Known, OfAllCounts, Off, TubeProof, exact, fineness, mean_square, of_states_from};
 use super::curves::Trial;
 use crate::bounds::{StatesForm, WithinSample};
 use crate::linear::{AtSamples, Harmonics, PRECISION, supremum};
@@ -120,13 +120,6 @@ fn largest_answer(
             others.try_fold(mean, |most, l| Some(most.max(&one(own.weights.get(*l as usize)?, 2))))
         }
     }
-}
-
-/// The root mean square of a wave without a mean.
-pub(super) fn mean_square(harmonics: &Harmonics) -> Enclosure {
-    let zero = Enclosure::zero(PRECISION);
-    let squares = harmonics.iter().flatten().fold(zero, |sum, wave| sum + wave.norm_squared());
-    (squares * 2).sqrt()
 }
 
 impl Trial {
