@@ -169,7 +169,7 @@ fn period(range: &Range) -> String {
 /// What reaches the plant.
 fn input(spec: &Specification) -> &'static str {
     match (&spec.input_gain, spec.actuator.as_ref().and_then(Actuator::middle_in_words)) {
-        (Some(_), _) => "g v, v what the regulator puts out and g its gain,",
+        (Some(_), _) => "g v, v what the regulator puts out and g the gain of the actuator,",
         (None, Some(_)) => "what the regulator puts out,",
         (None, None) => "u",
     }

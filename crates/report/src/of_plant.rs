@@ -189,6 +189,11 @@ pub(super) fn orbit(spec: &Specification) -> Option<String> {
     (!states.is_empty()).then(|| format!("$`x_0(t)`${whose}: {}{others}", states.join(", ")))
 }
 
+/// So many harmonics, in words.
+fn count_of(harmonics: usize) -> String {
+    if harmonics == 1 { "1 harmonic".to_owned() } else { format!("{harmonics} harmonics") }
+}
+
 fn facts(plant: &OfPlant, set: Option<&ClaimedSet>) -> Vec<(&'static str, String)> {
     let up = |value: &Rational| exact(value, Direction::Up);
     let harmonics = plant.cells.iter().map(|cell| cell.orbit.approximation.harmonics()).max().unwrap_or(0);
@@ -199,7 +204,8 @@ fn facts(plant: &OfPlant, set: Option<&ClaimedSet>) -> Vec<(&'static str, String
         (
             "orbit",
             format!(
-                "a trigonometric polynomial with{most} {harmonics} harmonics; $`|L^-1 (x_0 - xb)| <= {}`$ (defect{most} {}, tube{least} {})",
+                "a trigonometric polynomial with{most} {}; $`|L^-1 (x_0 - xb)| <= {}`$ (defect{most} {}, tube{least} {})",
+                count_of(harmonics),
                 up(&plant.largest(|cell| &cell.orbit.radius)),
                 up(&plant.largest(|cell| &cell.orbit.defect)),
                 exact(&plant.smallest(|cell| &cell.orbit.tube), Direction::Down)
@@ -211,8 +217,8 @@ fn facts(plant: &OfPlant, set: Option<&ClaimedSet>) -> Vec<(&'static str, String
         facts.push((
             "P(t)",
             format!(
-                "{} harmonics, $`p_low = {}`$, $`p_up = {}`$",
-                plant.matrix.harmonics.len(),
+                "{}, $`p_low = {}`$, $`p_up = {}`$",
+                count_of(plant.matrix.harmonics.len()),
                 number(&plant.triple.p_low, Direction::Down),
                 number(&plant.triple.p_up, Direction::Up)
             ),
@@ -227,9 +233,9 @@ fn facts(plant: &OfPlant, set: Option<&ClaimedSet>) -> Vec<(&'static str, String
     facts.push((
         "$`q(t, x_0, 0)`$",
         format!(
-            "{}{} harmonics; the rest is at most {}, its derivative {}",
+            "{}{}; the rest is at most {}, its derivative {}",
             if is_cut(plant) { "at most " } else { "" },
-            plant.cells.iter().map(|cell| cell.forcing.harmonics.len()).max().unwrap_or(0),
+            count_of(plant.cells.iter().map(|cell| cell.forcing.harmonics.len()).max().unwrap_or(0)),
             up(&plant.largest(|cell| &cell.forcing.rest)),
             up(&plant.largest(|cell| &cell.forcing.rest_t))
         ),

@@ -36,7 +36,8 @@ pub struct CertifyArgs {
     pub peak_error: Option<String>,
 
     /// Certify the smallest gain found that keeps |u| at most V at all times from the initial set. Here u is the output of the regulator: with
-    /// `input_gain` the control divided by `nominal`. The limit counts for every n_o, or with --n-o for the numbers of LIST alone
+    /// `input_gain` the control divided by `nominal`. If `actuator` has two limits, u is measured from the middle of its range. The limit counts
+    /// for every n_o, or with --n-o for the numbers of LIST alone
     #[arg(long, value_name = "V", allow_hyphen_values = true)]
     pub max_control: Option<String>,
 

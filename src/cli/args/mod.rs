@@ -147,20 +147,24 @@ pub enum Command {
     /// and control, and a rate. Each row is a claim that the independent checker decides.
     ///
     /// With requirements the report names the smallest gain of the table at which all are proved to be met, and the fewest oscillators at this
-    /// gain. Without requirements it names the smallest gain that passes two tests with each number of oscillators. The bound of the largest
-    /// error is at most twice E0 or twice the bound of the steady error, whichever is larger. The proved rate is at least half of the largest
-    /// one for that number. Exit code 3 says that a requirement is not proved.
+    /// gain. Where the file states noise, a disturbance or rounding, the requirements are about the loop with them; with an `actuator` or
+    /// `delay_samples` 1 they are about the loop without them. Exit code 3 says that a requirement is not proved.
+    ///
+    /// Without requirements the report names the smallest gain that meets two conditions with each number of oscillators. First, the bound of
+    /// the largest error is at most twice the larger of E0 and the bound of the steady error. Second, the proved rate is at least half of the
+    /// largest one for that number.
     #[command(after_help = DESIGN_EXAMPLES, after_long_help = format!("{DESIGN_EXAMPLES}\n\n{EXIT_CODES}"))]
     Design(DesignArgs),
     /// Show which gains go with which sampling periods: the smallest gain for a period, the longest period for a gain
     ///
-    /// Each pair is certified as by `certify --sampling-period H --sigma V`. An `actuator` is judged by the conditions of the claim alone. A
-    /// gain is certified for its sampling period only. Nothing follows for a larger gain or a shorter period.
+    /// Each pair is certified as by `certify --sampling-period H --sigma V`. A pair keeps to an `actuator` only if the conditions of the claim
+    /// prove it; bounds by the number of oscillators are not tried. A gain is certified for its sampling period only. Nothing follows for a
+    /// larger gain or a shorter period.
     #[command(after_help = SAMPLING_EXAMPLES, after_long_help = format!("{SAMPLING_EXAMPLES}\n\n{EXIT_CODES}"))]
     Sampling(SamplingArgs),
-    /// Certify a specification or plant with many values put in: a grid or a Latin hypercube
+    /// Certify a specification or plant for many values of its numbers: a grid or a Latin hypercube
     ///
-    /// Each case is certified by itself, as `certify` does it, on all cores of this machine. It is a row of one table. Nothing is claimed
+    /// Each case is certified by itself, as `certify` does it, on all cores of this machine. Each is a row of one table. Nothing is claimed
     /// between the cases, and no certificates are written. With the Python package a study can run on several machines.
     #[command(after_help = SWEEP_EXAMPLES)]
     Sweep(SweepArgs),

@@ -14,7 +14,7 @@ pub struct DesignArgs {
     #[arg(value_name = "SPEC", value_hint = ValueHint::FilePath)]
     pub spec: PathBuf,
 
-    /// Require |e| to be at most V along the periodic solution
+    /// Require |e| to be at most V along the periodic solution, with noise in the limit
     #[arg(long, value_name = "V")]
     pub steady_error: Option<String>,
 
@@ -27,7 +27,8 @@ pub struct DesignArgs {
     #[arg(long, value_name = "V")]
     pub max_control: Option<String>,
 
-    /// Require |e| to stay at most the required steady error after so many periods; with a sampling period at the sampling instants
+    /// Require that |e| stays at most the V of --steady-error after so many periods (a time divided by the period). With a sampling period this
+    /// is about the sampling instants
     #[arg(long, value_name = "PERIODS", requires = "steady_error")]
     pub settle: Option<String>,
 

@@ -116,13 +116,13 @@ impl DesignReport<'_> {
         let Some(n_o) = cell.map(|cell| row.cells[cell].n_o) else {
             return match is_met {
                 true => format!(
-                    "Take $`sigma = {sigma}`${values}. It is the smallest gain of the table that meets two conditions with each number of oscillators. The bound of the \
-                     largest $`|e|`$ is at most twice the larger of $`E0`$ and the bound of the steady error. Each proved rate is at least half of the largest one \
+                    "Take $`sigma = {sigma}`${values}. It is the smallest gain of the table that meets two conditions with each number of oscillators. First, the bound of the \
+                     largest $`|e|`$ is at most twice the larger of $`E0`$ and the bound of the steady error. Second, each proved rate is at least half of the largest one \
                      for that number."
                 ),
                 false => format!(
-                    "No gain of the table passes two tests with each number of oscillators; $`sigma = {sigma}`${values} comes closest. The bound of the largest $`|e|`$ \
-                     is to be at most twice the larger of $`E0`$ and the bound of the steady error. Each proved rate is to be at least half of the largest one for \
+                    "No gain of the table meets two conditions with each number of oscillators; $`sigma = {sigma}`${values} comes closest. First, the bound of the largest $`|e|`$ \
+                     is to be at most twice the larger of $`E0`$ and the bound of the steady error. Second, each proved rate is to be at least half of the largest one for \
                      that number."
                 ),
             };
