@@ -219,8 +219,7 @@ impl Certification<'_> {
 
     /// Bounds by the number of oscillators at the gain of the claim: for every number where the plant is linear in x and e; where nothing of it is an
     /// interval for every number if a few oscillators meet all that counts, and else for some of them; and for those `besides`, sets with gaps where the claim is about
-    /// every set; nothing where the base frequency is not matched. They are about the loop without noise and disturbance; where the document has some, only of a
-    /// plant that is linear: for what noise does the claim may come to rest on another proof, and trials are decided with the numbers of the first.
+    /// every set; nothing where the base frequency is not matched. They are about the loop without noise and disturbance.
     pub fn set_counts(&mut self, plant: &Plant, besides: &[Oscillators]) {
         let every_set = self.is_for_every_set();
         let besides: Vec<Oscillators> =
@@ -235,7 +234,6 @@ impl Certification<'_> {
                 let loops = Loops { sigma, at_samples: None, set, besides: &besides, effort: EFFORTS[0] };
                 by_count((plant, &answers), self.spec, &loops)
             }
-            None if self.spec.disturbances.any() => None,
             None => {
                 let exact = |value: &Rational| Enclosure::from_rational(value, PRECISION);
                 let periodic = &evaluation.periodic;
@@ -319,8 +317,8 @@ impl SampledCertification<'_> {
         (plant, besides): (&Plant, &[Oscillators]),
         SampledProof { witness, evaluation, .. }: &SampledProof,
     ) -> Option<ByCount> {
-        let Specification { internal_model: model, disturbances, .. } = self.spec;
-        if !model.matched || disturbances.disturb(true) || witness.delay.is_some() {
+        let model = &self.spec.internal_model;
+        if !model.matched || witness.delay.is_some() {
             return None;
         }
         // The last oscillator that the samples tell apart has the least weight.

@@ -160,6 +160,12 @@ impl ByCount {
         }
     }
 
+    /// Whether the bounds do not depend on what proves the claim but on its set: by trials they do, as the error box says of which solution they are, and the
+    /// function of the claim is a part of what proves them.
+    pub(crate) fn is_of_set(&self) -> bool {
+        matches!(self.proof, CountProof::Linear { .. })
+    }
+
     /// A bound as a certificate has it: what the independent checker decides is that number, no smaller one.
     pub(crate) fn stated(&self, bound: &Enclosure) -> Enclosure {
         above(bound, self.room())
@@ -179,6 +185,12 @@ impl ByCount {
         let LoopSizes { states, zeta, .. } = &bounds.sizes;
         let [states, zeta] = [states, zeta].map(|size| above(size, self.room_of_sizes()));
         Some(claimed_distances(data, set, [&states, &self.stated(&bounds.steady_error), &zeta]))
+    }
+
+    /// Of |zeta|_N along the periodic solution with this number of oscillators, as the certificate has it; none where it says nothing of it.
+    pub(super) fn largest_zeta(&self, n_o: u32) -> Option<Enclosure> {
+        let bounds = self.at(u64::from(n_o)).filter(|_| self.checked)?;
+        Some(above(&bounds.sizes.zeta, self.room_of_sizes()))
     }
 
     /// The smallest number of oscillators whose bound is certainly at most a target.

@@ -132,6 +132,8 @@ pub struct BoundsOfCount {
     pub control: Enclosure,
     /// Of what is put out along the periodic solution; it is in the certificate.
     pub steady_control: Enclosure,
+    /// Of how far it is from that, by the function of the claim.
+    pub(super) transient: Enclosure,
 }
 
 impl BoundsOfCount {
@@ -145,7 +147,8 @@ impl BoundsOfCount {
         by_formulas: Option<Enclosure>,
     ) -> BoundsOfCount {
         let steady_control = written(&control.steady);
-        let control = &steady_control + written(&control.transient);
+        let transient = written(&control.transient);
+        let control = &steady_control + &transient;
         let in_certificate = |bound: Enclosure| Stated { bound, is_in_certificate: true };
         let outside = |bound: Enclosure| Stated { bound, is_in_certificate: false };
         let steady = written(steady);
@@ -159,6 +162,7 @@ impl BoundsOfCount {
                 peak_error: outside(peak.clone()),
                 control,
                 steady_control,
+                transient,
             },
             Some((found, own)) => BoundsOfCount {
                 steady_error: in_certificate(steady.min(&found.stated(&own.steady_error))),
@@ -168,6 +172,7 @@ impl BoundsOfCount {
                 },
                 control: own.largest_control().map_or(control.clone(), |own| control.min(&found.stated(&own))),
                 steady_control: steady_control.min(&found.stated(&own.steady_control)),
+                transient,
             },
         }
     }

@@ -54,6 +54,7 @@ pub use produce::{certify, certify_for, certify_member, recheck};
 pub(crate) use rates::said_of;
 pub use rates::{NoRatesOfClaim, SaidOfCount, apart, rate_counts, rates_in_words};
 pub use refusal::Refusal;
+pub(crate) use room::plant_of;
 pub use sampled::{SampledCertification, certify_sampled, certify_sampled_within, recheck_sampled, sampled_model};
 pub use scale::unusual;
 pub use smaller::SmallerChoice;

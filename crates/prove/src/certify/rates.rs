@@ -233,6 +233,12 @@ impl Starts<'_> {
         let own = found.and_then(|found| found.distances(data, set, n_o));
         own.map_or_else(|| self.general.clone(), |own| [0, 1, 2].map(|i| own[i].min(&self.general[i])))
     }
+
+    /// Of |zeta|_N along the periodic solution with this number of oscillators: the least that is known; for every number it is `z`.
+    fn largest_zeta(&self, n_o: u32, z: &Enclosure) -> Enclosure {
+        let own = self.of.1.and_then(|found| found.largest_zeta(n_o));
+        own.map_or_else(|| z.clone(), |own| own.min(z))
+    }
 }
 
 /// dX, dE, dZ of the set of a proof.
@@ -255,17 +261,19 @@ pub(super) fn for_n_o(
 ) -> Vec<RateForCount> {
     let Proof { witness, evaluation, precision } = proof;
     let data = Data::new(spec, *precision);
-    let distances = distances(&data, proof);
-    let from = Starts { general: distances.clone(), of: (&witness.set, found) };
+    let from = Starts { general: distances(&data, proof), of: (&witness.set, found) };
     let numbers = [&witness.d_x, &witness.d_e, &witness.w_x, &witness.h];
-    let confinement = confinement(&data, (&distances, &evaluation.z), &data.rational(&spec.v_bar()), numbers);
+    let v_bar = data.rational(&spec.v_bar());
     let disturbed = spec.disturbances.any();
     let of = |n_o: &u32| {
         let distances = from.with(&data, *n_o);
         let place = Place { sigma: &witness.sigma, error_box: &evaluation.error_box, distances: distances.each_ref() };
         let bound = bound(&data, &place, *n_o);
         let noise = disturbed.then(|| match &bound {
-            Some(bound) => noise_bound(&data, &place, &confinement, &bound.into()),
+            Some(bound) => {
+                let zeta = from.largest_zeta(*n_o, &evaluation.z);
+                noise_bound(&data, &place, &confinement(&data, (&distances, &zeta), &v_bar, numbers), &bound.into())
+            }
             None => Err(NoNoiseBound::NoRate),
         });
         RateForCount { n_o: *n_o, bound, noise }
@@ -348,18 +356,20 @@ pub(super) fn for_n_o_at_samples(
 ) -> Vec<SampledRateForCount> {
     let Proof { witness, evaluation, precision } = proof;
     let (data, law) = (Data::new(spec, *precision), &evaluation.law);
-    let distances = distances_at_samples(&data, proof);
-    let from = Starts { general: distances.clone(), of: (&witness.set, found) };
+    let from = Starts { general: distances_at_samples(&data, proof), of: (&witness.set, found) };
     let numbers = [&witness.d_x, &witness.d_e, &witness.w_x, &witness.eta];
     let v_bar = measured(&data, &evaluation.error_box.e_b);
-    let confinement = confinement(&data, (&distances, &evaluation.z), &v_bar, numbers);
     let disturbed = spec.disturbances.any_at_samples();
     let of = |n_o: &u32| {
         let distances = from.with(&data, *n_o);
         let place = Place { sigma: &witness.sigma, error_box: &evaluation.error_box, distances: distances.each_ref() };
         let bound = at_samples::bound(&data, law, &place, *n_o);
         let noise = disturbed.then(|| match &bound {
-            Some(bound) => at_samples_with_noise(&data, law, &place, &confinement, &bound.into()),
+            Some(bound) => {
+                let zeta = from.largest_zeta(*n_o, &evaluation.z);
+                let confinement = confinement(&data, (&distances, &zeta), &v_bar, numbers);
+                at_samples_with_noise(&data, law, &place, &confinement, &bound.into())
+            }
             None => Err(NoNoiseBound::NoRate),
         });
         SampledRateForCount { n_o: *n_o, bound, noise }

@@ -4,7 +4,9 @@
 //! box, and with the same weights C4 holds in every larger box; of either C5 asks for a larger gain.
 
 use super::certification::{Certification, ExactClaim};
+use super::gain_row::ByCount;
 use super::matrix_checks::MatrixChecks;
+use super::options::Limits;
 use super::outcome::Outcome;
 use super::precision::refined;
 use super::rates::{for_n_o, for_n_o_at_samples};
@@ -19,11 +21,14 @@ use sigmastar_decide::conditions::prove_up_to;
 use sigmastar_decide::conditions::{SampledProof, SharpProof};
 use sigmastar_decide::conditions::{decide, decide_exact};
 use sigmastar_exact::number::{Direction, round_f64};
+use sigmastar_lang::plant::Plant;
+use sigmastar_lang::spec::{Document, Oscillators, Specification};
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::initial_set::claimed_distances;
 use sigmastar_theory::derivation::sampled::{SampledEvaluation, SampledWitness};
 use sigmastar_theory::derivation::sharp::{SharpEvaluation, SharpWitness};
 use sigmastar_theory::derivation::stability::level_condition;
+use std::mem::replace;
 use std::sync::OnceLock;
 
 /// Proofs with more room that are tried one after the other.
@@ -37,12 +42,14 @@ impl Certification<'_> {
     /// Where the error box has no room for what noise and a disturbance add, another proof of the claim is taken that has, if more of the bounds
     /// under noise are proved with it.
     pub(super) fn make_room(&mut self, counts: &[u32]) {
-        // With noise they are those of a linear plant, which do not depend on what proves the claim but on its set.
-        let set = self.sharp.proved().map(|proof| proof.witness.set.clone());
-        let known_with =
-            |proof: &SharpProof| self.by_count.as_ref().filter(|_| set.as_ref() == Some(&proof.witness.set));
+        let Some(own) = self.sharp.proved().filter(|_| may_be_replaced(&self.limits, self.by_count.as_ref())) else {
+            return;
+        };
+        let known_with = |proof: &SharpProof| {
+            let same_set = own.witness.set == proof.witness.set;
+            self.by_count.as_ref().filter(|found| same_set && found.is_of_set())
+        };
         let bounds = |proof: &SharpProof| for_n_o(self.spec, (proof, known_with(proof)), counts);
-        let Some(own) = self.sharp.proved() else { return };
         let mut best = more_proved(&self.for_n_o, |factor| self.with_room(own, factor), bounds);
         let roomy = self.roomy.as_ref().and_then(|proof| self.proved_with(proof.witness.clone()));
         if let Some(roomy) = roomy {
@@ -53,9 +60,23 @@ impl Certification<'_> {
             }
         }
         if let Some((proof, found)) = best {
-            let by_count = known_with(&proof).cloned();
+            let known = known_with(&proof).cloned();
+            let before = replace(&mut self.by_count, known);
             self.rest_on(proof);
-            (self.for_n_o, self.by_count) = (found, by_count);
+            self.for_n_o = found;
+            if self.by_count.is_none() {
+                self.count_again(before, counts);
+            }
+        }
+    }
+
+    /// Finds bounds by the number of oscillators again, of those of which there were some before another proof, and with them what is proved of these counts.
+    fn count_again(&mut self, before: Option<ByCount>, counts: &[u32]) {
+        let Some((plant, oscillators)) = before.and_then(|before| again(self.spec, before)) else { return };
+        self.set_counts(&plant, &oscillators);
+        if let (Some(found), Some(proof)) = (&mut self.by_count, self.sharp.proved()) {
+            found.checked = true;
+            self.for_n_o = for_n_o(self.spec, (proof, self.by_count.as_ref()), counts);
         }
     }
 
@@ -115,14 +136,17 @@ impl Certification<'_> {
 impl SampledCertification<'_> {
     /// The same of a claim at samples, whose box alone is made larger.
     pub(super) fn make_room(&mut self, counts: &[u32]) {
-        let set = self.claim().map(|proof| proof.witness.set.clone());
-        let known_with =
-            |proof: &SampledProof| self.by_count.as_ref().filter(|_| set.as_ref() == Some(&proof.witness.set));
+        let Some(own) = self.claim().filter(|_| may_be_replaced(&self.limits, self.by_count.as_ref())) else {
+            return;
+        };
+        let known_with = |proof: &SampledProof| {
+            let same_set = own.witness.set == proof.witness.set;
+            self.by_count.as_ref().filter(|found| same_set && found.is_of_set())
+        };
         let bounds = |run: &SampledCertification<'_>| {
             let of = |proof| for_n_o_at_samples(self.spec, (proof, known_with(proof)), counts);
             run.claim().map_or_else(Vec::new, of)
         };
-        let Some(own) = self.claim() else { return };
         let mut best = more_proved(&self.for_n_o, |factor| self.widened(own, factor), bounds);
         if let Some((roomy, run)) = self.roomy.as_ref().and_then(|roomy| Some((roomy, self.widened(roomy, 1.0)?))) {
             let first = bounds(&run);
@@ -132,9 +156,24 @@ impl SampledCertification<'_> {
             }
         }
         if let Some((run, found)) = best {
-            let by_count = run.claim().and_then(known_with).cloned();
+            let known = run.claim().and_then(known_with).cloned();
             (self.outcome, self.no_plant, self.for_n_o) = (run.outcome, run.no_plant, found);
-            self.by_count = by_count;
+            let before = replace(&mut self.by_count, known);
+            if self.by_count.is_none() {
+                self.count_again(before, counts);
+            }
+        }
+    }
+
+    /// The same of a claim at samples.
+    fn count_again(&mut self, before: Option<ByCount>, counts: &[u32]) {
+        let Some((plant, oscillators)) = before.and_then(|before| again(self.spec, before)) else { return };
+        self.set_counts(&plant, &oscillators);
+        if let Some(found) = &mut self.by_count {
+            found.checked = true;
+        }
+        if let Some(proof) = self.claim().filter(|_| self.by_count.is_some()) {
+            self.for_n_o = for_n_o_at_samples(self.spec, (proof, self.by_count.as_ref()), counts);
         }
     }
 
@@ -148,6 +187,26 @@ impl SampledCertification<'_> {
         let SampledEvaluation { size, peak, control, .. } = &run.claim()?.evaluation;
         self.limits.kept([&size.e_per, peak], control).then_some(run)
     }
+}
+
+/// Whether a claim may rest on another proof, which keeps to the same limits: by trials other bounds would follow then than those that limits are judged by.
+fn may_be_replaced(limits: &Limits, by_count: Option<&ByCount>) -> bool {
+    let is_judged = limits.by_count.is_some() && limits.bounds_anything();
+    !is_judged || by_count.is_none_or(ByCount::is_of_set)
+}
+
+/// The plant of a specification, and the oscillators of which there were bounds that an independent checker decides; `None` without a plant, and where it
+/// does not decide them.
+fn again(spec: &Specification, before: ByCount) -> Option<(Plant, Vec<Oscillators>)> {
+    let plant = before.checked.then(|| plant_of(spec))??;
+    Some((plant, before.counts.into_iter().map(|bounds| bounds.oscillators).collect()))
+}
+
+/// The plant that a specification is made of, read from the copy of it that a certificate has.
+pub(crate) fn plant_of(spec: &Specification) -> Option<Plant> {
+    spec.plant()?;
+    let document = Document::parse("the plant", &spec.document.to_string()).ok()?;
+    Plant::from_value(&document.root()).ok()
 }
 
 /// For how many numbers of oscillators something is proved of noise.

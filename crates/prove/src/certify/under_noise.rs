@@ -7,7 +7,7 @@
 //! but for what misleads that start.
 
 use super::certification::Certification;
-use super::gain_row::{ByCount, CountProof};
+use super::gain_row::ByCount;
 use super::kept::BoundsOfCount;
 use super::sampled::SampledCertification;
 use crate::rate::found::ForCount;
@@ -38,18 +38,19 @@ fn under_noise<P, Q>(
 ) -> Option<UnderNoise> {
     let NoiseBound { limit, peak, misled, control: added, .. } =
         found.iter().find(|found| found.n_o == n_o)?.proved_noise()?;
-    let BoundsOfCount { steady_error, peak_error, control, .. } = without;
+    let BoundsOfCount { steady_error, peak_error, control, steady_control, transient } = without;
     let with = |bound: &Enclosure, more: &[&Rational]| {
         more.iter().fold(bound.clone(), |sum, more| sum + Enclosure::from_rational(more, bound.precision()))
     };
     let from_the_box = with(&steady_error.bound, &[peak]);
-    let is_linear = by_count.is_some_and(|found| matches!(found.proof, CountProof::Linear { .. }));
-    let peak_error = match is_linear {
-        true => from_the_box.min(&with(&peak_error.bound, &[misled, limit])),
-        false => from_the_box,
+    let is_linear = by_count.is_some_and(ByCount::is_of_set);
+    // Of a plant that is not linear the part from the start is no solution, of which trials speak; the function of the claim does.
+    let (peak_error, control) = match is_linear {
+        true => (from_the_box.min(&with(&peak_error.bound, &[misled, limit])), control.clone()),
+        false => (from_the_box, steady_control + transient),
     };
     let steady_error = with(&steady_error.bound, &[limit]);
-    let control = added.as_ref().map(|added| with(control, &[added]));
+    let control = added.as_ref().map(|added| with(&control, &[added]));
     Some(UnderNoise { limit: limit.clone(), misled: misled.clone(), steady_error, peak_error, control })
 }
 

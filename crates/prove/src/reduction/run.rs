@@ -15,14 +15,14 @@ use super::watch::{Searches, Stage, Unwatched, Watch};
 use super::{FreeNumbers, RestsOn, Subject, Witness};
 use crate::certify::{
     BoundsOfCount, Certification, Limits, NoRatesOfClaim, SaidOfCount, SampledCertification, UnderNoise, Verdict,
-    claimed_ball, said_of,
+    claimed_ball, plant_of, said_of,
 };
 use rug::Rational;
 use sigmastar_decide::bounds::Engine;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::model::LyapunovSource;
-use sigmastar_lang::spec::{Document, Oscillators, Sampling, SpecErrors, Specification};
+use sigmastar_lang::spec::{Oscillators, Sampling, SpecErrors, Specification};
 use sigmastar_propose::bounds::FloatSuprema;
 use sigmastar_propose::search::{Failing, SampledProposal};
 use sigmastar_theory::derivation::condition::Condition;
@@ -222,9 +222,7 @@ impl Prepared {
 /// What decides and samples bounds of the plant behind a specification, read from the copy of it that a certificate has.
 fn around_again(spec: &Specification) -> Option<(Engine, FloatSuprema)> {
     let LyapunovSource::Plant(of_plant) = &spec.lyapunov else { return None };
-    let document = Document::parse("the plant", &spec.document.to_string()).ok()?;
-    let plant = Plant::from_value(&document.root()).ok()?;
-    bounds_around(&plant, of_plant).ok()
+    bounds_around(&plant_of(spec)?, of_plant).ok()
 }
 
 impl Run<'_> {

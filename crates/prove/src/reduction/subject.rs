@@ -6,7 +6,6 @@ use super::watch::{Stage, Unwatched, Watch};
 use super::{ReducedSampled, RestsOn, reduce, reduce_sampled};
 use crate::certify::{Alternatives, with_triple};
 use rug::Rational;
-use sigmastar_decide::linear::LinearPlant;
 use sigmastar_lang::plant::{self, Plant};
 use sigmastar_lang::spec::{
     self, Actuator, AskedHarmonics, Constant, Disturbances, Document, ErrorKind, InputGain, InternalModel, KEPT_BY,
@@ -94,17 +93,16 @@ impl Subject {
     }
 
     /// The subject whose claim is to keep to its actuator by the bounds for every number of oscillators, and the limit that it has by that; about the first n_o
-    /// harmonics. `None` without an actuator, and where there are no such bounds: of bounding functions, without a matched base frequency, of a plant that is not
-    /// linear with noise or a disturbance, and for a claim that is asked to be about every set of harmonics.
+    /// harmonics. `None` without an actuator, and where there are no such bounds: of bounding functions, without a matched base frequency, and for a claim that
+    /// is asked to be about every set of harmonics.
     pub(super) fn kept_by_count(&self) -> Option<(Subject, Rational)> {
         let Subject::Plant(plant) = self else { return None };
         let mut plant = plant.clone();
         let actuator = plant.actuator.as_mut()?;
         actuator.by_count = true;
         let max = actuator.largest()?;
-        let has_bounds = !plant.disturbances.any() || LinearPlant::of(&plant).is_some();
         let model = &mut plant.internal_model;
-        if !model.matched || model.asks_every_set() || !has_bounds {
+        if !model.matched || model.asks_every_set() {
             return None;
         }
         model.harmonics = Some(AskedHarmonics::First);

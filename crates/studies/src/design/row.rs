@@ -81,7 +81,7 @@ impl Row {
         let said = run.of_counts();
         let counts_noise = run.counts_noise();
         let cell = |n_o: &u32| {
-            let BoundsOfCount { steady_error, peak_error, control, steady_control } = run.bounds_of(*n_o)?;
+            let BoundsOfCount { steady_error, peak_error, control, steady_control, .. } = run.bounds_of(*n_o)?;
             let noise = match run.under_noise(*n_o) {
                 Some(found) => Noise::Proved(Box::new(found)),
                 None if counts_noise => Noise::NotProved,

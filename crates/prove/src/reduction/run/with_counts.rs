@@ -6,7 +6,6 @@ use super::{Checked, Prepared, Run, Subject};
 use crate::certify::Limits;
 use crate::certify::kept::Shares;
 use rug::Rational;
-use sigmastar_decide::linear::LinearPlant;
 use sigmastar_exact::number::{Direction, Portable, round_f64};
 use sigmastar_lang::spec::{Constant, SpecErrors};
 use std::sync::{Arc, OnceLock};
@@ -102,10 +101,7 @@ impl Search<'_> {
         let starts_beyond =
             self.limits.peak_error.as_ref().zip(start).is_some_and(|(limit, start)| limit.to_f64() < start);
         let has_some = match self.subject {
-            Subject::Plant(plant) => {
-                let has_some = !plant.disturbances.any() || LinearPlant::of(plant).is_some();
-                plant.internal_model.matched && has_some
-            }
+            Subject::Plant(plant) => plant.internal_model.matched,
             Subject::Specification(_) => {
                 let asked = !self.counts.is_empty() && self.limits.steady_error.is_some();
                 asked && self.subject.sampling().is_none()

@@ -165,11 +165,13 @@ pub fn prove(
     let radii = [&free.d_x, &free.d_e].map(|value| d.number(value));
     let error_box = ErrorBox::new(d, free.paths, [&sizes.x, &sizes.e], radii.each_ref());
     let law = law.map(|terms| Law::new(d, terms));
-    let known = claimed.iter().any(|rate| rate.noise.is_some());
-    let known = known.then(|| noise::Known::new(d, (free, sizes), &error_box.e_b, law.is_some()));
     for (rate, witness) in claimed.iter().zip(witnesses) {
         let at = format!("{}/noise", witness.pointer);
-        let reach = reach(d, free, sizes, by_n_o.and_then(|known| known.sizes(rate.n_o)));
+        let by_n_o = by_n_o.and_then(|known| known.sizes(rate.n_o));
+        let reach = reach(d, free, sizes, by_n_o);
+        let z = by_n_o.map_or_else(|| sizes.zeta.clone(), |[.., zeta]| sizes.zeta.min(&d.number(zeta)));
+        let known = rate.noise.is_some();
+        let known = known.then(|| noise::Known::new(d, free, (reach.clone(), &z), (&error_box.e_b, law.is_some())));
         norm::positive("rate", &rate.rate, &rate.pointer)?;
         norm::positive("factor", &rate.factor, &rate.pointer)?;
         let ([start, e_low], of_noise) = match (&witness.proof, &law) {

@@ -17,8 +17,8 @@ use super::norm::{positive, power};
 use crate::actuator;
 use crate::data::Data;
 use crate::interval::Interval;
-use crate::rules::common::{Free, Sizes};
-use crate::rules::stability::{ErrorBox, distances, level};
+use crate::rules::common::Free;
+use crate::rules::stability::{ErrorBox, level};
 use crate::verdict::{Condition, Outcome, Verdict, finding, invalid};
 use rug::Rational;
 
@@ -36,7 +36,7 @@ pub fn demand_noise(d: &Data<'_>, claimed: &[Rate<'_>], at_samples: bool) -> Out
     Ok(())
 }
 
-/// What is known of the solutions of a claim before anything is said of what noise does from rest.
+/// What is known of the solutions of a claim with one n_o before anything is said of what noise does from rest.
 pub struct Known {
     /// The most that a measurement is off: v_bar, or v_d.
     pub off: Interval,
@@ -49,17 +49,21 @@ pub struct Known {
 }
 
 impl Known {
-    /// Of a claim at samples, or in continuous time.
-    pub fn new(d: &Data<'_>, (free, sizes): (&Free, &Sizes), e_b: &Interval, at_samples: bool) -> Known {
+    /// Of solutions that begin so far from the periodic one, without noise, of which |zeta|_N is at most `z`; of a claim at samples, or in continuous time.
+    pub fn new(
+        d: &Data<'_>,
+        free: &Free,
+        (mut reach, z): ([Interval; 3], &Interval),
+        (e_b, at_samples): (&Interval, bool),
+    ) -> Known {
         let v_bar = d.number(&d.spec.noise.v_bar());
         let off = if d.spec.noise.is_rounded(at_samples) { of_doubles(d, [&v_bar, e_b]) } else { v_bar };
-        let mut reach = distances(d, &free.set, [&sizes.x, &sizes.e, &sizes.zeta]);
         if free.set.z0.is_none() {
             reach[2] = &reach[2] + &d.n_bar * &off;
         }
         let [d_x, d_e, w_x, h] = [&free.d_x, &free.d_e, &free.w_x, &free.h].map(|value| d.number(value));
         let [start, _] = level(d, &reach, [&d_x, &d_e, &w_x, &d.by_gain(|gain| &gain.high, &h)]);
-        let zeta = &sizes.zeta + (&start / d.by_gain(|gain| &gain.low, &h)).sqrt();
+        let zeta = z + (&start / d.by_gain(|gain| &gain.low, &h)).sqrt();
         Known { off, start, zeta, e_b: e_b.clone() }
     }
 }
