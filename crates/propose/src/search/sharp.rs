@@ -49,6 +49,10 @@ const NEGLIGIBLE: f64 = 1e-20;
 /// The largest gain that is tried.
 const LARGEST: f64 = 1e250;
 
+/// By what share a gain that is tried next lies beyond the threshold at the last one; after so many tries twice as much each time.
+const BEYOND: f64 = 1e-6;
+const NEAR_TRIES: u32 = 16;
+
 /// The width of the last bracket of ln sigma, as a share of the tolerance of a refinement.
 const BRACKET: f64 = 0.1;
 
@@ -117,49 +121,66 @@ impl Search<'_> {
     ///
     /// Feasibility is monotone: with sigma every right side of S1 and S2, so the set, the distances and the threshold fall.
     fn smallest(&self, guess: f64) -> Result<f64, Obstacle> {
-        let least = self.least();
-        let mut at = (guess.max(least), self.excess(guess.max(least)));
-        // The last infeasible and the first feasible sigma.
-        let mut low: Option<(f64, f64)> = None;
-        let mut high: Option<(f64, f64)> = None;
-        let mut factor: f64 = 4.0;
-        while low.is_none() || high.is_none() {
-            let next = match at.1 {
-                Ok(value) if value <= 0.0 => {
-                    high = Some((at.0, value));
-                    if at.0 <= least {
-                        return Ok(least);
-                    }
-                    // The threshold hardly depends on sigma: it lies just above the smallest sigma.
-                    let below = at.0 * value.portable_exp() * (1.0 - 1e-6);
-                    if below > at.0 / factor { below } else { at.0 / factor }.max(least)
-                }
-                outcome => {
-                    low = Some((at.0, outcome.unwrap_or(f64::INFINITY)));
-                    match outcome {
-                        Err(obstacle) if at.0 > LARGEST => return Err(obstacle),
-                        // The threshold is as large as any gain.
-                        _ if at.0 > LARGEST => return Err(Failing::NotFinite(None).into()),
-                        _ => {}
-                    }
-                    let asked = outcome.map_or(0.0, |value| at.0 * value.portable_exp() * (1.0 + 1e-6));
-                    if asked > at.0 && asked < at.0 * factor { asked } else { at.0 * factor }
-                }
-            };
-            if low.is_some() && high.is_some() {
-                break;
-            }
-            factor = (factor * factor).min(1e12);
-            at = (next, self.excess(next));
-        }
-        // The loop ends only with both; a gain that cannot be found has returned from within it.
-        let (Some(low), Some(high)) = (low, high) else { return Err(Failing::NotFinite(None).into()) };
-        let exponent = |sigma: f64| sigma.portable_ln();
-        let excess = |t: f64| self.excess(t.portable_exp()).unwrap_or(f64::INFINITY);
-        let width = BRACKET * self.model.effort().tolerance;
-        let found = crossing(excess, (exponent(low.0), low.1), (exponent(high.0), high.1), width).portable_exp();
-        Ok(found.min(high.0))
+        least_sigma(&|sigma| self.excess(sigma), [guess, self.least()], BRACKET * self.model.effort().tolerance)
     }
+}
+
+/// The smallest sigma, not below `least`, at which an excess is not above 0; from `guess`, if that is known to be near. The excess is the logarithm of the
+/// threshold over sigma, and falls with sigma; the answer is to a width of ln sigma.
+///
+/// # Errors
+/// The obstacle at the largest gain that is tried.
+fn least_sigma(
+    excess: &dyn Fn(f64) -> Result<f64, Obstacle>,
+    [guess, least]: [f64; 2],
+    width: f64,
+) -> Result<f64, Obstacle> {
+    let mut at = (guess.max(least), excess(guess.max(least)));
+    // The last infeasible and the first feasible sigma.
+    let mut low: Option<(f64, f64)> = None;
+    let mut high: Option<(f64, f64)> = None;
+    let mut factor: f64 = 4.0;
+    let (mut tries, mut beyond) = (0, BEYOND);
+    while low.is_none() || high.is_none() {
+        // A threshold that follows sigma is missed by as little each time.
+        if tries >= NEAR_TRIES {
+            beyond *= 2.0;
+        }
+        tries += 1;
+        let next = match at.1 {
+            Ok(value) if value <= 0.0 => {
+                high = Some((at.0, value));
+                if at.0 <= least {
+                    return Ok(least);
+                }
+                // The threshold hardly depends on sigma: it lies just above the smallest sigma.
+                let below = at.0 * value.portable_exp() * (1.0 - beyond.min(0.5));
+                if below > at.0 / factor { below } else { at.0 / factor }.max(least)
+            }
+            outcome => {
+                low = Some((at.0, outcome.unwrap_or(f64::INFINITY)));
+                match outcome {
+                    Err(obstacle) if at.0 > LARGEST => return Err(obstacle),
+                    // The threshold is as large as any gain.
+                    _ if at.0 > LARGEST => return Err(Failing::NotFinite(None).into()),
+                    _ => {}
+                }
+                let asked = outcome.map_or(0.0, |value| at.0 * value.portable_exp() * (1.0 + beyond));
+                if asked > at.0 && asked < at.0 * factor { asked } else { at.0 * factor }
+            }
+        };
+        if low.is_some() && high.is_some() {
+            break;
+        }
+        factor = (factor * factor).min(1e12);
+        at = (next, excess(next));
+    }
+    // The loop ends only with both; a gain that cannot be found has returned from within it.
+    let (Some(low), Some(high)) = (low, high) else { return Err(Failing::NotFinite(None).into()) };
+    let exponent = |sigma: f64| sigma.portable_ln();
+    let of_exponent = |t: f64| excess(t.portable_exp()).unwrap_or(f64::INFINITY);
+    let found = crossing(of_exponent, (exponent(low.0), low.1), (exponent(high.0), high.1), width).portable_exp();
+    Ok(found.min(high.0))
 }
 
 /// Searches for the smallest sigma.
@@ -315,4 +336,46 @@ pub fn without_optional_data(model: &FloatModel) -> Vec<(OptionalDatum, Option<f
     parallel::map(&model.optional_data(), |&datum| {
         (datum, search_sharp(&model.without(datum)).ok().map(|found| found.sigma))
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::cell::Cell;
+
+    /// The answer for an excess, and how often it was asked for.
+    fn counted(excess: impl Fn(f64) -> f64, guess: f64) -> (Result<f64, Obstacle>, u32) {
+        let calls = Cell::new(0);
+        let found = least_sigma(
+            &|sigma| {
+                calls.set(calls.get() + 1);
+                Ok(excess(sigma))
+            },
+            [guess, 1e-20],
+            1e-6,
+        );
+        (found, calls.get())
+    }
+
+    #[test]
+    fn a_threshold_is_found_from_both_sides() {
+        for (threshold, guess) in [(3.0, 1.0), (3.0, 900.0), (2e-12, 5.0), (7e30, 1e-3)] {
+            let (found, calls) = counted(|sigma| f64::ln(threshold / sigma), guess);
+            let found = found.unwrap();
+            assert!((found / threshold).ln().abs() < 1e-5 && calls < 40, "{threshold} {guess}: {found} {calls}");
+        }
+    }
+
+    #[test]
+    fn a_threshold_that_follows_sigma_ends_the_search() {
+        // Each gain is missed, or kept to, by as little as the last one.
+        let (found, calls) = counted(|_| 1e-9, 1.0);
+        assert!(found.is_err() && calls < 200, "{calls}");
+        let (found, calls) = counted(|_| -1e-9, 1.0);
+        assert!(found.unwrap() == 1e-20 && calls < 200, "{calls}");
+        // Until it does not follow any more.
+        let (found, calls) = counted(|sigma| if sigma < 5e8 { 1e-3 } else { -1e-3 }, 1.0);
+        let found = found.unwrap();
+        assert!((found / 5e8).ln().abs() < 1e-5 && calls < 300, "{found} {calls}");
+    }
 }

@@ -10,7 +10,7 @@ use crate::rules::rates::norm::power;
 use crate::rules::rates::rounding::{Rounding, errors, ranges};
 use crate::rules::rates::{Proof, Witness};
 use crate::rules::sampled::law::{Law, Terms};
-use crate::rules::stability::ErrorBox;
+use crate::rules::stability::{ErrorBox, distances};
 use rug::Float;
 
 const STORED: [&str; 5] = ["all", "alone", "aligned", "input-gain", "input-gain-alone"];
@@ -23,7 +23,9 @@ fn each(name: &str, use_it: impl Fn(&Law<'_>, &Derivation, (&ErrorBox, &Known), 
     let sizes = |d: &Data<'_>| sizes(d, part(&json, "claim").json);
     with_stored(&format!("arithmetic/{name}"), |d, (derivation, _), error_box, witness: &Witness| {
         let Proof::Sampled(_, Some(proof)) = &witness.proof else { panic!("{name}") };
-        let known = Known::new(d, (&derivation.free, &sizes(d)), &error_box.e_b, true);
+        let (free, sizes) = (&derivation.free, sizes(d));
+        let reach = distances(d, &free.set, [&sizes.x, &sizes.e, &sizes.zeta]);
+        let known = Known::new(d, free, (reach, &sizes.zeta), (&error_box.e_b, true));
         let law = Law::new(d, derivation.law().unwrap());
         use_it(&law, derivation, (error_box, &known), (proof.rounding.as_ref().unwrap(), witness.n_o));
     });
