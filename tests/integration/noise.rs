@@ -249,8 +249,7 @@ fn linear_plant(members: &[(&str, Value)]) -> String {
     plant.to_string()
 }
 
-/// Bounds by the number of oscillators are about the loop without noise, so that a document with noise has the same, and says so; of a plant that is not
-/// linear it has none.
+/// Bounds by the number of oscillators are about the loop without noise, so that a document with noise has the same, and says so.
 #[test]
 fn noise_changes_nothing_that_is_said_by_the_number_of_oscillators() {
     let folder = tempfile::tempdir().unwrap();
@@ -269,15 +268,17 @@ fn noise_changes_nothing_that_is_said_by_the_number_of_oscillators() {
     };
     let [measurement, _] = inputs();
     let at_samples = ["--sigma", "9", "--sampling-period", "1/200"];
-    for (flags, member) in [
-        (&["--sigma", "9"][..], measurement.clone()),
-        (&["--sigma", "9", "--n-o", "0,1"], measurement.clone()),
-        (&at_samples, measurement.clone()),
-        (&at_samples, ("arithmetic", object!("double"))),
-        (&[&at_samples[..], &["--n-o", "0"]].concat(), measurement.clone()),
+    let pendulum = |members: &[(&str, Value)]| with("plants/pendulum", members);
+    for (plant, flags, member) in [
+        (&linear_plant as &dyn Fn(&[_]) -> String, &["--sigma", "9"][..], measurement.clone()),
+        (&linear_plant, &["--sigma", "9", "--n-o", "0,1"], measurement.clone()),
+        (&linear_plant, &at_samples, measurement.clone()),
+        (&linear_plant, &at_samples, ("arithmetic", object!("double"))),
+        (&linear_plant, &[&at_samples[..], &["--n-o", "0"]].concat(), measurement.clone()),
+        (&pendulum, &["--sigma", "2"], measurement.clone()),
     ] {
-        let without = file(&linear_plant(&[]), flags);
-        let with = file(&linear_plant(&[member]), flags);
+        let without = file(&plant(&[]), flags);
+        let with = file(&plant(&[member]), flags);
         let steady = |certificate: &Value| -> Vec<Value> {
             let entries = certificate["claim"]["by_n_o"].as_array().unwrap();
             entries.iter().map(|entry| entry["steady"].clone()).collect()
@@ -292,6 +293,15 @@ fn noise_changes_nothing_that_is_said_by_the_number_of_oscillators() {
     // In continuous time the arithmetic counts for nothing.
     let exact = file(&linear_plant(&[("arithmetic", object!("double"))]), &["--sigma", "9"]);
     assert!(!exact["claim"]["statement"].as_str().unwrap().contains("rounding"));
-    let nonlinear = file(&with("plants/pendulum", &[measurement]), &[]);
-    assert!(nonlinear["claim"].get("by_n_o").is_none());
+    // With this disturbance the claim rests on another proof, and the trials around its solution are proved again.
+    let disturbed = [("measurement", object!({ "quantum": "1/1000" })), ("disturbance", object!("1/5"))];
+    let [without, with] =
+        [&[][..], &disturbed].map(|members| file(&pendulum(members), &["--sigma", "8", "--n-o", "6"]));
+    assert_ne!(with["witness"]["h"], without["witness"]["h"]);
+    assert!(!with["claim"]["for_n_o"][0]["noise"].is_null());
+    let said = |certificate: &Value, which: &str| number(&certificate["claim"]["by_n_o"][0]["steady"][which]);
+    for which in ["e", "e_rms", "u"] {
+        let [with, without] = [said(&with, which), said(&without, which)];
+        assert!((with - without).abs() <= 1e-6 * without, "{which}: {with} {without}");
+    }
 }

@@ -105,3 +105,29 @@ fn sizes_are_read_as_they_are() {
         refused(edited(trials(), &[(&place, json!("-1"))]), BadInput, "format", &place);
     }
 }
+
+/// What noise adds rests on them, too: the start counts by its distance from the periodic solution of that n_o. The plant is not linear, and its bounds by n_o
+/// are about the loop without noise.
+#[test]
+fn noise_rests_on_what_is_known_of_that_number() {
+    let stored = parsed("by-n-o", "with-noise");
+    accepted(&stored);
+    let statement = stored["claim"]["statement"].as_str().unwrap();
+    let entries = stored["claim"]["by_n_o"].as_array().unwrap().len();
+    assert_eq!(statement.matches(" without noise, disturbance and rounding, |e| <=").count(), entries);
+    let peak = |index: usize| format!("{FOR_N_O}/{index}/noise/peak");
+    for index in [0, 1] {
+        refused(
+            edited(stored.clone(), &[(peak(index), times(&stored, &peak(index), 0.999))]),
+            Invalid,
+            "rates",
+            &peak(index),
+        );
+    }
+    // With the sizes for every number starts are further away: with factors that allow for that the peak is what is too low.
+    let factors = [0, 1].map(|index| (format!("{FOR_N_O}/{index}/factor"), json!("1000")));
+    accepted(&edited(stored.clone(), &factors));
+    refused(edited(without(&stored, [CLAIM, WITNESS]), &factors), Invalid, "rates", &peak(0));
+    let size = format!("{WITNESS}/trials/0/sizes");
+    refused(edited(deleted(&stored, &size), &factors), Invalid, "rates", &peak(0));
+}

@@ -3,6 +3,10 @@
 use faer::linalg::solvers::DenseSolveCore;
 use faer::{Mat, c64};
 
+/// Steps of Newton's method, and the share of its terms that is left of the equation where it holds.
+const STEPS: usize = 4;
+const HOLDS: f64 = 1e-7;
+
 /// `Pi A + A'Pi + C + Pi R Pi = 0`, R the sum of the beta B B' of some inputs.
 pub(super) struct Equation<'a> {
     /// A.
@@ -48,24 +52,46 @@ impl Equation<'_> {
         pi.as_ref().is_all_finite().then_some(pi)
     }
 
-    /// The same, after one step of Newton's method where that can be made: the subspace is less accurate where eigenvalues of the Hamiltonian
-    /// matrix are close to the imaginary axis.
+    /// The same, after a step of Newton's method, and a few more where the equation does not hold yet: the subspace is less accurate where eigenvalues of the
+    /// Hamiltonian matrix are close to the imaginary axis. `None` where it does not hold in the end, as far away from a solution a step may lead anywhere.
     pub(super) fn solution(&self, sizes: [f64; 2]) -> Option<Mat<f64>> {
-        let pi = self.stabilising(sizes)?;
-        Some(self.refined(&pi).unwrap_or(pi))
+        let mut pi = self.stabilising(sizes)?;
+        for _ in 0..STEPS {
+            pi = self.refined(&pi)?;
+            let (_, share) = self.residual(&pi);
+            if share <= HOLDS {
+                return Some(pi);
+            }
+        }
+        None
     }
 
-    /// One step of Newton's method: `Pi + D` with `D K + K'D` the negative of the left side of the equation at Pi, `K = A + R Pi`.
-    fn refined(&self, pi: &Mat<f64>) -> Option<Mat<f64>> {
+    /// The left side of the equation at Pi, and the largest of its entries as a share of the largest of its terms.
+    fn residual(&self, pi: &Mat<f64>) -> (Mat<f64>, f64) {
         let Equation { a, inputs, output } = self;
         let n = a.nrows();
         let image = |input: &[f64]| (0..n).map(|i| (0..n).map(|j| pi[(i, j)] * input[j]).sum()).collect::<Vec<f64>>();
         let images: Vec<Vec<f64>> = inputs.iter().map(|(_, input)| image(input)).collect();
         let product = pi * *a;
-        let residual = Mat::from_fn(n, n, |i, j| {
-            let square = inputs.iter().zip(&images).map(|((beta, _), image)| beta * image[i] * image[j]);
-            product[(i, j)] + product[(j, i)] + output[(i, j)] + square.sum::<f64>()
-        });
+        let square = |i: usize, j: usize| {
+            inputs.iter().zip(&images).map(|((beta, _), image)| beta * image[i] * image[j]).sum::<f64>()
+        };
+        let residual = Mat::from_fn(n, n, |i, j| product[(i, j)] + product[(j, i)] + output[(i, j)] + square(i, j));
+        let largest = |of: &dyn Fn(usize, usize) -> f64| {
+            (0..n).flat_map(|i| (0..n).map(move |j| (i, j))).map(|(i, j)| of(i, j).abs()).fold(0.0, f64::max)
+        };
+        let terms = [largest(&|i, j| product[(i, j)]), largest(&|i, j| output[(i, j)]), largest(&square)];
+        let share = largest(&|i, j| residual[(i, j)]) / terms.into_iter().fold(f64::MIN_POSITIVE, f64::max);
+        (residual, share)
+    }
+
+    /// One step of Newton's method: `Pi + D` with `D K + K'D` the negative of the left side of the equation at Pi, `K = A + R Pi`.
+    fn refined(&self, pi: &Mat<f64>) -> Option<Mat<f64>> {
+        let Equation { a, inputs, .. } = self;
+        let n = a.nrows();
+        let image = |input: &[f64]| (0..n).map(|i| (0..n).map(|j| pi[(i, j)] * input[j]).sum()).collect::<Vec<f64>>();
+        let images: Vec<Vec<f64>> = inputs.iter().map(|(_, input)| image(input)).collect();
+        let (residual, _) = self.residual(pi);
         let closed = Mat::from_fn(n, n, |i, j| {
             let moved = inputs.iter().zip(&images).map(|((beta, input), image)| beta * input[i] * image[j]);
             a[(i, j)] + moved.sum::<f64>()
