@@ -181,10 +181,10 @@ fn without_bounds(run: &Run<'_>, sets: &[Oscillators], compare: bool) -> Option<
     let why = match run {
         _ if !compare => "`--no-alternatives` leaves them out",
         Run::Sampled(_) => {
-            "at samples they are proved of plants that are linear in x and e, where the independent checker decides them"
+            "at samples they are proved of plants by formulas, with a delay of those that are linear in x and e, where the independent checker decides them"
         }
         Run::Continuous(_) => {
-            "they are proved of plants with a matched base frequency (that are linear, where there is noise), where the independent checker decides them"
+            "they are proved of plants with a matched base frequency, where the independent checker decides them"
         }
     };
     (!missing.is_empty()).then(|| {

@@ -343,8 +343,8 @@ impl DesignReport<'_> {
         }
         if self.is_same_for_all(row) {
             remarks.push(
-                "steady error: at samples only plants that are linear in x and e have bounds by the number of oscillators. Here more oscillators do not \
-                 lower the bound"
+                "steady error: more oscillators do not lower this bound, because nothing is proved by their number here. At samples such bounds are for \
+                 plants by formulas; with a delay the plant has to be linear in x and e"
                     .to_owned(),
             );
         }
