@@ -1,6 +1,6 @@
 //! Causes that are named where nothing is certified, and what is advised then: each with the case that nearly has it.
 
-use crate::support::{json, program, told};
+use crate::support::{document, json, program, told};
 use serde_json::{Value, json as object};
 
 /// The exit code of `certify` on a plant, and both streams in one line.
@@ -204,4 +204,27 @@ fn two_limits_that_contradict_each_other_are_named_together() {
     let other = "a larger limit of |e| in the transient, or a larger limit of |u| in the transient";
     assert!(text.contains(advice) || text.contains(other), "{text}");
     assert!(text.contains("a larger gain lowers |e| and raises |u|"), "{text}");
+}
+
+/// Where nothing is proved by the number of oscillators the report says why, and where something is it does not.
+#[test]
+fn why_there_are_no_bounds_by_the_number_of_oscillators() {
+    let six_step = object!({
+        "format": "sigmastar/plant", "version": 1, "name": "converter", "period": "1/50", "states": [], "f": [],
+        "q": "-50*e + 300*sin(phase) + 60*sin(5*phase)", "internal_model": internal_model("60", "100*pi"),
+        "initial_set": { "kind": "aligned", "E0": "1" },
+    });
+    let mut delayed = document("plants/motor-axis");
+    delayed["internal_model"]["delay_samples"] = object!(1);
+    let cases: [(&Value, &[&str], &str); 4] = [
+        (&six_step, &[], "no sharper bounds by n_o were found at this gain; a larger one may have some"),
+        (&six_step, &["--sigma", "1"], ""),
+        (&six_step, &["--no-alternatives"], ""),
+        (&delayed, &["--sampling-period", "1/20000"], "with a delay they need a plant that is linear in x and e"),
+    ];
+    for (plant, flags, why) in cases {
+        let (code, text) = certify(plant, flags);
+        assert!(code == 0 && text.contains("sharper bounds by n_o") == !why.is_empty(), "{flags:?}: {text}");
+        assert!(text.contains(why), "{flags:?}: {text}");
+    }
 }

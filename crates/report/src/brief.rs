@@ -86,7 +86,9 @@ pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences
     facts.extend(interval_costs(run.spec, &run.interval_costs, "$`sigma*`$").map(|said| ("intervals", said)));
     // A table stands below where more is known.
     let by_n_o = consequences.filter(|_| run.by_count.is_none());
-    facts.extend(by_n_o.and_then(|all| of_error(run, all)).map(|said| ("steady error", said)));
+    let why = if run.options.compare { why_no_counts(run.spec, false) } else { None };
+    facts
+        .extend(by_n_o.and_then(|all| of_error(run, all)).map(|said| ("steady error", said + why.unwrap_or_default())));
     facts.extend(for_n_o(run, has_targets).map(|said| ("convergence", said)));
     // It grows with the gain, of which the claim says "or any larger".
     let [x, _, zeta, z] = periodic;
@@ -102,6 +104,19 @@ pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences
     let asked: Vec<u32> = run.for_n_o.iter().map(|asked| asked.n_o).collect();
     let known = by_count(run.spec, run.by_count.as_ref(), &asked);
     [Block::facts(facts)].into_iter().chain(known).chain([Block::says(letters(run.spec, set, "$`sigma`$"))]).collect()
+}
+
+/// Why nothing is proved by the number of oscillators of a plant, as the end of a sentence; nothing of bounding functions, and where the base frequency is not
+/// matched, for there is none then.
+fn why_no_counts(spec: &Specification, delayed: bool) -> Option<&'static str> {
+    let plant = spec.plant().filter(|_| spec.internal_model.matched)?;
+    Some(match plant.undivided() {
+        None => "; sharper bounds by $`n_o`$ are not proved of a family whose parameters are cut into cells",
+        _ if delayed => {
+            "; no sharper bounds by $`n_o`$ were found; with a delay they need a plant that is linear in x and e"
+        }
+        Some(_) => "; no sharper bounds by $`n_o`$ were found at this gain; a larger one may have some",
+    })
 }
 
 /// The bounds of the error for the numbers of oscillators that were asked about, or else for a few.
@@ -196,7 +211,9 @@ pub(super) fn of_samples(
     facts.extend(run.found.map(|(_, limit)| ("limited by", format!("{} (an estimate)", limit.describe()))));
     // A table stands below where more is known.
     let by_n_o = consequences.filter(|_| run.by_count.is_none());
-    facts.extend(by_n_o.and_then(|all| few(&all.by_n_o)).map(|said| ("steady error", said)));
+    // Rows of other gains are there where all is compared.
+    let why = if run.gains.is_empty() { None } else { why_no_counts(run.spec, run.sampling.delayed) };
+    facts.extend(by_n_o.and_then(|all| few(&all.by_n_o)).map(|said| ("steady error", said + why.unwrap_or_default())));
     facts.extend(for_n_o_at_samples(run).map(|said| ("convergence", said)));
     let [x, _, zeta, z] = periodic.clone();
     let along = [x, steady, zeta, z];
