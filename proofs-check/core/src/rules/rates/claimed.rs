@@ -3,7 +3,7 @@
 use crate::json::{Field, Fields};
 use crate::noise::{Noise, apart};
 use crate::rules::by_n_o::oscillators::Oscillators;
-use crate::verdict::Outcome;
+use crate::verdict::{Outcome, bad};
 use rug::Rational;
 
 /// The name of the rule.
@@ -35,6 +35,9 @@ impl<'a> Rate<'a> {
         for field in field.elements()? {
             let mut fields = field.fields()?;
             let oscillators = Oscillators::take(&mut fields)?;
+            if oscillators.n_o().is_none() && oscillators.next() == oscillators.largest() + 1 {
+                return bad(&oscillators.place(&field.pointer), "expected `n_o`, for a set without a gap");
+            }
             oscillators.demand_order(rates.iter().map(|before| &before.oscillators), &field.pointer)?;
             let ([rate, factor], texts) = written(&mut fields, ["rate", "factor"])?;
             let noise = fields.part("noise", Limits::read)?;
