@@ -33,7 +33,11 @@ impl Oscillators {
         }
         let field = fields.required(NUMBER)?;
         let n_o = field.whole()?;
-        if n_o > LARGEST { bad(&field.pointer, format!("expected at most {LARGEST}")) } else { Ok(Oscillators::first(n_o)) }
+        if n_o > LARGEST {
+            bad(&field.pointer, format!("expected at most {LARGEST}"))
+        } else {
+            Ok(Oscillators::first(n_o))
+        }
     }
 
     /// Reads a set.
@@ -68,7 +72,11 @@ impl Oscillators {
     }
 
     /// Demands their place in a list behind those `before`: each n_o once, in rising order, and then each set once.
-    pub fn demand_order<'o>(&self, before: impl Iterator<Item = &'o Oscillators> + Clone, pointer: &str) -> Outcome<()> {
+    pub fn demand_order<'o>(
+        &self,
+        before: impl Iterator<Item = &'o Oscillators> + Clone,
+        pointer: &str,
+    ) -> Outcome<()> {
         let wrong = match (before.clone().last().map(Oscillators::n_o), self.n_o()) {
             (Some(None), Some(_)) => Some("expected before the entries with `harmonics`"),
             (Some(Some(least)), Some(n_o)) if least >= n_o => Some("expected each n_o once, in rising order"),

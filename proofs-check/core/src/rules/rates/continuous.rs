@@ -169,11 +169,7 @@ pub fn rate(
 }
 
 /// Proves (N), and gives S and kappa.
-pub fn noise(
-    d: &Data<'_>,
-    (error_box, sigma): (&ErrorBox, &Rational),
-    proof: &OfNoise,
-) -> Outcome<[Interval; 2]> {
+pub fn noise(d: &Data<'_>, (error_box, sigma): (&ErrorBox, &Rational), proof: &OfNoise) -> Outcome<[Interval; 2]> {
     let pointer = proof.proof.stored.pointer.as_str();
     positive("lambda", &proof.lambda, pointer)?;
     let made = Loop::new(d, error_box, sigma, &proof.proof)?;

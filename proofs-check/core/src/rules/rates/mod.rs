@@ -126,7 +126,8 @@ impl Witness {
         let mut noise = noise.map(|field| field.fields()).transpose()?;
         let proof = match kind {
             Kind::Continuous => {
-                let of_noise = noise.as_mut().map(|fields| continuous::OfNoise::read(fields, &oscillators)).transpose()?;
+                let of_noise =
+                    noise.as_mut().map(|fields| continuous::OfNoise::read(fields, &oscillators)).transpose()?;
                 Proof::Continuous(Box::new(continuous::Proof::read(&mut fields, &oscillators)?), of_noise.map(Box::new))
             }
             Kind::Sampled => {

@@ -281,11 +281,7 @@ pub fn rate(
 }
 
 /// Proves (R_h) with noise, and gives S, at all times, and kappa.
-pub fn noise(
-    law: &Law<'_>,
-    (error_box, known): (&ErrorBox, &Known),
-    proof: &OfNoise,
-) -> Outcome<[Interval; 2]> {
+pub fn noise(law: &Law<'_>, (error_box, known): (&ErrorBox, &Known), proof: &OfNoise) -> Outcome<[Interval; 2]> {
     let (d, pointer) = (law.d, proof.proof.stored.pointer.as_str());
     let oscillators = &proof.proof.stored.oscillators;
     let made = Loop::new(law, error_box, &proof.proof)?;

@@ -128,12 +128,7 @@ pub struct Proof {
 
 impl Proof {
     /// Takes it out of a part for these oscillators, of a plant with so many states; `corner`: whether the claim rests on a path with a corner.
-    pub fn read(
-        fields: &mut Fields<'_>,
-        oscillators: &Oscillators,
-        states: usize,
-        corner: bool,
-    ) -> Outcome<Proof> {
+    pub fn read(fields: &mut Fields<'_>, oscillators: &Oscillators, states: usize, corner: bool) -> Outcome<Proof> {
         if let Some(norms) = ["w", "l"].into_iter().find_map(|name| fields.optional(name)) {
             let own = "this one rests on a matrix inequality, and has `slopes`";
             return bad(&norms.pointer, format!("it is of a claim by norms: {own}"));

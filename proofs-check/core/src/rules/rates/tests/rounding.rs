@@ -9,7 +9,7 @@ use crate::rules::derivation::Derivation;
 use crate::rules::rates::noise::{Known, of_doubles};
 use crate::rules::rates::norm::power;
 use crate::rules::rates::rounding::{Rounding, errors, ranges};
-use crate::rules::rates::{Proof, Witness};
+use crate::rules::rates::{Proof, Witness, reach};
 use crate::rules::sampled::law::{Law, Terms};
 use crate::rules::stability::ErrorBox;
 use rug::Float;
@@ -31,7 +31,8 @@ fn each(name: &str, use_it: impl Fn(&Law<'_>, &Derivation, (&ErrorBox, &Known), 
     let sizes = |d: &Data<'_>| sizes(d, part(&json, "claim").json);
     with_stored(name, |d, (derivation, _), error_box, witness: &Witness| {
         let Proof::Sampled(_, Some(proof)) = &witness.proof else { panic!("{name}") };
-        let known = Known::new(d, (&derivation.free, &sizes(d)), &error_box.e_b, true);
+        let (free, sizes) = (&derivation.free, sizes(d));
+        let known = Known::new(d, free, (reach(d, free, &sizes, None), &sizes.zeta), (&error_box.e_b, true));
         let law = Law::new(d, derivation.law().unwrap());
         use_it(&law, derivation, (error_box, &known), (proof.rounding.as_ref().unwrap(), &witness.oscillators));
     });
@@ -55,15 +56,15 @@ fn gamma(count: u32) -> f64 {
 #[test]
 fn the_bounds_are_those_of_the_counts() {
     for name in STORED {
-        each(name, |law, _, (error_box, known), (rounding, at)| {
-            let n_o = at.count() as u32 - 1;
+        each(name, |law, _, (error_box, known), (rounding, oscillators)| {
+            let p = oscillators.count() as u32 - 1;
             let [gain, sigma, kept, n_bar, nominal] = numbers(law, name);
             let z_b = double(&known.zeta) + rounding.numbers[2].to_f64();
             let [off, e_b] = [&known.off, &error_box.e_b].map(double);
             let [w_b, m_b] = [z_b + n_bar * off, e_b + off];
-            let du_b = gamma(n_o + 11) * (gain * n_bar * w_b + sigma * m_b);
+            let du_b = gamma(p + 11) * (gain * n_bar * w_b + sigma * m_b);
             let dz_b = 2_f64.sqrt() * gamma(5) * w_b + gamma(3) * kept * m_b * n_bar;
-            let [of_u, of_z] = rounding.errors(law, known, at).unwrap();
+            let [of_u, of_z] = rounding.errors(law, known, oscillators).unwrap();
             close(&of_u, du_b, name);
             close(&of_z, dz_b, name);
             // Apart, at numbers that make each term count.
@@ -72,8 +73,8 @@ fn the_bounds_are_those_of_the_counts() {
                 let [w, m] = at.map(|value| d.int(value));
                 let tiny = 2_f64.powi(-1000) * (1.0 + gain) * (1.0 + sigma) * (1.0 + n_bar * n_bar) * (1.0 + nominal);
                 let [w_b, m_b] = [double(&w), double(&m)];
-                let [of_u, of_z] = errors(law, at, [&w, &m]);
-                close(&of_u, gamma(n_o + 11) * (gain * n_bar * w_b + sigma * m_b) + tiny, name);
+                let [of_u, of_z] = errors(law, oscillators, [&w, &m]);
+                close(&of_u, gamma(p + 11) * (gain * n_bar * w_b + sigma * m_b) + tiny, name);
                 close(&of_z, 2_f64.sqrt() * gamma(5) * w_b + gamma(3) * kept * m_b * n_bar + tiny, name);
             }
         });
@@ -111,11 +112,11 @@ fn what_is_measured_is_the_nearest_double() {
 /// Nothing overflows, and the constants are normal: each condition alone.
 #[test]
 fn each_range_is_demanded() {
-    each("arithmetic/input-gain", |law, derivation, _, (_, at)| {
+    each("arithmetic/input-gain", |law, derivation, _, (_, oscillators)| {
         let d = law.d;
         let failing = |law: &Law<'_>, at: [i32; 3]| {
             let [z, w, m] = at.map(|exponent| power(d, exponent));
-            let conditions = ranges(law, at, [&z, &w, &m]);
+            let conditions = ranges(law, oscillators, [&z, &w, &m]);
             let open = conditions.iter().filter(|one| one.truth() != Some(true));
             open.map(|one| one.what.clone()).collect::<Vec<_>>()
         };
