@@ -120,7 +120,9 @@ pub fn run(args: &CertifyArgs) -> Result<u8, Failure> {
             &Unwatched
         }
     };
-    let run = decided(&prepared, (args.options(), &counts), ["--n-o", "--harmonics"], watch, &|next| stages.begin(Step::After(next)))?;
+    let run = decided(&prepared, (args.options(), &counts), ["--n-o", "--harmonics"], watch, &|next| {
+        stages.begin(Step::After(next))
+    })?;
     let origin = match (&witness, &args.output) {
         (Some(_), _) => Origin::Witness,
         (None, Some(_)) => Origin::Written,

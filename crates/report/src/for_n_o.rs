@@ -82,10 +82,7 @@ fn noise_section(run: &Certification<'_>) -> Vec<Block> {
 const LESS: f64 = 0.99;
 
 /// At which other gain of the table noise and a disturbance are bounded, where they are not at this one, and where the bound is least.
-fn at_other_gains(
-    asked: &[Asked<'_>],
-    (own, rows): (Option<&Rational>, &[RowNoise]),
-) -> Vec<Block> {
+fn at_other_gains(asked: &[Asked<'_>], (own, rows): (Option<&Rational>, &[RowNoise])) -> Vec<Block> {
     let mut blocks = Vec::new();
     for (oscillators, noise) in asked {
         let is_other = |row: &&RowNoise| row.oscillators == **oscillators && Some(&row.sigma) != own;

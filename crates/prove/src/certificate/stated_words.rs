@@ -69,7 +69,11 @@ fn stated_rates(certificate: &Document) -> Result<Vec<StatedRate>, SpecErrors> {
                 numbers
             });
             let oscillators = read_oscillators(fields, errors);
-            Ok(StatedRate { oscillators: oscillators?, numbers: two(fields, ["rate", "factor"], errors)?, noise: noise.transpose()? })
+            Ok(StatedRate {
+                oscillators: oscillators?,
+                numbers: two(fields, ["rate", "factor"], errors)?,
+                noise: noise.transpose()?,
+            })
         };
         rates.map_or_else(|| Ok(Vec::new()), |rates| each(&rates, errors, one))
     })

@@ -188,7 +188,12 @@ impl ByCount {
 
     /// dX, dE and dZ of a set with these oscillators, from the sizes of its periodic solution as the certificate has them; none where it says
     /// nothing of them.
-    pub(super) fn distances(&self, data: &Data<'_>, set: &ClaimedSet, oscillators: &Oscillators) -> Option<[Enclosure; 3]> {
+    pub(super) fn distances(
+        &self,
+        data: &Data<'_>,
+        set: &ClaimedSet,
+        oscillators: &Oscillators,
+    ) -> Option<[Enclosure; 3]> {
         let bounds = self.with(oscillators).filter(|_| self.checked)?;
         let LoopSizes { states, zeta, .. } = &bounds.sizes;
         let [states, zeta] = [states, zeta].map(|size| above(size, self.room_of_sizes()));

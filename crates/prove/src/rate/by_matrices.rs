@@ -149,7 +149,9 @@ fn bound(
         .filter_map(|kind| kind.propose(tube, &few, &of).map(|(rate, balls)| (rate, balls, &*kind)))
         .collect();
     proposed.sort_by(|a, b| b.0.total_cmp(&a.0));
-    proposed.iter().find_map(|(_, balls, kind)| with_slopes(data, &tube.start, (&of, oscillators), kind.prove(tube, balls)?))
+    proposed
+        .iter()
+        .find_map(|(_, balls, kind)| with_slopes(data, &tube.start, (&of, oscillators), kind.prove(tube, balls)?))
 }
 
 /// The best bound that follows from what is proved of D.

@@ -37,7 +37,9 @@ impl<'r> From<&'r RateBound<ByForm>> for RateForm<'r> {
 }
 
 impl<'r> From<&'r RateBound<SampledRateWitness>> for RateForm<'r> {
-    fn from(RateBound { oscillators, proof, e_low, upper: [_, z_up], .. }: &'r RateBound<SampledRateWitness>) -> RateForm<'r> {
+    fn from(
+        RateBound { oscillators, proof, e_low, upper: [_, z_up], .. }: &'r RateBound<SampledRateWitness>,
+    ) -> RateForm<'r> {
         RateForm { oscillators, pi: &proof.pi, e_low, z_up }
     }
 }

@@ -3,8 +3,8 @@
 use super::{Ask, Checked, Prepared, RestsOn, Run, Start, Subject, Watch};
 use crate::certify::{Limits, Options};
 use rug::Rational;
-use sigmastar_lang::spec::{Oscillators, SpecErrors};
 use sigmastar_exact::number::{Direction, round_f64};
+use sigmastar_lang::spec::{Oscillators, SpecErrors};
 
 /// The gains that are tried in turn, over the smallest one; and, where that is far smaller, over the rate that is asked for: e itself is to
 /// decay as fast.
