@@ -102,7 +102,7 @@ fn run(subject: &Subject, options: &CertifyOptions, (watch, begin): Told<'_>) ->
     let prepared = Prepared::seeking(&asked.read, gain, (&limits, &counts), options, watch)
         .map_err(|all| Error::documents(&all))?
         .with_sets(sets);
-    let run = decided(&prepared, (options, &counts), "`n_o`", watch, begin)?;
+    let run = decided(&prepared, (options, &counts), ["`n_o`", "`harmonics`"], watch, begin)?;
     Certificate::new(&run, &asked, false).ok_or_else(|| not_certified(&run))
 }
 
@@ -124,7 +124,7 @@ pub fn not_told_apart(sets: &[Oscillators], read: &Read, option: &str) -> Option
 /// What follows a claim that was decided.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Afterwards {
-    /// Rates for given numbers of oscillators.
+    /// Rates for given oscillators.
     Rates,
     /// The certificate with these rates, by the independent checker.
     Checked,
@@ -139,27 +139,41 @@ impl fmt::Display for Afterwards {
     }
 }
 
-/// The claim of what is prepared, decided and decided again by the independent checker, with rates for these numbers of oscillators, whose
-/// argument is called `n_o`. Nothing is claimed that the checker does not decide as well.
+/// The claim of what is prepared, decided and decided again by the independent checker, with rates for these numbers of oscillators and for its sets of
+/// harmonics, the arguments of which are called so. Nothing is claimed that the checker does not decide as well.
 ///
 /// # Errors
-/// What the data are refused for, and a claim that has no rates for these numbers.
+/// What the data are refused for, and a claim that has no rates for these numbers and sets. Of a law with a delay no rates are proved for sets: it has their
+/// bounds alone.
 pub fn decided<'p>(
     prepared: &'p Prepared,
     (options, counts): (Options, &[u32]),
-    n_o: &str,
+    [n_o, harmonics]: [&str; 2],
     watch: &dyn Watch,
     begin: &dyn Fn(Afterwards),
 ) -> Result<Run<'p>, Error> {
     let run = prepared.certify_checked(options, &checked, watch);
     let mut run = run.map_err(|all| Error::documents(&all))?;
     begin(Afterwards::Rates);
-    run.prove_rates(counts).map_err(|reason| Error::no_rates(reason, n_o))?;
-    if !counts.is_empty() {
+    let delayed = matches!(&run, Run::Sampled(run) if run.sampling.delayed);
+    let sets = if delayed { &[][..] } else { prepared.sets() };
+    let asked: Vec<Oscillators> = first(counts).chain(sets.iter().cloned()).collect();
+    let option = match (counts, sets) {
+        (_, []) => n_o.to_owned(),
+        ([], _) => harmonics.to_owned(),
+        _ => format!("{n_o} and {harmonics}"),
+    };
+    run.prove_rates(&asked).map_err(|reason| Error::no_rates(reason, &option))?;
+    if !asked.is_empty() {
         begin(Afterwards::Checked);
         run.answered(checked_within(1, &run));
     }
     Ok(run)
+}
+
+/// Oscillators at the first harmonics, for each of these numbers of them.
+fn first(counts: &[u32]) -> impl Iterator<Item = Oscillators> + '_ {
+    counts.iter().copied().map(Oscillators::first)
 }
 
 /// The claim of what is prepared, decided and decided again by the independent checker, with rates for these numbers of oscillators where the claim has
@@ -176,7 +190,7 @@ pub(super) fn with_rates<'p>(prepared: &'p Prepared, (options, counts): (Options
     if run.certified().is_none() {
         return Ok(run);
     }
-    let has_rates = run.prove_rates(counts).is_ok();
+    let has_rates = run.prove_rates(&first(counts).collect::<Vec<_>>()).is_ok();
     if has_rates && checked_within(1, &run) == Checked::Decided {
         return Ok(run);
     }

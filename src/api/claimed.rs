@@ -7,11 +7,11 @@ use sigmastar_exact::number::parse_rational;
 
 /// That with so many oscillators every solution from the initial set has `|e - e_per| <= factor exp(-rate (t - t_0))`, at samples at the sampling instants,
 /// in the loop without noise. Each number is rounded to the safe side.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct ClaimedRate {
-    /// The number of oscillators.
-    pub n_o: u32,
+    /// The harmonics of the oscillators, 0 among them.
+    pub harmonics: Vec<u32>,
     /// In 1/time.
     pub rate: f64,
     /// In the unit of e.
@@ -39,12 +39,33 @@ pub struct ClaimedBounds {
     pub largest: Option<[f64; 2]>,
 }
 
+impl ClaimedRate {
+    /// The number of oscillators, where they are at the first harmonics.
+    #[must_use]
+    pub fn n_o(&self) -> Option<u32> {
+        number(&self.harmonics)
+    }
+}
+
 impl ClaimedBounds {
     /// The number of oscillators, where they are at the first harmonics.
     #[must_use]
     pub fn n_o(&self) -> Option<u32> {
-        let last = u32::try_from(self.harmonics.len()).ok()?.checked_sub(1)?;
-        (self.harmonics.last() == Some(&last)).then_some(last)
+        number(&self.harmonics)
+    }
+}
+
+/// n_o, where these are the first harmonics.
+fn number(harmonics: &[u32]) -> Option<u32> {
+    let last = u32::try_from(harmonics.len()).ok()?.checked_sub(1)?;
+    (harmonics.last() == Some(&last)).then_some(last)
+}
+
+/// The harmonics of the oscillators that an entry is about.
+fn harmonics(part: &Value) -> Option<Vec<u32>> {
+    match part.get("harmonics") {
+        Some(all) => all.as_array()?.iter().map(whole).collect(),
+        None => Some((0..=whole(&part["n_o"])?).collect()),
     }
 }
 
@@ -53,8 +74,8 @@ pub(super) fn rates(claim: &Value) -> Vec<ClaimedRate> {
     let one = |part: &Value| {
         let noise = part.get("noise");
         Some(ClaimedRate {
-            n_o: whole(&part["n_o"])?,
-            rate: rounded_down(&number(&part["rate"])?),
+            harmonics: harmonics(part)?,
+            rate: rounded_down(&exact(&part["rate"])?),
             factor: up(&part["factor"])?,
             noise: noise.and_then(|noise| Some([up(&noise["limit"])?, up(&noise["peak"])?])),
         })
@@ -65,14 +86,10 @@ pub(super) fn rates(claim: &Value) -> Vec<ClaimedRate> {
 /// The bounds of the claim of a certificate.
 pub(super) fn bounds(claim: &Value) -> Vec<ClaimedBounds> {
     let one = |part: &Value| {
-        let harmonics = match part.get("harmonics") {
-            Some(all) => all.as_array()?.iter().map(whole).collect::<Option<_>>()?,
-            None => (0..=whole(&part["n_o"])?).collect(),
-        };
         let steady = &part["steady"];
         let largest = part.get("largest");
         Some(ClaimedBounds {
-            harmonics,
+            harmonics: harmonics(part)?,
             or_more: part["or_more"] == true,
             steady_error: up(&steady["e"])?,
             steady_rms: up(&steady["e_rms"])?,
@@ -87,12 +104,12 @@ fn whole(value: &Value) -> Option<u32> {
     u32::try_from(value.as_u64()?).ok()
 }
 
-fn number(value: &Value) -> Option<Rational> {
+fn exact(value: &Value) -> Option<Rational> {
     parse_rational(value.as_str()?)
 }
 
 fn up(value: &Value) -> Option<f64> {
-    Some(rounded_up(&number(value)?))
+    Some(rounded_up(&exact(value)?))
 }
 
 #[cfg(test)]
@@ -106,6 +123,7 @@ mod tests {
             "for_n_o": [
                 { "n_o": 0, "rate": "1/3", "factor": "1/3" },
                 { "n_o": 2, "rate": "0.5", "factor": "2", "noise": { "limit": "1/3", "peak": "3" } },
+                { "harmonics": [0, 5], "rate": "1", "factor": "2" },
             ],
             "by_n_o": [
                 { "n_o": 0, "steady": { "e": "1/3", "e_rms": "0.25", "u": "7" }, "largest": { "e": "1", "u": "9" } },
@@ -114,10 +132,11 @@ mod tests {
             ],
         });
         let third = 1.0 / 3.0_f64;
-        let [first, second] = rates(&claim).try_into().unwrap();
+        let [first, second, of_set] = rates(&claim).try_into().unwrap();
         // The double nearest to 1/3 is below it.
-        assert_eq!((first.n_o, first.rate, first.factor, first.noise), (0, third, third.next_up(), None));
-        assert_eq!((second.n_o, second.noise), (2, Some([third.next_up(), 3.0])));
+        assert_eq!((first.n_o(), first.rate, first.factor, first.noise), (Some(0), third, third.next_up(), None));
+        assert_eq!((of_set.n_o(), of_set.harmonics, of_set.rate), (None, vec![0, 5], 1.0));
+        assert_eq!((second.n_o(), second.noise), (Some(2), Some([third.next_up(), 3.0])));
         let [first, second, third_set] = bounds(&claim).try_into().unwrap();
         assert_eq!((first.n_o(), first.or_more, first.largest), (Some(0), false, Some([1.0, 9.0])));
         assert_eq!([first.steady_error, first.steady_rms, first.steady_control], [third.next_up(), 0.25, 7.0]);

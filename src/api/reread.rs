@@ -7,7 +7,7 @@ use super::json_text;
 use super::subject::Subject;
 use sigmastar_lang::spec::{self, Document};
 use sigmastar_prove::certificate::{embedded, is_stated, read_for, stated_by_count, stated_counts};
-use sigmastar_prove::certify::{Options, rate_counts};
+use sigmastar_prove::certify::Options;
 use sigmastar_prove::reduction::{self as prove, Prepared, Run};
 
 /// Reads a stored certificate and decides it again from its witness: nothing is searched for. `name` is what errors call it.
@@ -62,6 +62,6 @@ pub(super) fn decided_again<T>(
     if let (Some(counts), prove::Subject::Plant(plant)) = (stated_by_count(document), &subject.read) {
         run.set_counts(plant, &counts);
     }
-    run.prove_rates(&rate_counts(&stated_counts(document)).map_err(no_rates)?).map_err(no_rates)?;
+    run.prove_rates(&stated_counts(document)).map_err(no_rates)?;
     then(&run, &subject, !of_another && is_stated(&run, document))
 }

@@ -120,7 +120,9 @@ pub fn run(args: &CertifyArgs) -> Result<u8, Failure> {
             &Unwatched
         }
     };
-    let run = decided(&prepared, (args.options(), &counts), "--n-o", watch, &|next| stages.begin(Step::After(next)))?;
+    let run = decided(&prepared, (args.options(), &counts), ["--n-o", "--harmonics"], watch, &|next| {
+        stages.begin(Step::After(next))
+    })?;
     let origin = match (&witness, &args.output) {
         (Some(_), _) => Origin::Witness,
         (None, Some(_)) => Origin::Written,
@@ -232,7 +234,8 @@ fn steps(args: &CertifyArgs, subject: &Subject) -> Vec<Step> {
         (Subject::Specification(spec), _) if spec.lyapunov.triple().is_none() => vec![Stage::Triple],
         (Subject::Specification(_), _) => Vec::new(),
     };
-    let after = [Afterwards::Rates, Afterwards::Checked].map(Step::After).into_iter().filter(|_| args.n_o.is_some());
+    let has_rates = args.n_o.is_some() || !args.harmonics.is_empty();
+    let after = [Afterwards::Rates, Afterwards::Checked].map(Step::After).into_iter().filter(|_| has_rates);
     let figures = (args.format == Format::Html || args.plots.is_some()).then_some(Step::Figures);
     let claim = if args.witness.is_some() { Step::Decision } else { Step::Of(Stage::Witness) };
     data.into_iter().map(Step::Of).chain([claim]).chain(after).chain(figures).collect()

@@ -8,9 +8,8 @@ use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{
     Constant, Document, Errors, InternalModel, Oscillators, SampledGain, Sampling, any_constant,
 };
-use sigmastar_prove::certificate::{claim_in_words, read_for, read_numbers};
+use sigmastar_prove::certificate::{claim_in_words, read_for, read_numbers, stated_with_noise};
 use sigmastar_prove::certify::FarStart;
-use sigmastar_prove::rate::bound::MAX_COUNTS;
 use sigmastar_prove::reduction::{FreeNumbers, Subject, WitnessData};
 use sigmastar_regulator::export::{Provenance, Scope};
 
@@ -23,8 +22,8 @@ pub struct Given {
     with_actuator: bool,
     /// Whether it is about every set of harmonics.
     every_set: bool,
-    /// The numbers of oscillators of which it says something that counts rounding.
-    rounding: Vec<u64>,
+    /// The oscillators of which it says something that counts rounding.
+    rounding: Vec<Oscillators>,
     /// The digests that it states, of a specification and of a plant.
     made_for: [Option<String>; 2],
     /// All of it.
@@ -48,11 +47,7 @@ impl Given {
         let in_doubles = ["/specification/arithmetic", "/plant/arithmetic"]
             .into_iter()
             .any(|pointer| text(pointer).as_deref() == Some("double"));
-        let stated = |i: usize| {
-            document.at(&format!("/claim/for_n_o/{i}/noise")).and(document.at(&format!("/claim/for_n_o/{i}/n_o")))
-        };
-        let counts = (0..MAX_COUNTS).filter(|_| in_doubles).filter_map(stated);
-        let rounding = counts.filter_map(|n_o| n_o.integer(&mut Errors::new()).ok()).collect();
+        let rounding = if in_doubles { stated_with_noise(document) } else { Vec::new() };
         Ok(Given { sigma_star, sampled, with_actuator, every_set, rounding, made_for, document: document.clone() })
     }
 
@@ -150,7 +145,7 @@ impl Given {
             sigma_star: write_exact(&self.sigma_star),
             one_gain: self.sampled.is_some() || self.with_actuator,
             statement: claim_in_words(&self.document)?,
-            rounding: regulator.oscillators.n_o().filter(|n_o| self.rounding.contains(&u64::from(*n_o))),
+            rounding: self.rounding.iter().find(|stated| *stated == regulator.oscillators).cloned(),
             scope: match self.covers_samples(regulator) {
                 Some(true) | None if !self.every_set && regulator.oscillators.n_o().is_none() => {
                     Scope::OtherHarmonics { at_samples: self.sampled.is_some() }

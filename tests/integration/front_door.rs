@@ -389,7 +389,9 @@ fn rates_and_bounds_are_those_of_the_certificate() {
     let sets: Vec<&[u32]> = claim.bounds().iter().rev().take(2).map(|bounds| &bounds.harmonics[..]).collect();
     assert_eq!(sets, [&[0, 2][..], &[0, 1, 3]]);
     let rates = written["claim"]["for_n_o"].as_array().unwrap();
-    assert_eq!(claim.rates().iter().map(|rate| rate.n_o).collect::<Vec<_>>(), [0, 3]);
+    let of_rates: Vec<&[u32]> = claim.rates().iter().map(|rate| &rate.harmonics[..]).collect();
+    assert_eq!(of_rates, [&[0][..], &[0, 1, 2, 3], &[0, 1, 3], &[0, 2]]);
+    assert_eq!(claim.rates().iter().map(|rate| rate.n_o()).collect::<Vec<_>>(), [Some(0), Some(3), None, None]);
     for (rate, entry) in claim.rates().iter().zip(rates) {
         assert!(rate.rate <= number(&entry["rate"]) && rate.factor >= number(&entry["factor"]) && rate.rate > 0.0);
     }

@@ -4,7 +4,7 @@ use crate::support::{Shipped, answer, certified, json, number, options, program,
 use faer::Mat;
 use rug::Rational;
 use serde_json::Value;
-use sigmastar_lang::spec::{Document, Notation};
+use sigmastar_lang::spec::{Document, Notation, Oscillators};
 use sigmastar_prove::certificate::certificate_json;
 use sigmastar_prove::certify::{Wanted, certify_for};
 use sigmastar_prove::rate::found::RateForCount;
@@ -65,12 +65,13 @@ fn rates_are_near_those_of_the_loops() {
         let mut run =
             certify_for(spec, options(), Wanted { gain: Some(&gain), ..Wanted::default() }).expect("not refuted");
         assert_eq!(run.sigma_star(), Some(&gain), "{name}");
-        run.prove_rates(&COUNTS).expect("by norms");
+        run.prove_rates(&COUNTS.map(Oscillators::first)).expect("by norms");
         let proof = run.sharp.proved().expect("certified");
         let data = Data::new(spec, 128);
         let periodic = [&proof.evaluation.periodic.x_per, &proof.evaluation.periodic.e_per];
         let there = ErrorBox::new(&data, proof.witness.paths, periodic, [&data.zero(), &data.zero()]);
-        for RateForCount { n_o, bound, .. } in &run.for_n_o {
+        for RateForCount { oscillators, bound, .. } in &run.for_n_o {
+            let n_o = &oscillators.largest();
             let bound = bound.as_ref().unwrap_or_else(|| panic!("{name} {n_o}: no rate"));
             let share = bound.rate.to_f64() / slowest(&data, &there, gain.to_f64(), *n_o);
             assert!(share <= 1.0 + 1e-9, "{name} {n_o}: {share}");

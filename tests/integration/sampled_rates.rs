@@ -8,7 +8,7 @@ use rug::Rational;
 use serde_json::Value;
 use sigmastar_decide::conditions::Ladder;
 use sigmastar_exact::enclosure::Enclosure;
-use sigmastar_lang::spec::Specification;
+use sigmastar_lang::spec::{Oscillators, Specification};
 use sigmastar_prove::certify::{SampledCertification, certify_sampled};
 use sigmastar_regulator::{Design, Stepper};
 use sigmastar_theory::data::Data;
@@ -152,13 +152,13 @@ fn rates_at_samples_are_near_those_of_the_loops() {
             println!("{name}: no claim at samples");
             continue;
         };
-        run.prove_rates(&COUNTS).expect("by norms");
+        run.prove_rates(&COUNTS.map(Oscillators::first)).expect("by norms");
         let proof = run.claim().expect("certified");
         let data = Data::new(spec, 128);
         let periodic = [&proof.evaluation.size.x_per, &proof.evaluation.size.e_per];
         let there = ErrorBox::new(&data, proof.witness.paths, periodic, [&data.zero(), &data.zero()]);
         for found in &run.for_n_o {
-            let n_o = found.n_o;
+            let n_o = found.oscillators.largest();
             let true_rate = slowest(&data, &there, &run, n_o);
             let Some(bound) = found.bound.as_ref() else {
                 println!("{name} {n_o}: no rate ({true_rate})");
@@ -320,7 +320,7 @@ fn bounds_under_noise_hold_in_the_loops() {
         let sampling = spec.internal_model.sampling.clone().expect("sampled");
         let gain = Rational::from(25);
         let mut run = certify_sampled(&spec, &sampling, Some(&gain), None, Ladder::default()).expect("not refuted");
-        run.prove_rates(&[0, 1, 4, 10]).expect("by norms");
+        run.prove_rates(&[0, 1, 4, 10].map(Oscillators::first)).expect("by norms");
         let proof = run.claim().expect("certified");
         let data = Data::new(&spec, 128);
         let periodic = [&proof.evaluation.size.x_per, &proof.evaluation.size.e_per];
@@ -328,19 +328,33 @@ fn bounds_under_noise_hold_in_the_loops() {
         let sizes = [noise, disturbance].map(|size| size.map_or(0.0, |size| size.parse::<f64>().expect("a number")));
         for found in &run.for_n_o {
             let bound = found.noise.as_ref().expect("asked for");
-            let worst = farthest(members(&data, &there, &run, found.n_o), sizes, 60_000 / (found.n_o as usize + 1));
+            let worst = farthest(
+                members(&data, &there, &run, found.oscillators.largest()),
+                sizes,
+                60_000 / (found.oscillators.largest() as usize + 1),
+            );
             let bound = match bound {
                 Ok(bound) => bound,
-                Err(reason) => panic!("{sizes:?} n_o = {}: {} ({worst})", found.n_o, reason.message()),
+                Err(reason) => {
+                    panic!("{sizes:?} n_o = {}: {} ({worst})", found.oscillators.largest(), reason.message())
+                }
             };
             let [limit, peak] = [&bound.limit, &bound.peak].map(Rational::to_f64);
             println!(
                 "{sizes:?} n_o = {}: limit {limit} peak {peak}, worst {worst}, ratio {}",
-                found.n_o,
+                found.oscillators.largest(),
                 limit / worst
             );
-            assert!(limit >= worst && peak > limit, "{sizes:?} {}: {limit} {peak} {worst}", found.n_o);
-            assert!(found.n_o > 1 || limit < 10.0 * worst, "{sizes:?} {}: {limit} {worst}", found.n_o);
+            assert!(
+                limit >= worst && peak > limit,
+                "{sizes:?} {}: {limit} {peak} {worst}",
+                found.oscillators.largest()
+            );
+            assert!(
+                found.oscillators.largest() > 1 || limit < 10.0 * worst,
+                "{sizes:?} {}: {limit} {worst}",
+                found.oscillators.largest()
+            );
         }
     }
 }

@@ -101,7 +101,7 @@ pub(super) fn of_run(run: &Certification<'_>, consequences: Option<&Consequences
     let transient = (upper(&error_box[0]), &peak);
     facts.push(("periodic solution", periodic_solution(run.spec, &periodic, transient, control)));
     facts.push(("assumed", assumed(run.spec, run.largest_arguments(), None)));
-    let asked: Vec<u32> = run.for_n_o.iter().map(|asked| asked.n_o).collect();
+    let asked: Vec<u32> = run.rates().map(|(n_o, _)| n_o).collect();
     let known = by_count(run.spec, run.by_count.as_ref(), &asked);
     [Block::facts(facts)].into_iter().chain(known).chain([Block::says(letters(run.spec, set, "$`sigma`$"))]).collect()
 }
@@ -121,12 +121,12 @@ fn why_no_counts(spec: &Specification, delayed: bool) -> Option<&'static str> {
 
 /// The bounds of the error for the numbers of oscillators that were asked about, or else for a few.
 fn of_error(run: &Certification<'_>, all: &Consequences) -> Option<String> {
-    let asked = run.for_n_o.iter().map(|asked| u64::from(asked.n_o));
+    let asked = run.rates().map(|(n_o, _)| u64::from(n_o));
     let asked: Vec<(u64, ErrorBounds)> = asked.filter_map(|n_o| Some((n_o, run.error_with(n_o)?))).collect();
     if asked.is_empty() { few(&all.by_n_o) } else { error(asked.iter()) }
 }
 
-/// How fast the error decays for the numbers of oscillators that were asked about; without any, how to ask, where nothing else was `asked`.
+/// How fast the error decays for the oscillators that were asked about; without any, how to ask, where nothing else was `asked`.
 fn for_n_o(run: &Certification<'_>, asked: bool) -> Option<String> {
     let all = rates(run.spec, &run.for_n_o, &run.why_no_rate());
     if all.is_empty() {
@@ -136,15 +136,16 @@ fn for_n_o(run: &Certification<'_>, asked: bool) -> Option<String> {
     Some(format!("bounds of $`|e - e_per|`$, at this gain alone: {}", all.join("; ")))
 }
 
-/// A clause for each number of oscillators.
+/// A clause for each n_o or set.
 fn rates<P, Q>(spec: &Specification, found: &[ForCount<P, Q>], why_not: &str) -> Vec<String> {
-    let one = |ForCount { n_o, bound, noise }: &ForCount<P, Q>| match bound {
-        None => format!("not proved with $`n_o = {n_o}`$ ({why_not})"),
+    let one = |ForCount { oscillators, bound, noise }: &ForCount<P, Q>| match bound {
+        None => format!("not proved with {} ({why_not})", words::with(oscillators)),
         Some(RateBound { rate, factor, .. }) => {
             let bounds = |noise: &NoiseBound<Q>| [noise.peak.clone(), noise.limit.clone()];
             let disturbed = disturbed(spec, noise.as_ref().map(|noise| noise.as_ref().map(bounds)));
             let [factor, rate] = [exact(factor, Direction::Up), exact(rate, Direction::Down)];
-            format!("$`{factor} exp(-{rate} (t - t_0))`$ with $`n_o = {n_o}`${disturbed}")
+            let with = words::with(oscillators);
+            format!("$`{factor} exp(-{rate} (t - t_0))`$ with {with}{disturbed}")
         }
     };
     found.iter().map(one).collect()
@@ -238,7 +239,7 @@ pub(super) fn of_samples(
         }
     };
     facts.push(("assumed", format!("{}; {of_the_computer}{beside}", assumed(run.spec, run.largest_arguments(), None))));
-    let asked: Vec<u32> = run.for_n_o.iter().map(|asked| asked.n_o).collect();
+    let asked: Vec<u32> = run.rates().map(|(n_o, _)| n_o).collect();
     let known = by_count(run.spec, run.by_count.as_ref(), &asked);
     [Block::facts(facts)]
         .into_iter()

@@ -1,10 +1,11 @@
 //! Bounds for each number of oscillators.
 
+use super::words;
 use serde_json::{Value, json};
 use sigmastar_document::number::{full, upper};
 use sigmastar_document::{Block, Table};
 use sigmastar_exact::enclosure::Enclosure;
-use sigmastar_lang::spec::{Oscillators, Specification};
+use sigmastar_lang::spec::Specification;
 use sigmastar_prove::certify::{ByCount, CountBounds, Largest};
 
 /// The numbers of oscillators of which the report has a row, with those that are asked about, and the last one, from which on nothing changes.
@@ -22,7 +23,7 @@ pub(super) fn section(spec: &Specification, found: Option<&ByCount>, asked: &[u3
         let name = match oscillators.n_o() {
             Some(n_o) if *or_more => format!("{n_o} or more"),
             Some(n_o) => n_o.to_string(),
-            None => format!("at {}", list(oscillators)),
+            None => words::row_of(oscillators),
         };
         let shown = |value: Option<&Enclosure>| value.map_or_else(|| "not proved".to_owned(), upper);
         let largest_error = shown(largest.as_ref().map(|largest| &largest.error));
@@ -45,11 +46,6 @@ pub(super) fn section(spec: &Specification, found: Option<&ByCount>, asked: &[u3
          from the initial set. {who}"
     );
     vec![Block::says(says), Block::Table(table)]
-}
-
-/// `0, 1, 5`.
-fn list(oscillators: &Oscillators) -> String {
-    oscillators.all().map(|k| k.to_string()).collect::<Vec<String>>().join(", ")
 }
 
 /// All of them as JSON, and `null` where there are none.

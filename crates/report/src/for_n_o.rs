@@ -1,4 +1,4 @@
-//! What a claim says besides for given numbers of oscillators: how fast the error decays.
+//! What a claim says besides for given oscillators, the first n_o or those of a set of harmonics: how fast the error decays.
 
 use super::words;
 use rug::Rational;
@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use sigmastar_document::number::{estimate, exact};
 use sigmastar_document::{Block, Table, plain};
 use sigmastar_exact::number::{Direction, write_exact};
-use sigmastar_lang::spec::Specification;
+use sigmastar_lang::spec::{Oscillators, Specification};
 use sigmastar_propose::rates::Limit;
 use sigmastar_prove::certify::{Certification, RowNoise, SampledCertification};
 use sigmastar_prove::rate::bound::RateBound;
@@ -51,10 +51,10 @@ fn undisturbed(any: bool) -> &'static str {
 
 /// The rates, one a line.
 fn rates<P, Q>(found: &[ForCount<P, Q>]) -> Table {
-    let row = |ForCount { n_o, bound, .. }: &ForCount<P, Q>| match bound {
-        None => [n_o.to_string(), "not proved".to_owned(), String::new(), String::new()],
+    let row = |ForCount { oscillators, bound, .. }: &ForCount<P, Q>| match bound {
+        None => [words::row_of(oscillators), "not proved".to_owned(), String::new(), String::new()],
         Some(RateBound { rate, factor, limit, .. }) => {
-            [n_o.to_string(), exact(rate, Direction::Down), exact(factor, Direction::Up), limited_by(*limit)]
+            [words::row_of(oscillators), exact(rate, Direction::Down), exact(factor, Direction::Up), limited_by(*limit)]
         }
     };
     Table::of(&["$`n_o`$", "rate in 1/time", "factor in the unit of $`e`$", "<limited by"], found.iter().map(row))
@@ -82,13 +82,11 @@ fn noise_section(run: &Certification<'_>) -> Vec<Block> {
 const LESS: f64 = 0.99;
 
 /// At which other gain of the table noise and a disturbance are bounded, where they are not at this one, and where the bound is least.
-fn at_other_gains(
-    asked: &[(u32, Result<Shown, NoNoiseBound>)],
-    (own, rows): (Option<&Rational>, &[RowNoise]),
-) -> Vec<Block> {
+fn at_other_gains(asked: &[Asked<'_>], (own, rows): (Option<&Rational>, &[RowNoise])) -> Vec<Block> {
     let mut blocks = Vec::new();
-    for (n_o, noise) in asked {
-        let there: Vec<&RowNoise> = rows.iter().filter(|row| row.n_o == *n_o && Some(&row.sigma) != own).collect();
+    for (oscillators, noise) in asked {
+        let is_other = |row: &&RowNoise| row.oscillators == **oscillators && Some(&row.sigma) != own;
+        let there: Vec<&RowNoise> = rows.iter().filter(is_other).collect();
         let [first, least] = [there.first(), there.iter().min_by(|a, b| a.limit.cmp(&b.limit))];
         let (Some(first), Some(least)) = (first, least) else { continue };
         let at =
@@ -102,7 +100,8 @@ fn at_other_gains(
             parts.push(format!("the smallest limit that is proved is {}", at(least)));
         }
         if !parts.is_empty() {
-            blocks.push(Block::says(format!("$`n_o = {n_o}`$: {}.", parts.join("; "))));
+            let of = capitalised(&words::with(oscillators));
+            blocks.push(Block::says(format!("{of}: {}.", parts.join("; "))));
         }
     }
     blocks
@@ -116,15 +115,18 @@ fn under_signals(spec: &Specification) -> String {
 /// The arithmetic of the law at samples.
 const IN_DOUBLES: &str = "with the rounding of the exported C code, which computes in double precision";
 
-/// What is shown of each number for which there may be one; `decay` of what proves it.
-fn asked<P, Q>(found: &[ForCount<P, Q>], decay: impl Fn(&Q) -> &Rational) -> Vec<(u32, Result<Shown, NoNoiseBound>)> {
+/// What is shown of bounds under noise with some oscillators, or why there are none.
+type Asked<'f> = (&'f Oscillators, Result<Shown, NoNoiseBound>);
+
+/// What is shown of all oscillators for which there may be one; `decay` of what proves it.
+fn asked<P, Q>(found: &[ForCount<P, Q>], decay: impl Fn(&Q) -> &Rational) -> Vec<Asked<'_>> {
     let of = |NoiseBound { proof, limit, peak, .. }: &NoiseBound<Q>| Shown {
         limit: limit.clone(),
         peak: peak.clone(),
         decay: decay(proof).clone(),
     };
-    let one = |found: &ForCount<P, Q>| Some((found.n_o, found.noise.as_ref()?.as_ref().map(of).map_err(|why| *why)));
-    found.iter().filter_map(one).collect()
+    let noise = |found: &ForCount<P, Q>| Some(found.noise.as_ref()?.as_ref().map(of).map_err(|why| *why));
+    found.iter().filter_map(|found| Some((&found.oscillators, noise(found)?))).collect()
 }
 
 /// What is shown of such a bound.
@@ -149,27 +151,27 @@ struct Said {
 }
 
 /// The section on noise and a disturbance.
-fn disturbed(spec: &Specification, asked: Vec<(u32, Result<Shown, NoNoiseBound>)>, said: &Said) -> Vec<Block> {
+fn disturbed(spec: &Specification, asked: Vec<Asked<'_>>, said: &Said) -> Vec<Block> {
     if asked.is_empty() {
         return Vec::new();
     }
     let Said { title, words, without, decay, falls, at_samples } = said;
     let mut table = Table::new(&["n_o", "in the limit", "at all times", decay]);
-    let mut reasons: Vec<(NoNoiseBound, Vec<String>)> = Vec::new();
-    for (n_o, noise) in asked {
+    let mut reasons: Vec<(NoNoiseBound, Vec<&Oscillators>)> = Vec::new();
+    for (oscillators, noise) in asked {
         table.push(match noise {
             Ok(Shown { limit, peak, decay }) => [
-                n_o.to_string(),
+                words::row_of(oscillators),
                 exact(&limit, Direction::Up),
                 exact(&peak, Direction::Up),
                 exact(&decay, Direction::Nearest),
             ],
             Err(reason) => {
                 match reasons.iter_mut().find(|(told, _)| *told == reason) {
-                    Some((_, counts)) => counts.push(n_o.to_string()),
-                    None => reasons.push((reason, vec![n_o.to_string()])),
+                    Some((_, of)) => of.push(oscillators),
+                    None => reasons.push((reason, vec![oscillators])),
                 }
-                [n_o.to_string(), "not proved".to_owned(), String::new(), String::new()]
+                [words::row_of(oscillators), "not proved".to_owned(), String::new(), String::new()]
             }
         });
     }
@@ -192,9 +194,23 @@ fn disturbed(spec: &Specification, asked: Vec<(u32, Result<Shown, NoNoiseBound>)
     blocks.extend(
         reasons
             .into_iter()
-            .map(|(reason, counts)| Block::says(format!("$`n_o = {}`$: {}.", counts.join(", "), reason.message()))),
+            .map(|(reason, of)| Block::says(format!("{}: {}.", capitalised(&all_of(&of)), reason.message()))),
     );
     blocks
+}
+
+/// With a capital letter, where it begins with one that has some.
+fn capitalised(words: &str) -> String {
+    let mut letters = words.chars();
+    letters.next().into_iter().flat_map(char::to_uppercase).chain(letters).collect()
+}
+
+/// `$n_o = 0, 4$`, then each set in words.
+fn all_of(oscillators: &[&Oscillators]) -> String {
+    let numbers: Vec<String> = oscillators.iter().filter_map(|one| one.n_o()).map(|n_o| n_o.to_string()).collect();
+    let numbers = (!numbers.is_empty()).then(|| format!("$`n_o = {}`$", numbers.join(", ")));
+    let sets = oscillators.iter().filter(|one| one.n_o().is_none()).map(|one| words::with(one));
+    numbers.into_iter().chain(sets).collect::<Vec<_>>().join("; ")
 }
 
 fn limited_by(limit: Limit) -> String {
@@ -215,13 +231,18 @@ pub(super) fn rates_json<P, Q>(found: &[ForCount<P, Q>], why_not: &str) -> Optio
     (!found.is_empty()).then(|| found.iter().map(|found| one_json(found, why_not)).collect())
 }
 
-fn one_json<P, Q>(ForCount { n_o, bound, noise }: &ForCount<P, Q>, why_not: &str) -> Value {
-    let mut value = match bound {
-        None => json!({ "n_o": n_o, "rate": null, "factor": null, "limited_by": format!("not proved: {why_not}") }),
-        Some(RateBound { rate, factor, limit, .. }) => json!({
-            "n_o": n_o, "rate": write_exact(rate), "factor": write_exact(factor), "limited_by": plain(&limited_by(*limit)),
-        }),
+fn one_json<P, Q>(ForCount { oscillators, bound, noise }: &ForCount<P, Q>, why_not: &str) -> Value {
+    let mut value = match oscillators.n_o() {
+        Some(n_o) => json!({ "n_o": n_o }),
+        None => json!({ "harmonics": oscillators.all().collect::<Vec<u32>>() }),
     };
+    let [rate, factor, limited_by] = match bound {
+        None => [Value::Null, Value::Null, format!("not proved: {why_not}").into()],
+        Some(RateBound { rate, factor, limit, .. }) => {
+            [write_exact(rate), write_exact(factor), plain(&limited_by(*limit))].map(Value::String)
+        }
+    };
+    (value["rate"], value["factor"], value["limited_by"]) = (rate, factor, limited_by);
     match noise {
         None => {}
         Some(Ok(NoiseBound { limit, peak, .. })) => {

@@ -53,7 +53,7 @@ pub(super) fn section(run: &Certification<'_>) -> Vec<Block> {
     blocks.push(Block::says(format!(
         "Solutions from the initial set stay in the error box around the periodic solution. {NORMS} The gain and the sets are the same for every \
          $`n_o`$. The rate of convergence depends on $`n_o`$ and {}. $`sigma`$ is in 1/time.",
-        match run.rates().any(|(_, rate)| rate.is_some()) {
+        match run.for_n_o.iter().any(|found| found.bound.is_some()) {
             true => "is part of the claim only for the numbers that were asked for",
             false => "is not part of the claim",
         }

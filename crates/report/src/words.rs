@@ -7,10 +7,21 @@ use sigmastar_document::number::{estimate, exact};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, write_exact};
 use sigmastar_lang::expr::quoted;
-use sigmastar_lang::spec::{Actuator, Constant, InputGain, Specification, StartSizes};
+use sigmastar_lang::spec::{Actuator, Constant, InputGain, Oscillators, Specification, StartSizes};
 use sigmastar_prove::certificate::members;
 use sigmastar_prove::certify::claimed_ball;
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
+
+/// The oscillators that something is said of: their number, or the harmonics of a set.
+pub(super) fn with(oscillators: &Oscillators) -> String {
+    oscillators.n_o().map_or_else(|| oscillators.to_string(), |n_o| format!("$`n_o = {n_o}`$"))
+}
+
+/// The same in a column of numbers of oscillators.
+pub(super) fn row_of(oscillators: &Oscillators) -> String {
+    let all = || oscillators.all().map(|k| k.to_string()).collect::<Vec<String>>().join(", ");
+    oscillators.n_o().map_or_else(|| format!("at {}", all()), |n_o| n_o.to_string())
+}
 
 /// Of which oscillators a claim is, by the `n_o` that it covers: of every number of them, or of every one of these `sets` (derivation, 14.7).
 pub(super) fn oscillators(n_o: &str, sets: Option<&str>) -> String {

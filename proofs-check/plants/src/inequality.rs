@@ -74,16 +74,16 @@ fn in_continuous_time(model: &mut Model, part: &Inequality, spec: &Specification
 
 /// (D) of the rates of a claim by a matrix inequality or by joint metrics (section 13.6): that `Q - G D - D'G' - D'H D` is positive semidefinite,
 /// `D = [J, g; r, d]` the derivatives of (f, q) in (x, e), or its columns `[J; r]` or `[g; d]`, each where the inequality of the claim has them, in the
-/// coordinates of the claim. One for each part of each n_o whose Q, G and H are not those of one before.
+/// coordinates of the claim. One for each part of each n_o or set whose Q, G and H are not those of one before.
 fn of_rates(model: &mut Model, asked: Asked<'_>) -> Vec<Said> {
     let mut all: Vec<Said> = Vec::new();
-    for (place, (n_o, slopes)) in asked.slopes().enumerate() {
+    for (place, (oscillators, slopes)) in asked.slopes().enumerate() {
         if asked.slopes().take(place).any(|(_, before)| before.are(slopes)) {
             continue;
         }
         let question = of_slopes(model, slopes);
         let [_, name] = slopes.columns.words();
-        let what = format!("{name}, Q - G D - D'G' - D'H D >= 0 for n_o = {n_o}");
+        let what = format!("{name}, Q - G D - D'G' - D'H D >= 0 for {}", oscillators.about());
         all.push(Said::new(RULE, &slopes.pointer, what, asked.region(slopes.columns), question));
     }
     all

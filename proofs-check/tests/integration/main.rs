@@ -59,6 +59,7 @@ mod plant_rules;
 mod plant_support;
 mod rates;
 mod rates_by_n_o;
+mod rates_of_sets;
 mod sampled_certificates;
 mod sampled_claims;
 mod sampled_delay;

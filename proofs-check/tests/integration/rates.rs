@@ -37,9 +37,15 @@ pub fn rates_in_words(certificate: &Value) -> String {
         noise.push("computed in double precision as exported".to_owned());
     }
     let sentence = |entry: &Value| {
-        let n_o = &entry["n_o"];
+        let about = match entry["harmonics"].as_array() {
+            None => format!("n_o = {}", entry["n_o"]),
+            Some(all) => {
+                let all: Vec<String> = all.iter().map(Value::to_string).collect();
+                format!("oscillators at the harmonics {}", all.join(", "))
+            }
+        };
         let rate = format!(
-            " With n_o = {n_o} and sigma = {sigma} exactly, |e(t) - e_per(t)| <= {} exp(-{} (t - t_0)){instants} for these solutions, where e_per is the e of the periodic solution and t_0 the initial time.",
+            " With {about} and sigma = {sigma} exactly, |e(t) - e_per(t)| <= {} exp(-{} (t - t_0)){instants} for these solutions, where e_per is the e of the periodic solution and t_0 the initial time.",
             text(&entry["factor"]),
             text(&entry["rate"])
         );
@@ -48,7 +54,7 @@ pub fn rates_in_words(certificate: &Value) -> String {
             return rate;
         }
         format!(
-            "{rate} With n_o = {n_o} and sigma = {sigma} exactly, {}: |e(t) - e_per(t)| <= {} for these starts{starts} and all t >= t_0, \
+            "{rate} With {about} and sigma = {sigma} exactly, {}: |e(t) - e_per(t)| <= {} for these starts{starts} and all t >= t_0, \
              and its limit superior is at most {}.",
             noise.join(", "),
             text(&limits["peak"]),

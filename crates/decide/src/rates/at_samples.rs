@@ -1,4 +1,4 @@
-//! A decay from sample to sample for a given n_o, from any quadratic function that serves in the error box: (R_h) of derivation,
+//! A decay from sample to sample for given oscillators, from any quadratic function that serves in the error box: (R_h) of derivation,
 //! section 13.6.
 //!
 //! C4 and C5h keep the solution in the error box of the certificate (derivation, 12.3). With the bounds of
@@ -31,7 +31,7 @@ use sigmastar_exact::enclosure::{Enclosure, Truth};
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::sampled::{SampleBounds, SampleNumbers, SampledLaw};
 
-/// The error system of one n_o at samples.
+/// The error system of some oscillators at samples.
 pub struct SampledDynamics<'a> {
     /// The internal model.
     pub oscillators: &'a OscillatorMatrix,
@@ -45,7 +45,7 @@ pub struct SampledDynamics<'a> {
     pub sample: SampleBounds<Enclosure>,
     /// Whether there is a disturbance, which moves e within a sample, too: rounding alone does not.
     disturbed: bool,
-    /// cos(l w h) and sin(l w h) for l = 0, ..., n_o.
+    /// cos(l w h) and sin(l w h) for each of their harmonics l, 0 the first.
     pub turns: Vec<[Enclosure; 2]>,
 }
 
@@ -65,7 +65,7 @@ pub struct OfX<R> {
 /// The numbers of a proof.
 #[derive(Clone, Debug)]
 pub struct SampledRateWitness {
-    /// The lower triangle of Pi on (e, zs), row by row; of order 2 n_o + 2.
+    /// The lower triangle of Pi on (e, zs), row by row; of order 2 p + 2, with p oscillators beside the integrator.
     pub pi: Vec<Vec<Rational>>,
     /// c: W is divided by 1 + c in a sample.
     pub c: Rational,
@@ -108,11 +108,7 @@ impl<'a> SampledDynamics<'a> {
             slopes: bounds.slopes.each_ref().map(number),
         });
         let unit = &law.pi * 2 / Enclosure::from_integer(i64::from(law.samples), data.precision);
-        let turn = |l: usize| {
-            let angle = &unit * (l as i64);
-            angle.cos_sin()
-        };
-        let turns = (0..=oscillators.order() / 2).map(turn).collect();
+        let turns = oscillators.harmonics.iter().map(|l| (&unit * i64::from(*l)).cos_sin()).collect();
         let ordered = sample.slope[0].le(&sample.slope[1]) == Truth::True;
         (sample.within.is_positive() == Truth::True && ordered).then_some(SampledDynamics {
             oscillators,
@@ -357,7 +353,7 @@ impl SampledDynamics<'_> {
         match column {
             0 => vec![(0, self.decay())],
             1 => vec![(1, Enclosure::one(self.law.step.precision()))],
-            // R = [[cos, sin], [-sin, cos]] on the states 2l and 2l + 1 of (e, zs).
+            // R = [[cos, sin], [-sin, cos]] on the two states of an oscillator in (e, zs).
             first if first % 2 == 0 => {
                 let [cos, sin] = &self.turns[first / 2];
                 vec![(first, cos.clone()), (first + 1, sin.negate())]

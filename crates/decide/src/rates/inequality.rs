@@ -1,8 +1,8 @@
-//! A decay rate of the closed loop for a given n_o, from any quadratic Lyapunov function that serves in the error box: (R) of
+//! A decay rate of the closed loop for given oscillators, from any quadratic Lyapunov function that serves in the error box: (R) of
 //! derivation, section 13.6.
 //!
 //! C4 and C5 keep the solution in the error box of the certificate (derivation, section 5). There the following holds whatever
-//! Lyapunov function proved it, so that a rate may come from another one, made for one n_o and one gain. With
+//! Lyapunov function proved it, so that a rate may come from another one, made for some oscillators and one gain. With
 //! `zs = N^(1/2) zt`, `b = N^(1/2) M`, `y = (et, zs)`, xi^2 = xt'P_x xt, and delta in [-k_l, m] from dq/de,
 //!
 //!   `y' = (A + delta B e') y + B u_x`,  `A = [[-sigma, mu b'], [0, Phi - mu b b']]`,  `B = (1, -b)`,  `e = (1, 0)`,
@@ -75,7 +75,7 @@ impl LoopBounds {
     }
 }
 
-/// The error system of one n_o at one gain.
+/// The error system of some oscillators at one gain.
 pub struct ErrorDynamics<'a> {
     /// The internal model.
     pub oscillators: &'a OscillatorMatrix,
@@ -94,7 +94,7 @@ pub struct RateWitness {
     pub rate: Rational,
     /// w; of no account where xi is left out.
     pub w: Rational,
-    /// The lower triangle of Pi on (et, zs), row by row; of order 2 n_o + 2.
+    /// The lower triangle of Pi on (et, zs), row by row; of order 2 p + 2, with p oscillators beside the integrator.
     pub pi: Vec<Vec<Rational>>,
     /// l; of no account where u_x is left out.
     pub l: Rational,

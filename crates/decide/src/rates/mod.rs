@@ -1,4 +1,4 @@
-//! What proves a rate of convergence for a given number of oscillators (derivation, 13.6).
+//! What proves a rate of convergence for given oscillators, the first n_o or those of a set of harmonics (derivation, 13.6).
 //!
 //! - [`oscillators`]: `Phi - mu M M'N`, enclosed;
 //! - [`inequality`]: the matrix inequality that proves a rate of the closed loop, for any quadratic Lyapunov function;

@@ -161,10 +161,8 @@ impl TriedClaim {
 
     /// The numbers of oscillators of its trials: those of the bounds under noise, where there are any.
     pub(super) fn tried_n_o(&self, otherwise: &[u32]) -> Vec<u32> {
-        match self.noise[..] {
-            [] => otherwise.to_vec(),
-            _ => self.noise.iter().map(|stated| stated.n_o).collect(),
-        }
+        let stated: Vec<u32> = self.noise.iter().filter_map(|stated| stated.oscillators.n_o()).collect();
+        if stated.is_empty() { otherwise.to_vec() } else { stated }
     }
 
     /// The gain of a trial over that of the claim: with an actuator the claim is about its gain alone.

@@ -37,7 +37,7 @@ pub(super) fn check(
     periodic: &[f64],
     checks: &mut Checks,
 ) {
-    let Some(stated) = claim.noise.iter().find(|stated| trial.oscillators.n_o() == Some(stated.n_o)) else { return };
+    let Some(stated) = claim.noise.iter().find(|stated| trial.oscillators == stated.oscillators) else { return };
     let mut closed_loop = closed_loop.clone();
     closed_loop.regulator.sigma = claim.sigma;
     let Some(steps) = enough_steps(&closed_loop, 0.0, [periodic, &trial.start]) else { return };
@@ -55,7 +55,7 @@ pub(super) fn check(
         start[closed_loop.states() + 1..].iter_mut().zip(m).for_each(|(z, m)| *z = m * (e + v));
     }
     for ((quantity, bound), start) in DISTURBED.into_iter().zip([stated.limit, stated.peak]).zip([periodic, &start]) {
-        let random = Random::new(trial.number, u64::from(stated.n_o));
+        let random = Random::new(trial.number, u64::from(stated.oscillators.largest()));
         let found = largest(&closed_loop, steps, [periodic, start], (inputs, [d, v]), random);
         checks.at_most(quantity, found, bound);
     }

@@ -5,7 +5,7 @@ use rug::Rational;
 use sigmastar_decide::rates::OscillatorMatrix;
 use sigmastar_decide::rates::inequality::*;
 use sigmastar_exact::enclosure::Enclosure;
-use sigmastar_lang::spec::Specification;
+use sigmastar_lang::spec::{Oscillators, Specification};
 use sigmastar_matrix::AffineMatrix;
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::paths::Paths;
@@ -69,18 +69,25 @@ fn numbers(seed: u64) -> impl FnMut() -> f64 {
     }
 }
 
+/// The first few numbers of oscillators, and sets with gaps.
+fn sets() -> impl Iterator<Item = Oscillators> {
+    let with_gaps = [&[0, 2][..], &[0, 2, 5]].map(|set| Oscillators::at(set).expect("a set"));
+    (0..4).map(Oscillators::first).chain(with_gaps)
+}
+
 /// v'M v against the derivative of W along the differential equations of derivation section 1 with a gain b, written out with zeta itself.
 #[test]
 fn the_matrix_is_that_of_the_quadratic_form() {
     let spec = example();
     let data = Data::new(&spec, 128);
     let (bounds, sigma) = (bounds(), sigma());
-    for n_o in 0..4_u32 {
-        let oscillators = OscillatorMatrix::new(&data, n_o);
+    for set in sets() {
+        let oscillators = OscillatorMatrix::new(&data, &set);
         let ends = [0.75, 1.5].map(|b| data.rational(&double(b)));
         let dynamics = ErrorDynamics { input_gain: Some(ends), ..of(&oscillators, &bounds, sigma.clone()) };
-        let n = 2 * n_o as usize + 2;
-        let mut next = numbers(u64::from(n_o) + 1);
+        let harmonics: Vec<usize> = set.all().map(|l| l as usize).collect();
+        let n = 2 * harmonics.len();
+        let mut next = numbers(harmonics.len() as u64);
         let witness = RateWitness {
             rate: double(next()),
             w: double(next()),
@@ -102,12 +109,12 @@ fn the_matrix_is_that_of_the_quadratic_form() {
             let (mu, w) = (1.0, 2.0 * std::f64::consts::PI);
             let weight = |l: usize| if l == 0 { 2.0 } else { (l as f64).powf(-1.5) };
             // zeta = N^(-1/2) zs, state by state; M'N z has the first state of every oscillator, z = zeta + M e.
-            let oscillator = |state: usize| state.div_ceil(2);
+            let oscillator = |state: usize| harmonics[state.div_ceil(2)];
             let first = |state: usize| state == 0 || state % 2 == 1;
             let zeta: Vec<f64> = (0..n - 1).map(|i| y[i + 1] / weight(oscillator(i)).sqrt()).collect();
             let s: f64 = (0..n - 1).filter(|i| first(*i)).map(|i| weight(oscillator(i)) * zeta[i]).sum();
             // u = -sigma (e + v) + mu M'N(z - M (e + v)), z' = Phi z + Gamma (e + v), e' = q + d + b u, Gamma = -(Phi + sigma) M.
-            let total: f64 = (0..=n_o as usize).map(weight).sum();
+            let total: f64 = harmonics.iter().map(|l| weight(*l)).sum();
             let u = -48.0 * (y[0] + noise) + mu * (s - total * noise);
             let e_rate = delta * y[0] + u_x + disturbance + b * u;
             let mut derivative = vec![e_rate];
@@ -134,7 +141,7 @@ fn the_matrix_is_that_of_the_quadratic_form() {
             let weights = witness.inputs.each_ref().map(|weight| weight.as_ref().expect("given").to_f64());
             let inputs = weights[0] * disturbance * disturbance + weights[1] * noise * noise;
             let expected = -change - 2.0 * rate * energy + sector + inputs;
-            assert!((value - expected).abs() <= 1e-9 * (1.0 + expected.abs()), "{n_o} {b}: {value} {expected}");
+            assert!((value - expected).abs() <= 1e-9 * (1.0 + expected.abs()), "{set} {b}: {value} {expected}");
         }
     }
 }
@@ -146,7 +153,7 @@ fn a_proof_stops_at_the_largest_rate() {
     let data = Data::new(&spec, 128);
     let (bounds, sigma) = (bounds(), sigma());
     for n_o in [0, 1, 2, 5, 20] {
-        let oscillators = OscillatorMatrix::new(&data, n_o);
+        let oscillators = OscillatorMatrix::new(&data, &Oscillators::first(n_o));
         let dynamics = of(&oscillators, &bounds, sigma.clone());
         let (witness, largest) = proposed(&dynamics, 0.9999);
         assert!(dynamics.proves(&witness), "{n_o}");
@@ -167,7 +174,7 @@ fn a_semidefinite_program_finds_the_same_largest_rate() {
     let data = Data::new(&spec, 128);
     let (bounds, sigma) = (bounds(), sigma());
     for n_o in [0, 1, 2] {
-        let oscillators = OscillatorMatrix::new(&data, n_o);
+        let oscillators = OscillatorMatrix::new(&data, &Oscillators::first(n_o));
         let dynamics = of(&oscillators, &bounds, sigma.clone());
         let (found, largest) = proposed(&dynamics, 0.99);
         let n = found.pi.len();
@@ -227,7 +234,7 @@ fn changed_numbers_prove_nothing() {
     let spec = example();
     let data = Data::new(&spec, 128);
     let (plain, sigma) = (bounds(), sigma());
-    let oscillators = OscillatorMatrix::new(&data, 2);
+    let oscillators = OscillatorMatrix::new(&data, &Oscillators::first(2));
     let dynamics = of(&oscillators, &plain, sigma.clone());
     let (witness, _) = proposed(&dynamics, 0.9999);
     assert!(dynamics.proves(&witness));
@@ -265,7 +272,7 @@ fn changed_numbers_prove_nothing() {
     assert!(!under(&|b| b.root_p_up *= &more) && under(&|b| b.root_p_up /= &more));
     assert!(!under(&|b| b.x_decay /= &more) && under(&|b| b.x_decay *= &more));
     assert!(!of(&oscillators, &plain, rational(46, 1)).proves(&witness));
-    let other = OscillatorMatrix::new(&data, 3);
+    let other = OscillatorMatrix::new(&data, &Oscillators::first(3));
     assert!(!of(&other, &plain, sigma.clone()).proves(&witness));
     let ends = [rational(98, 100), rational(102, 100)].map(|b| data.rational(&b));
     assert!(!ErrorDynamics { input_gain: Some(ends), ..dynamics }.proves(&witness));
@@ -289,7 +296,7 @@ fn no_admissible_linear_plant_is_slower() {
         let number = |k: i32| rational(k, 1);
         let bounds = LoopBounds { k_x: number(k_x), k_f: number(k_f), slopes: slopes.map(number), ..bounds() };
         for n_o in [0, 1, 2, 5] {
-            let oscillators = OscillatorMatrix::new(&data, n_o);
+            let oscillators = OscillatorMatrix::new(&data, &Oscillators::first(n_o));
             let ends = gain.map(|b| data.rational(&double(b)));
             let input_gain = (gain[0] < gain[1]).then_some(ends);
             let dynamics = ErrorDynamics { input_gain, ..of(&oscillators, &bounds, number(sigma)) };
@@ -337,7 +344,7 @@ fn few_digits_are_enough() {
     let data = Data::new(&spec, 128);
     let bounds = bounds();
     for n_o in [0, 4, 20] {
-        let oscillators = OscillatorMatrix::new(&data, n_o);
+        let oscillators = OscillatorMatrix::new(&data, &Oscillators::first(n_o));
         let dynamics = of(&oscillators, &bounds, sigma());
         let (proposal, _) = proposal(&dynamics, 0.95);
         let digits =
@@ -353,7 +360,7 @@ fn few_digits_are_enough() {
 fn signals_that_vanish_are_left_out() {
     let spec = example();
     let data = Data::new(&spec, 128);
-    let oscillators = OscillatorMatrix::new(&data, 1);
+    let oscillators = OscillatorMatrix::new(&data, &Oscillators::first(1));
     let none = Rational::new;
     for present in 0..4 {
         let [k_x, k_f] = [(0, 3), (1, 1)].map(|(bit, k)| if present >> bit & 1 == 1 { rational(k, 1) } else { none() });
@@ -393,7 +400,7 @@ fn a_plant_without_x_is_recognised() {
 fn a_w_that_is_not_definite_proves_nothing() {
     let spec = example();
     let data = Data::new(&spec, 128);
-    let oscillators = OscillatorMatrix::new(&data, 0);
+    let oscillators = OscillatorMatrix::new(&data, &Oscillators::first(0));
     let none = Rational::new;
     let without = LoopBounds { has_x: false, k_x: none(), k_f: none(), ..bounds() };
     let dynamics = of(&oscillators, &without, sigma());

@@ -24,7 +24,7 @@ pub enum Limit {
     Middle(f64),
 }
 
-/// The scalar condition of one n_o at one gain, under which some numbers prove a rate.
+/// The scalar condition of some oscillators at one gain, under which some numbers prove a rate.
 pub trait Condition {
     /// What a proof has beside Pi.
     type Numbers: Numbers;

@@ -59,7 +59,7 @@ struct States {
     c_y: f64,
 }
 
-/// The scalar condition of one n_o at one gain.
+/// The scalar condition of some oscillators at one gain.
 pub struct SampledCondition {
     step: f64,
     sigma: f64,

@@ -33,7 +33,7 @@ const PARTS: f64 = 3.0;
 /// p of an input gain.
 const SHARES: [f64; 11] = [0.01, 0.03, 0.1, 0.2, 0.4, 0.7, 1.0, 2.0, 5.0, 15.0, 50.0];
 
-/// The scalar condition of one n_o at one gain: the loop in doubles, with dq/de and the input gain in the middle.
+/// The scalar condition of some oscillators at one gain: the loop in doubles, with dq/de and the input gain in the middle.
 pub struct SmallGain {
     /// A_c.
     pub(super) matrix: Mat<f64>,
@@ -50,9 +50,8 @@ pub struct SmallGain {
     gain: f64,
     /// What comes from e to the input.
     slope: f64,
-    frequency: f64,
-    /// n_0, n_1, ..., n_(n_o).
-    weights: Vec<f64>,
+    /// l w and n_l for each of the harmonics l, 0 the first.
+    oscillators: Vec<[f64; 2]>,
     /// Those eigenvalues of A_c with Im >= 0.
     eigenvalues: Vec<c64>,
     has_x: bool,
@@ -91,6 +90,8 @@ impl SmallGain {
         let values = matrix.eigenvalues().ok()?;
         // |b|^2 on the first state of each oscillator; the second has 0.
         let first = b.iter().enumerate().filter(|(i, _)| *i == 0 || i % 2 == 1);
+        let frequency = oscillators.frequency.midpoint_f64();
+        let turns = oscillators.harmonics.iter().map(|l| f64::from(*l) * frequency);
         let moved = std::iter::once(-sigma).chain(b.iter().map(|b| mu * b));
         Some(SmallGain {
             moved: if half_gain > 0.0 { moved.collect() } else { Vec::new() },
@@ -102,8 +103,7 @@ impl SmallGain {
             mu,
             gain,
             slope,
-            frequency: oscillators.frequency.midpoint_f64(),
-            weights: first.map(|(_, b)| b.portable_powi(2)).collect(),
+            oscillators: turns.zip(first).map(|(turn, (_, b))| [turn, b.portable_powi(2)]).collect(),
             eigenvalues: values.into_iter().filter(|value| value.im >= 0.0).collect(),
             has_x: bounds.has_x,
             x_decay: bounds.x_decay.to_f64(),
@@ -116,7 +116,7 @@ impl SmallGain {
     /// B_v of [`sigmastar_decide::rates::inequality`] in the middle, and sigma + mu b'b.
     pub(super) fn noise(&self, oscillators: &OscillatorMatrix) -> (Vec<f64>, f64) {
         // Those of the model are -b.
-        let total = self.sigma + self.mu * self.weights.iter().sum::<f64>();
+        let total = self.sigma + self.mu * self.oscillators.iter().map(|[_, weight]| weight).sum::<f64>();
         let mut noise: Vec<f64> = self.input.iter().map(|input| -self.gain * total * input).collect();
         for (column, input) in self.input.iter().skip(1).enumerate() {
             noise[column + 1] += self.sigma * input;
@@ -131,8 +131,8 @@ impl SmallGain {
     fn responses(&self, rate: f64, omega: f64) -> [c64; 2] {
         let s = c64::new(-rate, omega);
         let mut sum = c64::new(0.0, 0.0);
-        for (l, weight) in self.weights.iter().enumerate() {
-            let pole = c64::new(0.0, l as f64 * self.frequency);
+        for [turn, weight] in &self.oscillators {
+            let pole = c64::new(0.0, *turn);
             // n_0/s, and for l > 0 the partial fractions of n_l s/(s^2 + l^2 w^2).
             let pair = c64::new(0.5 * weight, 0.0) / (s - pole) + c64::new(0.5 * weight, 0.0) / (s + pole);
             sum += pair;

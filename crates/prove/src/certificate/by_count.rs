@@ -11,10 +11,18 @@ use sigmastar_decide::trial::{OrMore, Trial, TubeProof, XFirst};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::write_exact;
 use sigmastar_lang::plant::CurveTerm;
-use sigmastar_lang::spec::{Level, Metric, Specification};
+use sigmastar_lang::spec::{Level, Metric, Oscillators, Specification};
 
 /// The name of both parts.
 pub(super) const BY_N_O: &str = "by_n_o";
+
+/// In which field of an entry its oscillators stand, and how.
+pub(super) fn place_of(oscillators: &Oscillators) -> (&'static str, Value) {
+    match oscillators.n_o() {
+        Some(n_o) => ("n_o", n_o.into()),
+        None => (HARMONICS, oscillators.all().collect::<Vec<u32>>().into()),
+    }
+}
 
 /// The part of the claim; none where nothing is claimed.
 pub(super) fn claimed_counts(found: Option<&ByCount>) -> Option<(&'static str, Value)> {
@@ -25,10 +33,7 @@ pub(super) fn claimed_counts(found: Option<&ByCount>) -> Option<(&'static str, V
         let numbers = |numbers: &[(&'static str, &Enclosure)]| {
             object(numbers.iter().map(|(name, value)| (*name, with_room(value, room))))
         };
-        let mut part = match oscillators.n_o() {
-            Some(n_o) => json!({ "n_o": n_o }),
-            None => json!({ HARMONICS: oscillators.all().collect::<Vec<u32>>() }),
-        };
+        let mut part = object([place_of(oscillators)]);
         if *or_more {
             part["or_more"] = true.into();
         }

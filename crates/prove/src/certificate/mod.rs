@@ -23,7 +23,7 @@ pub use of_plant::{joint_existence_json, joint_stability_json, plant_parts};
 pub use read::{embedded, read_lyapunov, read_witness};
 pub use read_plant::read_plant_witness;
 pub use read_sampled::{is_sampled, read_sampled_witness};
-pub use run::{certificate_of, is_stated, read_for, read_numbers, stated_by_count, stated_counts};
+pub use run::{certificate_of, is_stated, read_for, read_numbers, stated_by_count, stated_counts, stated_with_noise};
 pub use sampled::sampled_certificate_json;
 pub use stated::{StatedBounds, StatedClaim, StatedNoise, read_claim};
 pub use stated_words::claim_in_words;

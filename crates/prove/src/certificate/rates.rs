@@ -1,6 +1,7 @@
-//! Rates for given numbers of oscillators in a certificate: what is claimed, and what proves it (derivation, 13.6).
+//! Rates for given oscillators in a certificate: what is claimed, and what proves it (derivation, 13.6).
 
-use super::json::rows;
+use super::by_count::place_of;
+use super::json::{exact, object, rows};
 use crate::rate::bound::{ByForm, ByMatrices, RateBound};
 use crate::rate::found::{ForCount, RateForCount, SampledRateForCount};
 use crate::rate::noise::{NoiseBound, NoiseByForm};
@@ -16,10 +17,11 @@ use sigmastar_theory::evidence::{Part, Slopes};
 /// The name of both parts.
 const FOR_N_O: &str = "for_n_o";
 
-/// The part of the claim: n_o, rate and factor, and bounds under noise; none where no rate is proved.
+/// The part of the claim: n_o or the harmonics, rate and factor, and bounds under noise; none where no rate is proved.
 pub(super) fn claimed_rates<P, Q>(found: &[ForCount<P, Q>]) -> Option<(&'static str, Value)> {
-    part(found, |RateBound { n_o, rate, factor, .. }, noise| {
-        let mut value = json!({ "n_o": n_o, "rate": write_exact(rate), "factor": write_exact(factor) });
+    part(found, |RateBound { oscillators, rate, factor, .. }, noise| {
+        let numbers = [("rate", rate), ("factor", factor)].map(|(name, number)| (name, exact(number)));
+        let mut value = object([place_of(oscillators)].into_iter().chain(numbers));
         if let Some(NoiseBound { limit, peak, .. }) = noise {
             value["noise"] = json!({ "limit": write_exact(limit), "peak": write_exact(peak) });
         }
@@ -29,13 +31,11 @@ pub(super) fn claimed_rates<P, Q>(found: &[ForCount<P, Q>]) -> Option<(&'static 
 
 /// The part of the witness: w and l where x counts, Pi by the rows of its lower triangle, and its bounds; by matrices Q, G and H; the same for noise.
 pub(super) fn rate_witnesses(found: &[RateForCount]) -> Option<(&'static str, Value)> {
-    part(found, |RateBound { n_o, proof, e_low, upper: [e_up, z_up], .. }, noise| {
+    part(found, |RateBound { oscillators, proof, e_low, upper: [e_up, z_up], .. }, noise| {
         let ByForm { witness, has_x, by } = proof;
-        let mut value = json!({
-            "n_o": n_o,
-            "Pi": rows(&witness.pi),
-            "e_low": write_exact(e_low), "e_up": write_exact(e_up), "z_up": write_exact(z_up),
-        });
+        let bounds = [("e_low", e_low), ("e_up", e_up), ("z_up", z_up)].map(|(name, number)| (name, exact(number)));
+        let parts = [place_of(oscillators), ("Pi", json!(rows(&witness.pi)))];
+        let mut value = object(parts.into_iter().chain(bounds));
         if let Some(ByMatrices { slopes, x_up }) = by {
             value["slopes"] = of_slopes(slopes);
             if let Some(x_up) = x_up {
@@ -96,9 +96,10 @@ fn part<P, Q>(
 /// The part of the witness at samples: Pi and its bounds, c and the multipliers, and w with the multipliers of x where x counts; what
 /// proves the bounds of noise besides.
 pub(super) fn sampled_rate_witnesses(found: &[SampledRateForCount]) -> Option<(&'static str, Value)> {
-    part(found, |RateBound { n_o, proof: witness, e_low, upper: [e_up, z_up], .. }, noise| {
+    part(found, |RateBound { oscillators, proof: witness, e_low, upper: [e_up, z_up], .. }, noise| {
         let mut value = at_samples(witness, e_low);
-        value["n_o"] = (*n_o).into();
+        let (name, place) = place_of(oscillators);
+        value[name] = place;
         (value["e_up"], value["z_up"]) = (write_exact(e_up).into(), write_exact(z_up).into());
         if let Some(NoiseBound { proof: SampledNoise { witness, rounding }, e_low, .. }) = noise {
             let mut part = at_samples(witness, e_low);

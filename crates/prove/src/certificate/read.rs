@@ -1,13 +1,14 @@
 //! Reading the witness of a certificate, to decide it again without any search.
 
-use super::fields::{NumberFields, PLANT_FIELDS, RefinedSquares, exact_rational, rational, read_paths};
+use super::fields::{HARMONICS, NumberFields, PLANT_FIELDS, RefinedSquares, exact_rational, rational, read_paths};
 use super::triple::{EXISTENCE, STABILITY};
 use super::write::{FORMAT, VERSION};
+use crate::rate::bound::MAX_OSCILLATORS;
 use rug::Rational;
 use sigmastar_decide::conditions::GivenWitness;
 use sigmastar_lang::spec::model::PeriodicMatrix;
 use sigmastar_lang::spec::{
-    Actuator, Document, ErrorKind, Errors, InputGain, Object, Parameters, Reported, SpecErrors, Value,
+    Actuator, Document, ErrorKind, Errors, InputGain, Object, Oscillators, Parameters, Reported, SpecErrors, Value,
     read_claimed_actuator, read_input_gain, read_parameters,
 };
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
@@ -301,11 +302,38 @@ fn read_transfer(fields: &mut Object<'_>, errors: &mut Errors) -> Result<Transfe
 /// A field that holds a whole number below 2^32.
 pub(super) fn small_integer(object: &mut Object<'_>, name: &'static str, errors: &mut Errors) -> Result<u32, Reported> {
     let value = object.required(name, errors)?;
+    small(&value, name, errors)
+}
+
+fn small(value: &Value<'_>, name: &str, errors: &mut Errors) -> Result<u32, Reported> {
     let number = value.integer(errors)?;
     u32::try_from(number).map_err(|_| {
         let message = format!("`{name}` is too large");
         errors.report(value.error(ErrorKind::Range, message).expected("expected a small whole number"))
     })
+}
+
+/// A number of oscillators, or a harmonic, that a certificate may name.
+fn within(value: &Value<'_>, name: &str, errors: &mut Errors) -> Result<u32, Reported> {
+    let number = small(value, name, errors)?;
+    if number <= MAX_OSCILLATORS {
+        return Ok(number);
+    }
+    let error = value.error(ErrorKind::Range, format!("`{name}` is too large"));
+    Err(errors.report(error.expected(format!("expected at most {MAX_OSCILLATORS}"))))
+}
+
+/// The oscillators of an object, at the first n_o harmonics or at those of a set.
+pub(super) fn read_oscillators(object: &mut Object<'_>, errors: &mut Errors) -> Result<Oscillators, Reported> {
+    let Some(value) = object.optional(HARMONICS) else {
+        let value = object.required("n_o", errors)?;
+        return within(&value, "n_o", errors).map(Oscillators::first);
+    };
+    let mut harmonics = Vec::new();
+    for one in value.array(errors)? {
+        harmonics.push(within(&one, HARMONICS, errors)?);
+    }
+    Oscillators::at(&harmonics).map_err(|wrong| errors.report(value.error(ErrorKind::Range, wrong.to_string())))
 }
 
 fn read_sharp(

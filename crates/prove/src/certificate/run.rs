@@ -11,6 +11,9 @@ use crate::reduction::{FreeNumbers, Run, Subject, Witness, WitnessData};
 use serde_json::Value;
 use sigmastar_lang::spec::{Document, Oscillators, SpecErrors};
 
+/// Where a certificate states rates.
+const RATES: &str = "/claim/for_n_o";
+
 /// The certificate of a run; `None` where nothing is certified.
 #[must_use]
 pub fn certificate_of(run: &Run<'_>) -> Option<Value> {
@@ -35,19 +38,24 @@ pub fn is_stated(run: &Run<'_>, certificate: &Document) -> bool {
     made == stated
 }
 
-/// The numbers of oscillators of which a certificate states rates.
+/// The oscillators of which a certificate states rates.
 #[must_use]
-pub fn stated_counts(certificate: &Document) -> Vec<u32> {
-    numbers_in(certificate, "/claim/for_n_o").unwrap_or_default()
+pub fn stated_counts(certificate: &Document) -> Vec<Oscillators> {
+    oscillators_in(certificate, RATES).unwrap_or_default()
+}
+
+/// The oscillators of which a certificate states bounds under noise or rounding.
+#[must_use]
+pub fn stated_with_noise(certificate: &Document) -> Vec<Oscillators> {
+    let list = certificate.at(RATES).map(|list| list.to_json()).unwrap_or_default();
+    let entries = list.as_array().into_iter().flatten();
+    entries.filter(|entry| entry.get("noise").is_some()).filter_map(of_entry).collect()
 }
 
 /// The oscillators of which a certificate states bounds; none where it states nothing by these.
 #[must_use]
 pub fn stated_by_count(certificate: &Document) -> Option<Vec<Oscillators>> {
-    let list = certificate.at("/claim/by_n_o")?.to_json();
-    // Of each larger number something is said without one of its own.
-    let own = list.as_array()?.iter().filter(|entry| entry["or_more"] != true);
-    Some(own.filter_map(of_entry).collect())
+    oscillators_in(certificate, "/claim/by_n_o")
 }
 
 /// The oscillators that an entry is about. Anybody may have written it: of a number beyond the limit there is no list of harmonics.
@@ -59,12 +67,12 @@ pub(super) fn of_entry(entry: &Value) -> Option<Oscillators> {
     }
 }
 
-/// The numbers of oscillators in a list of a claim.
-fn numbers_in(certificate: &Document, pointer: &str) -> Option<Vec<u32>> {
+/// The oscillators in a list of a claim.
+fn oscillators_in(certificate: &Document, pointer: &str) -> Option<Vec<Oscillators>> {
     let list = certificate.at(pointer)?.to_json();
     // Of each larger number something is said without one of its own.
-    let own = list.as_array().into_iter().flatten().filter(|one| one["or_more"] != true);
-    Some(own.filter_map(|one| one["n_o"].as_u64()).filter_map(|n_o| u32::try_from(n_o).ok()).collect())
+    let own = list.as_array()?.iter().filter(|entry| entry["or_more"] != true);
+    Some(own.filter_map(of_entry).collect())
 }
 
 /// Reads the free numbers of a certificate about either regulator.

@@ -6,7 +6,7 @@ use super::read::read_lyapunov;
 use super::read_plant::read_plant_witness;
 use super::run::{of_entry, read_numbers};
 use crate::certify::resolve_with;
-use crate::rate::bound::{MAX_COUNTS, MAX_OSCILLATORS};
+use crate::rate::bound::MAX_COUNTS;
 use crate::reduction::{FreeNumbers, PlantRefusal, specification};
 use sigmastar_lang::plant::Plant;
 use sigmastar_lang::spec::{
@@ -35,11 +35,11 @@ pub struct StatedClaim {
     pub plant: Option<Plant>,
 }
 
-/// Bounds of |e - e_per| for one n_o, at the gain of the claim, with the noise and the disturbance of the document.
-#[derive(Clone, Copy, Debug)]
+/// Bounds of |e - e_per| for some oscillators, at the gain of the claim, with the noise and the disturbance of the document.
+#[derive(Clone, Debug)]
 pub struct StatedNoise {
-    /// n_o.
-    pub n_o: u32,
+    /// The oscillators.
+    pub oscillators: Oscillators,
     /// In the limit.
     pub limit: f64,
     /// At all times from the start on.
@@ -125,17 +125,16 @@ fn stated_control(document: &Document) -> Result<Option<[f64; 2]>, SpecErrors> {
     document.at("/claim/control").map(|_| stated(document, "control", ["steady", "transient"])).transpose()
 }
 
-/// Those for given n_o, where there are any.
+/// Those for given oscillators, where there are any; an entry about nothing that a certificate may state is left out.
 fn stated_noise(document: &Document) -> Result<Vec<StatedNoise>, SpecErrors> {
     let parts = (0..MAX_COUNTS).map(|i| format!("for_n_o/{i}"));
     let parts = parts.filter(|part| document.at(&format!("/claim/{part}/noise")).is_some());
-    parts
-        .map(|part| {
-            let [limit, peak] = stated(document, &format!("{part}/noise"), ["limit", "peak"])?;
-            let [n_o] = stated(document, &part, ["n_o"])?;
-            Ok(StatedNoise { n_o: n_o.clamp(0.0, f64::from(MAX_OSCILLATORS)) as u32, limit, peak })
-        })
-        .collect()
+    let own = parts.filter_map(|part| Some((of_entry(&document.at(&format!("/claim/{part}"))?.to_json())?, part)));
+    own.map(|(oscillators, part)| {
+        let [limit, peak] = stated(document, &format!("{part}/noise"), ["limit", "peak"])?;
+        Ok(StatedNoise { oscillators, limit, peak })
+    })
+    .collect()
 }
 
 /// Those by the number of oscillators and for sets of harmonics, where there are any; an entry about nothing that a certificate may state is left out.

@@ -2,13 +2,13 @@
 
 use super::by_count::counts_in_words;
 use super::fields::{exact_rational, rational};
-use super::read::{each, small_integer};
+use super::read::{each, read_oscillators};
 use super::stated::{StatedClaim, read_claim};
 use super::words::{at_samples, in_continuous_time};
 use crate::certify::{SaidOfCount, rates_in_words};
 use crate::reduction::FreeNumbers;
 use rug::Rational;
-use sigmastar_lang::spec::{Document, Object, Reported, SpecErrors};
+use sigmastar_lang::spec::{Document, Object, Oscillators, Reported, SpecErrors};
 
 /// The claim of a certificate in words, from its numbers: the sentence that it holds is for people, and not looked at.
 ///
@@ -17,8 +17,8 @@ use sigmastar_lang::spec::{Document, Object, Reported, SpecErrors};
 pub fn claim_in_words(certificate: &Document) -> Result<String, SpecErrors> {
     let StatedClaim { spec, witness, .. } = read_claim(certificate)?;
     let rates = stated_rates(certificate)?;
-    let said = rates.iter().map(|StatedRate { n_o, numbers: [rate, factor], noise }| SaidOfCount {
-        n_o: *n_o,
+    let said = rates.iter().map(|StatedRate { oscillators, numbers: [rate, factor], noise }| SaidOfCount {
+        oscillators,
         rate,
         factor,
         noise: noise.as_ref().map(|[peak, limit]| [peak, limit]),
@@ -39,9 +39,9 @@ pub fn claim_in_words(certificate: &Document) -> Result<String, SpecErrors> {
     Ok(words + &of_rates + &counts_in_words(&spec, (sigma, samples), &counts))
 }
 
-/// What a certificate states of one number of oscillators.
+/// What a certificate states of some oscillators.
 struct StatedRate {
-    n_o: u32,
+    oscillators: Oscillators,
     /// The rate and the factor.
     numbers: [Rational; 2],
     /// The peak and the limit under noise.
@@ -68,8 +68,12 @@ fn stated_rates(certificate: &Document) -> Result<Vec<StatedRate>, SpecErrors> {
                 fields.finish(errors);
                 numbers
             });
-            let n_o = small_integer(fields, "n_o", errors);
-            Ok(StatedRate { n_o: n_o?, numbers: two(fields, ["rate", "factor"], errors)?, noise: noise.transpose()? })
+            let oscillators = read_oscillators(fields, errors);
+            Ok(StatedRate {
+                oscillators: oscillators?,
+                numbers: two(fields, ["rate", "factor"], errors)?,
+                noise: noise.transpose()?,
+            })
         };
         rates.map_or_else(|| Ok(Vec::new()), |rates| each(&rates, errors, one))
     })

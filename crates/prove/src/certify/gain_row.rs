@@ -178,18 +178,31 @@ impl ByCount {
         below.next().filter(|bounds| bounds.or_more || bounds.n_o() == Some(n_o))
     }
 
-    /// dX, dE and dZ of a set with this number of oscillators, from the sizes of its periodic solution as the certificate has them; none where it says
+    /// Those for these oscillators: of a set with gaps none but its own.
+    fn with(&self, oscillators: &Oscillators) -> Option<&CountBounds> {
+        match oscillators.n_o() {
+            Some(n_o) => self.at(u64::from(n_o)),
+            None => self.counts.iter().find(|bounds| bounds.oscillators == *oscillators),
+        }
+    }
+
+    /// dX, dE and dZ of a set with these oscillators, from the sizes of its periodic solution as the certificate has them; none where it says
     /// nothing of them.
-    pub(super) fn distances(&self, data: &Data<'_>, set: &ClaimedSet, n_o: u32) -> Option<[Enclosure; 3]> {
-        let bounds = self.at(u64::from(n_o)).filter(|_| self.checked)?;
+    pub(super) fn distances(
+        &self,
+        data: &Data<'_>,
+        set: &ClaimedSet,
+        oscillators: &Oscillators,
+    ) -> Option<[Enclosure; 3]> {
+        let bounds = self.with(oscillators).filter(|_| self.checked)?;
         let LoopSizes { states, zeta, .. } = &bounds.sizes;
         let [states, zeta] = [states, zeta].map(|size| above(size, self.room_of_sizes()));
         Some(claimed_distances(data, set, [&states, &self.stated(&bounds.steady_error), &zeta]))
     }
 
-    /// Of |zeta|_N along the periodic solution with this number of oscillators, as the certificate has it; none where it says nothing of it.
-    pub(super) fn largest_zeta(&self, n_o: u32) -> Option<Enclosure> {
-        let bounds = self.at(u64::from(n_o)).filter(|_| self.checked)?;
+    /// Of |zeta|_N along the periodic solution with these oscillators, as the certificate has it; none where it says nothing of it.
+    pub(super) fn largest_zeta(&self, oscillators: &Oscillators) -> Option<Enclosure> {
+        let bounds = self.with(oscillators).filter(|_| self.checked)?;
         Some(above(&bounds.sizes.zeta, self.room_of_sizes()))
     }
 
@@ -260,8 +273,8 @@ impl GainRow {
 /// What is proved of noise at one gain of the rows.
 #[derive(Clone, Debug)]
 pub struct RowNoise {
-    /// n_o.
-    pub n_o: u32,
+    /// The oscillators.
+    pub oscillators: Oscillators,
     /// The gain.
     pub sigma: Rational,
     /// What the deviation of e is at most in the limit.
@@ -269,11 +282,11 @@ pub struct RowNoise {
 }
 
 impl RowNoise {
-    /// Of the numbers of oscillators for which something is proved.
+    /// Of the oscillators for which something is proved.
     pub(super) fn of<P, Q>(sigma: &Rational, found: Vec<ForCount<P, Q>>) -> Vec<RowNoise> {
         let one = |found: &ForCount<P, Q>| {
             let limit = found.proved_noise()?.limit.clone();
-            Some(RowNoise { n_o: found.n_o, sigma: sigma.clone(), limit })
+            Some(RowNoise { oscillators: found.oscillators.clone(), sigma: sigma.clone(), limit })
         };
         found.iter().filter_map(one).collect()
     }

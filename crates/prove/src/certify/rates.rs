@@ -1,4 +1,4 @@
-//! Rates for given numbers of oscillators, as a part of a claim (derivation, 13.6).
+//! Rates for given oscillators, as a part of a claim (derivation, 13.6): the first n_o, or those of a set of harmonics, where the claim is about every set.
 
 use super::certification::Certification;
 use super::gain_row::ByCount;
@@ -19,7 +19,7 @@ use sigmastar_decide::conditions::{Proof, SampledProof, SharpProof};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, round_f64, write_exact};
 use sigmastar_exact::parallel;
-use sigmastar_lang::spec::{MatrixInequality, Specification};
+use sigmastar_lang::spec::{MatrixInequality, Oscillators, Specification};
 use sigmastar_propose::bounds::FloatSuprema;
 use sigmastar_propose::search::Failing;
 use sigmastar_theory::data::Data;
@@ -28,16 +28,16 @@ use sigmastar_theory::derivation::sampled::{self, SampledEvaluation};
 use sigmastar_theory::derivation::sharp::SharpEvaluation;
 use sigmastar_theory::derivation::stability::level_condition;
 
-/// Why a claim can have no rates for given numbers of oscillators.
+/// Why a claim can have no rates for given oscillators.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoRatesOfClaim {
     /// It is about the regulator at samples with a delay.
     WithDelay,
-    /// This number is not below half of these samples.
+    /// This number, or largest harmonic of a set, is not below half of these samples.
     NotBelowHalf(u32, u32),
     /// It rests on the derivatives of a plant, which could not be had again from its formulas.
     OfFormulas,
-    /// So many numbers were asked for.
+    /// So many numbers and sets were asked for.
     TooMany(usize),
     /// This number is beyond the largest one.
     Beyond(u32),
@@ -107,21 +107,41 @@ pub fn rate_counts(asked: &[u32]) -> Result<Vec<u32>, NoRatesOfClaim> {
     let mut counts = asked.to_vec();
     counts.sort_unstable();
     counts.dedup();
-    match (counts.len(), counts.last()) {
-        (_, Some(last)) if *last > MAX_OSCILLATORS => Err(NoRatesOfClaim::Beyond(*last)),
-        (count, _) if count > MAX_COUNTS => Err(NoRatesOfClaim::TooMany(count)),
-        _ => fitting(counts, false),
+    // Of a number beyond the limit there is no list of harmonics.
+    match counts.last() {
+        Some(last) if *last > MAX_OSCILLATORS => Err(NoRatesOfClaim::Beyond(*last)),
+        _ => rate_oscillators(&counts.iter().copied().map(Oscillators::first).collect::<Vec<_>>()).map(|_| counts),
     }
 }
 
-/// Numbers of oscillators whose matrices fit into a certificate: Pi of order 2 n_o + 2 for each, and one more where inputs count.
+/// Those at the first harmonics by their number, then the sets with gaps, each once.
+///
+/// # Errors
+/// More than [`MAX_COUNTS`] different ones, a harmonic beyond [`MAX_OSCILLATORS`], and more than [`MAX_ENTRIES`] of all together.
+fn rate_oscillators(asked: &[Oscillators]) -> Result<Vec<Oscillators>, NoRatesOfClaim> {
+    let mut all = asked.to_vec();
+    all.sort_unstable_by_key(|one| (one.n_o().is_none(), one.clone()));
+    all.dedup();
+    match all.iter().map(Oscillators::largest).max() {
+        Some(largest) if largest > MAX_OSCILLATORS => Err(NoRatesOfClaim::Beyond(largest)),
+        _ if all.len() > MAX_COUNTS => Err(NoRatesOfClaim::TooMany(all.len())),
+        _ => fitting(&all, false).map(|()| all),
+    }
+}
+
+/// Whether the matrices of these oscillators fit into a certificate: Pi of order 2 p + 2 with p of them beside the integrator, and one more where inputs count.
 ///
 /// # Errors
 /// They have more than [`MAX_ENTRIES`] entries together.
-fn fitting(counts: Vec<u32>, with_inputs: bool) -> Result<Vec<u32>, NoRatesOfClaim> {
-    let triangle = |n_o: &u32| (*n_o as usize + 1) * (2 * *n_o as usize + 3);
-    let entries = counts.iter().map(triangle).sum::<usize>() * if with_inputs { 2 } else { 1 };
-    if entries > MAX_ENTRIES { Err(NoRatesOfClaim::TooLarge(entries)) } else { Ok(counts) }
+fn fitting(asked: &[Oscillators], with_inputs: bool) -> Result<(), NoRatesOfClaim> {
+    let triangle = |one: &Oscillators| (one.count() + 1) * (2 * one.count() + 3);
+    let entries = asked.iter().map(triangle).sum::<usize>() * if with_inputs { 2 } else { 1 };
+    if entries > MAX_ENTRIES { Err(NoRatesOfClaim::TooLarge(entries)) } else { Ok(()) }
+}
+
+/// The numbers among them: of these alone rows at larger gains have rates.
+fn numbers(asked: &[Oscillators]) -> Vec<u32> {
+    asked.iter().filter_map(Oscillators::n_o).collect()
 }
 
 impl Certification<'_> {
@@ -132,29 +152,35 @@ impl Certification<'_> {
         self.sharp.proved().filter(|_| self.claim().is_some()).and_then(|proof| matrix_arguments(self.spec, proof))
     }
 
-    /// Proves rates for these numbers of oscillators at the gain of the claim, and makes them a part of it; without a claim there are none.
+    /// Proves rates for these oscillators at the gain of the claim, and makes them a part of it; without a claim there are none, and none for sets with gaps
+    /// of a claim about the first harmonics alone.
     ///
-    /// Guarantee: for each bound that is proved, with so many oscillators, at the claimed gain and no other, every solution from the
+    /// Guarantee: for each bound that is proved, with these oscillators, at the claimed gain and no other, every solution from the
     /// claimed set has `|e(t) - e_per(t)| <= factor exp(-rate (t - t_0))`; where the document has noise or a disturbance and there are bounds
     /// of them, what [`noise_bound`] says of it.
     ///
     /// # Errors
-    /// Those of [`rate_counts`], and a claim that does not rest on norms, of which [`Certification::prove_rates_around`] has rates.
-    pub fn prove_rates(&mut self, asked: &[u32]) -> Result<(), NoRatesOfClaim> {
-        let counts = rate_counts(asked)?;
-        if !counts.is_empty() && self.matrix_arguments().is_some() {
+    /// Those of [`rate_counts`], of sets too, and a claim that does not rest on norms, of which [`Certification::prove_rates_around`] has rates.
+    pub fn prove_rates(&mut self, asked: &[Oscillators]) -> Result<(), NoRatesOfClaim> {
+        let asked = self.covered(asked)?;
+        if !asked.is_empty() && self.matrix_arguments().is_some() {
             return Err(NoRatesOfClaim::OfFormulas);
         }
         let Some(proof) = self.sharp.proved().filter(|_| self.claim().is_some()) else {
             self.for_n_o = Vec::new();
             return Ok(());
         };
-        let counts = fitting(counts, self.spec.disturbances.any())?;
-        self.for_n_o = for_n_o(self.spec, (proof, self.by_count.as_ref()), &counts);
-        self.make_room(&counts);
-        self.set_rates_of_rows(&counts, None);
-        self.set_noise_of_rows(&counts);
+        fitting(&asked, self.spec.disturbances.any())?;
+        self.for_n_o = for_n_o(self.spec, (proof, self.by_count.as_ref()), &asked);
+        self.make_room(&asked);
+        self.set_rates_of_rows(&numbers(&asked), None);
+        self.set_noise_of_rows(&asked);
         Ok(())
+    }
+
+    /// Those of which the claim is.
+    fn covered(&self, asked: &[Oscillators]) -> Result<Vec<Oscillators>, NoRatesOfClaim> {
+        covered(asked, self.is_for_every_set())
     }
 
     /// Why a rate that was asked about is not proved.
@@ -172,26 +198,40 @@ impl Certification<'_> {
     /// Those of [`rate_counts`].
     pub fn prove_rates_around(
         &mut self,
-        asked: &[u32],
+        asked: &[Oscillators],
         (engine, samples): (&Engine, &FloatSuprema),
     ) -> Result<(), NoRatesOfClaim> {
-        let counts = rate_counts(asked)?;
+        let covered = self.covered(asked)?;
         let (Some(at), Some(proof)) = (self.matrix_arguments(), self.sharp.proved()) else {
             return self.prove_rates(asked);
         };
         let data = Data::new(self.spec, proof.precision);
         let from = Starts { general: distances(&data, proof), of: (&proof.witness.set, self.by_count.as_ref()) };
-        let distances = |n_o: u32| from.with(&data, n_o);
+        let distances = |oscillators: &Oscillators| from.with(&data, oscillators);
         let inequality = self.spec.bounds.proved_values().inequality.as_ref();
         let corner = inequality.filter(|known| known.splitting.is_some()).map(MatrixInequality::arguments);
         let start = Start { sigma: &proof.witness.sigma, distances: &distances };
         let tube = Tube { engine, samples, at, corner, start };
         let noise = || self.spec.disturbances.any().then_some(Err(NoNoiseBound::ByMatrices));
-        let of = |(n_o, bound): (&u32, _)| RateForCount { n_o: *n_o, bound, noise: noise() };
-        self.for_n_o = counts.iter().zip(bounds(&data, &tube, &counts)).map(of).collect();
-        self.set_rates_of_rows(&counts, Some(engine.states()));
+        let of = |(oscillators, bound): (&Oscillators, _)| RateForCount {
+            oscillators: oscillators.clone(),
+            bound,
+            noise: noise(),
+        };
+        self.for_n_o = covered.iter().zip(bounds(&data, &tube, &covered)).map(of).collect();
+        self.set_rates_of_rows(&numbers(&covered), Some(engine.states()));
         Ok(())
     }
+}
+
+/// Those of which a claim is, the first ones by their number, then sets.
+///
+/// # Errors
+/// Those of [`rate_oscillators`].
+fn covered(asked: &[Oscillators], every_set: bool) -> Result<Vec<Oscillators>, NoRatesOfClaim> {
+    let mut all = rate_oscillators(asked)?;
+    all.retain(|one| every_set || one.n_o().is_some());
+    Ok(all)
 }
 
 /// Why a rate is not proved from the error box.
@@ -227,16 +267,16 @@ struct Starts<'a> {
 }
 
 impl Starts<'_> {
-    /// dX, dE, dZ with this number of oscillators: the least that is known of each.
-    fn with(&self, data: &Data<'_>, n_o: u32) -> [Enclosure; 3] {
+    /// dX, dE, dZ with these oscillators: the least that is known of each.
+    fn with(&self, data: &Data<'_>, oscillators: &Oscillators) -> [Enclosure; 3] {
         let (set, found) = self.of;
-        let own = found.and_then(|found| found.distances(data, set, n_o));
+        let own = found.and_then(|found| found.distances(data, set, oscillators));
         own.map_or_else(|| self.general.clone(), |own| [0, 1, 2].map(|i| own[i].min(&self.general[i])))
     }
 
-    /// Of |zeta|_N along the periodic solution with this number of oscillators: the least that is known; for every number it is `z`.
-    fn largest_zeta(&self, n_o: u32, z: &Enclosure) -> Enclosure {
-        let own = self.of.1.and_then(|found| found.largest_zeta(n_o));
+    /// Of |zeta|_N along the periodic solution with these oscillators: the least that is known; for all that the claim is about it is `z`.
+    fn largest_zeta(&self, oscillators: &Oscillators, z: &Enclosure) -> Enclosure {
+        let own = self.of.1.and_then(|found| found.largest_zeta(oscillators));
         own.map_or_else(|| z.clone(), |own| own.min(z))
     }
 }
@@ -257,7 +297,7 @@ pub(super) fn distances_at_samples(data: &Data<'_>, proof: &SampledProof) -> [En
 pub(super) fn for_n_o(
     spec: &Specification,
     (proof, found): (&SharpProof, Option<&ByCount>),
-    counts: &[u32],
+    asked: &[Oscillators],
 ) -> Vec<RateForCount> {
     let Proof { witness, evaluation, precision } = proof;
     let data = Data::new(spec, *precision);
@@ -265,20 +305,20 @@ pub(super) fn for_n_o(
     let numbers = [&witness.d_x, &witness.d_e, &witness.w_x, &witness.h];
     let v_bar = data.rational(&spec.v_bar());
     let disturbed = spec.disturbances.any();
-    let of = |n_o: &u32| {
-        let distances = from.with(&data, *n_o);
+    let of = |oscillators: &Oscillators| {
+        let distances = from.with(&data, oscillators);
         let place = Place { sigma: &witness.sigma, error_box: &evaluation.error_box, distances: distances.each_ref() };
-        let bound = bound(&data, &place, *n_o);
+        let bound = bound(&data, &place, oscillators);
         let noise = disturbed.then(|| match &bound {
             Some(bound) => {
-                let zeta = from.largest_zeta(*n_o, &evaluation.z);
+                let zeta = from.largest_zeta(oscillators, &evaluation.z);
                 noise_bound(&data, &place, &confinement(&data, (&distances, &zeta), &v_bar, numbers), &bound.into())
             }
             None => Err(NoNoiseBound::NoRate),
         });
-        RateForCount { n_o: *n_o, bound, noise }
+        RateForCount { oscillators: oscillators.clone(), bound, noise }
     };
-    parallel::map(counts, of)
+    parallel::map(asked, of)
 }
 
 impl Certification<'_> {
@@ -290,10 +330,10 @@ impl Certification<'_> {
     }
 }
 
-/// What a claim says of one number of oscillators.
+/// What a claim says of some oscillators.
 pub struct SaidOfCount<'a> {
-    /// n_o.
-    pub n_o: u32,
+    /// The oscillators.
+    pub oscillators: &'a Oscillators,
     /// The rate, in 1/time.
     pub rate: &'a Rational,
     /// The factor, in the unit of e.
@@ -303,12 +343,12 @@ pub struct SaidOfCount<'a> {
 }
 
 pub(crate) fn said_of<P, Q>(found: &ForCount<P, Q>) -> Option<SaidOfCount<'_>> {
-    let RateBound { n_o, rate, factor, .. } = found.bound.as_ref()?;
+    let RateBound { oscillators, rate, factor, .. } = found.bound.as_ref()?;
     let noise = found.proved_noise().map(|NoiseBound { limit, peak, .. }| [peak, limit]);
-    Some(SaidOfCount { n_o: *n_o, rate, factor, noise })
+    Some(SaidOfCount { oscillators, rate, factor, noise })
 }
 
-/// The sentences of a claim about numbers of oscillators at its gain, each with a space before it.
+/// The sentences of a claim about some oscillators at its gain, each with a space before it.
 pub fn rates_in_words<'a>(
     spec: &Specification,
     sigma: &Rational,
@@ -321,9 +361,9 @@ pub fn rates_in_words<'a>(
         false => ("", spec.disturbances.in_words()),
     };
     let start = if spec.initial_set.is_aligned() { " (z = M e of the measured e)" } else { "" };
-    let sentences = |SaidOfCount { n_o, rate, factor, noise }: SaidOfCount<'_>| {
+    let sentences = |SaidOfCount { oscillators, rate, factor, noise }: SaidOfCount<'_>| {
         let of_rate = format!(
-            " With n_o = {n_o} and sigma = {sigma} exactly, |e(t) - e_per(t)| <= {} exp(-{} (t - t_0)){instants} for these solutions, where e_per is \
+            " With {oscillators} and sigma = {sigma} exactly, |e(t) - e_per(t)| <= {} exp(-{} (t - t_0)){instants} for these solutions, where e_per is \
              the e of the periodic solution and t_0 the initial time.",
             apart(factor),
             apart(rate),
@@ -331,7 +371,7 @@ pub fn rates_in_words<'a>(
         // Noise, a disturbance and rounding, of which there are these inputs.
         let of_noise = noise.map(|[peak, limit]| {
             format!(
-                " With n_o = {n_o} and sigma = {sigma} exactly, {inputs}: |e(t) - e_per(t)| <= {} for these starts{start} and all t >= \
+                " With {oscillators} and sigma = {sigma} exactly, {inputs}: |e(t) - e_per(t)| <= {} for these starts{start} and all t >= \
                  t_0, and its limit superior is at most {}.",
                 apart(peak),
                 apart(limit),
@@ -352,7 +392,7 @@ pub fn apart(value: &Rational) -> String {
 pub(super) fn for_n_o_at_samples(
     spec: &Specification,
     (proof, found): (&SampledProof, Option<&ByCount>),
-    counts: &[u32],
+    asked: &[Oscillators],
 ) -> Vec<SampledRateForCount> {
     let Proof { witness, evaluation, precision } = proof;
     let (data, law) = (Data::new(spec, *precision), &evaluation.law);
@@ -360,21 +400,21 @@ pub(super) fn for_n_o_at_samples(
     let numbers = [&witness.d_x, &witness.d_e, &witness.w_x, &witness.eta];
     let v_bar = measured(&data, &evaluation.error_box.e_b);
     let disturbed = spec.disturbances.any_at_samples();
-    let of = |n_o: &u32| {
-        let distances = from.with(&data, *n_o);
+    let of = |oscillators: &Oscillators| {
+        let distances = from.with(&data, oscillators);
         let place = Place { sigma: &witness.sigma, error_box: &evaluation.error_box, distances: distances.each_ref() };
-        let bound = at_samples::bound(&data, law, &place, *n_o);
+        let bound = at_samples::bound(&data, law, &place, oscillators);
         let noise = disturbed.then(|| match &bound {
             Some(bound) => {
-                let zeta = from.largest_zeta(*n_o, &evaluation.z);
+                let zeta = from.largest_zeta(oscillators, &evaluation.z);
                 let confinement = confinement(&data, (&distances, &zeta), &v_bar, numbers);
                 at_samples_with_noise(&data, law, &place, &confinement, &bound.into())
             }
             None => Err(NoNoiseBound::NoRate),
         });
-        SampledRateForCount { n_o: *n_o, bound, noise }
+        SampledRateForCount { oscillators: oscillators.clone(), bound, noise }
     };
-    parallel::map(counts, of)
+    parallel::map(asked, of)
 }
 
 /// What keeps the solutions without inputs in the box, L_0 being the left side of C4 at these distances; an aligned regulator sets
@@ -394,17 +434,17 @@ fn confinement<'a>(
 }
 
 impl SampledCertification<'_> {
-    /// Proves rates for these numbers of oscillators, as [`Certification::prove_rates`]: at the gain and the sampling period of the claim.
+    /// Proves rates for these oscillators, as [`Certification::prove_rates`]: at the gain and the sampling period of the claim.
     ///
-    /// Guarantee: for each bound that is proved, with so many oscillators, every solution that is in the claimed set at a sampling instant
+    /// Guarantee: for each bound that is proved, with these oscillators, every solution that is in the claimed set at a sampling instant
     /// t_0 has `|e(t) - e_per(t)| <= factor exp(-rate (t - t_0))` at every sampling instant t >= t_0; where the document has noise or a
     /// disturbance and there are bounds of them, what [`at_samples_with_noise`] says of it.
     ///
     /// # Errors
-    /// Those of [`rate_counts`], a number that is not below half of the samples, a delay, and a claim that does not rest on norms.
-    pub fn prove_rates(&mut self, asked: &[u32]) -> Result<(), NoRatesOfClaim> {
-        let counts = rate_counts(asked)?;
-        let Some(last) = counts.last() else {
+    /// Those of [`Certification::prove_rates`], a number or a largest harmonic that is not below half of the samples, a delay, and a claim that does not rest on norms.
+    pub fn prove_rates(&mut self, asked: &[Oscillators]) -> Result<(), NoRatesOfClaim> {
+        let asked = covered(asked, self.spec.internal_model.asks_every_set())?;
+        let Some(last) = asked.iter().map(Oscillators::largest).max() else {
             self.for_n_o = Vec::new();
             return Ok(());
         };
@@ -412,7 +452,7 @@ impl SampledCertification<'_> {
             return Err(NoRatesOfClaim::WithDelay);
         }
         if 2 * last >= self.sampling.samples {
-            return Err(NoRatesOfClaim::NotBelowHalf(*last, self.sampling.samples));
+            return Err(NoRatesOfClaim::NotBelowHalf(last, self.sampling.samples));
         }
         let Some(proof) = self.claim() else {
             self.for_n_o = Vec::new();
@@ -421,15 +461,15 @@ impl SampledCertification<'_> {
         if by_sampled_matrix(self.spec, proof) {
             // It has no norms of the error system, from which rates are proved at samples.
             let noise = || self.spec.disturbances.any_at_samples().then_some(Err(NoNoiseBound::ByMatrices));
-            self.for_n_o =
-                counts.iter().map(|n_o| SampledRateForCount { n_o: *n_o, bound: None, noise: noise() }).collect();
+            let of = |one: &Oscillators| SampledRateForCount { oscillators: one.clone(), bound: None, noise: noise() };
+            self.for_n_o = asked.iter().map(of).collect();
         } else {
-            let counts = fitting(counts.clone(), self.spec.disturbances.any_at_samples())?;
-            self.for_n_o = for_n_o_at_samples(self.spec, (proof, self.by_count.as_ref()), &counts);
-            self.make_room(&counts);
+            fitting(&asked, self.spec.disturbances.any_at_samples())?;
+            self.for_n_o = for_n_o_at_samples(self.spec, (proof, self.by_count.as_ref()), &asked);
+            self.make_room(&asked);
         }
-        self.set_rates_of_rows(&counts);
-        self.set_noise_of_rows(&counts);
+        self.set_rates_of_rows(&numbers(&asked));
+        self.set_noise_of_rows(&asked);
         Ok(())
     }
 
@@ -456,9 +496,9 @@ impl SampledCertification<'_> {
 }
 
 impl Certification<'_> {
-    /// The rates of the claim, of each number of oscillators that was asked about.
+    /// The rates of the claim, of each number of oscillators that was asked about: of sets of harmonics no least rate is asked.
     pub fn rates(&self) -> impl Iterator<Item = (u32, Option<&Rational>)> {
-        self.for_n_o.iter().map(ForCount::rate)
+        of_numbers(&self.for_n_o)
     }
 
     /// Takes the claim back where a least rate was asked for and is not proved.
@@ -479,7 +519,7 @@ impl Certification<'_> {
 impl SampledCertification<'_> {
     /// The same at samples.
     pub fn rates(&self) -> impl Iterator<Item = (u32, Option<&Rational>)> {
-        self.for_n_o.iter().map(ForCount::rate)
+        of_numbers(&self.for_n_o)
     }
 
     /// The same at samples.
@@ -495,6 +535,11 @@ impl SampledCertification<'_> {
         (self.outcome, self.verdict) = (Outcome::NotFound(reason.into()), Verdict::Undecided);
         (self.gains, self.for_n_o, self.by_count) = (Vec::new(), Vec::new(), None);
     }
+}
+
+/// Numbers of oscillators with their rates.
+fn of_numbers<P, Q>(found: &[ForCount<P, Q>]) -> impl Iterator<Item = (u32, Option<&Rational>)> {
+    found.iter().map(ForCount::rate).filter_map(|(oscillators, rate)| Some((oscillators.n_o()?, rate)))
 }
 
 /// That the slowest of these rates is not what was asked for; nothing where it is, or where nothing was.
@@ -521,9 +566,25 @@ mod tests {
         assert_eq!(rate_counts(&[100]), Ok(vec![100]));
         // (n + 1) (2 n + 3) each, and twice as many with noise.
         assert_eq!(rate_counts(&[100, 42]), Err(NoRatesOfClaim::TooLarge(20_503 + 3741)));
-        assert_eq!(fitting(vec![76], true), Ok(vec![76]));
-        assert_eq!(fitting(vec![77], true), Err(NoRatesOfClaim::TooLarge(2 * 78 * 157)));
+        assert_eq!(fitting(&[Oscillators::first(76)], true), Ok(()));
+        assert_eq!(fitting(&[Oscillators::first(77)], true), Err(NoRatesOfClaim::TooLarge(2 * 78 * 157)));
         assert_eq!(rate_counts(&[0, 1, 2, 3, 4, 5, 6, 7, 8]), Err(NoRatesOfClaim::TooMany(9)));
         assert!(rate_counts(&[7; 20]).is_ok());
+    }
+
+    /// Of a set the number of its oscillators counts for the size of the matrix, and its largest harmonic for the limit.
+    #[test]
+    fn sets_follow_the_numbers() {
+        let set = |harmonics: &[u32]| Oscillators::at(harmonics).unwrap();
+        let asked = [set(&[0, 5, 7]), set(&[0, 1, 2]), set(&[0, 2]), Oscillators::first(0), set(&[0, 2])];
+        let all = rate_oscillators(&asked).unwrap();
+        assert_eq!(all, [Oscillators::first(0), Oscillators::first(2), set(&[0, 2]), set(&[0, 5, 7])]);
+        assert_eq!(covered(&asked, false).unwrap(), all[..2]);
+        assert_eq!(covered(&asked, true).unwrap(), all);
+        assert_eq!(rate_oscillators(&[set(&[0, 101])]), Err(NoRatesOfClaim::Beyond(101)));
+        // One that begins at 100 is small.
+        assert_eq!(rate_oscillators(&[Oscillators::first(100), set(&[0, 100])]).unwrap().len(), 2);
+        let many: Vec<Oscillators> = (2..11).map(|k| set(&[0, k])).collect();
+        assert_eq!(rate_oscillators(&many), Err(NoRatesOfClaim::TooMany(9)));
     }
 }

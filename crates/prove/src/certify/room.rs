@@ -41,7 +41,7 @@ const MORE: [fn(f64) -> f64; 2] = [|needed| 1.0 + 1.25 * (needed - 1.0), |needed
 impl Certification<'_> {
     /// Where the error box has no room for what noise and a disturbance add, another proof of the claim is taken that has, if more of the bounds
     /// under noise are proved with it.
-    pub(super) fn make_room(&mut self, counts: &[u32]) {
+    pub(super) fn make_room(&mut self, asked: &[Oscillators]) {
         let Some(own) = self.sharp.proved().filter(|_| may_be_replaced(&self.limits, self.by_count.as_ref())) else {
             return;
         };
@@ -49,7 +49,7 @@ impl Certification<'_> {
             let same_set = own.witness.set == proof.witness.set;
             self.by_count.as_ref().filter(|found| same_set && found.is_of_set())
         };
-        let bounds = |proof: &SharpProof| for_n_o(self.spec, (proof, known_with(proof)), counts);
+        let bounds = |proof: &SharpProof| for_n_o(self.spec, (proof, known_with(proof)), asked);
         let mut best = more_proved(&self.for_n_o, |factor| self.with_room(own, factor), bounds);
         let roomy = self.roomy.as_ref().and_then(|proof| self.proved_with(proof.witness.clone()));
         if let Some(roomy) = roomy {
@@ -65,18 +65,18 @@ impl Certification<'_> {
             self.rest_on(proof);
             self.for_n_o = found;
             if self.by_count.is_none() {
-                self.count_again(before, counts);
+                self.count_again(before, asked);
             }
         }
     }
 
-    /// Finds bounds by the number of oscillators again, of those of which there were some before another proof, and with them what is proved of these counts.
-    fn count_again(&mut self, before: Option<ByCount>, counts: &[u32]) {
+    /// Finds bounds by the number of oscillators again, of those of which there were some before another proof, and with them what is proved of these oscillators.
+    fn count_again(&mut self, before: Option<ByCount>, asked: &[Oscillators]) {
         let Some((plant, oscillators)) = before.and_then(|before| again(self.spec, before)) else { return };
         self.set_counts(&plant, &oscillators);
         if let (Some(found), Some(proof)) = (&mut self.by_count, self.sharp.proved()) {
             found.checked = true;
-            self.for_n_o = for_n_o(self.spec, (proof, self.by_count.as_ref()), counts);
+            self.for_n_o = for_n_o(self.spec, (proof, self.by_count.as_ref()), asked);
         }
     }
 
@@ -135,7 +135,7 @@ impl Certification<'_> {
 
 impl SampledCertification<'_> {
     /// The same of a claim at samples, whose box alone is made larger.
-    pub(super) fn make_room(&mut self, counts: &[u32]) {
+    pub(super) fn make_room(&mut self, asked: &[Oscillators]) {
         let Some(own) = self.claim().filter(|_| may_be_replaced(&self.limits, self.by_count.as_ref())) else {
             return;
         };
@@ -144,7 +144,7 @@ impl SampledCertification<'_> {
             self.by_count.as_ref().filter(|found| same_set && found.is_of_set())
         };
         let bounds = |run: &SampledCertification<'_>| {
-            let of = |proof| for_n_o_at_samples(self.spec, (proof, known_with(proof)), counts);
+            let of = |proof| for_n_o_at_samples(self.spec, (proof, known_with(proof)), asked);
             run.claim().map_or_else(Vec::new, of)
         };
         let mut best = more_proved(&self.for_n_o, |factor| self.widened(own, factor), bounds);
@@ -160,20 +160,20 @@ impl SampledCertification<'_> {
             (self.outcome, self.no_plant, self.for_n_o) = (run.outcome, run.no_plant, found);
             let before = replace(&mut self.by_count, known);
             if self.by_count.is_none() {
-                self.count_again(before, counts);
+                self.count_again(before, asked);
             }
         }
     }
 
     /// The same of a claim at samples.
-    fn count_again(&mut self, before: Option<ByCount>, counts: &[u32]) {
+    fn count_again(&mut self, before: Option<ByCount>, asked: &[Oscillators]) {
         let Some((plant, oscillators)) = before.and_then(|before| again(self.spec, before)) else { return };
         self.set_counts(&plant, &oscillators);
         if let Some(found) = &mut self.by_count {
             found.checked = true;
         }
         if let Some(proof) = self.claim().filter(|_| self.by_count.is_some()) {
-            self.for_n_o = for_n_o_at_samples(self.spec, (proof, self.by_count.as_ref()), counts);
+            self.for_n_o = for_n_o_at_samples(self.spec, (proof, self.by_count.as_ref()), asked);
         }
     }
 
@@ -209,7 +209,7 @@ pub(crate) fn plant_of(spec: &Specification) -> Option<Plant> {
     Plant::from_value(&document.root()).ok()
 }
 
-/// For how many numbers of oscillators something is proved of noise.
+/// For how many numbers of oscillators and sets something is proved of noise.
 fn count<P, Q>(found: &[ForCount<P, Q>]) -> usize {
     found.iter().filter_map(ForCount::proved_noise).count()
 }

@@ -6,10 +6,11 @@ use super::gain_row::{GainRow, RowNoise, RowProof};
 use super::rates::{by_sampled_matrix, for_n_o, for_n_o_at_samples, matrix_arguments};
 use super::sampled::SampledCertification;
 use sigmastar_exact::parallel;
+use sigmastar_lang::spec::Oscillators;
 
 impl Certification<'_> {
-    /// Proves what noise does at the gain of every row that rests on norms, for these numbers of oscillators.
-    pub(super) fn set_noise_of_rows(&mut self, counts: &[u32]) {
+    /// Proves what noise does at the gain of every row that rests on norms, for these oscillators.
+    pub(super) fn set_noise_of_rows(&mut self, asked: &[Oscillators]) {
         if !self.spec.disturbances.any() {
             return;
         }
@@ -18,7 +19,7 @@ impl Certification<'_> {
             let spec = other.as_deref().unwrap_or(self.spec);
             match matrix_arguments(spec, proof) {
                 Some(_) => Vec::new(),
-                None => RowNoise::of(&row.sigma, for_n_o(spec, (proof, None), counts)),
+                None => RowNoise::of(&row.sigma, for_n_o(spec, (proof, None), asked)),
             }
         };
         self.noise_of_rows = parallel::map(&self.gains, of_row).into_iter().flatten().collect();
@@ -27,13 +28,13 @@ impl Certification<'_> {
 
 impl SampledCertification<'_> {
     /// The same at samples.
-    pub(super) fn set_noise_of_rows(&mut self, counts: &[u32]) {
+    pub(super) fn set_noise_of_rows(&mut self, asked: &[Oscillators]) {
         if !self.spec.disturbances.any_at_samples() {
             return;
         }
         let of_row = |row: &GainRow| match &row.proof {
             RowProof::Sampled(proof) if !by_sampled_matrix(self.spec, proof) => {
-                RowNoise::of(&row.sigma, for_n_o_at_samples(self.spec, (proof, None), counts))
+                RowNoise::of(&row.sigma, for_n_o_at_samples(self.spec, (proof, None), asked))
             }
             _ => Vec::new(),
         };

@@ -10,7 +10,7 @@ use crate::rate::sampled::bound as at_samples;
 use rug::Rational;
 use sigmastar_decide::conditions::SharpProof;
 use sigmastar_exact::parallel;
-use sigmastar_lang::spec::Specification;
+use sigmastar_lang::spec::{Oscillators, Specification};
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::sampled::matrix_inequality;
 use sigmastar_theory::evidence::Slopes;
@@ -25,6 +25,7 @@ impl Certification<'_> {
         let slopes: Vec<Option<&[Slopes]>> = self
             .for_n_o
             .iter()
+            .filter(|found| found.oscillators.n_o().is_some())
             .map(|found| found.bound.as_ref().and_then(|bound| bound.proof.by.as_ref()).map(|by| by.slopes.as_slice()))
             .collect();
         let of_row = |row: &GainRow| {
@@ -51,7 +52,8 @@ fn by_norms(spec: &Specification, proof: &SharpProof, counts: &[u32]) -> Rates {
     let distances = distances(&data, proof);
     let error_box = &proof.evaluation.error_box;
     let place = Place { sigma: &proof.witness.sigma, error_box, distances: distances.each_ref() };
-    counts.iter().map(|n_o| (*n_o, bound(&data, &place, *n_o).map(|bound| bound.rate))).collect()
+    let rate = |n_o: u32| bound(&data, &place, &Oscillators::first(n_o)).map(|bound| bound.rate);
+    counts.iter().map(|n_o| (*n_o, rate(*n_o))).collect()
 }
 
 fn by_matrices(
@@ -64,7 +66,7 @@ fn by_matrices(
     let distances = distances(&data, proof);
     let start = Start { sigma: &proof.witness.sigma, distances: &|_| distances.clone() };
     let rate = |(n_o, slopes): (&u32, &Option<&[Slopes]>)| {
-        let bound = slopes.and_then(|slopes| again(&data, (states, &start), slopes, *n_o));
+        let bound = slopes.and_then(|slopes| again(&data, (states, &start), slopes, &Oscillators::first(*n_o)));
         (*n_o, bound.map(|bound| bound.rate))
     };
     counts.iter().zip(slopes).map(rate).collect()
@@ -87,8 +89,9 @@ impl SampledCertification<'_> {
             let distances = distances_at_samples(&data, proof);
             let error_box = &proof.evaluation.error_box;
             let place = Place { sigma: &proof.witness.sigma, error_box, distances: distances.each_ref() };
-            let rate = |n_o: u32| at_samples::bound(&data, &proof.evaluation.law, &place, n_o).map(|bound| bound.rate);
-            counts.iter().map(|n_o| (*n_o, rate(*n_o))).collect()
+            let law = &proof.evaluation.law;
+            let bound = |n_o: u32| at_samples::bound(&data, law, &place, &Oscillators::first(n_o));
+            counts.iter().map(|n_o| (*n_o, bound(*n_o).map(|bound| bound.rate))).collect()
         };
         let rates: Vec<Rates> = parallel::map(&self.gains, of_row);
         for (row, rates) in self.gains.iter_mut().zip(rates) {

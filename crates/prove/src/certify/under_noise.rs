@@ -37,7 +37,7 @@ fn under_noise<P, Q>(
     (without, by_count): (&BoundsOfCount, Option<&ByCount>),
 ) -> Option<UnderNoise> {
     let NoiseBound { limit, peak, misled, control: added, .. } =
-        found.iter().find(|found| found.n_o == n_o)?.proved_noise()?;
+        found.iter().find(|found| found.oscillators.n_o() == Some(n_o))?.proved_noise()?;
     let BoundsOfCount { steady_error, peak_error, control, steady_control, transient } = without;
     let with = |bound: &Enclosure, more: &[&Rational]| {
         more.iter().fold(bound.clone(), |sum, more| sum + Enclosure::from_rational(more, bound.precision()))

@@ -1,4 +1,4 @@
-//! From a rate to a bound of the error: `|e(t) - e_per(t)| <= C exp(-rate (t - t_0))` for every start in a set, at one n_o and one
+//! From a rate to a bound of the error: `|e(t) - e_per(t)| <= C exp(-rate (t - t_0))` for every start in a set, with given oscillators at one
 //! gain (derivation, section 13.6).
 //!
 //! With the W of [`sigmastar_decide::rates::inequality`], `Pi >= diag(e_low, 0)` and `Pi <= diag(e_up, z_up I)`,
@@ -10,15 +10,16 @@ use sigmastar_decide::rates::OscillatorMatrix;
 use sigmastar_decide::rates::inequality::{ErrorDynamics, LoopBounds, RateWitness, is_definite};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, round_rational};
+use sigmastar_lang::spec::Oscillators;
 use sigmastar_propose::rates::{Condition, Limit, Numbers, SmallGain};
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::stability::ErrorBox;
 use sigmastar_theory::evidence::Slopes;
 
-/// The largest number of oscillators of which a certificate has a rate.
+/// The largest number of oscillators, and the largest harmonic, of which a certificate has a rate.
 pub const MAX_OSCILLATORS: u32 = 100;
 
-/// The most numbers of oscillators of one certificate.
+/// The most numbers of oscillators and sets of harmonics of one certificate.
 pub const MAX_COUNTS: usize = 8;
 
 /// The most entries of the triangles of all Pi of one certificate, those of x left out: with six states and the most digits that are tried an
@@ -65,11 +66,11 @@ pub struct ByMatrices {
     pub x_up: Option<Rational>,
 }
 
-/// A bound `|e - e_per| <= factor exp(-rate (t - t_0))` for one n_o, proved by a P; of the regulator at samples at the sampling instants.
+/// A bound `|e - e_per| <= factor exp(-rate (t - t_0))` for some oscillators, proved by a P; of the regulator at samples at the sampling instants.
 #[derive(Clone, Debug)]
 pub struct RateBound<P> {
-    /// n_o.
-    pub n_o: u32,
+    /// The oscillators.
+    pub oscillators: Oscillators,
     /// The rate, in 1/time; at samples exp(2 h rate) <= 1 + c.
     pub rate: Rational,
     /// What proves it.
@@ -87,26 +88,26 @@ pub struct RateBound<P> {
 impl<P> RateBound<P> {
     /// The same bound, with what is made of its proof.
     fn with<Q>(self, of: impl FnOnce(P) -> Q) -> RateBound<Q> {
-        let RateBound { n_o, rate, proof, e_low, upper, factor, limit } = self;
-        RateBound { n_o, rate, proof: of(proof), e_low, upper, factor, limit }
+        let RateBound { oscillators, rate, proof, e_low, upper, factor, limit } = self;
+        RateBound { oscillators, rate, proof: of(proof), e_low, upper, factor, limit }
     }
 }
 
 /// The best bound that is found; `None` where nothing is proved.
 ///
-/// Guarantee: for every solution that stays in the error box of `place` from a start within its distances, at its gain, with n_o
+/// Guarantee: for every solution that stays in the error box of `place` from a start within its distances, at its gain, with these
 /// oscillators and every input gain of the data, `|e(t) - e_per(t)| <= factor exp(-rate (t - t_0))`, whoever the plant is of which the
 /// bounds of the error box hold.
 #[must_use]
-pub fn bound(data: &Data<'_>, place: &Place<'_>, n_o: u32) -> Option<RateBound<ByForm>> {
+pub fn bound(data: &Data<'_>, place: &Place<'_>, oscillators: &Oscillators) -> Option<RateBound<ByForm>> {
     let bounds = LoopBounds::of_error(data, place.error_box)?;
-    let oscillators = OscillatorMatrix::new(data, n_o);
-    let dynamics = ErrorDynamics::new(data, &oscillators, place.sigma, &bounds);
+    let matrix = OscillatorMatrix::new(data, oscillators);
+    let dynamics = ErrorDynamics::new(data, &matrix, place.sigma, &bounds);
     let proof = |witness| ByForm { witness, has_x: bounds.has_x, by: None };
-    best(data, place, n_o, &dynamics).map(|bound| bound.with(proof))
+    best(data, place, oscillators, &dynamics).map(|bound| bound.with(proof))
 }
 
-/// The loop of a claim by norms with n_o oscillators at one gain: in continuous time, or at samples.
+/// The loop of a claim by norms with some oscillators at one gain: in continuous time, or at samples.
 pub(super) trait Loop {
     /// The numbers of a proof.
     type Witness;
@@ -151,7 +152,12 @@ impl Loop for ErrorDynamics<'_> {
 /// The best bound that is found of a loop; `None` where nothing is proved.
 ///
 /// Guarantee: that of [`bound`], of what the loop is; at samples for starts and times that are sampling instants.
-pub(super) fn best<L: Loop>(data: &Data<'_>, place: &Place<'_>, n_o: u32, of: &L) -> Option<RateBound<L::Witness>> {
+pub(super) fn best<L: Loop>(
+    data: &Data<'_>,
+    place: &Place<'_>,
+    oscillators: &Oscillators,
+    of: &L,
+) -> Option<RateBound<L::Witness>> {
     let condition = of.condition()?;
     let largest = condition.largest_rate()?;
     SHARES.iter().find_map(|share| {
@@ -171,7 +177,8 @@ pub(super) fn best<L: Loop>(data: &Data<'_>, place: &Place<'_>, n_o: u32, of: &L
             // Where x does not count, W is without it.
             let of_x = w.map_or_else(|| data.zero(), |w| data.rational(w) * &data.p_up);
             let factor = factor(data, [of_x, data.rational(e_up), data.rational(z_up)], place.distances, &e_low)?;
-            Some(RateBound { n_o, rate, proof: witness, e_low, upper, factor, limit: condition.limit() })
+            let oscillators = oscillators.clone();
+            Some(RateBound { oscillators, rate, proof: witness, e_low, upper, factor, limit: condition.limit() })
         })
     })
 }

@@ -1,4 +1,4 @@
-//! From balls of the first derivatives to a bound of the error for one n_o: Propositions R_D and, where (M) is proved on a path with a corner,
+//! From balls of the first derivatives to a bound of the error for given oscillators: Propositions R_D and, where (M) is proved on a path with a corner,
 //! R_P of derivation, 13.6, for claims by (M) and (Jm), which have no norms of the error system.
 //!
 //! With `Pi > diag(0, e_low, 0)` and `Pi < diag(x_up I, e_up, z_up I)` the start has `W <= x_up dX^2 + e_up dE^2 + z_up dZ^2`, and
@@ -11,6 +11,7 @@ use sigmastar_decide::bounds::Engine;
 use sigmastar_decide::rates::inequality::{RateWitness, is_definite};
 use sigmastar_decide::rates::matrix_loop::{KnownSlopes, MatrixLoop, Multipliers};
 use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_lang::spec::Oscillators;
 use sigmastar_propose::bounds::{FloatSlopes, FloatSuprema};
 use sigmastar_propose::rates::{BoundedReal, Limit, SampledSlopes};
 use sigmastar_theory::data::Data;
@@ -38,18 +39,18 @@ pub struct Tube<'a> {
 pub struct Start<'a> {
     /// The gain of the claim, in 1/time.
     pub sigma: &'a Rational,
-    /// dX, dE, dZ with a number of oscillators.
-    pub distances: &'a dyn Fn(u32) -> [Enclosure; 3],
+    /// dX, dE, dZ with some oscillators.
+    pub distances: &'a dyn Fn(&Oscillators) -> [Enclosure; 3],
 }
 
-/// Bounds for these numbers of oscillators, in order; `None` where nothing is proved.
+/// Bounds for each of these oscillators, in order; `None` where nothing is proved.
 ///
-/// Guarantee: for every solution that stays in the error box from a start within the distances, at the gain, with so many oscillators,
+/// Guarantee: for every solution that stays in the error box from a start within the distances, at the gain, with these oscillators,
 /// every input gain of the data and every member of a family, `|e(t) - e_per(t)| <= factor exp(-rate (t - t_0))`.
 #[must_use]
-pub fn bounds(data: &Data<'_>, tube: &Tube<'_>, counts: &[u32]) -> Vec<Option<RateBound<ByForm>>> {
+pub fn bounds(data: &Data<'_>, tube: &Tube<'_>, asked: &[Oscillators]) -> Vec<Option<RateBound<ByForm>>> {
     let mut kinds: Vec<Kind<'_>> = tube.kinds().into_iter().map(|parts| Kind::new(tube, parts)).collect();
-    counts.iter().map(|n_o| bound(data, tube, &mut kinds, *n_o)).collect()
+    asked.iter().map(|oscillators| bound(data, tube, &mut kinds, oscillators)).collect()
 }
 
 /// The bound at another gain, from what is proved of the derivatives already: of a plant with so many states.
@@ -60,11 +61,10 @@ pub fn again(
     data: &Data<'_>,
     (states, start): (usize, &Start<'_>),
     slopes: &[Slopes],
-    n_o: u32,
+    oscillators: &Oscillators,
 ) -> Option<RateBound<ByForm>> {
-    let all: Vec<u32> = (1..=n_o).collect();
-    let of = MatrixLoop::new(data, states, start.sigma, &all);
-    with_slopes(data, start, (&of, n_o), slopes.to_vec())
+    let of = MatrixLoop::new(data, states, start.sigma, oscillators.beyond_mean());
+    with_slopes(data, start, (&of, oscillators), slopes.to_vec())
 }
 
 impl<'a> Tube<'a> {
@@ -129,31 +129,41 @@ fn known<R>(
     KnownSlopes { columns: part.columns(states), q: numbers(q), g: numbers(g), h: numbers(h) }
 }
 
-fn bound(data: &Data<'_>, tube: &Tube<'_>, kinds: &mut [Kind<'_>], n_o: u32) -> Option<RateBound<ByForm>> {
+fn bound(
+    data: &Data<'_>,
+    tube: &Tube<'_>,
+    kinds: &mut [Kind<'_>],
+    oscillators: &Oscillators,
+) -> Option<RateBound<ByForm>> {
     let states = tube.engine.states();
     let with = |oscillators: &[u32]| MatrixLoop::new(data, states, tube.start.sigma, oscillators);
     // The mode of the fastest oscillator is the slowest of the loop.
-    let few: Vec<u32> = if n_o > 2 { vec![1, n_o] } else { (1..=n_o).collect() };
-    let all: Vec<u32> = (1..=n_o).collect();
-    let (few, of) = (with(&few), with(&all));
+    let all = oscillators.beyond_mean();
+    let few = match all {
+        [first, _, .., last] => vec![*first, *last],
+        few => few.to_vec(),
+    };
+    let (few, of) = (with(&few), with(all));
     let mut proposed: Vec<_> = kinds
         .iter_mut()
         .filter_map(|kind| kind.propose(tube, &few, &of).map(|(rate, balls)| (rate, balls, &*kind)))
         .collect();
     proposed.sort_by(|a, b| b.0.total_cmp(&a.0));
-    proposed.iter().find_map(|(_, balls, kind)| with_slopes(data, &tube.start, (&of, n_o), kind.prove(tube, balls)?))
+    proposed
+        .iter()
+        .find_map(|(_, balls, kind)| with_slopes(data, &tube.start, (&of, oscillators), kind.prove(tube, balls)?))
 }
 
 /// The best bound that follows from what is proved of D.
 fn with_slopes(
     data: &Data<'_>,
     start: &Start<'_>,
-    (of, n_o): (&MatrixLoop<Enclosure>, u32),
+    (of, oscillators): (&MatrixLoop<Enclosure>, &Oscillators),
     slopes: Vec<Slopes>,
 ) -> Option<RateBound<ByForm>> {
     let states = of.states;
     let (equation, largest) = equation(of, &slopes)?;
-    let distances = (start.distances)(n_o);
+    let distances = (start.distances)(oscillators);
     let distances = distances.each_ref();
     let proposals = SHARES.iter().flat_map(|share| {
         let of_factor = iter::once_with(|| equation.propose_factor(largest, *share, distances));
@@ -175,7 +185,8 @@ fn with_slopes(
             let limit = Limit::Middle(equation.fastest());
             let (rate, upper, e_low) = (witness.rate.clone(), [e_up, z_up], e_low.clone());
             let proof = ByForm { witness, has_x: false, by };
-            Some(RateBound { n_o, rate, proof, e_low, upper, factor, limit })
+            let oscillators = oscillators.clone();
+            Some(RateBound { oscillators, rate, proof, e_low, upper, factor, limit })
         })
     })
 }

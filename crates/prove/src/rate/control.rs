@@ -1,4 +1,4 @@
-//! What noise, a disturbance and rounding add to what is put out, for one n_o and one gain (derivation, 13.6).
+//! What noise, a disturbance and rounding add to what is put out, for some oscillators and one gain (derivation, 13.6).
 //!
 //! Of the differences u is a linear function `c'y` of y = (e, zs), with as much more as v and rounding are in it at the same time. Where `y'Pi y` is at most
 //! `level^2`, `|c'y| <= level max |c'y|` over `y'Pi y <= 1`: of the part with the inputs by the form that bounds what they do, and of the one by which an
@@ -11,6 +11,7 @@ use sigmastar_decide::rates::inequality::is_definite;
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, round_f64};
 use sigmastar_exact::real::Real;
+use sigmastar_lang::spec::Oscillators;
 use sigmastar_propose::rates::largest_square;
 use sigmastar_theory::data::Data;
 
@@ -19,8 +20,8 @@ const ROOM: f64 = 1e-6;
 
 /// The W of a rate: `Pi > diag(e_low, 0)`, and at most z_up on zs.
 pub struct RateForm<'r> {
-    /// n_o.
-    pub n_o: u32,
+    /// The oscillators.
+    pub oscillators: &'r Oscillators,
     /// Pi by the rows of its lower triangle.
     pub pi: &'r [Vec<Rational>],
     /// e_low.
@@ -30,14 +31,16 @@ pub struct RateForm<'r> {
 }
 
 impl<'r> From<&'r RateBound<ByForm>> for RateForm<'r> {
-    fn from(RateBound { n_o, proof, e_low, upper: [_, z_up], .. }: &'r RateBound<ByForm>) -> RateForm<'r> {
-        RateForm { n_o: *n_o, pi: &proof.witness.pi, e_low, z_up }
+    fn from(RateBound { oscillators, proof, e_low, upper: [_, z_up], .. }: &'r RateBound<ByForm>) -> RateForm<'r> {
+        RateForm { oscillators, pi: &proof.witness.pi, e_low, z_up }
     }
 }
 
 impl<'r> From<&'r RateBound<SampledRateWitness>> for RateForm<'r> {
-    fn from(RateBound { n_o, proof, e_low, upper: [_, z_up], .. }: &'r RateBound<SampledRateWitness>) -> RateForm<'r> {
-        RateForm { n_o: *n_o, pi: &proof.pi, e_low, z_up }
+    fn from(
+        RateBound { oscillators, proof, e_low, upper: [_, z_up], .. }: &'r RateBound<SampledRateWitness>,
+    ) -> RateForm<'r> {
+        RateForm { oscillators, pi: &proof.pi, e_low, z_up }
     }
 }
 
@@ -92,7 +95,8 @@ mod tests {
         let pi = vec![vec![Rational::from(2)], vec![Rational::from(1), Rational::from(1)]];
         let e_low = Rational::from((1, 2));
         let z_up = Rational::from(9);
-        let rate = RateForm { n_o: 0, pi: &pi, e_low: &e_low, z_up: &z_up };
+        let oscillators = Oscillators::first(0);
+        let rate = RateForm { oscillators: &oscillators, pi: &pi, e_low: &e_low, z_up: &z_up };
         for (text, nominal) in [(text.clone(), 1.0), (text.replacen('{', gain, 1), 4.0)] {
             let spec = Specification::from_json("test", &text).unwrap();
             let data = Data::new(&spec, 128);

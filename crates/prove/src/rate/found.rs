@@ -1,16 +1,17 @@
-//! What is known of one number of oscillators that was asked about.
+//! What is known of oscillators that were asked about.
 
 use super::bound::{ByForm, RateBound};
 use super::noise::{NoNoiseBound, NoiseBound, NoiseByForm};
 use super::sampled::noise::SampledNoise;
 use rug::Rational;
 use sigmastar_decide::rates::at_samples::SampledRateWitness;
+use sigmastar_lang::spec::Oscillators;
 
-/// What was found for one n_o that was asked about: a rate that is proved by a P, and what noise does by a Q.
+/// What was found for oscillators that were asked about: a rate that is proved by a P, and what noise does by a Q.
 #[derive(Clone, Debug)]
 pub struct ForCount<P, Q> {
-    /// n_o.
-    pub n_o: u32,
+    /// The oscillators.
+    pub oscillators: Oscillators,
     /// The bound; `None` where none was proved, which says nothing either way.
     pub bound: Option<RateBound<P>>,
     /// Bounds of what noise and disturbances do; `None` where the document has none.
@@ -24,9 +25,9 @@ pub type RateForCount = ForCount<ByForm, NoiseByForm>;
 pub type SampledRateForCount = ForCount<SampledRateWitness, SampledNoise>;
 
 impl<P, Q> ForCount<P, Q> {
-    /// n_o and the rate.
-    pub(crate) fn rate(&self) -> (u32, Option<&Rational>) {
-        (self.n_o, self.bound.as_ref().map(|bound| &bound.rate))
+    /// The oscillators and the rate.
+    pub(crate) fn rate(&self) -> (&Oscillators, Option<&Rational>) {
+        (&self.oscillators, self.bound.as_ref().map(|bound| &bound.rate))
     }
 
     /// The bounds under noise, where they are proved.

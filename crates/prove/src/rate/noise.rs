@@ -1,4 +1,4 @@
-//! Bounds of what noise and a disturbance do to the error, for one n_o and one gain (derivation, section 13.6, Proposition N).
+//! Bounds of what noise and a disturbance do to the error, for some oscillators and one gain (derivation, section 13.6, Proposition N).
 //!
 //! What is measured is e + v, and d is added to q: any measurable signals with |v| <= v_bar, |d| <= d_bar. (N) is the form of
 //! [`sigmastar_decide::rates::inequality`] with these inputs and lam > 0 for the rate, positive definite at the corners, with Pi >= diag(e_low, 0). With
@@ -48,7 +48,7 @@ pub struct NoiseByForm {
     pub has_x: bool,
 }
 
-/// Bounds for one n_o, proved by a P.
+/// Bounds for some oscillators, proved by a P.
 #[derive(Clone, Debug)]
 pub struct NoiseBound<P> {
     /// What proves (N), or the form with inputs at samples.
@@ -139,7 +139,7 @@ fn shown(value: f64) -> String {
 
 /// The best bounds that are found.
 ///
-/// Guarantee: with n_o oscillators at the gain of `place`, every input gain of the data, and any measurable inputs within the bounds of the
+/// Guarantee: with these oscillators at the gain of `place`, every input gain of the data, and any measurable inputs within the bounds of the
 /// specification, every solution from a start within the distances of `place` has `|e(t) - e_per(t)| <= peak` at all times from the start on and
 /// a limit superior of that of at most `limit`, e_per being of the periodic solution without inputs; whoever the plant is of which the bounds of
 /// the error box hold.
@@ -156,7 +156,7 @@ pub fn noise_bound(
         return Err(NoNoiseBound::Actuator);
     }
     let bounds = LoopBounds::of_error(data, place.error_box).ok_or(NoNoiseBound::NotFound)?;
-    let oscillators = OscillatorMatrix::new(data, rate.n_o);
+    let oscillators = OscillatorMatrix::new(data, rate.oscillators);
     let dynamics = ErrorDynamics::new(data, &oscillators, place.sigma, &bounds);
     let sizes = [data.spec.d_bar(), data.spec.v_bar()];
     let proposal = propose(&dynamics, sizes.each_ref().map(Rational::to_f64)).ok_or(NoNoiseBound::NotFound)?;

@@ -7,6 +7,7 @@ use rug::Rational;
 use sigmastar_decide::rates::OscillatorMatrix;
 use sigmastar_exact::enclosure::{Enclosure, Truth};
 use sigmastar_exact::number::{Direction, round_f64, round_rational};
+use sigmastar_lang::spec::Oscillators;
 use sigmastar_matrix::ScaledMatrix;
 use sigmastar_propose::rates::oscillators::{Proposed, propose};
 use sigmastar_theory::data::Data;
@@ -28,7 +29,7 @@ pub struct Lemma {
 /// Lemma 1 of the data for one n_o; `None` where nothing is proved.
 #[must_use]
 pub fn lemma(data: &Data<'_>, n_o: u32) -> Option<Lemma> {
-    let system = OscillatorMatrix::new(data, n_o);
+    let system = OscillatorMatrix::new(data, &Oscillators::first(n_o));
     let Proposed { p, largest, abscissa } = propose(&system)?;
     let p = proved(&system, &p, largest)?;
     let rate = round_rational(&(Rational::from(1) / (p.clone() * 2u32)), 6, Direction::Down);
@@ -105,7 +106,7 @@ mod tests {
     #[test]
     fn a_wrong_p_proves_nothing() {
         let spec = example();
-        let system = OscillatorMatrix::new(&Data::new(&spec, 128), 0);
+        let system = OscillatorMatrix::new(&Data::new(&spec, 128), &Oscillators::first(0));
         let of = |p: f64| proved(&system, &[vec![p]], p);
         assert!(of(0.251).is_some_and(|largest| largest >= Rational::from((251, 1000))));
         assert_eq!([of(0.249), of(0.0), of(-1.0)], [None, None, None]);

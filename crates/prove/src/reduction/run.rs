@@ -202,6 +202,12 @@ impl Prepared {
         Prepared { sets, ..self }
     }
 
+    /// These sets.
+    #[must_use]
+    pub fn sets(&self) -> &[Oscillators] {
+        &self.sets
+    }
+
     /// The prepared subject for a claim that is to keep to limits at its gain: at the one that is given, or at the smallest one that is found
     /// with which it does.
     #[must_use]
@@ -226,21 +232,21 @@ fn around_again(spec: &Specification) -> Option<(Engine, FloatSuprema)> {
 }
 
 impl Run<'_> {
-    /// Proves rates for these numbers of oscillators at the gain of the claim, by norms or from the derivatives of the plant
+    /// Proves rates for these oscillators at the gain of the claim, by norms or from the derivatives of the plant
     /// ([`Certification::prove_rates`], [`Certification::prove_rates_around`], [`SampledCertification::prove_rates`]). Where a least rate is to be
     /// kept and one of them is not proved to be as large there is no claim any more; nor where the steady error with some of them is not kept, or an actuator
     /// is not that is to be kept to by the number of oscillators.
     ///
     /// # Errors
     /// Theirs.
-    pub fn prove_rates(&mut self, counts: &[u32]) -> Result<(), NoRatesOfClaim> {
+    pub fn prove_rates(&mut self, asked: &[Oscillators]) -> Result<(), NoRatesOfClaim> {
         match self {
-            Run::Continuous(run) if !counts.is_empty() && run.matrix_arguments().is_some() => {
+            Run::Continuous(run) if !asked.is_empty() && run.matrix_arguments().is_some() => {
                 let (engine, samples) = around_again(run.spec).ok_or(NoRatesOfClaim::OfFormulas)?;
-                run.prove_rates_around(counts, (&engine, &samples))
+                run.prove_rates_around(asked, (&engine, &samples))
             }
-            Run::Continuous(run) => run.prove_rates(counts),
-            Run::Sampled(run) => run.prove_rates(counts),
+            Run::Continuous(run) => run.prove_rates(asked),
+            Run::Sampled(run) => run.prove_rates(asked),
         }?;
         match self {
             Run::Continuous(run) => {
@@ -278,7 +284,7 @@ impl Run<'_> {
         }
     }
 
-    /// What is proved for each number of oscillators that was asked about, where a rate is.
+    /// What is proved for all oscillators that were asked about, where a rate is.
     #[must_use]
     pub fn of_counts(&self) -> Vec<SaidOfCount<'_>> {
         match self {

@@ -1,6 +1,7 @@
 //! What is claimed of an exported regulator, and what is not: the words that every export carries.
 
 use super::Export;
+use sigmastar_lang::spec::Oscillators;
 
 /// The law at samples, as exports write it: Phi is R there.
 pub const SAMPLED_LAW: &str = "v = M'N Phi (z - M e), u = -sigma e + K v, z_next = Phi (z - M e) + (1 - h sigma) M e";
@@ -31,8 +32,8 @@ pub struct Provenance {
     pub statement: String,
     /// What it says about this regulator.
     pub scope: Scope,
-    /// The number of oscillators, where what it says of this one counts the rounding of the C code.
-    pub rounding: Option<u32>,
+    /// The oscillators, where what it says of these counts the rounding of the C code.
+    pub rounding: Option<Oscillators>,
 }
 
 /// What the claim of a certificate is about, and whether the regulator is that.
@@ -141,7 +142,7 @@ pub fn notice(export: &Export<'_>) -> Vec<String> {
     }
     let claimed = (export.certificate.map(|certificate| certificate.scope), export.actuator);
     let rounding = export.certificate.filter(|certificate| certificate.scope == Scope::Samples);
-    let rounding = rounding.and_then(|certificate| certificate.rounding);
+    let rounding = rounding.and_then(|certificate| certificate.rounding.as_ref());
     let quantisation = if rounding.is_some() { "quantisation that these bounds do not name" } else { "quantisation" };
     // With an actuator the saturation is in a claim about the regulator that is exported, and in no other.
     let saturates = match (claimed, export.discrete) {
@@ -155,8 +156,8 @@ pub fn notice(export: &Export<'_>) -> Vec<String> {
         None => format!(
             "No claim covers the rounding of these numbers and of the arithmetic with them, {late}, {saturates}."
         ),
-        Some(n_o) => format!(
-            "The bounds of the certificate with n_o = {n_o} that say \"computed in double precision as exported\" include the rounding of the exported C \
+        Some(oscillators) => format!(
+            "The bounds of the certificate with {oscillators} that say \"computed in double precision as exported\" include the rounding of the exported C \
              code. No other bound includes it. No claim covers {late}, {saturates}."
         ),
     });

@@ -93,7 +93,7 @@ impl Row {
                 Some(bound) => Stated { bound: bound.clone(), is_in_certificate: false },
                 None => peak_error,
             };
-            let said = said.iter().find(|said| said.n_o == *n_o);
+            let said = said.iter().find(|said| said.oscillators.n_o() == Some(*n_o));
             Some(Cell {
                 n_o: *n_o,
                 are_in_certificate: [steady_error.is_in_certificate, peak_error.is_in_certificate],

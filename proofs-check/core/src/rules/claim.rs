@@ -41,7 +41,7 @@ pub struct Claim<'a> {
     pub periodic: Field<'a>,
     /// Bounds of the control, where they are claimed.
     control: Option<Field<'a>>,
-    /// What it says besides of given numbers of oscillators.
+    /// What it says besides of given oscillators.
     pub rates: Vec<Rate<'a>>,
     /// What it says besides by the number of oscillators.
     pub by_n_o: Vec<Entry<'a>>,
@@ -126,13 +126,15 @@ impl<'a> Claim<'a> {
         let samples = sampled.as_ref().map(|regulator| regulator.samples);
         let by_n_o = fields.part("by_n_o", |field| Entry::read_all(field, samples))?;
         let harmonics = fields.optional("harmonics");
-        let of_set = by_n_o.iter().flatten().find(|entry| entry.oscillators.n_o().is_none());
-        if let Some(entry) = of_set.filter(|_| harmonics.is_none()) {
-            let what = "expected only where the claim has `harmonics`";
-            return bad(&format!("{}/harmonics", entry.pointer), what);
+        let rates = rates.transpose()?.unwrap_or_default();
+        let said = rates.iter().map(|rate| (&rate.oscillators, &rate.pointer));
+        let mut said = said.chain(by_n_o.iter().flatten().map(|entry| (&entry.oscillators, &entry.pointer)));
+        let of_set = said.find(|(oscillators, _)| oscillators.n_o().is_none());
+        if let Some((set, pointer)) = of_set.filter(|_| harmonics.is_none()) {
+            return bad(&set.place(pointer), "expected only where the claim has `harmonics`");
         }
         let claim = Claim {
-            rates: rates.transpose()?.unwrap_or_default(),
+            rates,
             by_n_o: by_n_o.unwrap_or_default(),
             sigma,
             sampled,

@@ -3,7 +3,7 @@ use crate::certify::{Certification, Options, Wanted, certify_for};
 use crate::rate::found::RateForCount;
 use faer::linalg::solvers::DenseSolveCore;
 use faer::{Mat, c64};
-use sigmastar_lang::spec::Specification;
+use sigmastar_lang::spec::{Oscillators, Specification};
 use sigmastar_theory::derivation::stability::ErrorBox;
 
 const COUNTS: [u32; 4] = [0, 1, 4, 10];
@@ -19,7 +19,7 @@ fn certified<'s>(spec: &'s Specification, gain: &str, counts: &[u32]) -> Certifi
     let options = Options { compare: false, ..Options::default() };
     let mut run = certify_for(spec, options, Wanted { gain: Some(&gain), ..Wanted::default() }).expect("not refuted");
     assert_eq!(run.sigma_star(), Some(&gain));
-    run.prove_rates(counts).expect("by norms");
+    run.prove_rates(&counts.iter().copied().map(Oscillators::first).collect::<Vec<_>>()).expect("by norms");
     run
 }
 
@@ -147,12 +147,13 @@ fn limits_are_above_what_the_worst_inputs_do() {
             let data = Data::new(&spec, 128);
             let periodic = [&proof.evaluation.periodic.x_per, &proof.evaluation.periodic.e_per];
             let there = ErrorBox::new(&data, proof.witness.paths, periodic, [&data.zero(), &data.zero()]);
-            for RateForCount { n_o, noise, .. } in &run.for_n_o {
+            for RateForCount { oscillators, noise, .. } in &run.for_n_o {
+                let n_o = oscillators.largest();
                 let noise =
                     noise.as_ref().expect("asked").as_ref().unwrap_or_else(|why| panic!("{name} {n_o}: {why:?}"));
                 assert_eq!(noise.misled, 0);
                 let [[worst, _], [worst_control, _]] =
-                    worst(&data, &there, gain.parse().expect("a decimal"), *n_o, sizes);
+                    worst(&data, &there, gain.parse().expect("a decimal"), n_o, sizes);
                 let ratio = noise.limit.to_f64() / worst;
                 println!(
                     "{name} {n_o} {fields} gain {gain} limit {:.4e} worst {worst:.4e} ratio {ratio:.3} of u {:.3} lambda {:.3e} {seconds:.1} s",
@@ -182,10 +183,11 @@ fn an_aligned_start_is_misled_by_what_is_measured() {
     let data = Data::new(&spec, 128);
     let periodic = [&proof.evaluation.periodic.x_per, &proof.evaluation.periodic.e_per];
     let there = ErrorBox::new(&data, proof.witness.paths, periodic, [&data.zero(), &data.zero()]);
-    for RateForCount { n_o, noise, .. } in &run.for_n_o {
+    for RateForCount { oscillators, noise, .. } in &run.for_n_o {
+        let n_o = oscillators.largest();
         let noise = noise.as_ref().expect("asked").as_ref().expect("proved");
         let [[_, largest], [of_inputs, of_start]] =
-            worst(&data, &there, gain.parse().expect("a decimal"), *n_o, [0.0, 1e-9]);
+            worst(&data, &there, gain.parse().expect("a decimal"), n_o, [0.0, 1e-9]);
         let ratio = noise.misled.to_f64() / largest;
         let of_control = noise.control.as_ref().expect("proved").to_f64() / (of_inputs + of_start);
         println!("n_o = {n_o}: {:.4e}, {ratio:.3} times what is simulated, u {of_control:.3}", noise.misled.to_f64());

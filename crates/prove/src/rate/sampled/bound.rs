@@ -1,5 +1,5 @@
 //! From a decay at samples to a bound of the error there: `|e(t) - e_per(t)| <= C exp(-rate (t - t_0))` at the sampling instants t, for every
-//! start in a set at the sampling instant t_0, at one n_o, one gain and one sampling period (derivation, 13.6).
+//! start in a set at the sampling instant t_0, with given oscillators at one gain and one sampling period (derivation, 13.6).
 
 use crate::rate::bound::{Loop, Place, RateBound, best};
 use rug::Rational;
@@ -8,6 +8,7 @@ use sigmastar_decide::rates::at_samples::{SampledDynamics, SampledRateWitness};
 use sigmastar_decide::rates::inequality::LoopBounds;
 use sigmastar_exact::enclosure::{Enclosure, Truth};
 use sigmastar_exact::number::{Direction, round_f64};
+use sigmastar_lang::spec::Oscillators;
 use sigmastar_propose::rates::SampledCondition;
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::sampled::SampledLaw;
@@ -15,19 +16,19 @@ use sigmastar_theory::derivation::sampled::SampledLaw;
 /// The best bound that is found; `None` where nothing is proved.
 ///
 /// Guarantee: for every solution that is in the error box of `place` and starts within its distances at a sampling instant t_0, at its gain,
-/// with n_o oscillators, the law and every input gain of the data, `|e(t) - e_per(t)| <= factor exp(-rate (t - t_0))` at every
+/// with these oscillators, the law and every input gain of the data, `|e(t) - e_per(t)| <= factor exp(-rate (t - t_0))` at every
 /// sampling instant t >= t_0, whoever the plant is of which the bounds of the error box hold.
 #[must_use]
 pub fn bound(
     data: &Data<'_>,
     law: &SampledLaw<Enclosure>,
     place: &Place<'_>,
-    n_o: u32,
+    oscillators: &Oscillators,
 ) -> Option<RateBound<SampledRateWitness>> {
     let bounds = LoopBounds::of_error(data, place.error_box)?;
-    let oscillators = OscillatorMatrix::new(data, n_o);
-    let dynamics = SampledDynamics::new(data, (&oscillators, law), place.sigma, &bounds)?;
-    best(data, place, n_o, &dynamics)
+    let matrix = OscillatorMatrix::new(data, oscillators);
+    let dynamics = SampledDynamics::new(data, (&matrix, law), place.sigma, &bounds)?;
+    best(data, place, oscillators, &dynamics)
 }
 
 impl Loop for SampledDynamics<'_> {

@@ -2,7 +2,7 @@ use crate::certify::certify_sampled;
 use crate::rate::found::SampledRateForCount;
 use rug::Rational;
 use sigmastar_decide::conditions::Ladder;
-use sigmastar_lang::spec::Specification;
+use sigmastar_lang::spec::{Oscillators, Specification};
 
 const H: f64 = 1.0 / 200.0;
 const SIGMA: f64 = 8.0;
@@ -54,12 +54,13 @@ fn bounds_are_above_what_the_worst_inputs_do_at_samples() {
     let sampling = spec.internal_model.sampling.clone().expect("sampled");
     let sigma = Rational::from(8);
     let mut run = certify_sampled(&spec, &sampling, Some(&sigma), None, Ladder::default()).expect("not refuted");
-    run.prove_rates(&[0, 1, 3]).expect("by norms");
+    run.prove_rates(&[0, 1, 3].map(Oscillators::first)).expect("by norms");
     let gain = run.claim().expect("certified").evaluation.law.gain.midpoint_f64();
-    for SampledRateForCount { n_o, noise, .. } in &run.for_n_o {
+    for SampledRateForCount { oscillators, noise, .. } in &run.for_n_o {
+        let n_o = oscillators.largest();
         let noise = noise.as_ref().expect("asked").as_ref().unwrap_or_else(|why| panic!("{n_o}: {why:?}"));
         let weights: Vec<f64> =
-            (0..=*n_o).map(|l| spec.internal_model.weights.weight(u64::from(l), 128).midpoint_f64()).collect();
+            (0..=n_o).map(|l| spec.internal_model.weights.weight(u64::from(l), 128).midpoint_f64()).collect();
         for slope in [-1.0, 1.0] {
             let of = Loop { weights: weights.clone(), gain, slope };
             let sums = |input| {

@@ -7,7 +7,7 @@ use sigmastar_decide::rates::OscillatorMatrix;
 use sigmastar_decide::rates::at_samples::*;
 use sigmastar_decide::rates::inequality::LoopBounds;
 use sigmastar_exact::enclosure::Enclosure;
-use sigmastar_lang::spec::Specification;
+use sigmastar_lang::spec::{Oscillators, Specification};
 use sigmastar_theory::data::Data;
 use sigmastar_theory::derivation::initial_set::claimed_distances;
 use sigmastar_theory::derivation::sampled::SampledLaw;
@@ -56,6 +56,12 @@ fn double(value: f64) -> Rational {
     Rational::from_f64(value).expect("finite")
 }
 
+/// The first few numbers of oscillators, and sets with gaps.
+fn sets() -> impl Iterator<Item = Oscillators> {
+    let with_gaps = [&[0, 2][..], &[0, 2, 5]].map(|set| Oscillators::at(set).expect("a set"));
+    (0..4).map(Oscillators::first).chain(with_gaps)
+}
+
 /// The entries against the words of Proposition R_h, written out with zeta itself, at both gains.
 #[test]
 fn the_matrix_is_that_of_the_quadratic_form() {
@@ -75,11 +81,12 @@ fn the_matrix_is_that_of_the_quadratic_form() {
     let c_y = h / (3f64.sqrt() * kp);
     let [lo1, hi1] = [-(1.0 - h * s / 2.0) * k_l - g * k_e, (1.0 - h * s / 2.0) * m + g * k_e];
     let [lo2, hi2] = [-h / 2.0 * k_l - g2, h / 2.0 * m + g2];
-    for n_o in 0..4_u32 {
-        let oscillators = OscillatorMatrix::new(&data, n_o);
+    for set in sets() {
+        let oscillators = OscillatorMatrix::new(&data, &set);
         let dynamics = SampledDynamics::new(&data, (&oscillators, &law), &sigma, &bounds).expect("kp > 0");
-        let n = 2 * n_o as usize + 2;
-        let mut next = numbers(u64::from(n_o) + 1);
+        let harmonics: Vec<usize> = set.all().map(|l| l as usize).collect();
+        let n = 2 * harmonics.len();
+        let mut next = numbers(harmonics.len() as u64);
         let mut positive = || 1.5 + next();
         let [c, l_slope, l_hold, w, l_x, l_e, l_y] = std::array::from_fn(|_| positive());
         let pi: Vec<Vec<f64>> = (0..n).map(|i| (0..=i).map(|_| next()).collect()).collect();
@@ -102,7 +109,7 @@ fn the_matrix_is_that_of_the_quadratic_form() {
             let (x, y) = (v[0], &v[1..=n]);
             let [w1, w2, p, rho_e, rho_y, d, noise, rho_d] = std::array::from_fn(|at| v[n + 1 + at]);
             let weight = |l: usize| if l == 0 { 2.0 } else { (l as f64).powf(-1.5) };
-            let oscillator = |state: usize| state.div_ceil(2);
+            let oscillator = |state: usize| harmonics[state.div_ceil(2)];
             let first = |state: usize| state == 0 || state % 2 == 1;
             let zeta: Vec<f64> = (0..n - 1).map(|i| y[i + 1] / weight(oscillator(i)).sqrt()).collect();
             // R zeta by the angle of each oscillator.
@@ -149,7 +156,7 @@ fn the_matrix_is_that_of_the_quadratic_form() {
                 + 0.5 * d * d
                 + 0.75 * noise * noise
                 + 0.25 * rho_d * rho_d;
-            assert!((value - expected).abs() < 1e-9 * (1.0 + expected.abs()), "{n_o} {b_u}: {value} {expected}");
+            assert!((value - expected).abs() < 1e-9 * (1.0 + expected.abs()), "{set} {b_u}: {value} {expected}");
         }
     }
 }
@@ -167,12 +174,12 @@ fn what_is_not_positive_definite_is_not_proved() {
     let periodic = [&evaluation.size.x_per, &evaluation.size.e_per, &evaluation.z];
     let distances = claimed_distances(&data, &proof.witness.set, periodic);
     let place = Place { sigma: &gain, error_box: &evaluation.error_box, distances: distances.each_ref() };
-    let found = bound(&data, &evaluation.law, &place, 2).expect("a rate");
+    let found = bound(&data, &evaluation.law, &place, &Oscillators::first(2)).expect("a rate");
     let RateBound { proof: witness, rate, .. } = found;
     assert!(rate > 0);
     let bounds = LoopBounds::of_error(&data, &evaluation.error_box).expect("bounded");
     let proves = |n_o: u32, sigma: &Rational, bounds: &LoopBounds, witness: &SampledRateWitness| {
-        let oscillators = OscillatorMatrix::new(&data, n_o);
+        let oscillators = OscillatorMatrix::new(&data, &Oscillators::first(n_o));
         let dynamics = SampledDynamics::new(&data, (&oscillators, &evaluation.law), sigma, bounds);
         dynamics.is_some_and(|dynamics| dynamics.proves(witness))
     };
@@ -222,16 +229,16 @@ fn the_control_is_that_of_the_law() {
     let data = Data::new(&spec, 128);
     let (law, bounds) = (law(&data), bounds());
     let mut next = numbers(11);
-    for n_o in 0..4_u32 {
-        let oscillators = OscillatorMatrix::new(&data, n_o);
+    for set in sets() {
+        let oscillators = OscillatorMatrix::new(&data, &set);
         let dynamics = SampledDynamics::new(&data, (&oscillators, &law), &rational(30, 1), &bounds).expect("kp > 0");
         let weight = |l: u32| spec.internal_model.weights.weight(u64::from(l), 128).midpoint_f64();
         let control = dynamics.control();
-        assert_eq!(control.len(), 2 * n_o as usize + 2);
+        assert_eq!(control.len(), 2 * set.count() + 2);
         let e = next();
         let mut y = vec![e];
         let mut sum = 0.0;
-        for l in 0..=n_o {
+        for l in set.all() {
             let angle = data.base_frequency.midpoint_f64() * f64::from(l) / 40.0;
             let zeta = [next(), if l == 0 { 0.0 } else { next() }];
             sum += weight(l) * (zeta[0] * angle.cos() + zeta[1] * angle.sin());
@@ -239,6 +246,6 @@ fn the_control_is_that_of_the_law() {
         }
         let found: f64 = control.iter().zip(&y).map(|(entry, y)| entry.midpoint_f64() * y).sum();
         let expected = -30.0 * e + law.gain.midpoint_f64() * sum;
-        assert!((found - expected).abs() < 1e-12 * (1.0 + expected.abs()), "{n_o}: {found} {expected}");
+        assert!((found - expected).abs() < 1e-12 * (1.0 + expected.abs()), "{set}: {found} {expected}");
     }
 }

@@ -1,4 +1,4 @@
-//! Bounds of what noise and a disturbance do to the error of the law at samples, for one n_o (derivation, section 13.6).
+//! Bounds of what noise and a disturbance do to the error of the law at samples, for some oscillators (derivation, section 13.6).
 //!
 //! What is measured is e + v, and d is added to q: any measurable signals with |v| <= v_bar, |d| <= d_bar. By the form of [`sigmastar_decide::rates::at_samples`] with these
 //! inputs W of what they add from 0 on stays below `e_low s^2`,
@@ -37,7 +37,7 @@ pub struct SampledNoise {
 
 /// The best bounds that are found.
 ///
-/// Guarantee: with n_o oscillators at the gain of `place`, the law and every input gain of the data, and any measurable inputs within the bounds
+/// Guarantee: with these oscillators at the gain of `place`, the law and every input gain of the data, and any measurable inputs within the bounds
 /// of the specification, every solution that is within the distances of `place` at a sampling instant t_0 has `|e(t) - e_per(t)| <= peak` at all times
 /// t >= t_0, between samples too, and a limit superior of that of at most `limit`, e_per being of the periodic solution without inputs; whoever the
 /// plant is of which the bounds of the error box hold. Where the specification says so the law is computed in doubles, by the operations of the
@@ -58,7 +58,7 @@ pub fn noise_bound(
     }
     let not_found = NoNoiseBound::NotFound;
     let bounds = LoopBounds::of_error(data, place.error_box).ok_or(not_found)?;
-    let oscillators = OscillatorMatrix::new(data, rate.n_o);
+    let oscillators = OscillatorMatrix::new(data, rate.oscillators);
     let dynamics = SampledDynamics::new(data, (&oscillators, law), place.sigma, &bounds).ok_or(not_found)?;
     let number = |value: &Rational| data.rational(value);
     let d_bar = number(&data.spec.d_bar());

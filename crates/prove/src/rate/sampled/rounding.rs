@@ -5,10 +5,10 @@
 //!   `a = z_(2l-1) - m`, `b = z_2l`, `z_(2l-1) = c_l a + s_l b`, `z_2l = c_l b - s_l a`, `S = n_0 z_0 + n_1 z_1 + ...` in this order,
 //!   `u = K S - sigma m`, over the nominal gain where there is one, `carry = (1 - h sigma) m`, which is added to z_0 and each z_(2l-1).
 //!
-//! Every constant is within u0 = 2^-53 of the exact one, relatively, and so is every operation. Of the terms of u none has more than n_o + 11 such
-//! factors, of those of z_(2l-1) at most 5, of carry in it 3. With `gamma_k = k u0/(1 - k u0)`, |m| <= m_b, |w|_N <= w_b, by Cauchy and Schwarz
+//! Every constant is within u0 = 2^-53 of the exact one, relatively, and so is every operation. Of the terms of u none has more than p + 11 such
+//! factors, with p oscillators beside the integrator, at whatever harmonics, of those of z_(2l-1) at most 5, of carry in it 3. With `gamma_k = k u0/(1 - k u0)`, |m| <= m_b, |w|_N <= w_b, by Cauchy and Schwarz
 //!
-//!   `du = gamma_(n_o+11) (K Nbar w_b + sigma m_b) + tiny`,  `dz = sqrt(2) gamma_5 w_b + gamma_3 (1 - h sigma) m_b Nbar + tiny`,
+//!   `du = gamma_(p+11) (K Nbar w_b + sigma m_b) + tiny`,  `dz = sqrt(2) gamma_5 w_b + gamma_3 (1 - h sigma) m_b Nbar + tiny`,
 //!   `tiny = 2^-1000 (1 + K)(1 + sigma)(1 + Nbar^2)(1 + nominal)`
 //!
 //! bound how far u, times the nominal gain, and in |.|_N the next z are from the exact ones; tiny is far above all that underflow does. It is
@@ -25,7 +25,7 @@ use sigmastar_theory::data::Data;
 /// u0 = 2^-53, by what share an operation in doubles is off at most.
 const UNIT: i32 = -53;
 
-/// Roundings of a term of u beside one for each weight, of which there are n_o + 1: the n_o sums, 4 of the turned state, 2 of n_l and its product, 2 of
+/// Roundings of a term of u beside one for each weight, of which there are p + 1: the p sums, 4 of the turned state, 2 of n_l and its product, 2 of
 /// K (as if it were rounded too) and its product, the last sum, and 2 of the nominal gain and the division by it.
 const OF_CONTROL: u32 = 10;
 
@@ -61,7 +61,7 @@ fn power(exponent: i32, precision: u32) -> Enclosure {
     )
 }
 
-/// The constants of the law in the computer, for one n_o, exactly.
+/// The constants of the law in the computer, for some oscillators, exactly.
 #[derive(Clone, Debug)]
 pub struct ComputedLaw {
     /// sigma, in 1/time.
@@ -74,7 +74,7 @@ pub struct ComputedLaw {
     pub nominal: Enclosure,
     /// Nbar, the root of a bound of the sum of the weights.
     pub n_bar: Enclosure,
-    /// The roots of n_0, ..., `n_(n_o)`.
+    /// The roots of n_l for each of the harmonics l, 0 the first.
     pub roots: Vec<Enclosure>,
 }
 

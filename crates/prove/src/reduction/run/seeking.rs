@@ -4,7 +4,7 @@ use super::{Ask, Checked, Prepared, RestsOn, Run, Start, Subject, Watch};
 use crate::certify::{Limits, Options};
 use rug::Rational;
 use sigmastar_exact::number::{Direction, round_f64};
-use sigmastar_lang::spec::SpecErrors;
+use sigmastar_lang::spec::{Oscillators, SpecErrors};
 
 /// The gains that are tried in turn, over the smallest one; and, where that is far smaller, over the rate that is asked for: e itself is to
 /// decay as fast.
@@ -250,7 +250,8 @@ impl Search<'_> {
 impl Run<'_> {
     /// The smallest of the rates of these numbers of oscillators; `None` where one of them is not proved.
     fn slowest_rate(&mut self, counts: &[u32]) -> Option<Rational> {
-        self.prove_rates(counts).ok()?;
+        let asked: Vec<Oscillators> = counts.iter().copied().map(Oscillators::first).collect();
+        self.prove_rates(&asked).ok()?;
         self.rates().into_iter().map(|(_, rate)| rate).min()?.cloned()
     }
 }

@@ -3,7 +3,6 @@
 use super::oscillators::Oscillators;
 use crate::json::{Field, Fields};
 use crate::noise::{Noise, apart};
-use crate::rules::rates::claimed::read_count;
 use crate::verdict::{Outcome, bad, demand};
 use rug::Rational;
 
@@ -42,49 +41,27 @@ impl<'a> Entry<'a> {
         let mut entries: Vec<Entry<'a>> = Vec::new();
         for field in list {
             let entry = field.object(|fields| Entry::take(fields, samples))?;
-            match (entries.last(), entry.oscillators.n_o()) {
-                (Some(before), Some(n_o)) => match before.oscillators.n_o() {
-                    None => {
-                        return bad(&format!("{}/n_o", entry.pointer), "expected before the entries with `harmonics`");
-                    }
-                    Some(_) if before.or_more => {
-                        let what = "expected in the last entry with `n_o` alone";
-                        return bad(&format!("{}/or_more", before.pointer), what);
-                    }
-                    Some(least) if least >= n_o => {
-                        return bad(&format!("{}/n_o", entry.pointer), "expected each n_o once, in rising order");
-                    }
-                    Some(_) => {}
-                },
-                (_, None) if entries.iter().any(|other| other.oscillators == entry.oscillators) => {
-                    return bad(&format!("{}/harmonics", entry.pointer), "expected each set once");
-                }
-                _ => {}
+            if let Some(before) = entries.last().filter(|last| last.or_more && entry.oscillators.n_o().is_some()) {
+                let what = "expected in the last entry with `n_o` alone";
+                return bad(&format!("{}/or_more", before.pointer), what);
             }
+            entry.oscillators.demand_order(entries.iter().map(|other| &other.oscillators), &entry.pointer)?;
             entries.push(entry);
         }
         Ok(entries)
     }
 
     fn take(fields: &mut Fields<'a>, samples: Option<u32>) -> Outcome<Entry<'a>> {
-        // A set has neither of the other two fields.
-        let (oscillators, or_more) = match fields.part("harmonics", Oscillators::read_set)? {
-            Some(set) => (set, None),
-            None => {
-                let n_o = read_count(fields)?;
-                let or_more = fields.part("or_more", |field| match field.truth()? {
-                    true => Ok(()),
-                    false => bad(&field.pointer, "expected `true`, or no such field"),
-                })?;
-                (Oscillators::first(n_o), or_more)
-            }
+        let oscillators = Oscillators::take(fields)?;
+        // Of a set nothing is said of more.
+        let or_more = match oscillators.n_o() {
+            None => None,
+            Some(_) => fields.part("or_more", |field| match field.truth()? {
+                true => Ok(()),
+                false => bad(&field.pointer, "expected `true`, or no such field"),
+            })?,
         };
-        let last = oscillators.harmonics().last().copied().unwrap_or(0);
-        if let Some(samples) = samples.filter(|samples| 2 * last >= *samples) {
-            let name = if oscillators.n_o().is_some() { "n_o" } else { "harmonics" };
-            let what = format!("{last} is below {samples}/2: the samples tell these oscillators apart");
-            demand(Some(false), RULE, &format!("{}/{name}", fields.pointer), what)?;
-        }
+        samples.map_or(Ok(()), |samples| oscillators.demand_apart(samples, RULE, &fields.pointer))?;
         let steady = fields.required("steady")?;
         let (steady, steady_texts) = steady.object(|fields| sizes(fields, ["e", "e_rms", "u"]))?;
         let largest = fields.part("largest", |field| field.object(|fields| sizes(fields, ["e", "u"])))?;

@@ -27,6 +27,7 @@ use crate::spec::Specification;
 use crate::verdict::{Outcome, Verdict, bad, finding};
 use claimed::{Entry, RULE};
 use linear::Linear;
+use oscillators::Oscillators;
 use rug::Rational;
 use trials::Trial;
 
@@ -119,13 +120,13 @@ pub struct Known<'k> {
 }
 
 impl<'k> Known<'k> {
-    /// Bounds of `|L^-1 (x - x_0)|`, `|e|` and `|zeta|_N` along it with the first n_o oscillators, if there are some. One entry at most is about them: numbers rise,
-    /// and `or_more` stands in the last one alone ([`Entry::read_all`]). Nothing of it is proved here: whoever rests on it has the crate `proofs-plants` prove all
-    /// that is said by n_o before it says that a claim is valid, as `proofs_check` does.
-    pub fn sizes(self, n_o: u32) -> Option<[&'k Rational; 3]> {
-        let is_about = |entry: &Entry<'_>| {
-            let own = entry.oscillators.n_o();
-            own.is_some_and(|own| own == n_o || entry.or_more && own <= n_o)
+    /// Bounds of `|L^-1 (x - x_0)|`, `|e|` and `|zeta|_N` along it with these oscillators, if there are some. One entry at most is about them: numbers rise,
+    /// and `or_more` stands in the last one alone, and is about the first n_o; a set stands once ([`Entry::read_all`]). Nothing of it is proved here: whoever
+    /// rests on it has the crate `proofs-plants` prove all that is said by n_o before it says that a claim is valid, as `proofs_check` does.
+    pub fn sizes(self, oscillators: &Oscillators) -> Option<[&'k Rational; 3]> {
+        let is_about = |entry: &Entry<'_>| match (entry.oscillators.n_o(), oscillators.n_o()) {
+            (Some(own), Some(n_o)) => own == n_o || entry.or_more && own <= n_o,
+            _ => entry.oscillators == *oscillators,
         };
         let index = self.claimed.iter().position(is_about)?;
         let [x, zeta] = match self.witness {

@@ -1,12 +1,16 @@
-//! At which harmonics the oscillators of an entry are: at the first n_o, or at those of a set (docs/mathematics.md, section 14.7).
+//! At which harmonics the oscillators are that something is said of: at the first n_o, or at those of a set (docs/mathematics.md, section 14.7).
 //!
 //! Guarantee: they are in rising order, each once, 0 is among them, and none is above 100.
 
-use crate::json::Field;
-use crate::verdict::{Outcome, bad};
+use crate::json::{Field, Fields};
+use crate::verdict::{Outcome, bad, demand};
 
-/// The largest harmonic of a set.
+/// The largest n_o, and the largest harmonic of a set.
 const LARGEST: u32 = 100;
+
+/// The fields in which they stand.
+const NUMBER: &str = "n_o";
+const SET: &str = "harmonics";
 
 /// The harmonics.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -20,6 +24,20 @@ impl Oscillators {
     /// 0, 1, ..., n_o.
     pub fn first(n_o: u32) -> Oscillators {
         Oscillators { harmonics: (0..=n_o).collect(), are_named: false }
+    }
+
+    /// Takes them out of an object: the set `harmonics`, or `n_o`.
+    pub fn take(fields: &mut Fields<'_>) -> Outcome<Oscillators> {
+        if let Some(set) = fields.part(SET, Oscillators::read_set)? {
+            return Ok(set);
+        }
+        let field = fields.required(NUMBER)?;
+        let n_o = field.whole()?;
+        if n_o > LARGEST {
+            bad(&field.pointer, format!("expected at most {LARGEST}"))
+        } else {
+            Ok(Oscillators::first(n_o))
+        }
     }
 
     /// Reads a set.
@@ -48,6 +66,43 @@ impl Oscillators {
         if self.are_named { None } else { self.harmonics.last().copied() }
     }
 
+    /// The place of the field in which they stand in the object at this place.
+    pub fn place(&self, pointer: &str) -> String {
+        format!("{pointer}/{}", if self.are_named { SET } else { NUMBER })
+    }
+
+    /// Demands their place in a list behind those `before`: each n_o once, in rising order, and then each set once.
+    pub fn demand_order<'o>(
+        &self,
+        before: impl Iterator<Item = &'o Oscillators> + Clone,
+        pointer: &str,
+    ) -> Outcome<()> {
+        let wrong = match (before.clone().last().map(Oscillators::n_o), self.n_o()) {
+            (Some(None), Some(_)) => Some("expected before the entries with `harmonics`"),
+            (Some(Some(least)), Some(n_o)) if least >= n_o => Some("expected each n_o once, in rising order"),
+            (_, None) if before.into_iter().any(|other| other == self) => Some("expected each set once"),
+            _ => None,
+        };
+        wrong.map_or(Ok(()), |message| bad(&self.place(pointer), message))
+    }
+
+    /// Demands that so many samples in a period tell them apart: the largest harmonic is below half of them.
+    pub fn demand_apart(&self, samples: u32, rule: &'static str, pointer: &str) -> Outcome<()> {
+        let apart = 2 * self.largest() < samples;
+        let what = || format!("{} is below {samples}/2: the samples tell these oscillators apart", self.largest());
+        if apart { Ok(()) } else { demand(Some(false), rule, &self.place(pointer), what()) }
+    }
+
+    /// The largest harmonic.
+    pub fn largest(&self) -> u32 {
+        self.harmonics.last().copied().unwrap_or(0)
+    }
+
+    /// How many there are, the integrator among them: 2 states for each but that one.
+    pub fn count(&self) -> usize {
+        self.harmonics.len()
+    }
+
     /// All of them, 0 first.
     pub fn harmonics(&self) -> &[u32] {
         &self.harmonics
@@ -62,6 +117,11 @@ impl Oscillators {
     pub fn next(&self) -> u32 {
         let gap = (0..).zip(&self.harmonics).find(|(place, k)| place != *k).map(|(place, _)| place);
         gap.unwrap_or(self.harmonics.len() as u32)
+    }
+
+    /// As a claim says it of these alone.
+    pub fn about(&self) -> String {
+        self.in_words(false, None)
     }
 
     /// As a claim says it; `or_more`: of the first n_o, every larger number too, of which those below half of the samples count.

@@ -1,4 +1,4 @@
-//! Rule (R) and (N): rates and noise of one n_o in continuous time (docs/mathematics.md, section 13.6).
+//! Rule (R) and (N): rates and noise of some oscillators in continuous time (docs/mathematics.md, section 13.6).
 //!
 //! With `zs = N^(1/2) zeta`, `b = N^(1/2) M`, `y = (e, zs)` and `B = (1, -b)`, all of them differences to the periodic solution, in the
 //! error box `y' = A y + B (delta e + u + d) + B_v v`, `A = [-sigma, mu b'; 0, Phi - mu b b']`, `delta` in `[-k_e, most]`, `|u| <= k_x xi`, and
@@ -23,6 +23,7 @@ use crate::data::Data;
 use crate::interval::Interval;
 use crate::json::{Field, Fields};
 use crate::matrix::positive_definite;
+use crate::rules::by_n_o::oscillators::Oscillators;
 use crate::rules::stability::ErrorBox;
 use crate::verdict::{Outcome, demand};
 use rug::Rational;
@@ -46,16 +47,16 @@ pub struct OfNoise {
 }
 
 impl Proof {
-    /// Takes it out of a part for this n_o.
-    pub fn read(fields: &mut Fields<'_>, n_o: u32) -> Outcome<Proof> {
-        Ok(Proof { stored: Stored::read(fields, n_o, 0)?, of_x: fields.together(OF_X)? })
+    /// Takes it out of a part for these oscillators.
+    pub fn read(fields: &mut Fields<'_>, oscillators: &Oscillators) -> Outcome<Proof> {
+        Ok(Proof { stored: Stored::read(fields, oscillators, 0)?, of_x: fields.together(OF_X)? })
     }
 }
 
 impl OfNoise {
-    /// Takes the part `noise` out of a part for this n_o.
-    pub fn read(fields: &mut Fields<'_>, n_o: u32) -> Outcome<OfNoise> {
-        let proof = Proof::read(fields, n_o)?;
+    /// Takes the part `noise` out of a part for these oscillators.
+    pub fn read(fields: &mut Fields<'_>, oscillators: &Oscillators) -> Outcome<OfNoise> {
+        let proof = Proof::read(fields, oscillators)?;
         let lambda = fields.number("lambda")?;
         let [g_d, g_v] = ["g_d", "g_v"].map(|name| fields.part(name, Field::rational));
         Ok(OfNoise { proof, lambda, g_d: g_d?, g_v: g_v? })
@@ -69,7 +70,7 @@ pub(super) struct Corner {
     slope: Interval,
 }
 
-/// The error system of one n_o, with Pi.
+/// The error system of some oscillators, with Pi.
 pub struct Loop<'a> {
     d: &'a Data<'a>,
     error_box: &'a ErrorBox,
@@ -161,19 +162,14 @@ pub fn rate(
     reach: &[Interval; 3],
 ) -> Outcome<[Interval; 2]> {
     let made = Loop::new(d, error_box, sigma, proof)?;
-    let what = format!("(R) for n_o = {}, rate {}", claimed.n_o, claimed.rate);
+    let what = format!("(R) for {}, rate {}", claimed.oscillators.about(), claimed.rate);
     made.decays(&d.number(&claimed.rate), [None, None], &what)?;
     let start = made.norm.start(d, made.of_x.as_ref().map(|[w, _]| w * &d.p_up).as_ref(), ends, reach)?;
     Ok([start, made.norm.e_low])
 }
 
 /// Proves (N), and gives S and kappa.
-pub fn noise(
-    d: &Data<'_>,
-    (error_box, sigma): (&ErrorBox, &Rational),
-    proof: &OfNoise,
-    n_o: u32,
-) -> Outcome<[Interval; 2]> {
+pub fn noise(d: &Data<'_>, (error_box, sigma): (&ErrorBox, &Rational), proof: &OfNoise) -> Outcome<[Interval; 2]> {
     let pointer = proof.proof.stored.pointer.as_str();
     positive("lambda", &proof.lambda, pointer)?;
     let made = Loop::new(d, error_box, sigma, &proof.proof)?;
@@ -181,7 +177,8 @@ pub fn noise(
     let g_d = weight(d, ("g_d", proof.g_d.as_ref()), d_bar > 0, pointer)?;
     let g_v = weight(d, ("g_v", proof.g_v.as_ref()), v_bar > 0, pointer)?;
     let lambda = d.number(&proof.lambda);
-    let what = format!("(N) for n_o = {n_o}, lambda {}", proof.lambda);
+    let about = proof.proof.stored.oscillators.about();
+    let what = format!("(N) for {about}, lambda {}", proof.lambda);
     made.decays(&lambda, [g_d.as_ref(), g_v.as_ref()], &what)?;
     let sum = added(d, g_d.as_ref(), &d.number(&d_bar)) + added(d, g_v.as_ref(), &d.number(&v_bar));
     let s = (sum / (lambda * 2) / &made.norm.e_low).sqrt();

@@ -1,4 +1,4 @@
-//! What noise and a disturbance add to the error of one n_o, from what they do from rest (docs/mathematics.md, section 13.6, Propositions N
+//! What noise and a disturbance add to the error of some oscillators, from what they do from rest (docs/mathematics.md, section 13.6, Propositions N
 //! and R_h).
 //!
 //! While a solution is in the error box, its difference to the periodic solution solves a linear system with slopes that are within the bounds
@@ -36,7 +36,7 @@ pub fn demand_noise(d: &Data<'_>, claimed: &[Rate<'_>], at_samples: bool) -> Out
     Ok(())
 }
 
-/// What is known of the solutions of a claim with one n_o before anything is said of what noise does from rest.
+/// What is known of the solutions of a claim with some oscillators before anything is said of what noise does from rest.
 pub struct Known {
     /// The most that a measurement is off: v_bar, or v_d.
     pub off: Interval,

@@ -1,4 +1,4 @@
-//! The norm `y'Pi y` of a witness for one n_o, in `y = (e, zs)`, `zs = N^(1/2) zeta`, or in `y = (x, e, zs)` (docs/mathematics.md, section 13.6),
+//! The norm `y'Pi y` of a witness for some oscillators, at the harmonics 0, ..., n_o or at those of a set, in `y = (e, zs)`, `zs = N^(1/2) zeta`, or in `y = (x, e, zs)` (docs/mathematics.md, section 13.6),
 //! and the part of the loop that is in all of its forms.
 //!
 //! Guarantee: with [`Norm::lies_above`] and [`Norm::start`] `e_low e^2 <= y'Pi y <= x_up |x|^2 + e_up e^2 + z_up |zeta|_N^2`.
@@ -8,6 +8,7 @@ use crate::data::Data;
 use crate::interval::Interval;
 use crate::json::{Field, Fields};
 use crate::matrix::{Matrix, positive_definite};
+use crate::rules::by_n_o::oscillators::Oscillators;
 use crate::verdict::{Outcome, bad, demand, invalid};
 use rug::{Integer, Rational};
 
@@ -15,7 +16,7 @@ use rug::{Integer, Rational};
 pub struct Stored {
     /// Where it stands in the file.
     pub pointer: String,
-    pub n_o: u32,
+    pub oscillators: Oscillators,
     /// How many states of the plant are in y.
     states: usize,
     /// The lower triangle of Pi, by rows.
@@ -24,15 +25,15 @@ pub struct Stored {
 }
 
 impl Stored {
-    /// Takes `Pi` and `e_low` out of the part for this n_o, with so many states of the plant.
-    pub fn read(fields: &mut Fields<'_>, n_o: u32, states: usize) -> Outcome<Stored> {
+    /// Takes `Pi` and `e_low` out of the part for these oscillators, with so many states of the plant.
+    pub fn read(fields: &mut Fields<'_>, oscillators: &Oscillators, states: usize) -> Outcome<Stored> {
         let what = match states {
             0 => "one for e and one for each state of zeta",
             _ => "one for each state, one for e and one for each state of zeta",
         };
-        let rows = triangle(&fields.required("Pi")?, states + 2 * n_o as usize + 2, what)?;
+        let rows = triangle(&fields.required("Pi")?, states + 2 * oscillators.count(), what)?;
         let e_low = fields.number("e_low")?;
-        Ok(Stored { pointer: fields.pointer.clone(), n_o, states, rows, e_low })
+        Ok(Stored { pointer: fields.pointer.clone(), oscillators: oscillators.clone(), states, rows, e_low })
     }
 }
 
@@ -47,8 +48,8 @@ pub struct Norm {
     pub b: Vec<Interval>,
     /// Pi B.
     pub image: Vec<Interval>,
-    /// Phi turns the states of oscillator l by l times this.
-    frequency: Interval,
+    /// l w of each oscillator, that of the integrator, 0, the first: Phi turns its two states so fast.
+    turns: Vec<Interval>,
 }
 
 impl Norm {
@@ -56,11 +57,13 @@ impl Norm {
     pub fn new(d: &Data<'_>, stored: &Stored) -> Outcome<Norm> {
         positive("e_low", &stored.e_low, &stored.pointer)?;
         let root = |l: u32| d.weight(u64::from(l)).sqrt();
+        let harmonics = stored.oscillators.harmonics();
         let mut b = vec![d.int(1), root(0)];
-        (1..=stored.n_o).for_each(|l| b.extend([root(l), d.int(0)]));
+        harmonics[1..].iter().for_each(|l| b.extend([root(*l), d.int(0)]));
+        let turns = harmonics.iter().map(|l| &d.w * i64::from(*l)).collect();
         let rows = enclosed(d, &stored.rows);
         let (pointer, e_low) = (stored.pointer.clone(), d.number(&stored.e_low));
-        let mut norm = Norm { pointer, of_e: stored.states, e_low, rows, b, image: Vec::new(), frequency: d.w.clone() };
+        let mut norm = Norm { pointer, of_e: stored.states, e_low, rows, b, image: Vec::new(), turns };
         let direction: Vec<Interval> = (0..norm.order()).map(|k| norm.at_input(k)).collect();
         norm.image = norm.times(&direction);
         Ok(norm)
@@ -97,7 +100,7 @@ impl Norm {
 
     /// l w of a state of zs, counted from 1.
     pub fn turn(&self, state: usize) -> Interval {
-        &self.frequency * (state / 2) as i64
+        self.turns[state / 2].clone()
     }
 
     /// `(Pi A)_ij` with `A y = (0, -sigma e, Phi zs) + B (slope e + mu b'zs)`, `Phi = l w [0, 1; -1, 0]`.

@@ -1,14 +1,14 @@
-//! Rule: what rounding adds to the error of one n_o at samples, where the regulator computes in doubles as its exported C code does
+//! Rule: what rounding adds to the error of some oscillators at samples, where the regulator computes in doubles as its exported C code does
 //! (docs/mathematics.md, section 13.6, Proposition A).
 //!
 //! With m, a double, for the e that is measured, that code does in this order
-//!   `z_0 = z_0 - m`, `S = n_0 z_0`; for l = 1, ..., n_o `a = z_l1 - m`, `b = z_l2`, `z_l1 = c_l a + s_l b`, `z_l2 = c_l b - s_l a`, `S = S + n_l z_l1`;
+//!   `z_0 = z_0 - m`, `S = n_0 z_0`; for each harmonic l >= 1 in rising order `a = z_l1 - m`, `b = z_l2`, `z_l1 = c_l a + s_l b`, `z_l2 = c_l b - s_l a`, `S = S + n_l z_l1`;
 //!   `u = K S - sigma m`, which is put out over the nominal gain, if there is one; `carry = (1 - h sigma) m`, `z_0 = z_0 + carry`, `z_l1 = z_l1 + carry`.
 //! Each constant is the double nearest to its number, each operation rounds to nearest: a factor 1 + delta for each, |delta| <= u0 = 2^-53, k of which
 //! are within gamma_k = k u0/(1 - k u0) of 1 (a fused multiply-add has one of them less). With `w = zeta - M v = z - M m`, |w|_N <= w_b, and |m| <= m_b, all at a sample:
 //! - z_l1 and z_l2, turned: difference, constant, product and sum, gamma_4 (|c a| + |s b|) <= gamma_4 |w_l|;
-//! - S: a constant, a product and at most n_o sums more, gamma_(n_o+6) sum n_l |w_l| <= gamma_(n_o+6) Nbar |w|_N;
-//! - u: K, its product, the difference, the nominal gain and the quotient, gamma_(n_o+11) (K Nbar w_b + sigma m_b);
+//! - S: a constant, a product and at most p sums more, gamma_(p+6) sum n_l |w_l| <= gamma_(p+6) Nbar |w|_N, p the number of these l, whatever they are;
+//! - u: K, its product, the difference, the nominal gain and the quotient, gamma_(p+11) (K Nbar w_b + sigma m_b);
 //! - z after it: a sum more, gamma_5 |w_l| in both, and in the first one three of carry besides, gamma_3 (1 - h sigma) m_b.
 //!
 //! What is below the normal numbers is off by 2^-1075 in a product or a quotient, and exact in a sum. Less than 10^3 of these, times K, the weights or the
@@ -25,6 +25,7 @@ use super::norm::{Norm, positive, power};
 use crate::data::Data;
 use crate::interval::Interval;
 use crate::json::Fields;
+use crate::rules::by_n_o::oscillators::Oscillators;
 use crate::rules::sampled::law::Law;
 use crate::verdict::{Condition, Outcome, invalid};
 use rug::Rational;
@@ -65,13 +66,13 @@ impl Rounding {
     }
 
     /// du_b and dz_b.
-    pub fn errors(&self, law: &Law<'_>, known: &Known, n_o: u32) -> Outcome<[Interval; 2]> {
+    pub fn errors(&self, law: &Law<'_>, known: &Known, oscillators: &Oscillators) -> Outcome<[Interval; 2]> {
         let [_, _, z_noise, _] = self.enclosed(law.d.precision);
         let z_b = &known.zeta + z_noise;
         let w_b = &z_b + &law.d.n_bar * &known.off;
         let m_b = &known.e_b + &known.off;
-        ranges(law, n_o, [&z_b, &w_b, &m_b]).iter().try_for_each(|one| one.demand(RULE, &self.pointer))?;
-        Ok(errors(law, n_o, [&w_b, &m_b]))
+        ranges(law, oscillators, [&z_b, &w_b, &m_b]).iter().try_for_each(|one| one.demand(RULE, &self.pointer))?;
+        Ok(errors(law, oscillators, [&w_b, &m_b]))
     }
 
     /// A bound of `sqrt(W)`, where a step makes `sqrt((W + sum)/(1 + c))` of it, and at most `sqrt(z_up) dz_b` more: the level, if it is one.
@@ -99,24 +100,24 @@ fn nominal(d: &Data<'_>) -> Interval {
 }
 
 /// du_b and dz_b of a step from |w|_N <= w_b with |m| <= m_b.
-pub(super) fn errors(law: &Law<'_>, n_o: u32, [w_b, m_b]: [&Interval; 2]) -> [Interval; 2] {
+pub(super) fn errors(law: &Law<'_>, oscillators: &Oscillators, [w_b, m_b]: [&Interval; 2]) -> [Interval; 2] {
     let d = law.d;
-    let gamma = |count: u32| {
-        let part = power(d, -53) * i64::from(count);
+    let gamma = |count: usize| {
+        let part = power(d, -53) * count as i64;
         &part / (1 - &part)
     };
     let parts = [&law.gain, &law.sigma, &d.n_bar.sqr(), &nominal(d)];
     let tiny = parts.into_iter().fold(power(d, -1000), |product, part| product * (part + 1));
-    let of_u = gamma(n_o + 11) * (&law.gain * &d.n_bar * w_b + &law.sigma * m_b) + &tiny;
+    let of_u = gamma(oscillators.count() + 10) * (&law.gain * &d.n_bar * w_b + &law.sigma * m_b) + &tiny;
     let of_z = d.int(2).sqrt() * gamma(5) * w_b + gamma(3) * &law.a * m_b * &d.n_bar + tiny;
     [of_u, of_z]
 }
 
 /// That the constants are normal doubles, and that nothing overflows.
-pub(super) fn ranges(law: &Law<'_>, n_o: u32, [z_b, w_b, m_b]: [&Interval; 3]) -> Vec<Condition> {
+pub(super) fn ranges(law: &Law<'_>, oscillators: &Oscillators, [z_b, w_b, m_b]: [&Interval; 3]) -> Vec<Condition> {
     let d = law.d;
     let [least, most, largest] = [-900, 900, 1000].map(|exponent| power(d, exponent));
-    let weights: Vec<Interval> = (0..=n_o).map(|l| d.weight(u64::from(l))).collect();
+    let weights: Vec<Interval> = oscillators.harmonics().iter().map(|l| d.weight(u64::from(*l))).collect();
     let divisor = nominal(d);
     let named = [("sigma", &law.sigma), ("K", &law.gain), ("nominal", &divisor)];
     let of_weights = weights.iter().map(|weight| ("n_l", weight));

@@ -1,4 +1,4 @@
-//! Rule (R_h): rates and noise of one n_o at samples (docs/mathematics.md, section 13.6), by the bounds of section 12.3.
+//! Rule (R_h): rates and noise of some oscillators at samples (docs/mathematics.md, section 13.6), by the bounds of section 12.3.
 //!
 //! From a sample to the next, with the measurement `e_k + v`, a disturbance d of mean D within the interval, `y_u = sigma e_k + mean(q + d) + b_u u_k`, R
 //! = e^(Phi h) and `b1 = b'R b`, all of them differences to the periodic solution,
@@ -35,6 +35,7 @@ use super::rounding::Rounding;
 use crate::interval::Interval;
 use crate::json::{Field, Fields};
 use crate::matrix::positive_definite;
+use crate::rules::by_n_o::oscillators::Oscillators;
 use crate::rules::sampled::law::Law;
 use crate::rules::sampled::stability::Within;
 use crate::rules::stability::ErrorBox;
@@ -64,17 +65,17 @@ pub struct OfNoise {
 }
 
 impl Proof {
-    /// Takes it out of a part for this n_o.
-    pub fn read(fields: &mut Fields<'_>, n_o: u32) -> Outcome<Proof> {
-        let stored = Stored::read(fields, n_o, 0)?;
+    /// Takes it out of a part for these oscillators.
+    pub fn read(fields: &mut Fields<'_>, oscillators: &Oscillators) -> Outcome<Proof> {
+        let stored = Stored::read(fields, oscillators, 0)?;
         Ok(Proof { stored, of_slopes: fields.numbers(OF_SLOPES)?, of_x: fields.together(OF_X)? })
     }
 }
 
 impl OfNoise {
-    /// Takes the part `noise` out of a part for this n_o.
-    pub fn read(fields: &mut Fields<'_>, n_o: u32) -> Outcome<OfNoise> {
-        let proof = Proof::read(fields, n_o)?;
+    /// Takes the part `noise` out of a part for these oscillators.
+    pub fn read(fields: &mut Fields<'_>, oscillators: &Oscillators) -> Outcome<OfNoise> {
+        let proof = Proof::read(fields, oscillators)?;
         let [g_d, g_v, g_r] = ["g_d", "g_v", "g_r"].map(|name| fields.part(name, Field::rational));
         Ok(OfNoise { proof, g_d: g_d?, g_v: g_v?, g_r: g_r?, rounding: Rounding::read(fields)? })
     }
@@ -108,14 +109,14 @@ impl Step {
     }
 }
 
-/// The error system of one n_o from sample to sample, with Pi.
+/// The error system of some oscillators from sample to sample, with Pi.
 pub(super) struct Loop<'a> {
     law: &'a Law<'a>,
     error_box: &'a ErrorBox,
     step: Step,
     pub(super) norm: Norm,
     pointer: &'a str,
-    /// cos and sin of l w h, w h = 2 pi/N_s.
+    /// cos and sin of l w h, w h = 2 pi/N_s, for each of the harmonics l.
     turns: Vec<[Interval; 2]>,
     /// c, l_slope and l_hold.
     pub(super) of_slopes: [Interval; 3],
@@ -124,10 +125,10 @@ pub(super) struct Loop<'a> {
 }
 
 impl<'a> Loop<'a> {
-    /// Of a witness whose signs are right, with Pi above diag(e_low, 0), for `2 n_o < N_s`.
+    /// Of a witness whose signs are right, with Pi above diag(e_low, 0), for harmonics below N_s/2.
     pub(super) fn new(law: &'a Law<'a>, error_box: &'a ErrorBox, proof: &'a Proof) -> Outcome<Loop<'a>> {
-        let (d, pointer, n_o) = (law.d, proof.stored.pointer.as_str(), proof.stored.n_o);
-        demand(Some(2 * n_o < law.samples), RULE, pointer, "n_o < samples/2")?;
+        let (d, pointer, oscillators) = (law.d, proof.stored.pointer.as_str(), &proof.stored.oscillators);
+        oscillators.demand_apart(law.samples, RULE, pointer)?;
         OF_SLOPES.into_iter().zip(&proof.of_slopes).try_for_each(|(name, value)| positive(name, value, pointer))?;
         let of_x = of_x(d, OF_X, proof.of_x.as_ref(), &error_box.k_x, pointer)?;
         let norm = Norm::new(d, &proof.stored)?;
@@ -138,7 +139,7 @@ impl<'a> Loop<'a> {
         };
         Ok(Loop {
             step: Step::new(law, error_box, pointer)?,
-            turns: (0..=n_o).map(turn).collect(),
+            turns: oscillators.harmonics().iter().copied().map(turn).collect(),
             of_slopes: proof.of_slopes.each_ref().map(|value| d.number(value)),
             of_x,
             law,
@@ -274,19 +275,15 @@ pub fn rate(
     let [c, ..] = &made.of_slopes;
     let condition = Condition::at_most("R", "exp(2 h rate) <= 1 + c", growth, c + 1);
     condition.demand(RULE, &format!("{}/rate", claimed.pointer))?;
-    made.decays([None; 3], &format!("(R_h) for n_o = {}", claimed.n_o))?;
+    made.decays([None; 3], &format!("(R_h) for {}", claimed.oscillators.about()))?;
     let start = made.norm.start(d, made.of_x.as_ref().map(|[w, ..]| w * &d.p_up).as_ref(), ends, reach)?;
     Ok([start, made.norm.e_low])
 }
 
 /// Proves (R_h) with noise, and gives S, at all times, and kappa.
-pub fn noise(
-    law: &Law<'_>,
-    (error_box, known): (&ErrorBox, &Known),
-    proof: &OfNoise,
-    n_o: u32,
-) -> Outcome<[Interval; 2]> {
+pub fn noise(law: &Law<'_>, (error_box, known): (&ErrorBox, &Known), proof: &OfNoise) -> Outcome<[Interval; 2]> {
     let (d, pointer) = (law.d, proof.proof.stored.pointer.as_str());
+    let oscillators = &proof.proof.stored.oscillators;
     let made = Loop::new(law, error_box, &proof.proof)?;
     let rounding = Rounding::demanded(d, proof.rounding.as_ref(), pointer)?;
     let [d_bar, v_bar] = [d.spec.noise.d_bar(), d.spec.noise.v_bar()];
@@ -295,7 +292,7 @@ pub fn noise(
     let g_v = weight(d, ("g_v", proof.g_v.as_ref()), v_bar > 0 || rounding.is_some(), pointer)?;
     let g_r = weight(d, ("g_r", proof.g_r.as_ref()), through_x, pointer)?;
     let [g_d, g_v, g_r] = [&g_d, &g_v, &g_r].map(Option::as_ref);
-    made.decays([g_d, g_v, g_r], &format!("(R_h) with noise for n_o = {n_o}"))?;
+    made.decays([g_d, g_v, g_r], &format!("(R_h) with noise for {}", oscillators.about()))?;
     let (step, [c, ..]) = (&made.step, &made.of_slopes);
     let d_bar = d.number(&d_bar);
     let own = (1 + &step.within.g) * &d_bar;
@@ -304,7 +301,7 @@ pub fn noise(
     let at_samples = match rounding {
         None => (of_inputs(&own) / c / &made.norm.e_low).sqrt(),
         Some(rounding) => {
-            let [du_b, dz_b] = rounding.errors(law, known, n_o)?;
+            let [du_b, dz_b] = rounding.errors(law, known, oscillators)?;
             let sum = of_inputs(&(own + d.by_gain(|gain| &gain.high, &du_b)));
             rounding.level(&made.norm, [&sum, c, &dz_b])? / made.norm.e_low.sqrt()
         }

@@ -1,10 +1,10 @@
-//! Rule: rates for given numbers of oscillators of a plant whose claim rests on a matrix inequality or on joint metrics, at the gain of the
+//! Rule: rates for given oscillators of a plant whose claim rests on a matrix inequality or on joint metrics, at the gain of the
 //! claim and no other (docs/mathematics.md, section 13.6).
 //!
 //! Differences to the periodic solution, in the coordinates of the claim: `a = (x, e)`, `zs = N^(1/2) zeta`, `b = N^(1/2) M`, and omega those of
 //! (f, q). With `B = (1, -b)` for (e, zs), and an input gain b_u (1 without),
 //! `x' = omega_f`, `(e, zs)' = (-sigma e, Phi zs) + B (omega_q + (1 - b_u) sigma e + b_u mu b'zs)`.
-//! A witness for one n_o is Pi of (x, e, zs), Q, G and H of order n + 1, e_low, e_up, z_up and, with states, x_up; `W = eta'Pi eta`.
+//! A witness for some oscillators is Pi of (x, e, zs), Q, G and H of order n + 1, e_low, e_up, z_up and, with states, x_up; `W = eta'Pi eta`.
 //!
 //! A claim whose matrix inequality is proved with a splitting, on a path with a corner, may have two of them in the place of Q, G, H: of the columns
 //! of D that belong to x and of the one that belongs to e, each with Q of as many rows as there are columns, G of these rows and n + 1 columns and H
@@ -24,6 +24,7 @@ use crate::data::Data;
 use crate::interval::Interval;
 use crate::json::{Field, Fields};
 use crate::matrix::{Matrix, is_semidefinite, positive_definite};
+use crate::rules::by_n_o::oscillators::Oscillators;
 use crate::verdict::{Outcome, bad, demand};
 use rug::Rational;
 use std::ops::Range;
@@ -116,7 +117,7 @@ impl Slopes {
     }
 }
 
-/// What proves the rate of one n_o, but for e_up and z_up.
+/// What proves the rate of some oscillators, but for e_up and z_up.
 pub struct Proof {
     stored: Stored,
     /// One of all columns of D, or one of each of its two parts.
@@ -126,13 +127,13 @@ pub struct Proof {
 }
 
 impl Proof {
-    /// Takes it out of a part for this n_o, of a plant with so many states; `corner`: whether the claim rests on a path with a corner.
-    pub fn read(fields: &mut Fields<'_>, n_o: u32, states: usize, corner: bool) -> Outcome<Proof> {
+    /// Takes it out of a part for these oscillators, of a plant with so many states; `corner`: whether the claim rests on a path with a corner.
+    pub fn read(fields: &mut Fields<'_>, oscillators: &Oscillators, states: usize, corner: bool) -> Outcome<Proof> {
         if let Some(norms) = ["w", "l"].into_iter().find_map(|name| fields.optional(name)) {
             let own = "this one rests on a matrix inequality, and has `slopes`";
             return bad(&norms.pointer, format!("it is of a claim by norms: {own}"));
         }
-        let stored = Stored::read(fields, n_o, states)?;
+        let stored = Stored::read(fields, oscillators, states)?;
         let parts = Slopes::read(&fields.required("slopes")?, states, corner)?;
         let x_up = if states > 0 { Some(fields.number("x_up")?) } else { None };
         Ok(Proof { stored, parts, x_up })
@@ -147,7 +148,7 @@ struct Part {
     h: Vec<Vec<Interval>>,
 }
 
-/// The error system of one n_o, with Pi and what is said of the parts of D.
+/// The error system of some oscillators, with Pi and what is said of the parts of D.
 struct Loop {
     sigma: Interval,
     norm: Norm,
@@ -199,7 +200,7 @@ pub fn rate(
     made.norm.lies_above()?;
     let rate = d.number(&claimed.rate);
     for (at, [b_u, shift]) in d.ends(&made.sigma) {
-        let what = format!("(K) for n_o = {}, rate {}{at}", stored.n_o, claimed.rate);
+        let what = format!("(K) for {}, rate {}{at}", stored.oscillators.about(), claimed.rate);
         demand(
             positive_definite(made.form(&rate, &[b_u * &d.mu, shift])),
             RULE,

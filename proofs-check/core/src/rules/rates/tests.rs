@@ -57,11 +57,12 @@ fn with_stored(name: &str, use_it: impl Fn(&Data<'_>, (&Derivation, &Rational), 
     let z0 = set.fields().unwrap().optional("Z0").map(|field| field.rational().unwrap());
     let set = ClaimedSet { x0, e0, z0 };
     let mut fields = claim.fields().unwrap();
+    let scope = Scope::of_claim(fields.optional("harmonics").as_ref());
     let (derivation, sigma) = match Regulator::read(&mut fields).unwrap() {
-        Some(regulator) => (Derivation::read_sampled(&mut witness, &regulator, (set, Scope::First)), regulator.sigma),
+        Some(regulator) => (Derivation::read_sampled(&mut witness, &regulator, (set, scope)), regulator.sigma),
         None => {
             let sigma = rational(claim.json, "sigma_star");
-            (Derivation::read(&mut witness, sigma.clone(), (set, Scope::First)), sigma)
+            (Derivation::read(&mut witness, sigma.clone(), (set, scope)), sigma)
         }
     };
     let derivation = derivation.unwrap();
@@ -88,20 +89,23 @@ fn value(rows: &[Vec<Interval>], at: &[f64]) -> f64 {
 
 /// The regulator, in its own coordinates.
 struct Oscillators {
+    /// The harmonics without 0.
+    harmonics: Vec<u32>,
     /// n_l of each state, and M.
     weights: Vec<f64>,
     m: Vec<f64>,
 }
 
 impl Oscillators {
-    fn new(d: &Data<'_>, n_o: u32) -> Oscillators {
+    fn new(d: &Data<'_>, all: &[u32]) -> Oscillators {
+        let harmonics = all[1..].to_vec();
         let weight = |l: u32| double(&d.weight(u64::from(l)));
         let (mut weights, mut m) = (vec![weight(0)], vec![1.0]);
-        for l in 1..=n_o {
-            weights.extend([weight(l); 2]);
+        for l in &harmonics {
+            weights.extend([weight(*l); 2]);
             m.extend([1.0, 0.0]);
         }
-        Oscillators { weights, m }
+        Oscillators { harmonics, weights, m }
     }
 
     /// z from e and zs, and e with zs from e and z.
@@ -119,8 +123,9 @@ impl Oscillators {
     }
 
     /// Each oscillator turned by l times an angle, or (its derivative) moved by l w.
-    fn turned(z: &[f64], of: impl Fn(f64, [f64; 2]) -> [f64; 2], of_first: f64) -> Vec<f64> {
-        let rest = z[1..].chunks(2).zip(1_u32..).flat_map(|(pair, l)| of(f64::from(l), [pair[0], pair[1]]));
+    fn turned(&self, z: &[f64], of: impl Fn(f64, [f64; 2]) -> [f64; 2], of_first: f64) -> Vec<f64> {
+        let pairs = z[1..].chunks(2).zip(&self.harmonics);
+        let rest = pairs.flat_map(|(pair, l)| of(f64::from(*l), [pair[0], pair[1]]));
         [of_first * z[0]].into_iter().chain(rest).collect()
     }
 }
@@ -131,7 +136,7 @@ fn quadratic(pi: &super::norm::Norm, a: &[f64], b: &[f64]) -> f64 {
 
 #[test]
 fn the_form_in_continuous_time_is_that_of_the_law() {
-    for name in ["noise/paper-example", "noise/input-gain"] {
+    for name in ["noise/paper-example", "noise/input-gain", "sets/continuous"] {
         with_stored(name, |d, (_, sigma), error_box, witness| {
             let Proof::Continuous(_, Some(proof)) = &witness.proof else { panic!("{name}") };
             let made = continuous::Loop::new(d, error_box, sigma, &proof.proof).unwrap();
@@ -140,7 +145,7 @@ fn the_form_in_continuous_time_is_that_of_the_law() {
             let [k_x, a_2] = [&error_box.k_x, &error_box.rate].map(double);
             let kf = double(&(d.p_up.sqrt() * &error_box.k_f));
             let [k_l, most] = [&error_box.k_e, &error_box.most].map(double);
-            let oscillators = Oscillators::new(d, witness.n_o);
+            let oscillators = Oscillators::new(d, witness.oscillators.harmonics());
             let gains = d.gain.as_ref().map_or(vec![1.0], |gain| vec![double(&gain.low), double(&gain.high)]);
             let at: Vec<[f64; 2]> = gains.iter().flat_map(|b| [[*b, -k_l], [*b, most]]).collect();
             let mut draw = drawn();
@@ -152,7 +157,7 @@ fn the_form_in_continuous_time_is_that_of_the_law() {
                 let u = -sigma * (e + v) + mu * oscillators.output(&off(&z, e + v));
                 let e_t = delta * e + u_x + dist + b_u * u;
                 // z' = Phi z - (Phi + sigma) M (e + v).
-                let turned = Oscillators::turned(&off(&z, e + v), |l, [a, b]| [l * om * b, -l * om * a], 0.0);
+                let turned = oscillators.turned(&off(&z, e + v), |l, [a, b]| [l * om * b, -l * om * a], 0.0);
                 let z_t: Vec<f64> = (0..z.len())
                     .map(|k| turned[k] - sigma * oscillators.m[k] * (e + v) - oscillators.m[k] * e_t)
                     .collect();
@@ -179,7 +184,7 @@ fn the_form_in_continuous_time_is_that_of_the_law() {
 
 #[test]
 fn the_form_at_samples_is_that_of_the_law() {
-    for name in ["noise/sampled", "noise/sampled-input-gain"] {
+    for name in ["noise/sampled", "noise/sampled-input-gain", "sets/noise-at-samples"] {
         with_stored(name, |d, (derivation, _), error_box, witness| {
             let Proof::Sampled(_, Some(proof)) = &witness.proof else { panic!("{name}") };
             let law = Law::new(d, derivation.law().unwrap());
@@ -199,14 +204,14 @@ fn the_form_at_samples_is_that_of_the_law() {
             let c_y = h / (3_f64.sqrt() * kp);
             let [lo1, hi1] = [-(1.0 - hs / 2.0) * k_l - g * k_e, (1.0 - hs / 2.0) * m + g * k_e];
             let [lo2, hi2] = [-h / 2.0 * k_l - g2, (h / 2.0 * m + g2).max(0.0)];
-            let oscillators = Oscillators::new(d, witness.n_o);
+            let oscillators = Oscillators::new(d, witness.oscillators.harmonics());
             let angle = 2.0 * std::f64::consts::PI / f64::from(law.samples);
             let turn = |z: &[f64]| {
                 let of = |l: f64, [a, b]: [f64; 2]| {
                     let (sin, cos) = (l * angle).sin_cos();
                     [cos * a + sin * b, cos * b - sin * a]
                 };
-                Oscillators::turned(z, of, 1.0)
+                oscillators.turned(z, of, 1.0)
             };
             let mut draw = drawn();
             for end in made.ends() {

@@ -4,30 +4,37 @@ use super::{Oscillators, double, drawn, part, sizes, with_stored};
 use crate::data::Data;
 use crate::interval::Interval;
 use crate::json::parse;
+use crate::rules::by_n_o::oscillators::Oscillators as At;
 use crate::rules::derivation::Derivation;
 use crate::rules::rates::noise::{Known, of_doubles};
 use crate::rules::rates::norm::power;
 use crate::rules::rates::rounding::{Rounding, errors, ranges};
-use crate::rules::rates::{Proof, Witness};
+use crate::rules::rates::{Proof, Witness, reach};
 use crate::rules::sampled::law::{Law, Terms};
-use crate::rules::stability::{ErrorBox, distances};
+use crate::rules::stability::ErrorBox;
 use rug::Float;
 
-const STORED: [&str; 5] = ["all", "alone", "aligned", "input-gain", "input-gain-alone"];
+const STORED: [&str; 6] = [
+    "arithmetic/all",
+    "arithmetic/alone",
+    "arithmetic/aligned",
+    "arithmetic/input-gain",
+    "arithmetic/input-gain-alone",
+    "sets/rounded",
+];
 const U0: f64 = 1.0 / (1_u64 << 53) as f64;
 
 /// A stored certificate: its law, what is known of it with noise, and its witness.
-fn each(name: &str, use_it: impl Fn(&Law<'_>, &Derivation, (&ErrorBox, &Known), (&Rounding, u32))) {
-    let path = format!("{}/../tests/arithmetic/{name}.json", env!("CARGO_MANIFEST_DIR"));
+fn each(name: &str, use_it: impl Fn(&Law<'_>, &Derivation, (&ErrorBox, &Known), (&Rounding, &At))) {
+    let path = format!("{}/../tests/{name}.json", env!("CARGO_MANIFEST_DIR"));
     let json = parse(&std::fs::read(path).unwrap()).unwrap();
     let sizes = |d: &Data<'_>| sizes(d, part(&json, "claim").json);
-    with_stored(&format!("arithmetic/{name}"), |d, (derivation, _), error_box, witness: &Witness| {
+    with_stored(name, |d, (derivation, _), error_box, witness: &Witness| {
         let Proof::Sampled(_, Some(proof)) = &witness.proof else { panic!("{name}") };
         let (free, sizes) = (&derivation.free, sizes(d));
-        let reach = distances(d, &free.set, [&sizes.x, &sizes.e, &sizes.zeta]);
-        let known = Known::new(d, free, (reach, &sizes.zeta), (&error_box.e_b, true));
+        let known = Known::new(d, free, (reach(d, free, &sizes, None), &sizes.zeta), (&error_box.e_b, true));
         let law = Law::new(d, derivation.law().unwrap());
-        use_it(&law, derivation, (error_box, &known), (proof.rounding.as_ref().unwrap(), witness.n_o));
+        use_it(&law, derivation, (error_box, &known), (proof.rounding.as_ref().unwrap(), &witness.oscillators));
     });
 }
 
@@ -39,7 +46,7 @@ fn close(found: &Interval, expected: f64, what: &str) {
 /// The numbers of the file that bounds of rounding are made of: K, sigma, 1 - h sigma, Nbar and the nominal gain.
 fn numbers(law: &Law<'_>, name: &str) -> [f64; 5] {
     let [gain, sigma, h, n_bar] = [&law.gain, &law.sigma, &law.h, &law.d.n_bar].map(double);
-    [gain, sigma, 1.0 - h * sigma, n_bar, if name.starts_with("input-gain") { 2.0 } else { 1.0 }]
+    [gain, sigma, 1.0 - h * sigma, n_bar, if name.contains("input-gain") { 2.0 } else { 1.0 }]
 }
 
 fn gamma(count: u32) -> f64 {
@@ -49,14 +56,15 @@ fn gamma(count: u32) -> f64 {
 #[test]
 fn the_bounds_are_those_of_the_counts() {
     for name in STORED {
-        each(name, |law, _, (error_box, known), (rounding, n_o)| {
+        each(name, |law, _, (error_box, known), (rounding, oscillators)| {
+            let p = oscillators.count() as u32 - 1;
             let [gain, sigma, kept, n_bar, nominal] = numbers(law, name);
             let z_b = double(&known.zeta) + rounding.numbers[2].to_f64();
             let [off, e_b] = [&known.off, &error_box.e_b].map(double);
             let [w_b, m_b] = [z_b + n_bar * off, e_b + off];
-            let du_b = gamma(n_o + 11) * (gain * n_bar * w_b + sigma * m_b);
+            let du_b = gamma(p + 11) * (gain * n_bar * w_b + sigma * m_b);
             let dz_b = 2_f64.sqrt() * gamma(5) * w_b + gamma(3) * kept * m_b * n_bar;
-            let [of_u, of_z] = rounding.errors(law, known, n_o).unwrap();
+            let [of_u, of_z] = rounding.errors(law, known, oscillators).unwrap();
             close(&of_u, du_b, name);
             close(&of_z, dz_b, name);
             // Apart, at numbers that make each term count.
@@ -65,8 +73,8 @@ fn the_bounds_are_those_of_the_counts() {
                 let [w, m] = at.map(|value| d.int(value));
                 let tiny = 2_f64.powi(-1000) * (1.0 + gain) * (1.0 + sigma) * (1.0 + n_bar * n_bar) * (1.0 + nominal);
                 let [w_b, m_b] = [double(&w), double(&m)];
-                let [of_u, of_z] = errors(law, n_o, [&w, &m]);
-                close(&of_u, gamma(n_o + 11) * (gain * n_bar * w_b + sigma * m_b) + tiny, name);
+                let [of_u, of_z] = errors(law, oscillators, [&w, &m]);
+                close(&of_u, gamma(p + 11) * (gain * n_bar * w_b + sigma * m_b) + tiny, name);
                 close(&of_z, 2_f64.sqrt() * gamma(5) * w_b + gamma(3) * kept * m_b * n_bar + tiny, name);
             }
         });
@@ -85,7 +93,7 @@ fn what_is_measured_is_the_nearest_double() {
             close(&known.e_b, double(&error_box.e_b), name);
             // L_0 and what it leaves of zeta.
             let [w_x, eta] = [&free.w_x, &free.h].map(|value| value.to_f64());
-            let [low, high] = if name.starts_with("input-gain") { [0.9, 1.1] } else { [1.0; 2] };
+            let [low, high] = if name.contains("input-gain") { [0.9, 1.1] } else { [1.0; 2] };
             let [x0, e0] = [&free.set.x0, &free.set.e0].map(|value| value.to_f64());
             let (n_bar, off) = (double(&d.n_bar), double(&known.off));
             let moved = free.set.z0.as_ref().map_or(n_bar * off, |z0| z0.to_f64() + n_bar * e0);
@@ -104,11 +112,11 @@ fn what_is_measured_is_the_nearest_double() {
 /// Nothing overflows, and the constants are normal: each condition alone.
 #[test]
 fn each_range_is_demanded() {
-    each("input-gain", |law, derivation, _, (_, n_o)| {
+    each("arithmetic/input-gain", |law, derivation, _, (_, oscillators)| {
         let d = law.d;
         let failing = |law: &Law<'_>, at: [i32; 3]| {
             let [z, w, m] = at.map(|exponent| power(d, exponent));
-            let conditions = ranges(law, n_o, [&z, &w, &m]);
+            let conditions = ranges(law, oscillators, [&z, &w, &m]);
             let open = conditions.iter().filter(|one| one.truth() != Some(true));
             open.map(|one| one.what.clone()).collect::<Vec<_>>()
         };
@@ -153,15 +161,17 @@ fn nearest(value: &Interval) -> f64 {
 /// these are not idle. Also among numbers below the normal ones, where `tiny` bounds all of it.
 #[test]
 fn steps_in_doubles_are_within_the_bounds() {
-    for name in ["all", "input-gain"] {
-        each(name, |law, _, _, (_, n_o)| {
+    for name in ["arithmetic/all", "arithmetic/input-gain", "sets/rounded"] {
+        each(name, |law, _, _, (_, at)| {
+            let n_o = at.about();
             let (d, [_, _, _, _, nominal]) = (law.d, numbers(law, name));
-            let oscillators = Oscillators::new(d, n_o);
+            let oscillators = Oscillators::new(d, at.harmonics());
             let [gain, sigma, kept] = [&law.gain, &law.sigma, &law.a].map(nearest);
-            let weights: Vec<Interval> = (0..=n_o).map(|l| d.weight(u64::from(l))).collect();
-            let turns: Vec<[Interval; 2]> = (1..=n_o)
+            let weights: Vec<Interval> = at.harmonics().iter().map(|l| d.weight(u64::from(*l))).collect();
+            let turns: Vec<[Interval; 2]> = at.harmonics()[1..]
+                .iter()
                 .map(|l| {
-                    let angle = Interval::pi(128) * i64::from(2 * l) / i64::from(law.samples);
+                    let angle = Interval::pi(128) * i64::from(2 * *l) / i64::from(law.samples);
                     [angle.cos(), angle.sin()]
                 })
                 .collect();
@@ -206,7 +216,7 @@ fn steps_in_doubles_are_within_the_bounds() {
                 }
                 let found = [(exact(u) * exact(nominal) - true_u).abs(), of_z.sqrt()];
                 let within = |value: &Float| Interval::new(value.clone(), value.clone()).round(128);
-                let bounds = errors(law, n_o, [&within(&square.sqrt()), &within(&exact(m.abs()))]);
+                let bounds = errors(law, at, [&within(&square.sqrt()), &within(&exact(m.abs()))]);
                 for ((found, bound), largest) in found.iter().zip(&bounds).zip(&mut largest) {
                     assert!(*found <= *bound.lo(), "{name} {n_o} {size}: {found} {}", double(bound));
                     if size == 1.0 {
