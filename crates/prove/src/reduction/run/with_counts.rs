@@ -13,8 +13,11 @@ use std::sync::{Arc, OnceLock};
 /// Gains that are tried at most.
 const TRIES: usize = 8;
 
-/// Of gains in turn at which the limits are missed by more than before so many are tried: the control grows with the gain.
+/// Of gains in turn at which the limits are missed by more than before so many are tried: the control grows with the gain. Where they are missed by more than
+/// this factor they are to be missed by so much less.
 const RISES: usize = 2;
+const FAR_OFF: f64 = 2.0;
+const FALLS: f64 = 0.8;
 
 /// A gain that is so near one that does not do, or is thought not to do, is not improved.
 const CLOSE: f64 = 1.02;
@@ -184,7 +187,9 @@ impl Search<'_> {
                 best = Some((prepared, tried));
                 continue;
             }
-            rises = if tried.shares.next() < below.shares.next() { 0 } else { rises + 1 };
+            let before = below.shares.next();
+            let falls = if before > FAR_OFF { FALLS } else { 1.0 };
+            rises = if tried.shares.next() < falls * before { 0 } else { rises + 1 };
             if tried.shares.largest < nearest.1 {
                 nearest = (prepared, tried.shares.largest);
             }
