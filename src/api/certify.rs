@@ -181,7 +181,10 @@ fn first(counts: &[u32]) -> impl Iterator<Item = Oscillators> + '_ {
 ///
 /// # Errors
 /// What the data are refused for.
-pub(super) fn with_rates<'p>(prepared: &'p Prepared, (options, counts): (Options, &[u32])) -> Result<Run<'p>, Error> {
+pub(super) fn with_rates<'p>(
+    prepared: &'p Prepared,
+    (options, asked): (Options, &[Oscillators]),
+) -> Result<Run<'p>, Error> {
     let decided_by = |check: &dyn Fn(&Run<'_>) -> Checked| {
         prepared.certify_checked(options, check, &Unwatched).map_err(|all| Error::documents(&all))
     };
@@ -190,7 +193,7 @@ pub(super) fn with_rates<'p>(prepared: &'p Prepared, (options, counts): (Options
     if run.certified().is_none() {
         return Ok(run);
     }
-    let has_rates = run.prove_rates(&first(counts).collect::<Vec<_>>()).is_ok();
+    let has_rates = run.prove_rates(asked).is_ok();
     if has_rates && checked_within(1, &run) == Checked::Decided {
         return Ok(run);
     }

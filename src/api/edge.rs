@@ -68,7 +68,7 @@ const MOST: usize = 4;
 fn shown(run: &Run<'_>) -> Vec<Shown> {
     let asked: Vec<u32> = run.rates().into_iter().map(|(n_o, _)| n_o).take(MOST).collect();
     let numbers = if asked.is_empty() { N_O.to_vec() } else { asked };
-    let bound = |n_o: u32| run.bounds_of(n_o).map(|bounds| bounds.steady_error.bound.upper_f64());
+    let bound = |n_o: u32| run.bounds_of(&n_o.into()).map(|bounds| bounds.steady_error.bound.upper_f64());
     numbers.into_iter().map(|n_o| (n_o, bound(n_o).filter(|bound| bound.is_finite()))).collect()
 }
 

@@ -200,7 +200,7 @@ impl CertifyOptions {
         let options = self.of_run();
         let gain = self.sigma.as_ref().map(|text| rational("sigma", text)).transpose()?;
         let counts = rate_counts(&self.n_o).map_err(|reason| Error::no_rates(reason, "`n_o`"))?;
-        let sets = self.harmonics.iter().map(|set| oscillators(set)).collect::<Result<_, _>>()?;
+        let sets = self.harmonics.iter().map(|set| oscillators("harmonics", set)).collect::<Result<_, _>>()?;
         let limit = |name, text: &Option<String>| text.as_ref().map(|text| rational(name, text)).transpose();
         let [steady, peak, control, rate] = &self.limits;
         let limits = Limits {
@@ -222,9 +222,9 @@ impl CertifyOptions {
     }
 }
 
-/// The set of these harmonics.
-fn oscillators(set: &[u32]) -> Result<Oscillators, Error> {
-    let wrong = |message: String, help: &str| Error::new(ErrorKind::Options, format!("harmonics: {message}"), help);
+/// The set of these harmonics; `option` is what the argument is called.
+pub(super) fn oscillators(option: &str, set: &[u32]) -> Result<Oscillators, Error> {
+    let wrong = |message: String, help: &str| Error::new(ErrorKind::Options, format!("{option}: {message}"), help);
     let found =
         Oscillators::at(set).map_err(|error| wrong(error.to_string(), "give each harmonic once, 0 among them"))?;
     if found.largest() > MAX_OSCILLATORS {

@@ -13,7 +13,7 @@ use std::time::Instant;
 
 /// What the arguments are called here.
 const NAMES: DesignNames = DesignNames {
-    asked: ["--n-o", "--sigma", "--sampling-period"],
+    asked: ["--n-o", "--harmonics", "--sigma", "--sampling-period"],
     required: ["--steady-error", "--peak-error", "--max-control", "--settle", "--noise"],
     choose: "--choose",
     sampling_periods: "--sampling-periods",
@@ -81,6 +81,9 @@ fn options(args: &DesignArgs) -> Result<DesignOptions, Failure> {
     }
     if let Some(counts) = &args.n_o {
         options = options.n_o(finite_counts(counts)?);
+    }
+    for set in &args.harmonics {
+        options = options.harmonics(set.all().collect::<Vec<u32>>());
     }
     for (text, set) in texts {
         options = text.clone().map_or(options.clone(), |text| set(options, text));

@@ -44,3 +44,4 @@ pub use orbit::OrbitReport;
 pub use origin::Origin;
 pub use run::{ClaimInWords, run_in_words, run_remarks, run_report, run_sentence};
 pub use transfer::{TransferReport, pair_failure_json, transfer_figure};
+pub use words::{row_of, with as oscillators_in_words};

@@ -13,12 +13,14 @@ use sigmastar_prove::certify::claimed_ball;
 use sigmastar_theory::derivation::initial_set::ClaimedSet;
 
 /// The oscillators that something is said of: their number, or the harmonics of a set.
-pub(super) fn with(oscillators: &Oscillators) -> String {
+#[must_use]
+pub fn with(oscillators: &Oscillators) -> String {
     oscillators.n_o().map_or_else(|| oscillators.to_string(), |n_o| format!("$`n_o = {n_o}`$"))
 }
 
-/// The same in a column of numbers of oscillators.
-pub(super) fn row_of(oscillators: &Oscillators) -> String {
+/// Oscillators in a column of numbers of them: "3", or "at 0, 1, 5".
+#[must_use]
+pub fn row_of(oscillators: &Oscillators) -> String {
     let all = || oscillators.all().map(|k| k.to_string()).collect::<Vec<String>>().join(", ");
     oscillators.n_o().map_or_else(|| format!("at {}", all()), |n_o| n_o.to_string())
 }

@@ -6,7 +6,9 @@ mod proved;
 pub use options::{DesignNames, DesignOptions};
 
 use super::certificate::Certificate;
+use super::certify::not_told_apart;
 use super::error::{Error, ErrorKind};
+use super::options::oscillators;
 use super::report::Report;
 use super::sampling::SamplingPairs;
 use super::subject::Subject;
@@ -16,9 +18,10 @@ use proved::{Proved, Taken};
 use rug::Rational;
 use sigmastar_exact::enclosure::{DEFAULT_PRECISION, Enclosure};
 use sigmastar_exact::number::write_exact;
-use sigmastar_lang::spec::Document;
+use sigmastar_lang::spec::{Document, Oscillators};
 use sigmastar_prove::certify::{NoRatesOfClaim, Options, rate_counts};
-use sigmastar_prove::reduction::{AtGains, Subject as Read, Unwatched};
+use sigmastar_prove::rate::bound::MAX_COUNTS;
+use sigmastar_prove::reduction::{AtGains, Subject as Read, Unwatched, for_every_set};
 use sigmastar_studies::design::{
     Choice, DesignReport, LongestPeriod, Merit, Requirements, Row, ValuesTried, best_values, choose, design_table,
     mu_by_the_period,
@@ -30,7 +33,7 @@ use sigmastar_studies::tune::{Parameter, parameters, with_values};
 #[non_exhaustive]
 pub struct Design {
     sigma: String,
-    n_o: Option<u32>,
+    oscillators: Option<Oscillators>,
     is_met: bool,
     certificate: Certificate,
     report: Report,
@@ -43,10 +46,16 @@ impl Design {
         &self.sigma
     }
 
-    /// The number of oscillators to take; `None` where nothing is required: the gain is for each number of the table.
+    /// The number of oscillators to take; `None` where nothing is required, as the gain is for each number of the table, and where it is a set of harmonics.
     #[must_use]
     pub fn n_o(&self) -> Option<u32> {
-        self.n_o
+        self.oscillators.as_ref().and_then(Oscillators::n_o)
+    }
+
+    /// The set of harmonics to take, 0 the first; `None` where it is a number of oscillators, and where nothing is required.
+    #[must_use]
+    pub fn harmonics(&self) -> Option<Vec<u32>> {
+        self.oscillators.as_ref().filter(|set| set.n_o().is_none()).map(|set| set.all().collect())
     }
 
     /// Whether every requirement is proved to be met with this pair; so it is where nothing is required.
@@ -131,16 +140,28 @@ pub fn design_of(
 struct Asked {
     subject: Subject,
     counts: Vec<u32>,
+    oscillators: Vec<Oscillators>,
     sigmas: Vec<Rational>,
     requirements: Requirements,
 }
 
 impl Asked {
     fn new(subject: &Subject, options: &DesignOptions, names: &DesignNames) -> Result<Asked, Error> {
-        let [of_counts, of_sigmas, of_step] = names.asked;
+        let [of_counts, of_sets, of_sigmas, of_step] = names.asked;
         let mut subject = subject.clone();
-        if let Some(step) = &options.sampling_period {
-            subject.read = Read::read(&with_sampling_period(&subject.source, of_step, step)?)?;
+        let sets = options.harmonics.iter().map(|set| oscillators(of_sets, set)).collect::<Result<Vec<_>, _>>()?;
+        if options.sampling_period.is_some() || !sets.is_empty() {
+            let mut document = match &options.sampling_period {
+                Some(step) => with_sampling_period(&subject.source, of_step, step)?,
+                None => subject.source.clone(),
+            };
+            if !sets.is_empty() {
+                document = for_every_set(&document)?;
+            }
+            subject.read = Read::read(&document)?;
+        }
+        if let Some([message, help]) = not_told_apart(&sets, &subject.read, of_sets) {
+            return Err(Error::new(ErrorKind::Options, message, &help));
         }
         let read = &subject.read;
         let asked_counts = options.n_o.clone().unwrap_or_else(|| {
@@ -157,6 +178,17 @@ impl Asked {
             && 2 * u64::from(*n_o) >= u64::from(sampling.samples)
         {
             return Err(Error::no_rates(NoRatesOfClaim::NotBelowHalf(*n_o, sampling.samples), of_counts));
+        }
+        let mut all: Vec<Oscillators> = counts.iter().copied().map(Oscillators::first).chain(sets).collect();
+        // Of as many a number is before a set.
+        all.sort_by_key(|one| (one.count(), one.n_o().is_none()));
+        all.dedup();
+        if all.len() > MAX_COUNTS {
+            let message = format!(
+                "{of_counts} and {of_sets}: {} numbers and sets; at most {MAX_COUNTS} go into one table",
+                all.len()
+            );
+            return Err(Error::new(ErrorKind::Options, message, "ask for fewer"));
         }
         let mut sigmas: Vec<Rational> =
             options.sigmas.iter().map(|sigma| rational(of_sigmas, sigma)).collect::<Result<_, _>>()?;
@@ -180,7 +212,7 @@ impl Asked {
             ));
         }
         let requirements = requirements(read, options, names)?;
-        Ok(Asked { subject, counts, sigmas, requirements })
+        Ok(Asked { subject, counts, oscillators: all, sigmas, requirements })
     }
 }
 
@@ -209,7 +241,7 @@ impl Table {
         let mut claims = Proved {
             gains: &gains,
             options: run_options,
-            counts: &asked.counts,
+            oscillators: &asked.oscillators,
             asked: &asked.subject,
             simulate: options.simulate,
             limit: asked.requirements.steady_error.as_ref(),
@@ -267,9 +299,9 @@ impl Table {
         };
         let report = Report::of(&report);
         let Choice { row, cell, is_met, .. } = choice;
-        let n_o = cell.map(|cell| rows[row].cells[cell].n_o);
+        let oscillators = cell.map(|cell| rows[row].cells[cell].oscillators.clone());
         let is_met = is_met || requirements.is_empty();
-        Ok(Design { sigma: write_exact(&sigma), n_o, is_met, certificate, report })
+        Ok(Design { sigma: write_exact(&sigma), oscillators, is_met, certificate, report })
     }
 }
 

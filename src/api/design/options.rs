@@ -27,6 +27,7 @@ pub(super) const MAX_GAINS: usize = 20;
 #[non_exhaustive]
 pub struct DesignOptions {
     pub(super) n_o: Option<Vec<u32>>,
+    pub(super) harmonics: Vec<Vec<u32>>,
     pub(super) sigmas: Vec<String>,
     pub(super) sampling_period: Option<String>,
     /// Of the steady error, the peak, the control, the periods to settle, the noise.
@@ -48,6 +49,7 @@ impl DesignOptions {
     pub fn new() -> DesignOptions {
         DesignOptions {
             n_o: None,
+            harmonics: Vec::new(),
             sigmas: Vec::new(),
             sampling_period: None,
             required: [const { None }; 5],
@@ -61,6 +63,14 @@ impl DesignOptions {
     #[must_use]
     pub fn n_o(mut self, counts: impl Into<Vec<u32>>) -> DesignOptions {
         self.n_o = Some(counts.into());
+        self
+    }
+
+    /// Oscillators at these harmonics in the table, too, of 0 and at most 100 others up to 100; several times for several sets. Each row is about every finite set
+    /// of harmonics that contains 0 then, as with [`CertifyOptions::harmonics`](crate::CertifyOptions::harmonics). Numbers and sets are 8 together at most.
+    #[must_use]
+    pub fn harmonics(mut self, set: impl Into<Vec<u32>>) -> DesignOptions {
+        self.harmonics.push(set.into());
         self
     }
 
@@ -143,8 +153,8 @@ impl DesignOptions {
 /// What arguments are called in errors.
 #[derive(Clone, Copy, Debug)]
 pub struct DesignNames {
-    /// The numbers of oscillators, the gains, the sampling period.
-    pub asked: [&'static str; 3],
+    /// The numbers of oscillators, the sets of harmonics, the gains, the sampling period.
+    pub asked: [&'static str; 4],
     /// The requirements.
     pub required: [&'static str; 5],
     /// The numbers to choose.
@@ -154,7 +164,7 @@ pub struct DesignNames {
 }
 
 pub(super) const NAMES: DesignNames = DesignNames {
-    asked: ["`n_o`", "sigmas", "sampling_period"],
+    asked: ["`n_o`", "harmonics", "sigmas", "sampling_period"],
     required: ["steady_error", "peak_error", "max_control", "settle", "noise"],
     choose: "choose",
     sampling_periods: "sampling_periods",

@@ -7,6 +7,7 @@ use super::super::subject::Subject;
 use rug::Rational;
 use sigmastar_exact::number::write_exact;
 use sigmastar_exact::parallel;
+use sigmastar_lang::spec::Oscillators;
 use sigmastar_prove::certify::Options;
 use sigmastar_prove::reduction::{AtGains, Prepared};
 use sigmastar_report::{ClaimInWords, run_in_words};
@@ -23,7 +24,8 @@ pub(super) struct Taken {
 pub(super) struct Proved<'a> {
     pub(super) gains: &'a AtGains<'a>,
     pub(super) options: Options,
-    pub(super) counts: &'a [u32],
+    /// Numbers of oscillators and sets of harmonics, those with the fewest oscillators first.
+    pub(super) oscillators: &'a [Oscillators],
     pub(super) asked: &'a Subject,
     pub(super) simulate: bool,
     /// Of |e|, to which runs are to settle.
@@ -40,15 +42,15 @@ impl Claims for Proved<'_> {
 
     fn smallest(&mut self) -> Result<Row, Error> {
         (self.tell)("proving the row of the smallest gain");
-        let (row, certified) = self.row(&self.gains.smallest())?;
+        let (row, certified) = self.row(self.gains.smallest())?;
         self.certificates.push(certified);
         Ok(row)
     }
 
     fn at(&mut self, sigmas: &[Rational]) -> Vec<Option<Row>> {
         let at = |sigma: &Rational| {
-            let prepared = self.gains.at(sigma).map_err(|all| Error::documents(&all));
-            prepared.and_then(|prepared| self.row(&prepared))
+            let prepared = self.gains.at(sigma).map_err(|all| Error::documents(&all))?;
+            self.row(prepared)
         };
         let shown: Vec<String> = sigmas.iter().map(write_exact).collect();
         (self.tell)(&format!("proving sigma = {}", shown.join(", ")));
@@ -71,9 +73,11 @@ impl Claims for Proved<'_> {
 }
 
 impl Proved<'_> {
-    fn row(&self, prepared: &Prepared) -> Result<(Row, Taken), Error> {
-        let run = with_rates(prepared, (self.options, self.counts))?;
-        let row = Row::of(&run, self.counts);
+    fn row(&self, prepared: Prepared) -> Result<(Row, Taken), Error> {
+        let sets = self.oscillators.iter().filter(|asked| asked.n_o().is_none()).cloned().collect();
+        let prepared = prepared.with_sets(sets);
+        let run = with_rates(&prepared, (self.options, self.oscillators))?;
+        let row = Row::of(&run, self.oscillators);
         let certificate = Certificate::new(&run, self.asked, false).zip(run_in_words(&run));
         let (row, (certificate, in_words)) = row.zip(certificate).ok_or_else(|| not_certified(&run))?;
         let row = if self.simulate { simulated(row, &certificate, self.limit) } else { row };
@@ -90,9 +94,8 @@ fn simulated(mut row: Row, certificate: &Certificate, limit: Option<&Rational>) 
     let document = sigmastar_lang::spec::Document::parse("the certificate", certificate.to_json());
     let claim = document.and_then(|document| TriedClaim::from_document(&document));
     let Ok(claim) = claim else { return row };
-    let counts: Vec<u32> = row.cells.iter().map(|cell| cell.n_o).collect();
     let limit = limit.map(Rational::to_f64);
-    let found = parallel::map(&counts, |n_o| nominal_figures(&claim, *n_o, limit));
+    let found = parallel::map(&row.cells, |cell| nominal_figures(&claim, &cell.oscillators, limit));
     for (cell, found) in row.cells.iter_mut().zip(found) {
         cell.simulated =
             found.map(|LoopFigures { steady_error, largest, settling }| Simulated { steady_error, largest, settling });

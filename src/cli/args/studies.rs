@@ -1,10 +1,12 @@
 //! Flags of the commands for many cases.
 
 use super::Replace;
-use crate::cli::counts::one_count;
+use crate::cli::counts::{harmonics, one_count};
 use crate::cli::output::Format;
 use clap::{Args, ValueEnum, ValueHint};
 use sigmastar::{RegulatorMatrices, TuneOptions};
+use sigmastar_lang::spec::Oscillators;
+use sigmastar_prove::rate::bound::MAX_OSCILLATORS;
 use std::path::PathBuf;
 
 /// The flags of `design`.
@@ -39,6 +41,11 @@ pub struct DesignArgs {
     /// Numbers of oscillators in the table, 8 at most: a list `0,2,4` or a range `0..6` [default: 0,1,2,3,5]
     #[arg(long, value_name = "LIST")]
     pub n_o: Option<String>,
+
+    /// Add oscillators at these harmonics to the table, such as `0,1,5,7`; repeat the flag for several sets. The claims are then about every
+    /// finite set of harmonics that contains 0: the flag sets or replaces `harmonics` of the internal model
+    #[arg(long, value_name = "LIST", value_parser = harmonics(MAX_OSCILLATORS, MAX_OSCILLATORS))]
+    pub harmonics: Vec<Oscillators>,
 
     /// Gains in the table, 20 at most [default: the smallest gain found, and multiples of it]
     #[arg(long, value_name = "LIST")]

@@ -12,6 +12,7 @@ use crate::simulate::{
     trajectory,
 };
 use sigmastar_document::progress::Silent;
+use sigmastar_lang::spec::Oscillators;
 use sigmastar_regulator::Regulator;
 
 /// The phases of a period at which runs start.
@@ -45,19 +46,23 @@ pub struct LoopFigures {
 /// e and u at the times of a run.
 type Series = Vec<[f64; 2]>;
 
-/// The figures of the nominal plant that a claim is about, with its gain, its samples where it has some, and so many oscillators, from starts in its initial
+/// The figures of the nominal plant that a claim is about, with its gain, its samples where it has some, and these oscillators, from starts in its initial
 /// set, which are to settle below a limit of |e|. `None` where the claim is not about one plant, and where no periodic solution is found.
 #[must_use]
-pub fn nominal_figures(claim: &TriedClaim, n_o: u32, limit: Option<f64>) -> Option<LoopFigures> {
+pub fn nominal_figures(claim: &TriedClaim, oscillators: &Oscillators, limit: Option<f64>) -> Option<LoopFigures> {
     let own = claim.own.as_ref()?;
     match &claim.sampled {
-        None => in_continuous_time((claim, own), n_o, limit),
-        Some(law) => at_samples((claim, own), law, n_o, limit),
+        None => in_continuous_time((claim, own), oscillators, limit),
+        Some(law) => at_samples((claim, own), law, oscillators, limit),
     }
 }
 
-fn in_continuous_time((claim, own): (&TriedClaim, &OwnPlant), n_o: u32, limit: Option<f64>) -> Option<LoopFigures> {
-    let closed_loop = ClosedLoop::new(&own.plant, regulator(claim, claim.sigma, &n_o.into())).without_limit();
+fn in_continuous_time(
+    (claim, own): (&TriedClaim, &OwnPlant),
+    oscillators: &Oscillators,
+    limit: Option<f64>,
+) -> Option<LoopFigures> {
+    let closed_loop = ClosedLoop::new(&own.plant, regulator(claim, claim.sigma, oscillators)).without_limit();
     let (n, period) = (closed_loop.states(), closed_loop.period);
     let set = Set { claim, own, regulator: &closed_loop.regulator };
     let steady = steady_state(&closed_loop, &set.start(0.0, &set.middle()), &Silent).ok()?;
@@ -79,10 +84,10 @@ fn in_continuous_time((claim, own): (&TriedClaim, &OwnPlant), n_o: u32, limit: O
 fn at_samples(
     (claim, own): (&TriedClaim, &OwnPlant),
     law: &SampledClaim,
-    n_o: u32,
+    oscillators: &Oscillators,
     limit: Option<f64>,
 ) -> Option<LoopFigures> {
-    let (regulator, discrete) = law.regulator(&claim.spec, &n_o.into())?;
+    let (regulator, discrete) = law.regulator(&claim.spec, oscillators)?;
     let sampled = SampledLoop::new(&own.plant, regulator, discrete);
     let samples = sampled.samples().filter(|samples| *samples == law.samples as usize)?;
     let n = sampled.states();

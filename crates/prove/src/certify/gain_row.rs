@@ -179,7 +179,7 @@ impl ByCount {
     }
 
     /// Those for these oscillators: of a set with gaps none but its own.
-    fn with(&self, oscillators: &Oscillators) -> Option<&CountBounds> {
+    pub(super) fn with(&self, oscillators: &Oscillators) -> Option<&CountBounds> {
         match oscillators.n_o() {
             Some(n_o) => self.at(u64::from(n_o)),
             None => self.counts.iter().find(|bounds| bounds.oscillators == *oscillators),

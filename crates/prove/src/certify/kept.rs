@@ -6,6 +6,7 @@ use super::options::Limits;
 use super::sampled::SampledCertification;
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_lang::spec::Oscillators;
 use sigmastar_propose::search::{Failing, Limited};
 use sigmastar_theory::derivation::control::Control;
 use sigmastar_theory::derivation::sampled::SampledEvaluation;
@@ -121,7 +122,7 @@ pub struct Stated {
     pub is_in_certificate: bool,
 }
 
-/// What is proved with one number of oscillators at the gain of a claim.
+/// What is proved with given oscillators at the gain of a claim.
 #[derive(Clone, Debug)]
 pub struct BoundsOfCount {
     /// Of |e| along the periodic solution.
@@ -143,7 +144,7 @@ impl BoundsOfCount {
     fn of(
         [steady, peak]: [&Enclosure; 2],
         control: &Control<Enclosure>,
-        (by_count, n_o): (Option<&ByCount>, u32),
+        (by_count, oscillators): (Option<&ByCount>, &Oscillators),
         by_formulas: Option<Enclosure>,
     ) -> BoundsOfCount {
         let steady_control = written(&control.steady);
@@ -153,7 +154,7 @@ impl BoundsOfCount {
         let outside = |bound: Enclosure| Stated { bound, is_in_certificate: false };
         let steady = written(steady);
         let found = by_count.filter(|found| found.checked);
-        match found.and_then(|found| Some((found, found.at(u64::from(n_o))?))) {
+        match found.and_then(|found| Some((found, found.with(oscillators)?))) {
             None => BoundsOfCount {
                 steady_error: match by_formulas {
                     Some(other) if other.lt(&steady).is_true() => outside(other),
@@ -179,12 +180,12 @@ impl BoundsOfCount {
 }
 
 impl Certification<'_> {
-    /// What is proved with a number of oscillators, and which of it is in the certificate; `None` without a certified claim.
+    /// What is proved with these oscillators, which the claim is about, and which of it is in the certificate; `None` without a certified claim.
     #[must_use]
-    pub fn bounds_of(&self, n_o: u32) -> Option<BoundsOfCount> {
+    pub fn bounds_of(&self, oscillators: &Oscillators) -> Option<BoundsOfCount> {
         let (steady, peak, control) = self.bounds()?;
-        let by_formulas = self.error_with(u64::from(n_o)).map(|error| error.sup);
-        Some(BoundsOfCount::of([steady, peak], control, (self.by_count.as_ref(), n_o), by_formulas))
+        let by_formulas = oscillators.n_o().and_then(|n_o| Some(self.error_with(u64::from(n_o))?.sup));
+        Some(BoundsOfCount::of([steady, peak], control, (self.by_count.as_ref(), oscillators), by_formulas))
     }
 
     /// What the conditions of the claim, and the table of the regulated error, prove with these numbers of oscillators.
@@ -223,11 +224,11 @@ impl Certification<'_> {
 }
 
 impl SampledCertification<'_> {
-    /// What is proved with a number of oscillators, and which of it is in the certificate; `None` without a certified claim.
+    /// What is proved with these oscillators, which the claim is about, and which of it is in the certificate; `None` without a certified claim.
     #[must_use]
-    pub fn bounds_of(&self, n_o: u32) -> Option<BoundsOfCount> {
+    pub fn bounds_of(&self, oscillators: &Oscillators) -> Option<BoundsOfCount> {
         let SampledEvaluation { size, peak, control, .. } = &self.claim()?.evaluation;
-        Some(BoundsOfCount::of([&size.e_per, peak], control, (self.by_count.as_ref(), n_o), None))
+        Some(BoundsOfCount::of([&size.e_per, peak], control, (self.by_count.as_ref(), oscillators), None))
     }
 
     /// What the conditions of the claim prove for every number of oscillators.

@@ -14,8 +14,9 @@ use crate::rate::found::ForCount;
 use crate::rate::noise::NoiseBound;
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_lang::spec::Oscillators;
 
-/// What is proved with a number of oscillators in the loop with all that a document states of noise, for every solution from the initial set.
+/// What is proved with given oscillators in the loop with all that a document states of noise, for every solution from the initial set.
 #[derive(Clone, Debug)]
 pub struct UnderNoise {
     /// Of the limit superior of |e - e_per|: S.
@@ -33,11 +34,11 @@ pub struct UnderNoise {
 /// From what is proved without noise and of it.
 fn under_noise<P, Q>(
     found: &[ForCount<P, Q>],
-    n_o: u32,
+    oscillators: &Oscillators,
     (without, by_count): (&BoundsOfCount, Option<&ByCount>),
 ) -> Option<UnderNoise> {
     let NoiseBound { limit, peak, misled, control: added, .. } =
-        found.iter().find(|found| found.oscillators.n_o() == Some(n_o))?.proved_noise()?;
+        found.iter().find(|found| found.oscillators == *oscillators)?.proved_noise()?;
     let BoundsOfCount { steady_error, peak_error, control, steady_control, transient } = without;
     let with = |bound: &Enclosure, more: &[&Rational]| {
         more.iter().fold(bound.clone(), |sum, more| sum + Enclosure::from_rational(more, bound.precision()))
@@ -55,17 +56,17 @@ fn under_noise<P, Q>(
 }
 
 impl Certification<'_> {
-    /// What is proved of the loop with noise with a number of oscillators; `None` where nothing is, or the document has none.
+    /// What is proved of the loop with noise with given oscillators; `None` where nothing is, or the document has none.
     #[must_use]
-    pub fn under_noise(&self, n_o: u32) -> Option<UnderNoise> {
-        under_noise(&self.for_n_o, n_o, (&self.bounds_of(n_o)?, self.by_count.as_ref()))
+    pub fn under_noise(&self, oscillators: &Oscillators) -> Option<UnderNoise> {
+        under_noise(&self.for_n_o, oscillators, (&self.bounds_of(oscillators)?, self.by_count.as_ref()))
     }
 }
 
 impl SampledCertification<'_> {
     /// The same at samples; it is about all times, between samples too.
     #[must_use]
-    pub fn under_noise(&self, n_o: u32) -> Option<UnderNoise> {
-        under_noise(&self.for_n_o, n_o, (&self.bounds_of(n_o)?, self.by_count.as_ref()))
+    pub fn under_noise(&self, oscillators: &Oscillators) -> Option<UnderNoise> {
+        under_noise(&self.for_n_o, oscillators, (&self.bounds_of(oscillators)?, self.by_count.as_ref()))
     }
 }

@@ -293,12 +293,12 @@ impl Run<'_> {
         }
     }
 
-    /// What is proved with a number of oscillators, and which of it is in the certificate; `None` where nothing is certified.
+    /// What is proved with given oscillators, which the claim is about, and which of it is in the certificate; `None` where nothing is certified.
     #[must_use]
-    pub fn bounds_of(&self, n_o: u32) -> Option<BoundsOfCount> {
+    pub fn bounds_of(&self, oscillators: &Oscillators) -> Option<BoundsOfCount> {
         match self {
-            Run::Continuous(run) => run.bounds_of(n_o),
-            Run::Sampled(run) => run.bounds_of(n_o),
+            Run::Continuous(run) => run.bounds_of(oscillators),
+            Run::Sampled(run) => run.bounds_of(oscillators),
         }
     }
 
@@ -313,12 +313,12 @@ impl Run<'_> {
         self.spec().disturbances.disturb(at_samples) && self.spec().actuator.is_none() && !delayed
     }
 
-    /// What is proved with a number of oscillators that was asked about in the loop with noise; `None` where nothing is, or the document has none.
+    /// What is proved with oscillators that were asked about in the loop with noise; `None` where nothing is, or the document has none.
     #[must_use]
-    pub fn under_noise(&self, n_o: u32) -> Option<UnderNoise> {
+    pub fn under_noise(&self, oscillators: &Oscillators) -> Option<UnderNoise> {
         match self {
-            Run::Continuous(run) => run.under_noise(n_o),
-            Run::Sampled(run) => run.under_noise(n_o),
+            Run::Continuous(run) => run.under_noise(oscillators),
+            Run::Sampled(run) => run.under_noise(oscillators),
         }
     }
 

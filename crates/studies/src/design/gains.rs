@@ -155,8 +155,9 @@ mod tests {
         let rows = design_table(&mut plant, (&requirements, &period), &[]).unwrap();
         assert_eq!(plant.asked.len(), rows.len());
         let found = choose(&rows, &requirements, &period).filter(|choice| choice.is_met);
-        let found =
-            found.map(|choice| (rows[choice.row].sigma.to_f64(), rows[choice.row].cells[choice.cell.unwrap()].n_o));
+        let found = found.map(|choice| {
+            (rows[choice.row].sigma.to_f64(), rows[choice.row].cells[choice.cell.unwrap()].oscillators.n_o().unwrap())
+        });
         (rows.iter().map(|row| row.sigma.to_f64()).collect(), found)
     }
 

@@ -11,8 +11,8 @@ use sigmastar_document::number::{estimate, exact, full, upper};
 use sigmastar_document::{Block, Readable, Table, clean, clean_sentence, plain};
 use sigmastar_exact::enclosure::Enclosure;
 use sigmastar_exact::number::{Direction, write_exact};
-use sigmastar_lang::spec::Sampling;
-use sigmastar_report::ClaimInWords;
+use sigmastar_lang::spec::{Oscillators, Sampling};
+use sigmastar_report::{ClaimInWords, oscillators_in_words, row_of};
 
 /// The format of the JSON.
 const FORMAT: &str = "sigmastar/design";
@@ -86,20 +86,22 @@ impl Readable for DesignReport<'_> {
     fn json(&self) -> Value {
         let Choice { row, cell, is_met, compared, others } = self.choice;
         let sigma = |row: &usize| write_exact(&self.rows[*row].sigma);
-        let n_o = |row: usize, cell: usize| self.rows[row].cells[cell].n_o;
+        let which = |row: usize, cell: usize| self.rows[row].cells[cell].oscillators.clone();
         let compared: Vec<Value> = compared.iter().map(compared_json).collect();
-        let others: Vec<Value> =
-            others.iter().map(|[row, cell]| json!({ "sigma": sigma(row), "n_o": n_o(*row, *cell) })).collect();
+        let others: Vec<Value> = others
+            .iter()
+            .map(|[row, cell]| with_oscillators(json!({ "sigma": sigma(row) }), Some(&which(*row, *cell))))
+            .collect();
         let rows: Vec<Value> = self.rows.iter().enumerate().map(|(index, row)| self.row_json(index, row)).collect();
         let sampling = self.sampling.as_ref();
         json!({
             "format": FORMAT, "version": VERSION, "sentence": plain(&self.sentence()),
             "specification": { "name": self.name, "sha256": self.sha256 },
             "sampling": sampling.map(|(step, samples)| json!({ "sampling_period": step, "samples": samples })),
-            "take": {
-                "sigma": sigma(row), "n_o": cell.map(|cell| n_o(*row, cell)), "met": is_met | cell.is_none(),
+            "take": with_oscillators(json!({
+                "sigma": sigma(row), "met": is_met | cell.is_none(),
                 "keeps_rule": cell.is_none().then_some(is_met), "requirements": compared, "others": others,
-            },
+            }), cell.map(|cell| which(*row, cell)).as_ref()),
             "notes": self.notes, "initial_set": plain(&self.in_words.initial_set),
             "assumed": plain(&self.in_words.assumed), "without_noise": self.disturbed,
             "values": self.values.map(ValuesTried::json), "rows": rows, "not_certified": self.refused.iter().map(|(sigma, _)| write_exact(sigma)).collect::<Vec<_>>(),
@@ -113,7 +115,7 @@ impl DesignReport<'_> {
         let Choice { row, cell, is_met, compared, .. } = self.choice;
         let row = &self.rows[*row];
         let (sigma, values) = (write_exact(&row.sigma), self.values.map_or_else(String::new, ValuesTried::taken));
-        let Some(n_o) = cell.map(|cell| row.cells[cell].n_o) else {
+        let Some(which) = cell.map(|cell| oscillators_in_words(&row.cells[cell].oscillators)) else {
             return match is_met {
                 true => format!(
                     "Take $`sigma = {sigma}`${values}. It is the smallest gain of the table that meets two conditions with each number of oscillators. First, the bound of the \
@@ -134,12 +136,12 @@ impl DesignReport<'_> {
                 (false, false) => "",
             };
             return format!(
-                "Take $`sigma = {sigma}`$ with $`n_o = {n_o}`${values}: every requirement is proved to be met{scope}."
+                "Take $`sigma = {sigma}`$ with {which}{values}: every requirement is proved to be met{scope}."
             );
         }
         let missed: Vec<&str> = compared.iter().filter(|one| !one.is_met()).map(|one| self.words(one)).collect();
         format!(
-            "No pair of the table is proved to meet every requirement. $`sigma = {sigma}`$ with $`n_o = {n_o}`${values} comes closest; not met: {}.",
+            "No pair of the table is proved to meet every requirement. $`sigma = {sigma}`$ with {which}{values} comes closest; not met: {}.",
             missed.join(", ")
         )
     }
@@ -162,7 +164,11 @@ impl DesignReport<'_> {
     fn others(&self) -> Option<String> {
         let pair = |[row, cell]: &[usize; 2]| {
             let row = &self.rows[*row];
-            format!("$`n_o = {}`$ with $`sigma = {}`$", row.cells[*cell].n_o, write_exact(&row.sigma))
+            format!(
+                "{} with $`sigma = {}`$",
+                oscillators_in_words(&row.cells[*cell].oscillators),
+                write_exact(&row.sigma)
+            )
         };
         let all: Vec<String> = self.choice.others.iter().map(pair).collect();
         (!all.is_empty()).then(|| format!("In the table these meet every requirement, too: {}.", all.join(", ")))
@@ -248,7 +254,7 @@ impl DesignReport<'_> {
                 let of_runs = |index: usize| found.and_then(|found| Some(found.largest?[index]));
                 let mut cells = vec![write_exact(&row.sigma)];
                 cells.extend(e0.then(|| exact(&row.e0, Direction::Down)));
-                cells.push(cell.n_o.to_string());
+                cells.push(row_of(&cell.oscillators));
                 for (bound, found) in [
                     (&cell.steady_error, found.map(|found| above_rounding(found.steady_error, cell))),
                     (&cell.peak_error, of_runs(0)),
@@ -283,12 +289,12 @@ impl DesignReport<'_> {
     fn remarks(&self) -> Vec<String> {
         let Choice { row, cell, is_met, .. } = self.choice;
         let row = &self.rows[*row];
-        let n_o = cell.map_or_else(|| "N".to_owned(), |cell| row.cells[cell].n_o.to_string());
+        let which = cell.map_or_else(|| "--n-o N".to_owned(), |cell| row.cells[cell].flag());
         let is_taken = *is_met || cell.is_none();
         let mut remarks = Vec::new();
         if is_taken {
             remarks.push(format!(
-                "next: the certificate of the gain to take is what `-o FILE` writes; `sigmastar check FILE` decides it again, `sigmastar controller FILE --n-o {n_o}` \
+                "next: the certificate of the gain to take is what `-o FILE` writes; `sigmastar check FILE` decides it again, `sigmastar controller FILE {which}` \
                  writes the regulator"
             ));
         } else {
@@ -449,12 +455,13 @@ impl DesignReport<'_> {
         let cell = |cell: &Cell| {
             let settling = self.requirements.steady_error.as_ref().and_then(|limit| cell.settling(limit, self.period));
             let decay = cell.decay.as_ref();
-            json!({
-                "n_o": cell.n_o, "steady_error": full(&cell.steady_error), "peak_error": full(&cell.peak_error),
+            let said = json!({
+                "steady_error": full(&cell.steady_error), "peak_error": full(&cell.peak_error),
                 "max_control": full(&cell.control), "rate": decay.map(|decay| write_exact(&decay.rate)),
                 "factor": decay.map(|decay| write_exact(&decay.factor)), "settle": settling.as_ref().map(full),
                 "noise": cell.noise_limit().map(write_exact), "with_noise": with_noise_json(cell), "not_in_certificate": outside(cell), "simulated": cell.simulated.map(simulated_json),
-            })
+            });
+            with_oscillators(said, Some(&cell.oscillators))
         };
         let cells: Vec<Value> = row.cells.iter().map(cell).collect();
         let mut said = json!({ "sigma": write_exact(&row.sigma), "E0": write_exact(&row.e0), "cells": cells });
@@ -466,6 +473,14 @@ impl DesignReport<'_> {
         }
         said
     }
+}
+
+/// An object with `n_o`, or with `harmonics` where the oscillators are at a set with gaps; the other one is null.
+pub(super) fn with_oscillators(mut said: Value, oscillators: Option<&Oscillators>) -> Value {
+    let harmonics = oscillators.filter(|set| set.n_o().is_none()).map(|set| set.all().collect::<Vec<u32>>());
+    said["n_o"] = json!(oscillators.and_then(Oscillators::n_o));
+    said["harmonics"] = json!(harmonics);
+    said
 }
 
 /// A simulated steady error, or 0 where it is what rounding leaves of numbers like the largest error.

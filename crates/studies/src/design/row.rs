@@ -1,7 +1,8 @@
-//! What is proved at one gain, for each number of oscillators that is asked about.
+//! What is proved at one gain, for each number of oscillators and each set of harmonics that is asked about.
 
 use rug::Rational;
 use sigmastar_exact::enclosure::Enclosure;
+use sigmastar_lang::spec::Oscillators;
 use sigmastar_prove::certify::{BoundsOfCount, Stated, UnderNoise};
 use sigmastar_prove::reduction::Run;
 
@@ -14,15 +15,15 @@ pub struct Row {
     pub sigma: Rational,
     /// E0 of the initial set. Where the document states no sizes they go with the gain.
     pub e0: Rational,
-    /// One for each number of oscillators, in rising order.
+    /// One for each number of oscillators or set of harmonics, those with the fewest oscillators first.
     pub cells: Vec<Cell>,
 }
 
-/// What is proved with a number of oscillators.
+/// What is proved with given oscillators.
 #[derive(Clone, Debug)]
 pub struct Cell {
-    /// n_o.
-    pub n_o: u32,
+    /// The oscillators.
+    pub oscillators: Oscillators,
     /// Of |e| along the periodic solution.
     pub steady_error: Enclosure,
     /// Of |e| at all times.
@@ -74,15 +75,16 @@ pub struct Simulated {
 }
 
 impl Row {
-    /// What a run proves at its gain, its rates included, for these numbers of oscillators in rising order; `None` where nothing is certified.
+    /// What a run proves at its gain, its rates included, for these oscillators, those with the fewest first; `None` where nothing is certified. Hypothesis: the
+    /// claim is about all of them.
     #[must_use]
-    pub fn of(run: &Run<'_>, counts: &[u32]) -> Option<Row> {
+    pub fn of(run: &Run<'_>, asked: &[Oscillators]) -> Option<Row> {
         let certified = run.certified()?;
         let said = run.of_counts();
         let counts_noise = run.counts_noise();
-        let cell = |n_o: &u32| {
-            let BoundsOfCount { steady_error, peak_error, control, steady_control, .. } = run.bounds_of(*n_o)?;
-            let noise = match run.under_noise(*n_o) {
+        let cell = |oscillators: &Oscillators| {
+            let BoundsOfCount { steady_error, peak_error, control, steady_control, .. } = run.bounds_of(oscillators)?;
+            let noise = match run.under_noise(oscillators) {
                 Some(found) => Noise::Proved(Box::new(found)),
                 None if counts_noise => Noise::NotProved,
                 None => Noise::Absent,
@@ -93,9 +95,9 @@ impl Row {
                 Some(bound) => Stated { bound: bound.clone(), is_in_certificate: false },
                 None => peak_error,
             };
-            let said = said.iter().find(|said| said.oscillators.n_o() == Some(*n_o));
+            let said = said.iter().find(|said| said.oscillators == oscillators);
             Some(Cell {
-                n_o: *n_o,
+                oscillators: oscillators.clone(),
                 are_in_certificate: [steady_error.is_in_certificate, peak_error.is_in_certificate],
                 steady_error: steady_error.bound,
                 peak_error: peak_error.bound,
@@ -106,12 +108,19 @@ impl Row {
                 simulated: None,
             })
         };
-        let cells = counts.iter().map(cell).collect::<Option<_>>()?;
+        let cells = asked.iter().map(cell).collect::<Option<_>>()?;
         Some(Row { sigma: certified.sigma.clone(), e0: certified.set.e0.clone(), cells })
     }
 }
 
 impl Cell {
+    /// The flag of `controller` and others: "--n-o 3", or "--harmonics 0,1,5".
+    #[must_use]
+    pub fn flag(&self) -> String {
+        let all = || self.oscillators.all().map(|harmonic| harmonic.to_string()).collect::<Vec<_>>().join(",");
+        self.oscillators.n_o().map_or_else(|| format!("--harmonics {}", all()), |n_o| format!("--n-o {n_o}"))
+    }
+
     /// S of the loop with noise, where it is proved.
     #[must_use]
     pub fn noise_limit(&self) -> Option<&Rational> {
@@ -172,7 +181,7 @@ pub(super) mod tests {
     pub fn cell(n_o: u32, [steady_error, peak_error, control]: [f64; 3]) -> Cell {
         let bound = Enclosure::exactly;
         Cell {
-            n_o,
+            oscillators: n_o.into(),
             steady_error: bound(steady_error),
             are_in_certificate: [true; 2],
             peak_error: bound(peak_error),

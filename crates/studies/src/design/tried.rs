@@ -1,11 +1,13 @@
 //! What a report says of values that were tried.
 
+use super::report::with_oscillators;
 use super::values::{Merit, TriedValues, ValuesTried};
 use crate::tune::Parameter;
 use serde_json::{Map, Value, json};
 use sigmastar_document::number::exact;
 use sigmastar_document::{Table, clean};
 use sigmastar_exact::number::{Direction, write_exact};
+use sigmastar_report::row_of;
 
 impl ValuesTried {
     /// " and mu = 3": the best values.
@@ -35,9 +37,9 @@ impl ValuesTried {
         for one in &self.all {
             let mut cells: Vec<String> = one.values.iter().map(|value| clean(value)).collect();
             cells.extend(match &one.outcome {
-                Ok(Merit { sigma, n_o, missed, rate, .. }) => [
+                Ok(Merit { sigma, oscillators, missed, rate, .. }) => [
                     write_exact(sigma),
-                    n_o.map_or_else(|| "all".to_owned(), |n_o| n_o.to_string()),
+                    oscillators.as_ref().map_or_else(|| "all".to_owned(), row_of),
                     missed.to_string(),
                     rate.as_ref().map_or_else(|| "not proved".to_owned(), |rate| exact(rate, Direction::Down)),
                 ],
@@ -58,10 +60,12 @@ impl ValuesTried {
                 .collect()
         };
         let one = |tried: &TriedValues| match &tried.outcome {
-            Ok(Merit { sigma, n_o, missed, rate, .. }) => json!({
-                "values": named(&tried.values), "sigma": write_exact(sigma), "n_o": n_o, "missed": missed,
-                "rate": rate.as_ref().map(write_exact),
-            }),
+            Ok(Merit { sigma, oscillators, missed, rate, .. }) => {
+                let said = json!({
+                    "values": named(&tried.values), "sigma": write_exact(sigma), "missed": missed, "rate": rate.as_ref().map(write_exact),
+                });
+                with_oscillators(said, oscillators.as_ref())
+            }
             Err(why) => json!({ "values": named(&tried.values), "not_certified": why }),
         };
         let tried: Vec<Value> = self.all.iter().map(one).collect();

@@ -6,7 +6,7 @@ use super::row::{Cell, Row};
 use crate::tune::Parameter;
 use rug::Rational;
 use sigmastar_exact::number::{Direction, Portable, round_f64, write_exact};
-use sigmastar_lang::spec::Period;
+use sigmastar_lang::spec::{Oscillators, Period};
 
 /// So many values of each number are tried beside its own.
 const TRIED: u32 = 4;
@@ -19,8 +19,8 @@ const DIGITS: u32 = 2;
 pub struct Merit {
     /// The gain.
     pub sigma: Rational,
-    /// The number of oscillators; none where nothing is required.
-    pub n_o: Option<u32>,
+    /// The oscillators; none where nothing is required.
+    pub oscillators: Option<Oscillators>,
     /// Of how many requirements it is not proved that they are met.
     pub missed: usize,
     /// The rate that is proved with these oscillators; where nothing is required, the least of those of the table.
@@ -38,7 +38,7 @@ impl Merit {
         let missed = choice.compared.iter().filter(|one| !one.is_met()).count();
         Merit {
             sigma: row.sigma.clone(),
-            n_o: choice.cell.map(|cell| row.cells[cell].n_o),
+            oscillators: choice.cell.map(|cell| row.cells[cell].oscillators.clone()),
             missed,
             rate: match choice.cell {
                 Some(cell) => rate(&row.cells[cell]),
@@ -172,7 +172,7 @@ mod tests {
     }
 
     fn merit(sigma: u32, rate: Option<(u32, u32)>, missed: usize, share: f64) -> Merit {
-        Merit { sigma: sigma.into(), n_o: None, missed, rate: rate.map(Rational::from), distance: (0, share) }
+        Merit { sigma: sigma.into(), oscillators: None, missed, rate: rate.map(Rational::from), distance: (0, share) }
     }
 
     #[test]
@@ -219,7 +219,7 @@ mod tests {
         assert_eq!(of(vec![fast(), cell(2, [0.1, 2.0, 1.0])], &none).rate, None);
         let steady = Requirements { steady_error: Some(1.into()), ..Requirements::default() };
         let found = of(vec![fast(), slow()], &steady);
-        assert_eq!((found.rate, found.n_o, found.missed), (Some(3.into()), Some(0), 0));
+        assert_eq!((found.rate, found.oscillators, found.missed), (Some(3.into()), Some(0.into()), 0));
         let steady = Requirements { steady_error: Some((1, 100).into()), ..Requirements::default() };
         assert_eq!(of(vec![fast(), slow()], &steady).missed, 1);
     }
