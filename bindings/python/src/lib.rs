@@ -113,6 +113,7 @@ fn sampling(py: Python<'_>, file: File, periods: Option<Vec<String>>, sigmas: Op
 #[derive(FromPyObject)]
 struct Wanted {
     n_o: Option<Vec<u32>>,
+    harmonics: Vec<Vec<u32>>,
     sigmas: Vec<String>,
     sampling_period: Option<String>,
     steady_error: Option<String>,
@@ -131,6 +132,7 @@ impl From<Wanted> for DesignOptions {
         let options = options.sampling_periods(wanted.sampling_periods);
         let options = wanted.choose.into_iter().fold(options, DesignOptions::choose);
         let options = wanted.n_o.into_iter().fold(options, DesignOptions::n_o);
+        let options = wanted.harmonics.into_iter().fold(options, DesignOptions::harmonics);
         let options = wanted.sampling_period.into_iter().fold(options, DesignOptions::sampling_period);
         let options = wanted.steady_error.into_iter().fold(options, DesignOptions::steady_error);
         let options = wanted.peak_error.into_iter().fold(options, DesignOptions::peak_error);

@@ -198,6 +198,7 @@ pub fn designed(design: Design) -> Dict {
     Dict::new()
         .with("sigma", design.sigma().to_owned())
         .with("n_o", design.n_o())
+        .with("harmonics", design.harmonics())
         .with("is_met", design.is_met())
         .with("certificate", certificate(design.certificate().clone()))
         .with("reports", reports(design.report()))

@@ -133,7 +133,9 @@ class Design(Reported):
     sigma: Exact
     """The gain to take."""
     n_o: Optional[int]
-    """The number of oscillators to take; None where nothing is required: the gain is for each number of the table."""
+    """The number of oscillators to take; None where nothing is required, as the gain is for each number of the table, and where it is a set of harmonics."""
+    harmonics: Optional[List[int]]
+    """The set of harmonics to take, 0 the first; None where it is a number of oscillators, and where nothing is required."""
     is_met: bool
     """Whether every requirement is proved to be met with this pair; so it is where nothing is required."""
     certificate: Certificate
@@ -142,7 +144,7 @@ class Design(Reported):
 
     @property
     def rows(self) -> List[Dict[str, Any]]:
-        """The cells of the table, each with its `sigma`: `n_o`, `steady_error`, `peak_error`, `max_control`, `rate`, `factor`, `settle`, `noise`, of
+        """The cells of the table, each with its `sigma`: `n_o` or `harmonics` (the other is None), `steady_error`, `peak_error`, `max_control`, `rate`, `factor`, `settle`, `noise`, of
         which each is text or None, and `not_in_certificate` and `simulated` (docs/formats.md); with `sampling_periods` also `longest_h`, of the
         regulator at samples: the longest round sampling period that is certified with the gain, or None."""
         return [
@@ -159,6 +161,7 @@ class Design(Reported):
         sides: Dict[str, Side] = {"steady_error": "up", "peak_error": "up", "max_control": "up", "rate": "down", "factor": "up", "settle": "up", "noise": "up"}
         columns: Dict[str, List[Any]] = {"sigma": [float(stated(row["sigma"])) for row in self.rows]}
         columns["n_o"] = [row["n_o"] for row in self.rows]
+        columns["harmonics"] = [row["harmonics"] for row in self.rows]
         for name, side in sides.items():
             columns[name] = [None if row[name] is None else float(stated(row[name], side)) for row in self.rows]
         return dataframe(columns)
@@ -168,7 +171,8 @@ class Design(Reported):
 
     def __repr__(self) -> str:
         met = "" if self.is_met else ", not all that is required"
-        return f"<Design: sigma={self.sigma.exact}, n_o={self.n_o}{met}>"
+        which = f"n_o={self.n_o}" if self.harmonics is None else f"harmonics={self.harmonics}"
+        return f"<Design: sigma={self.sigma.exact}, {which}{met}>"
 
 
 def _longest(row: Dict[str, Any]) -> Dict[str, Optional[str]]:

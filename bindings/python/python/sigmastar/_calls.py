@@ -53,6 +53,7 @@ class _Wanted(NamedTuple):
     simulate: bool
     sampling_periods: bool
     choose: Optional[str]
+    harmonics: List[List[int]]
 
 
 class _Run(NamedTuple):
@@ -226,6 +227,7 @@ def design(
     settle: Optional[Number] = None,
     noise: Optional[Number] = None,
     n_o: Union[int, Iterable[int], None] = None,
+    harmonics: Iterable[Union[int, Iterable[int]]] = (),
     sigmas: Iterable[Number] = (),
     sampling_period: Optional[Number] = None,
     simulate: bool = True,
@@ -241,6 +243,7 @@ def design(
     - `settle`: after so many periods |e| is to be at most `steady_error` for good, at samples at the sampling instants;
     - `noise`: |e - e_per| in the limit, with the noise, disturbance and rounding of the document, is to be at most this;
     - `n_o`: the numbers of oscillators of the table (0, 1, 2, 3 and 5);
+    - `harmonics`: sets of harmonics, each with 0, for oscillators at these, as of `certify`: `[0, 1, 5, 7]` or `[[0, 1], [0, 2, 4]]`;
     - `sigmas`: its gains, in the place of the smallest one and multiples of it;
     - `sampling_period`: the regulator at samples this far apart;
     - `simulate`: whether simulations of the nominal plant stand beside the proved numbers;
@@ -258,10 +261,11 @@ def design(
     gains = [text(sigma) for sigma in sigmas]
     numbers = _names(choose) or None
     wanted = _Wanted(
-        None if n_o is None else _counts(n_o), gains, _maybe(sampling_period), *required, simulate, sampling_periods, numbers
+        None if n_o is None else _counts(n_o), gains, _maybe(sampling_period), *required, simulate, sampling_periods, numbers, _sets(harmonics)
     )
     told = found(_native.design(_asked(document), wanted, progress))
-    return Design(stated(told["sigma"]), told["n_o"], told["is_met"], _certificate(told["certificate"]), told["reports"])
+    oscillators = told["n_o"], told["harmonics"]
+    return Design(stated(told["sigma"]), *oscillators, told["is_met"], _certificate(told["certificate"]), told["reports"])
 
 
 def _names(over: Union[str, Iterable[str], Mapping[str, Optional[Tuple[Number, Number]]]]) -> str:
