@@ -128,8 +128,9 @@ impl CertifyOptions {
         self
     }
 
-    /// Certify for every finite set of harmonics that contains 0, and put bounds for oscillators at these into the certificate where they are proved; several
-    /// times for several sets, each of 0 and at most 100 others up to 100. It takes the place of `harmonics` in the document.
+    /// Certify for every finite set of harmonics that contains 0, and put bounds for oscillators at these into the certificate where they are proved, and a rate
+    /// and a factor as [`CertifyOptions::n_o`] does, but with a delay; several times for several sets, each of 0 and at most 100 others up to 100. With the
+    /// numbers of oscillators there are at most 8. It takes the place of `harmonics` in the document.
     ///
     /// ```
     /// use sigmastar::CertifyOptions;

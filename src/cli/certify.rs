@@ -179,7 +179,11 @@ fn without_bounds(run: &Run<'_>, sets: &[Oscillators], compare: bool) -> Option<
     };
     let found = found.as_ref().map_or(&[][..], |found| &found.counts);
     let is_missing = |set: &&Oscillators| set.n_o().is_none() && found.iter().all(|bounds| bounds.oscillators != **set);
-    let missing: Vec<String> = sets.iter().filter(is_missing).map(Oscillators::to_string).collect();
+    let missing: Vec<&Oscillators> = sets.iter().filter(is_missing).collect();
+    let said = run.of_counts();
+    let have_rates = missing.iter().all(|set| said.iter().any(|said| said.oscillators == *set));
+    let but = if have_rates { " but rates" } else { "" };
+    let missing: Vec<String> = missing.iter().map(ToString::to_string).collect();
     let why = match run {
         _ if !compare => "`--no-alternatives` leaves them out",
         Run::Sampled(_) => {
@@ -190,7 +194,7 @@ fn without_bounds(run: &Run<'_>, sets: &[Oscillators], compare: bool) -> Option<
         }
     };
     (!missing.is_empty()).then(|| {
-        format!("no bounds of their own were proved for {}, which the claim covers; {why}", missing.join("; "))
+        format!("no bounds of their own{but} were proved for {}, which the claim covers; {why}", missing.join("; "))
     })
 }
 

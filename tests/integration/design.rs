@@ -445,3 +445,44 @@ fn simulations_settle_before_the_proved_time() {
         assert!(design(&file, &without, 0)["rows"][0]["cells"][0]["simulated"]["settle"].is_null());
     }
 }
+
+/// A set of harmonics stands in the table by its number of oscillators, with the bounds and the rate of its own that its certificate has; each row is about
+/// every set. With it the first and the sixth harmonic of q are met by two oscillators, where n_o = 2 leaves the sixth.
+#[test]
+fn sets_of_harmonics_are_in_the_table() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = stored(folder.path(), "plant.json", &plant());
+    let output = folder.path().join("c.json");
+    let flags = ["--sigma", "9", "--n-o", "1,2,3", "--harmonics", "0,1,6", "--steady-error", "1e-3", "-o"];
+    let report = design(&file, &[&flags[..], &[output.to_str().unwrap()]].concat(), 0);
+    assert_eq!((&report["take"]["n_o"], &report["take"]["harmonics"]), (&json!(null), &json!([0, 1, 6])));
+    let cells = report["rows"][0]["cells"].as_array().unwrap();
+    let which: Vec<_> = cells.iter().map(|cell| [cell["n_o"].clone(), cell["harmonics"].clone()]).collect();
+    let none = json!(null);
+    assert_eq!(which, [[json!(1), none.clone()], [json!(2), none.clone()], [none.clone(), json!([0, 1, 6])], [json!(3), none]]);
+    let [of_two, of_set] = [&cells[1], &cells[2]];
+    assert!(number(&of_two["steady_error"]) > 0.01 && number(&of_set["steady_error"]) < 1e-6);
+    // What simulations with exactly these oscillators come to is below, and near for the error.
+    let simulated = |cell: &Value, name: &str| cell["simulated"][name].as_f64().unwrap();
+    assert!(simulated(of_two, "steady_error") > 0.9 * number(&of_two["steady_error"]));
+    assert!(simulated(of_set, "steady_error") < 1e-6);
+    for cell in cells {
+        assert!(["peak_error", "max_control"].iter().all(|name| simulated(cell, name) <= number(&cell[*name])), "{cell}");
+    }
+    let certificate = read(&output);
+    assert_valid(&certificate);
+    assert!(!certificate["claim"]["harmonics"].is_null());
+    let rates = certificate["claim"]["for_n_o"].as_array().unwrap();
+    let own = rates.iter().find(|rate| rate["harmonics"] == json!([0, 1, 6])).unwrap();
+    assert_eq!([&own["rate"], &own["factor"]], [&of_set["rate"], &of_set["factor"]]);
+    let text = utf8(&program().arg("design").arg(&file).args(&flags[..8]).assert().code(0).get_output().stdout);
+    assert!(text.contains("oscillators at the harmonics 0, 1, 6: every") && text.contains("--harmonics 0,1,6"), "{text}");
+    // A set of harmonics that the samples do not tell apart, or without 0, is refused.
+    for (flags, why) in [
+        (&["--harmonics", "0,60", "--sampling-period", "1/50"][..], "half of the samples"),
+        (&["--harmonics", "1,2"], "0"),
+        (&["--harmonics", "0,2", "--n-o", "0..7"], "at most 8"),
+    ] {
+        program().arg("design").arg(&file).args(flags).assert().code(2).stderr(contains(why));
+    }
+}

@@ -77,6 +77,7 @@ mod plants_random;
 mod positive_part;
 mod rates_by_matrices;
 mod rates_of_claims;
+mod rates_of_sets;
 mod recipes;
 mod rejected;
 mod removable;

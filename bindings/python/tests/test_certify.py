@@ -289,6 +289,10 @@ def test_bounds_by_the_number_of_oscillators_and_for_sets():
         assert [number.exact for number in found] == stated
         assert one.or_more == entry.get("or_more", False)
         assert 0 <= one.steady_rms <= one.steady_error <= one.largest_error
+    # Rates of the number, and of the sets.
+    assert [rate.n_o for rate in certificate.rates] == [1, None, None]
+    assert [rate.harmonics for rate in certificate.rates] == [(0, 1), (0, 1, 3), (0, 2)]
+    assert all(rate.rate > 0 and rate.factor > 0 for rate in certificate.rates)
     # With one oscillator the error is smaller than without.
     assert bounds[1].steady_error < bounds[0].steady_error
     assert sigmastar.check(certificate)

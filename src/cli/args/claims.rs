@@ -90,8 +90,9 @@ pub struct CertifyArgs {
     #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
     pub n_o: Option<String>,
 
-    /// Show bounds for oscillators at these harmonics, such as `0,1,5,7`; repeat the flag for several sets. The claim is then about every finite
-    /// set of harmonics that contains 0: the flag sets or replaces `harmonics` of the internal model
+    /// Prove a rate and bounds for oscillators at these harmonics, such as `0,1,5,7`, as --n-o does for the first ones; repeat the flag for several
+    /// sets. The claim is then about every finite set of harmonics that contains 0: the flag sets or replaces `harmonics` of the internal model.
+    /// With a delay there is no rate
     #[arg(long, value_name = "LIST", value_parser = harmonics(MAX_OSCILLATORS, MAX_OSCILLATORS))]
     pub harmonics: Vec<Oscillators>,
 

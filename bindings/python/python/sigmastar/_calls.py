@@ -125,7 +125,7 @@ def certify(
     - `n_o`: numbers of oscillators (at most 8, up to 100) for each of which a rate and a factor are proved and claimed, at this gain, and bounds by the
       number of oscillators where there are some;
     - `harmonics`: a set of harmonics with 0 among them, `[0, 1, 5, 7]`, or several: the claim is for every finite set that contains 0, and bounds
-      for these are proved where they can be;
+      for these, and a rate and a factor as for a number of `n_o` (none with a delay), are proved where they can be;
     - `steady_error`, `peak_error`, `max_control`: certify a gain that keeps |e| along the periodic solution, |e| in the transient, or the
       control (with `input_gain` over `nominal`) within this (the smallest found), for every number of oscillators, or for those of `n_o`
       where there are some;

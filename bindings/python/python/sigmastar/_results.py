@@ -77,14 +77,16 @@ class ErrorBound(Shown):
 
 @dataclass(frozen=True, repr=False)
 class ClaimedRate(Shown):
-    """What the claim says of one number of oscillators, at its gain alone: `|e - e_per| <= factor exp(-rate (t - t_0))`
+    """What the claim says of oscillators at some harmonics, at its gain alone: `|e - e_per| <= factor exp(-rate (t - t_0))`
     in the undisturbed loop; at samples at the sampling instants. With the noise, disturbance and rounding of the document
     `|e - e_per|` is at most `noise_limit` in the end and `noise_peak` at all times."""
 
     _sides = {"rate": "down", "factor": "up", "noise_limit": "up", "noise_peak": "up"}
 
-    n_o: int
-    """The number of oscillators."""
+    n_o: Optional[int]
+    """The number of oscillators; None where their harmonics are not the first ones."""
+    harmonics: Tuple[int, ...]
+    """Their harmonics, 0 among them."""
     rate: Exact
     """The rate, in 1/time, rounded down."""
     factor: Exact
@@ -177,7 +179,7 @@ class Certificate(Reported):
 
     @property
     def rates(self) -> List[ClaimedRate]:
-        """What `certify` was asked with `n_o`."""
+        """What `certify` was asked with `n_o` and `harmonics`."""
         return [_rate(row) for row in self.data.get("for_n_o") or []]
 
     @property
@@ -278,16 +280,20 @@ class TransferBound(Reported):
 def _rate(row: Dict[str, Any]) -> ClaimedRate:
     noise = row.get("noise") or {}
     limit, peak = (None if noise.get(name) is None else stated(noise[name], "up") for name in ("limit", "peak"))
-    return ClaimedRate(row["n_o"], stated(row["rate"], "down"), stated(row["factor"], "up"), limit, peak)
+    return ClaimedRate(row.get("n_o"), _harmonics(row), stated(row["rate"], "down"), stated(row["factor"], "up"), limit, peak)
+
+
+def _harmonics(part: Dict[str, Any]) -> Tuple[int, ...]:
+    """At which the oscillators are that a part of the claim is about."""
+    n_o = part.get("n_o")
+    return tuple(part["harmonics"] if n_o is None else range(n_o + 1))
 
 
 def _bounds(part: Dict[str, Any]) -> ClaimedBounds:
-    n_o = part.get("n_o")
-    harmonics = part["harmonics"] if n_o is None else range(n_o + 1)
     steady = (stated(part["steady"][name], "up") for name in ("e", "e_rms", "u"))
     largest = part.get("largest")
     of_all = (None, None) if largest is None else (stated(largest[name], "up") for name in ("e", "u"))
-    return ClaimedBounds(n_o, tuple(harmonics), part.get("or_more", False), *steady, *of_all)
+    return ClaimedBounds(part.get("n_o"), _harmonics(part), part.get("or_more", False), *steady, *of_all)
 
 
 def exact(told: Optional[Tuple[float, str]]) -> Any:
