@@ -263,10 +263,10 @@ fn starts_decay(report: &Value, certificate: &Value) {
             (0..periods).for_each(|_| periodic = &monodromy * &periodic + &offset);
             for sign in [-1.0, 1.0] {
                 // e at an end, and z in one state, as far as it may be.
-                for far in 0..states.len() {
+                for (far, (l, _)) in states.iter().enumerate() {
                     let start = |i: usize| match i {
                         0 => sign * e0,
-                        i if i - 1 == far => -sign * z0 / weight(states[far].0).sqrt(),
+                        i if i - 1 == far => -sign * z0 / weight(*l).sqrt(),
                         _ => 0.0,
                     };
                     let (mut state, mut beside) = (Mat::from_fn(order, 1, |i, _| start(i)), periodic.clone());
