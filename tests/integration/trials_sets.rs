@@ -102,7 +102,8 @@ fn what_does_not_go_with_a_set_is_told() {
         assert!(code == 2 && text.contains(said), "{flags:?}: {code} {text}");
     }
     let (code, text) = told(&["--no-alternatives", "--harmonics", "0,3"]);
-    let said = "no bounds of their own but rates were proved for oscillators at the harmonics 0, 3, which the claim covers";
+    let said =
+        "no bounds of their own but rates were proved for oscillators at the harmonics 0, 3, which the claim covers";
     let text = in_one_line(&text);
     assert!(code == 0 && text.contains(said) && text.contains("`--no-alternatives` leaves them out"), "{code} {text}");
 }
