@@ -145,6 +145,17 @@ fn each_range_is_demanded() {
     });
 }
 
+/// The weights are those of the harmonics of a set: `z_b/sqrt(n_l)` is beyond 2^1000 for l = 3 and l = 5 here, and not for l up to 2.
+#[test]
+fn ranges_are_those_of_the_harmonics() {
+    each("sets/rounded", |law, _, _, (_, oscillators)| {
+        let [z, rest] = [999, 0].map(|exponent| power(law.d, exponent));
+        let conditions = ranges(law, oscillators, [&z, &rest, &rest]);
+        let open = conditions.iter().filter(|one| one.truth() != Some(true)).count();
+        assert_eq!(open, usize::from(oscillators.largest() > 2), "{}", oscillators.about());
+    });
+}
+
 /// A number with 400 bits, which no step below rounds by as much as 2^-300.
 fn exact(value: f64) -> Float {
     Float::with_val(400, value)
