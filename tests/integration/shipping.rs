@@ -44,7 +44,7 @@ fn the_page_says_what_its_commands_say() {
         ];
         assert!(line(&format!("| `{asked}` |")).contains(&cells.join(" | ")), "{asked}: {cells:?}");
         if asked == "--peak-error 25" {
-            let steady = format!("at most {} without oscillators", up(&report["periodic_solution"]["e"]));
+            let steady = format!("at most {} without oscillators", up(&report["by_n_o"][0]["steady_error"]));
             assert!(in_one_line(&page).contains(&steady), "{steady}");
             for found in report["for_n_o"].as_array().unwrap() {
                 let cells = [&found["noise"]["limit"], &found["noise"]["peak"]].map(up);
